@@ -1,0 +1,17 @@
+// The subcommands of the program; each adds itself to the command line and runs when it is chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "glocal/catalog.hpp"
+
+namespace glocal::app {
+
+/// What a subcommand works with. `exit_code` is what the program ends with (0 done, 1 failed while running, 2 wrong usage or
+/// configuration, 3 incomplete); exceptions are turned into messages and codes in main().
+struct Context {
+  Catalog catalog;
+  int exit_code = 0;
+};
+
+}  // namespace glocal::app

@@ -1,0 +1,51 @@
+// All strategies a program knows: a plain value, made in main() and handed around.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "glocal/registry.hpp"
+#include "glocal/strategies.hpp"
+
+namespace glocal {
+
+/// Takes a sentence the user should read once.
+using Warn = std::function<void(const std::string&)>;
+
+/// What sources may use when they are made.
+struct SourceSetup {
+  std::uint64_t seed = 0;                    ///< The experiment's seed, for simulated noise.
+  Warn warn = [](const std::string&) {};
+};
+
+/// What stages may use when they are made.
+struct StageSetup {
+  std::shared_ptr<const GlobalMap> map;
+  int threads = 1;
+};
+
+struct Catalog {
+  Registry<MapSource, SourceSetup> map_sources{"map_source"};
+  Registry<ObservationSource, SourceSetup> observation_sources{"observation_source"};
+  Registry<LocalMapper, StageSetup> local_mappers{"local_mapper"};
+  Registry<Matcher, StageSetup> matchers{"matcher"};
+  Registry<Clusterer, StageSetup> clusterers{"clusterer"};
+  Registry<Rater, StageSetup> raters{"rater"};
+  Registry<ThresholdPolicy, StageSetup> threshold_policies{"threshold_policy"};
+  Registry<VerdictRule, StageSetup> verdict_rules{"verdict_rule"};
+
+  /// Every registry, in the order of the data's way.
+  [[nodiscard]] std::array<RegistryBase*, 8> registries() {
+    return {&map_sources, &observation_sources, &local_mappers,      &matchers,
+            &clusterers,  &raters,              &threshold_policies, &verdict_rules};
+  }
+  [[nodiscard]] std::array<const RegistryBase*, 8> registries() const {
+    return {&map_sources, &observation_sources, &local_mappers,      &matchers,
+            &clusterers,  &raters,              &threshold_policies, &verdict_rules};
+  }
+};
+
+}  // namespace glocal

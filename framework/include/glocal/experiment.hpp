@@ -1,0 +1,69 @@
+// A whole experiment, as a YAML file describes it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/localizer.hpp"
+#include "glocal/params.hpp"
+
+namespace glocal {
+
+/// Where localization starts, and for how long it may go on. Exactly one of the first four is given.
+struct TrialsConfig {
+  double every_m = 0.0;
+  std::vector<double> starts_m;
+  int every_scan = 0;
+  bool whole = false;
+  int max_steps = 60;
+  double within_map_m = 0.0;
+};
+void describe(ParamVisitor& v, TrialsConfig& p);
+
+/// What counts as a right answer.
+struct EvaluationConfig {
+  double max_translation_error = 0.5;
+  double max_rotation_error_deg = 10.0;
+};
+void describe(ParamVisitor& v, EvaluationConfig& p);
+
+struct OutputConfig {
+  bool steps = true;
+  std::string maps = "first_trial";
+};
+void describe(ParamVisitor& v, OutputConfig& p);
+
+struct Experiment {
+  int schema = 1;
+  std::string name;
+  std::uint64_t seed = 1;
+  int threads = 1;
+  std::vector<FilePath> plugins;
+  StrategyChoice map;
+  StrategyChoice observations;
+  TrialsConfig trials;
+  LocalizerConfig localizer;
+  EvaluationConfig evaluation;
+  OutputConfig output;
+};
+/// Unlike other descriptions this one needs to know which strategies there are.
+void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog);
+
+/// An experiment with every stage at its default (the paper's method); map, observations and trials are left open.
+[[nodiscard]] Experiment default_experiment(const Catalog& catalog);
+
+/// `path=value` as given with --set, for example {"localizer.matcher.ransam.iterations", "50000"}; the value is YAML.
+using Override = std::pair<std::string, std::string>;
+
+/// Reads an experiment file. Throws ConfigError with every fault found in it and in the overrides.
+[[nodiscard]] Experiment read_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                                         const Catalog& catalog);
+
+/// The experiment as YAML with every value, defaulted or not; reading it again gives the same experiment.
+[[nodiscard]] std::string effective_yaml(Experiment& experiment, const Catalog& catalog);
+
+}  // namespace glocal

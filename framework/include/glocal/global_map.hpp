@@ -1,0 +1,54 @@
+// The known map, built once and shared read-only by all trials and threads.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <typeindex>
+#include <utility>
+#include <vector>
+
+#include "glocal/occupancy_grid.hpp"
+#include "glocal/points.hpp"
+#include "glocal/pose2.hpp"
+
+namespace glocal {
+
+/// What a MapSource delivers.
+struct MapData {
+  Points points;            ///< Occupied places, m, in the map's frame. Never empty.
+  Points normals;           ///< Unit normals of `points`, or empty.
+  OccupancyGrid grid;       ///< Free, occupied and unknown cells.
+  std::vector<Pose2> path;  ///< Robot poses the map was made from, in order; empty if not known.
+};
+
+class GlobalMap {
+ public:
+  explicit GlobalMap(MapData data) : data_(std::move(data)) {}
+
+  [[nodiscard]] const Points& points() const { return data_.points; }
+  [[nodiscard]] const Points& normals() const { return data_.normals; }
+  [[nodiscard]] const OccupancyGrid& grid() const { return data_.grid; }
+  [[nodiscard]] const std::vector<Pose2>& path() const { return data_.path; }
+
+  /// An index of this map (contact grid, relation table, …) that is built by the first who asks and then shared.
+  /// `key` tells apart indexes of one type built with different parameters. Thread-safe; `build` returns a T.
+  template <class T, class Build>
+  [[nodiscard]] std::shared_ptr<const T> index(const std::string& key, Build build) const {
+    return std::static_pointer_cast<const T>(shared_index(
+        typeid(T), key, [&]() -> std::shared_ptr<const void> { return std::make_shared<const T>(build()); }));
+  }
+
+ private:
+  [[nodiscard]] std::shared_ptr<const void> shared_index(
+      std::type_index type, const std::string& key,
+      const std::function<std::shared_ptr<const void>()>& build) const;
+
+  MapData data_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<std::type_index, std::string>, std::shared_ptr<const void>> indexes_;
+};
+
+}  // namespace glocal

@@ -1,0 +1,33 @@
+// Pose hypotheses and their clusters.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "glocal/pose2.hpp"
+
+namespace glocal {
+
+/// A proposed pose of the local map in the global map (the paper's H).
+struct Hypothesis {
+  Pose2 map_from_local;
+  Pose2 map_from_robot;
+  double quality = 0.0;  ///< Omega (eq. 4): share of local map points in contact with the map, in [0, 1].
+};
+
+/// Hypotheses that mean the same robot pose.
+struct Cluster {
+  std::vector<std::size_t> members;  ///< Indexes into the step's hypotheses, ascending.
+  Pose2 map_from_robot;              ///< Mean; the heading is the circular mean.
+  double variance_x = 0.0;           ///< m^2 (eq. 6, diagonal only)
+  double variance_y = 0.0;           ///< m^2
+  double variance_theta = 0.0;       ///< rad^2
+};
+
+/// How much a cluster deserves trust.
+struct Rating {
+  double r = 0.0;             ///< eq. 7, in ]0, 1]
+  double r_normalised = 0.0;  ///< eq. 8: r divided by the sum of r over all clusters of the step
+};
+
+}  // namespace glocal

@@ -1,0 +1,32 @@
+// What the robot perceives in one step.
+#pragma once
+
+#include <optional>
+
+#include "glocal/points.hpp"
+#include "glocal/pose2.hpp"
+
+namespace glocal {
+
+/// One range scan in the robot's frame, m.
+struct Scan {
+  Points hits;       ///< Ends of the rays that met something, in beam order.
+  Points free_ends;  ///< Ends of rays that met nothing: the way from `origin` to there is free.
+  Point origin;      ///< The sensor, where all rays begin.
+};
+
+/// One step's input. Odometry counts from an arbitrary start and drifts; only its increments mean something.
+struct Observation {
+  double stamp = 0.0;  ///< s; may stand still or run backwards in real logs, so never divide by differences.
+  Scan scan;
+  Pose2 odom_from_robot;
+};
+
+/// An observation with what only the evaluation may see.
+struct Sample {
+  Observation observation;
+  std::optional<Pose2> map_from_robot;  ///< Reference pose, if the source has one.
+  int segment = 0;                      ///< Changes where the drive is interrupted: no trial runs across.
+};
+
+}  // namespace glocal

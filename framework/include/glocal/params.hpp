@@ -1,0 +1,142 @@
+// Parameters, said once: a plain struct whose member initialisers are the only defaults, and one describe() that names,
+// documents and bounds its fields. The YAML reader, the help, the schema, the reference and the writer of effective
+// values are all visitors of that description.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace glocal {
+
+/// What a field is for, in a sentence. Has no default: a field without `.doc` does not compile.
+struct Doc {
+  consteval Doc(const char* sentence) : text(sentence) {}  // NOLINT(google-explicit-constructor): reads as a string
+  const char* text;
+};
+
+struct FieldInfo {
+  Doc doc;
+  const char* unit = "";  ///< "m", "rad", "deg", "s", "m^2" …; empty for a plain number.
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  double above = -std::numeric_limits<double>::infinity();  ///< Exclusive lower bound.
+  std::vector<std::string> choices = {};                    ///< For strings: the allowed values.
+  std::size_t min_items = 0;                                ///< For lists; bounds hold for each number in it.
+  std::size_t max_items = std::numeric_limits<std::size_t>::max();
+  bool required = false;  ///< The file must give it.
+};
+
+/// A path from a file: relative to that file, or below the datasets folder with the prefix `data:`.
+struct FilePath {
+  std::string text;                ///< As written.
+  std::filesystem::path resolved;  ///< Where it is; set by the reader.
+};
+
+class ParamVisitor;
+class RegistryBase;
+struct StrategyChoice;
+
+/// A struct with describe(), its type forgotten.
+class AnyParams {
+ public:
+  virtual ~AnyParams() = default;
+  virtual void visit(ParamVisitor& visitor) = 0;
+  [[nodiscard]] virtual std::unique_ptr<AnyParams> clone() const = 0;
+};
+
+/// A list of structs, its type forgotten.
+class AnyList {
+ public:
+  virtual ~AnyList() = default;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  virtual void resize(std::size_t n) = 0;
+  virtual void visit(std::size_t i, ParamVisitor& visitor) = 0;
+  /// Visits an item with default values that belongs to no list (for help and schema).
+  virtual void visit_default(ParamVisitor& visitor) = 0;
+};
+
+template <class T>
+concept Described = requires(ParamVisitor& visitor, T& value) { describe(visitor, value); };
+
+class ParamVisitor {
+ public:
+  virtual ~ParamVisitor() = default;
+
+  virtual void field(std::string_view name, bool& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, int& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, std::uint64_t& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, double& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, std::string& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, FilePath& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, std::vector<double>& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, std::vector<std::string>& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, std::vector<FilePath>& value, const FieldInfo& info) = 0;
+  /// A list of pairs of numbers (segments, way points).
+  virtual void field(std::string_view name, std::vector<std::array<double, 2>>& value, const FieldInfo& info) = 0;
+
+  /// A struct within a struct.
+  template <Described T>
+  void field(std::string_view name, T& value, const FieldInfo& info) {
+    struct Ref final : AnyParams {
+      explicit Ref(T& t) : target(&t) {}
+      void visit(ParamVisitor& visitor) override { describe(visitor, *target); }
+      std::unique_ptr<AnyParams> clone() const override { return std::make_unique<Ref>(*target); }
+      T* target;
+    } ref(value);
+    group(name, ref, info);
+  }
+
+  /// A list of structs.
+  template <Described T>
+  void field(std::string_view name, std::vector<T>& values, const FieldInfo& info) {
+    struct Ref final : AnyList {
+      explicit Ref(std::vector<T>& v) : target(&v) {}
+      std::size_t size() const override { return target->size(); }
+      void resize(std::size_t n) override { target->resize(n); }
+      void visit(std::size_t i, ParamVisitor& visitor) override { describe(visitor, (*target)[i]); }
+      void visit_default(ParamVisitor& visitor) override {
+        T item{};
+        describe(visitor, item);
+      }
+      std::vector<T>* target;
+    } ref(values);
+    list(name, ref, info);
+  }
+
+  /// One strategy of a registry with its parameters: a bare name, or `name: {parameters}`.
+  virtual void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
+                        const FieldInfo& info) = 0;
+
+  /// A rule that spans fields, stated after them: `rule` is reported at `field` if it does not hold.
+  /// Only visitors that take values in check it.
+  virtual void require(bool holds, std::string_view field, std::string_view rule) = 0;
+
+ protected:
+  virtual void group(std::string_view name, AnyParams& params, const FieldInfo& info) = 0;
+  virtual void list(std::string_view name, AnyList& list, const FieldInfo& info) = 0;
+};
+
+/// Owns a parameter struct.
+template <Described T>
+class ParamsOf final : public AnyParams {
+ public:
+  void visit(ParamVisitor& visitor) override { describe(visitor, value); }
+  [[nodiscard]] std::unique_ptr<AnyParams> clone() const override { return std::make_unique<ParamsOf>(*this); }
+  T value;
+};
+
+/// A strategy picked by name, with its own parameters.
+struct StrategyChoice {
+  std::string name;
+  std::unique_ptr<AnyParams> params;  ///< Never null once read.
+};
+
+}  // namespace glocal

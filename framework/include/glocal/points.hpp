@@ -1,0 +1,71 @@
+// Point sets, stored one axis after the other so that inner loops run over contiguous floats.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "glocal/pose2.hpp"
+
+namespace glocal {
+
+struct Point {
+  float x = 0.0F;
+  float y = 0.0F;
+  float z = 0.0F;
+
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+/// N points in metres; x, y and z always have the same length. A planar laser has z = 0.
+struct Points {
+  std::vector<float> x;
+  std::vector<float> y;
+  std::vector<float> z;
+
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+  [[nodiscard]] bool empty() const { return x.empty(); }
+  [[nodiscard]] Point operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+
+  void reserve(std::size_t n) {
+    x.reserve(n);
+    y.reserve(n);
+    z.reserve(n);
+  }
+  void push_back(const Point& p) {
+    x.push_back(p.x);
+    y.push_back(p.y);
+    z.push_back(p.z);
+  }
+  void set(std::size_t i, const Point& p) {
+    x[i] = p.x;
+    y[i] = p.y;
+    z[i] = p.z;
+  }
+  void clear() {
+    x.clear();
+    y.clear();
+    z.clear();
+  }
+
+  friend bool operator==(const Points&, const Points&) = default;
+};
+
+/// A pose with its sine and cosine at hand, for moving many points. Heights stay as they are.
+class Transform {
+ public:
+  explicit Transform(const Pose2& target_from_source)
+      : c_(static_cast<float>(std::cos(target_from_source.theta))),
+        s_(static_cast<float>(std::sin(target_from_source.theta))),
+        tx_(static_cast<float>(target_from_source.x)),
+        ty_(static_cast<float>(target_from_source.y)) {}
+
+  [[nodiscard]] Point operator()(const Point& p) const {
+    return {c_ * p.x - s_ * p.y + tx_, s_ * p.x + c_ * p.y + ty_, p.z};
+  }
+
+ private:
+  float c_, s_, tx_, ty_;
+};
+
+}  // namespace glocal

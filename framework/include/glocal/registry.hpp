@@ -1,0 +1,85 @@
+// Strategies by name. Registries are values, filled by functions one can read.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "glocal/params.hpp"
+
+namespace glocal {
+
+/// What is known of a strategy besides how to make it.
+struct StrategyInfo {
+  std::string name;
+  std::string doc;     ///< One sentence.
+  std::string origin;  ///< "glocal", or the plugin it came from.
+  std::function<std::unique_ptr<AnyParams>()> default_params;
+};
+
+/// The part of a registry that does not depend on what it makes.
+class RegistryBase {
+ public:
+  explicit RegistryBase(std::string kind) : kind_(std::move(kind)) {}
+  virtual ~RegistryBase() = default;
+  RegistryBase(const RegistryBase&) = delete;
+  RegistryBase& operator=(const RegistryBase&) = delete;
+
+  /// "matcher", "local_mapper" …
+  [[nodiscard]] const std::string& kind() const { return kind_; }
+  /// In the order of their names.
+  [[nodiscard]] std::vector<const StrategyInfo*> all() const;
+  /// Null if there is none.
+  [[nodiscard]] const StrategyInfo* find(std::string_view name) const;
+  /// The strategy with all its defaults. Throws std::out_of_range if there is none.
+  [[nodiscard]] StrategyChoice choose(std::string_view name) const;
+
+  /// Who registers from now on; named in StrategyInfo::origin and in messages.
+  void set_origin(std::string origin) { origin_ = std::move(origin); }
+
+ protected:
+  /// Throws std::invalid_argument if the name is taken, naming both origins.
+  void insert(std::string name, std::string doc, std::function<std::unique_ptr<AnyParams>()> default_params);
+
+ private:
+  std::string kind_;
+  std::string origin_ = "glocal";
+  std::map<std::string, StrategyInfo, std::less<>> infos_;
+};
+
+/// Makes strategies of one kind. `Setup` is what they may use when they are made.
+template <class Interface, class Setup>
+class Registry final : public RegistryBase {
+ public:
+  using RegistryBase::RegistryBase;
+
+  /// T has a described struct T::Params and is constructible from (Params) or (Params, const Setup&).
+  template <std::derived_from<Interface> T>
+  void add(std::string name, std::string doc) {
+    using Params = typename T::Params;
+    insert(name, std::move(doc), [] { return std::make_unique<ParamsOf<Params>>(); });
+    makers_[std::move(name)] = [](const AnyParams& any, const Setup& setup) -> std::unique_ptr<Interface> {
+      const Params& params = dynamic_cast<const ParamsOf<Params>&>(any).value;
+      if constexpr (std::is_constructible_v<T, const Params&, const Setup&>) {
+        return std::make_unique<T>(params, setup);
+      } else {
+        return std::make_unique<T>(params);
+      }
+    };
+  }
+
+  [[nodiscard]] std::unique_ptr<Interface> make(const StrategyChoice& choice, const Setup& setup) const {
+    return makers_.at(choice.name)(*choice.params, setup);
+  }
+
+ private:
+  std::map<std::string, std::function<std::unique_ptr<Interface>(const AnyParams&, const Setup&)>> makers_;
+};
+
+}  // namespace glocal

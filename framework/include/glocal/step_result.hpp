@@ -1,0 +1,66 @@
+// Everything a localization step has found out.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glocal/hypothesis.hpp"
+#include "glocal/pose2.hpp"
+
+namespace glocal {
+
+enum class VerdictKind {
+  searching,      ///< Nothing can be said yet.
+  ambiguous,      ///< Several poses explain the observations; `candidates` lists them.
+  localized,      ///< `map_from_robot` can be trusted.
+  unknown_place,  ///< The robot is somewhere the map does not show.
+};
+
+/// The name used in YAML, JSON and messages.
+[[nodiscard]] const char* to_string(VerdictKind kind);
+
+struct Verdict {
+  VerdictKind kind = VerdictKind::searching;
+  std::optional<Pose2> map_from_robot;  ///< Set when localized.
+  std::vector<Pose2> candidates;        ///< Robot poses, best first; set when ambiguous.
+  std::string why;                      ///< One sentence for a person.
+};
+
+/// Wall-clock time of each stage, ms.
+struct StageTimes {
+  double local_map = 0.0;
+  double match = 0.0;
+  double cluster = 0.0;
+  double rate = 0.0;
+
+  [[nodiscard]] double total() const { return local_map + match + cluster + rate; }
+};
+
+struct StepResult {
+  std::size_t step = 0;  ///< Counts from 0 in each trial.
+  double stamp = 0.0;
+  Pose2 local_from_robot;
+  int local_map_generation = 0;
+  std::size_t local_map_points = 0;
+
+  double omega_max = 0.0;             ///< Threshold applied in this step (eq. 9 gives the next one).
+  double omega_best = 0.0;            ///< Quality of the best hypothesis; 0 without any.
+  std::optional<double> omega_place;  ///< Omega' (eq. 10); none before the first hypothesis.
+  std::size_t collisions = 0;         ///< Relations found on both sides: hypotheses before any quality test.
+  std::size_t checks = 0;             ///< Single points tested for contact.
+
+  std::vector<Hypothesis> hypotheses;  ///< Falling quality.
+  std::vector<Cluster> clusters;       ///< Falling rating.
+  std::vector<Rating> ratings;         ///< One for each cluster.
+  Verdict verdict;
+  StageTimes stage_ms;
+
+  /// Robot pose of the best-rated cluster, declared or not.
+  [[nodiscard]] std::optional<Pose2> estimate() const {
+    return clusters.empty() ? std::nullopt : std::optional(clusters.front().map_from_robot);
+  }
+};
+
+}  // namespace glocal

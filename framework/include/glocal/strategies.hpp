@@ -1,0 +1,102 @@
+// The stages of a localization step. Each is one small interface; who implements one sees nothing of the others.
+//
+// All of them: the same calls with the same random state give the same answers, bit for bit. Setting up may throw
+// ConfigError; a step answers with a value ("no pose" is an answer, not an error). reset() forgets all earlier steps.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "glocal/global_map.hpp"
+#include "glocal/hypothesis.hpp"
+#include "glocal/local_map.hpp"
+#include "glocal/observation.hpp"
+#include "glocal/rng.hpp"
+#include "glocal/step_result.hpp"
+
+namespace glocal {
+
+/// Delivers a drive, one observation after the other.
+class ObservationSource {
+ public:
+  virtual ~ObservationSource() = default;
+  /// The next observation; none at the end, and none ever after.
+  [[nodiscard]] virtual std::optional<Sample> next() = 0;
+};
+
+/// Delivers the known map.
+class MapSource {
+ public:
+  virtual ~MapSource() = default;
+  /// Throws ConfigError if there is no usable map (a map without any point is none).
+  [[nodiscard]] virtual MapData load() = 0;
+};
+
+/// Joins observations into a local map.
+/// Contract: the first observation of a map is placed at the local frame's origin; an observation without hits only moves
+/// the robot; points once registered keep their index until the generation changes.
+class LocalMapper {
+ public:
+  virtual ~LocalMapper() = default;
+  virtual void add(const Observation& observation) = 0;
+  [[nodiscard]] virtual const LocalMap& map() const = 0;
+  virtual void reset() = 0;
+};
+
+struct MatchResult {
+  std::vector<Hypothesis> hypotheses;  ///< All with quality >= omega_max, falling quality.
+  std::size_t collisions = 0;          ///< Poses proposed before any quality test.
+  std::size_t checks = 0;              ///< Single points tested for contact.
+};
+
+/// Proposes poses of a local map in the global map.
+/// Contract: the answer does not depend on the number of threads; every hypothesis has quality >= omega_max; falling quality;
+/// no hypothesis is a valid answer (always so for an empty local map).
+class Matcher {
+ public:
+  virtual ~Matcher() = default;
+  [[nodiscard]] virtual MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
+                                          Rng& rng) = 0;
+  virtual void reset() = 0;
+};
+
+/// Groups hypotheses that mean the same robot pose.
+/// Contract: every hypothesis belongs to exactly one cluster; no cluster is empty.
+class Clusterer {
+ public:
+  virtual ~Clusterer() = default;
+  [[nodiscard]] virtual std::vector<Cluster> cluster(const std::vector<Hypothesis>& hypotheses, Rng& rng) = 0;
+};
+
+/// Says how much each cluster deserves trust.
+/// Contract: one rating for each cluster, in their order; the r_normalised add up to 1.
+class Rater {
+ public:
+  virtual ~Rater() = default;
+  [[nodiscard]] virtual std::vector<Rating> rate(const std::vector<Cluster>& clusters,
+                                                 const std::vector<Hypothesis>& hypotheses) = 0;
+};
+
+/// Says which quality a hypothesis must reach.
+/// Contract: omega_max() is in [0, 1], and changes only in update() and reset().
+class ThresholdPolicy {
+ public:
+  virtual ~ThresholdPolicy() = default;
+  [[nodiscard]] virtual double omega_max() const = 0;
+  /// Takes in one step's hypotheses (perhaps none).
+  virtual void update(const std::vector<Hypothesis>& hypotheses) = 0;
+  virtual void reset() = 0;
+};
+
+/// Says whether the answer can be trusted.
+/// Contract: sees a step's clusters and ratings (falling), not its `verdict`; never says unknown_place, which is the
+/// unknown-place monitor's to say.
+class VerdictRule {
+ public:
+  virtual ~VerdictRule() = default;
+  [[nodiscard]] virtual Verdict judge(const StepResult& step) = 0;
+  virtual void reset() = 0;
+};
+
+}  // namespace glocal

@@ -1,0 +1,46 @@
+// Notices that the robot is somewhere the map does not show (Section III-D of the paper, eq. 10).
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "glocal/contact.hpp"
+#include "glocal/hypothesis.hpp"
+#include "glocal/local_map.hpp"
+#include "glocal/params.hpp"
+
+namespace glocal {
+
+struct UnknownPlaceParams {
+  int window = 10;
+  double max_contact = 0.2;
+  double contact_epsilon = 0.0;
+};
+void describe(ParamVisitor& v, UnknownPlaceParams& p);
+
+class UnknownPlaceMonitor {
+ public:
+  UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map);
+
+  /// Omega' of eq. 10: the mean, over the last `window` observations that registered points, of the share of these points in
+  /// contact with the map under the best hypothesis. A step without hypotheses is judged by the best of the last step that
+  /// had some. None before the first hypothesis.
+  [[nodiscard]] std::optional<double> update(const LocalMap& local, const std::vector<Hypothesis>& hypotheses);
+
+  [[nodiscard]] bool is_unknown(std::optional<double> omega_place) const {
+    return omega_place.has_value() && *omega_place < params_.max_contact;
+  }
+
+  void reset() { best_.reset(); }
+
+ private:
+  struct Best {
+    Pose2 map_from_local;
+    int generation;
+  };
+  UnknownPlaceParams params_;
+  std::shared_ptr<const ContactGrid> contact_;
+  std::optional<Best> best_;
+};
+
+}  // namespace glocal

@@ -1,0 +1,36 @@
+#include "glocal/error.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace glocal {
+namespace {
+
+std::string join(const std::vector<Fault>& faults) {
+  std::string text;
+  for (const Fault& fault : faults) {
+    if (!text.empty()) text += '\n';
+    text += to_string(fault);
+  }
+  return text;
+}
+
+std::vector<Fault> sorted(std::vector<Fault> faults) {
+  std::sort(faults.begin(), faults.end());
+  return faults;
+}
+
+}  // namespace
+
+std::string to_string(const Fault& fault) {
+  std::string text = fault.file;
+  if (fault.line > 0) text += ':' + std::to_string(fault.line);
+  if (fault.line > 0 && fault.column > 0) text += ':' + std::to_string(fault.column);
+  if (!text.empty()) text += ": ";
+  return text + "error: " + fault.message;
+}
+
+ConfigError::ConfigError(std::vector<Fault> faults)
+    : std::runtime_error(join(sorted(faults))), faults_(sorted(std::move(faults))) {}
+
+}  // namespace glocal

@@ -1,0 +1,33 @@
+#include "glocal/registry.hpp"
+
+namespace glocal {
+
+std::vector<const StrategyInfo*> RegistryBase::all() const {
+  std::vector<const StrategyInfo*> result;
+  result.reserve(infos_.size());
+  for (const auto& [name, info] : infos_) result.push_back(&info);
+  return result;
+}
+
+const StrategyInfo* RegistryBase::find(std::string_view name) const {
+  const auto it = infos_.find(name);
+  return it == infos_.end() ? nullptr : &it->second;
+}
+
+StrategyChoice RegistryBase::choose(std::string_view name) const {
+  const StrategyInfo* info = find(name);
+  if (info == nullptr) throw std::out_of_range("no " + kind_ + " '" + std::string(name) + "'");
+  return {info->name, info->default_params()};
+}
+
+void RegistryBase::insert(std::string name, std::string doc,
+                          std::function<std::unique_ptr<AnyParams>()> default_params) {
+  if (const StrategyInfo* taken = find(name)) {
+    throw std::invalid_argument(kind_ + " '" + name + "' of " + origin_ + " is already registered by " +
+                                taken->origin);
+  }
+  StrategyInfo info{name, std::move(doc), origin_, std::move(default_params)};
+  infos_.emplace(std::move(name), std::move(info));
+}
+
+}  // namespace glocal

@@ -1,0 +1,7 @@
+#include "sources/register.hpp"
+
+namespace glocal {
+
+void register_sources(Catalog& /*catalog*/) {}
+
+}  // namespace glocal
