@@ -159,15 +159,4 @@ MappingAccuracy measure_mapping(const std::vector<Sample>& drive, LocalMapper& m
   return accuracy;
 }
 
-std::optional<double> quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  // Infinite neighbours must not turn into NaN.
-  if (values[below] == values[above]) return values[below];
-  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-}
-
 }  // namespace glocal

@@ -42,8 +42,4 @@ struct MappingAccuracy {
 [[nodiscard]] MappingAccuracy measure_mapping(const std::vector<Sample>& drive, LocalMapper& mapper,
                                               const MappingWindows& windows);
 
-/// The value below which `share` (in [0, 1]) of the values lie, interpolated between neighbours; none without
-/// values.
-[[nodiscard]] std::optional<double> quantile(std::vector<double> values, double share);
-
 }  // namespace glocal
