@@ -7,8 +7,8 @@
 
 namespace glocal::app {
 
-/// What a subcommand works with. `exit_code` is what the program ends with (0 done, 1 failed while running, 2 wrong usage or
-/// configuration, 3 incomplete); exceptions are turned into messages and codes in main().
+/// What a subcommand works with. `exit_code` is what the program ends with (0 done, 1 failed while running, 2
+/// wrong usage or configuration, 3 incomplete); exceptions are turned into messages and codes in main().
 struct Context {
   Catalog catalog;
   int exit_code = 0;

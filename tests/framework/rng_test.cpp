@@ -9,7 +9,8 @@ namespace glocal {
 namespace {
 
 TEST(Rng, IsSplitMix64) {
-  // First outputs for seed 1234567 as published with the algorithm (Rosetta Code, "Pseudo-random numbers/Splitmix64").
+  // First outputs for seed 1234567 as published with the algorithm (Rosetta Code, "Pseudo-random
+  // numbers/Splitmix64").
   Rng rng(1234567);
   EXPECT_EQ(rng.next(), 6457827717110365317ULL);
   EXPECT_EQ(rng.next(), 3203168211198807973ULL);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,8 +18,10 @@ using Warn = std::function<void(const std::string&)>;
 
 /// What sources may use when they are made.
 struct SourceSetup {
-  std::uint64_t seed = 0;                    ///< The experiment's seed, for simulated noise.
+  std::uint64_t seed = 0;  ///< The experiment's seed, for simulated noise.
   Warn warn = [](const std::string&) {};
+  /// To be called with every file read, for the record of a run's inputs.
+  std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
 };
 
 /// What stages may use when they are made.
@@ -39,12 +42,12 @@ struct Catalog {
 
   /// Every registry, in the order of the data's way.
   [[nodiscard]] std::array<RegistryBase*, 8> registries() {
-    return {&map_sources, &observation_sources, &local_mappers,      &matchers,
-            &clusterers,  &raters,              &threshold_policies, &verdict_rules};
+    return {&map_sources, &observation_sources, &local_mappers, &matchers, &clusterers,
+            &raters,      &threshold_policies,  &verdict_rules};
   }
   [[nodiscard]] std::array<const RegistryBase*, 8> registries() const {
-    return {&map_sources, &observation_sources, &local_mappers,      &matchers,
-            &clusterers,  &raters,              &threshold_policies, &verdict_rules};
+    return {&map_sources, &observation_sources, &local_mappers, &matchers, &clusterers,
+            &raters,      &threshold_policies,  &verdict_rules};
   }
 };
 

@@ -11,9 +11,10 @@
 
 namespace glocal {
 
-/// The map's points dilated by epsilon, one bit per voxel of side epsilon / 4; a planar map has a single layer.
-/// A voxel is in contact if its centre is within epsilon of a point, so an answer can differ from the exact one only for
-/// distances within half a voxel's diagonal (0.18 epsilon in the plane) of epsilon.
+/// The map's points dilated by epsilon, one bit per voxel of side epsilon / 4. A planar map (all points of
+/// one height) has a single layer, which takes in everything within epsilon of that height. A voxel is in
+/// contact if its centre is within epsilon of a point, so an answer can differ from the exact one only where
+/// the distance is within half a voxel's diagonal of epsilon (0.18 epsilon in the plane).
 class ContactGrid {
  public:
   /// Throws ConfigError if the grid would need more than 1 GiB.
@@ -23,26 +24,29 @@ class ContactGrid {
   [[nodiscard]] static std::shared_ptr<const ContactGrid> of(const GlobalMap& map, double epsilon);
 
   [[nodiscard]] bool contact(const Point& p) const {
-    const int column = static_cast<int>((p.x - min_x_) * scale_);
-    const int row = static_cast<int>((p.y - min_y_) * scale_);
-    const int layer = static_cast<int>((p.z - min_z_) * scale_);
-    // The outermost voxels are never in contact, so truncation of values in ]-1, 0[ to 0 does no harm.
-    if (static_cast<unsigned>(column) >= columns_ || static_cast<unsigned>(row) >= rows_ ||
-        static_cast<unsigned>(layer) >= layers_) {
-      return false;
-    }
+    const float x = (p.x - min_.x) * scale_;
+    const float y = (p.y - min_.y) * scale_;
+    const float z = (p.z - min_.z) * scale_z_;
+    // Compared as floats, so that points far away and NaN never reach the conversion to integers.
+    if (!(x >= 0.0F && x < columns_ && y >= 0.0F && y < rows_ && z >= 0.0F && z < layers_)) return false;
     const std::size_t bit =
-        (static_cast<std::size_t>(layer) * rows_ + static_cast<unsigned>(row)) * stride_ + static_cast<unsigned>(column);
+        bit_index(static_cast<std::size_t>(x), static_cast<std::size_t>(y), static_cast<std::size_t>(z));
     return ((bits_[bit >> 6U] >> (bit & 63U)) & 1U) != 0;
   }
 
   [[nodiscard]] std::size_t memory_bytes() const { return bits_.size() * sizeof(std::uint64_t); }
 
  private:
-  float min_x_ = 0.0F, min_y_ = 0.0F, min_z_ = 0.0F;
-  float scale_ = 0.0F;  ///< Voxels per metre.
-  unsigned columns_ = 0, rows_ = 0, layers_ = 0;
-  std::size_t stride_ = 0;  ///< Bits from a row to the next.
+  [[nodiscard]] std::size_t bit_index(std::size_t column, std::size_t row, std::size_t layer) const {
+    return layer * layer_stride_ + row * row_stride_ + column;
+  }
+  void dilate(const Point& p, double epsilon);
+
+  Point min_;                            ///< Outer corner of voxel (0, 0, 0).
+  float scale_ = 0.0F, scale_z_ = 0.0F;  ///< Voxels per metre.
+  float columns_ = 0, rows_ = 0,
+        layers_ = 0;  ///< Numbers of voxels; whole, but only ever compared with floats.
+  std::size_t row_stride_ = 0, layer_stride_ = 0;
   std::vector<std::uint64_t> bits_;
 };
 

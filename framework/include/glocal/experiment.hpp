@@ -53,15 +53,17 @@ struct Experiment {
 /// Unlike other descriptions this one needs to know which strategies there are.
 void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog);
 
-/// An experiment with every stage at its default (the paper's method); map, observations and trials are left open.
+/// An experiment with every stage at its default (the paper's method); map, observations and trials are left
+/// open.
 [[nodiscard]] Experiment default_experiment(const Catalog& catalog);
 
-/// `path=value` as given with --set, for example {"localizer.matcher.ransam.iterations", "50000"}; the value is YAML.
+/// `path=value` as given with --set, for example {"localizer.matcher.ransam.iterations", "50000"}; the value
+/// is YAML.
 using Override = std::pair<std::string, std::string>;
 
 /// Reads an experiment file. Throws ConfigError with every fault found in it and in the overrides.
-[[nodiscard]] Experiment read_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                                         const Catalog& catalog);
+[[nodiscard]] Experiment read_experiment(const std::filesystem::path& file,
+                                         const std::vector<Override>& overrides, const Catalog& catalog);
 
 /// The experiment as YAML with every value, defaulted or not; reading it again gives the same experiment.
 [[nodiscard]] std::string effective_yaml(Experiment& experiment, const Catalog& catalog);

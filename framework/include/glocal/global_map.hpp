@@ -33,8 +33,9 @@ class GlobalMap {
   [[nodiscard]] const OccupancyGrid& grid() const { return data_.grid; }
   [[nodiscard]] const std::vector<Pose2>& path() const { return data_.path; }
 
-  /// An index of this map (contact grid, relation table, …) that is built by the first who asks and then shared.
-  /// `key` tells apart indexes of one type built with different parameters. Thread-safe; `build` returns a T.
+  /// An index of this map (contact grid, relation table, …) that is built by the first who asks and then
+  /// shared. `key` tells apart indexes of one type built with different parameters. Thread-safe; `build`
+  /// returns a T.
   template <class T, class Build>
   [[nodiscard]] std::shared_ptr<const T> index(const std::string& key, Build build) const {
     return std::static_pointer_cast<const T>(shared_index(

@@ -26,7 +26,8 @@ struct LocalizerConfig {
 class Localizer {
  public:
   /// `seed` fixes all random numbers; throws ConfigError where a strategy cannot work with this map.
-  Localizer(const LocalizerConfig& config, const Catalog& catalog, const StageSetup& setup, std::uint64_t seed);
+  Localizer(const LocalizerConfig& config, const Catalog& catalog, const StageSetup& setup,
+            std::uint64_t seed);
 
   [[nodiscard]] StepResult step(const Observation& observation);
 

@@ -11,7 +11,8 @@ namespace glocal {
 
 enum class Cell : std::uint8_t { unknown, free, occupied };
 
-/// Square cells over a rectangle; row 0 is the lowest y of the grid's frame, cell (0, 0) starts at its origin.
+/// Square cells over a rectangle; row 0 is the lowest y of the grid's frame, cell (0, 0) starts at its
+/// origin.
 struct OccupancyGrid {
   Pose2 map_from_grid;      ///< Outer corner of cell (0, 0), and the direction of the columns.
   double resolution = 0.0;  ///< Side of a cell, m.

@@ -1,6 +1,6 @@
-// Parameters, said once: a plain struct whose member initialisers are the only defaults, and one describe() that names,
-// documents and bounds its fields. The YAML reader, the help, the schema, the reference and the writer of effective
-// values are all visitors of that description.
+// Parameters, said once: a plain struct whose member initialisers are the only defaults, and one describe()
+// that names, documents and bounds its fields. The YAML reader, the help, the schema, the reference and the
+// writer of effective values are all visitors of that description.
 #pragma once
 
 #include <array>
@@ -18,7 +18,8 @@ namespace glocal {
 
 /// What a field is for, in a sentence. Has no default: a field without `.doc` does not compile.
 struct Doc {
-  consteval Doc(const char* sentence) : text(sentence) {}  // NOLINT(google-explicit-constructor): reads as a string
+  consteval Doc(const char* sentence)
+      : text(sentence) {}  // NOLINT(google-explicit-constructor): reads as a string
   const char* text;
 };
 
@@ -64,7 +65,9 @@ class AnyList {
 };
 
 template <class T>
-concept Described = requires(ParamVisitor& visitor, T& value) { describe(visitor, value); };
+concept Described = requires(ParamVisitor& visitor, T& value) {
+  describe(visitor, value);
+};
 
 class ParamVisitor {
  public:
@@ -80,7 +83,8 @@ class ParamVisitor {
   virtual void field(std::string_view name, std::vector<std::string>& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, std::vector<FilePath>& value, const FieldInfo& info) = 0;
   /// A list of pairs of numbers (segments, way points).
-  virtual void field(std::string_view name, std::vector<std::array<double, 2>>& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, std::vector<std::array<double, 2>>& value,
+                     const FieldInfo& info) = 0;
 
   /// A struct within a struct.
   template <Described T>
@@ -129,7 +133,9 @@ template <Described T>
 class ParamsOf final : public AnyParams {
  public:
   void visit(ParamVisitor& visitor) override { describe(visitor, value); }
-  [[nodiscard]] std::unique_ptr<AnyParams> clone() const override { return std::make_unique<ParamsOf>(*this); }
+  [[nodiscard]] std::unique_ptr<AnyParams> clone() const override {
+    return std::make_unique<ParamsOf>(*this);
+  }
   T value;
 };
 

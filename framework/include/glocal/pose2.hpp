@@ -12,8 +12,12 @@ namespace glocal {
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
 }
 
-[[nodiscard]] constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-[[nodiscard]] constexpr double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+[[nodiscard]] constexpr double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
+}
+[[nodiscard]] constexpr double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
 
 /// An element of SE(2). A pose named `target_from_source` maps source coordinates to target coordinates.
 struct Pose2 {
@@ -39,7 +43,9 @@ struct Pose2 {
 }
 
 /// Distance between two origins, m.
-[[nodiscard]] inline double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+[[nodiscard]] inline double distance(const Pose2& a, const Pose2& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 /// Smallest rotation between two headings, rad, in [0, pi].
 [[nodiscard]] inline double rotation_between(const Pose2& a, const Pose2& b) {

@@ -6,14 +6,16 @@
 
 namespace glocal {
 
-/// One round of SplitMix64's output function (Steele, Lea and Flood 2014): a bijection that scatters all bits.
+/// One round of SplitMix64's output function (Steele, Lea and Flood 2014): a bijection that scatters all
+/// bits.
 [[nodiscard]] constexpr std::uint64_t mix64(std::uint64_t z) {
   z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
   return z ^ (z >> 31U);
 }
 
-/// A SplitMix64 generator. Standard distributions differ between libraries, so the ones results depend on are here.
+/// A SplitMix64 generator. Standard distributions differ between libraries, so the ones results depend on are
+/// here.
 class Rng {
  public:
   explicit constexpr Rng(std::uint64_t seed) : state_(seed) {}
@@ -27,7 +29,8 @@ class Rng {
 
   [[nodiscard]] constexpr std::uint64_t next() { return mix64(state_ += golden); }
 
-  /// Uniform in [0, n), by multiplication (the bias of at most n / 2^32 is of no matter for n below a million); n > 0.
+  /// Uniform in [0, n), by multiplication (the bias of at most n / 2^32 is of no matter for n below a
+  /// million); n > 0.
   [[nodiscard]] constexpr std::uint32_t below(std::uint32_t n) {
     return static_cast<std::uint32_t>(((next() >> 32U) * n) >> 32U);
   }

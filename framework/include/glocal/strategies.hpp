@@ -1,7 +1,9 @@
-// The stages of a localization step. Each is one small interface; who implements one sees nothing of the others.
+// The stages of a localization step. Each is one small interface; who implements one sees nothing of the
+// others.
 //
-// All of them: the same calls with the same random state give the same answers, bit for bit. Setting up may throw
-// ConfigError; a step answers with a value ("no pose" is an answer, not an error). reset() forgets all earlier steps.
+// All of them: the same calls with the same random state give the same answers, bit for bit. Setting up may
+// throw ConfigError; a step answers with a value ("no pose" is an answer, not an error). reset() forgets all
+// earlier steps.
 #pragma once
 
 #include <cstddef>
@@ -34,8 +36,8 @@ class MapSource {
 };
 
 /// Joins observations into a local map.
-/// Contract: the first observation of a map is placed at the local frame's origin; an observation without hits only moves
-/// the robot; points once registered keep their index until the generation changes.
+/// Contract: the first observation of a map is placed at the local frame's origin; an observation without
+/// hits only moves the robot; points once registered keep their index until the generation changes.
 class LocalMapper {
  public:
   virtual ~LocalMapper() = default;
@@ -51,8 +53,8 @@ struct MatchResult {
 };
 
 /// Proposes poses of a local map in the global map.
-/// Contract: the answer does not depend on the number of threads; every hypothesis has quality >= omega_max; falling quality;
-/// no hypothesis is a valid answer (always so for an empty local map).
+/// Contract: the answer does not depend on the number of threads; every hypothesis has quality >= omega_max;
+/// falling quality; no hypothesis is a valid answer (always so for an empty local map).
 class Matcher {
  public:
   virtual ~Matcher() = default;
@@ -90,8 +92,8 @@ class ThresholdPolicy {
 };
 
 /// Says whether the answer can be trusted.
-/// Contract: sees a step's clusters and ratings (falling), not its `verdict`; never says unknown_place, which is the
-/// unknown-place monitor's to say.
+/// Contract: sees a step's clusters and ratings (falling), not its `verdict`; never says unknown_place, which
+/// is the unknown-place monitor's to say.
 class VerdictRule {
  public:
   virtual ~VerdictRule() = default;

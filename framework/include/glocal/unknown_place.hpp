@@ -14,7 +14,7 @@ namespace glocal {
 struct UnknownPlaceParams {
   int window = 10;
   double max_contact = 0.2;
-  double contact_epsilon = 0.0;
+  double contact_epsilon = 0.1;
 };
 void describe(ParamVisitor& v, UnknownPlaceParams& p);
 
@@ -22,10 +22,11 @@ class UnknownPlaceMonitor {
  public:
   UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map);
 
-  /// Omega' of eq. 10: the mean, over the last `window` observations that registered points, of the share of these points in
-  /// contact with the map under the best hypothesis. A step without hypotheses is judged by the best of the last step that
-  /// had some. None before the first hypothesis.
-  [[nodiscard]] std::optional<double> update(const LocalMap& local, const std::vector<Hypothesis>& hypotheses);
+  /// Omega' of eq. 10: the mean, over the last `window` observations that registered points, of the share of
+  /// these points in contact with the map under the best hypothesis. A step without hypotheses is judged by
+  /// the best of the last step that had some. None before the first hypothesis.
+  [[nodiscard]] std::optional<double> update(const LocalMap& local,
+                                             const std::vector<Hypothesis>& hypotheses);
 
   [[nodiscard]] bool is_unknown(std::optional<double> omega_place) const {
     return omega_place.has_value() && *omega_place < params_.max_contact;

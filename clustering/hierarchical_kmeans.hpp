@@ -1,0 +1,32 @@
+#pragma once
+
+#include "glocal/params.hpp"
+#include "glocal/strategies.hpp"
+
+namespace glocal {
+
+/// Hierarchical K-means over robot poses (Section III-A of the paper, eq. 6): starts with one cluster of all
+/// hypotheses and splits in two whatever is spread too widely. Clusters come in the order of the split tree,
+/// left before right.
+class HierarchicalKmeans final : public Clusterer {
+ public:
+  struct Params {
+    double max_variance_translation = 0.0030;
+    double max_variance_rotation_deg2 = 50.0;
+    int max_iterations = 20;
+  };
+
+  explicit HierarchicalKmeans(const Params& params) : params_(params) {}
+  [[nodiscard]] std::vector<Cluster> cluster(const std::vector<Hypothesis>& hypotheses, Rng& rng) override;
+
+ private:
+  Params params_;
+};
+void describe(ParamVisitor& v, HierarchicalKmeans::Params& p);
+
+/// The cluster of some hypotheses: mean robot pose with circular mean heading, and variances (eq. 6, diagonal
+/// only). `members` is not empty.
+[[nodiscard]] Cluster make_cluster(const std::vector<Hypothesis>& hypotheses,
+                                   std::vector<std::size_t> members);
+
+}  // namespace glocal

@@ -1,0 +1,157 @@
+#include "glocal/experiment.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "config/experiment_params.hpp"
+#include "config/overrides.hpp"
+#include "config/reader.hpp"
+#include "config/text_file.hpp"
+#include "config/writer.hpp"
+#include "config/yaml_parser.hpp"
+
+namespace glocal {
+namespace {
+
+/// The localizer's section: which strategies there are, the catalog knows.
+struct LocalizerSection {
+  LocalizerConfig* config;
+  const Catalog* catalog;
+};
+
+void describe(ParamVisitor& v, LocalizerSection& s) {
+  LocalizerConfig& c = *s.config;
+  v.strategy("local_mapper", c.local_mapper, s.catalog->local_mappers,
+             {.doc = "Joins scans into the local map."});
+  v.strategy("matcher", c.matcher, s.catalog->matchers,
+             {.doc = "Proposes poses of the local map in the global map."});
+  v.strategy("clusterer", c.clusterer, s.catalog->clusterers,
+             {.doc = "Groups hypotheses that mean the same pose."});
+  v.strategy("rater", c.rater, s.catalog->raters, {.doc = "Says how much each cluster deserves trust."});
+  v.strategy("threshold_policy", c.threshold_policy, s.catalog->threshold_policies,
+             {.doc = "Says which quality a hypothesis must reach."});
+  v.strategy("verdict_rule", c.verdict_rule, s.catalog->verdict_rules,
+             {.doc = "Says whether the answer can be trusted."});
+  v.field("unknown_place", c.unknown_place,
+          {.doc = "When the robot counts as somewhere the map does not show."});
+}
+
+/// Letters, digits, `_`, `-` and `.`, beginning with a letter, a digit or `_`: fit for a folder, and for a
+/// command line.
+bool is_folder_name(std::string_view name) {
+  const auto is_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  constexpr std::size_t longest = 100;
+  return !name.empty() && name.size() <= longest && is_word(name.front()) &&
+         std::all_of(name.begin(), name.end(), [&](char c) { return is_word(c) || c == '-' || c == '.'; });
+}
+
+/// The named strategy with its defaults, or its bare name if it is not registered.
+StrategyChoice choose_if_there(const RegistryBase& registry, const char* name) {
+  return registry.find(name) != nullptr ? registry.choose(name) : StrategyChoice{name, nullptr};
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, TrialsConfig& p) {
+  v.field(
+      "every_m", p.every_m,
+      {.doc = "A trial starts every so far along the driven path; 0: not used.", .unit = "m", .min = 0.0});
+  v.field(
+      "starts_m", p.starts_m,
+      {.doc = "A trial starts at each of these distances along the driven path.", .unit = "m", .min = 0.0});
+  v.field("every_scan", p.every_scan,
+          {.doc = "A trial starts at every n-th observation; 0: not used.", .min = 0.0});
+  v.field(
+      "whole", p.whole,
+      {.doc = "One trial over the whole drive; it goes on after a declaration, and every step is recorded."});
+  v.field("max_steps", p.max_steps,
+          {.doc = "A trial without a declaration ends after so many steps; 0: at the end of the drive.",
+           .min = 0.0});
+  v.field("within_map_m", p.within_map_m,
+          {.doc = "Only starts at most this far from where the map was recorded count; 0: all.",
+           .unit = "m",
+           .min = 0.0});
+  const int given = (p.every_m > 0.0 ? 1 : 0) + (p.starts_m.empty() ? 0 : 1) + (p.every_scan > 0 ? 1 : 0) +
+                    (p.whole ? 1 : 0);
+  v.require(given == 1, "", "exactly one of every_m, starts_m, every_scan and whole must be given");
+}
+
+void describe(ParamVisitor& v, EvaluationConfig& p) {
+  v.field(
+      "max_translation_error", p.max_translation_error,
+      {.doc = "A declared pose farther than this from the reference is wrong.", .unit = "m", .above = 0.0});
+  v.field("max_rotation_error_deg", p.max_rotation_error_deg,
+          {.doc = "A declared pose turned more than this against the reference is wrong.",
+           .unit = "deg",
+           .max = 180.0,
+           .above = 0.0});
+}
+
+void describe(ParamVisitor& v, OutputConfig& p) {
+  v.field("steps", p.steps, {.doc = "Whether to write steps.jsonl, one line a step."});
+  v.field("maps", p.maps,
+          {.doc = "Of which trials to write the local maps, for viewers.",
+           .choices = {"none", "first_trial", "all"}});
+}
+
+void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog) {
+  v.field("schema", e.schema,
+          {.doc = "Version of the file format; this program reads version 1.",
+           .min = 1.0,
+           .max = 1.0,
+           .required = true});
+  v.field("name", e.name,
+          {.doc = "What the experiment is called; results go to a folder of this name.", .required = true});
+  v.require(is_folder_name(e.name), "name",
+            "must be usable as a folder name: at most 100 letters, digits, '_', '-' and '.', beginning with "
+            "a letter, "
+            "a digit or '_'");
+  v.field("seed", e.seed, {.doc = "Fixes all random numbers: the same seed gives the same results."});
+  v.field("threads", e.threads,
+          {.doc = "How many threads work at once; results do not depend on it.", .min = 1.0, .max = 256.0});
+  v.field("plugins", e.plugins, {.doc = "Modules with further strategies to load."});
+  v.strategy("map", e.map, catalog.map_sources, {.doc = "Where the known map comes from.", .required = true});
+  v.strategy("observations", e.observations, catalog.observation_sources,
+             {.doc = "Where scans and odometry come from.", .required = true});
+  v.field("trials", e.trials,
+          {.doc = "Where localization starts, and how long it may go on.", .required = true});
+  LocalizerSection localizer{&e.localizer, &catalog};
+  v.field("localizer", localizer,
+          {.doc = "Which strategy does each stage; the defaults are the paper's method."});
+  v.field("evaluation", e.evaluation, {.doc = "What counts as a right answer."});
+  v.field("output", e.output, {.doc = "What to write besides the summary."});
+}
+
+Experiment default_experiment(const Catalog& catalog) {
+  Experiment e;
+  e.localizer.local_mapper = choose_if_there(catalog.local_mappers, "scan_matching");
+  e.localizer.matcher = choose_if_there(catalog.matchers, "ransam");
+  e.localizer.clusterer = choose_if_there(catalog.clusterers, "hierarchical_kmeans");
+  e.localizer.rater = choose_if_there(catalog.raters, "cluster_rating");
+  e.localizer.threshold_policy = choose_if_there(catalog.threshold_policies, "sliding_window");
+  e.localizer.verdict_rule = choose_if_there(catalog.verdict_rules, "consecutive_rating");
+  return e;
+}
+
+Experiment read_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                           const Catalog& catalog) {
+  std::vector<Fault> faults;
+  Experiment experiment = default_experiment(catalog);
+  ExperimentParams params(experiment, catalog);
+  if (auto tree = parse_yaml(read_text_file(file), origin_of(file), faults)) {
+    apply_overrides(*tree, overrides, params, faults);
+    read_params(*tree, params, faults);
+  }
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  return experiment;
+}
+
+std::string effective_yaml(Experiment& experiment, const Catalog& catalog) {
+  ExperimentParams params(experiment, catalog);
+  return "# Every value of the experiment, defaulted or not: running this file gives the same results.\n" +
+         write_yaml(params);
+}
+
+}  // namespace glocal

@@ -1,0 +1,68 @@
+// A YAML document as a small tree in which everything knows where it was written.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "glocal/error.hpp"
+
+namespace glocal {
+
+/// Where text comes from.
+struct Origin {
+  std::string label;             ///< How faults name it: the file as given, or `--set path=value`.
+  std::filesystem::path folder;  ///< What relative paths in it start from.
+};
+
+struct Place {
+  std::shared_ptr<const Origin> origin;
+  int line = 0;    ///< From 1; 0 if there is none.
+  int column = 0;  ///< From 1; 0 if there is none.
+};
+
+enum class NodeKind {
+  null,
+  scalar,
+  list,
+  map,
+  invalid,  ///< Already reported as a fault; readers pass over it.
+};
+
+struct Entry;
+
+struct Node {
+  NodeKind kind = NodeKind::null;
+  Place place = {};
+  std::string text = {};            ///< Of a scalar.
+  bool quoted = false;              ///< A quoted or block scalar, which is text whatever it looks like.
+  std::vector<Node> items = {};     ///< Of a list.
+  std::vector<Entry> entries = {};  ///< Of a map, in the order of the file; keys are unique.
+};
+
+struct Entry {
+  std::string key;
+  Place place;  ///< Of the key.
+  Node value;
+};
+
+/// Null if the map has no such key.
+template <class MapNode>
+[[nodiscard]] auto* find_entry(MapNode& map, std::string_view key) {
+  for (auto& entry : map.entries) {
+    if (entry.key == key) return &entry;
+  }
+  return static_cast<decltype(&map.entries.front())>(nullptr);
+}
+
+[[nodiscard]] inline Fault fault_at(const Place& place, std::string message) {
+  return {place.origin->label, place.line, place.column, std::move(message)};
+}
+
+/// What a message calls it: "nothing", "'text'", "a list", "a map".
+[[nodiscard]] std::string name_of(const Node& node);
+
+}  // namespace glocal

@@ -1,0 +1,130 @@
+#include "config/overrides.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "config/uniform_visitor.hpp"
+#include "config/yaml_parser.hpp"
+
+namespace glocal {
+namespace {
+
+using Path = std::span<const std::string>;
+
+/// Finds out which keys on a path stand for a strategy: there, and only there, the next key takes the place
+/// of others.
+class StrategyFinder final : public UniformVisitor<StrategyFinder> {
+ public:
+  /// Fills `is_strategy[i]` for path[i], from `depth` on.
+  StrategyFinder(Path path, std::size_t depth, std::vector<bool>& is_strategy)
+      : path_(path), depth_(depth), is_strategy_(&is_strategy) {}
+
+  template <class T>
+  void value(std::string_view /*name*/, T& /*v*/, const FieldInfo& /*info*/) {}
+
+  void strategy(std::string_view name, StrategyChoice& /*choice*/, const RegistryBase& registry,
+                const FieldInfo& /*info*/) override {
+    if (!leads_to(name)) return;
+    (*is_strategy_)[depth_] = true;
+    const std::size_t below = depth_ + 1;
+    const StrategyInfo* info = below < path_.size() ? registry.find(path_[below]) : nullptr;
+    if (info == nullptr) return;
+    StrategyFinder deeper(path_, below + 1, *is_strategy_);
+    info->default_params()->visit(deeper);
+  }
+
+  void require(bool /*holds*/, std::string_view /*field*/, std::string_view /*rule*/) override {}
+
+ private:
+  void group(std::string_view name, AnyParams& params, const FieldInfo& /*info*/) override {
+    if (!leads_to(name)) return;
+    StrategyFinder deeper(path_, depth_ + 1, *is_strategy_);
+    params.visit(deeper);
+  }
+
+  void list(std::string_view /*name*/, AnyList& /*list*/, const FieldInfo& /*info*/) override {}
+
+  [[nodiscard]] bool leads_to(std::string_view name) const {
+    return depth_ < path_.size() && path_[depth_] == name;
+  }
+
+  Path path_;
+  std::size_t depth_;
+  std::vector<bool>* is_strategy_;
+};
+
+/// None if a part is empty.
+std::optional<std::vector<std::string>> split(std::string_view path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path) {
+    if (c == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  for (const std::string& part : parts) {
+    if (part.empty()) return std::nullopt;
+  }
+  return parts;
+}
+
+/// Makes a map of the node, if that loses nothing: of nothing at all, or of a strategy's bare name.
+bool make_map(Node& node, const Place& place, bool is_strategy, const std::string& next) {
+  if (node.kind == NodeKind::null || node.kind == NodeKind::invalid) {
+    node = {.kind = NodeKind::map, .place = place};
+  } else if (is_strategy && node.kind == NodeKind::scalar) {
+    Node map{.kind = NodeKind::map, .place = node.place};
+    if (node.text == next) map.entries.push_back({next, node.place, {.place = node.place}});
+    node = std::move(map);
+  }
+  return node.kind == NodeKind::map;
+}
+
+/// The node below `key`, made if it is not there.
+Node& enter(Node& map, const std::string& key, const Place& place) {
+  if (Entry* entry = find_entry(map, key)) return entry->value;
+  map.entries.push_back({key, place, {.place = place}});
+  return map.entries.back().value;
+}
+
+void put(Node& tree, Path path, const std::vector<bool>& is_strategy, Node value, const Place& place,
+         std::vector<Fault>& faults) {
+  Node* node = &tree;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool in_strategy = i > 0 && is_strategy[i - 1];
+    if (!make_map(*node, place, in_strategy, path[i])) {
+      const std::string at = i == 0 ? "the file" : "'" + path[i - 1] + "'";
+      faults.push_back(
+          fault_at(place, "cannot set '" + path[i] + "': " + at + " is not a map but " + name_of(*node)));
+      return;
+    }
+    if (in_strategy && find_entry(*node, path[i]) == nullptr) node->entries.clear();
+    node = &enter(*node, path[i], place);
+  }
+  *node = std::move(value);
+}
+
+}  // namespace
+
+void apply_overrides(Node& tree, const std::vector<Override>& overrides, AnyParams& params,
+                     std::vector<Fault>& faults) {
+  for (const auto& [text, value] : overrides) {
+    const auto origin =
+        std::make_shared<Origin>(Origin{"--set " + text + "=" + value, std::filesystem::current_path()});
+    const Place place{origin, 0, 0};
+    const auto path = split(text);
+    if (!path) faults.push_back(fault_at(place, "the path has an empty part; write it as a.b.c"));
+    auto node = parse_yaml_value(value, origin, faults);
+    if (!path || !node) continue;
+    std::vector<bool> is_strategy(path->size(), false);
+    StrategyFinder finder(*path, 0, is_strategy);
+    params.visit(finder);
+    put(tree, *path, is_strategy, *std::move(node), place, faults);
+  }
+}
+
+}  // namespace glocal

@@ -1,0 +1,250 @@
+#include "config/reader.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "config/nearest.hpp"
+#include "config/scalars.hpp"
+#include "config/text_file.hpp"
+#include "config/uniform_visitor.hpp"
+#include "config/yaml_parser.hpp"
+#include "glocal/yaml.hpp"
+
+namespace glocal {
+namespace {
+
+std::string joined(const std::string& path, std::string_view name) {
+  return (path.empty() ? "" : path + ".") + std::string(name);
+}
+
+std::string about(const std::string& path, const std::string& message) {
+  return path.empty() ? message : path + ": " + message;
+}
+
+std::string counted(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " item" : " items");
+}
+
+/// Empty if a list may have this many items.
+Refusal check_count(std::size_t n, const FieldInfo& info) {
+  if (n >= info.min_items && n <= info.max_items) return std::nullopt;
+  if (info.min_items == info.max_items)
+    return "expected " + counted(info.min_items) + ", got " + std::to_string(n);
+  if (n < info.min_items)
+    return "expected at least " + counted(info.min_items) + ", got " + std::to_string(n);
+  return "expected at most " + counted(info.max_items) + ", got " + std::to_string(n);
+}
+
+void read_struct(const Node& node, const std::string& path, AnyParams& params, std::vector<Fault>& faults);
+
+/// Reads the fields of one struct from one map.
+class MapReader final : public UniformVisitor<MapReader> {
+ public:
+  /// `path` is the map's, for messages.
+  MapReader(const Node& map, std::string path, std::vector<Fault>& faults)
+      : map_(&map), path_(std::move(path)), faults_(&faults) {}
+
+  template <class T>
+  void value(std::string_view name, T& v, const FieldInfo& info) {
+    const Node* node = take(name, info);
+    if (node == nullptr) return;
+    const std::size_t before = faults_->size();
+    read(*node, std::string(name), v, info);
+    if (faults_->size() != before) refused_.emplace_back(name);
+  }
+
+  void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
+                const FieldInfo& info) override {
+    const Node* node = take(name, info);
+    if (node != nullptr) {
+      read_strategy(*node, name, choice, registry);
+    } else if (!choice.params && !given(name) && !info.required) {
+      refuse(map_->place, std::string(name),
+             "the default " + registry.kind() + " '" + choice.name + "' does not exist; name another" +
+                 others(registry));
+    }
+  }
+
+  void require(bool holds, std::string_view field, std::string_view rule) override {
+    // What was refused still has its default, about which the rule says nothing.
+    const bool undecided = std::any_of(refused_.begin(), refused_.end(), [&](const std::string& name) {
+      return field == name || rule.find(name) != std::string_view::npos;
+    });
+    if (holds || undecided) return;
+    const Entry* entry = find_entry(*map_, field);
+    refuse(entry == nullptr ? map_->place : entry->value.place, std::string(field), std::string(rule));
+  }
+
+  /// To be called after all fields were visited.
+  void report_unknown_keys() {
+    for (const Entry& entry : map_->entries) {
+      if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+      const std::string help =
+          known_.empty() ? " (there are no parameters)" : suggestion(entry.key, known_, "known keys");
+      faults_->push_back(fault_at(entry.place, about(path_, "unknown key '" + entry.key + "'" + help)));
+    }
+  }
+
+ private:
+  void group(std::string_view name, AnyParams& params, const FieldInfo& info) override {
+    if (const Node* node = take(name, info)) {
+      read_struct(*node, joined(path_, name), params, *faults_);
+    } else if (!given(name) && !info.required) {
+      // Left out, which is wrong only if it has something that must be given.
+      read_struct({.place = map_->place}, joined(path_, name), params, *faults_);
+    }
+  }
+
+  void list(std::string_view name, AnyList& list, const FieldInfo& info) override {
+    const Node* node = take(name, info);
+    if (node == nullptr || !check_list(*node, std::string(name), info, "a list of maps")) return;
+    list.resize(0);
+    list.resize(node->items.size());
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+      const std::string path = joined(path_, name) + "[" + std::to_string(i) + "]";
+      struct Item final : AnyParams {
+        Item(AnyList& l, std::size_t n) : items(&l), index(n) {}
+        void visit(ParamVisitor& visitor) override { items->visit(index, visitor); }
+        [[nodiscard]] std::unique_ptr<AnyParams> clone() const override {
+          return std::make_unique<Item>(*this);
+        }
+        AnyList* items;
+        std::size_t index;
+      } item(list, i);
+      read_struct(node->items[i], path, item, *faults_);
+    }
+  }
+
+  [[nodiscard]] bool given(std::string_view name) const { return find_entry(*map_, name) != nullptr; }
+
+  /// The field's node if there is one to read; notes that the field is known, and reports it missing if it
+  /// must be given.
+  const Node* take(std::string_view name, const FieldInfo& info) {
+    known_.emplace_back(name);
+    const Entry* entry = find_entry(*map_, name);
+    if (entry != nullptr && entry->value.kind != NodeKind::invalid) return &entry->value;
+    if (entry != nullptr || info.required) refused_.emplace_back(name);
+    if (entry == nullptr && info.required) {
+      faults_->push_back(fault_at(map_->place, about(path_, "missing key '" + std::string(name) +
+                                                                "': " + std::string(info.doc.text))));
+    }
+    return nullptr;
+  }
+
+  void refuse(const Place& place, const std::string& what, const std::string& message) {
+    faults_->push_back(fault_at(place, about(path_, about(what, message))));
+  }
+
+  template <class T>
+  void read(const Node& node, const std::string& what, T& v, const FieldInfo& info) {
+    if (node.kind == NodeKind::invalid) return;
+    if (auto refusal = take_value(node, info, v)) refuse(node.place, what, *refusal);
+  }
+
+  template <class T>
+  void read(const Node& node, const std::string& what, std::vector<T>& v, const FieldInfo& info) {
+    if (!check_list(node, what, info, "a list")) return;
+    v.assign(node.items.size(), T{});
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      read(node.items[i], what + "[" + std::to_string(i) + "]", v[i], info);
+    }
+  }
+
+  void read(const Node& node, const std::string& what, std::array<double, 2>& v, const FieldInfo& info) {
+    if (node.kind == NodeKind::invalid) return;
+    if (node.kind != NodeKind::list || node.items.size() != 2) {
+      const std::string got = node.kind == NodeKind::list ? counted(node.items.size()) : name_of(node);
+      refuse(node.place, what, "expected a pair of numbers [a, b], got " + got);
+      return;
+    }
+    for (std::size_t i = 0; i < 2; ++i) read(node.items[i], what + "[" + std::to_string(i) + "]", v[i], info);
+  }
+
+  bool check_list(const Node& node, const std::string& what, const FieldInfo& info,
+                  const std::string& expected) {
+    if (node.kind != NodeKind::list) {
+      refuse(node.place, what, "expected " + expected + ", got " + name_of(node));
+      return false;
+    }
+    const auto refusal = check_count(node.items.size(), info);
+    if (refusal) refuse(node.place, what, *refusal);
+    return !refusal;
+  }
+
+  void read_strategy(const Node& node, std::string_view name, StrategyChoice& choice,
+                     const RegistryBase& registry) {
+    const bool is_map = node.kind == NodeKind::map && node.entries.size() == 1;
+    if (node.kind != NodeKind::scalar && !is_map) {
+      const std::string got = node.kind == NodeKind::map
+                                  ? "a map with " + std::to_string(node.entries.size()) + " keys"
+                                  : name_of(node);
+      refuse(node.place, std::string(name),
+             "expected the name of a " + registry.kind() + ", alone or as `name: {parameters}`, got " + got +
+                 others(registry));
+      return;
+    }
+    const std::string& chosen = is_map ? node.entries.front().key : node.text;
+    if (registry.find(chosen) == nullptr) {
+      const auto near = nearest(chosen, names_of(registry));
+      refuse(is_map ? node.entries.front().place : node.place, std::string(name),
+             "unknown " + registry.kind() + " '" + chosen + "'" +
+                 (near ? ", did you mean '" + *near + "'?" : "") + others(registry));
+      return;
+    }
+    choice = registry.choose(chosen);
+    const Node defaults{.place = node.place};
+    read_struct(is_map ? node.entries.front().value : defaults, joined(joined(path_, name), chosen),
+                *choice.params, *faults_);
+  }
+
+  /// " (there are: a, b)".
+  static std::string others(const RegistryBase& registry) {
+    const auto names = names_of(registry);
+    return names.empty() ? " (none is registered)" : " (there are: " + join(names) + ")";
+  }
+
+  const Node* map_;
+  std::string path_;
+  std::vector<Fault>* faults_;
+  std::vector<std::string> known_;
+  std::vector<std::string> refused_;
+};
+
+/// A null node is a map without keys: everything has its default.
+void read_struct(const Node& node, const std::string& path, AnyParams& params, std::vector<Fault>& faults) {
+  if (node.kind == NodeKind::invalid) return;
+  if (node.kind != NodeKind::map && node.kind != NodeKind::null) {
+    faults.push_back(fault_at(node.place, about(path, "expected a map (key: value), got " + name_of(node))));
+    return;
+  }
+  MapReader reader(node, path, faults);
+  params.visit(reader);
+  reader.report_unknown_keys();
+}
+
+}  // namespace
+
+std::shared_ptr<const Origin> origin_of(const std::filesystem::path& file) {
+  return std::make_shared<Origin>(Origin{file.string(), file.parent_path()});
+}
+
+void read_params(const Node& node, AnyParams& params, std::vector<Fault>& faults) {
+  read_struct(node, "", params, faults);
+}
+
+std::vector<std::string> names_of(const RegistryBase& registry) {
+  std::vector<std::string> names;
+  for (const StrategyInfo* info : registry.all()) names.push_back(info->name);
+  return names;
+}
+
+void read_yaml(const std::filesystem::path& file, AnyParams& params) {
+  std::vector<Fault> faults;
+  if (const auto tree = parse_yaml(read_text_file(file), origin_of(file), faults))
+    read_params(*tree, params, faults);
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+}
+
+}  // namespace glocal

@@ -1,0 +1,278 @@
+#include "config/scalars.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <system_error>
+
+#include "config/nearest.hpp"
+#include "config/text_file.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr std::string_view data_prefix = "data:";
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// A number's sign and what follows it.
+struct Signed {
+  bool negative;
+  std::string_view digits;
+};
+
+Signed split_sign(std::string_view text) {
+  const bool has_sign = text.starts_with('-') || text.starts_with('+');
+  return {text.starts_with('-'), text.substr(has_sign ? 1 : 0)};
+}
+
+std::size_t skip_digits(std::string_view text, std::size_t i) {
+  while (i < text.size() && is_digit(text[i])) ++i;
+  return i;
+}
+
+bool is_whole(std::string_view digits) {
+  return !digits.empty() && skip_digits(digits, 0) == digits.size();
+}
+
+/// Digits with perhaps a fraction and an exponent, as in YAML's core schema: `12`, `1.5`, `.5`, `1.`, `1e-3`.
+bool is_decimal(std::string_view digits) {
+  std::size_t i = skip_digits(digits, 0);
+  std::size_t mantissa = i;
+  if (i < digits.size() && digits[i] == '.') {
+    const std::size_t end = skip_digits(digits, i + 1);
+    mantissa += end - (i + 1);
+    i = end;
+  }
+  if (mantissa == 0) return false;
+  if (i < digits.size() && (digits[i] == 'e' || digits[i] == 'E')) {
+    ++i;
+    if (i < digits.size() && (digits[i] == '-' || digits[i] == '+')) ++i;
+    const std::size_t end = skip_digits(digits, i);
+    if (end == i) return false;
+    i = end;
+  }
+  return i == digits.size();
+}
+
+bool has_leading_zero(std::string_view digits) {
+  return digits.size() > 1 && digits[0] == '0' && is_digit(digits[1]);
+}
+
+bool has_radix(std::string_view digits) {
+  static constexpr std::string_view letters = "xXoObB";
+  return digits.size() > 1 && digits[0] == '0' && letters.find(digits[1]) != std::string_view::npos;
+}
+
+bool is_not_finite(std::string_view digits) {
+  std::string lower(digits.substr(digits.starts_with('.') ? 1 : 0));
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return lower == "nan" || lower == "inf" || lower == "infinity";
+}
+
+std::string without_leading_zeros(const Signed& number) {
+  const std::size_t first = std::min(number.digits.find_first_not_of('0'), number.digits.size() - 1);
+  // Keeps one zero before a point.
+  const std::size_t from = is_digit(number.digits[first]) ? first : first - 1;
+  return (number.negative ? "-" : "") + std::string(number.digits.substr(from));
+}
+
+/// What numbers of all types are refused for; `what` is the type.
+Refusal check_notation(const Node& node, std::string_view what) {
+  const std::string expected = "expected " + std::string(what) + ", got " + name_of(node);
+  if (node.kind != NodeKind::scalar) return expected;
+  const Signed number = split_sign(node.text);
+  if (node.quoted) return expected + (is_decimal(number.digits) ? " (remove the quotes)" : "");
+  if (is_not_finite(number.digits)) return node.text + " is not a finite number";
+  if (has_radix(number.digits))
+    return node.text + " is not a decimal number; write it with the digits 0 to 9";
+  if (!is_decimal(number.digits)) return expected;
+  if (has_leading_zero(number.digits)) {
+    return node.text + " has a leading zero; write " + without_leading_zeros(number);
+  }
+  return std::nullopt;
+}
+
+Refusal check_bounds(const std::string& text, double value, const FieldInfo& info) {
+  if (value >= info.min && value <= info.max && (std::isinf(info.above) || value > info.above))
+    return std::nullopt;
+  return text + " is out of range, must be " + bounds_text(info);
+}
+
+template <class Whole>
+Refusal take_whole(const Node& node, const FieldInfo& info, Whole& value) {
+  if (auto refusal = check_notation(node, "a whole number")) return refusal;
+  const Signed number = split_sign(node.text);
+  if (!is_whole(number.digits))
+    return node.text + " is not a whole number; write it without point and exponent";
+  if (std::is_unsigned_v<Whole> && number.negative) {
+    FieldInfo not_negative = info;
+    not_negative.min = std::max(info.min, 0.0);
+    return check_bounds(node.text, -1.0, not_negative);
+  }
+  const std::string text = (number.negative ? "-" : "") + std::string(number.digits);
+  Whole read = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), read);
+  if (result.ec == std::errc::result_out_of_range) {
+    using Limits = std::numeric_limits<Whole>;
+    return node.text + (number.negative ? " is too small, must be >= " + std::to_string(Limits::min())
+                                        : " is too large, must be <= " + std::to_string(Limits::max()));
+  }
+  if (auto refusal = check_bounds(node.text, static_cast<double>(read), info)) return refusal;
+  value = read;
+  return std::nullopt;
+}
+
+Refusal resolve(const std::string& text, const std::filesystem::path& folder,
+                std::filesystem::path& resolved) {
+  std::filesystem::path path(text);
+  if (text.starts_with(data_prefix)) {
+    const char* datasets = std::getenv("GLOCAL_DATASETS");
+    if (datasets == nullptr || *datasets == '\0') {
+      return "'" + text +
+             "' needs the environment variable GLOCAL_DATASETS, which is not set; set it to the folder of "
+             "the data sets";
+    }
+    const std::filesystem::path rest(text.substr(data_prefix.size()));
+    if (rest.empty() || rest.is_absolute())
+      return "expected a relative path after 'data:', got '" + text + "'";
+    path = std::filesystem::absolute(datasets) / rest;
+  } else {
+    path = std::filesystem::absolute(folder) / path;
+  }
+  resolved = path.lexically_normal();
+  return std::nullopt;
+}
+
+bool is_plain_word(std::string_view text) {
+  static constexpr std::array<std::string_view, 9> reserved = {"true", "false", "null", "yes", "no",
+                                                               "on",   "off",   "y",    "n"};
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  if (text.empty() || !is_letter(text.front())) return false;
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (std::find(reserved.begin(), reserved.end(), lower) != reserved.end()) return false;
+  return std::all_of(text.begin(), text.end(),
+                     [&](char c) { return is_letter(c) || is_digit(c) || c == '-' || c == '.'; });
+}
+
+std::string double_quoted(std::string_view text) {
+  static constexpr std::string_view hex = "0123456789ABCDEF";
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += {'\\', c};
+    } else if (byte < 0x20U || byte == 0x7FU) {
+      result += {'\\', 'x', hex[byte >> 4U], hex[byte & 0xFU]};
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+Refusal take_value(const Node& node, const FieldInfo& /*info*/, bool& value) {
+  const bool plain = node.kind == NodeKind::scalar && !node.quoted;
+  if (!plain || (node.text != "true" && node.text != "false")) {
+    return "expected true or false, got " + name_of(node);
+  }
+  value = node.text == "true";
+  return std::nullopt;
+}
+
+Refusal take_value(const Node& node, const FieldInfo& info, int& value) {
+  return take_whole(node, info, value);
+}
+
+Refusal take_value(const Node& node, const FieldInfo& info, std::uint64_t& value) {
+  return take_whole(node, info, value);
+}
+
+Refusal take_value(const Node& node, const FieldInfo& info, double& value) {
+  if (auto refusal = check_notation(node, "a number")) return refusal;
+  const std::string_view text = std::string_view(node.text).substr(node.text.starts_with('+') ? 1 : 0);
+  double read = 0.0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), read);
+  if (result.ec == std::errc::result_out_of_range) {
+    return node.text + " is too large or too small for a number (64-bit floating point)";
+  }
+  if (auto refusal = check_bounds(node.text, read, info)) return refusal;
+  value = read;
+  return std::nullopt;
+}
+
+Refusal take_value(const Node& node, const FieldInfo& info, std::string& value) {
+  if (node.kind != NodeKind::scalar) return "expected text, got " + name_of(node);
+  const auto& choices = info.choices;
+  if (!choices.empty() && std::find(choices.begin(), choices.end(), node.text) == choices.end()) {
+    const auto near = nearest(node.text, choices);
+    return "'" + node.text + "' is not one of " + join(choices) +
+           (near ? " (did you mean '" + *near + "'?)" : "");
+  }
+  value = node.text;
+  return std::nullopt;
+}
+
+Refusal take_value(const Node& node, const FieldInfo& info, FilePath& value) {
+  if (node.kind != NodeKind::scalar) return "expected a path, got " + name_of(node);
+  if (node.text.empty()) {
+    if (info.required) return "expected a path, got an empty text";
+    value = {};
+    return std::nullopt;
+  }
+  FilePath path{node.text, {}};
+  if (auto refusal = resolve(node.text, node.place.origin->folder, path.resolved)) return refusal;
+  if (auto refusal = why_unreadable(path.resolved)) return refusal;
+  value = std::move(path);
+  return std::nullopt;
+}
+
+std::string bounds_text(const FieldInfo& info) {
+  const std::string unit = *info.unit == '\0' ? "" : " " + std::string(info.unit);
+  if (info.min == info.max) return to_yaml(info.min) + unit;
+  std::string low;
+  if (std::isfinite(info.above)) {
+    low = "> " + to_yaml(info.above);
+  } else if (std::isfinite(info.min)) {
+    low = ">= " + to_yaml(info.min);
+  }
+  const std::string high = std::isfinite(info.max) ? "<= " + to_yaml(info.max) : "";
+  if (low.empty() && high.empty()) return "";
+  return low + (low.empty() || high.empty() ? "" : " and ") + high + unit;
+}
+
+std::string to_yaml(bool value) {
+  return value ? "true" : "false";
+}
+std::string to_yaml(int value) {
+  return std::to_string(value);
+}
+std::string to_yaml(std::uint64_t value) {
+  return std::to_string(value);
+}
+
+std::string to_yaml(double value) {
+  std::array<char, 32> buffer;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::string to_yaml(std::string_view value) {
+  return is_plain_word(value) ? std::string(value) : double_quoted(value);
+}
+
+std::string to_yaml(const FilePath& value) {
+  return double_quoted(value.text.empty() || value.text.starts_with(data_prefix) ? value.text
+                                                                                 : value.resolved.string());
+}
+
+}  // namespace glocal

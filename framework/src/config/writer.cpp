@@ -1,0 +1,96 @@
+#include "config/writer.hpp"
+
+#include <cstddef>
+#include <string_view>
+
+#include "config/scalars.hpp"
+#include "config/uniform_visitor.hpp"
+
+namespace glocal {
+namespace {
+
+std::string flow(const std::array<double, 2>& pair) {
+  return "[" + to_yaml(pair[0]) + ", " + to_yaml(pair[1]) + "]";
+}
+
+template <class T>
+std::string flow(const T& value) {
+  return to_yaml(value);
+}
+
+template <class T>
+std::string flow(const std::vector<T>& values) {
+  std::string text;
+  for (const T& value : values) text += (text.empty() ? "" : ", ") + flow(value);
+  return "[" + text + "]";
+}
+
+class YamlWriter final : public UniformVisitor<YamlWriter> {
+ public:
+  explicit YamlWriter(std::size_t indent) : indent_(indent, ' ') {}
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+  template <class T>
+  void value(std::string_view name, T& v, const FieldInfo& /*info*/) {
+    line(name, flow(v));
+  }
+
+  void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& /*registry*/,
+                const FieldInfo& /*info*/) override {
+    YamlWriter parameters(indent_.size() + 4);
+    if (choice.params) choice.params->visit(parameters);
+    if (parameters.text_.empty()) {
+      line(name, to_yaml(std::string_view(choice.name)));
+    } else {
+      text_ += indent_ + std::string(name) + ":\n" + indent_ + "  " + choice.name + ":\n" + parameters.text_;
+    }
+  }
+
+  void require(bool /*holds*/, std::string_view /*field*/, std::string_view /*rule*/) override {}
+
+ private:
+  void group(std::string_view name, AnyParams& params, const FieldInfo& /*info*/) override {
+    YamlWriter fields(indent_.size() + 2);
+    params.visit(fields);
+    if (fields.text_.empty()) {
+      line(name, "{}");
+    } else {
+      text_ += indent_ + std::string(name) + ":\n" + fields.text_;
+    }
+  }
+
+  void list(std::string_view name, AnyList& list, const FieldInfo& /*info*/) override {
+    if (list.size() == 0) {
+      line(name, "[]");
+      return;
+    }
+    text_ += indent_ + std::string(name) + ":\n";
+    for (std::size_t i = 0; i < list.size(); ++i) text_ += item(list, i);
+  }
+
+  /// A list's item: its fields, the first of them behind a dash.
+  [[nodiscard]] std::string item(AnyList& list, std::size_t i) const {
+    YamlWriter fields(indent_.size() + 4);
+    list.visit(i, fields);
+    const std::string dash = indent_ + "  - ";
+    return fields.text_.empty() ? dash + "{}\n" : dash + fields.text_.substr(dash.size());
+  }
+
+  void line(std::string_view name, const std::string& value) {
+    text_ += indent_ + std::string(name) + ": " + value + "\n";
+  }
+
+  std::string indent_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string write_yaml(AnyParams& params) {
+  YamlWriter writer(0);
+  params.visit(writer);
+  return writer.text();
+}
+
+}  // namespace glocal

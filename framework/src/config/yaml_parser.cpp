@@ -1,0 +1,231 @@
+#include "config/yaml_parser.hpp"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <array>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "config/text_file.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr std::size_t max_depth = 32;
+
+/// Thrown to leave the parser once nothing more is to be learned from the text.
+struct Stop {};
+
+/// Builds the tree from yaml-cpp's events. (Its own tree keeps duplicate keys silently and forgets places.)
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  TreeBuilder(std::shared_ptr<const Origin> origin, bool with_lines, std::vector<Fault>& faults)
+      : origin_(std::move(origin)), with_lines_(with_lines), faults_(&faults) {}
+
+  [[nodiscard]] std::optional<Node> take_root() { return std::move(root_); }
+
+  [[nodiscard]] Place place(const YAML::Mark& mark) const {
+    if (!with_lines_ || mark.is_null()) return {origin_, 0, 0};
+    return {origin_, mark.line + 1, mark.column + 1};
+  }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (!root_) return;
+    report(place(mark), "only one document is allowed; remove it from here on");
+    throw Stop{};
+  }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    refuse_anchor(mark, anchor);
+    add({.place = place(mark)});
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+    report(place(mark), at_path("aliases are not supported; write the value out"));
+    add({.kind = NodeKind::invalid, .place = place(mark)});
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    refuse_anchor(mark, anchor);
+    refuse_tag(mark, tag);
+    add({.kind = NodeKind::scalar, .place = place(mark), .text = value, .quoted = tag == "!"});
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value /*style*/) override {
+    start(mark, tag, anchor, NodeKind::list);
+  }
+  void OnSequenceEnd() override { finish(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value /*style*/) override {
+    start(mark, tag, anchor, NodeKind::map);
+  }
+  void OnMapEnd() override { finish(); }
+
+ private:
+  /// A key that waits for its value; the value of a dropped key is forgotten.
+  struct Key {
+    std::string text;
+    Place place;
+    bool dropped = false;
+  };
+  struct Frame {
+    Node node;
+    std::optional<Key> key;
+  };
+
+  void start(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, NodeKind kind) {
+    refuse_anchor(mark, anchor);
+    refuse_tag(mark, tag);
+    if (frames_.size() == max_depth) {
+      report(place(mark), at_path("nested deeper than " + std::to_string(max_depth) + " levels"));
+      throw Stop{};
+    }
+    frames_.push_back({{.kind = kind, .place = place(mark)}, std::nullopt});
+  }
+
+  void finish() {
+    Node node = std::move(frames_.back().node);
+    frames_.pop_back();
+    add(std::move(node));
+  }
+
+  void add(Node node) {
+    if (frames_.empty()) {
+      root_ = std::move(node);
+      return;
+    }
+    Frame& top = frames_.back();
+    if (top.node.kind == NodeKind::list) {
+      top.node.items.push_back(std::move(node));
+    } else if (!top.key) {
+      top.key = check_key(std::move(node));
+    } else {
+      const Key key = *std::exchange(top.key, std::nullopt);
+      if (!key.dropped) top.node.entries.push_back({key.text, key.place, std::move(node)});
+    }
+  }
+
+  Key check_key(Node node) {
+    Key key{std::move(node.text), node.place};
+    const Entry* first = find_entry(frames_.back().node, key.text);
+    if (node.kind != NodeKind::scalar) {
+      key.dropped = true;
+      if (node.kind != NodeKind::invalid) {
+        report(key.place, at_path("a key must be a word, not " + name_of(node)));
+      }
+    } else if (key.text == "<<") {
+      key.dropped = true;
+      report(key.place, at_path("merge keys (<<) are not supported; write the keys out"));
+    } else if (first != nullptr) {
+      key.dropped = true;
+      std::string where =
+          first->place.line > 0 ? " (first in line " + std::to_string(first->place.line) + ")" : "";
+      report(key.place, at_path("duplicate key '" + key.text + "'" + where));
+    }
+    return key;
+  }
+
+  void refuse_anchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    if (anchor != 0)
+      report(place(mark), at_path("anchors are not supported; write the value out where it is needed"));
+  }
+
+  /// yaml-cpp gives "?" for plain scalars and collections, "!" for quoted scalars.
+  void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
+    if (tag.empty() || tag == "?" || tag == "!") return;
+    report(place(mark), at_path("tags are not supported; remove '" + tag + "'"));
+  }
+
+  /// The message with the path of the collection it is found in.
+  [[nodiscard]] std::string at_path(const std::string& message) const {
+    std::string path;
+    for (const Frame& frame : frames_) {
+      if (frame.key) path += (path.empty() ? "" : ".") + frame.key->text;
+      if (frame.node.kind == NodeKind::list) path += "[" + std::to_string(frame.node.items.size()) + "]";
+    }
+    return path.empty() ? message : path + ": " + message;
+  }
+
+  void report(const Place& where, std::string message) {
+    faults_->push_back(fault_at(where, std::move(message)));
+  }
+
+  std::shared_ptr<const Origin> origin_;
+  bool with_lines_;
+  std::vector<Fault>* faults_;
+  std::vector<Frame> frames_;
+  std::optional<Node> root_;
+};
+
+/// yaml-cpp names the rule; this adds what to look for.
+std::string hint(const std::string& message) {
+  using Hint = std::pair<std::string_view, std::string_view>;
+  static constexpr std::array<Hint, 9> hints{{
+      {YAML::ErrorMsg::TAB_IN_INDENTATION, "indent with spaces"},
+      {YAML::ErrorMsg::END_OF_MAP, "check the indentation here and above"},
+      {YAML::ErrorMsg::END_OF_SEQ, "check the indentation here and above"},
+      {YAML::ErrorMsg::END_OF_MAP_FLOW, "is a '}' or ',' missing?"},
+      {YAML::ErrorMsg::END_OF_SEQ_FLOW, "is a ']' or ',' missing?"},
+      {YAML::ErrorMsg::EOF_IN_SCALAR, "is a closing quote missing?"},
+      {YAML::ErrorMsg::MAP_VALUE, "check the indentation, and quote text that has ': ' in it"},
+      {YAML::ErrorMsg::UNKNOWN_TOKEN, "quote text that begins with a special character"},
+      {YAML::ErrorMsg::FLOW_END, "is a '[' or '{' missing?"},
+  }};
+  for (const auto& [rule, advice] : hints) {
+    if (message == rule) return " (" + std::string(advice) + ")";
+  }
+  return "";
+}
+
+std::optional<Node> parse(const std::string& text, const std::shared_ptr<const Origin>& origin,
+                          bool with_lines, std::vector<Fault>& faults) {
+  TreeBuilder builder(origin, with_lines, faults);
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(builder)) {
+    }
+  } catch (const Stop&) {
+    return std::nullopt;
+  } catch (const YAML::Exception& error) {
+    faults.push_back(fault_at(builder.place(error.mark), "not valid YAML: " + error.msg + hint(error.msg)));
+    return std::nullopt;
+  }
+  return builder.take_root();
+}
+
+}  // namespace
+
+std::optional<Node> parse_yaml(const std::string& text, const std::shared_ptr<const Origin>& origin,
+                               std::vector<Fault>& faults) {
+  if (auto binary = find_binary(text, *origin)) {
+    faults.push_back(*std::move(binary));
+    return std::nullopt;
+  }
+  const std::size_t before = faults.size();
+  auto root = parse(text, origin, true, faults);
+  const bool empty = !root || root->kind == NodeKind::null;
+  if (empty && faults.size() == before) faults.push_back({origin->label, 0, 0, "the file is empty"});
+  return empty ? std::nullopt : std::move(root);
+}
+
+std::optional<Node> parse_yaml_value(const std::string& text, const std::shared_ptr<const Origin>& origin,
+                                     std::vector<Fault>& faults) {
+  if (auto binary = find_binary(text, *origin)) {
+    faults.push_back({origin->label, 0, 0, "the value is not plain text"});
+    return std::nullopt;
+  }
+  const std::size_t before = faults.size();
+  auto root = parse(text, origin, false, faults);
+  if (!root && faults.size() == before) root = Node{.place = {origin, 0, 0}};
+  return root;
+}
+
+}  // namespace glocal

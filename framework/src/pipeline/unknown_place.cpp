@@ -1,0 +1,40 @@
+#include "glocal/unknown_place.hpp"
+
+namespace glocal {
+
+void describe(ParamVisitor& v, UnknownPlaceParams& p) {
+  v.field("window", p.window, {.doc = "Observations averaged (tau' in eq. 10).", .min = 1});
+  v.field("max_contact", p.max_contact,
+          {.doc = "The verdict is unknown_place while Omega' (eq. 10) is below this; 0 switches it off.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("contact_epsilon", p.contact_epsilon,
+          {.doc = "Distance at which a point is in contact with the map.", .unit = "m", .above = 0.0});
+}
+
+UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map)
+    : params_(params), contact_(ContactGrid::of(map, params.contact_epsilon)) {}
+
+std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
+                                                  const std::vector<Hypothesis>& hypotheses) {
+  if (!hypotheses.empty()) best_ = Best{hypotheses.front().map_from_local, local.generation};
+  if (!best_ || best_->generation != local.generation) return std::nullopt;
+
+  const Transform map_from_local(best_->map_from_local);
+  double sum_of_shares = 0.0;
+  int observations = 0;
+  for (std::size_t k = local.ends.size(); k > 0 && observations < params_.window; --k) {
+    const std::size_t end = local.ends[k - 1];
+    const std::size_t begin = k > 1 ? local.ends[k - 2] : 0;
+    if (begin == end) continue;
+    std::size_t in_contact = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (contact_->contact(map_from_local(local.points[i]))) ++in_contact;
+    }
+    sum_of_shares += static_cast<double>(in_contact) / static_cast<double>(end - begin);
+    ++observations;
+  }
+  return observations == 0 ? std::nullopt : std::optional(sum_of_shares / observations);
+}
+
+}  // namespace glocal

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/params.hpp"
+#include "glocal/strategies.hpp"
+#include "matchers/quality.hpp"
+#include "matchers/relation_table.hpp"
+#include "matchers/triangle.hpp"
+#include "matchers/triple_sampler.hpp"
+
+namespace glocal {
+
+/// Random sample matching (Winkelbach et al.; Section II of the paper): triples of points drawn from the
+/// local and from the global map, joined over a hash table by their relation, give hypotheses; all that reach
+/// Omega_max are kept.
+///
+/// The number of iterations is fixed, so the order of drawing does not matter: all triples of the global map
+/// are drawn and hashed first, then those of the local map are drawn and looked up. Every pair of draws that
+/// drawing in turns would find is found, and both halves split over threads without changing the answer.
+class Ransam final : public Matcher {
+ public:
+  struct Params {
+    int iterations = 200000;
+    double contact_epsilon = 0.10;
+    double relation_cell = 0.10;
+    double min_side = 0.3;
+    double min_height = 0.1;
+    double local_radius = 0.0;
+    int extrapolation_batch = 8;
+    double extrapolation_z = 1.96;
+    int table_bits = 0;
+  };
+
+  /// Throws ConfigError where the map is too large for a contact grid.
+  Ransam(const Params& params, const StageSetup& setup);
+
+  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
+                                  Rng& rng) override;
+  void reset() override {}
+
+ private:
+  struct Chunk {
+    std::vector<Hypothesis> hypotheses;
+    std::size_t collisions = 0;
+    std::size_t checks = 0;
+  };
+  [[nodiscard]] std::size_t chunk_count() const;
+  void draw_map_triples(std::uint64_t seed);
+  [[nodiscard]] Chunk match_local_triples(const LocalMap& local, const TripleSampler& sampler,
+                                          const QualityTest& quality, std::uint64_t seed, double omega_max,
+                                          std::size_t chunk) const;
+
+  Params params_;
+  StageSetup setup_;
+  std::shared_ptr<const ContactGrid> contact_;
+  TripleSampler sampler_;  ///< Of the global map.
+  TriangleRule rule_;
+  RelationTable table_;
+  std::uint64_t first_draw_ = 0;     ///< Number in table_ of the first map triple of this step.
+  std::vector<Triple> map_triples_;  ///< Canonical, one for each draw.
+};
+void describe(ParamVisitor& v, Ransam::Params& p);
+
+}  // namespace glocal

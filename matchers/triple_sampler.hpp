@@ -1,0 +1,40 @@
+// Draws triples of points at random.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "glocal/points.hpp"
+#include "glocal/rng.hpp"
+#include "matchers/triangle.hpp"
+
+namespace glocal {
+
+/// Uniform triples of a point set or, with a radius, triples whose second and third point lie within that
+/// radius (in the plane) of the first. Draw number n of a seed is always the same triple, so draws can be
+/// repeated and split over threads.
+class TripleSampler {
+ public:
+  /// `local_radius` 0: uniform over all points. The points must outlive the sampler and must not be empty.
+  TripleSampler(const Points& points, double local_radius);
+
+  /// None where a local draw finds no other point near.
+  [[nodiscard]] std::optional<Triple> draw(std::uint64_t seed, std::uint64_t number) const;
+
+ private:
+  [[nodiscard]] std::optional<std::uint32_t> draw_near(std::uint32_t centre, Rng& rng) const;
+  [[nodiscard]] std::size_t cell_of(float x, float y) const;
+
+  const Points& points_;
+  std::uint32_t size_;
+  // Points sorted by square cells of side `local_radius`, so that the neighbours of a point are three runs of
+  // `order_`.
+  float radius_ = 0.0F;
+  float min_x_ = 0.0F, min_y_ = 0.0F;
+  std::size_t columns_ = 0;
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> starts_;  ///< Where each cell begins in order_; one more at the end.
+};
+
+}  // namespace glocal

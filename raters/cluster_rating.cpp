@@ -1,0 +1,59 @@
+#include "raters/cluster_rating.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace glocal {
+
+void describe(ParamVisitor& v, ClusterRating::Params& p) {
+  v.field("weights", p.weights,
+          {.doc = "alpha_1 (size), alpha_2 (spread in translation), alpha_3 (spread in rotation) and alpha_4 "
+                  "(mean quality) "
+                  "of eq. 7; they add up to 1.",
+           .min = 0.0,
+           .max = 1.0,
+           .min_items = 4,
+           .max_items = 4});
+  v.require(std::abs(std::accumulate(p.weights.begin(), p.weights.end(), 0.0) - 1.0) < 1e-9, "weights",
+            "the four weights must add up to 1 (eq. 7)");
+  v.field("max_variance_translation", p.max_variance_translation,
+          {.doc = "Variance along x or y at which the second term of eq. 7 is 0; the clusterer's value.",
+           .unit = "m^2",
+           .above = 0.0});
+  v.field("max_variance_rotation_deg2", p.max_variance_rotation_deg2,
+          {.doc = "Variance of heading at which the third term of eq. 7 is 0; the clusterer's value.",
+           .unit = "deg^2",
+           .above = 0.0});
+}
+
+std::vector<Rating> ClusterRating::rate(const std::vector<Cluster>& clusters,
+                                        const std::vector<Hypothesis>& hypotheses) {
+  std::vector<Rating> ratings(clusters.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    ratings[i].r = rate_one(clusters[i], hypotheses);
+    sum += ratings[i].r;
+  }
+  for (Rating& rating : ratings) rating.r_normalised = rating.r / sum;  // eq. 8
+  return ratings;
+}
+
+/// eq. 7. A cluster from another clusterer may be spread more widely than the limits: the terms of spread
+/// stop at 0, so that r stays in ]0, 1].
+double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses) const {
+  const double degree = radians(1.0);
+  const double max_variance_rotation = params_.max_variance_rotation_deg2 * degree * degree;
+  const auto size = static_cast<double>(cluster.members.size());
+  double quality = 0.0;
+  for (const std::size_t i : cluster.members) quality += hypotheses[i].quality / size;
+
+  const double share = size / static_cast<double>(hypotheses.size());
+  const double variance = std::max(cluster.variance_x, cluster.variance_y);
+  const double narrow = std::max(0.0, 1.0 - variance / params_.max_variance_translation);
+  const double straight = std::max(0.0, 1.0 - cluster.variance_theta / max_variance_rotation);
+  const std::vector<double>& alpha = params_.weights;
+  return alpha[0] * share + alpha[1] * narrow + alpha[2] * straight + alpha[3] * quality;
+}
+
+}  // namespace glocal

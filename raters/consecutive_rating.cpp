@@ -1,0 +1,91 @@
+#include "raters/consecutive_rating.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace glocal {
+
+void describe(ParamVisitor& v, ConsecutiveRating::Params& p) {
+  v.field("min_rating", p.min_rating,
+          {.doc = "The normalised rating (eq. 8) must be larger than this.", .min = 0.0, .max = 1.0});
+  v.field("consecutive", p.consecutive, {.doc = "In so many consecutive steps.", .min = 1});
+  v.field("same_distance", p.same_distance,
+          {.doc = "A cluster is the same as the last step's if its robot pose, moved by the local motion, is "
+                  "nearer.",
+           .unit = "m",
+           .above = 0.0});
+  v.field("same_rotation_deg", p.same_rotation_deg,
+          {.doc = "… and turned by less.", .unit = "deg", .max = 180.0, .above = 0.0});
+  v.field("candidate_share", p.candidate_share,
+          {.doc = "A cluster is a candidate if its rating (eq. 7) is at least this share of the best one's.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("max_candidates", p.max_candidates,
+          {.doc = "The verdict is ambiguous with at least two and at most so many distinct candidate poses; "
+                  "with more, "
+                  "nothing can be said yet.",
+           .min = 2});
+}
+
+Verdict ConsecutiveRating::judge(const StepResult& step) {
+  if (step.clusters.empty()) {
+    last_.reset();
+    return {VerdictKind::searching, std::nullopt, {}, "no pose fits the local map well enough in this step"};
+  }
+  const Pose2& pose = step.clusters.front().map_from_robot;
+  const double rating = step.ratings.front().r_normalised;
+  if (rating > params_.min_rating) {
+    const int count = last_ && continues(*last_, step) ? last_->count + 1 : 1;
+    last_ = Leader{pose, step.local_from_robot, step.local_map_generation, count};
+    if (count >= params_.consecutive) {
+      return {VerdictKind::localized,
+              pose,
+              {},
+              fmt::format("the same cluster was rated over {:.2f} in {} consecutive steps",
+                          params_.min_rating, count)};
+    }
+    return {VerdictKind::searching,
+            std::nullopt,
+            {},
+            fmt::format("a cluster is rated {:.2f}, in {} of {} steps needed", rating, count,
+                        params_.consecutive)};
+  }
+  last_.reset();
+  std::vector<Pose2> poses = candidates(step);
+  const std::size_t n = poses.size();
+  if (n >= 2 && n <= static_cast<std::size_t>(params_.max_candidates)) {
+    return {VerdictKind::ambiguous, std::nullopt, std::move(poses),
+            fmt::format("{} poses explain the observations about equally well", n)};
+  }
+  return {VerdictKind::searching,
+          std::nullopt,
+          {},
+          fmt::format("the best of {} clusters is rated only {:.2f}", step.clusters.size(), rating)};
+}
+
+bool ConsecutiveRating::same(const Pose2& a, const Pose2& b) const {
+  return distance(a, b) < params_.same_distance &&
+         rotation_between(a, b) < radians(params_.same_rotation_deg);
+}
+
+bool ConsecutiveRating::continues(const Leader& last, const StepResult& step) const {
+  if (last.generation != step.local_map_generation) return false;
+  const Pose2 motion = inverse(last.local_from_robot) * step.local_from_robot;
+  return same(step.clusters.front().map_from_robot, last.map_from_robot * motion);
+}
+
+/// Robot poses of the highly rated clusters, leaving out those that only repeat a better one.
+std::vector<Pose2> ConsecutiveRating::candidates(const StepResult& step) const {
+  std::vector<Pose2> poses;
+  const double least = params_.candidate_share * step.ratings.front().r;
+  for (std::size_t i = 0; i < step.clusters.size() && step.ratings[i].r >= least; ++i) {
+    const Pose2& pose = step.clusters[i].map_from_robot;
+    if (std::none_of(poses.begin(), poses.end(), [&](const Pose2& other) { return same(pose, other); })) {
+      poses.push_back(pose);
+    }
+  }
+  return poses;
+}
+
+}  // namespace glocal

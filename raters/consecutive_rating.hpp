@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include "glocal/params.hpp"
+#include "glocal/strategies.hpp"
+
+namespace glocal {
+
+/// The paper's rule (Sections III-B and IV): localized once the same cluster's normalised rating has been
+/// high in several consecutive steps. "The same" cluster is the one whose robot pose agrees with the last one
+/// moved by the local motion. A step without clusters resets the count and is no failure.
+class ConsecutiveRating final : public VerdictRule {
+ public:
+  struct Params {
+    double min_rating = 0.8;
+    int consecutive = 3;
+    double same_distance = 0.5;
+    double same_rotation_deg = 15.0;
+    double candidate_share = 0.7;
+    int max_candidates = 10;
+  };
+
+  explicit ConsecutiveRating(const Params& params) : params_(params) {}
+  [[nodiscard]] Verdict judge(const StepResult& step) override;
+  void reset() override { last_.reset(); }
+
+ private:
+  struct Leader {
+    Pose2 map_from_robot;
+    Pose2 local_from_robot;
+    int generation = 0;
+    int count = 0;
+  };
+  [[nodiscard]] bool same(const Pose2& a, const Pose2& b) const;
+  [[nodiscard]] bool continues(const Leader& last, const StepResult& step) const;
+  [[nodiscard]] std::vector<Pose2> candidates(const StepResult& step) const;
+
+  Params params_;
+  std::optional<Leader> last_;  ///< The cluster that was rated highly in the last step.
+};
+void describe(ParamVisitor& v, ConsecutiveRating::Params& p);
+
+}  // namespace glocal

@@ -1,0 +1,38 @@
+#include "raters/sliding_window.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace glocal {
+
+void describe(ParamVisitor& v, SlidingWindow::Params& p) {
+  v.field("window", p.window, {.doc = "Steps averaged (tau in eq. 9).", .min = 1, .max = 100000});
+  v.field(
+      "initial", p.initial,
+      {.doc =
+           "Omega_max before the first step: about 0.6 in a world that is as the map says, 0.5 on real logs.",
+       .min = 0.0,
+       .max = 1.0});
+}
+
+SlidingWindow::SlidingWindow(const Params& params) : params_(params) {
+  reset();
+}
+
+double SlidingWindow::omega_max() const {
+  const double sum = std::accumulate(means_.begin(), means_.end(), 0.0);
+  return std::clamp(sum / static_cast<double>(means_.size()), 0.0, 1.0);
+}
+
+void SlidingWindow::update(const std::vector<Hypothesis>& hypotheses) {
+  double mean = 0.0;
+  for (const Hypothesis& h : hypotheses) mean += h.quality / static_cast<double>(hypotheses.size());
+  means_.pop_front();
+  means_.push_back(mean);
+}
+
+void SlidingWindow::reset() {
+  means_.assign(static_cast<std::size_t>(params_.window), params_.initial);
+}
+
+}  // namespace glocal
