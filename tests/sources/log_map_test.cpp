@@ -47,7 +47,7 @@ TEST(LogMap, CountsHitsAndFreesTheWay) {
   auto params =
       params_for(folder.write("a.log", scan_at(0.25, 1.25, "2 0.01 1.8") + scan_at(0.25, 1.25, "2 0.01 2.1") +
                                            scan_at(0.25, 1.25, "2 0.01 2.5")));
-  const MapData map = LogMap(params).load();
+  const MapData map = LogMap(params, {}).load();
   ASSERT_EQ(map.points.size(), 1U);
   EXPECT_NEAR(map.points[0].x, (2.05 + 2.35) / 2, 1e-5);
   EXPECT_NEAR(map.points[0].y, 1.25, 1e-5);
@@ -58,9 +58,9 @@ TEST(LogMap, CountsHitsAndFreesTheWay) {
   EXPECT_EQ(map.path, (std::vector<Pose2>{{0.25, 1.25, 0.0}}));
 
   params.points = "centre";
-  EXPECT_EQ(LogMap(params).load().points[0], (Point{2.25F, 1.25F, 0.0F}));
+  EXPECT_EQ(LogMap(params, {}).load().points[0], (Point{2.25F, 1.25F, 0.0F}));
   params.min_hits = 1;
-  EXPECT_EQ(LogMap(params).load().points.size(), 2U);
+  EXPECT_EQ(LogMap(params, {}).load().points.size(), 2U);
 }
 
 TEST(LogMap, ACellThatMostRaysPassIsFree) {
@@ -69,9 +69,9 @@ TEST(LogMap, ACellThatMostRaysPassIsFree) {
   for (int i = 0; i < 8; ++i) log += scan_at(0.25, 0.25, "2 0.01 4");
   auto params = params_for(folder.write("a.log", log));
   params.min_hit_share = 0.2;
-  EXPECT_EQ(LogMap(params).load().points.size(), 2U);
+  EXPECT_EQ(LogMap(params, {}).load().points.size(), 2U);
   params.min_hit_share = 0.21;
-  const MapData map = LogMap(params).load();
+  const MapData map = LogMap(params, {}).load();
   ASSERT_EQ(map.points.size(), 1U);
   EXPECT_NEAR(map.points[0].x, 4.25, 1e-5);
   EXPECT_EQ(map.grid.at(2.25, 0.25), Cell::free);
@@ -82,7 +82,7 @@ TEST(LogMap, RaysThatMetNothingFreeTheWayAsFarAsTrusted) {
   auto params =
       params_for(folder.write("a.log", scan_at(0.25, 0.25, "2 1 81.8") + scan_at(0.25, 0.25, "2 1 81.8")));
   params.log.free_range = 2.0;
-  const MapData map = LogMap(params).load();
+  const MapData map = LogMap(params, {}).load();
   EXPECT_EQ(map.grid.at(1.9, 0.25), Cell::free);
   EXPECT_EQ(map.grid.at(2.3, 0.25), Cell::unknown);
   EXPECT_EQ(map.grid.at(10.0, 0.25), Cell::unknown);
@@ -97,7 +97,7 @@ TEST(LogMap, UsesItsSegmentsOnly) {
   }
   auto params = params_for(folder.write("a.log", log));
   params.log.segments = {{0.0, 0.15}, {0.95, 1.0}};
-  const MapData map = LogMap(params).load();
+  const MapData map = LogMap(params, {}).load();
   EXPECT_EQ(map.points.size(), 3U);
   EXPECT_EQ(map.path, (std::vector<Pose2>{{0, 0, 0}, {1, 0, 0}, {10, 0, 0}}));
 }
@@ -106,7 +106,7 @@ TEST(LogMap, SaysWhyThereIsNoMap) {
   const test::TempFolder folder;
   const auto message = [&](const LogMap::Params& params) {
     return test::config_error(params.log.path.resolved.parent_path(),
-                              [&] { static_cast<void>(LogMap(params).load()); });
+                              [&] { static_cast<void>(LogMap(params, {}).load()); });
   };
   EXPECT_EQ(
       message(params_for(folder.write("a.log", scan_at(0, 0, "2 1 1") + "FLASER 2 1 1 0 0 0 0 0 0 1 h 0\n"))),
@@ -132,7 +132,7 @@ TEST_P(SharedLogMap, CoversTheAreaItsDescriptionSays) {
   if (file.empty()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
   LogMap::Params params;
   params.log.path = test::file_path(file);
-  const MapData map = LogMap(params).load();
+  const MapData map = LogMap(params, {}).load();
   // Without the few points seen through windows and doors.
   const auto extent = [](std::vector<float> v) {
     std::sort(v.begin(), v.end());
