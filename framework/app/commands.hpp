@@ -14,4 +14,6 @@ struct Context {
   int exit_code = 0;
 };
 
+void add_run(CLI::App& app, Context& context);
+
 }  // namespace glocal::app

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   glocal::app::Context context;
   register_all(context.catalog);
   CLI::App app("Finds out where a mobile robot is on a known map from range scans and odometry.", "glocal");
+  glocal::app::add_run(app, context);
   CLI11_PARSE(app, argc, argv);
   return context.exit_code;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,6 +20,8 @@ using Warn = std::function<void(const std::string&)>;
 struct SourceSetup {
   std::uint64_t seed = 0;  ///< The experiment's seed, for simulated noise.
   Warn warn = [](const std::string&) {};
+  /// To be called with every file read, for the record of a run's inputs.
+  std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
 };
 
 /// What stages may use when they are made.

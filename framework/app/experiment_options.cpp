@@ -1,0 +1,36 @@
+#include "experiment_options.hpp"
+
+#include "glocal/error.hpp"
+
+namespace glocal::app {
+
+void ExperimentOptions::add_to(CLI::App& command) {
+  command.add_option("FILE", file, "Experiment file (YAML)")->required();
+  add_overrides_to(command);
+}
+
+void ExperimentOptions::add_overrides_to(CLI::App& command) {
+  command.add_option("--set", set, "Change a value: localizer.matcher.ransam.iterations=50000 (repeatable)")
+      ->allow_extra_args(false);
+  command.add_option("--seed", seed, "Change the seed");
+  command.add_option("--threads", threads, "Change the number of threads");
+}
+
+Experiment ExperimentOptions::read(const std::string& other_file, const Catalog& catalog) const {
+  std::vector<Override> overrides;
+  std::vector<Fault> faults;
+  for (const std::string& text : set) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      faults.push_back({"--set " + text, 0, 0, "not of the form path=value"});
+    } else {
+      overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+  }
+  if (!faults.empty()) throw ConfigError(faults);
+  if (seed) overrides.emplace_back("seed", std::to_string(*seed));
+  if (threads) overrides.emplace_back("threads", std::to_string(*threads));
+  return read_experiment(other_file, overrides, catalog);
+}
+
+}  // namespace glocal::app

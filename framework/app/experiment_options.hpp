@@ -1,0 +1,31 @@
+// The experiment file and what may be changed of it on the command line; the same for every subcommand that
+// takes one.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/experiment.hpp"
+
+namespace glocal::app {
+
+struct ExperimentOptions {
+  std::string file;
+  std::vector<std::string> set;  ///< "path=value", as given with --set.
+  std::optional<std::uint64_t> seed;
+  std::optional<int> threads;
+
+  /// Adds FILE, --set, --seed and --threads. This object must live as long as the command.
+  void add_to(CLI::App& command);
+  /// Everything but FILE, for commands that take several files.
+  void add_overrides_to(CLI::App& command);
+
+  /// Throws ConfigError.
+  [[nodiscard]] Experiment read(const Catalog& catalog) const { return read(file, catalog); }
+  [[nodiscard]] Experiment read(const std::string& other_file, const Catalog& catalog) const;
+};
+
+}  // namespace glocal::app

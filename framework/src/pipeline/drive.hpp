@@ -1,0 +1,27 @@
+// A whole drive in memory, and where on it trials start.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "glocal/experiment.hpp"
+#include "glocal/global_map.hpp"
+#include "glocal/observation.hpp"
+#include "glocal/strategies.hpp"
+
+namespace glocal {
+
+struct Drive {
+  std::vector<Sample> samples;
+  std::vector<double> path_m;  ///< Way driven up to each sample, without the gaps between segments.
+};
+
+/// Reads a source to its end. The way is measured along the reference poses where every sample has one, else
+/// along odometry.
+[[nodiscard]] Drive read_drive(ObservationSource& source);
+
+/// Indexes of the samples at which trials start, ascending. Throws ConfigError if there are none.
+[[nodiscard]] std::vector<std::size_t> trial_starts(const TrialsConfig& config, const Drive& drive,
+                                                    const GlobalMap& map);
+
+}  // namespace glocal

@@ -1,0 +1,22 @@
+// The few statistics a summary needs.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace glocal {
+
+/// The p-quantile (p in [0, 1]) by linear interpolation between order statistics (R's type 7); 0 for no
+/// values.
+[[nodiscard]] double quantile(std::vector<double> values, double p);
+
+struct Proportion {
+  double value = 0.0;
+  double low = 0.0;
+  double high = 1.0;
+};
+
+/// A share with its 95 % interval after Wilson (1927); 0 of 0 has value 0 and the interval [0, 1].
+[[nodiscard]] Proportion wilson(std::size_t successes, std::size_t trials);
+
+}  // namespace glocal

@@ -1,0 +1,38 @@
+// The figures of a run.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "pipeline/trials.hpp"
+
+namespace glocal {
+
+/// Collects trials and sums them up as the contract for `summary.json` says.
+class Summary {
+ public:
+  void add(const TrialRecord& trial);
+
+  struct Run {
+    std::string name;
+    std::uint64_t seed = 0;
+    bool complete = true;  ///< False if the run was interrupted: later trials are missing.
+    std::size_t map_points = 0;
+    double map_build_ms = 0.0;
+  };
+  [[nodiscard]] nlohmann::ordered_json to_json(const Run& run) const;
+
+ private:
+  struct Values {
+    std::vector<double> local_map, match, cluster, rate, total;
+  };
+  std::size_t count_ = 0, right_ = 0, wrong_ = 0, undecided_ = 0, declared_ = 0;
+  std::vector<double> steps_, distances_m_;             ///< Of right trials.
+  std::vector<double> translations_m_, rotations_deg_;  ///< Of right declarations.
+  std::vector<double> later_translations_m_, later_rotations_deg_;
+  Values ms_;
+};
+
+}  // namespace glocal

@@ -1,0 +1,124 @@
+#include "results/writers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+namespace glocal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "binary PCD files are little-endian");
+
+constexpr std::size_t most_clusters_listed = 50;
+
+Json best_clusters(const StepResult& step) {
+  Json best = Json::array();
+  for (std::size_t i = 0; i < std::min(step.clusters.size(), most_clusters_listed); ++i) {
+    best.push_back({{"pose", to_json(step.clusters[i].map_from_robot)},
+                    {"size", step.clusters[i].members.size()},
+                    {"r", step.ratings[i].r},
+                    {"r_normalised", step.ratings[i].r_normalised}});
+  }
+  return best;
+}
+
+void add_error(Json& json, const PoseError& error) {
+  json["translation_error_m"] = error.translation_m;
+  json["rotation_error_deg"] = degrees(error.rotation_rad);
+}
+
+std::string tum_line(double stamp, const Pose2& pose) {
+  return fmt::format("{:.6f} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", stamp, pose.x, pose.y,
+                     std::sin(pose.theta / 2.0), std::cos(pose.theta / 2.0));
+}
+
+}  // namespace
+
+Json to_json(const Pose2& pose) {
+  return {{"x", pose.x}, {"y", pose.y}, {"theta", pose.theta}};
+}
+
+std::string step_line(std::size_t trial, const StepRecord& record) {
+  const StepResult& step = record.result;
+  Json json = {{"trial", trial},
+               {"step", step.step},
+               {"stamp", step.stamp},
+               {"stage_ms",
+                {{"local_map", step.stage_ms.local_map},
+                 {"match", step.stage_ms.match},
+                 {"cluster", step.stage_ms.cluster},
+                 {"rate", step.stage_ms.rate}}},
+               {"local_map_points", step.local_map_points},
+               {"omega_best", step.omega_best},
+               {"omega_max", step.omega_max}};
+  if (step.omega_place) json["omega_place"] = *step.omega_place;
+  json["collisions"] = step.collisions;
+  json["checks"] = step.checks;
+  json["hypotheses"] = record.hypotheses;
+  json["clusters"] = step.clusters.size();
+  json["best"] = best_clusters(step);
+  json["verdict"] = to_string(step.verdict.kind);
+  json["why"] = step.verdict.why;
+  if (!step.verdict.candidates.empty()) {
+    Json candidates = Json::array();
+    for (const Pose2& pose : step.verdict.candidates) candidates.push_back(to_json(pose));
+    json["candidates"] = std::move(candidates);
+  }
+  json["local_from_robot"] = to_json(step.local_from_robot);
+  if (const auto estimate = step.estimate()) json["estimate"] = to_json(*estimate);
+  if (record.reference) {
+    json["reference"] = to_json(*record.reference);
+    json["on_map"] = record.on_map;
+  }
+  if (record.error) add_error(json, *record.error);
+  return json.dump() + "\n";
+}
+
+std::string trial_line(const TrialRecord& trial) {
+  Json start = {{"sample", trial.start_sample}, {"distance_m", trial.start_m}, {"stamp", trial.start_stamp}};
+  if (trial.start_reference) start["reference"] = to_json(*trial.start_reference);
+  Json json = {{"trial", trial.trial},
+               {"start", std::move(start)},
+               {"outcome", to_string(trial.outcome)},
+               {"steps", trial.steps},
+               {"distance_m", trial.distance_m}};
+  if (trial.pose) json["pose"] = to_json(*trial.pose);
+  if (trial.error) add_error(json, *trial.error);
+  json["why"] = trial.why;
+  return json.dump() + "\n";
+}
+
+Trajectories tum_trajectories(const TrialRecord& trial) {
+  Trajectories result;
+  for (const StepRecord& step : trial.records) {
+    if (const auto estimate = step.result.estimate())
+      result.estimate += tum_line(step.result.stamp, *estimate);
+    if (step.reference) result.reference += tum_line(step.result.stamp, *step.reference);
+  }
+  return result;
+}
+
+std::string pcd(const Points& points) {
+  const std::size_t n = points.size();
+  std::string text = fmt::format(
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT "
+      "1 1 1\n"
+      "WIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
+      n);
+  const std::size_t header = text.size();
+  text.resize(header + n * 3 * sizeof(float));
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::array<float, 3> xyz = {points.x[i], points.y[i], points.z[i]};
+    std::memcpy(text.data() + header + i * sizeof(xyz), xyz.data(), sizeof(xyz));
+  }
+  return text;
+}
+
+}  // namespace glocal

@@ -1,0 +1,32 @@
+// The files of a results folder, as text: docs/file-formats.md says what is in them.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "glocal/points.hpp"
+#include "pipeline/trials.hpp"
+
+namespace glocal {
+
+/// One line of steps.jsonl.
+[[nodiscard]] std::string step_line(std::size_t trial, const StepRecord& step);
+
+/// One line of trials.jsonl.
+[[nodiscard]] std::string trial_line(const TrialRecord& trial);
+
+/// A trajectory as evo reads it: stamp x y z qx qy qz qw on each line. Steps without a pose are left out.
+struct Trajectories {
+  std::string estimate;
+  std::string reference;
+};
+[[nodiscard]] Trajectories tum_trajectories(const TrialRecord& trial);
+
+/// Points as a binary PCD file (version 0.7, fields x y z).
+[[nodiscard]] std::string pcd(const Points& points);
+
+[[nodiscard]] nlohmann::ordered_json to_json(const Pose2& pose);
+
+}  // namespace glocal

@@ -1,0 +1,132 @@
+#include "local_mappers/line_registration.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace glocal {
+
+namespace {
+
+constexpr double converged_m = 1e-4;
+constexpr double converged_rad = 1e-4;
+
+/// Sums in plain doubles, which the compiler keeps in registers.
+class Sums {
+ public:
+  explicit Sums(double kernel) : kernel_squared_(kernel * kernel) {}
+
+  /// One residual (m) with its derivative by x, y and theta.
+  void add(double residual, double dx, double dy, double dtheta, double weight) {
+    const double squared = residual * residual;
+    const double share = kernel_squared_ / (kernel_squared_ + squared);
+    const double w = weight * share * share;
+    cost_ += 0.5 * weight * share * squared;
+    xx_ += w * dx * dx;
+    xy_ += w * dx * dy;
+    xt_ += w * dx * dtheta;
+    yy_ += w * dy * dy;
+    yt_ += w * dy * dtheta;
+    tt_ += w * dtheta * dtheta;
+    const double wr = w * residual;
+    gx_ += wr * dx;
+    gy_ += wr * dy;
+    gt_ += wr * dtheta;
+  }
+
+  [[nodiscard]] NormalEquations equations(int matches) const {
+    NormalEquations e;
+    e.hessian << xx_, xy_, xt_, xy_, yy_, yt_, xt_, yt_, tt_;
+    e.gradient << gx_, gy_, gt_;
+    e.cost = cost_;
+    e.matches = matches;
+    return e;
+  }
+
+ private:
+  double kernel_squared_;
+  double xx_ = 0.0, xy_ = 0.0, xt_ = 0.0, yy_ = 0.0, yt_ = 0.0, tt_ = 0.0;
+  double gx_ = 0.0, gy_ = 0.0, gt_ = 0.0;
+  double cost_ = 0.0;
+};
+
+}  // namespace
+
+void describe(ParamVisitor& v, LineRegistrationParams& p) {
+  v.field("gate", p.gate,
+          {.doc = "Farthest a hit may be from its point of the map; at most 11 cells.",
+           .unit = "m",
+           .above = 0.0});
+  v.field("kernel_share", p.kernel_share,
+          {.doc = "Scale of the Geman-McClure kernel, as a share of the gate.", .max = 10.0, .above = 0.0});
+  v.field("max_normal_angle", p.max_normal_angle,
+          {.doc = "Largest angle between the normals of a hit and its point of the map.",
+           .unit = "rad",
+           .min = 0.0,
+           .max = 3.2});
+  v.field("pointwise_weight", p.pointwise_weight,
+          {.doc = "Weight of matches without normals, which count point to point; others have weight 1.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("max_iterations", p.max_iterations, {.doc = "Gauss-Newton steps.", .min = 1, .max = 1000});
+  v.field("damping", p.damping,
+          {.doc = "Added to the diagonal of the normal equations per match: keeps directions still that no "
+                  "match sees.",
+           .max = 1.0,
+           .above = 0.0});
+}
+
+NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Points& hits,
+                          const Points& normals, const Pose2& local_from_robot,
+                          const LineRegistrationParams& params) {
+  const Transform transform(local_from_robot);
+  const Transform rotation({0.0, 0.0, local_from_robot.theta});
+  const Point robot = transform({});
+  const auto gate_squared = static_cast<float>(params.gate * params.gate);
+  const auto min_cosine = static_cast<float>(std::cos(params.max_normal_angle));
+  Sums sums(params.gate * params.kernel_share);
+  int matches = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Point p = transform(hits[i]);
+    const int found = grid.nearest(p.x, p.y);
+    if (found == PointGrid::none) continue;
+    const auto j = static_cast<std::size_t>(found);
+    const float dx = p.x - map.points.x[j];
+    const float dy = p.y - map.points.y[j];
+    if (dx * dx + dy * dy > gate_squared) continue;
+    // Turning the robot moves a hit at right angles to its ray.
+    const float lever_x = robot.y - p.y;
+    const float lever_y = p.x - robot.x;
+    const float nx = map.normals.x[j];
+    const float ny = map.normals.y[j];
+    const Point normal = rotation(normals[i]);
+    const bool has_normals = (nx != 0.0F || ny != 0.0F) && (normal.x != 0.0F || normal.y != 0.0F);
+    if (!has_normals) {
+      sums.add(dx, 1.0, 0.0, lever_x, params.pointwise_weight);
+      sums.add(dy, 0.0, 1.0, lever_y, params.pointwise_weight);
+    } else if (nx * normal.x + ny * normal.y >= min_cosine) {
+      sums.add(nx * dx + ny * dy, nx, ny, nx * lever_x + ny * lever_y, 1.0);
+    } else {
+      continue;
+    }
+    ++matches;
+  }
+  return sums.equations(matches);
+}
+
+Registration register_scan(const PointGrid& grid, const LocalMap& map, const Points& hits,
+                           const Points& normals, const Pose2& start, const LineRegistrationParams& params) {
+  Registration result{start, 0};
+  for (int iteration = 0; iteration < params.max_iterations; ++iteration) {
+    NormalEquations equations = linearise(grid, map, hits, normals, result.local_from_robot, params);
+    result.matches = equations.matches;
+    if (equations.matches == 0) break;
+    equations.hessian.diagonal().array() += params.damping * equations.matches;
+    const Eigen::Vector3d step = -equations.hessian.ldlt().solve(equations.gradient);
+    Pose2& pose = result.local_from_robot;
+    pose = {pose.x + step.x(), pose.y + step.y(), wrap_angle(pose.theta + step.z())};
+    if (std::hypot(step.x(), step.y()) < converged_m && std::abs(step.z()) < converged_rad) break;
+  }
+  return result;
+}
+
+}  // namespace glocal

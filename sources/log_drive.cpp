@@ -1,0 +1,156 @@
+#include "sources/log_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+bool ascending(const std::vector<std::array<double, 2>>& segments) {
+  double last = 0.0;
+  for (const auto& [from, to] : segments) {
+    if (!(from >= last && to > from)) return false;
+    last = to;
+  }
+  return true;
+}
+
+/// A logger that writes ROBOTLASER1 lines often writes the same scans as FLASER lines too.
+std::vector<CarmenScan> of_laser(std::vector<CarmenScan> scans, const std::string& laser) {
+  const auto has = [&](CarmenLaser kind) {
+    return std::any_of(scans.begin(), scans.end(), [&](const CarmenScan& s) { return s.laser == kind; });
+  };
+  CarmenLaser kind = CarmenLaser::rlaser;
+  if (laser == "front") kind = has(CarmenLaser::flaser) ? CarmenLaser::flaser : CarmenLaser::robotlaser1;
+  std::erase_if(scans, [&](const CarmenScan& s) { return s.laser != kind; });
+  return scans;
+}
+
+bool is_key_frame(const CarmenScan& last, const CarmenScan& scan, const LogParams& params) {
+  return distance(last.odom_from_robot, scan.odom_from_robot) >= params.keyframe_distance ||
+         rotation_between(last.odom_from_robot, scan.odom_from_robot) >= params.keyframe_angle;
+}
+
+std::string share_text(double share) {
+  std::string text = std::to_string(share);
+  text.erase(std::max(text.find_last_not_of('0') + 1, text.find('.') + 2));
+  return text;
+}
+
+/// Key frames of the scans on [from, to[ of the path; the very end of the path belongs to a segment that ends
+/// at 1.
+std::vector<LogFrame> pick_segment(const std::vector<CarmenScan>& scans, const std::vector<double>& lengths,
+                                   int segment, const LogParams& params) {
+  const auto& [from, to] = params.segments[static_cast<std::size_t>(segment)];
+  const double total = lengths.back();
+  std::vector<LogFrame> frames;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const bool inside = lengths[i] >= from * total && (lengths[i] < to * total || to >= 1.0);
+    if (inside && (frames.empty() || is_key_frame(scans[frames.back().scan], scans[i], params))) {
+      frames.push_back({i, segment});
+    }
+  }
+  return frames;
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, LogParams& p) {
+  v.field("path", p.path, {.doc = "CARMEN log; plain, gzip, bzip2 or xz.", .required = true});
+  v.field("laser", p.laser,
+          {.doc = "Which laser: front (FLASER lines, or ROBOTLASER1 where there are none) or rear (RLASER).",
+           .choices = {"front", "rear"}});
+  v.field("segments", p.segments,
+          {.doc = "Parts of the drive to use, as [from, to] shares of the driven path.",
+           .min = 0.0,
+           .max = 1.0,
+           .min_items = 1});
+  v.field("keyframe_distance", p.keyframe_distance,
+          {.doc = "A scan is used when odometry has moved this far since the last one used, or turned by "
+                  "keyframe_angle; 0: every scan is.",
+           .unit = "m",
+           .min = 0.0});
+  v.field("keyframe_angle", p.keyframe_angle,
+          {.doc = "A scan is used when odometry has turned this much since the last one used, or moved by "
+                  "keyframe_distance; 0: every scan is.",
+           .unit = "rad",
+           .min = 0.0});
+  v.field("max_range", p.max_range,
+          {.doc = "Readings from here on count as no return.", .unit = "m", .above = 0.0});
+  v.field("min_range", p.min_range,
+          {.doc = "Readings below this are dropped: dirt on the glass, or the robot itself.",
+           .unit = "m",
+           .min = 0.0});
+  v.field("free_range", p.free_range,
+          {.doc = "How far the way of a reading without return is taken to be free (at most max_range); 0: "
+                  "not at all. The "
+                  "default is what a Sick LMS 200 is rated for on dark surfaces.",
+           .unit = "m",
+           .min = 0.0});
+  v.field(
+      "laser_yaw", p.laser_yaw,
+      {.doc = "Correction added to the direction of every reading.", .unit = "rad", .min = -3.2, .max = 3.2});
+  v.require(ascending(p.segments), "segments",
+            "each must be [from, to] with from < to, in rising order and without overlap");
+  v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
+}
+
+std::vector<double> path_lengths(const std::vector<CarmenScan>& scans) {
+  std::vector<double> lengths(scans.size(), 0.0);
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const CarmenScan& a = scans[i - 1];
+    const CarmenScan& b = scans[i];
+    lengths[i] = lengths[i - 1] + (a.map_from_robot && b.map_from_robot
+                                       ? distance(*a.map_from_robot, *b.map_from_robot)
+                                       : distance(a.odom_from_robot, b.odom_from_robot));
+  }
+  return lengths;
+}
+
+LogDrive read_log_drive(const LogParams& params) {
+  const std::string file = params.path.resolved.string();
+  LogDrive drive{of_laser(read_carmen_log(params.path.resolved), params.laser), {}};
+  if (drive.scans.empty()) {
+    throw ConfigError({{file, 0, 0,
+                        "has no scan of the " + params.laser + " laser; set laser to " +
+                            (params.laser == "front" ? "rear" : "front")}});
+  }
+  const std::vector<double> lengths = path_lengths(drive.scans);
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < params.segments.size(); ++i) {
+    const std::vector<LogFrame> frames = pick_segment(drive.scans, lengths, static_cast<int>(i), params);
+    if (frames.empty()) {
+      faults.push_back({file, 0, 0,
+                        "has no scan between " + share_text(params.segments[i][0]) + " and " +
+                            share_text(params.segments[i][1]) + " of its path; widen the segment"});
+    }
+    drive.frames.insert(drive.frames.end(), frames.begin(), frames.end());
+  }
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  return drive;
+}
+
+Scan robot_scan(const CarmenScan& scan, const LogParams& params) {
+  const double max_range = std::min(params.max_range, scan.max_range);
+  const double free_range = std::min(params.free_range, max_range);
+  const Transform robot_from_laser(scan.robot_from_laser);
+  Scan out;
+  out.origin = robot_from_laser({});
+  out.hits.reserve(scan.ranges.size());
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const double range = scan.ranges[i];
+    const bool no_return = !std::isfinite(range) || range < 0.0 || range >= max_range;
+    if (no_return ? free_range <= 0.0 : range < params.min_range) continue;
+    const double angle = scan.start_angle + static_cast<double>(i) * scan.angle_step + params.laser_yaw;
+    const double reach = no_return ? free_range : range;
+    const Point end = robot_from_laser(
+        {static_cast<float>(reach * std::cos(angle)), static_cast<float>(reach * std::sin(angle)), 0.0F});
+    (no_return ? out.free_ends : out.hits).push_back(end);
+  }
+  return out;
+}
+
+}  // namespace glocal

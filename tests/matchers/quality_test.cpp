@@ -1,0 +1,99 @@
+#include "matchers/quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test_world.hpp"
+
+namespace glocal {
+namespace {
+
+std::shared_ptr<const ContactGrid> contact_grid() {
+  return ContactGrid::of(*testing::small_world(), 0.1);
+}
+
+/// n points of which the first `good` lie on the map and the others far away from it.
+Points points_with_contact(std::size_t n, std::size_t good) {
+  Points points;
+  for (std::size_t i = 0; i < n; ++i) points.push_back({2.0F, i < good ? 0.0F : 2.0F, 0.0F});
+  return points;
+}
+
+TEST(QualityTest, IsTheShareOfPointsInContact) {
+  Rng rng(1);
+  const QualityTest test(points_with_contact(40, 30), contact_grid(), {}, rng);
+  for (std::uint32_t start = 0; start < 100; ++start) {
+    const auto outcome = test.test({}, 0.7, start);
+    ASSERT_TRUE(outcome.quality);
+    EXPECT_DOUBLE_EQ(*outcome.quality, 0.75);  // eq. 4
+    EXPECT_EQ(outcome.checks, 40U);
+  }
+}
+
+TEST(QualityTest, TheThresholdItselfIsEnough) {
+  Rng rng(1);
+  const QualityTest test(points_with_contact(40, 30), contact_grid(), {}, rng);
+  EXPECT_TRUE(test.test({}, 0.75, 0).quality);
+  EXPECT_FALSE(test.test({}, 0.7501, 0).quality);
+}
+
+TEST(QualityTest, GivesUpAtTheBoundOfEquation5) {
+  // Nothing in contact: after k points the upper bound is 1.96 / (2 sqrt(k)). It is 0.346 for 8 and 0.245
+  // for 16.
+  Rng rng(1);
+  const QualityTest test(points_with_contact(400, 0), contact_grid(), {.batch = 8, .confidence_z = 1.96},
+                         rng);
+  EXPECT_EQ(test.test({}, 0.35, 0).checks, 8U);
+  EXPECT_EQ(test.test({}, 0.34, 0).checks, 16U);
+  EXPECT_EQ(test.test({}, 0.24, 0).checks, 24U);
+}
+
+TEST(QualityTest, FewerPointsThanABatch) {
+  Rng rng(1);
+  const QualityTest test(points_with_contact(3, 2), contact_grid(), {}, rng);
+  for (std::uint32_t start = 0; start < 9; ++start)
+    EXPECT_NEAR(*test.test({}, 0.5, start).quality, 2.0 / 3.0, 1e-12);
+}
+
+/// How often a hypothesis of quality `quality` is given up although the threshold is just that.
+double false_reject_rate(double quality, const ExtrapolationRule& rule) {
+  constexpr int orders = 400;
+  constexpr std::uint32_t starts = 20;
+  constexpr std::size_t n = 1000;
+  const auto contact = contact_grid();
+  int rejected = 0;
+  for (int i = 0; i < orders; ++i) {
+    Rng rng(static_cast<std::uint64_t>(i));
+    const QualityTest test(points_with_contact(n, static_cast<std::size_t>(quality * n)), contact, rule, rng);
+    for (std::uint32_t s = 0; s < starts; ++s) rejected += test.test({}, quality, s * 50).quality ? 0 : 1;
+  }
+  return static_cast<double>(rejected) / (orders * starts);
+}
+
+TEST(QualityTest, FalseRejectsAgainstTheConfidenceLevel) {
+  // A single look at k points is one-sided: at the largest variance (quality 0.5) the upper bound of a 95 %
+  // interval is too low in 2.5 % of cases; with higher quality the interval, which assumes that variance, is
+  // wider than need be.
+  const ExtrapolationRule one_look{.batch = 500, .confidence_z = 1.96};
+  // Half of all points in one look without replacement: the deviation shrinks by sqrt(1 - 500 / 999).
+  EXPECT_LT(false_reject_rate(0.5, one_look), 0.025);
+  // Looking again after every eight points multiplies the chances to err: this is what eq. 5 costs where it
+  // is worst.
+  const ExtrapolationRule paper{.batch = 8, .confidence_z = 1.96};
+  const double worst = false_reject_rate(0.5, paper);
+  EXPECT_GT(worst, 0.025);
+  EXPECT_LT(worst, 0.25);
+  // Good hypotheses lie well above the threshold: 0.8 against 0.6 is hardly ever lost.
+  const auto contact = contact_grid();
+  int lost = 0;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    Rng rng(i);
+    const QualityTest test(points_with_contact(1000, 800), contact, paper, rng);
+    lost += test.test({}, 0.6, 0).quality ? 0 : 1;
+  }
+  EXPECT_LT(lost, 40);  // 2 %
+}
+
+}  // namespace
+}  // namespace glocal

@@ -1,0 +1,168 @@
+#include "matchers/ransam.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "test_world.hpp"
+
+namespace glocal {
+namespace {
+
+LocalMap local_map_at(const Pose2& map_from_robot, double reach) {
+  LocalMap local;
+  local.points = testing::seen_from(testing::small_world_points(), map_from_robot, reach);
+  local.ends = {local.points.size()};
+  return local;
+}
+
+MatchResult match(const Ransam::Params& params, const LocalMap& local, double omega_max, int threads = 1,
+                  std::uint64_t seed = 1) {
+  Ransam ransam(params, {testing::small_world(), threads});
+  Rng rng(seed);
+  return ransam.match(local, {}, omega_max, rng);
+}
+
+double brute_force_quality(const Points& local, const Pose2& map_from_local, double epsilon) {
+  const Points world = testing::small_world_points();
+  const Points there = testing::moved(local, map_from_local);
+  int in_contact = 0;
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    bool contact = false;
+    for (std::size_t k = 0; k < world.size() && !contact; ++k) {
+      contact = std::hypot(there.x[i] - world.x[k], there.y[i] - world.y[k]) < epsilon;
+    }
+    in_contact += contact ? 1 : 0;
+  }
+  return static_cast<double>(in_contact) / static_cast<double>(there.size());
+}
+
+TEST(Ransam, FindsThePose) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const MatchResult result = match({.iterations = 50000}, local_map_at(truth, 3.0), 0.8);
+  ASSERT_FALSE(result.hypotheses.empty());
+  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.06);
+  EXPECT_LT(rotation_between(result.hypotheses.front().map_from_robot, truth), radians(2.0));
+}
+
+TEST(Ransam, HypothesesAreWhatTheContractSays) {
+  const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
+  const double omega_max = 0.6;
+  const MatchResult result = match({.iterations = 50000}, local, omega_max);
+  ASSERT_GT(result.hypotheses.size(), 10U);
+  EXPECT_GE(result.collisions, result.hypotheses.size());
+  EXPECT_GE(result.checks, result.hypotheses.size() * local.points.size());
+  double last = 1.0;
+  for (const Hypothesis& h : result.hypotheses) {
+    EXPECT_GE(h.quality, omega_max);
+    EXPECT_LE(h.quality, last);
+    last = h.quality;
+    // The contact grid is exact up to half a voxel's diagonal: 0.018 m for epsilon 0.1 m.
+    EXPECT_LE(brute_force_quality(local.points, h.map_from_local, 0.1 - 0.018), h.quality + 1e-9);
+    EXPECT_GE(brute_force_quality(local.points, h.map_from_local, 0.1 + 0.018), h.quality - 1e-9);
+  }
+}
+
+TEST(Ransam, AgreesWithExhaustiveSearch) {
+  // Every pose on a grid of 0.1 m and 3 degrees whose quality reaches 0.9 must have a hypothesis near it, and
+  // the other way round: the poses that exhaustive search finds are all there is.
+  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 2.5);
+  const ContactGrid contact(testing::small_world_points(), 0.1);
+  const double omega_max = 0.75;
+  const MatchResult result = match({.iterations = 200000}, local, omega_max);
+
+  std::vector<Pose2> found;
+  for (double x = 0.0; x <= 8.0; x += 0.1) {
+    for (double y = 0.0; y <= 9.0; y += 0.1) {
+      for (int turn = 0; turn < 120; ++turn) {
+        const Pose2 pose{x, y, wrap_angle(turn * radians(3.0))};
+        const Transform transform(pose);
+        std::size_t in_contact = 0;
+        for (std::size_t i = 0; i < local.points.size(); ++i)
+          in_contact += contact.contact(transform(local.points[i]));
+        if (static_cast<double>(in_contact) >= 0.9 * static_cast<double>(local.points.size()))
+          found.push_back(pose);
+      }
+    }
+  }
+  ASSERT_FALSE(found.empty());
+  const auto near = [](const Pose2& a, const Pose2& b) {
+    return distance(a, b) < 0.3 && rotation_between(a, b) < 0.15;
+  };
+  for (const Pose2& pose : found) {
+    EXPECT_TRUE(std::any_of(result.hypotheses.begin(), result.hypotheses.end(),
+                            [&](const Hypothesis& h) { return near(h.map_from_local, pose); }))
+        << pose.x << ' ' << pose.y << ' ' << pose.theta;
+  }
+  for (const Hypothesis& h : result.hypotheses) {
+    if (h.quality < 0.97) continue;  // the grid is too coarse to reach 0.9 beside every lesser one
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                            [&](const Pose2& pose) { return near(h.map_from_local, pose); }));
+  }
+}
+
+TEST(Ransam, TheRobotIsWhereTheLocalMapSays) {
+  LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
+  local.local_from_robot = {1.0, -0.5, 0.3};
+  const MatchResult result = match({.iterations = 20000}, local, 0.7);
+  ASSERT_FALSE(result.hypotheses.empty());
+  for (const Hypothesis& h : result.hypotheses)
+    EXPECT_EQ(h.map_from_robot, h.map_from_local * local.local_from_robot);
+}
+
+TEST(Ransam, TheNumberOfThreadsChangesNothing) {
+  const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
+  for (const double local_radius : {0.0, 1.5}) {
+    const Ransam::Params params{.iterations = 60000, .local_radius = local_radius};
+    const MatchResult one = match(params, local, 0.6, 1);
+    for (const int threads : {2, 5}) {
+      const MatchResult many = match(params, local, 0.6, threads);
+      EXPECT_EQ(one.collisions, many.collisions);
+      EXPECT_EQ(one.checks, many.checks);
+      ASSERT_EQ(one.hypotheses.size(), many.hypotheses.size());
+      for (std::size_t i = 0; i < one.hypotheses.size(); ++i) {
+        EXPECT_EQ(one.hypotheses[i].map_from_local, many.hypotheses[i].map_from_local);
+        EXPECT_EQ(one.hypotheses[i].quality, many.hypotheses[i].quality);
+      }
+    }
+  }
+}
+
+TEST(Ransam, ASecondMatchDoesNotDependOnTheFirst) {
+  const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
+  const Ransam::Params params{.iterations = 20000};
+  Ransam used(params, {testing::small_world(), 1});
+  Rng other(99);
+  (void)used.match(local_map_at({5.5, 2.5, 0.7}, 3.0), {}, 0.5, other);
+  Rng rng(1);
+  const MatchResult second = used.match(local, {}, 0.6, rng);
+  const MatchResult fresh = match(params, local, 0.6);
+  EXPECT_EQ(second.collisions, fresh.collisions);
+  ASSERT_EQ(second.hypotheses.size(), fresh.hypotheses.size());
+  EXPECT_EQ(second.checks, fresh.checks);
+}
+
+TEST(Ransam, LocalDrawsGiveMoreCorrectHypotheses) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const LocalMap local = local_map_at(truth, 3.0);
+  const auto correct = [&](double local_radius) {
+    const MatchResult result = match({.iterations = 50000, .local_radius = local_radius}, local, 0.7);
+    return std::count_if(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
+      return distance(h.map_from_robot, truth) < 0.3 && rotation_between(h.map_from_robot, truth) < 0.2;
+    });
+  };
+  EXPECT_GT(correct(1.5), 2 * correct(0.0));
+}
+
+TEST(Ransam, TooFewPointsGiveNoHypothesis) {
+  LocalMap local;
+  EXPECT_TRUE(match({}, local, 0.0).hypotheses.empty());
+  local.points.push_back({1.0F, 1.0F, 0.0F});
+  EXPECT_TRUE(match({}, local, 0.0).hypotheses.empty());
+  local.points.push_back({2.0F, 1.0F, 0.0F});
+  EXPECT_TRUE(match({}, local, 0.0).hypotheses.empty());
+}
+
+}  // namespace
+}  // namespace glocal

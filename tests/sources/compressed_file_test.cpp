@@ -1,0 +1,84 @@
+#include "sources/compressed_file.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <boost/iostreams/filter/bzip2.hpp>
+#include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filter/lzma.hpp>
+#include <boost/iostreams/filtering_stream.hpp>
+#include <sstream>
+
+#include "sources/files.hpp"
+
+namespace glocal {
+namespace {
+
+template <class Compressor>
+std::string compressed(const std::string& text) {
+  std::ostringstream out;
+  boost::iostreams::filtering_ostream filter;
+  filter.push(Compressor());
+  filter.push(out);
+  filter << text;
+  filter.reset();
+  return out.str();
+}
+
+/// Something that does not compress to nothing.
+std::string some_text() {
+  std::string text;
+  for (int i = 0; i < 5000; ++i) text += fmt::format("{}{}", (i * 7919) % 104729, i % 12 == 0 ? '\n' : ' ');
+  return text;
+}
+
+struct Format {
+  const char* name;
+  std::string (*compress)(const std::string&);
+};
+
+class CompressedFile : public testing::TestWithParam<Format> {};
+
+TEST_P(CompressedFile, IsKnownByItsContent) {
+  const test::TempFolder folder;
+  EXPECT_EQ(read_decompressed(folder.write("odd_name.txt", GetParam().compress(some_text()))), some_text());
+}
+
+TEST_P(CompressedFile, IsRefusedWhenCutOffAnywhere) {
+  const test::TempFolder folder;
+  const std::string whole = GetParam().compress(some_text());
+  for (const std::size_t missing :
+       {std::size_t{1}, std::size_t{5}, std::size_t{20}, whole.size() / 2, whole.size() - 8}) {
+    const auto file = folder.write("a.log", whole.substr(0, whole.size() - missing));
+    EXPECT_EQ(test::config_error(file.parent_path(), [&] { static_cast<void>(read_decompressed(file)); }),
+              fmt::format("a.log: error: the {} data is damaged or ends early; get a fresh copy of the file",
+                          GetParam().name))
+        << missing;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, CompressedFile,
+                         testing::Values(Format{"gzip", compressed<boost::iostreams::gzip_compressor>},
+                                         Format{"bzip2", compressed<boost::iostreams::bzip2_compressor>},
+                                         Format{"xz", compressed<boost::iostreams::lzma_compressor>}),
+                         [](const auto& format) { return format.param.name; });
+
+TEST(PlainFile, IsReadAsItIs) {
+  const test::TempFolder folder;
+  EXPECT_EQ(read_decompressed(folder.write("a.gz", "plain\n")), "plain\n");
+  EXPECT_EQ(read_decompressed(folder.write("empty", "")), "");
+}
+
+TEST(PlainFile, IsRefusedWhereThereIsNone) {
+  const test::TempFolder folder;
+  const auto message = [&](const std::filesystem::path& file) {
+    return test::config_error(file.parent_path(), [&] { static_cast<void>(read_decompressed(file)); });
+  };
+  EXPECT_EQ(message(folder / "missing.log"),
+            "missing.log: error: cannot be opened: No such file or directory");
+  std::filesystem::create_directory(folder / "sub");
+  EXPECT_EQ(message(folder / "sub"), "sub: error: is a folder; a file is needed");
+}
+
+}  // namespace
+}  // namespace glocal
