@@ -13,7 +13,7 @@ struct CorrelativeSearchParams {
   double rotation = 0.15;
   double rotation_step = 0.0175;
   int points = 100;
-  double odometry_penalty = 0.02;
+  double odometry_penalty = 0.005;
 };
 void describe(ParamVisitor& v, CorrelativeSearchParams& p);
 

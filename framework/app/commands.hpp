@@ -14,6 +14,7 @@ struct Context {
   int exit_code = 0;
 };
 
+void add_mapping(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
 
 }  // namespace glocal::app
