@@ -14,7 +14,9 @@ struct Context {
   int exit_code = 0;
 };
 
+void add_map(CLI::App& app, Context& context);
 void add_mapping(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
+void add_simulate(CLI::App& app, Context& context);
 
 }  // namespace glocal::app

@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   register_all(context.catalog);
   CLI::App app("Finds out where a mobile robot is on a known map from range scans and odometry.", "glocal");
   glocal::app::add_run(app, context);
+  glocal::app::add_simulate(app, context);
+  glocal::app::add_map(app, context);
   glocal::app::add_mapping(app, context);
   CLI11_PARSE(app, argc, argv);
   return context.exit_code;
