@@ -22,9 +22,8 @@ QualityTest::QualityTest(const Points& local, std::shared_ptr<const ContactGrid>
   for (std::size_t i = 0; i < batch; ++i) shuffled_.push_back(shuffled_[i]);
 }
 
-QualityTest::Outcome QualityTest::test(const Pose2& map_from_local, double threshold,
+QualityTest::Outcome QualityTest::test(const Transform& map_from_local, double threshold,
                                        std::uint32_t start) const {
-  const Transform transform(map_from_local);
   const auto batch = static_cast<std::size_t>(rule_.batch);
   std::size_t place = start % size_;
   std::size_t in_contact = 0;
@@ -32,7 +31,7 @@ QualityTest::Outcome QualityTest::test(const Pose2& map_from_local, double thres
   while (checked < size_) {
     const std::size_t end = place + std::min(batch, size_ - checked);
     for (std::size_t i = place; i < end; ++i) {
-      if (contact_->contact(transform(shuffled_[i]))) ++in_contact;
+      if (contact_->contact(map_from_local(shuffled_[i]))) ++in_contact;
     }
     checked += end - place;
     place = end >= size_ ? end - size_ : end;

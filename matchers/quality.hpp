@@ -30,7 +30,7 @@ class QualityTest {
     std::size_t checks = 0;         ///< Points looked at.
   };
   /// Omega of a pose if it reaches the threshold. `start` picks where in the order to begin.
-  [[nodiscard]] Outcome test(const Pose2& map_from_local, double threshold, std::uint32_t start) const;
+  [[nodiscard]] Outcome test(const Transform& map_from_local, double threshold, std::uint32_t start) const;
 
  private:
   Points shuffled_;  ///< All points, followed by the first batch again, so that a batch never wraps.

@@ -162,15 +162,15 @@ Ransam::Chunk Ransam::match_local_triples(const LocalMap& local, const TripleSam
         const auto partner = table_.find(triangle.relation);  // eq. 2
         if (!partner) return;
         const Triple& map_triple = map_triples_[*partner - first_draw_];
-        const Pose2 map_from_local =
+        const Transform map_from_local =
             least_squares_motion(local.points, triangle.triple, setup_.map->points(), map_triple);  // eq. 3
         const auto start = static_cast<std::uint32_t>(mix64(draw));
         const QualityTest::Outcome outcome = quality.test(map_from_local, omega_max, start);
         ++found.collisions;
         found.checks += outcome.checks;
         if (outcome.quality) {
-          found.hypotheses.push_back(
-              {map_from_local, map_from_local * local.local_from_robot, *outcome.quality});
+          const Pose2 pose = map_from_local.pose();
+          found.hypotheses.push_back({pose, pose * local.local_from_robot, *outcome.quality});
         }
       });
   return found;

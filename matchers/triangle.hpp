@@ -40,7 +40,7 @@ struct CanonicalTriangle {
 
 /// The motion in the plane that moves the points of `from` onto those of `to` with the least sum of squares
 /// (eq. 3, with centroids; closed form in two dimensions). The triples must be canonical.
-[[nodiscard]] Pose2 least_squares_motion(const Points& from_points, const Triple& from,
-                                         const Points& to_points, const Triple& to);
+[[nodiscard]] Transform least_squares_motion(const Points& from_points, const Triple& from,
+                                             const Points& to_points, const Triple& to);
 
 }  // namespace glocal

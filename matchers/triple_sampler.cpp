@@ -10,6 +10,8 @@ namespace {
 /// A point of the 3 x 3 cells around another one lies within the radius with a probability of pi / 9 if
 /// points are spread evenly; along a wall it is much higher.
 constexpr int attempts_to_find_a_neighbour = 8;
+/// Random numbers set aside for each draw.
+constexpr std::uint64_t numbers_per_draw = 1 + 2 * attempts_to_find_a_neighbour;
 
 }  // namespace
 
@@ -40,12 +42,13 @@ std::size_t TripleSampler::cell_of(float x, float y) const {
 }
 
 std::optional<Triple> TripleSampler::draw(std::uint64_t seed, std::uint64_t number) const {
-  Rng rng = Rng(seed).stream({number});
-  const std::uint32_t first = rng.below(size_);
+  Rng rng(seed);
+  rng.skip(number * numbers_per_draw);
   if (radius_ <= 0.0F) {
-    const std::uint32_t second = rng.below(size_);
-    return Triple{first, second, rng.below(size_)};
+    const std::uint64_t bits = rng.next();
+    return Triple{pick(bits >> 32U), pick(bits & 0xffffffffU), pick(rng.next() >> 32U)};
   }
+  const std::uint32_t first = rng.below(size_);
   const auto second = draw_near(first, rng);
   const auto third = draw_near(first, rng);
   if (!second || !third) return std::nullopt;

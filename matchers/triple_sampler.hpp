@@ -23,6 +23,10 @@ class TripleSampler {
   [[nodiscard]] std::optional<Triple> draw(std::uint64_t seed, std::uint64_t number) const;
 
  private:
+  /// A point from 32 random bits.
+  [[nodiscard]] std::uint32_t pick(std::uint64_t bits) const {
+    return static_cast<std::uint32_t>(bits * size_ >> 32U);
+  }
   [[nodiscard]] std::optional<std::uint32_t> draw_near(std::uint32_t centre, Rng& rng) const;
   [[nodiscard]] std::size_t cell_of(float x, float y) const;
 

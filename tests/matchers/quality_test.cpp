@@ -9,6 +9,8 @@
 namespace glocal {
 namespace {
 
+const Transform identity{Pose2{}};
+
 std::shared_ptr<const ContactGrid> contact_grid() {
   return ContactGrid::of(*testing::small_world(), 0.1);
 }
@@ -24,7 +26,7 @@ TEST(QualityTest, IsTheShareOfPointsInContact) {
   Rng rng(1);
   const QualityTest test(points_with_contact(40, 30), contact_grid(), {}, rng);
   for (std::uint32_t start = 0; start < 100; ++start) {
-    const auto outcome = test.test({}, 0.7, start);
+    const auto outcome = test.test(identity, 0.7, start);
     ASSERT_TRUE(outcome.quality);
     EXPECT_DOUBLE_EQ(*outcome.quality, 0.75);  // eq. 4
     EXPECT_EQ(outcome.checks, 40U);
@@ -34,8 +36,8 @@ TEST(QualityTest, IsTheShareOfPointsInContact) {
 TEST(QualityTest, TheThresholdItselfIsEnough) {
   Rng rng(1);
   const QualityTest test(points_with_contact(40, 30), contact_grid(), {}, rng);
-  EXPECT_TRUE(test.test({}, 0.75, 0).quality);
-  EXPECT_FALSE(test.test({}, 0.7501, 0).quality);
+  EXPECT_TRUE(test.test(identity, 0.75, 0).quality);
+  EXPECT_FALSE(test.test(identity, 0.7501, 0).quality);
 }
 
 TEST(QualityTest, GivesUpAtTheBoundOfEquation5) {
@@ -44,16 +46,16 @@ TEST(QualityTest, GivesUpAtTheBoundOfEquation5) {
   Rng rng(1);
   const QualityTest test(points_with_contact(400, 0), contact_grid(), {.batch = 8, .confidence_z = 1.96},
                          rng);
-  EXPECT_EQ(test.test({}, 0.35, 0).checks, 8U);
-  EXPECT_EQ(test.test({}, 0.34, 0).checks, 16U);
-  EXPECT_EQ(test.test({}, 0.24, 0).checks, 24U);
+  EXPECT_EQ(test.test(identity, 0.35, 0).checks, 8U);
+  EXPECT_EQ(test.test(identity, 0.34, 0).checks, 16U);
+  EXPECT_EQ(test.test(identity, 0.24, 0).checks, 24U);
 }
 
 TEST(QualityTest, FewerPointsThanABatch) {
   Rng rng(1);
   const QualityTest test(points_with_contact(3, 2), contact_grid(), {}, rng);
   for (std::uint32_t start = 0; start < 9; ++start)
-    EXPECT_NEAR(*test.test({}, 0.5, start).quality, 2.0 / 3.0, 1e-12);
+    EXPECT_NEAR(*test.test(identity, 0.5, start).quality, 2.0 / 3.0, 1e-12);
 }
 
 /// How often a hypothesis of quality `quality` is given up although the threshold is just that.
@@ -66,7 +68,8 @@ double false_reject_rate(double quality, const ExtrapolationRule& rule) {
   for (int i = 0; i < orders; ++i) {
     Rng rng(static_cast<std::uint64_t>(i));
     const QualityTest test(points_with_contact(n, static_cast<std::size_t>(quality * n)), contact, rule, rng);
-    for (std::uint32_t s = 0; s < starts; ++s) rejected += test.test({}, quality, s * 50).quality ? 0 : 1;
+    for (std::uint32_t s = 0; s < starts; ++s)
+      rejected += test.test(identity, quality, s * 50).quality ? 0 : 1;
   }
   return static_cast<double>(rejected) / (orders * starts);
 }
@@ -90,7 +93,7 @@ TEST(QualityTest, FalseRejectsAgainstTheConfidenceLevel) {
   for (std::uint64_t i = 0; i < 2000; ++i) {
     Rng rng(i);
     const QualityTest test(points_with_contact(1000, 800), contact, paper, rng);
-    lost += test.test({}, 0.6, 0).quality ? 0 : 1;
+    lost += test.test(identity, 0.6, 0).quality ? 0 : 1;
   }
   EXPECT_LT(lost, 40);  // 2 %
 }

@@ -73,7 +73,7 @@ TEST(CanonicalTriangle, SkipsWhatGivesPoorPoses) {
 TEST(LeastSquaresMotion, FindsAKnownMotion) {
   const Points from = make_points({{1, 1}, {4, 1.5F}, {2, 3}});
   const Pose2 truth{-3.0, 0.5, 2.2};
-  const Pose2 found = least_squares_motion(from, {0, 1, 2}, testing::moved(from, truth), {0, 1, 2});
+  const Pose2 found = least_squares_motion(from, {0, 1, 2}, testing::moved(from, truth), {0, 1, 2}).pose();
   EXPECT_NEAR(found.x, truth.x, 1e-5);
   EXPECT_NEAR(found.y, truth.y, 1e-5);
   EXPECT_NEAR(found.theta, truth.theta, 1e-6);
@@ -90,7 +90,7 @@ TEST(LeastSquaresMotion, NoNearbyMotionFitsBetter) {
     }
     return sum;
   };
-  const Pose2 best = least_squares_motion(from, {0, 1, 2}, to, {0, 1, 2});
+  const Pose2 best = least_squares_motion(from, {0, 1, 2}, to, {0, 1, 2}).pose();
   for (const double d : {-0.01, 0.01}) {
     EXPECT_GT(squares({best.x + d, best.y, best.theta}), squares(best));
     EXPECT_GT(squares({best.x, best.y + d, best.theta}), squares(best));

@@ -59,10 +59,13 @@ class Transform {
         s_(static_cast<float>(std::sin(target_from_source.theta))),
         tx_(static_cast<float>(target_from_source.x)),
         ty_(static_cast<float>(target_from_source.y)) {}
+  /// From the cosine and sine of the rotation, and the translation in metres.
+  Transform(float cosine, float sine, float x, float y) : c_(cosine), s_(sine), tx_(x), ty_(y) {}
 
   [[nodiscard]] Point operator()(const Point& p) const {
     return {c_ * p.x - s_ * p.y + tx_, s_ * p.x + c_ * p.y + ty_, p.z};
   }
+  [[nodiscard]] Pose2 pose() const { return {tx_, ty_, wrap_angle(std::atan2(s_, c_))}; }
 
  private:
   float c_, s_, tx_, ty_;

@@ -29,6 +29,9 @@ class Rng {
 
   [[nodiscard]] constexpr std::uint64_t next() { return mix64(state_ += golden); }
 
+  /// Leaves out the next n numbers, at once: number k of a seed can be had without those before it.
+  constexpr void skip(std::uint64_t n) { state_ += n * golden; }
+
   /// Uniform in [0, n), by multiplication (the bias of at most n / 2^32 is of no matter for n below a
   /// million); n > 0.
   [[nodiscard]] constexpr std::uint32_t below(std::uint32_t n) {
