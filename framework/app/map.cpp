@@ -56,9 +56,11 @@ MapData load(const ExperimentOptions& input, const Catalog& catalog) {
 LogMap::Params log_map_params(const ExperimentOptions& input) {
   const auto origin = std::make_shared<Origin>(Origin{"map build", std::filesystem::current_path()});
   const Place place{origin};
-  Node tree{.kind = NodeKind::map, .place = place};
-  tree.entries.push_back(
-      {"path", place, {.kind = NodeKind::scalar, .place = place, .text = input.file, .quoted = true}});
+  YamlNode path = make_node(NodeKind::scalar, place);
+  path.text = input.file;
+  path.quoted = true;
+  YamlNode tree = make_node(NodeKind::map, place);
+  tree.entries.push_back({"path", place, std::move(path)});
   ParamsOf<LogMap::Params> params;
   std::vector<Fault> faults;
   apply_overrides(tree, input.overrides(), params, faults);

@@ -126,6 +126,7 @@ trials:
   every_scan: 0
   whole: true
   max_steps: 60
+  min_steps: 1
   within_map_m: 0
 localizer:
   local_mapper: scan_matching
@@ -158,7 +159,7 @@ TEST_F(RoundTrip, ListItemsOfStructsAreBlocks) {
 
 TEST_F(RoundTrip, RandomNumbersComeBackExactly) {
   Rng rng(1);
-  Node node{.kind = NodeKind::scalar};
+  YamlNode node = make_node(NodeKind::scalar, {});
   for (int i = 0; i < 10000; ++i) {
     const double value = std::ldexp(rng.uniform(-1.0, 1.0), static_cast<int>(rng.below(2000)) - 1000);
     node.text = to_yaml(value);

@@ -18,7 +18,7 @@ void write_struct(const StructDoc& doc, std::size_t indent, std::string& text) {
     if (!allowed.empty()) facts += " (" + allowed + ")";
     const std::string value = default_text(field);
     if (!value.empty()) facts += field.info.required ? ", required" : ", default " + value;
-    text += margin + field.name + ": " + facts + "\n" + margin + "    " + field.info.doc.text + "\n";
+    text += fmt::format("{0}{1}: {2}\n{0}    {3}\n", margin, field.name, facts, field.info.doc.text);
     for (const StructDoc& inner : field.inner) write_struct(inner, indent + 4, text);
   }
   for (const RuleDoc& rule : doc.rules) {

@@ -2,7 +2,7 @@
 
 namespace glocal {
 
-std::string name_of(const Node& node) {
+std::string name_of(const YamlNode& node) {
   switch (node.kind) {
     case NodeKind::scalar:
       return (node.quoted ? "the text '" : "'") + node.text + "'";

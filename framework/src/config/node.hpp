@@ -32,22 +32,29 @@ enum class NodeKind {
   invalid,  ///< Already reported as a fault; readers pass over it.
 };
 
-struct Entry;
+struct YamlEntry;
 
-struct Node {
+struct YamlNode {
   NodeKind kind = NodeKind::null;
-  Place place = {};
-  std::string text = {};            ///< Of a scalar.
-  bool quoted = false;              ///< A quoted or block scalar, which is text whatever it looks like.
-  std::vector<Node> items = {};     ///< Of a list.
-  std::vector<Entry> entries = {};  ///< Of a map, in the order of the file; keys are unique.
+  Place place;
+  std::string text;                ///< Of a scalar.
+  bool quoted = false;             ///< A quoted or block scalar, which is text whatever it looks like.
+  std::vector<YamlNode> items;     ///< Of a list.
+  std::vector<YamlEntry> entries;  ///< Of a map, in the order of the file; keys are unique.
 };
 
-struct Entry {
+struct YamlEntry {
   std::string key;
   Place place;  ///< Of the key.
-  Node value;
+  YamlNode value;
 };
+
+[[nodiscard]] inline YamlNode make_node(NodeKind kind, Place place) {
+  YamlNode node;
+  node.kind = kind;
+  node.place = std::move(place);
+  return node;
+}
 
 /// Null if the map has no such key.
 template <class MapNode>
@@ -63,6 +70,6 @@ template <class MapNode>
 }
 
 /// What a message calls it: "nothing", "'text'", "a list", "a map".
-[[nodiscard]] std::string name_of(const Node& node);
+[[nodiscard]] std::string name_of(const YamlNode& node);
 
 }  // namespace glocal

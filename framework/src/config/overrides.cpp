@@ -1,5 +1,7 @@
 #include "config/overrides.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <span>
 #include <string>
@@ -73,27 +75,27 @@ std::optional<std::vector<std::string>> split(std::string_view path) {
 }
 
 /// Makes a map of the node, if that loses nothing: of nothing at all, or of a strategy's bare name.
-bool make_map(Node& node, const Place& place, bool is_strategy, const std::string& next) {
+bool make_map(YamlNode& node, const Place& place, bool is_strategy, const std::string& next) {
   if (node.kind == NodeKind::null || node.kind == NodeKind::invalid) {
-    node = {.kind = NodeKind::map, .place = place};
+    node = make_node(NodeKind::map, place);
   } else if (is_strategy && node.kind == NodeKind::scalar) {
-    Node map{.kind = NodeKind::map, .place = node.place};
-    if (node.text == next) map.entries.push_back({next, node.place, {.place = node.place}});
+    YamlNode map = make_node(NodeKind::map, node.place);
+    if (node.text == next) map.entries.push_back({next, node.place, make_node(NodeKind::null, node.place)});
     node = std::move(map);
   }
   return node.kind == NodeKind::map;
 }
 
 /// The node below `key`, made if it is not there.
-Node& enter(Node& map, const std::string& key, const Place& place) {
-  if (Entry* entry = find_entry(map, key)) return entry->value;
-  map.entries.push_back({key, place, {.place = place}});
+YamlNode& enter(YamlNode& map, const std::string& key, const Place& place) {
+  if (YamlEntry* entry = find_entry(map, key)) return entry->value;
+  map.entries.push_back({key, place, make_node(NodeKind::null, place)});
   return map.entries.back().value;
 }
 
-void put(Node& tree, Path path, const std::vector<bool>& is_strategy, Node value, const Place& place,
+void put(YamlNode& tree, Path path, const std::vector<bool>& is_strategy, YamlNode value, const Place& place,
          std::vector<Fault>& faults) {
-  Node* node = &tree;
+  YamlNode* node = &tree;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool in_strategy = i > 0 && is_strategy[i - 1];
     if (!make_map(*node, place, in_strategy, path[i])) {
@@ -110,11 +112,11 @@ void put(Node& tree, Path path, const std::vector<bool>& is_strategy, Node value
 
 }  // namespace
 
-void apply_overrides(Node& tree, const std::vector<Override>& overrides, AnyParams& params,
+void apply_overrides(YamlNode& tree, const std::vector<Override>& overrides, AnyParams& params,
                      std::vector<Fault>& faults) {
   for (const auto& [text, value] : overrides) {
-    const auto origin =
-        std::make_shared<Origin>(Origin{"--set " + text + "=" + value, std::filesystem::current_path()});
+    const auto origin = std::make_shared<Origin>(
+        Origin{fmt::format("--set {}={}", text, value), std::filesystem::current_path()});
     const Place place{origin, 0, 0};
     const auto path = split(text);
     if (!path) faults.push_back(fault_at(place, "the path has an empty part; write it as a.b.c"));

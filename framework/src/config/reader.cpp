@@ -24,22 +24,23 @@ std::string about(const std::string& path, const std::string& message) {
 }
 
 /// Whether a list may have this many items.
-bool has_good_count(const Node& list, const FieldInfo& info) {
+bool has_good_count(const YamlNode& list, const FieldInfo& info) {
   return list.items.size() >= info.min_items && list.items.size() <= info.max_items;
 }
 
-void read_struct(const Node& node, const std::string& path, AnyParams& params, std::vector<Fault>& faults);
+void read_struct(const YamlNode& node, const std::string& path, AnyParams& params,
+                 std::vector<Fault>& faults);
 
 /// Reads the fields of one struct from one map.
 class MapReader final : public UniformVisitor<MapReader> {
  public:
   /// `path` is the map's, for messages.
-  MapReader(const Node& map, std::string path, std::vector<Fault>& faults)
+  MapReader(const YamlNode& map, std::string path, std::vector<Fault>& faults)
       : map_(&map), path_(std::move(path)), faults_(&faults) {}
 
   template <class T>
   void value(std::string_view name, T& v, const FieldInfo& info) {
-    const Node* node = take(name, info);
+    const YamlNode* node = take(name, info);
     if (node == nullptr) return;
     const std::size_t before = faults_->size();
     read(*node, std::string(name), v, info);
@@ -48,7 +49,7 @@ class MapReader final : public UniformVisitor<MapReader> {
 
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
                 const FieldInfo& info) override {
-    const Node* node = take(name, info);
+    const YamlNode* node = take(name, info);
     if (node != nullptr) {
       read_strategy(*node, name, choice, registry);
     } else if (!choice.params && !given(name) && !info.required) {
@@ -64,13 +65,13 @@ class MapReader final : public UniformVisitor<MapReader> {
       return field == name || rule.find(name) != std::string_view::npos;
     });
     if (holds || undecided) return;
-    const Entry* entry = find_entry(*map_, field);
+    const YamlEntry* entry = find_entry(*map_, field);
     refuse(entry == nullptr ? map_->place : entry->value.place, std::string(field), std::string(rule));
   }
 
   /// To be called after all fields were visited.
   void report_unknown_keys() {
-    for (const Entry& entry : map_->entries) {
+    for (const YamlEntry& entry : map_->entries) {
       if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
       const std::string help =
           known_.empty() ? " (there are no parameters)" : suggestion(entry.key, known_, "known keys");
@@ -80,16 +81,16 @@ class MapReader final : public UniformVisitor<MapReader> {
 
  private:
   void group(std::string_view name, AnyParams& params, const FieldInfo& info) override {
-    if (const Node* node = take(name, info)) {
+    if (const YamlNode* node = take(name, info)) {
       read_struct(*node, joined(path_, name), params, *faults_);
     } else if (!given(name) && !info.required) {
       // Left out, which is wrong only if it has something that must be given.
-      read_struct({.place = map_->place}, joined(path_, name), params, *faults_);
+      read_struct(make_node(NodeKind::null, map_->place), joined(path_, name), params, *faults_);
     }
   }
 
   void list(std::string_view name, AnyList& list, const FieldInfo& info) override {
-    const Node* node = take(name, info);
+    const YamlNode* node = take(name, info);
     if (node == nullptr || !check_list(*node, std::string(name), info, "a list of maps")) return;
     list.resize(0);
     list.resize(node->items.size());
@@ -112,9 +113,9 @@ class MapReader final : public UniformVisitor<MapReader> {
 
   /// The field's node if there is one to read; notes that the field is known, and reports it missing if it
   /// must be given.
-  const Node* take(std::string_view name, const FieldInfo& info) {
+  const YamlNode* take(std::string_view name, const FieldInfo& info) {
     known_.emplace_back(name);
-    const Entry* entry = find_entry(*map_, name);
+    const YamlEntry* entry = find_entry(*map_, name);
     if (entry != nullptr && entry->value.kind != NodeKind::invalid) return &entry->value;
     if (entry != nullptr || info.required) refused_.emplace_back(name);
     if (entry == nullptr && info.required) {
@@ -129,13 +130,13 @@ class MapReader final : public UniformVisitor<MapReader> {
   }
 
   template <class T>
-  void read(const Node& node, const std::string& what, T& v, const FieldInfo& info) {
+  void read(const YamlNode& node, const std::string& what, T& v, const FieldInfo& info) {
     if (node.kind == NodeKind::invalid) return;
     if (auto refusal = take_value(node, info, v)) refuse(node.place, what, *refusal);
   }
 
   template <class T>
-  void read(const Node& node, const std::string& what, std::vector<T>& v, const FieldInfo& info) {
+  void read(const YamlNode& node, const std::string& what, std::vector<T>& v, const FieldInfo& info) {
     if (!check_list(node, what, info, "a list")) return;
     v.assign(node.items.size(), T{});
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -143,7 +144,7 @@ class MapReader final : public UniformVisitor<MapReader> {
     }
   }
 
-  void read(const Node& node, const std::string& what, std::array<double, 2>& v, const FieldInfo& info) {
+  void read(const YamlNode& node, const std::string& what, std::array<double, 2>& v, const FieldInfo& info) {
     if (node.kind == NodeKind::invalid) return;
     if (node.kind != NodeKind::list || node.items.size() != 2) {
       const std::string got = node.kind == NodeKind::list ? counted(node.items.size()) : name_of(node);
@@ -153,7 +154,7 @@ class MapReader final : public UniformVisitor<MapReader> {
     for (std::size_t i = 0; i < 2; ++i) read(node.items[i], what + "[" + std::to_string(i) + "]", v[i], info);
   }
 
-  bool check_list(const Node& node, const std::string& what, const FieldInfo& info,
+  bool check_list(const YamlNode& node, const std::string& what, const FieldInfo& info,
                   const std::string& expected) {
     if (node.kind != NodeKind::list) {
       refuse(node.place, what, "expected " + expected + ", got " + name_of(node));
@@ -164,7 +165,7 @@ class MapReader final : public UniformVisitor<MapReader> {
     return false;
   }
 
-  void read_strategy(const Node& node, std::string_view name, StrategyChoice& choice,
+  void read_strategy(const YamlNode& node, std::string_view name, StrategyChoice& choice,
                      const RegistryBase& registry) {
     const bool is_map = node.kind == NodeKind::map && node.entries.size() == 1;
     if (node.kind != NodeKind::scalar && !is_map) {
@@ -185,7 +186,7 @@ class MapReader final : public UniformVisitor<MapReader> {
       return;
     }
     choice = registry.choose(chosen);
-    const Node defaults{.place = node.place};
+    const YamlNode defaults = make_node(NodeKind::null, node.place);
     read_struct(is_map ? node.entries.front().value : defaults, joined(joined(path_, name), chosen),
                 *choice.params, *faults_);
   }
@@ -196,7 +197,7 @@ class MapReader final : public UniformVisitor<MapReader> {
     return names.empty() ? " (none is registered)" : " (there are: " + join(names) + ")";
   }
 
-  const Node* map_;
+  const YamlNode* map_;
   std::string path_;
   std::vector<Fault>* faults_;
   std::vector<std::string> known_;
@@ -204,7 +205,8 @@ class MapReader final : public UniformVisitor<MapReader> {
 };
 
 /// A null node is a map without keys: everything has its default.
-void read_struct(const Node& node, const std::string& path, AnyParams& params, std::vector<Fault>& faults) {
+void read_struct(const YamlNode& node, const std::string& path, AnyParams& params,
+                 std::vector<Fault>& faults) {
   if (node.kind == NodeKind::invalid) return;
   if (node.kind != NodeKind::map && node.kind != NodeKind::null) {
     faults.push_back(fault_at(node.place, about(path, "expected a map (key: value), got " + name_of(node))));
@@ -221,7 +223,7 @@ std::shared_ptr<const Origin> origin_of(const std::filesystem::path& file) {
   return std::make_shared<Origin>(Origin{file.string(), file.parent_path()});
 }
 
-void read_params(const Node& node, AnyParams& params, std::vector<Fault>& faults) {
+void read_params(const YamlNode& node, AnyParams& params, std::vector<Fault>& faults) {
   read_struct(node, "", params, faults);
 }
 

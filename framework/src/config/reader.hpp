@@ -16,7 +16,7 @@ namespace glocal {
 
 /// Fills the struct; appends a fault for everything that is not as described. Values that are refused or left
 /// out stay as they were.
-void read_params(const Node& node, AnyParams& params, std::vector<Fault>& faults);
+void read_params(const YamlNode& node, AnyParams& params, std::vector<Fault>& faults);
 
 /// The names of a registry's strategies, sorted.
 [[nodiscard]] std::vector<std::string> names_of(const RegistryBase& registry);

@@ -84,7 +84,7 @@ std::string without_leading_zeros(const Signed& number) {
 }
 
 /// What numbers of all types are refused for; `what` is the type.
-Refusal check_notation(const Node& node, std::string_view what) {
+Refusal check_notation(const YamlNode& node, std::string_view what) {
   const std::string expected = "expected " + std::string(what) + ", got " + name_of(node);
   if (node.kind != NodeKind::scalar) return expected;
   const Signed number = split_sign(node.text);
@@ -106,7 +106,7 @@ Refusal check_bounds(const std::string& text, double value, const FieldInfo& inf
 }
 
 template <class Whole>
-Refusal take_whole(const Node& node, const FieldInfo& info, Whole& value) {
+Refusal take_whole(const YamlNode& node, const FieldInfo& info, Whole& value) {
   if (auto refusal = check_notation(node, "a whole number")) return refusal;
   const Signed number = split_sign(node.text);
   if (!is_whole(number.digits))
@@ -187,7 +187,7 @@ std::string double_quoted(std::string_view text) {
 
 }  // namespace
 
-Refusal take_value(const Node& node, const FieldInfo& /*info*/, bool& value) {
+Refusal take_value(const YamlNode& node, const FieldInfo& /*info*/, bool& value) {
   const bool plain = node.kind == NodeKind::scalar && !node.quoted;
   if (!plain || (node.text != "true" && node.text != "false")) {
     return "expected true or false, got " + name_of(node);
@@ -196,15 +196,15 @@ Refusal take_value(const Node& node, const FieldInfo& /*info*/, bool& value) {
   return std::nullopt;
 }
 
-Refusal take_value(const Node& node, const FieldInfo& info, int& value) {
+Refusal take_value(const YamlNode& node, const FieldInfo& info, int& value) {
   return take_whole(node, info, value);
 }
 
-Refusal take_value(const Node& node, const FieldInfo& info, std::uint64_t& value) {
+Refusal take_value(const YamlNode& node, const FieldInfo& info, std::uint64_t& value) {
   return take_whole(node, info, value);
 }
 
-Refusal take_value(const Node& node, const FieldInfo& info, double& value) {
+Refusal take_value(const YamlNode& node, const FieldInfo& info, double& value) {
   if (auto refusal = check_notation(node, "a number")) return refusal;
   const std::string_view text = std::string_view(node.text).substr(node.text.starts_with('+') ? 1 : 0);
   double read = 0.0;
@@ -217,7 +217,7 @@ Refusal take_value(const Node& node, const FieldInfo& info, double& value) {
   return std::nullopt;
 }
 
-Refusal take_value(const Node& node, const FieldInfo& info, std::string& value) {
+Refusal take_value(const YamlNode& node, const FieldInfo& info, std::string& value) {
   if (node.kind != NodeKind::scalar) return "expected text, got " + name_of(node);
   const auto& choices = info.choices;
   if (!choices.empty() && std::find(choices.begin(), choices.end(), node.text) == choices.end()) {
@@ -229,7 +229,7 @@ Refusal take_value(const Node& node, const FieldInfo& info, std::string& value) 
   return std::nullopt;
 }
 
-Refusal take_value(const Node& node, const FieldInfo& info, FilePath& value) {
+Refusal take_value(const YamlNode& node, const FieldInfo& info, FilePath& value) {
   if (node.kind != NodeKind::scalar) return "expected a path, got " + name_of(node);
   if (node.text.empty()) {
     if (info.required) return "expected a path, got an empty text";

@@ -17,14 +17,14 @@ using Refusal = std::optional<std::string>;
 /// Each takes a value from a node, or says why not and leaves the value alone. Numbers are decimal, finite
 /// and within the field's bounds; `true` and `false` are the only truth values; quoted text is never a number
 /// or a truth value.
-[[nodiscard]] Refusal take_value(const Node& node, const FieldInfo& info, bool& value);
-[[nodiscard]] Refusal take_value(const Node& node, const FieldInfo& info, int& value);
-[[nodiscard]] Refusal take_value(const Node& node, const FieldInfo& info, std::uint64_t& value);
-[[nodiscard]] Refusal take_value(const Node& node, const FieldInfo& info, double& value);
-[[nodiscard]] Refusal take_value(const Node& node, const FieldInfo& info, std::string& value);
+[[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, bool& value);
+[[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, int& value);
+[[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, std::uint64_t& value);
+[[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, double& value);
+[[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, std::string& value);
 /// Paths are relative to the folder of the node's origin; `data:` stands for the folder in GLOCAL_DATASETS.
 /// The file must be there, unless the path is empty and not required.
-[[nodiscard]] Refusal take_value(const Node& node, const FieldInfo& info, FilePath& value);
+[[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, FilePath& value);
 
 /// "> 0 m", ">= 1 and <= 256"; empty without bounds.
 [[nodiscard]] std::string bounds_text(const FieldInfo& info);

@@ -42,7 +42,7 @@ class TreeBuilder final : public YAML::EventHandler {
               std::vector<Fault>& faults)
       : source_(source), origin_(std::move(origin)), with_lines_(with_lines), faults_(&faults) {}
 
-  [[nodiscard]] std::optional<Node> take_root() { return std::move(root_); }
+  [[nodiscard]] std::optional<YamlNode> take_root() { return std::move(root_); }
 
   [[nodiscard]] Place place(const YAML::Mark& mark) const {
     if (!with_lines_ || mark.is_null()) return {origin_, 0, 0};
@@ -59,12 +59,12 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     refuse_anchor(mark, anchor);
-    add({.place = place(mark)});
+    add(make_node(NodeKind::null, place(mark)));
   }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
     report(place(mark), at_path("aliases are not supported; write the value out"));
-    add({.kind = NodeKind::invalid, .place = place(mark)});
+    add(make_node(NodeKind::invalid, place(mark)));
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -72,7 +72,10 @@ class TreeBuilder final : public YAML::EventHandler {
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
     if (tag == "!") check_quotes(mark);
-    add({.kind = NodeKind::scalar, .place = place(mark), .text = value, .quoted = tag == "!"});
+    YamlNode node = make_node(NodeKind::scalar, place(mark));
+    node.text = value;
+    node.quoted = tag == "!";
+    add(std::move(node));
   }
 
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -95,7 +98,7 @@ class TreeBuilder final : public YAML::EventHandler {
     bool dropped = false;
   };
   struct Frame {
-    Node node;
+    YamlNode node;
     std::optional<Key> key;
   };
 
@@ -106,16 +109,16 @@ class TreeBuilder final : public YAML::EventHandler {
       report(place(mark), at_path("nested deeper than " + std::to_string(max_depth) + " levels"));
       throw Stop{};
     }
-    frames_.push_back({{.kind = kind, .place = place(mark)}, std::nullopt});
+    frames_.push_back({make_node(kind, place(mark)), std::nullopt});
   }
 
   void finish() {
-    Node node = std::move(frames_.back().node);
+    YamlNode node = std::move(frames_.back().node);
     frames_.pop_back();
     add(std::move(node));
   }
 
-  void add(Node node) {
+  void add(YamlNode node) {
     if (frames_.empty()) {
       root_ = std::move(node);
       return;
@@ -133,9 +136,9 @@ class TreeBuilder final : public YAML::EventHandler {
     }
   }
 
-  Key check_key(Node node) {
+  Key check_key(YamlNode node) {
     Key key{std::move(node.text), node.place};
-    const Entry* first = find_entry(frames_.back().node, key.text);
+    const YamlEntry* first = find_entry(frames_.back().node, key.text);
     if (node.kind != NodeKind::scalar) {
       key.dropped = true;
       if (node.kind != NodeKind::invalid) {
@@ -194,13 +197,13 @@ class TreeBuilder final : public YAML::EventHandler {
   bool with_lines_;
   std::vector<Fault>* faults_;
   std::vector<Frame> frames_;
-  std::optional<Node> root_;
+  std::optional<YamlNode> root_;
 };
 
 /// yaml-cpp names the rule; this adds what to look for.
 std::string hint(const std::string& message) {
   using Hint = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Hint, 9> hints{{
+  static const std::array<Hint, 9> hints{{
       {YAML::ErrorMsg::TAB_IN_INDENTATION, "indent with spaces"},
       {YAML::ErrorMsg::END_OF_MAP, "check the indentation here and above"},
       {YAML::ErrorMsg::END_OF_SEQ, "check the indentation here and above"},
@@ -217,8 +220,8 @@ std::string hint(const std::string& message) {
   return "";
 }
 
-std::optional<Node> parse(const std::string& text, const std::shared_ptr<const Origin>& origin,
-                          bool with_lines, std::vector<Fault>& faults) {
+std::optional<YamlNode> parse(const std::string& text, const std::shared_ptr<const Origin>& origin,
+                              bool with_lines, std::vector<Fault>& faults) {
   // Without the byte order mark, yaml-cpp's positions are those in the text.
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   const std::string source = text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text;
@@ -239,8 +242,8 @@ std::optional<Node> parse(const std::string& text, const std::shared_ptr<const O
 
 }  // namespace
 
-std::optional<Node> parse_yaml(const std::string& text, const std::shared_ptr<const Origin>& origin,
-                               std::vector<Fault>& faults) {
+std::optional<YamlNode> parse_yaml(const std::string& text, const std::shared_ptr<const Origin>& origin,
+                                   std::vector<Fault>& faults) {
   if (auto binary = find_binary(text, *origin)) {
     faults.push_back(*std::move(binary));
     return std::nullopt;
@@ -252,15 +255,15 @@ std::optional<Node> parse_yaml(const std::string& text, const std::shared_ptr<co
   return empty ? std::nullopt : std::move(root);
 }
 
-std::optional<Node> parse_yaml_value(const std::string& text, const std::shared_ptr<const Origin>& origin,
-                                     std::vector<Fault>& faults) {
+std::optional<YamlNode> parse_yaml_value(const std::string& text, const std::shared_ptr<const Origin>& origin,
+                                         std::vector<Fault>& faults) {
   if (auto binary = find_binary(text, *origin)) {
     faults.push_back({origin->label, 0, 0, "the value is not plain text"});
     return std::nullopt;
   }
   const std::size_t before = faults.size();
   auto root = parse(text, origin, false, faults);
-  if (!root && faults.size() == before) root = Node{.place = {origin, 0, 0}};
+  if (!root && faults.size() == before) root = make_node(NodeKind::null, {origin, 0, 0});
   return root;
 }
 
