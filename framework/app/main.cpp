@@ -32,6 +32,8 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_describe(app, context);
   add_schema(app, context);
   add_reference(app, context);
+  add_simulate(app, context);
+  add_map(app, context);
   add_mapping(app, context);
   add_map(app, context);
   add_simulate(app, context);
