@@ -12,7 +12,7 @@ namespace {
 
 std::string scan_at(double x, double y, const std::string& readings) {
   const std::string pose = std::to_string(x) + " " + std::to_string(y) + " 0 ";
-  return "TRUEPOS " + pose + "0 0 0 0 h 0\nFLASER " + readings + " 0 0 0 0 0 0 0 h 0\n";
+  return "TRUEPOS " + pose + pose + "0 h 0\nFLASER " + readings + " " + pose + pose + "0 h 0\n";
 }
 
 LogMap::Params params_for(const std::filesystem::path& file) {

@@ -1,0 +1,66 @@
+// glocal map.
+#include <gmock/gmock.h>
+
+#include "app/program.hpp"
+
+namespace glocal::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class MapCommand : public CommandLine {
+ protected:
+  /// Four scans from (0, 0): 1 m to the right, 2 m ahead.
+  MapCommand() {
+    std::ofstream log(file("drive.log"));
+    for (int i = 0; i < 4; ++i) {
+      log << "TRUEPOS 0 0 0 0 0 0 " << i << " h 0\nFLASER 2 1 2 0 0 0 0 0 0 " << i << " h 0\n";
+    }
+  }
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
+};
+
+TEST_F(MapCommand, BuildsShowsAndConverts) {
+  Answer answer = run("map build " + file("drive.log") + " -o " + file("a.yaml") + " --set resolution=0.5");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  answer = run("map info " + file("a.yaml"));
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  // Columns from 0 m to 2 m, rows from -1 m to 0 m; the robot stands in the cell above the axis.
+  EXPECT_THAT(answer.out, StartsWith("cells       5 x 3 of 0.5 m: 2.50 m x 1.50 m\n"));
+  EXPECT_THAT(answer.out, HasSubstr("occupied    2\nfree        5 (1.2 m^2)\nunknown     8\n"));
+  EXPECT_THAT(answer.out, HasSubstr("points      2: x 0.25 to 2.25 m, y -0.75 to 0.25 m\n"));
+
+  EXPECT_EQ(run("map convert " + file("a.yaml") + " -o " + file("b.yaml") + " --image png").exit_code, 0);
+  EXPECT_EQ(run("map info " + file("b.yaml")).out, answer.out);
+  EXPECT_EQ(run("map convert " + file("a.yaml") + " -o " + file("c.pcd")).exit_code, 0);
+  EXPECT_THAT(content(file("c.pcd")), HasSubstr("POINTS 2\n"));
+}
+
+TEST_F(MapCommand, ReplacesFilesOnlyByForce) {
+  const std::string build = "map build " + file("drive.log") + " -o " + file("a.yaml");
+  EXPECT_EQ(run(build).exit_code, 0);
+  const std::string before = content(file("a.yaml"));
+  const Answer refused = run(build + " --set resolution=0.5");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err,
+              HasSubstr("a.pgm: error: the file exists; choose another name, or replace it with --force"));
+  EXPECT_EQ(content(file("a.yaml")), before);
+  EXPECT_EQ(run(build + " --set resolution=0.5 --force").exit_code, 0);
+  EXPECT_NE(content(file("a.yaml")), before);
+}
+
+TEST_F(MapCommand, ReportsFaults) {
+  const Answer answer =
+      run("map build " + file("drive.log") + " -o " + file("a.yaml") + " --set rez=1 --set segments=3");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("--set rez=1: error: unknown key 'rez'"));
+  EXPECT_THAT(answer.err, HasSubstr("--set segments=3: error: segments: expected a list, got '3'"));
+  EXPECT_THAT(run("map build " + file("drive.log") + " -o " + file("a.tif")).err,
+              HasSubstr("the name must end in .yaml (ROS map) or .pcd (points)"));
+  EXPECT_THAT(run("map info " + file("none.yaml")).err, HasSubstr("no such file"));
+  EXPECT_EQ(run("map").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace glocal::test

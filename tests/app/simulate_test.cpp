@@ -1,0 +1,77 @@
+// glocal simulate.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+
+namespace glocal::test {
+namespace {
+
+using testing::HasSubstr;
+
+class SimulateCommand : public CommandLine {
+ protected:
+  SimulateCommand() {
+    std::ofstream(file("world.yaml"))
+        << "size: [12, 6]\n"
+           "walls:\n"
+           "  - {points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}\n"
+           "  - {points: [[5, 0], [5, 2.4]]}\n"
+           "free_from: [[1, 1]]\n"
+           "way_points: [[1, 3], [10, 3], [10, 1]]\n";
+    std::ofstream(file("experiment.yaml")) << "schema: 1\n"
+                                              "name: room\n"
+                                              "map: {simulation: {world: world.yaml}}\n"
+                                              "observations: {simulation: {world: world.yaml}}\n"
+                                              "trials: {whole: true}\n"
+                                              "localizer: {matcher: {ransam: {iterations: 20000}}}\n";
+  }
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
+};
+
+TEST_F(SimulateCommand, WhatItWritesRunsLikeTheSimulation) {
+  Answer answer = run("simulate " + file("experiment.yaml") + " --seed 5 --out " + file("recorded"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  answer = run("run " + file("experiment.yaml") + " --seed 5 --quiet --out " + file("a"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  answer = run("run " + file("recorded/experiment.yaml") + " --quiet --out " + file("b"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto a = nlohmann::json::parse(content(file("a/summary.json")));
+  const auto b = nlohmann::json::parse(content(file("b/summary.json")));
+  EXPECT_EQ(a["seed"], b["seed"]);
+  EXPECT_EQ(a["trials"], b["trials"]);
+  EXPECT_EQ(a["map"]["points"], b["map"]["points"]);
+  const auto first_line = [&](const std::string& trajectory) {
+    const std::string text = content(file(trajectory));
+    return text.substr(0, text.find('\n'));
+  };
+  EXPECT_EQ(first_line("a/trajectories/trial_0000_reference.tum"),
+            first_line("b/trajectories/trial_0000_reference.tum"));
+}
+
+TEST_F(SimulateCommand, TheSameSeedGivesTheSameBytes) {
+  for (const char* out : {"a", "b"}) {
+    ASSERT_EQ(run("simulate " + file("experiment.yaml") + " --seed 5 --out " + file(out)).exit_code, 0);
+  }
+  ASSERT_EQ(run("simulate " + file("experiment.yaml") + " --seed 6 --out " + file("c")).exit_code, 0);
+  for (const char* name : {"/drive.log", "/map.yaml", "/map.pgm", "/experiment.yaml"}) {
+    EXPECT_EQ(content(file("a") + name), content(file("b") + name));
+  }
+  EXPECT_NE(content(file("a/drive.log")), content(file("c/drive.log")));
+}
+
+TEST_F(SimulateCommand, RefusesARecordedDriveAndAFullFolder) {
+  ASSERT_EQ(run("simulate " + file("experiment.yaml") + " --out " + file("a")).exit_code, 0);
+  const Answer recorded = run("simulate " + file("a/experiment.yaml") + " --out " + file("b"));
+  EXPECT_EQ(recorded.exit_code, 2);
+  EXPECT_THAT(recorded.err,
+              HasSubstr("observations: come from carmen_log; only a simulation can be simulated"));
+  const Answer full = run("simulate " + file("experiment.yaml") + " --out " + file("a"));
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_THAT(full.err, HasSubstr("the folder exists and is not empty"));
+  EXPECT_EQ(run("simulate " + file("experiment.yaml") + " --force --out " + file("a")).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace glocal::test
