@@ -18,13 +18,13 @@ TripleSampler::TripleSampler(const Points& points, double local_radius)
       size_(static_cast<std::uint32_t>(points.size())),
       radius_(static_cast<float>(local_radius)) {
   if (radius_ <= 0.0F) return;
-  // A margin of one cell all around, so that every point has eight neighbouring cells.
   const auto [low_x, high_x] = std::minmax_element(points.x.begin(), points.x.end());
   const auto [low_y, high_y] = std::minmax_element(points.y.begin(), points.y.end());
-  min_x_ = *low_x - radius_;
-  min_y_ = *low_y - radius_;
-  columns_ = static_cast<std::size_t>((*high_x - min_x_) / radius_) + 2;
-  const std::size_t rows = static_cast<std::size_t>((*high_y - min_y_) / radius_) + 2;
+  min_x_ = *low_x;
+  min_y_ = *low_y;
+  // With a margin of one cell all around, so that every point has eight neighbouring cells.
+  columns_ = static_cast<std::size_t>((*high_x - min_x_) / radius_) + 3;
+  const std::size_t rows = static_cast<std::size_t>((*high_y - min_y_) / radius_) + 3;
 
   starts_.assign(columns_ * rows + 1, 0);
   for (std::size_t i = 0; i < points.size(); ++i) ++starts_[cell_of(points.x[i], points.y[i]) + 1];
@@ -35,8 +35,8 @@ TripleSampler::TripleSampler(const Points& points, double local_radius)
 }
 
 std::size_t TripleSampler::cell_of(float x, float y) const {
-  return static_cast<std::size_t>((y - min_y_) / radius_) * columns_ +
-         static_cast<std::size_t>((x - min_x_) / radius_);
+  const std::size_t row = static_cast<std::size_t>((y - min_y_) / radius_) + 1;
+  return row * columns_ + static_cast<std::size_t>((x - min_x_) / radius_) + 1;
 }
 
 std::optional<Triple> TripleSampler::draw(std::uint64_t seed, std::uint64_t number) const {

@@ -19,6 +19,7 @@ void warn_of_stamps(const LogDrive& drive, const std::filesystem::path& file, co
 
 CarmenLog::CarmenLog(const Params& params, const SourceSetup& setup)
     : params_(params), drive_(read_log_drive(params)) {
+  setup.note_input(params.path.resolved);
   warn_of_stamps(drive_, params.path.resolved, setup.warn);
 }
 

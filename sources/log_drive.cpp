@@ -101,11 +101,7 @@ void describe(ParamVisitor& v, LogParams& p) {
 std::vector<double> path_lengths(const std::vector<CarmenScan>& scans) {
   std::vector<double> lengths(scans.size(), 0.0);
   for (std::size_t i = 1; i < scans.size(); ++i) {
-    const CarmenScan& a = scans[i - 1];
-    const CarmenScan& b = scans[i];
-    lengths[i] = lengths[i - 1] + (a.map_from_robot && b.map_from_robot
-                                       ? distance(*a.map_from_robot, *b.map_from_robot)
-                                       : distance(a.odom_from_robot, b.odom_from_robot));
+    lengths[i] = lengths[i - 1] + distance(scans[i - 1].odom_from_robot, scans[i].odom_from_robot);
   }
   return lengths;
 }

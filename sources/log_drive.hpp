@@ -44,8 +44,7 @@ struct LogDrive {
 /// laser, or a segment without scans.
 [[nodiscard]] LogDrive read_log_drive(const LogParams& params);
 
-/// Distance driven from the first scan to each, m; by reference poses between two scans that have them, else
-/// by odometry.
+/// Distance driven from the first scan to each, m, as the wheels have it: reference poses jump where they were corrected.
 [[nodiscard]] std::vector<double> path_lengths(const std::vector<CarmenScan>& scans);
 
 /// The scan in the robot's frame: readings below min_range say nothing, readings of max_range or more,

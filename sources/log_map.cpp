@@ -178,6 +178,10 @@ void describe(ParamVisitor& v, LogMap::Params& p) {
            .choices = {"mean", "centre"}});
 }
 
+LogMap::LogMap(const Params& params, const SourceSetup& setup) : params_(params) {
+  setup.note_input(params.log.path.resolved);
+}
+
 MapData LogMap::load() {
   const std::string file = params_.log.path.resolved.string();
   const std::vector<PlacedScan> placed = placed_scans(read_log_drive(params_.log), params_);

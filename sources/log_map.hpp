@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
 #include "sources/log_drive.hpp"
 
@@ -20,7 +21,7 @@ class LogMap final : public MapSource {
     std::string points = "mean";
   };
 
-  explicit LogMap(const Params& params) : params_(params) {}
+  LogMap(const Params& params, const SourceSetup& setup);
 
   /// Throws ConfigError for an unusable log, scans without reference pose, a map too large to hold, no
   /// occupied cell.

@@ -2,12 +2,15 @@
 
 #include "sources/carmen_log.hpp"
 #include "sources/log_map.hpp"
+#include "sources/simulation.hpp"
 
 namespace glocal {
 
 void register_sources(Catalog& catalog) {
   catalog.observation_sources.add<CarmenLog>("carmen_log", "A drive recorded as a CARMEN log.");
+  catalog.observation_sources.add<Simulation>("simulation", "A drive through a simulated world.");
   catalog.map_sources.add<LogMap>("log_map", "A map from the reference poses of a CARMEN log.");
+  catalog.map_sources.add<SimulatedMap>("simulation", "The map of a simulated world.");
 }
 
 }  // namespace glocal

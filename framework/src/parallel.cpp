@@ -1,5 +1,6 @@
 #include "glocal/parallel.hpp"
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -10,6 +11,9 @@ void parallel_for(int threads, std::size_t n, const std::function<void(std::size
     for (std::size_t i = 0; i < n; ++i) work(i);
     return;
   }
+  // TBB keeps to the number of processors unless it is told otherwise; users may ask for more.
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
   oneapi::tbb::task_arena arena(threads);
   arena.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, n, work); });
 }

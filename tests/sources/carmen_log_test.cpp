@@ -73,12 +73,12 @@ TEST(CarmenLog, TakesSegmentsByShareOfThePath) {
   EXPECT_THAT(segments, ElementsAre(0, 0, 1, 1, 1));
 }
 
-TEST(CarmenLog, MeasuresThePathByReferencePosesWhereThereAreSome) {
+TEST(CarmenLog, MeasuresThePathByOdometry) {
   const test::TempFolder folder;
   std::string log;
-  for (int i = 0; i < 5; ++i) {
-    // Odometry says 1 m each step, the reference 1 m for the first two steps and 3 m for the others.
-    log += "TRUEPOS " + std::to_string(i <= 2 ? i : 3 * i - 4) + " 0 0 0 0 0 0 h 0\n" + flaser(i, 0.0, i);
+  for (const int x : {0, 1, 2, 5, 8}) {
+    // The reference poses jump back and forth, as corrected ones may.
+    log += "TRUEPOS " + std::to_string(x % 2) + " 0 0 0 0 0 0 h 0\n" + flaser(x, 0.0, x);
   }
   LogParams params = params_for(folder.write("a.log", log));
   EXPECT_THAT(path_lengths(read_carmen_log(params.path.resolved)), ElementsAre(0, 1, 2, 5, 8));
@@ -199,7 +199,7 @@ TEST_P(SharedLog, IsWhatItsDescriptionSays) {
   const auto scans = read_carmen_log(file);
   EXPECT_EQ(scans.size(), GetParam().scans);
   EXPECT_EQ(scans.front().ranges.size(), GetParam().beams);
-  EXPECT_NEAR(path_lengths(scans).back(), GetParam().path, 0.5);
+  EXPECT_NEAR(path_lengths(scans).back(), GetParam().path, 1.0);
   EXPECT_TRUE(scans.back().map_from_robot);
 }
 

@@ -20,6 +20,7 @@ struct TrialsConfig {
   int every_scan = 0;
   bool whole = false;
   int max_steps = 60;
+  int min_steps = 1;
   double within_map_m = 0.0;
 };
 void describe(ParamVisitor& v, TrialsConfig& p);

@@ -69,6 +69,8 @@ void describe(ParamVisitor& v, TrialsConfig& p) {
   v.field("max_steps", p.max_steps,
           {.doc = "A trial without a declaration ends after so many steps; 0: at the end of the drive.",
            .min = 0.0});
+  v.field("min_steps", p.min_steps,
+          {.doc = "Only starts with at least so many observations left in their segment count.", .min = 1.0});
   v.field("within_map_m", p.within_map_m,
           {.doc = "Only starts at most this far from where the map was recorded count; 0: all.",
            .unit = "m",

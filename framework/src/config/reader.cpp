@@ -181,7 +181,7 @@ class MapReader final : public UniformVisitor<MapReader> {
                                   ? "a map with " + std::to_string(node.entries.size()) + " keys"
                                   : name_of(node);
       refuse(node.place, std::string(name),
-             "expected the name of a " + registry.kind() + ", alone or as `name: {parameters}`, got " + got +
+             "expected one " + registry.kind() + ", its name or `name: {parameters}`, got " + got +
                  others(registry));
       return;
     }

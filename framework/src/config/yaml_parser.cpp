@@ -19,11 +19,28 @@ constexpr std::size_t max_depth = 32;
 /// Thrown to leave the parser once nothing more is to be learned from the text.
 struct Stop {};
 
+/// Whether text that begins with a quote has its other quote (text that begins otherwise needs none).
+bool is_closed(std::string_view text) {
+  const char quote = text.empty() ? '\0' : text.front();
+  if (quote != '"' && quote != '\'') return true;
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    const bool doubled = quote == '\'' && text.substr(i).starts_with("''");
+    const bool escaped = quote == '"' && text[i] == '\\';
+    if (doubled || escaped) {
+      ++i;
+    } else if (text[i] == quote) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Builds the tree from yaml-cpp's events. (Its own tree keeps duplicate keys silently and forgets places.)
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  TreeBuilder(std::shared_ptr<const Origin> origin, bool with_lines, std::vector<Fault>& faults)
-      : origin_(std::move(origin)), with_lines_(with_lines), faults_(&faults) {}
+  TreeBuilder(std::string_view source, std::shared_ptr<const Origin> origin, bool with_lines,
+              std::vector<Fault>& faults)
+      : source_(source), origin_(std::move(origin)), with_lines_(with_lines), faults_(&faults) {}
 
   [[nodiscard]] std::optional<Node> take_root() { return std::move(root_); }
 
@@ -34,7 +51,8 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (!root_) return;
-    report(place(mark), "only one document is allowed; remove it from here on");
+    report(place(mark),
+           "only one document is allowed, and another begins here (by '---', or by wrong indentation?)");
     throw Stop{};
   }
   void OnDocumentEnd() override {}
@@ -53,6 +71,7 @@ class TreeBuilder final : public YAML::EventHandler {
                 const std::string& value) override {
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
+    if (tag == "!") check_quotes(mark);
     add({.kind = NodeKind::scalar, .place = place(mark), .text = value, .quoted = tag == "!"});
   }
 
@@ -108,6 +127,8 @@ class TreeBuilder final : public YAML::EventHandler {
       top.key = check_key(std::move(node));
     } else {
       const Key key = *std::exchange(top.key, std::nullopt);
+      // yaml-cpp places what is not there at whatever comes next.
+      if (node.kind == NodeKind::null) node.place = key.place;
       if (!key.dropped) top.node.entries.push_back({key.text, key.place, std::move(node)});
     }
   }
@@ -143,6 +164,17 @@ class TreeBuilder final : public YAML::EventHandler {
     report(place(mark), at_path("tags are not supported; remove '" + tag + "'"));
   }
 
+  /// yaml-cpp lets the end of the file close a quote, and takes the tag `!` for one.
+  void check_quotes(const YAML::Mark& mark) {
+    const std::string_view text = source_.substr(static_cast<std::size_t>(mark.pos));
+    if (text.starts_with('!')) {
+      report(place(mark), at_path("tags are not supported; remove '!'"));
+    } else if (!is_closed(text)) {
+      report(place(mark), "not valid YAML: the quote that begins here is not closed");
+      throw Stop{};
+    }
+  }
+
   /// The message with the path of the collection it is found in.
   [[nodiscard]] std::string at_path(const std::string& message) const {
     std::string path;
@@ -157,6 +189,7 @@ class TreeBuilder final : public YAML::EventHandler {
     faults_->push_back(fault_at(where, std::move(message)));
   }
 
+  std::string_view source_;
   std::shared_ptr<const Origin> origin_;
   bool with_lines_;
   std::vector<Fault>* faults_;
@@ -176,7 +209,7 @@ std::string hint(const std::string& message) {
       {YAML::ErrorMsg::EOF_IN_SCALAR, "is a closing quote missing?"},
       {YAML::ErrorMsg::MAP_VALUE, "check the indentation, and quote text that has ': ' in it"},
       {YAML::ErrorMsg::UNKNOWN_TOKEN, "quote text that begins with a special character"},
-      {YAML::ErrorMsg::FLOW_END, "is a '[' or '{' missing?"},
+      {YAML::ErrorMsg::FLOW_END, "brackets do not match"},
   }};
   for (const auto& [rule, advice] : hints) {
     if (message == rule) return " (" + std::string(advice) + ")";
@@ -186,9 +219,12 @@ std::string hint(const std::string& message) {
 
 std::optional<Node> parse(const std::string& text, const std::shared_ptr<const Origin>& origin,
                           bool with_lines, std::vector<Fault>& faults) {
-  TreeBuilder builder(origin, with_lines, faults);
+  // Without the byte order mark, yaml-cpp's positions are those in the text.
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  const std::string source = text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text;
+  TreeBuilder builder(source, origin, with_lines, faults);
   try {
-    std::istringstream stream(text);
+    std::istringstream stream(source);
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {
     }

@@ -56,6 +56,13 @@ std::vector<double> every(double distance_m, double length_m) {
   return places;
 }
 
+/// Observations from a start to the end of its segment.
+std::size_t steps_left(const Drive& drive, std::size_t start) {
+  std::size_t end = start;
+  while (end < drive.samples.size() && drive.samples[end].segment == drive.samples[start].segment) ++end;
+  return end - start;
+}
+
 std::vector<std::size_t> wanted_starts(const TrialsConfig& config, const Drive& drive) {
   if (config.whole) return {0};
   if (config.every_m > 0.0) return starts_at(every(config.every_m, drive.path_m.back()), drive);
@@ -71,15 +78,12 @@ std::vector<std::size_t> wanted_starts(const TrialsConfig& config, const Drive& 
 Drive read_drive(ObservationSource& source) {
   Drive drive;
   while (std::optional<Sample> sample = source.next()) drive.samples.push_back(std::move(*sample));
-  const bool by_reference = std::all_of(drive.samples.begin(), drive.samples.end(), has_reference);
-  const auto pose = [&](std::size_t i) {
-    const Sample& sample = drive.samples[i];
-    return by_reference ? *sample.map_from_robot : sample.observation.odom_from_robot;
-  };
   double path = 0.0;
   for (std::size_t i = 0; i < drive.samples.size(); ++i) {
-    if (i > 0 && drive.samples[i].segment == drive.samples[i - 1].segment)
-      path += distance(pose(i - 1), pose(i));
+    if (i > 0 && drive.samples[i].segment == drive.samples[i - 1].segment) {
+      path += distance(drive.samples[i - 1].observation.odom_from_robot,
+                       drive.samples[i].observation.odom_from_robot);
+    }
     drive.path_m.push_back(path);
   }
   return drive;

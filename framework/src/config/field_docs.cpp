@@ -1,0 +1,161 @@
+#include "config/field_docs.hpp"
+
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "config/nearest.hpp"
+#include "config/reader.hpp"
+#include "config/scalars.hpp"
+#include "config/uniform_visitor.hpp"
+
+namespace glocal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+constexpr FieldType type_of = FieldType::group;
+template <>
+constexpr FieldType type_of<bool> = FieldType::boolean;
+template <>
+constexpr FieldType type_of<int> = FieldType::whole;
+template <>
+constexpr FieldType type_of<std::uint64_t> = FieldType::unsigned_whole;
+template <>
+constexpr FieldType type_of<double> = FieldType::number;
+template <>
+constexpr FieldType type_of<std::string> = FieldType::text;
+template <>
+constexpr FieldType type_of<FilePath> = FieldType::path;
+template <>
+constexpr FieldType type_of<std::vector<double>> = FieldType::numbers;
+template <>
+constexpr FieldType type_of<std::vector<std::string>> = FieldType::texts;
+template <>
+constexpr FieldType type_of<std::vector<FilePath>> = FieldType::paths;
+template <>
+constexpr FieldType type_of<std::vector<std::array<double, 2>>> = FieldType::pairs;
+
+template <class T>
+Json to_json_value(const T& value) {
+  return value;
+}
+Json to_json_value(const FilePath& value) {
+  return value.text;
+}
+Json to_json_value(const std::vector<FilePath>& values) {
+  Json list = Json::array();
+  for (const FilePath& value : values) list.push_back(value.text);
+  return list;
+}
+
+class Documenter final : public UniformVisitor<Documenter> {
+ public:
+  template <class T>
+  void value(std::string_view name, T& v, const FieldInfo& info) {
+    add(name, type_of<T>, info, info.required ? Json() : to_json_value(v));
+  }
+
+  void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
+                const FieldInfo& info) override {
+    add(name, FieldType::strategy, info, choice.name.empty() ? Json() : Json(choice.name));
+    doc_.fields.back().registry = &registry;
+  }
+
+  void require(bool /*holds*/, std::string_view field, std::string_view rule) override {
+    doc_.rules.push_back({std::string(field), std::string(rule)});
+  }
+
+  [[nodiscard]] StructDoc take() { return std::move(doc_); }
+
+ private:
+  void group(std::string_view name, AnyParams& params, const FieldInfo& info) override {
+    add(name, FieldType::group, info, Json());
+    doc_.fields.back().inner = {document(params)};
+  }
+
+  void list(std::string_view name, AnyList& list, const FieldInfo& info) override {
+    Documenter items;
+    list.visit_default(items);
+    // A list that is not empty by default is too rare to be worth showing.
+    add(name, FieldType::list, info, list.size() == 0 && !info.required ? Json::array() : Json());
+    doc_.fields.back().inner = {items.take()};
+  }
+
+  void add(std::string_view name, FieldType type, const FieldInfo& info, Json default_value) {
+    doc_.fields.push_back({std::string(name), type, info, std::move(default_value), {}, nullptr});
+  }
+
+  StructDoc doc_;
+};
+
+std::string items_text(const FieldInfo& info) {
+  const bool bounded = info.max_items != std::numeric_limits<std::size_t>::max();
+  if (info.min_items == 0 && !bounded) return "";
+  if (info.min_items == info.max_items) return std::to_string(info.min_items) + " items";
+  if (!bounded) return "at least " + std::to_string(info.min_items) + " items";
+  if (info.min_items == 0) return "at most " + std::to_string(info.max_items) + " items";
+  return std::to_string(info.min_items) + " to " + std::to_string(info.max_items) + " items";
+}
+
+}  // namespace
+
+StructDoc document(AnyParams& params) {
+  Documenter documenter;
+  params.visit(documenter);
+  return documenter.take();
+}
+
+std::string type_name(const FieldDoc& field) {
+  switch (field.type) {
+    case FieldType::boolean:
+      return "true or false";
+    case FieldType::whole:
+    case FieldType::unsigned_whole:
+      return "whole number";
+    case FieldType::number:
+      return "number";
+    case FieldType::text:
+      return "text";
+    case FieldType::path:
+      return "path";
+    case FieldType::numbers:
+      return "list of numbers";
+    case FieldType::texts:
+      return "list of texts";
+    case FieldType::paths:
+      return "list of paths";
+    case FieldType::pairs:
+      return "list of pairs of numbers";
+    case FieldType::group:
+      return "map";
+    case FieldType::list:
+      return "list of maps";
+    case FieldType::strategy:
+      return field.registry->kind();
+  }
+  return "";
+}
+
+std::string default_text(const FieldDoc& field) {
+  if (field.info.required) return "required";
+  if (field.default_value.is_null()) return "";
+  if (field.type == FieldType::strategy) return field.default_value.get<std::string>();
+  // Doubles without the ".0" that JSON gives them.
+  if (field.default_value.is_number_float()) return to_yaml(field.default_value.get<double>());
+  return field.default_value.dump();
+}
+
+std::string allowed_text(const FieldDoc& field) {
+  if (field.registry != nullptr) return join(names_of(*field.registry));
+  if (!field.info.choices.empty()) return join(field.info.choices);
+  std::string bounds = bounds_text(field.info);
+  const std::string items = items_text(field.info);
+  if (field.type == FieldType::unsigned_whole && bounds.empty()) bounds = ">= 0";
+  // Without bounds there is still the unit to tell.
+  if (bounds.empty() && *field.info.unit != '\0') bounds = field.info.unit;
+  return items + (items.empty() || bounds.empty() ? "" : "; each ") + bounds;
+}
+
+}  // namespace glocal

@@ -1,0 +1,64 @@
+// A description as data: what help, schema and reference are written from.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "glocal/params.hpp"
+#include "glocal/registry.hpp"
+
+namespace glocal {
+
+enum class FieldType {
+  boolean,
+  whole,
+  unsigned_whole,
+  number,
+  text,
+  path,
+  numbers,
+  texts,
+  paths,
+  pairs,
+  group,
+  list,
+  strategy
+};
+
+struct StructDoc;
+
+struct FieldDoc {
+  std::string name;
+  FieldType type;
+  FieldInfo info;
+  nlohmann::ordered_json default_value;    ///< Null if there is none.
+  std::vector<StructDoc> inner;            ///< One, of a group or of a list's items; none for other types.
+  const RegistryBase* registry = nullptr;  ///< Of a strategy.
+};
+
+/// A rule that spans fields.
+struct RuleDoc {
+  std::string field;  ///< Empty if it is about all of the struct.
+  std::string rule;
+};
+
+struct StructDoc {
+  std::vector<FieldDoc> fields;
+  std::vector<RuleDoc> rules;
+};
+
+/// The struct's present values are the defaults.
+[[nodiscard]] StructDoc document(AnyParams& params);
+
+/// "whole number", "list of paths" …
+[[nodiscard]] std::string type_name(const FieldDoc& field);
+
+/// The default as it would be written in a file; "required" if the file must give it, empty if there is none
+/// to write.
+[[nodiscard]] std::string default_text(const FieldDoc& field);
+
+/// What values are allowed: bounds, choices, number of items, strategies. Empty if all are.
+[[nodiscard]] std::string allowed_text(const FieldDoc& field);
+
+}  // namespace glocal

@@ -1,0 +1,45 @@
+// Simulated observations, and the map that goes with them.
+#pragma once
+
+#include <optional>
+
+#include "glocal/catalog.hpp"
+#include "glocal/strategies.hpp"
+#include "sources/drive_simulator.hpp"
+
+namespace glocal {
+
+/// A drive through a simulated world.
+class Simulation final : public ObservationSource {
+ public:
+  using Params = DriveParams;
+
+  /// Throws ConfigError for a faulty world.
+  Simulation(const Params& params, const SourceSetup& setup);
+
+  [[nodiscard]] std::optional<Sample> next() override;
+
+ private:
+  DriveSimulator simulator_;
+};
+
+/// The map of a simulated world: its outlines, one cell thick, and the free space they enclose.
+class SimulatedMap final : public MapSource {
+ public:
+  struct Params {
+    FilePath world;
+    double resolution = 0.03;
+  };
+
+  SimulatedMap(const Params& params, const SourceSetup& setup);
+
+  /// Cells are centred on multiples of the resolution, so that walls that stand there are met exactly. Throws
+  /// ConfigError for a faulty world, or one without anything on the map.
+  [[nodiscard]] MapData load() override;
+
+ private:
+  Params params_;
+};
+void describe(ParamVisitor& v, SimulatedMap::Params& p);
+
+}  // namespace glocal

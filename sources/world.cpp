@@ -1,0 +1,235 @@
+#include "sources/world.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "glocal/error.hpp"
+#include "glocal/pose2.hpp"
+#include "glocal/yaml.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr double lengths = 1000.0;       // m; nothing is larger or farther away
+constexpr double least_clearance = 0.1;  // m, between way points and things
+
+void describe_presence(ParamVisitor& v, Presence& p) {
+  v.field("on_map", p.on_map, {.doc = "Whether the map shows it."});
+  v.field("in_reality", p.in_reality, {.doc = "Whether it is there when the robot drives."});
+}
+
+void add_polyline(Shapes& shapes, const std::vector<Position>& points, bool closed) {
+  for (std::size_t i = 1; i < points.size(); ++i) shapes.segments.push_back({points[i - 1], points[i]});
+  if (closed) shapes.segments.push_back({points.back(), points.front()});
+}
+
+std::vector<Position> corners_of(const Rectangle& r) {
+  const Pose2 world_from_box{r.centre[0], r.centre[1], radians(r.angle_deg)};
+  std::vector<Position> corners;
+  for (const Position& sign : {Position{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
+    const Pose2 corner = world_from_box * Pose2{sign[0] * r.size[0], sign[1] * r.size[1], 0.0};
+    corners.push_back({corner.x, corner.y});
+  }
+  return corners;
+}
+
+Shapes shapes_where(const World& world, bool Presence::*present) {
+  Shapes shapes;
+  for (const Wall& wall : world.walls) {
+    if (wall.presence.*present) add_polyline(shapes, wall.points, wall.closed);
+  }
+  for (const Rectangle& rectangle : world.rectangles) {
+    if (rectangle.presence.*present) add_polyline(shapes, corners_of(rectangle), true);
+  }
+  for (const RoundThing& circle : world.circles) {
+    if (circle.presence.*present)
+      shapes.circles.push_back({{circle.centre[0], circle.centre[1]}, circle.radius});
+  }
+  return shapes;
+}
+
+double distance(const Position& a, const Position& b) {
+  return std::hypot(b[0] - a[0], b[1] - a[1]);
+}
+
+Position between(const Position& a, const Position& b, double share) {
+  return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+}
+
+Position walked(const std::vector<Position>& points, double way) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += distance(points[i - 1], points[i]);
+  if (length <= 0.0) return points.front();
+  way = std::fmod(way, 2.0 * length);
+  if (way > length) way = 2.0 * length - way;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double leg = distance(points[i - 1], points[i]);
+    if (way <= leg && leg > 0.0) return between(points[i - 1], points[i], way / leg);
+    way -= leg;
+  }
+  return points.back();
+}
+
+bool inside(const World& world, const std::vector<Position>& points) {
+  // Without a usable size, only that is reported.
+  if (world.size.size() != 2) return true;
+  return std::all_of(points.begin(), points.end(), [&](const Position& p) {
+    return p[0] >= 0.0 && p[0] <= world.size[0] && p[1] >= 0.0 && p[1] <= world.size[1];
+  });
+}
+
+/// A robot cannot drive through walls.
+std::vector<Fault> check_drive(const World& world, const std::string& file) {
+  const Shapes reality = shapes_in_reality(world);
+  std::vector<Fault> faults;
+  for (std::size_t i = 1; i < world.way_points.size(); ++i) {
+    const Position& a = world.way_points[i - 1];
+    const Position& b = world.way_points[i];
+    const double leg = distance(a, b);
+    const Position direction{(b[0] - a[0]) / leg, (b[1] - a[1]) / leg};
+    if (leg > 0.0 && ray_distance(reality, a, direction) > leg && clearance(reality, b) >= least_clearance)
+      continue;
+    faults.push_back(
+        {file, 0, 0,
+         fmt::format("way_points[{}]: the way from [{}, {}] to [{}, {}] meets a wall or thing, or has no "
+                     "length; move the way point or the thing",
+                     i, a[0], a[1], b[0], b[1])});
+  }
+  return faults;
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, Wall& p) {
+  v.field("points", p.points,
+          {.doc = "Corners, [x, y] each.",
+           .unit = "m",
+           .min = -lengths,
+           .max = lengths,
+           .min_items = 2,
+           .required = true});
+  v.field("closed", p.closed, {.doc = "Whether a wall leads back from the last corner to the first."});
+  describe_presence(v, p.presence);
+}
+
+void describe(ParamVisitor& v, Rectangle& p) {
+  v.field("centre", p.centre,
+          {.doc = "[x, y]",
+           .unit = "m",
+           .min = -lengths,
+           .max = lengths,
+           .min_items = 2,
+           .max_items = 2,
+           .required = true});
+  v.field("size", p.size,
+          {.doc = "Length and width.",
+           .unit = "m",
+           .max = lengths,
+           .above = 0.0,
+           .min_items = 2,
+           .max_items = 2,
+           .required = true});
+  v.field("angle_deg", p.angle_deg,
+          {.doc = "Direction of the length.", .unit = "deg", .min = -360.0, .max = 360.0});
+  describe_presence(v, p.presence);
+}
+
+void describe(ParamVisitor& v, RoundThing& p) {
+  v.field("centre", p.centre,
+          {.doc = "[x, y]",
+           .unit = "m",
+           .min = -lengths,
+           .max = lengths,
+           .min_items = 2,
+           .max_items = 2,
+           .required = true});
+  v.field("radius", p.radius,
+          {.doc = "Of the outline.", .unit = "m", .max = lengths, .above = 0.0, .required = true});
+  describe_presence(v, p.presence);
+}
+
+void describe(ParamVisitor& v, Walker& p) {
+  v.field("points", p.points,
+          {.doc = "Way points, [x, y] each.",
+           .unit = "m",
+           .min = -lengths,
+           .max = lengths,
+           .min_items = 1,
+           .required = true});
+  v.field("speed", p.speed, {.doc = "How fast.", .unit = "m/s", .min = 0.0});
+  v.field("radius", p.radius,
+          {.doc = "Of the legs, as a laser sees them together.", .unit = "m", .max = lengths, .above = 0.0});
+}
+
+void describe(ParamVisitor& v, UnmappedArea& p) {
+  v.field("corners", p.corners,
+          {.doc = "Two opposite corners, [x, y] each.",
+           .unit = "m",
+           .min = -lengths,
+           .max = lengths,
+           .min_items = 2,
+           .max_items = 2,
+           .required = true});
+}
+
+void describe(ParamVisitor& v, World& p) {
+  v.field("size", p.size,
+          {.doc = "Extent in x and y; everything lies between [0, 0] and here.",
+           .unit = "m",
+           .max = lengths,
+           .above = 0.0,
+           .min_items = 2,
+           .max_items = 2,
+           .required = true});
+  v.field("walls", p.walls, {.doc = "Straight walls."});
+  v.field("rectangles", p.rectangles, {.doc = "Boxes, tables and the like."});
+  v.field("circles", p.circles, {.doc = "Round things."});
+  v.field("people", p.people, {.doc = "People who walk about when the robot drives."});
+  v.field("unmapped", p.unmapped, {.doc = "Rectangles of which the map says nothing."});
+  v.field("free_from", p.free_from,
+          {.doc = "Places from which free space spreads on the map, up to the walls it shows; [x, y] each.",
+           .unit = "m",
+           .min = -lengths,
+           .max = lengths,
+           .min_items = 1,
+           .required = true});
+  v.field(
+      "way_points", p.way_points,
+      {.doc =
+           "The drive: straight from place to place, turning on the spot; it begins looking to the second.",
+       .unit = "m",
+       .min = -lengths,
+       .max = lengths,
+       .min_items = 2,
+       .required = true});
+  v.require(inside(p, p.free_from), "free_from", "must lie within size");
+  v.require(inside(p, p.way_points), "way_points", "must lie within size");
+}
+
+World read_world(const std::filesystem::path& file) {
+  ParamsOf<World> world;
+  read_yaml(file, world);
+  std::vector<Fault> faults = check_drive(world.value, file.string());
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  return std::move(world.value);
+}
+
+Shapes shapes_on_map(const World& world) {
+  return shapes_where(world, &Presence::on_map);
+}
+
+Shapes shapes_in_reality(const World& world) {
+  return shapes_where(world, &Presence::in_reality);
+}
+
+std::vector<Circle> people_at(const World& world, double time) {
+  std::vector<Circle> circles;
+  for (const Walker& walker : world.people) {
+    circles.push_back({walked(walker.points, walker.speed * time), walker.radius});
+  }
+  return circles;
+}
+
+}  // namespace glocal

@@ -1,0 +1,117 @@
+#include "raters/consecutive_rating.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace glocal {
+namespace {
+
+struct Rated {
+  Pose2 pose;
+  double r;
+};
+
+/// A step with clusters at these robot poses.
+StepResult step(const std::vector<Rated>& rated, const Pose2& local_from_robot = {}, int generation = 0) {
+  StepResult result;
+  result.local_from_robot = local_from_robot;
+  result.local_map_generation = generation;
+  double sum = 0.0;
+  for (const Rated& one : rated) sum += one.r;
+  for (const Rated& one : rated) {
+    result.clusters.push_back({{0}, one.pose, 0, 0, 0});
+    result.ratings.push_back({one.r, one.r / sum});
+  }
+  return result;
+}
+
+const Rated good{{3.0, 4.0, 0.5}, 0.9};
+const Rated poor{{8.0, 1.0, 2.0}, 0.1};
+
+TEST(ConsecutiveRating, LocalizedInTheThirdConsecutiveStep) {
+  ConsecutiveRating rule({});
+  EXPECT_EQ(rule.judge(step({good, poor})).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step({good, poor})).kind, VerdictKind::searching);
+  const Verdict verdict = rule.judge(step({good, poor}));
+  EXPECT_EQ(verdict.kind, VerdictKind::localized);
+  EXPECT_EQ(verdict.map_from_robot, good.pose);
+  EXPECT_EQ(rule.judge(step({good, poor})).kind, VerdictKind::localized);
+}
+
+TEST(ConsecutiveRating, TheRatingMustBeLarger) {
+  ConsecutiveRating rule({});
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_NE(rule.judge(step({{good.pose, 0.8}, {poor.pose, 0.2}})).kind, VerdictKind::localized);
+  }
+}
+
+TEST(ConsecutiveRating, AStepWithoutClustersResetsTheCount) {
+  ConsecutiveRating rule({});
+  (void)rule.judge(step({good}));
+  (void)rule.judge(step({good}));
+  const Verdict empty = rule.judge(step({}));
+  EXPECT_EQ(empty.kind, VerdictKind::searching);
+  EXPECT_FALSE(empty.why.empty());
+  EXPECT_EQ(rule.judge(step({good})).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step({good})).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step({good})).kind, VerdictKind::localized);
+}
+
+TEST(ConsecutiveRating, TheSameClusterMovesWithTheRobot) {
+  // The robot drives 1 m a step, straight ahead: its pose in the map must do the same.
+  const auto drive = [](double sideways) {
+    ConsecutiveRating rule({});
+    Verdict verdict;
+    for (int i = 0; i < 3; ++i) {
+      verdict = rule.judge(step({{{5.0 + sideways * i, 2.0 + i, radians(90)}, 0.9}}, {1.0 * i, 0.0, 0.0}));
+    }
+    return verdict.kind;
+  };
+  EXPECT_EQ(drive(0.0), VerdictKind::localized);
+  EXPECT_EQ(drive(0.4), VerdictKind::localized);
+  EXPECT_EQ(drive(0.6), VerdictKind::searching);
+}
+
+TEST(ConsecutiveRating, ATurnedClusterIsAnother) {
+  ConsecutiveRating rule({});
+  (void)rule.judge(step({good}));
+  (void)rule.judge(step({good}));
+  EXPECT_EQ(rule.judge(step({{{3.0, 4.0, 0.5 + radians(20)}, 0.9}})).kind, VerdictKind::searching);
+}
+
+TEST(ConsecutiveRating, ANewLocalMapStartsOver) {
+  ConsecutiveRating rule({});
+  (void)rule.judge(step({good}));
+  (void)rule.judge(step({good}));
+  EXPECT_EQ(rule.judge(step({good}, {}, 1)).kind, VerdictKind::searching);
+}
+
+TEST(ConsecutiveRating, EquallyGoodPosesAreAmbiguous) {
+  ConsecutiveRating rule({});
+  const Rated other{{8.0, 1.0, 2.0}, 0.85};
+  const Rated repeated{{3.1, 4.1, 0.55}, 0.8};  // the same place as the first
+  const Rated weak{{1.0, 1.0, 1.0}, 0.5};
+  const Verdict verdict = rule.judge(step({good, other, repeated, weak}));
+  EXPECT_EQ(verdict.kind, VerdictKind::ambiguous);
+  EXPECT_THAT(verdict.candidates, testing::ElementsAre(good.pose, other.pose));
+}
+
+TEST(ConsecutiveRating, HundredsOfPosesSayNothing) {
+  ConsecutiveRating rule({});
+  std::vector<Rated> rated;
+  for (int i = 0; i < 300; ++i) rated.push_back({{1.0 * i, 0.0, 0.0}, 0.4});
+  const Verdict verdict = rule.judge(step(rated));
+  EXPECT_EQ(verdict.kind, VerdictKind::searching);
+  EXPECT_TRUE(verdict.candidates.empty());
+}
+
+TEST(ConsecutiveRating, ResetForgets) {
+  ConsecutiveRating rule({});
+  (void)rule.judge(step({good}));
+  (void)rule.judge(step({good}));
+  rule.reset();
+  EXPECT_EQ(rule.judge(step({good})).kind, VerdictKind::searching);
+}
+
+}  // namespace
+}  // namespace glocal
