@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "glocal/error.hpp"
+#include "sources/grid_points.hpp"
 #include "sources/simulation.hpp"
 
 namespace glocal {
@@ -113,13 +114,7 @@ MapData SimulatedMap::load() {
   }
   MapData map;
   map.grid = draw(world, params_.resolution);
-  for (int row = 0; row < map.grid.height; ++row) {
-    for (int column = 0; column < map.grid.width; ++column) {
-      if (map.grid.cell(column, row) != Cell::occupied) continue;
-      const Pose2 centre = map.grid.centre(column, row);
-      map.points.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y), 0.0F});
-    }
-  }
+  map.points = occupied_centres(map.grid);
   if (map.points.empty()) {
     throw ConfigError({{file, 0, 0, "has nothing on its map; give it walls with on_map: true"}});
   }

@@ -14,7 +14,14 @@ struct Context {
   int exit_code = 0;
 };
 
+void add_check(CLI::App& app, Context& context);
+void add_describe(CLI::App& app, Context& context);
+void add_list(CLI::App& app, Context& context);
+void add_map(CLI::App& app, Context& context);
 void add_mapping(CLI::App& app, Context& context);
+void add_reference(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
+void add_schema(CLI::App& app, Context& context);
+void add_simulate(CLI::App& app, Context& context);
 
 }  // namespace glocal::app

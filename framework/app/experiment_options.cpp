@@ -10,13 +10,16 @@ void ExperimentOptions::add_to(CLI::App& command) {
 }
 
 void ExperimentOptions::add_overrides_to(CLI::App& command) {
-  command.add_option("--set", set, "Change a value: localizer.matcher.ransam.iterations=50000 (repeatable)")
-      ->allow_extra_args(false);
+  add_set_to(command, "Change a value: localizer.matcher.ransam.iterations=50000 (repeatable)");
   command.add_option("--seed", seed, "Change the seed");
   command.add_option("--threads", threads, "Change the number of threads");
 }
 
-Experiment ExperimentOptions::read(const std::string& other_file, const Catalog& catalog) const {
+void ExperimentOptions::add_set_to(CLI::App& command, const std::string& help) {
+  command.add_option("--set", set, help)->allow_extra_args(false);
+}
+
+std::vector<Override> ExperimentOptions::overrides() const {
   std::vector<Override> overrides;
   std::vector<Fault> faults;
   for (const std::string& text : set) {
@@ -28,9 +31,14 @@ Experiment ExperimentOptions::read(const std::string& other_file, const Catalog&
     }
   }
   if (!faults.empty()) throw ConfigError(faults);
-  if (seed) overrides.emplace_back("seed", std::to_string(*seed));
-  if (threads) overrides.emplace_back("threads", std::to_string(*threads));
-  return read_experiment(other_file, overrides, catalog);
+  return overrides;
+}
+
+Experiment ExperimentOptions::read(const std::string& other_file, const Catalog& catalog) const {
+  std::vector<Override> all = overrides();
+  if (seed) all.emplace_back("seed", std::to_string(*seed));
+  if (threads) all.emplace_back("threads", std::to_string(*threads));
+  return read_experiment(other_file, all, catalog);
 }
 
 }  // namespace glocal::app

@@ -23,6 +23,12 @@ struct ExperimentOptions {
   /// Everything but FILE, for commands that take several files.
   void add_overrides_to(CLI::App& command);
 
+  /// Only --set, with a help text of its own.
+  void add_set_to(CLI::App& command, const std::string& help);
+
+  /// What was given with --set. Throws ConfigError for what is not of the form path=value.
+  [[nodiscard]] std::vector<Override> overrides() const;
+
   /// Throws ConfigError.
   [[nodiscard]] Experiment read(const Catalog& catalog) const { return read(file, catalog); }
   [[nodiscard]] Experiment read(const std::string& other_file, const Catalog& catalog) const;

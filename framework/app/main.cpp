@@ -1,12 +1,18 @@
 // glocal: finds out where a mobile robot is on a known map from range scans and odometry.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "clustering/register.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "local_mappers/register.hpp"
 #include "matchers/register.hpp"
 #include "raters/register.hpp"
 #include "sources/register.hpp"
+#include "version.hpp"
 
 namespace {
 
@@ -18,14 +24,31 @@ void register_all(glocal::Catalog& catalog) {
   glocal::register_raters(catalog);
 }
 
+void add_all(CLI::App& app, glocal::app::Context& context) {
+  using namespace glocal::app;
+  add_run(app, context);
+  add_check(app, context);
+  add_list(app, context);
+  add_describe(app, context);
+  add_schema(app, context);
+  add_reference(app, context);
+  add_simulate(app, context);
+  add_map(app, context);
+  add_mapping(app, context);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Answers go to stdout, everything else to stderr.
+  spdlog::set_default_logger(spdlog::stderr_color_mt("glocal"));
+  spdlog::set_pattern("%^%l%$: %v");
   glocal::app::Context context;
   register_all(context.catalog);
   CLI::App app("Finds out where a mobile robot is on a known map from range scans and odometry.", "glocal");
-  glocal::app::add_run(app, context);
-  glocal::app::add_mapping(app, context);
-  CLI11_PARSE(app, argc, argv);
-  return context.exit_code;
+  app.set_version_flag("--version",
+                       std::string("glocal ") + glocal::version + " (" + glocal::revision() + ")");
+  app.require_subcommand(1);
+  add_all(app, context);
+  return glocal::app::run_command_line(app, context, argc, argv);
 }

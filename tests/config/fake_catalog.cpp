@@ -3,9 +3,6 @@
 namespace glocal::test {
 namespace {
 
-struct Nothing {};
-void describe(ParamVisitor& /*v*/, Nothing& /*p*/) {}
-
 struct FakeIndexed final : Matcher {
   using Params = Nothing;
   explicit FakeIndexed(const Params& /*params*/) {}
@@ -31,15 +28,6 @@ struct FakeClusterer final : Clusterer {
   using Params = Nothing;
   explicit FakeClusterer(const Params& /*params*/) {}
   std::vector<Cluster> cluster(const std::vector<Hypothesis>& /*hypotheses*/, Rng& /*rng*/) override {
-    return {};
-  }
-};
-
-struct FakeRater final : Rater {
-  using Params = Nothing;
-  explicit FakeRater(const Params& /*params*/) {}
-  std::vector<Rating> rate(const std::vector<Cluster>& /*clusters*/,
-                           const std::vector<Hypothesis>& /*hypotheses*/) override {
     return {};
   }
 };
@@ -77,6 +65,13 @@ MatchResult FakeMatcher::match(const LocalMap& /*local*/, const Observation& /*l
   return {};
 }
 void FakeMatcher::reset() {}
+
+std::vector<Rating> FakeRater::rate(const std::vector<Cluster>& /*clusters*/,
+                                    const std::vector<Hypothesis>& /*hypotheses*/) {
+  return {};
+}
+
+void describe(ParamVisitor& /*v*/, Nothing& /*p*/) {}
 
 void describe(ParamVisitor& v, Wall& p) {
   v.field("from", p.from, {.doc = "Where it begins.", .unit = "m", .min_items = 2, .max_items = 2});

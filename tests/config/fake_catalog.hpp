@@ -65,6 +65,16 @@ struct FakeMatcher final : Matcher {
 };
 void describe(ParamVisitor& v, FakeMatcher::Params& p);
 
+struct Nothing {};
+void describe(ParamVisitor& v, Nothing& p);
+
+struct FakeRater final : Rater {
+  using Params = Nothing;
+  explicit FakeRater(const Params& /*params*/) {}
+  [[nodiscard]] std::vector<Rating> rate(const std::vector<Cluster>& clusters,
+                                         const std::vector<Hypothesis>& hypotheses) override;
+};
+
 /// Registers the above, and something without parameters for every stage under its default name.
 void register_fakes(Catalog& catalog);
 

@@ -1,6 +1,5 @@
 #include "config/field_docs.hpp"
 
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -90,15 +89,6 @@ class Documenter final : public UniformVisitor<Documenter> {
   StructDoc doc_;
 };
 
-std::string items_text(const FieldInfo& info) {
-  const bool bounded = info.max_items != std::numeric_limits<std::size_t>::max();
-  if (info.min_items == 0 && !bounded) return "";
-  if (info.min_items == info.max_items) return std::to_string(info.min_items) + " items";
-  if (!bounded) return "at least " + std::to_string(info.min_items) + " items";
-  if (info.min_items == 0) return "at most " + std::to_string(info.max_items) + " items";
-  return std::to_string(info.min_items) + " to " + std::to_string(info.max_items) + " items";
-}
-
 }  // namespace
 
 StructDoc document(AnyParams& params) {
@@ -151,7 +141,7 @@ std::string allowed_text(const FieldDoc& field) {
   if (field.registry != nullptr) return join(names_of(*field.registry));
   if (!field.info.choices.empty()) return join(field.info.choices);
   std::string bounds = bounds_text(field.info);
-  const std::string items = items_text(field.info);
+  const std::string items = count_text(field.info);
   if (field.type == FieldType::unsigned_whole && bounds.empty()) bounds = ">= 0";
   // Without bounds there is still the unit to tell.
   if (bounds.empty() && *field.info.unit != '\0') bounds = field.info.unit;

@@ -23,18 +23,9 @@ std::string about(const std::string& path, const std::string& message) {
   return path.empty() ? message : path + ": " + message;
 }
 
-std::string counted(std::size_t n) {
-  return std::to_string(n) + (n == 1 ? " item" : " items");
-}
-
-/// Empty if a list may have this many items.
-Refusal check_count(std::size_t n, const FieldInfo& info) {
-  if (n >= info.min_items && n <= info.max_items) return std::nullopt;
-  if (info.min_items == info.max_items)
-    return "expected " + counted(info.min_items) + ", got " + std::to_string(n);
-  if (n < info.min_items)
-    return "expected at least " + counted(info.min_items) + ", got " + std::to_string(n);
-  return "expected at most " + counted(info.max_items) + ", got " + std::to_string(n);
+/// Whether a list may have this many items.
+bool has_good_count(const Node& list, const FieldInfo& info) {
+  return list.items.size() >= info.min_items && list.items.size() <= info.max_items;
 }
 
 void read_struct(const Node& node, const std::string& path, AnyParams& params, std::vector<Fault>& faults);
@@ -168,9 +159,9 @@ class MapReader final : public UniformVisitor<MapReader> {
       refuse(node.place, what, "expected " + expected + ", got " + name_of(node));
       return false;
     }
-    const auto refusal = check_count(node.items.size(), info);
-    if (refusal) refuse(node.place, what, *refusal);
-    return !refusal;
+    if (has_good_count(node, info)) return true;
+    refuse(node.place, what, "expected " + count_text(info) + ", got " + std::to_string(node.items.size()));
+    return false;
   }
 
   void read_strategy(const Node& node, std::string_view name, StrategyChoice& choice,

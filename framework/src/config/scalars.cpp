@@ -150,6 +150,13 @@ Refusal resolve(const std::string& text, const std::filesystem::path& folder,
   return std::nullopt;
 }
 
+/// A bound as people write it: 100000000 rather than 1e+08.
+std::string plain(double value) {
+  constexpr double readable = 1e15;
+  const bool whole = std::trunc(value) == value && std::abs(value) < readable;
+  return whole ? std::to_string(static_cast<std::int64_t>(value)) : to_yaml(value);
+}
+
 bool is_plain_word(std::string_view text) {
   static constexpr std::array<std::string_view, 9> reserved = {"true", "false", "null", "yes", "no",
                                                                "on",   "off",   "y",    "n"};
@@ -238,16 +245,28 @@ Refusal take_value(const Node& node, const FieldInfo& info, FilePath& value) {
 
 std::string bounds_text(const FieldInfo& info) {
   const std::string unit = *info.unit == '\0' ? "" : " " + std::string(info.unit);
-  if (info.min == info.max) return to_yaml(info.min) + unit;
+  if (info.min == info.max) return plain(info.min) + unit;
   std::string low;
   if (std::isfinite(info.above)) {
-    low = "> " + to_yaml(info.above);
+    low = "> " + plain(info.above);
   } else if (std::isfinite(info.min)) {
-    low = ">= " + to_yaml(info.min);
+    low = ">= " + plain(info.min);
   }
-  const std::string high = std::isfinite(info.max) ? "<= " + to_yaml(info.max) : "";
+  const std::string high = std::isfinite(info.max) ? "<= " + plain(info.max) : "";
   if (low.empty() && high.empty()) return "";
   return low + (low.empty() || high.empty() ? "" : " and ") + high + unit;
+}
+
+std::string count_text(const FieldInfo& info) {
+  const bool unbounded = info.max_items == std::numeric_limits<std::size_t>::max();
+  if (unbounded) return info.min_items == 0 ? "" : "at least " + counted(info.min_items);
+  if (info.min_items == info.max_items) return counted(info.max_items);
+  if (info.min_items == 0) return "at most " + counted(info.max_items);
+  return std::to_string(info.min_items) + " to " + counted(info.max_items);
+}
+
+std::string counted(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " item" : " items");
 }
 
 std::string to_yaml(bool value) {

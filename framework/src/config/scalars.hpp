@@ -29,6 +29,11 @@ using Refusal = std::optional<std::string>;
 /// "> 0 m", ">= 1 and <= 256"; empty without bounds.
 [[nodiscard]] std::string bounds_text(const FieldInfo& info);
 
+/// "2 items", "at least 1 item", "1 to 3 items"; empty if a list may have any number of them.
+[[nodiscard]] std::string count_text(const FieldInfo& info);
+/// "1 item", "2 items".
+[[nodiscard]] std::string counted(std::size_t n);
+
 [[nodiscard]] std::string to_yaml(bool value);
 [[nodiscard]] std::string to_yaml(int value);
 [[nodiscard]] std::string to_yaml(std::uint64_t value);

@@ -97,15 +97,18 @@ std::vector<std::size_t> trial_starts(const TrialsConfig& config, const Drive& d
   std::vector<std::size_t> starts = wanted_starts(config, drive);
   starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
   const std::size_t wanted = starts.size();
-  std::erase_if(starts,
-                [&](std::size_t i) { return !within_map(drive.samples[i], map, config.within_map_m); });
+  std::erase_if(starts, [&](std::size_t i) {
+    return steps_left(drive, i) < static_cast<std::size_t>(config.min_steps) ||
+           !within_map(drive.samples[i], map, config.within_map_m);
+  });
   if (starts.empty()) {
     throw ConfigError(
         {{"", 0, 0,
-          fmt::format("trials: none of {} starts along the drive of {:.1f} m lies within {} m of the mapped "
-                      "area; use "
-                      "other starts, another segment of the drive, or a larger trials.within_map_m",
-                      wanted, drive.path_m.back(), config.within_map_m)}});
+          fmt::format(
+              "trials: none of {} starts along the drive of {:.1f} m lies within {} m of the mapped "
+              "area with at least {} observations left; use other starts, another segment of the drive, "
+              "a larger trials.within_map_m or a smaller trials.min_steps",
+              wanted, drive.path_m.back(), config.within_map_m, config.min_steps)}});
   }
   return starts;
 }

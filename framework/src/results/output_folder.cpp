@@ -1,15 +1,13 @@
 #include "results/output_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "results/file_io.hpp"
 
 namespace glocal {
 namespace {
@@ -21,30 +19,6 @@ constexpr const char* mark_of_results = "provenance.json";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
   throw RunError(fmt::format("{}: cannot write: {}", path.string(), reason));
-}
-
-[[noreturn]] void fail_with_errno(const fs::path& path) {
-  fail(path, std::strerror(errno));
-}
-
-/// Closes a file descriptor.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {
-    if (fd_ < 0) fail_with_errno(path);
-  }
-  ~Descriptor() { ::close(fd_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
-void sync(const fs::path& path) {
-  const Descriptor file(path, O_RDONLY);
-  if (::fsync(file.get()) != 0) fail_with_errno(path);
 }
 
 void check_free(const fs::path& path, bool replace) {
@@ -91,18 +65,12 @@ void OutputFolder::append(const fs::path& name, std::string_view content) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   if (error) fail(path_ / name, error.message());
-  const Descriptor out(file, O_WRONLY | O_CREAT | O_APPEND);
-  while (!content.empty()) {
-    const ssize_t written = ::write(out.get(), content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_with_errno(path_ / name);
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
+  append_to_file(file, content, path_ / name);
 }
 
 void OutputFolder::commit() {
-  for (const auto& entry : fs::recursive_directory_iterator(temporary_)) sync(entry.path());
-  sync(temporary_);
+  for (const auto& entry : fs::recursive_directory_iterator(temporary_)) sync_to_disk(entry.path());
+  sync_to_disk(temporary_);
   std::error_code error;
   // The check is repeated, as the run may have taken hours.
   const bool replaces = fs::exists(path_ / mark_of_results, error);
@@ -112,7 +80,7 @@ void OutputFolder::commit() {
   if (error) fail(path_, error.message());
   committed_ = true;
   if (replaces) fs::remove_all(old, error);
-  sync(path_.parent_path());
+  sync_to_disk(path_.parent_path());
 }
 
 }  // namespace glocal

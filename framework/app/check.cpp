@@ -1,0 +1,53 @@
+// glocal check: everything but running.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "experiment_options.hpp"
+#include "glocal/error.hpp"
+#include "pipeline/run.hpp"
+
+namespace glocal::app {
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  ExperimentOptions experiment;
+};
+
+void check(const std::string& file, const ExperimentOptions& options, const Catalog& catalog) {
+  const Experiment experiment = options.read(file, catalog);
+  const Prepared prepared = prepare(experiment, catalog, [](const std::string& text) { spdlog::warn(text); });
+  static_cast<void>(make_localizer(experiment, catalog, prepared));
+  fmt::print("{}: ok, {} map points, {} observations, {} trials\n", file, prepared.map->points().size(),
+             prepared.drive.samples.size(), prepared.starts.size());
+}
+
+void check_all(const CheckOptions& options, const Catalog& catalog) {
+  std::vector<Fault> faults;
+  for (const std::string& file : options.files) {
+    try {
+      check(file, options.experiment, catalog);
+    } catch (const ConfigError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+  }
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Context& context) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command =
+      app.add_subcommand("check", "Read experiments, load their maps and observations, but run nothing.");
+  command->add_option("FILE", options->files, "Experiment files (YAML)")->required();
+  options->experiment.add_overrides_to(*command);
+  command->callback([options, &context] { check_all(*options, context.catalog); });
+}
+
+}  // namespace glocal::app

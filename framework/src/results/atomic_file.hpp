@@ -1,0 +1,35 @@
+// Files that appear whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace glocal {
+
+/// Files that belong together. They are written under temporary names beside the final ones; commit() renames
+/// them in the order in which they were added. Without commit() nothing stays. Every failure to write throws
+/// RunError with path and reason.
+class AtomicFiles {
+ public:
+  /// Without `replace` files that are already there are refused.
+  explicit AtomicFiles(bool replace) : replace_(replace) {}
+  ~AtomicFiles();
+  AtomicFiles(const AtomicFiles&) = delete;
+  AtomicFiles& operator=(const AtomicFiles&) = delete;
+
+  /// Writes a file under its temporary name. Folders above it are made. Throws ConfigError if it exists and
+  /// may not be replaced.
+  void add(const std::filesystem::path& file, std::string_view content);
+  void commit();
+
+ private:
+  struct Pending {
+    std::filesystem::path file;
+    std::filesystem::path temporary;
+  };
+  bool replace_;
+  std::vector<Pending> pending_;
+};
+
+}  // namespace glocal

@@ -1,0 +1,230 @@
+#include "sources/image.hpp"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <charconv>
+#include <csetjmp>
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+#include "glocal/error.hpp"
+#include "sources/compressed_file.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr double max_pixels = 64e6;
+
+[[noreturn]] void fail(const std::filesystem::path& file, std::string message) {
+  throw ConfigError({{file.string(), 0, 0, std::move(message)}});
+}
+
+/// An image of this size, still black. Refuses what cannot be held, before it takes any memory.
+Image blank(const std::filesystem::path& file, double width, double height) {
+  if (width < 1.0 || height < 1.0)
+    fail(file, fmt::format("is an empty image ({} x {} pixels)", width, height));
+  if (width * height > max_pixels) {
+    fail(file,
+         fmt::format(
+             "is too large to hold ({} x {} pixels, at most 64 million); crop it or lower its resolution",
+             width, height));
+  }
+  Image image{static_cast<int>(width), static_cast<int>(height), {}, {}};
+  image.grey.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  return image;
+}
+
+/// Reads PGM as netpbm describes it.
+class PgmReader {
+ public:
+  PgmReader(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+
+  Image read() {
+    const bool binary = bytes_[1] == '5';
+    at_ = 2;
+    const int width = number("width");
+    const int height = number("height");
+    const int maximum = number("maximum grey");
+    if (maximum < 1 || maximum > 65535)
+      fail(file_, fmt::format("maximum grey must be 1 to 65535, not {}", maximum));
+    Image image = blank(file_, width, height);
+    if (binary) {
+      ++at_;  // A single blank ends the header.
+      read_binary(image, maximum);
+    } else {
+      for (float& grey : image.grey) grey = scaled(number("pixels"), maximum);
+    }
+    return image;
+  }
+
+ private:
+  void skip_blanks_and_comments() {
+    while (at_ < bytes_.size()) {
+      if (bytes_[at_] == '#') {
+        at_ = std::min(bytes_.find('\n', at_), bytes_.size());
+      } else if (std::string_view(" \t\r\n\v\f").find(bytes_[at_]) == std::string_view::npos) {
+        return;
+      } else {
+        ++at_;
+      }
+    }
+  }
+
+  int number(const char* what) {
+    skip_blanks_and_comments();
+    if (at_ >= bytes_.size()) truncated(what);
+    int value = 0;
+    const char* end = bytes_.data() + bytes_.size();
+    const auto [stop, error] = std::from_chars(bytes_.data() + at_, end, value);
+    if (error == std::errc::result_out_of_range) value = std::numeric_limits<int>::max();
+    if (error == std::errc::invalid_argument || value < 0)
+      fail(file_, fmt::format("has no number where its {} should be", what));
+    at_ = static_cast<std::size_t>(stop - bytes_.data());
+    return value;
+  }
+
+  void read_binary(Image& image, int maximum) {
+    const std::size_t size = maximum < 256 ? 1 : 2;
+    if (bytes_.size() < at_ || (bytes_.size() - at_) / size < image.grey.size()) truncated("pixels");
+    const auto* bytes = reinterpret_cast<const unsigned char*>(bytes_.data()) + at_;
+    for (float& grey : image.grey) {
+      const int value = size == 1 ? bytes[0] : bytes[0] * 256 + bytes[1];
+      grey = scaled(value, maximum);
+      bytes += size;
+    }
+  }
+
+  static float scaled(int value, int maximum) {
+    return static_cast<float>(std::min(value, maximum)) / static_cast<float>(maximum);
+  }
+
+  [[noreturn]] void truncated(const char* what) const {
+    fail(file_, fmt::format("ends before the end of its {}: the image is truncated; get a fresh copy", what));
+  }
+
+  std::filesystem::path file_;
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+/// Reads PNG with libpng, whose errors must not leave through C code: they are kept, and jump back.
+class PngReader {
+ public:
+  PngReader(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngReader::on_error, &PngReader::on_warning);
+    info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
+    if (info_ == nullptr) throw RunError(file.string() + ": libpng cannot start");
+    png_set_read_fn(png_, this, &PngReader::on_read);
+  }
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  Image read() {
+    if (!read_header()) refuse();
+    Image image = blank(file_, png_get_image_width(png_, info_), png_get_image_height(png_, info_));
+    channels_ = png_get_channels(png_, info_);
+    const auto height = static_cast<std::size_t>(image.height);
+    const std::size_t stride = png_get_rowbytes(png_, info_);
+    pixels_.resize(stride * height);
+    rows_.resize(height);
+    for (std::size_t row = 0; row < height; ++row) rows_[row] = pixels_.data() + row * stride;
+    if (!read_pixels()) refuse();
+    convert(image);
+    return image;
+  }
+
+ private:
+  /// Every kind of image becomes 16-bit grey or RGB, with alpha or without. Between setjmp and the calls that
+  /// may jump there are no objects with destructors.
+  bool read_header() {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_read_info(png_, info_);
+    png_set_expand_16(png_);
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    return true;
+  }
+  bool read_pixels() {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_read_image(png_, rows_.data());
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+  void convert(Image& image) {
+    const bool alpha = channels_ % 2 == 0;
+    const int colours = alpha ? channels_ - 1 : channels_;
+    if (alpha) image.opacity.resize(image.grey.size());
+    const unsigned char* at = pixels_.data();
+    const auto sample = [&at] {
+      const int value = at[0] * 256 + at[1];
+      at += 2;
+      return static_cast<float>(value) / 65535.0F;
+    };
+    for (std::size_t i = 0; i < image.grey.size(); ++i) {
+      float sum = 0.0F;
+      for (int c = 0; c < colours; ++c) sum += sample();
+      image.grey[i] = sum / static_cast<float>(colours);
+      if (alpha) image.opacity[i] = sample();
+    }
+  }
+
+  [[noreturn]] void refuse() const {
+    fail(file_, fmt::format("is a damaged or truncated PNG image ({}); get a fresh copy", error_));
+  }
+
+  static void on_error(png_structp png, png_const_charp message) {
+    static_cast<PngReader*>(png_get_error_ptr(png))->error_ = message;
+    png_longjmp(png, 1);
+  }
+  static void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
+  static void on_read(png_structp png, png_bytep out, std::size_t n) {
+    auto* self = static_cast<PngReader*>(png_get_io_ptr(png));
+    if (self->bytes_.size() < n) png_error(png, "the file ends early");
+    std::memcpy(out, self->bytes_.data(), n);
+    self->bytes_.remove_prefix(n);
+  }
+
+  std::filesystem::path file_;
+  std::string_view bytes_;
+  std::string error_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+  int channels_ = 0;
+  std::vector<unsigned char> pixels_;
+  std::vector<png_bytep> rows_;
+};
+
+}  // namespace
+
+Image read_image(const std::filesystem::path& file) {
+  const std::string bytes = read_decompressed(file);
+  if (bytes.starts_with("P5") || bytes.starts_with("P2")) return PgmReader(file, bytes).read();
+  if (bytes.starts_with("\x89PNG")) return PngReader(file, bytes).read();
+  fail(file, "is neither a PGM (P2, P5) nor a PNG image; convert it to one of these");
+}
+
+std::string pgm(const ByteImage& image) {
+  return fmt::format("P5\n{} {}\n255\n", image.width, image.height) + image.grey;
+}
+
+std::string png(const ByteImage& image) {
+  png_image description{};
+  description.version = PNG_IMAGE_VERSION;
+  description.width = static_cast<png_uint_32>(image.width);
+  description.height = static_cast<png_uint_32>(image.height);
+  description.format = PNG_FORMAT_GRAY;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(description);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&description, bytes.data(), &size, 0, image.grey.data(), 0, nullptr) == 0) {
+    throw RunError(std::string("cannot write a PNG image: ") + description.message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace glocal

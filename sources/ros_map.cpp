@@ -1,0 +1,115 @@
+#include "sources/ros_map.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "glocal/yaml.hpp"
+#include "sources/grid_points.hpp"
+#include "sources/image.hpp"
+
+namespace glocal {
+namespace {
+
+/// What map savers paint unknown cells with. Its darkness of 0.19608 lies below some files' free_thresh of
+/// 0.25, which would make everything unknown free.
+constexpr float saved_unknown = 205.0F;
+
+bool is_saved_unknown(float grey) {
+  return std::round(grey * 255.0F) == saved_unknown;
+}
+
+Cell by_thresholds(double occupancy, const RosMapFile& file) {
+  if (occupancy > file.occupied_thresh) return Cell::occupied;
+  return occupancy < file.free_thresh ? Cell::free : Cell::unknown;
+}
+
+double occupancy(double brightness, const RosMapFile& file) {
+  return file.negate != 0 ? brightness : 1.0 - brightness;
+}
+
+/// An alpha channel counts as a fourth colour.
+Cell trinary(float grey, const float* opacity, const RosMapFile& file) {
+  if (file.negate == 0 && is_saved_unknown(grey)) return Cell::unknown;
+  const double brightness = opacity == nullptr ? grey : (3.0 * grey + *opacity) / 4.0;
+  return by_thresholds(occupancy(brightness, file), file);
+}
+
+/// What is not quite opaque is unknown.
+Cell scale(float grey, const float* opacity, const RosMapFile& file) {
+  if (opacity != nullptr && *opacity < 1.0F) return Cell::unknown;
+  return by_thresholds(occupancy(grey, file), file);
+}
+
+/// Byte values up to 100 are per cent of occupancy, all others unknown.
+Cell raw(float grey, const RosMapFile& file) {
+  const double percent = std::round(grey * 255.0);
+  return percent > 100.0 ? Cell::unknown : by_thresholds(percent / 100.0, file);
+}
+
+Cell classify(const Image& image, std::size_t i, const RosMapFile& file) {
+  const float* opacity = image.opacity.empty() ? nullptr : &image.opacity[i];
+  if (file.mode == "raw") return raw(image.grey[i], file);
+  return file.mode == "scale" ? scale(image.grey[i], opacity, file) : trinary(image.grey[i], opacity, file);
+}
+
+OccupancyGrid grid_of(const Image& image, const RosMapFile& file) {
+  OccupancyGrid grid{{file.origin[0], file.origin[1], wrap_angle(file.origin[2])},
+                     file.resolution,
+                     image.width,
+                     image.height,
+                     std::vector<Cell>(image.grey.size())};
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = 0; column < grid.width; ++column) {
+      grid.cell(column, row) = classify(image, image.index(column, grid.height - 1 - row), file);
+    }
+  }
+  return grid;
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, RosMapFile& p) {
+  v.field("image", p.image, {.doc = "PGM or PNG image; its lowest row is the lowest y.", .required = true});
+  v.field("resolution", p.resolution,
+          {.doc = "Side of a pixel.", .unit = "m", .max = 100.0, .above = 0.0, .required = true});
+  v.field("origin", p.origin,
+          {.doc = "Pose of the lower left pixel's corner: x, y (m), yaw (rad).",
+           .min = -1e6,
+           .max = 1e6,
+           .min_items = 3,
+           .max_items = 3,
+           .required = true});
+  v.field("negate", p.negate, {.doc = "1: light means occupied.", .min = 0.0, .max = 1.0});
+  v.field("occupied_thresh", p.occupied_thresh,
+          {.doc = "Darker than this is occupied.", .min = 0.0, .max = 1.0});
+  v.field("free_thresh", p.free_thresh, {.doc = "Lighter than this is free.", .min = 0.0, .max = 1.0});
+  v.field("mode", p.mode, {.doc = "How pixels become cells.", .choices = {"trinary", "scale", "raw"}});
+  v.require(p.free_thresh < p.occupied_thresh, "free_thresh", "must be below occupied_thresh");
+}
+
+void describe(ParamVisitor& v, RosMap::Params& p) {
+  v.field("path", p.path, {.doc = "YAML file of a ROS map server.", .required = true});
+}
+
+RosMap::RosMap(const Params& params, const SourceSetup& setup) : name_(params.path.resolved.string()) {
+  ParamsOf<RosMapFile> file;
+  read_yaml(params.path.resolved, file);
+  file_ = std::move(file.value);
+  setup.note_input(params.path.resolved);
+  setup.note_input(file_.image.resolved);
+}
+
+MapData RosMap::load() {
+  MapData map;
+  map.grid = grid_of(read_image(file_.image.resolved), file_);
+  map.points = occupied_centres(map.grid);
+  if (map.points.empty()) {
+    throw ConfigError(
+        {{name_, 0, 0,
+          "its image has no occupied cell; check negate, occupied_thresh and mode, or take another image"}});
+  }
+  return map;
+}
+
+}  // namespace glocal

@@ -1,0 +1,114 @@
+// The program as its users meet it: answers on stdout, faults on stderr, exit codes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "config/temporary_folder.hpp"
+
+namespace glocal::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Answer {
+  int exit_code;
+  std::string out;
+  std::string err;
+};
+
+class CommandLine : public testing::Test {
+ protected:
+  [[nodiscard]] Answer run(const std::string& arguments) const {
+    const std::string out = folder_.path() / "out";
+    const std::string err = folder_.path() / "err";
+    const int status = std::system((GLOCAL_PROGRAM " " + arguments + " >" + out + " 2>" + err).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
+  }
+
+  static std::string content(const std::string& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CommandLine, WithoutArgumentsShowsHelp) {
+  const Answer answer = run("");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.out, HasSubstr("Subcommands:"));
+  EXPECT_EQ(answer.err, "");
+}
+
+TEST_F(CommandLine, VersionNamesTheRevision) {
+  const Answer answer = run("--version");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.out, testing::MatchesRegex("glocal [0-9]+\\.[0-9]+\\.[0-9]+ \\(.+\\)\n"));
+}
+
+TEST_F(CommandLine, WrongUsageEndsWith2AndSuggests) {
+  const Answer unknown = run("lst");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_EQ(unknown.out, "");
+  EXPECT_EQ(unknown.err, "error: unknown command 'lst' (did you mean 'list'?)\n");
+  EXPECT_EQ(run("list matchr").err, "error: unknown kind 'matchr' (did you mean 'matcher'?)\n1 error\n");
+  EXPECT_EQ(run("list matchr").exit_code, 2);
+  EXPECT_EQ(run("describe ransan").err,
+            "error: nothing is called 'ransan' (did you mean 'ransam'?)\n1 error\n");
+  EXPECT_EQ(run("describe").exit_code, 2);
+  EXPECT_EQ(run("list --frobnicate").exit_code, 2);
+  EXPECT_EQ(run("--frobnicate").exit_code, 2);
+}
+
+TEST_F(CommandLine, ListsAndDescribesStrategies) {
+  EXPECT_THAT(run("list").out, HasSubstr("\nmatcher\n  "));
+  EXPECT_THAT(run("list matcher").out, HasSubstr("  ransam  "));
+  EXPECT_THAT(run("describe ransam").out, HasSubstr("contact_epsilon: number (> 0 m), default 0.1\n"));
+  EXPECT_THAT(run("describe experiment").out,
+              HasSubstr("threads: whole number (>= 1 and <= 256), default 1\n"));
+}
+
+TEST_F(CommandLine, SchemaIsJson) {
+  const auto schema = nlohmann::json::parse(run("schema").out);
+  EXPECT_TRUE(schema["$defs"].contains("matcher"));
+}
+
+TEST_F(CommandLine, CheckReportsAllFaultsOfAllFiles) {
+  const std::string a = folder_.write("a.yaml", "schema: 1\nname: a\nsede: 3\n");
+  const std::string b = folder_.write("b.yaml", "schema: 2\n");
+  const Answer answer = run("check " + a + " " + b);
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_EQ(answer.out, "");
+  EXPECT_THAT(answer.err, StartsWith(a + ":1:1: error: missing key 'map': "));
+  EXPECT_THAT(answer.err, HasSubstr(a + ":3:1: error: unknown key 'sede' (did you mean 'seed'?)\n"));
+  EXPECT_THAT(answer.err, HasSubstr(b + ":1:9: error: schema: 2 is out of range, must be 1\n"));
+  EXPECT_THAT(answer.err, testing::EndsWith("\n9 errors\n"));
+}
+
+TEST_F(CommandLine, CheckTakesOverrides) {
+  const std::string file = folder_.write("a.yaml", "schema: 1\n");
+  EXPECT_THAT(
+      run("check " + file + " --set localizer.matcher.ransam.iterations=0").err,
+      HasSubstr("--set localizer.matcher.ransam.iterations=0: error: localizer.matcher.ransam: iterations: 0 "
+                "is out of range, must be >= 1"));
+  EXPECT_THAT(run("check " + file + " --set seed").err,
+              HasSubstr("--set seed: error: not of the form path=value\n"));
+}
+
+TEST_F(CommandLine, LostAnswerIsAFailure) {
+  const int status = std::system(GLOCAL_PROGRAM " list >/dev/full 2>/dev/null");
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+}
+
+}  // namespace
+}  // namespace glocal::test
