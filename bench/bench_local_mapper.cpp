@@ -58,7 +58,8 @@ std::vector<Observation> drive(int keyframes) {
 /// The last 20 key frames (5 m) of a drive of so many metres.
 void last_keyframes_of_a_drive(benchmark::State& state) {
   constexpr std::size_t measured = 20;
-  const std::vector<Observation> observations = drive(static_cast<int>(state.range(0) / keyframe_m));
+  const std::vector<Observation> observations =
+      drive(static_cast<int>(static_cast<double>(state.range(0)) / keyframe_m));
   ScanMatching mapper({});
   for (auto _ : state) {
     state.PauseTiming();

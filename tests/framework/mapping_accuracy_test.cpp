@@ -110,7 +110,8 @@ TEST(MappingAccuracy, NoWindowRunsAcrossAnInterruption) {
     EXPECT_NEAR(window.error.translation_m, 0.0, 1e-9);
     EXPECT_FALSE(window.failed.has_value());
   }
-  // From 0 to 24.5 m starts at 0, 5, 10; from there to 39.5 m starts at 25 and 29.5 or later, if 10 m follow.
+  // The first 24.5 m have starts at 0, 5 and 10 m with 10 m before them; the 15 m after the gap have one at
+  // 25 m.
   EXPECT_THAT(accuracy.windows, SizeIs(4));
 }
 
