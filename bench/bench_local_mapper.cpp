@@ -16,13 +16,15 @@ namespace {
 constexpr double keyframe_m = 0.25;
 
 /// A corridor 3 m wide with a pier every 2 m on the left and every 3 m on the right, seen by a laser with 361
-/// beams. The piers' depths come from a hash, so that no two places look the same.
+/// beams. The piers' depths come from a hash and repeat every 30 m, so that drives that are longer by a
+/// multiple of that end in the same surroundings.
 double wall_distance(double x, bool left) {
-  const double spacing = left ? 2.0 : 3.0;
-  const double number = std::floor(x / spacing);
+  const int spacing = left ? 2 : 3;
+  const int number = static_cast<int>(std::floor(x / spacing));
   const bool pier = x - number * spacing < 0.4;
-  const auto name = static_cast<std::uint64_t>(static_cast<std::int64_t>(number) * 2 + (left ? 1 : 0));
-  return pier ? 1.5 - 0.1 - 0.5 * Rng(name).uniform() : 1.5;
+  const int kinds = 30 / spacing;
+  const int kind = ((number % kinds) + kinds) % kinds;
+  return pier ? 1.4 - 0.5 * Rng(static_cast<std::uint64_t>(kind * 2 + (left ? 1 : 0))).uniform() : 1.5;
 }
 
 /// Range by marching along the ray, up to 20 m.
