@@ -5,20 +5,29 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace glocal {
 
 namespace {
 
-/// Half a window: as many cells can be tried on each side.
-constexpr int max_shift = (PointGrid::window_width - 1) / 2;
-constexpr std::size_t max_window = static_cast<std::size_t>(PointGrid::window_width) * (2 * max_shift + 1);
+constexpr std::size_t max_window =
+    static_cast<std::size_t>(PointGrid::window_width) * PointGrid::window_width;
 
-/// Sums of likelihoods of the points, for every shift in x and y by whole cells.
+/// Sums of likelihoods of the points, for a block of shifts in x and y by whole cells.
 using Sums = std::array<std::uint16_t, max_window>;
 
 /// 16 bits hold the sum of so many likelihoods.
 constexpr int max_points = 65535 / PointGrid::likelihood_one;
+
+/// Shifts by first_column … + PointGrid::window_width - 1 and by first_row … + rows - 1 cells, tried
+/// together.
+struct Block {
+  int first_column;
+  int first_row;
+  int rows;
+};
 
 /// Hits spread evenly over the scan.
 Points spread_hits(const Points& hits, int wanted) {
@@ -29,34 +38,44 @@ Points spread_hits(const Points& hits, int wanted) {
   return chosen;
 }
 
-/// One rotation, all shifts: a point's window of cells is added to the sums at once.
-void add_windows(const PointGrid& grid, const Points& hits, const Pose2& local_from_robot, int shift,
-                 Sums& sums) {
-  const int rows = 2 * shift + 1;
-  const std::size_t cells = static_cast<std::size_t>(rows) * PointGrid::window_width;
+/// The cells that hits fall in; hits the grid cannot hold are left out.
+void find_cells(const PointGrid& grid, const Points& hits, const Pose2& local_from_robot,
+                std::vector<GridCell>& cells) {
   const Transform transform(local_from_robot);
-  std::array<std::uint8_t, max_window> window;
-  std::fill_n(sums.begin(), cells, std::uint16_t{0});
+  cells.clear();
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Point p = transform(hits[i]);
-    if (!grid.contains(p.x, p.y)) continue;
-    const GridCell cell = grid.cell(p.x, p.y);
-    grid.likelihood_rows({cell.column - shift, cell.row - shift}, rows, window.data());
-    for (std::size_t k = 0; k < cells; ++k) sums[k] = static_cast<std::uint16_t>(sums[k] + window[k]);
+    if (grid.contains(p.x, p.y)) cells.push_back(grid.cell(p.x, p.y));
   }
 }
 
-double square(double x) {
-  return x * x;
+/// All shifts of a block at once: a window of likelihoods for each cell is added up.
+void add_windows(const PointGrid& grid, const std::vector<GridCell>& cells, const Block& block, Sums& sums) {
+  const std::size_t size = static_cast<std::size_t>(block.rows) * PointGrid::window_width;
+  std::array<std::uint8_t, max_window> window;
+  std::fill_n(sums.begin(), size, std::uint16_t{0});
+  for (const GridCell& cell : cells) {
+    grid.likelihood_rows({cell.column + block.first_column, cell.row + block.first_row}, block.rows,
+                         window.data());
+    for (std::size_t k = 0; k < size; ++k) sums[k] = static_cast<std::uint16_t>(sums[k] + window[k]);
+  }
+}
+
+/// (part / whole)^2, and nothing of nothing.
+double square_share(int part, int whole) {
+  if (whole == 0) return 0.0;
+  const double share = static_cast<double>(part) / whole;
+  return share * share;
 }
 
 }  // namespace
 
 void describe(ParamVisitor& v, CorrelativeSearchParams& p) {
   v.field("translation", p.translation,
-          {.doc = "Farthest pose tried from the one odometry predicts, along x and along y; at most 7 cells.",
+          {.doc = "Farthest pose tried from the one odometry predicts, along x and along y.",
            .unit = "m",
-           .min = 0.0});
+           .min = 0.0,
+           .max = 10.0});
   v.field("rotation", p.rotation,
           {.doc = "Largest rotation tried from the one odometry predicts.",
            .unit = "rad",
@@ -79,29 +98,39 @@ SearchResult correlative_search(const PointGrid& grid, const Points& hits, const
                                 const CorrelativeSearchParams& params) {
   const Points chosen = spread_hits(hits, params.points);
   if (chosen.empty()) return {predicted, 0.0};
-  const int shift =
-      std::min(max_shift, static_cast<int>(std::lround(params.translation / grid.resolution())));
+  const int shift = static_cast<int>(std::lround(params.translation / grid.resolution()));
   const int turns = static_cast<int>(std::lround(params.rotation / params.rotation_step));
   const double scale = 1.0 / (PointGrid::likelihood_one * static_cast<double>(chosen.size()));
+  std::vector<GridCell> cells;
+  cells.reserve(chosen.size());
   Sums sums;
   SearchResult best{predicted, 0.0};
-  double best_score = -1e9;
-  for (int turn = -turns; turn <= turns; ++turn) {
-    Pose2 pose = predicted;
-    pose.theta = wrap_angle(predicted.theta + turn * params.rotation_step);
-    add_windows(grid, chosen, pose, shift, sums);
-    const double turn_penalty = turns == 0 ? 0.0 : square(static_cast<double>(turn) / turns);
-    for (int row = -shift; row <= shift; ++row) {
-      for (int column = -shift; column <= shift; ++column) {
-        const auto k = static_cast<std::size_t>((row + shift) * PointGrid::window_width + column + shift);
-        const double likelihood = sums[k] * scale;
-        const double shift_penalty = shift == 0 ? 0.0 : (square(row) + square(column)) / square(shift);
+  double best_score = -std::numeric_limits<double>::infinity();
+
+  const auto rate_block = [&](const Block& block, double theta, double turn_penalty) {
+    for (int i = 0; i < block.rows; ++i) {
+      for (int j = 0; j < PointGrid::window_width && block.first_column + j <= shift; ++j) {
+        const int row = block.first_row + i;
+        const int column = block.first_column + j;
+        const double likelihood = sums[static_cast<std::size_t>(i * PointGrid::window_width + j)] * scale;
+        const double shift_penalty = square_share(row, shift) + square_share(column, shift);
         const double score = likelihood - params.odometry_penalty * (turn_penalty + shift_penalty);
         if (score <= best_score) continue;
         best_score = score;
-        best.likelihood = likelihood;
-        best.local_from_robot = {predicted.x + column * grid.resolution(),
-                                 predicted.y + row * grid.resolution(), pose.theta};
+        best = {{predicted.x + column * grid.resolution(), predicted.y + row * grid.resolution(), theta},
+                likelihood};
+      }
+    }
+  };
+
+  for (int turn = -turns; turn <= turns; ++turn) {
+    const double theta = wrap_angle(predicted.theta + turn * params.rotation_step);
+    find_cells(grid, chosen, {predicted.x, predicted.y, theta}, cells);
+    for (int row = -shift; row <= shift; row += PointGrid::window_width) {
+      for (int column = -shift; column <= shift; column += PointGrid::window_width) {
+        const Block block{column, row, std::min(PointGrid::window_width, shift - row + 1)};
+        add_windows(grid, cells, block, sums);
+        rate_block(block, theta, square_share(turn, turns));
       }
     }
   }

@@ -46,13 +46,26 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
            .above = 0.0});
   v.field("normals", p.normals, {.doc = "Normals of a scan."});
   v.field("search", p.search, {.doc = "Search around odometry."});
+  v.field("wide_search", p.wide_search,
+          {.doc = "Search in place of the first where that finds nothing that fits well: wheels slip, logs "
+                  "have jumps."});
+  v.field("wide_search_below", p.wide_search_below,
+          {.doc = "Mean likelihood of the first search below which the wide one is tried.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("wide_search_gain", p.wide_search_gain,
+          {.doc = "By how much more likely its result must be to be taken.", .min = 0.0, .max = 1.0});
   v.field("refinement", p.refinement, {.doc = "Point-to-line registration after the search."});
   v.field("min_matches", p.min_matches,
           {.doc = "With fewer matched hits odometry is kept.", .min = 3, .max = 100000});
   v.field("max_correction", p.max_correction,
-          {.doc = "With a larger correction odometry is kept.", .unit = "m", .min = 0.0});
+          {.doc = "If refinement moves farther from where the search ended, odometry is kept.",
+           .unit = "m",
+           .min = 0.0});
   v.field("max_correction_angle", p.max_correction_angle,
-          {.doc = "With a larger correction odometry is kept.", .unit = "rad", .min = 0.0});
+          {.doc = "If refinement moves farther from where the search ended, odometry is kept.",
+           .unit = "rad",
+           .min = 0.0});
   v.field("min_fit", p.min_fit,
           {.doc = "An observation whose mean likelihood stays below this after the search does not fit; it "
                   "moves the "
@@ -68,8 +81,6 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
           {.doc = "Memory the index of the points may take.", .unit = "MB", .min = 1, .max = 65536});
   v.require(cells_in(p.refinement.gate, p.resolution) <= PointGrid::max_reach, "refinement",
             "gate must be at most 11 times resolution");
-  v.require(p.search.translation <= 7.0 * p.resolution, "search",
-            "translation must be at most 7 times resolution");
 }
 
 ScanMatching::ScanMatching(const Params& params)
@@ -114,15 +125,23 @@ Pose2 ScanMatching::predict(const Pose2& odom_from_robot) const {
 Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& predicted) {
   if (map_.points.empty() || scan.hits.size() < static_cast<std::size_t>(params_.min_matches))
     return predicted;
-  const SearchResult found = correlative_search(grid_, scan.hits, predicted, params_.search);
+  const SearchResult found = search(scan.hits, predicted);
   misfits_ = found.likelihood < params_.min_fit ? misfits_ + 1 : 0;
   if (misfits_ > 0) return predicted;
   const Registration refined =
       register_scan(grid_, map_, scan.hits, normals, found.local_from_robot, params_.refinement);
-  const bool sound = refined.matches >= params_.min_matches &&
-                     distance(refined.local_from_robot, predicted) <= params_.max_correction &&
-                     rotation_between(refined.local_from_robot, predicted) <= params_.max_correction_angle;
+  const bool sound =
+      refined.matches >= params_.min_matches &&
+      distance(refined.local_from_robot, found.local_from_robot) <= params_.max_correction &&
+      rotation_between(refined.local_from_robot, found.local_from_robot) <= params_.max_correction_angle;
   return sound ? refined.local_from_robot : predicted;
+}
+
+SearchResult ScanMatching::search(const Points& hits, const Pose2& predicted) const {
+  const SearchResult near = correlative_search(grid_, hits, predicted, params_.search);
+  if (near.likelihood >= params_.wide_search_below) return near;
+  const SearchResult far = correlative_search(grid_, hits, predicted, params_.wide_search);
+  return far.likelihood >= near.likelihood + params_.wide_search_gain ? far : near;
 }
 
 void ScanMatching::register_hits(const Points& hits, const Points& normals) {

@@ -32,6 +32,9 @@ class ScanMatching final : public LocalMapper {
     double likelihood_sigma = 0.1;
     ScanNormalParams normals;
     CorrelativeSearchParams search;
+    CorrelativeSearchParams wide_search{.translation = 0.75, .rotation = 1.5, .odometry_penalty = 0.02};
+    double wide_search_below = 0.5;
+    double wide_search_gain = 0.15;
     LineRegistrationParams refinement;
     int min_matches = 15;
     double max_correction = 0.6;
@@ -55,6 +58,7 @@ class ScanMatching final : public LocalMapper {
   [[nodiscard]] Pose2 predict(const Pose2& odom_from_robot) const;
   /// Where the scan fits best, or `predicted` where it says too little. Counts misfits.
   [[nodiscard]] Pose2 match(const Scan& scan, const Points& normals, const Pose2& predicted);
+  [[nodiscard]] SearchResult search(const Points& hits, const Pose2& predicted) const;
   void start_over();
   void register_hits(const Points& hits, const Points& normals);
   void register_hit(const Point& p, const Point& normal);

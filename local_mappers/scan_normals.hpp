@@ -8,7 +8,7 @@ namespace glocal {
 
 struct ScanNormalParams {
   int beams = 4;
-  double max_gap = 0.3;
+  double max_gap = 0.6;
   double max_roughness = 0.1;
 };
 void describe(ParamVisitor& v, ScanNormalParams& p);

@@ -11,8 +11,8 @@
 
 namespace glocal {
 
-/// Where a mapper starts afresh, and when its pose is compared. Distances are metres along the reference
-/// path.
+/// Where a mapper starts afresh, and when its pose is compared. Distances are metres along
+/// Drive::path_m.
 struct MappingWindows {
   double every_m = 5.0;            ///< From one start to the next.
   double after_m = 10.0;           ///< Driven when the error is taken.
