@@ -49,12 +49,16 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
   v.field("wide_search", p.wide_search,
           {.doc = "Search in place of the first where that finds nothing that fits well: wheels slip, logs "
                   "have jumps."});
-  v.field("wide_search_below", p.wide_search_below,
-          {.doc = "Mean likelihood of the first search below which the wide one is tried.",
+  v.field(
+      "wide_search_below", p.wide_search_below,
+      {.doc =
+           "Mean likelihood of the first search below which the wide one is tried; its result must reach it.",
+       .min = 0.0,
+       .max = 1.0});
+  v.field("wide_search_gain", p.wide_search_gain,
+          {.doc = "By how much more likely than the first search's its result must be to be taken.",
            .min = 0.0,
            .max = 1.0});
-  v.field("wide_search_gain", p.wide_search_gain,
-          {.doc = "By how much more likely its result must be to be taken.", .min = 0.0, .max = 1.0});
   v.field("refinement", p.refinement, {.doc = "Point-to-line registration after the search."});
   v.field("min_matches", p.min_matches,
           {.doc = "With fewer matched hits odometry is kept.", .min = 3, .max = 100000});
@@ -141,7 +145,9 @@ SearchResult ScanMatching::search(const Points& hits, const Pose2& predicted) co
   const SearchResult near = correlative_search(grid_, hits, predicted, params_.search);
   if (near.likelihood >= params_.wide_search_below) return near;
   const SearchResult far = correlative_search(grid_, hits, predicted, params_.wide_search);
-  return far.likelihood >= near.likelihood + params_.wide_search_gain ? far : near;
+  // Far from odometry only a good fit is believed: every place resembles some other a little.
+  const double needed = std::max(params_.wide_search_below, near.likelihood + params_.wide_search_gain);
+  return far.likelihood >= needed ? far : near;
 }
 
 void ScanMatching::register_hits(const Points& hits, const Points& normals) {

@@ -9,7 +9,7 @@ namespace glocal {
 struct ScanNormalParams {
   int beams = 4;
   double max_gap = 0.6;
-  double max_roughness = 0.1;
+  double max_roughness = 0.05;
 };
 void describe(ParamVisitor& v, ScanNormalParams& p);
 
