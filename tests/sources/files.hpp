@@ -60,10 +60,11 @@ template <class Call>
   return "";
 }
 
-/// A file of the shared datasets; empty without GLOCAL_DATASETS.
+/// A file of the shared datasets; empty if GLOCAL_DATASETS is not set.
 [[nodiscard]] inline std::filesystem::path dataset(const std::string& name) {
   const char* folder = std::getenv("GLOCAL_DATASETS");
-  return folder == nullptr ? std::filesystem::path() : std::filesystem::path(folder) / name;
+  return folder == nullptr || *folder == '\0' ? std::filesystem::path()
+                                              : std::filesystem::path(folder) / name;
 }
 
 }  // namespace glocal::test
