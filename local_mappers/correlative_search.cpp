@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace glocal {
@@ -68,6 +69,65 @@ double square_share(int part, int whole) {
   return share * share;
 }
 
+/// Tries poses and remembers the best.
+class Search {
+ public:
+  Search(const PointGrid& grid, Points hits, const Pose2& predicted, const CorrelativeSearchParams& params)
+      : grid_(grid),
+        hits_(std::move(hits)),
+        predicted_(predicted),
+        odometry_penalty_(params.odometry_penalty),
+        shift_(static_cast<int>(std::lround(params.translation / grid.resolution()))),
+        scale_(1.0 / (PointGrid::likelihood_one * static_cast<double>(hits_.size()))) {
+    cells_.reserve(hits_.size());
+  }
+
+  /// All shifts at one rotation from the predicted pose; `penalty` is what odometry has against it.
+  void try_rotation(double rotation, double penalty) {
+    const Pose2 turned{predicted_.x, predicted_.y, wrap_angle(predicted_.theta + rotation)};
+    find_cells(grid_, hits_, turned, cells_);
+    for (int row = -shift_; row <= shift_; row += PointGrid::window_width) {
+      for (int column = -shift_; column <= shift_; column += PointGrid::window_width) {
+        const Block block{column, row, std::min(PointGrid::window_width, shift_ - row + 1)};
+        add_windows(grid_, cells_, block, sums_);
+        rate(block, turned, penalty);
+      }
+    }
+  }
+
+  [[nodiscard]] const SearchResult& best() const { return best_; }
+
+ private:
+  void rate(const Block& block, const Pose2& turned, double penalty) {
+    auto row_sums = sums_.begin();
+    for (int row = block.first_row; row < block.first_row + block.rows;
+         ++row, row_sums += PointGrid::window_width) {
+      const int columns = std::min(PointGrid::window_width, shift_ - block.first_column + 1);
+      for (int i = 0; i < columns; ++i) {
+        const int column = block.first_column + i;
+        const double likelihood = row_sums[i] * scale_;
+        const double score = likelihood - penalty -
+                             odometry_penalty_ * (square_share(row, shift_) + square_share(column, shift_));
+        if (score <= best_score_) continue;
+        best_score_ = score;
+        const double resolution = grid_.resolution();
+        best_ = {{turned.x + column * resolution, turned.y + row * resolution, turned.theta}, likelihood};
+      }
+    }
+  }
+
+  const PointGrid& grid_;
+  Points hits_;
+  Pose2 predicted_;
+  double odometry_penalty_;
+  int shift_;     ///< Farthest, in cells.
+  double scale_;  ///< From sums to mean likelihoods.
+  std::vector<GridCell> cells_;
+  Sums sums_{};
+  SearchResult best_;
+  double best_score_ = -std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
 
 void describe(ParamVisitor& v, CorrelativeSearchParams& p) {
@@ -96,45 +156,13 @@ void describe(ParamVisitor& v, CorrelativeSearchParams& p) {
 
 SearchResult correlative_search(const PointGrid& grid, const Points& hits, const Pose2& predicted,
                                 const CorrelativeSearchParams& params) {
-  const Points chosen = spread_hits(hits, params.points);
-  if (chosen.empty()) return {predicted, 0.0};
-  const int shift = static_cast<int>(std::lround(params.translation / grid.resolution()));
+  if (hits.empty()) return {predicted, 0.0};
+  Search search(grid, spread_hits(hits, params.points), predicted, params);
   const int turns = static_cast<int>(std::lround(params.rotation / params.rotation_step));
-  const double scale = 1.0 / (PointGrid::likelihood_one * static_cast<double>(chosen.size()));
-  std::vector<GridCell> cells;
-  cells.reserve(chosen.size());
-  Sums sums;
-  SearchResult best{predicted, 0.0};
-  double best_score = -std::numeric_limits<double>::infinity();
-
-  const auto rate_block = [&](const Block& block, double theta, double turn_penalty) {
-    for (int i = 0; i < block.rows; ++i) {
-      for (int j = 0; j < PointGrid::window_width && block.first_column + j <= shift; ++j) {
-        const int row = block.first_row + i;
-        const int column = block.first_column + j;
-        const double likelihood = sums[static_cast<std::size_t>(i * PointGrid::window_width + j)] * scale;
-        const double shift_penalty = square_share(row, shift) + square_share(column, shift);
-        const double score = likelihood - params.odometry_penalty * (turn_penalty + shift_penalty);
-        if (score <= best_score) continue;
-        best_score = score;
-        best = {{predicted.x + column * grid.resolution(), predicted.y + row * grid.resolution(), theta},
-                likelihood};
-      }
-    }
-  };
-
   for (int turn = -turns; turn <= turns; ++turn) {
-    const double theta = wrap_angle(predicted.theta + turn * params.rotation_step);
-    find_cells(grid, chosen, {predicted.x, predicted.y, theta}, cells);
-    for (int row = -shift; row <= shift; row += PointGrid::window_width) {
-      for (int column = -shift; column <= shift; column += PointGrid::window_width) {
-        const Block block{column, row, std::min(PointGrid::window_width, shift - row + 1)};
-        add_windows(grid, cells, block, sums);
-        rate_block(block, theta, square_share(turn, turns));
-      }
-    }
+    search.try_rotation(turn * params.rotation_step, params.odometry_penalty * square_share(turn, turns));
   }
-  return best;
+  return search.best();
 }
 
 }  // namespace glocal

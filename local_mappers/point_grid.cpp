@@ -62,18 +62,17 @@ bool PointGrid::insert(GridCell cell, std::size_t index) {
 
 void PointGrid::stamp(GridCell centre, GridCell first, GridCell last, std::uint32_t index) {
   Tile& tile = *directory_[tile_index(first.column, first.row)];
-  const std::size_t stride = 2 * static_cast<std::size_t>(reach_) + 1;
-  const auto width = static_cast<std::size_t>(last.column - first.column + 1);
+  const int stride = 2 * reach_ + 1;
+  const int width = last.column - first.column + 1;
   for (int row = first.row; row <= last.row; ++row) {
     const std::size_t to = index_in_tile(first.column, row);
-    const std::size_t from = static_cast<std::size_t>(row - centre.row + reach_) * stride +
-                             static_cast<std::size_t>(first.column - centre.column + reach_);
+    const int from = (row - centre.row + reach_) * stride + first.column - centre.column + reach_;
     std::uint32_t* packed = tile.packed.data() + to;
     std::uint8_t* likelihood = tile.likelihood.data() + to;
     const std::uint32_t* new_distance = distance_stamp_.data() + from;
     const std::uint8_t* new_likelihood = likelihood_stamp_.data() + from;
-    for (std::size_t i = 0; i < width; ++i) packed[i] = std::min(packed[i], new_distance[i] | index);
-    for (std::size_t i = 0; i < width; ++i) likelihood[i] = std::max(likelihood[i], new_likelihood[i]);
+    for (int i = 0; i < width; ++i) packed[i] = std::min(packed[i], new_distance[i] | index);
+    for (int i = 0; i < width; ++i) likelihood[i] = std::max(likelihood[i], new_likelihood[i]);
   }
 }
 
@@ -107,7 +106,7 @@ void PointGrid::clear() {
 }
 
 std::size_t PointGrid::memory_bytes() const {
-  return (tiles_.size() + 1) * sizeof(Tile) + directory_.size() * sizeof(Tile*);
+  return (tiles_.size() + 1) * sizeof(Tile) + directory_.size() * sizeof(void*);
 }
 
 }  // namespace glocal

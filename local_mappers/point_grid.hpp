@@ -81,8 +81,9 @@ class PointGrid {
   static constexpr int tile_bits = 6;
   static constexpr int tile_side = 1 << tile_bits;
   static constexpr int tile_mask = tile_side - 1;
+  static constexpr std::size_t tile_cells = std::size_t{tile_side} * tile_side;
   static constexpr int tiles_across = side / tile_side;
-  static constexpr float half = side / 2;
+  static constexpr float half = 0.5F * side;
   static constexpr unsigned index_bits = 24;
   static constexpr std::uint32_t index_mask = (std::uint32_t{1} << index_bits) - 1;
   static constexpr std::uint32_t nothing = 0xffffffff;
@@ -90,8 +91,8 @@ class PointGrid {
   struct Tile {
     /// Squared distance in cells above the index of the point: the nearer point, then the earlier one, is the
     /// smaller number.
-    std::array<std::uint32_t, tile_side * tile_side> packed;
-    std::array<std::uint8_t, tile_side * tile_side> likelihood;
+    std::array<std::uint32_t, tile_cells> packed;
+    std::array<std::uint8_t, tile_cells> likelihood;
 
     Tile() { clear(); }
     void clear() {
