@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
 #include <set>
@@ -192,6 +193,36 @@ TEST_F(DocsExamples, CommandsAndExperimentsWork) {
 TEST_F(DocsExamples, CommandsAndExperimentsWithDataSetsWork) {
   if (!has_data_sets()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
   EXPECT_GT(try_out(true), 0U);
+}
+
+/// All keys of a JSON value, at any depth.
+void collect_keys(const nlohmann::json& json, std::set<std::string>& keys) {
+  for (const auto& [key, value] : json.items()) {
+    if (json.is_object()) keys.insert(key);
+    if (value.is_structured()) collect_keys(value, keys);
+  }
+}
+
+TEST_F(DocsExamples, WhatARunLeavesIsDescribed) {
+  const fs::path document = root / "docs/file-formats.md";
+  save_examples(document);
+  const Answer answer =
+      run("run configs/experiments/room.yaml --quiet --out a --set localizer.matcher.ransam.iterations=5000");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator("a")) names.insert(entry.path().filename());
+  collect_keys(nlohmann::json::parse(read("a/summary.json")), names);
+  for (const char* file : {"a/trials.jsonl", "a/steps.jsonl"}) {
+    for (const std::string& line : lines_of(read(file))) collect_keys(nlohmann::json::parse(line), names);
+  }
+  const auto provenance = nlohmann::json::parse(read("a/provenance.json"));
+  for (const auto& [key, value] : provenance.items()) names.insert(key);
+  EXPECT_GT(names.size(), 40U);
+  const std::string text = read(document);
+  for (const std::string& name : names) {
+    if (name == "x" || name == "y" || name == "theta") continue;
+    EXPECT_TRUE(std::regex_search(text, std::regex("(`|### )" + name + "(`|/|\n)"))) << name;
+  }
 }
 
 TEST(DocsStrategy, IsShownAsItIsCompiledHere) {
