@@ -1,0 +1,252 @@
+// What the documentation says holds: links lead somewhere, named functions exist, commands run, examples are
+// accepted.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/program.hpp"
+#include "glocal/catalog.hpp"
+#include "raters/share_of_best.hpp"
+
+namespace glocal::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = GLOCAL_SOURCE_DIR;
+
+/// A fenced block of a document.
+struct Block {
+  std::string language;
+  std::string text;
+};
+
+std::string read(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> files = {root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md"};
+  for (const auto& entry : fs::directory_iterator(root / "docs")) {
+    if (entry.path().extension() == ".md") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<Block> blocks_of(const fs::path& document, const std::string& language) {
+  std::vector<Block> blocks;
+  bool open = false;
+  for (const std::string& line : lines_of(read(document))) {
+    if (line.starts_with("```")) {
+      open = !open;
+      if (open) blocks.push_back({line.substr(3), ""});
+    } else if (open) {
+      blocks.back().text += line + "\n";
+    }
+  }
+  EXPECT_FALSE(open) << document << ": a fenced block is not closed";
+  std::erase_if(blocks, [&](const Block& b) { return b.language != language; });
+  return blocks;
+}
+
+std::vector<std::smatch> matches(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  return {std::sregex_iterator(text.begin(), text.end(), regex), {}};
+}
+
+bool has_data_sets() {
+  const char* folder = std::getenv("GLOCAL_DATASETS");
+  return folder != nullptr && *folder != '\0';
+}
+
+TEST(Docs, LinksLeadToFiles) {
+  std::size_t links = 0;
+  for (const fs::path& document : documents()) {
+    const std::string text = read(document);
+    for (const std::smatch& match : matches(text, R"(\]\(([^)#]+)(#[^)]*)?\))")) {
+      const std::string target = match[1];
+      if (target.find("://") != std::string::npos) continue;
+      ++links;
+      EXPECT_TRUE(fs::exists(document.parent_path() / target)) << document << " links to " << target;
+    }
+  }
+  EXPECT_GT(links, 0U);
+}
+
+TEST(Docs, NamedFunctionsExist) {
+  for (const fs::path& document : documents()) {
+    const std::string text = read(document);
+    for (const std::smatch& match : matches(text, R"(`([a-z_0-9/]+\.[ch]pp):([A-Za-z_:]+)`)")) {
+      const fs::path source = root / match[1].str();
+      const std::string function = match[2];
+      ASSERT_TRUE(fs::exists(source)) << document << " names " << source;
+      EXPECT_TRUE(std::regex_search(read(source), std::regex("\\b" + function + "\\(")))
+          << document << " names " << function << " in " << source;
+    }
+  }
+}
+
+TEST(Docs, EveryEquationHasItsFunction) {
+  const std::string text = read(root / "docs/method.md");
+  for (int equation = 1; equation <= 10; ++equation) {
+    const std::string row = "\\n\\| " + std::to_string(equation) + R"( \|[^\n]*`[a-z_0-9/]+\.[ch]pp:[^\n]*)";
+    EXPECT_TRUE(std::regex_search(text, std::regex(row))) << "equation " << equation;
+  }
+}
+
+/// Examples and commands of a document, tried out in a folder that has a copy of configs/ and an
+/// empty docs/.
+class DocsExamples : public CommandLine {
+ protected:
+  DocsExamples() {
+    fs::copy(root / "configs", folder_.path() / "configs", fs::copy_options::recursive);
+    fs::create_directory(folder_.path() / "docs");
+    fs::current_path(folder_.path());
+  }
+  ~DocsExamples() override { fs::current_path(root); }
+
+  /// Saves the YAML examples that begin with a comment naming their file. Returns the names of experiments.
+  static std::vector<std::string> save_examples(const fs::path& document) {
+    std::vector<std::string> experiments;
+    for (const Block& block : blocks_of(document, "yaml")) {
+      std::smatch name;
+      const bool named = std::regex_search(block.text, name, std::regex(R"(^# (configs/\S+\.yaml))"));
+      const bool experiment = block.text.find("schema: 1\n") != std::string::npos;
+      EXPECT_TRUE(named || !experiment) << document << ": an experiment does not say its file:\n"
+                                        << block.text;
+      if (!named) continue;
+      std::ofstream(name[1].str()) << block.text;
+      if (experiment) experiments.push_back(name[1]);
+    }
+    return experiments;
+  }
+
+  /// The lines of the document's shell blocks that call the program, without its name and without comments.
+  static std::vector<std::string> commands_of(const fs::path& document) {
+    std::vector<std::string> commands;
+    for (const Block& block : blocks_of(document, "sh")) {
+      for (const std::string& line : lines_of(block.text)) {
+        if (line.starts_with("glocal ")) commands.push_back(line.substr(7, line.find(" #") - 7));
+      }
+    }
+    return commands;
+  }
+
+  /// A command that would take long, as one that only checks the same experiments and overrides.
+  static std::string quick(const std::string& command) {
+    if (!command.starts_with("run ") && !command.starts_with("mapping ")) return command;
+    std::string check = "check";
+    for (const std::smatch& match : matches(command, R"((--(set|seed|threads) \S+|\S+\.yaml)(?=\s|$))")) {
+      check += " " + match[1].str();
+    }
+    return check;
+  }
+
+  static bool needs_data_sets(const std::string& command) {
+    if (command.find("$GLOCAL_DATASETS") != std::string::npos) return true;
+    const auto files = matches(command, R"(\S+\.yaml)");
+    return std::any_of(files.begin(), files.end(), [](const std::smatch& file) {
+      return fs::exists(file[0].str()) && read(file[0].str()).find("\"data:") != std::string::npos;
+    });
+  }
+
+  /// Tries out all commands of all documents that need the data sets, or all that do not.
+  std::size_t try_out(bool with_data_sets) {
+    std::size_t tried = 0;
+    for (const fs::path& document : documents()) {
+      std::vector<std::string> commands;
+      for (const std::string& experiment : save_examples(document)) commands.push_back("check " + experiment);
+      for (const std::string& command : commands_of(document)) commands.push_back(quick(command));
+      for (const std::string& command : commands) {
+        if (needs_data_sets(command) != with_data_sets) continue;
+        ++tried;
+        const Answer answer = run(command);
+        EXPECT_EQ(answer.exit_code, 0) << document << ": glocal " << command << "\n" << answer.err;
+      }
+    }
+    return tried;
+  }
+};
+
+TEST_F(DocsExamples, CommandsAndExperimentsWork) {
+  EXPECT_GT(try_out(false), 0U);
+}
+
+TEST_F(DocsExamples, CommandsAndExperimentsWithDataSetsWork) {
+  if (!has_data_sets()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
+  EXPECT_GT(try_out(true), 0U);
+}
+
+/// All keys of a JSON value, at any depth.
+void collect_keys(const nlohmann::json& json, std::set<std::string>& keys) {
+  for (const auto& [key, value] : json.items()) {
+    if (json.is_object()) keys.insert(key);
+    if (value.is_structured()) collect_keys(value, keys);
+  }
+}
+
+TEST_F(DocsExamples, WhatARunLeavesIsDescribed) {
+  const fs::path document = root / "docs/file-formats.md";
+  save_examples(document);
+  const Answer answer =
+      run("run configs/experiments/room.yaml --quiet --out a --set localizer.matcher.ransam.iterations=5000");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator("a")) names.insert(entry.path().filename());
+  collect_keys(nlohmann::json::parse(read("a/summary.json")), names);
+  for (const char* file : {"a/trials.jsonl", "a/steps.jsonl"}) {
+    for (const std::string& line : lines_of(read(file))) collect_keys(nlohmann::json::parse(line), names);
+  }
+  const auto provenance = nlohmann::json::parse(read("a/provenance.json"));
+  for (const auto& [key, value] : provenance.items()) names.insert(key);
+  EXPECT_GT(names.size(), 40U);
+  const std::string text = read(document);
+  for (const std::string& name : names) {
+    if (name == "x" || name == "y" || name == "theta") continue;
+    EXPECT_TRUE(std::regex_search(text, std::regex("(`|### )" + name + "(`|/|\n)"))) << name;
+  }
+}
+
+TEST(DocsStrategy, IsShownAsItIsCompiledHere) {
+  const std::vector<Block> shown = blocks_of(root / "README.md", "cpp");
+  for (const char* file : {"share_of_best.hpp", "share_of_best.cpp"}) {
+    const std::string code = read(root / "tests/docs/example/raters" / file);
+    EXPECT_TRUE(std::any_of(shown.begin(), shown.end(), [&](const Block& b) { return b.text == code; }))
+        << file;
+  }
+}
+
+TEST(DocsStrategy, DoesWhatItSays) {
+  Catalog catalog;
+  catalog.threshold_policies.add<ShareOfBest>("share_of_best", "A share of the last step's best quality.");
+  const auto policy = catalog.threshold_policies.make(catalog.threshold_policies.choose("share_of_best"), {});
+  EXPECT_DOUBLE_EQ(policy->omega_max(), 0.4);
+  policy->update({Hypothesis{{}, {}, 0.9}, Hypothesis{{}, {}, 0.5}});
+  EXPECT_DOUBLE_EQ(policy->omega_max(), 0.8 * 0.9);
+  policy->update({});
+  EXPECT_DOUBLE_EQ(policy->omega_max(), 0.4);
+  policy->update({Hypothesis{{}, {}, 0.9}});
+  policy->reset();
+  EXPECT_DOUBLE_EQ(policy->omega_max(), 0.4);
+}
+
+}  // namespace
+}  // namespace glocal::test
