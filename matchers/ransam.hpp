@@ -19,8 +19,9 @@ namespace glocal {
 /// Omega_max are kept.
 ///
 /// The number of iterations is fixed, so the order of drawing does not matter: all triples of the global map
-/// are drawn and hashed first, then those of the local map are drawn and looked up. Every pair of draws that
-/// drawing in turns would find is found, and both halves split over threads without changing the answer.
+/// are drawn and hashed first, then those of the local map are drawn and looked up. Pairs are
+/// found whichever of the two was drawn first, as when drawing in turns, and both halves split over threads
+/// without changing the answer.
 class Ransam final : public Matcher {
  public:
   struct Params {

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -138,11 +139,16 @@ void run(const RunOptions& options, Context& context) {
   Experiment experiment = options.experiment.read(context.catalog);
   const std::filesystem::path out = options.out.empty() ? std::filesystem::path("results") / experiment.name
                                                         : std::filesystem::path(options.out);
-  OutputFolder folder(out, options.force);
+  // From here on an interrupt ends the run in good order.
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
   Prepared prepared =
       prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
   prepared.inputs.insert(std::filesystem::absolute(options.experiment.file));
+  Localizer localizer = make_localizer(experiment, context.catalog, prepared);
 
+  // Nothing is written before everything is known to be in order.
+  OutputFolder folder(out, options.force);
   folder.append("effective.yaml", effective_yaml(experiment, context.catalog));
   folder.append("provenance.json",
                 provenance(context.catalog, experiment.threads, prepared.inputs).dump(2) + "\n");
@@ -156,16 +162,12 @@ void run(const RunOptions& options, Context& context) {
   const auto on_step = [&](const StepRecord& record, const LocalMap& local) {
     writer.step(record, local);
     const auto& result = record.result;
-    const std::size_t steps = experiment.trials.whole
-                                  ? prepared.drive.samples.size()
-                                  : static_cast<std::size_t>(experiment.trials.max_steps) + 1;
+    const std::size_t steps = std::min(prepared.drive.samples.size(), step_limit(experiment.trials));
     progress.show(trial, result.step, static_cast<double>(result.step) / static_cast<double>(steps),
                   to_string(result.verdict.kind));
   };
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
   const bool complete =
-      run_trials(experiment, context.catalog, prepared, {on_step, stop}, [&](const TrialRecord& record) {
+      run_trials(localizer, experiment, prepared, {on_step, stop}, [&](const TrialRecord& record) {
         writer.finish(record);
         summary.add(record);
         ++trial;

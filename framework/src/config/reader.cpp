@@ -220,7 +220,7 @@ void read_struct(const YamlNode& node, const std::string& path, AnyParams& param
 }  // namespace
 
 std::shared_ptr<const Origin> origin_of(const std::filesystem::path& file) {
-  return std::make_shared<Origin>(Origin{file.string(), file.parent_path()});
+  return std::make_shared<Origin>(Origin{file.string(), std::filesystem::absolute(file).parent_path()});
 }
 
 void read_params(const YamlNode& node, AnyParams& params, std::vector<Fault>& faults) {

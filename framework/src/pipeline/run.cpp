@@ -24,9 +24,8 @@ Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, c
   return {experiment.localizer, catalog, {prepared.map, experiment.threads}, experiment.seed};
 }
 
-bool run_trials(const Experiment& experiment, const Catalog& catalog, const Prepared& prepared,
+bool run_trials(Localizer& localizer, const Experiment& experiment, const Prepared& prepared,
                 const TrialCallbacks& callbacks, const std::function<void(const TrialRecord&)>& done) {
-  Localizer localizer = make_localizer(experiment, catalog, prepared);
   for (std::size_t trial = 0; trial < prepared.starts.size(); ++trial) {
     const auto record = run_trial(localizer, prepared.drive, *prepared.map, experiment, trial,
                                   prepared.starts[trial], callbacks);

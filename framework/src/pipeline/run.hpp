@@ -31,7 +31,7 @@ struct Prepared {
                                        const Prepared& prepared);
 
 /// Runs all trials in order, handing each finished one to `done`; false if stopped before the last.
-bool run_trials(const Experiment& experiment, const Catalog& catalog, const Prepared& prepared,
+bool run_trials(Localizer& localizer, const Experiment& experiment, const Prepared& prepared,
                 const TrialCallbacks& callbacks, const std::function<void(const TrialRecord&)>& done);
 
 }  // namespace glocal

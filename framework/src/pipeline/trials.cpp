@@ -34,12 +34,12 @@ void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfi
   trial.outcome = judge(trial.error, limits);
 }
 
+}  // namespace
+
 std::size_t step_limit(const TrialsConfig& config) {
   if (config.whole || config.max_steps == 0) return std::numeric_limits<std::size_t>::max();
   return static_cast<std::size_t>(config.max_steps);
 }
-
-}  // namespace
 
 PoseError pose_error(const Pose2& estimate, const Pose2& reference) {
   return {distance(estimate, reference), rotation_between(estimate, reference)};

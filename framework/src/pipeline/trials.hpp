@@ -60,6 +60,9 @@ struct TrialCallbacks {
       stop;  ///< Asked before each step; true gives up the running trial and all later ones.
 };
 
+/// The most steps a trial takes; the largest number there is where only the end of the drive limits it.
+[[nodiscard]] std::size_t step_limit(const TrialsConfig& config);
+
 /// Runs one trial: to the first declaration or `max_steps`, or with `whole` to the end of the drive. No trial
 /// runs across the end of a segment. None if stopped.
 [[nodiscard]] std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive,
