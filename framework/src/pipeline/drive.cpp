@@ -23,8 +23,12 @@ double distance_to_path(const Pose2& pose, const std::vector<Pose2>& path) {
 
 /// Whether the grid knows a free cell within `reach` of the pose.
 bool near_free_cell(const Pose2& pose, const OccupancyGrid& grid, double reach) {
-  for (double dy = -reach; dy <= reach; dy += grid.resolution) {
-    for (double dx = -reach; dx <= reach; dx += grid.resolution) {
+  // From the pose itself outwards, so that its own cell counts however short the reach is.
+  const int cells = static_cast<int>(reach / grid.resolution);
+  for (int row = -cells; row <= cells; ++row) {
+    for (int column = -cells; column <= cells; ++column) {
+      const double dx = column * grid.resolution;
+      const double dy = row * grid.resolution;
       if (dx * dx + dy * dy <= reach * reach && grid.at(pose.x + dx, pose.y + dy) == Cell::free) return true;
     }
   }
@@ -95,6 +99,7 @@ std::vector<std::size_t> trial_starts(const TrialsConfig& config, const Drive& d
         {{"", 0, 0, "observations: the drive has no observation; check the source and its segments"}});
   }
   std::vector<std::size_t> starts = wanted_starts(config, drive);
+  std::sort(starts.begin(), starts.end());
   starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
   const std::size_t wanted = starts.size();
   std::erase_if(starts, [&](std::size_t i) {

@@ -16,8 +16,8 @@ struct Drive {
   std::vector<double> path_m;  ///< Way driven up to each sample, without the gaps between segments.
 };
 
-/// Reads a source to its end. The way is measured along the reference poses where every sample has one, else
-/// along odometry.
+/// Reads a source to its end. The way is measured along odometry: reference poses jump where they were
+/// corrected.
 [[nodiscard]] Drive read_drive(ObservationSource& source);
 
 /// Indexes of the samples at which trials start, ascending. Throws ConfigError if there are none.

@@ -46,7 +46,8 @@ void check_free(const fs::path& path, bool replace) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path path, bool replace) : path_(fs::absolute(path).lexically_normal()) {
+OutputFolder::OutputFolder(fs::path path, bool replace)
+    : path_(fs::absolute(path).lexically_normal()), replace_(replace) {
   if (!path_.has_filename()) path_ = path_.parent_path();
   check_free(path_, replace);
   temporary_ = path_.parent_path() / fmt::format(".{}.{}.unfinished", path_.filename().string(), ::getpid());
@@ -72,8 +73,8 @@ void OutputFolder::commit() {
   for (const auto& entry : fs::recursive_directory_iterator(temporary_)) sync_to_disk(entry.path());
   sync_to_disk(temporary_);
   std::error_code error;
-  // The check is repeated, as the run may have taken hours.
-  const bool replaces = fs::exists(path_ / mark_of_results, error);
+  // The check is repeated, as the run may have taken hours: what others have put there meanwhile is theirs.
+  const bool replaces = replace_ && fs::exists(path_ / mark_of_results, error);
   const fs::path old = temporary_.string() + ".replaced";
   if (replaces) fs::rename(path_, old, error);
   if (!error) fs::rename(temporary_, path_, error);

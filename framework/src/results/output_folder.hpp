@@ -27,6 +27,7 @@ class OutputFolder {
  private:
   std::filesystem::path path_;
   std::filesystem::path temporary_;
+  bool replace_;
   bool committed_ = false;
 };
 

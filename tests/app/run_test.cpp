@@ -1,0 +1,183 @@
+// glocal run.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+
+namespace glocal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+
+/// Times are all that may differ between two runs of the same experiment.
+Json without_times(Json json) {
+  for (const char* key : {"stage_ms", "step_ms", "peak_rss_mb"}) json.erase(key);
+  if (json.contains("map")) json["map"].erase("build_ms");
+  return json;
+}
+
+class RunCommand : public CommandLine {
+ protected:
+  RunCommand() {
+    std::ofstream(file("world.yaml"))
+        << "size: [12, 6]\n"
+           "walls:\n"
+           "  - {points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}\n"
+           "  - {points: [[5, 0], [5, 2.4]]}\n"
+           "free_from: [[1, 1]]\n"
+           "way_points: [[1, 3], [10, 3], [10, 1]]\n";
+    write_experiment("trials: {every_scan: 6, max_steps: 5}\n");
+  }
+
+  void write_experiment(const std::string& trials) const {
+    std::ofstream(file("room.yaml")) << "schema: 1\n"
+                                        "name: room\n"
+                                        "map: {simulation: {world: world.yaml}}\n"
+                                        "observations: {simulation: {world: world.yaml}}\n"
+                                     << trials << "localizer: {matcher: {ransam: {iterations: 20000}}}\n";
+  }
+
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
+
+  [[nodiscard]] Answer run_room(const std::string& out, const std::string& options = "--quiet") const {
+    return run("run " + file("room.yaml") + " " + options + " --out " + file(out));
+  }
+
+  [[nodiscard]] Json json(const std::string& name) const { return Json::parse(content(file(name))); }
+
+  /// All lines, without their times.
+  [[nodiscard]] std::string lines(const std::string& name) const {
+    std::ifstream in(file(name));
+    std::string text;
+    for (std::string line; std::getline(in, line);) text += without_times(Json::parse(line)).dump() + "\n";
+    return text;
+  }
+
+  void expect_same_results(const std::string& a, const std::string& b) const {
+    EXPECT_EQ(lines(a + "/steps.jsonl"), lines(b + "/steps.jsonl"));
+    EXPECT_EQ(content(file(a + "/trials.jsonl")), content(file(b + "/trials.jsonl")));
+    EXPECT_EQ(without_times(json(a + "/summary.json")), without_times(json(b + "/summary.json")));
+    for (const char* folder : {"/trajectories", "/maps"}) {
+      std::size_t files = 0;
+      for (const auto& entry : fs::recursive_directory_iterator(file(a) + folder)) {
+        if (!entry.is_regular_file()) continue;
+        const fs::path other = fs::path(file(b)) / fs::relative(entry.path(), file(a));
+        EXPECT_EQ(content(entry.path()), content(other)) << other;
+        ++files;
+      }
+      EXPECT_GT(files, 0U) << folder;
+    }
+  }
+};
+
+TEST_F(RunCommand, LeavesTheFilesOfTheContract) {
+  const Answer answer = run_room("a", "");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("room, seed 1\n"));
+  EXPECT_THAT(answer.out, HasSubstr(file("a")));
+  for (const char* name :
+       {"summary.json", "trials.jsonl", "steps.jsonl", "effective.yaml", "provenance.json", "maps/global.pcd",
+        "maps/trial_0000/step_0000.pcd", "trajectories/trial_0000_reference.tum"}) {
+    EXPECT_TRUE(fs::exists(file("a") + "/" + name)) << name;
+  }
+  const Json summary = json("a/summary.json");
+  EXPECT_EQ(summary["complete"], true);
+  const std::string trials = content(file("a/trials.jsonl"));
+  EXPECT_EQ(summary["trials"]["count"], std::count(trials.begin(), trials.end(), '\n'));
+  EXPECT_GT(summary["trials"]["count"], 1);
+}
+
+TEST_F(RunCommand, QuietSaysNothing) {
+  const Answer answer = run_room("a");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(answer.out, "");
+  EXPECT_EQ(answer.err, "");
+}
+
+TEST_F(RunCommand, AnyNumberOfThreadsGivesTheSameResults) {
+  ASSERT_EQ(run_room("one", "--quiet --threads 1").exit_code, 0);
+  ASSERT_EQ(run_room("two", "--quiet --threads 2").exit_code, 0);
+  expect_same_results("one", "two");
+  EXPECT_EQ(json("two/provenance.json")["threads"], 2);
+}
+
+TEST_F(RunCommand, TheEffectiveFileRunsToTheSameResults) {
+  ASSERT_EQ(run_room("a", "--quiet --seed 3 --set localizer.matcher.ransam.iterations=15000").exit_code, 0);
+  EXPECT_EQ(json("a/summary.json")["seed"], 3);
+  const Answer again = run("run " + file("a/effective.yaml") + " --quiet --out " + file("b"));
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  expect_same_results("a", "b");
+  EXPECT_EQ(content(file("a/effective.yaml")), content(file("b/effective.yaml")));
+}
+
+TEST_F(RunCommand, AnotherSeedGivesOtherResults) {
+  ASSERT_EQ(run_room("a", "--quiet --seed 1").exit_code, 0);
+  ASSERT_EQ(run_room("b", "--quiet --seed 2").exit_code, 0);
+  EXPECT_NE(lines("a/steps.jsonl"), lines("b/steps.jsonl"));
+}
+
+TEST_F(RunCommand, RefusesAFolderInUseUnlessForced) {
+  ASSERT_EQ(run_room("a").exit_code, 0);
+  const Answer refused = run_room("a");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("the folder exists and is not empty"));
+  EXPECT_EQ(run_room("a", "--quiet --force --seed 9").exit_code, 0);
+  EXPECT_EQ(json("a/summary.json")["seed"], 9);
+}
+
+TEST_F(RunCommand, ABadConfigurationLeavesNoFolder) {
+  for (const char* set :
+       {"localizer.matcher.ransam.iterations=0", "trials.every_scan=0", "trials.min_steps=100000"}) {
+    const Answer answer = run_room("a", std::string("--set ") + set);
+    EXPECT_EQ(answer.exit_code, 2) << set;
+    EXPECT_THAT(answer.err, HasSubstr("error")) << set;
+    EXPECT_FALSE(fs::exists(file("a"))) << set;
+  }
+  for (const auto& entry : fs::directory_iterator(folder_.path())) {
+    EXPECT_EQ(entry.path().string().find("unfinished"), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(RunCommand, FailsWhereItCannotWrite) {
+  const Answer answer = run_room("world.yaml/results");
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.err, HasSubstr("cannot write: Not a directory"));
+}
+
+TEST_F(RunCommand, AFullDiskLeavesNothing) {
+  const std::string limited = "-c 'trap \"\" XFSZ; ulimit -f 4; exec " GLOCAL_PROGRAM " run " +
+                              file("room.yaml") + " --quiet --out " + file("a") + "' 2>" + file("why");
+  const int status = std::system(("bash " + limited).c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_THAT(content(file("why")), HasSubstr("cannot write: File too large"));
+  for (const auto& entry : fs::directory_iterator(folder_.path())) {
+    EXPECT_TRUE(entry.is_regular_file()) << entry.path();
+  }
+}
+
+TEST_F(RunCommand, AnInterruptKeepsFinishedTrials) {
+  // Enough trials for half a minute; interrupted as soon as the first has been written.
+  write_experiment("trials: {every_scan: 1, max_steps: 10}\n");
+  const std::string start = GLOCAL_PROGRAM " run " + file("room.yaml") +
+                            " --set localizer.matcher.ransam.iterations=300000 --out " + file("a") + " >" +
+                            file("out") + " 2>" + file("err") + " & pid=$!; ";
+  const std::string interrupt = "for i in $(seq 600); do grep -qs right\\\\\\|wrong\\\\\\|undecided " +
+                                file(".a.") + "$pid.unfinished/trials.jsonl && break; sleep 0.1; done; " +
+                                "kill -INT $pid; wait $pid";
+  const int status = std::system(("bash -c '" + start + interrupt + "'").c_str());
+  ASSERT_EQ(WEXITSTATUS(status), 3) << content(file("err"));
+  EXPECT_THAT(content(file("err")), HasSubstr("trials were finished and kept"));
+  const Json summary = json("a/summary.json");
+  EXPECT_EQ(summary["complete"], false);
+  const std::string trials = content(file("a/trials.jsonl"));
+  EXPECT_EQ(summary["trials"]["count"], std::count(trials.begin(), trials.end(), '\n'));
+  EXPECT_GE(summary["trials"]["count"], 1);
+}
+
+}  // namespace
+}  // namespace glocal::test

@@ -1,0 +1,71 @@
+// Every file in configs/ is good.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "app/program.hpp"
+#include "sources/files.hpp"
+
+namespace glocal::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(GLOCAL_SOURCE_DIR) / "configs" / folder)) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string path_of(const std::string& folder, const std::string& name) {
+  return fs::path(GLOCAL_SOURCE_DIR) / "configs" / folder / (name + ".yaml");
+}
+
+std::string name_of(const testing::TestParamInfo<std::string>& info) {
+  return info.param;
+}
+
+class Experiments : public CommandLine, public testing::WithParamInterface<std::string> {};
+
+TEST_P(Experiments, OpenWithWhatTheyShow) {
+  const std::string text = content(path_of("experiments", GetParam()));
+  EXPECT_THAT(text, testing::StartsWith("# "));
+  EXPECT_GT(text.find('\n'), 20U);
+  EXPECT_THAT(text, testing::HasSubstr("\nname: " + GetParam() + "\n"));
+}
+
+TEST_P(Experiments, PassTheCheck) {
+  const std::string file = path_of("experiments", GetParam());
+  if (content(file).find("data:") != std::string::npos && dataset("").empty()) {
+    GTEST_SKIP() << "GLOCAL_DATASETS is not set";
+  }
+  const Answer answer = run("check " + file);
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, testing::HasSubstr(": ok, "));
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, Experiments, testing::ValuesIn(names_in("experiments")), name_of);
+
+class Worlds : public CommandLine, public testing::WithParamInterface<std::string> {};
+
+TEST_P(Worlds, OpenWithWhatTheyAre) {
+  EXPECT_THAT(content(path_of("worlds", GetParam())), testing::StartsWith("# "));
+}
+
+TEST_P(Worlds, AreUsed) {
+  const std::vector<std::string> experiments = names_in("experiments");
+  EXPECT_TRUE(std::any_of(experiments.begin(), experiments.end(), [&](const std::string& experiment) {
+    return content(path_of("experiments", experiment)).find("worlds/" + GetParam() + ".yaml") !=
+           std::string::npos;
+  }));
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, Worlds, testing::ValuesIn(names_in("worlds")), name_of);
+
+}  // namespace
+}  // namespace glocal::test

@@ -1,0 +1,47 @@
+// Every strategy's parameters: documented, in range, and the same after a way through YAML.
+#include <gtest/gtest.h>
+
+#include "config/field_docs.hpp"
+#include "config/writer.hpp"
+#include "contract/strategies.hpp"
+#include "glocal/yaml.hpp"
+
+namespace glocal::test {
+namespace {
+
+void expect_documented(const StructDoc& doc) {
+  for (const FieldDoc& field : doc.fields) {
+    const std::string text = field.info.doc.text;
+    EXPECT_GT(text.size(), 5U) << field.name;
+    EXPECT_TRUE(text.ends_with('.') || text.ends_with("…")) << field.name << ": " << text;
+    for (const StructDoc& inner : field.inner) expect_documented(inner);
+  }
+}
+
+TEST_F(Contract, EveryParameterIsDocumented) {
+  for (const RegistryBase* registry : std::as_const(catalog_).registries()) {
+    for (const StrategyInfo* info : registry->all()) {
+      SCOPED_TRACE(registry->kind() + " " + info->name);
+      EXPECT_TRUE(info->doc.ends_with('.')) << info->doc;
+      EXPECT_EQ(info->origin, "glocal");
+      expect_documented(document(*info->default_params()));
+    }
+  }
+}
+
+// Reading is strict: defaults out of their own range would be refused here.
+TEST_F(Contract, DefaultsAreInRangeAndComeBackFromYaml) {
+  for (const RegistryBase* registry : std::as_const(catalog_).registries()) {
+    for (const StrategyInfo* info : registry->all()) {
+      SCOPED_TRACE(registry->kind() + " " + info->name);
+      const StrategyChoice chosen = choice(*registry, *info);
+      const std::string text = write_yaml(*chosen.params);
+      const auto again = info->default_params();
+      ASSERT_NO_THROW(read_yaml(folder_.write("params.yaml", text), *again)) << text;
+      EXPECT_EQ(write_yaml(*again), text);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace glocal::test

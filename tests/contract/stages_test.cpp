@@ -1,0 +1,242 @@
+// What every stage promises (glocal/strategies.hpp).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "contract/strategies.hpp"
+
+namespace glocal::test {
+namespace {
+
+Observation observation(const Points& hits, double x = 0.0) {
+  Observation result;
+  result.scan.hits = hits;
+  result.odom_from_robot.x = x;
+  return result;
+}
+
+Points seen(double x) {
+  return glocal::testing::seen_from(glocal::testing::small_world_points(), {2.0 + x, 2.0, 0.0}, 2.5);
+}
+
+LocalMap local_map() {
+  LocalMap local;
+  local.points = seen(0.0);
+  local.ends = {local.points.size()};
+  return local;
+}
+
+/// Thirty hypotheses around three places.
+std::vector<Hypothesis> hypotheses() {
+  Rng rng(3);
+  std::vector<Hypothesis> result;
+  for (int i = 0; i < 30; ++i) {
+    const Pose2 pose{5.0 * (i % 3) + rng.normal(0.02), rng.normal(0.02), wrap_angle(3.1 + rng.normal(0.02))};
+    result.push_back({pose, pose, 0.9 - 0.01 * i});
+  }
+  return result;
+}
+
+/// A cluster for each remainder by three.
+std::vector<Cluster> clusters() {
+  std::vector<Cluster> result(3);
+  const auto all = hypotheses();
+  for (std::size_t i = 0; i < all.size(); ++i) result[i % 3].members.push_back(i);
+  for (std::size_t k = 0; k < 3; ++k) {
+    result[k].map_from_robot = all[k].map_from_robot;
+    result[k].variance_x = result[k].variance_y = result[k].variance_theta = 0.0004;
+  }
+  return result;
+}
+
+bool equal(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Hypothesis& p, const Hypothesis& q) {
+    return p.map_from_local == q.map_from_local && p.map_from_robot == q.map_from_robot &&
+           p.quality == q.quality;
+  });
+}
+
+class Stages : public Contract {
+ protected:
+  [[nodiscard]] StageSetup setup(int threads = 1) const { return {map_, threads}; }
+  std::shared_ptr<const GlobalMap> map_ = glocal::testing::small_world();
+};
+
+TEST_F(Stages, LocalMappersPlaceTheFirstObservationAtTheOrigin) {
+  for_each(catalog_.local_mappers, [&](const StrategyChoice& choice) {
+    const auto mapper = catalog_.local_mappers.make(choice, setup());
+    mapper->add(observation(seen(0.0), 17.0));
+    EXPECT_EQ(mapper->map().local_from_robot, Pose2{});
+    ASSERT_EQ(mapper->map().ends.size(), 1U);
+    EXPECT_EQ(mapper->map().ends.back(), mapper->map().points.size());
+    EXPECT_GT(mapper->map().points.size(), 0U);
+  });
+}
+
+TEST_F(Stages, LocalMappersKeepTheIndexesOfAGenerationAndMoveOnWithoutHits) {
+  for_each(catalog_.local_mappers, [&](const StrategyChoice& choice) {
+    const auto mapper = catalog_.local_mappers.make(choice, setup());
+    mapper->add(observation(seen(0.0)));
+    const LocalMap before = mapper->map();
+    mapper->add(observation(seen(0.3), 0.3));
+    const LocalMap after = mapper->map();
+    ASSERT_EQ(after.generation, before.generation);
+    ASSERT_GE(after.points.size(), before.points.size());
+    // A mapper may refine a point, but not give its index to another one.
+    for (std::size_t i = 0; i < before.points.size(); ++i) {
+      EXPECT_NEAR(after.points.x[i], before.points.x[i], 0.05);
+      EXPECT_NEAR(after.points.y[i], before.points.y[i], 0.05);
+    }
+    EXPECT_EQ(after.ends.size(), 2U);
+    EXPECT_EQ(after.ends.front(), before.ends.front());
+    EXPECT_EQ(after.ends.back(), after.points.size());
+    EXPECT_NEAR(after.local_from_robot.x, 0.3, 0.1);
+
+    mapper->add(observation({}, 0.8));
+    EXPECT_EQ(mapper->map().points, after.points);
+    EXPECT_NEAR(mapper->map().local_from_robot.x, after.local_from_robot.x + 0.5, 1e-9);
+  });
+}
+
+TEST_F(Stages, LocalMappersRepeatThemselvesAfterAReset) {
+  for_each(catalog_.local_mappers, [&](const StrategyChoice& choice) {
+    const auto mapper = catalog_.local_mappers.make(choice, setup());
+    const auto drive = [&] {
+      for (const double x : {0.0, 0.3, 0.6}) mapper->add(observation(seen(x), x));
+      return mapper->map();
+    };
+    const LocalMap first = drive();
+    mapper->reset();
+    EXPECT_TRUE(mapper->map().points.empty());
+    const LocalMap second = drive();
+    EXPECT_EQ(first.points, second.points);
+    EXPECT_EQ(first.ends, second.ends);
+    EXPECT_EQ(first.local_from_robot, second.local_from_robot);
+  });
+}
+
+TEST_F(Stages, MatchersKeepToTheThresholdInFallingQuality) {
+  for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
+    const auto matcher = catalog_.matchers.make(choice, setup());
+    Rng rng(1);
+    const auto found = matcher->match(local_map(), {}, 0.5, rng).hypotheses;
+    ASSERT_FALSE(found.empty());
+    double last = 1.0;
+    for (const Hypothesis& h : found) {
+      EXPECT_GE(h.quality, 0.5);
+      EXPECT_LE(h.quality, last);
+      last = h.quality;
+    }
+  });
+}
+
+TEST_F(Stages, MatchersAnswerAlikeForAnyNumberOfThreadsAndAfterAReset) {
+  for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
+    const auto one = catalog_.matchers.make(choice, setup(1));
+    const auto two = catalog_.matchers.make(choice, setup(2));
+    const auto answer = [](Matcher& matcher) {
+      Rng rng(1);
+      return matcher.match(local_map(), {}, 0.5, rng);
+    };
+    const MatchResult first = answer(*one);
+    const MatchResult parallel = answer(*two);
+    one->reset();
+    const MatchResult again = answer(*one);
+    EXPECT_TRUE(equal(first.hypotheses, parallel.hypotheses));
+    EXPECT_TRUE(equal(first.hypotheses, again.hypotheses));
+    EXPECT_EQ(first.collisions, parallel.collisions);
+    EXPECT_EQ(first.checks, parallel.checks);
+  });
+}
+
+TEST_F(Stages, MatchersFindNothingForAnEmptyLocalMap) {
+  for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
+    Rng rng(1);
+    EXPECT_TRUE(catalog_.matchers.make(choice, setup())->match({}, {}, 0.0, rng).hypotheses.empty());
+  });
+}
+
+TEST_F(Stages, ClusterersPutEveryHypothesisIntoOneCluster) {
+  for_each(catalog_.clusterers, [&](const StrategyChoice& choice) {
+    const auto clusterer = catalog_.clusterers.make(choice, setup());
+    const auto all = hypotheses();
+    Rng rng(1);
+    const auto first = clusterer->cluster(all, rng);
+    std::vector<int> times(all.size(), 0);
+    for (const Cluster& cluster : first) {
+      EXPECT_FALSE(cluster.members.empty());
+      EXPECT_TRUE(std::is_sorted(cluster.members.begin(), cluster.members.end()));
+      for (const std::size_t member : cluster.members) ++times.at(member);
+    }
+    EXPECT_EQ(times, std::vector<int>(all.size(), 1));
+    Rng same(1);
+    const auto second = clusterer->cluster(all, same);
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].members, second[i].members);
+    EXPECT_TRUE(clusterer->cluster({}, rng).empty());
+  });
+}
+
+TEST_F(Stages, RatersRateEveryClusterAndNormalise) {
+  for_each(catalog_.raters, [&](const StrategyChoice& choice) {
+    const auto rater = catalog_.raters.make(choice, setup());
+    const auto ratings = rater->rate(clusters(), hypotheses());
+    ASSERT_EQ(ratings.size(), 3U);
+    double sum = 0.0;
+    for (const Rating& rating : ratings) {
+      EXPECT_GT(rating.r, 0.0);
+      EXPECT_LE(rating.r, 1.0);
+      sum += rating.r_normalised;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+    EXPECT_TRUE(rater->rate({}, {}).empty());
+  });
+}
+
+TEST_F(Stages, ThresholdsStayInRangeAndChangeOnlyWhenUpdatedOrReset) {
+  for_each(catalog_.threshold_policies, [&](const StrategyChoice& choice) {
+    const auto policy = catalog_.threshold_policies.make(choice, setup());
+    const double initial = policy->omega_max();
+    EXPECT_EQ(policy->omega_max(), initial);
+    for (int i = 0; i < 30; ++i) {
+      policy->update(i < 15 ? hypotheses() : std::vector<Hypothesis>{});
+      EXPECT_GE(policy->omega_max(), 0.0);
+      EXPECT_LE(policy->omega_max(), 1.0);
+    }
+    policy->reset();
+    EXPECT_EQ(policy->omega_max(), initial);
+  });
+}
+
+TEST_F(Stages, VerdictsAreWholeNeverUnknownPlaceAndForgottenByAReset) {
+  for_each(catalog_.verdict_rules, [&](const StrategyChoice& choice) {
+    const auto rule = catalog_.verdict_rules.make(choice, setup());
+    EXPECT_EQ(rule->judge({}).kind, VerdictKind::searching);
+    StepResult step;
+    step.hypotheses = hypotheses();
+    step.clusters = {clusters().front()};
+    step.ratings = {{0.9, 1.0}};
+    const auto drive = [&] {
+      std::vector<VerdictKind> kinds;
+      for (step.step = 0; step.step < 20; ++step.step) {
+        const Verdict verdict = rule->judge(step);
+        EXPECT_NE(verdict.kind, VerdictKind::unknown_place);
+        EXPECT_EQ(verdict.map_from_robot.has_value(), verdict.kind == VerdictKind::localized);
+        EXPECT_EQ(verdict.candidates.empty(), verdict.kind != VerdictKind::ambiguous);
+        EXPECT_FALSE(verdict.why.empty());
+        kinds.push_back(verdict.kind);
+      }
+      return kinds;
+    };
+    rule->reset();
+    const auto first = drive();
+    // A single undisputed cluster that stays is convincing sooner or later.
+    EXPECT_EQ(first.back(), VerdictKind::localized);
+    rule->reset();
+    EXPECT_EQ(drive(), first);
+  });
+}
+
+}  // namespace
+}  // namespace glocal::test

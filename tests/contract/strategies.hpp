@@ -1,0 +1,101 @@
+// Every registered strategy, ready to be made.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "clustering/register.hpp"
+#include "glocal/catalog.hpp"
+#include "local_mappers/register.hpp"
+#include "matchers/register.hpp"
+#include "raters/register.hpp"
+#include "sources/carmen_log.hpp"
+#include "sources/files.hpp"
+#include "sources/log_map.hpp"
+#include "sources/register.hpp"
+#include "sources/ros_map.hpp"
+#include "sources/simulation.hpp"
+#include "test_world.hpp"
+
+namespace glocal::test {
+
+class Contract : public ::testing::Test {
+ protected:
+  Contract() {
+    register_sources(catalog_);
+    register_local_mappers(catalog_);
+    register_matchers(catalog_);
+    register_clustering(catalog_);
+    register_raters(catalog_);
+    world_ =
+        file_path(folder_.write("world.yaml",
+                                "size: [6, 4]\n"
+                                "walls: [{points: [[0, 0], [6, 0], [6, 4], [2, 4], [0, 3]], closed: true}]\n"
+                                "free_from: [[1, 1]]\nway_points: [[1, 1], [4, 1], [4, 3]]\n"));
+    log_ = file_path(folder_.write("drive.log",
+                                   "TRUEPOS 0 0 0 0 0 0 0 host 0\n"
+                                   "FLASER 3 2.0 1.0 1.5 0 0 0 0 0 0 0 host 0\n"
+                                   "TRUEPOS 1 0 0 1 0 0 1 host 1\n"
+                                   "FLASER 3 1.9 1.1 1.5 1 0 0 1 0 0 1 host 1\n"
+                                   "TRUEPOS 2 0 0.5 2 0 0.5 2 host 2\n"
+                                   "FLASER 3 2.0 1.0 1.5 2 0 0.5 2 0 0.5 2 host 2\n"));
+    folder_.write("map.pgm", std::string("P5\n3 2\n255\n") + std::string("\x00\xfe\xfe\xfe\xcd\x00", 6));
+    ros_map_ = file_path(folder_.write("map.yaml",
+                                       "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+                                       "occupied_thresh: 0.65\nfree_thresh: 0.196\n"));
+    fill<Simulation::Params>("observation_source/simulation", [&](auto& p) { p.world = world_; });
+    fill<LogParams>("observation_source/carmen_log", [&](auto& p) { p.path = log_; });
+    fill<SimulatedMap::Params>("map_source/simulation", [&](auto& p) { p.world = world_; });
+    fill<RosMap::Params>("map_source/ros_map", [&](auto& p) { p.path = ros_map_; });
+    fill<LogMap::Params>("map_source/log_map", [&](auto& p) {
+      p.log.path = log_;
+      p.min_hits = 1;
+    });
+    for (const char* stage :
+         {"local_mapper/scan_matching", "matcher/ransam", "clusterer/hierarchical_kmeans",
+          "rater/cluster_rating", "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
+      fillers_[stage] = [](AnyParams&) {};
+    }
+  }
+
+  /// A strategy with its defaults, and what it requires besides. A strategy that has no entry above fails the
+  /// test: give it one.
+  StrategyChoice choice(const RegistryBase& registry, const StrategyInfo& info) const {
+    StrategyChoice chosen = registry.choose(info.name);
+    const auto filler = fillers_.find(registry.kind() + "/" + info.name);
+    if (filler == fillers_.end()) {
+      ADD_FAILURE() << registry.kind() << " " << info.name
+                    << " has no entry in tests/contract/strategies.hpp";
+    } else {
+      filler->second(*chosen.params);
+    }
+    return chosen;
+  }
+
+  template <class Interface, class Setup, class Test>
+  void for_each(const Registry<Interface, Setup>& registry, Test test) const {
+    ASSERT_FALSE(registry.all().empty()) << registry.kind();
+    for (const StrategyInfo* info : registry.all()) {
+      SCOPED_TRACE(registry.kind() + " " + info->name);
+      test(choice(registry, *info));
+    }
+  }
+
+  TempFolder folder_;
+  Catalog catalog_;
+
+ private:
+  template <class Params, class Fill>
+  void fill(const std::string& name, Fill fill_in) {
+    fillers_[name] = [fill_in](AnyParams& any) { fill_in(dynamic_cast<ParamsOf<Params>&>(any).value); };
+  }
+
+  FilePath world_, log_, ros_map_;
+  std::map<std::string, std::function<void(AnyParams&)>> fillers_;
+};
+
+}  // namespace glocal::test

@@ -1,0 +1,156 @@
+// Stages that do what a test tells them, and note what is asked of them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/localizer.hpp"
+
+namespace glocal::test {
+
+/// What the stages answer, shared by all of them and the test.
+struct Script {
+  std::vector<std::string> calls;  ///< In order.
+  LocalMap local;                  ///< What the mapper shows, whatever is added.
+  double omega_max = 0.3;          ///< Before the first update.
+  double updated_omega_max = 0.3;  ///< After it.
+  std::function<MatchResult(double omega_max, Rng& rng)> match = [](double, Rng&) { return MatchResult{}; };
+  std::function<void(Rng& rng)> cluster = [](Rng&) {};
+  std::vector<double> r;  ///< Of the clusters, in the order of their hypotheses.
+  std::function<Verdict(const StepResult&)> judge = [](const StepResult&) { return Verdict{}; };
+};
+
+struct FakeParams {
+  std::shared_ptr<Script> script;
+};
+inline void describe(ParamVisitor& /*v*/, FakeParams& /*p*/) {}
+
+template <class Interface>
+class Fake : public Interface {
+ public:
+  using Params = FakeParams;
+  explicit Fake(const Params& params) : script_(params.script) {}
+
+ protected:
+  void note(const std::string& call) const { script_->calls.push_back(call); }
+  std::shared_ptr<Script> script_;
+};
+
+struct FakeMapper final : Fake<LocalMapper> {
+  using Fake::Fake;
+  void add(const Observation& /*observation*/) override { note("add"); }
+  [[nodiscard]] const LocalMap& map() const override { return script_->local; }
+  void reset() override { note("reset local map"); }
+};
+
+struct FakeMatcher final : Fake<Matcher> {
+  using Fake::Fake;
+  [[nodiscard]] MatchResult match(const LocalMap& /*local*/, const Observation& /*latest*/, double omega_max,
+                                  Rng& rng) override {
+    note("match");
+    return script_->match(omega_max, rng);
+  }
+  void reset() override { note("reset matcher"); }
+};
+
+/// Each hypothesis is a cluster.
+struct FakeClusterer final : Fake<Clusterer> {
+  using Fake::Fake;
+  [[nodiscard]] std::vector<Cluster> cluster(const std::vector<Hypothesis>& hypotheses, Rng& rng) override {
+    note("cluster");
+    script_->cluster(rng);
+    std::vector<Cluster> clusters;
+    for (std::size_t i = 0; i < hypotheses.size(); ++i)
+      clusters.push_back({{i}, hypotheses[i].map_from_robot});
+    return clusters;
+  }
+};
+
+struct FakeRater final : Fake<Rater> {
+  using Fake::Fake;
+  [[nodiscard]] std::vector<Rating> rate(const std::vector<Cluster>& clusters,
+                                         const std::vector<Hypothesis>& /*hypotheses*/) override {
+    note("rate");
+    std::vector<Rating> ratings;
+    for (std::size_t i = 0; i < clusters.size(); ++i) ratings.push_back({script_->r.at(i), 0.0});
+    return ratings;
+  }
+};
+
+struct FakeThreshold final : Fake<ThresholdPolicy> {
+  using Fake::Fake;
+  [[nodiscard]] double omega_max() const override {
+    note("omega_max");
+    return updated_ ? script_->updated_omega_max : script_->omega_max;
+  }
+  void update(const std::vector<Hypothesis>& /*hypotheses*/) override {
+    note("update");
+    updated_ = true;
+  }
+  void reset() override {
+    note("reset threshold");
+    updated_ = false;
+  }
+
+ private:
+  bool updated_ = false;
+};
+
+struct FakeVerdict final : Fake<VerdictRule> {
+  using Fake::Fake;
+  [[nodiscard]] Verdict judge(const StepResult& step) override {
+    note("judge");
+    return script_->judge(step);
+  }
+  void reset() override { note("reset verdict"); }
+};
+
+/// Delivers what it is given.
+class ListedSamples final : public ObservationSource {
+ public:
+  struct Params {
+    std::vector<Sample> samples;
+  };
+  explicit ListedSamples(Params params) : samples_(std::move(params.samples)) {}
+  [[nodiscard]] std::optional<Sample> next() override {
+    return next_ < samples_.size() ? std::optional(samples_[next_++]) : std::nullopt;
+  }
+
+ private:
+  std::vector<Sample> samples_;
+  std::size_t next_ = 0;
+};
+inline void describe(ParamVisitor& /*v*/, ListedSamples::Params& /*p*/) {}
+
+inline void register_fake_stages(Catalog& catalog) {
+  catalog.local_mappers.add<FakeMapper>("fake", "Shows a given map.");
+  catalog.matchers.add<FakeMatcher>("fake", "Gives given hypotheses.");
+  catalog.clusterers.add<FakeClusterer>("fake", "Puts each hypothesis into a cluster.");
+  catalog.raters.add<FakeRater>("fake", "Gives given ratings.");
+  catalog.threshold_policies.add<FakeThreshold>("fake", "Gives given thresholds.");
+  catalog.verdict_rules.add<FakeVerdict>("fake", "Gives given verdicts.");
+}
+
+/// All stages follow one script; no place is unknown.
+inline LocalizerConfig follow(const std::shared_ptr<Script>& script) {
+  const auto stage = [&] {
+    auto params = std::make_unique<ParamsOf<FakeParams>>();
+    params->value.script = script;
+    return StrategyChoice{"fake", std::move(params)};
+  };
+  return {stage(), stage(), stage(), stage(), stage(), stage(), {.max_contact = 0.0}};
+}
+
+/// A map with one point, at the origin, and no grid.
+inline std::shared_ptr<const GlobalMap> map_of_one_point() {
+  MapData data;
+  data.points.push_back({0.0F, 0.0F, 0.0F});
+  return std::make_shared<const GlobalMap>(std::move(data));
+}
+
+}  // namespace glocal::test

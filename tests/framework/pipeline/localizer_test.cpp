@@ -1,0 +1,188 @@
+// The line from observation to verdict, with stages that follow a script.
+#include "glocal/localizer.hpp"
+
+#include <gmock/gmock.h>
+
+#include "framework/pipeline/fakes.hpp"
+
+namespace glocal::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::Not;
+
+class LocalizerTest : public testing::Test {
+ protected:
+  LocalizerTest() { register_fake_stages(catalog_); }
+
+  [[nodiscard]] Localizer make(std::uint64_t seed = 1,
+                               const UnknownPlaceParams& unknown_place = {.max_contact = 0.0}) {
+    LocalizerConfig config = follow(script_);
+    config.unknown_place = unknown_place;
+    return {config, catalog_, {map_of_one_point(), 1}, seed};
+  }
+
+  /// The matcher's answer from now on.
+  void give(const std::vector<Hypothesis>& hypotheses, const std::vector<double>& r) {
+    script_->match = [=](double, Rng&) { return MatchResult{hypotheses, 70, 900}; };
+    script_->r = r;
+  }
+
+  /// First random numbers that matcher and clusterer of each step get.
+  std::vector<std::uint64_t> draws(Localizer& localizer, int steps) {
+    std::vector<std::uint64_t> numbers;
+    script_->match = [&](double, Rng& rng) {
+      numbers.push_back(rng.next());
+      return MatchResult{};
+    };
+    script_->cluster = [&](Rng& rng) { numbers.push_back(rng.next()); };
+    for (int i = 0; i < steps; ++i) static_cast<void>(localizer.step({}));
+    return numbers;
+  }
+
+  std::shared_ptr<Script> script_ = std::make_shared<Script>();
+  Catalog catalog_;
+};
+
+TEST_F(LocalizerTest, CallsTheStagesInTheOrderOfThePaper) {
+  Localizer localizer = make();
+  static_cast<void>(localizer.step({}));
+  EXPECT_THAT(script_->calls, ElementsAre("add", "omega_max", "match", "update", "cluster", "rate", "judge"));
+}
+
+TEST_F(LocalizerTest, TheThresholdOfAStepIsTheOneBeforeItsUpdate) {
+  std::vector<double> passed;
+  script_->match = [&](double omega_max, Rng&) {
+    passed.push_back(omega_max);
+    return MatchResult{};
+  };
+  script_->updated_omega_max = 0.7;
+  Localizer localizer = make();
+  EXPECT_EQ(localizer.step({}).omega_max, 0.3);
+  EXPECT_EQ(localizer.step({}).omega_max, 0.7);
+  EXPECT_THAT(passed, ElementsAre(0.3, 0.7));
+}
+
+TEST_F(LocalizerTest, ClustersFollowTheirRatingsDownwardsAndEqualOnesKeepTheirOrder) {
+  give({{{}, {1, 0, 0}, 0.9}, {{}, {2, 0, 0}, 0.8}, {{}, {3, 0, 0}, 0.7}, {{}, {4, 0, 0}, 0.6}},
+       {0.2, 0.5, 0.2, 0.9});
+  std::vector<double> judged;
+  script_->judge = [&](const StepResult& step) {
+    for (const Rating& rating : step.ratings) judged.push_back(rating.r);
+    return Verdict{};
+  };
+  Localizer localizer = make();
+  const StepResult result = localizer.step({});
+  std::vector<double> order;
+  for (const Cluster& cluster : result.clusters) order.push_back(cluster.map_from_robot.x);
+  EXPECT_THAT(order, ElementsAre(4, 2, 1, 3));
+  EXPECT_THAT(judged, ElementsAre(0.9, 0.5, 0.2, 0.2));
+  EXPECT_EQ(result.estimate(), (Pose2{4, 0, 0}));
+}
+
+TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
+  script_->local.points.push_back({});
+  script_->local.points.push_back({});
+  script_->local.ends = {2};
+  script_->local.local_from_robot = {1, 2, 0.5};
+  script_->local.generation = 3;
+  give({{{}, {1, 0, 0}, 0.9}, {{}, {2, 0, 0}, 0.4}}, {0.5, 0.6});
+  script_->judge = [](const StepResult&) {
+    return Verdict{VerdictKind::ambiguous, std::nullopt, {{2, 0, 0}, {1, 0, 0}}, "two"};
+  };
+  Localizer localizer = make();
+  const StepResult result = localizer.step({12.5, {}, {}});
+  EXPECT_EQ(result.stamp, 12.5);
+  EXPECT_EQ(result.local_from_robot, (Pose2{1, 2, 0.5}));
+  EXPECT_EQ(result.local_map_generation, 3);
+  EXPECT_EQ(result.local_map_points, 2U);
+  EXPECT_EQ(result.omega_best, 0.9);
+  EXPECT_EQ(result.omega_place, 1.0);
+  EXPECT_EQ(result.collisions, 70U);
+  EXPECT_EQ(result.checks, 900U);
+  EXPECT_EQ(result.hypotheses.size(), 2U);
+  EXPECT_EQ(result.verdict.kind, VerdictKind::ambiguous);
+  EXPECT_THAT(result.verdict.candidates, ElementsAre(Pose2{2, 0, 0}, Pose2{1, 0, 0}));
+}
+
+TEST_F(LocalizerTest, AStepWithoutHypothesesHasNoBest) {
+  Localizer localizer = make();
+  const StepResult result = localizer.step({});
+  EXPECT_EQ(result.omega_best, 0.0);
+  EXPECT_EQ(result.omega_place, std::nullopt);
+  EXPECT_EQ(result.estimate(), std::nullopt);
+}
+
+TEST_F(LocalizerTest, AnUnknownPlaceOverridesTheVerdict) {
+  // One of eight points is on the map.
+  for (int i = 0; i < 8; ++i) script_->local.points.push_back({static_cast<float>(i), 0.0F, 0.0F});
+  script_->local.ends = {8};
+  give({{{}, {1, 0, 0}, 0.9}}, {0.5});
+  script_->judge = [](const StepResult&) {
+    return Verdict{VerdictKind::localized, Pose2{1, 0, 0}, {{1, 0, 0}}, "sure"};
+  };
+  Localizer wary = make(1, {.max_contact = 0.2});
+  const StepResult unknown = wary.step({});
+  EXPECT_EQ(unknown.omega_place, 0.125);
+  EXPECT_EQ(unknown.verdict.kind, VerdictKind::unknown_place);
+  EXPECT_EQ(unknown.verdict.map_from_robot, std::nullopt);
+  EXPECT_TRUE(unknown.verdict.candidates.empty());
+  EXPECT_EQ(unknown.verdict.why, "only 12 % of what was last seen is on the map");
+
+  Localizer bold = make(1, {.max_contact = 0.1});
+  const StepResult localized = bold.step({});
+  EXPECT_EQ(localized.verdict.kind, VerdictKind::localized);
+  EXPECT_EQ(localized.verdict.map_from_robot, (Pose2{1, 0, 0}));
+}
+
+TEST_F(LocalizerTest, ResetReachesAllStagesAndCountsFromZero) {
+  script_->local.points.push_back({});
+  script_->local.ends = {1};
+  give({{{}, {}, 0.9}}, {0.5});
+  script_->updated_omega_max = 0.7;
+  Localizer localizer = make();
+  EXPECT_EQ(localizer.step({}).step, 0U);
+  EXPECT_EQ(localizer.step({}).step, 1U);
+  script_->calls.clear();
+  localizer.reset(1);
+  EXPECT_THAT(script_->calls, testing::UnorderedElementsAre("reset local map", "reset matcher",
+                                                            "reset threshold", "reset verdict"));
+  give({}, {});
+  const StepResult first = localizer.step({});
+  EXPECT_EQ(first.step, 0U);
+  EXPECT_EQ(first.omega_max, 0.3);
+  // The best hypothesis of the trial before is forgotten.
+  EXPECT_EQ(first.omega_place, std::nullopt);
+}
+
+TEST_F(LocalizerTest, EveryStageStepTrialAndSeedHasRandomNumbersOfItsOwn) {
+  Localizer localizer = make();
+  std::vector<std::uint64_t> all;
+  for (const std::uint64_t trial : {0, 1, 2}) {
+    localizer.reset(trial);
+    const auto some = draws(localizer, 3);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  Localizer other = make(2);
+  const auto some = draws(other, 3);
+  all.insert(all.end(), some.begin(), some.end());
+  ASSERT_EQ(all.size(), 24U);
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());
+}
+
+TEST_F(LocalizerTest, ATrialDrawsTheSameNumbersWheneverItRuns) {
+  Localizer localizer = make();
+  const auto fresh = draws(localizer, 2);
+  localizer.reset(5);
+  const auto fifth = draws(localizer, 2);
+  localizer.reset(0);
+  EXPECT_EQ(draws(localizer, 2), fresh);
+  EXPECT_THAT(fifth, Not(fresh));
+  Localizer other = make();
+  other.reset(5);
+  EXPECT_EQ(draws(other, 2), fifth);
+}
+
+}  // namespace
+}  // namespace glocal::test

@@ -1,0 +1,105 @@
+// Eq. 10 on a map of four points, a metre apart.
+#include "glocal/unknown_place.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace glocal::test {
+namespace {
+
+GlobalMap four_points() {
+  MapData data;
+  for (int i = 0; i < 4; ++i) data.points.push_back({static_cast<float>(i), 0.0F, 0.0F});
+  return GlobalMap(std::move(data));
+}
+
+/// On this map under `pose`: (0, 0), (0, 1), (0, 2) and (0, 3); nothing else is.
+const Pose2 pose{3.0, 0.0, std::numbers::pi / 2.0};
+constexpr Point on{0.0F, 2.0F, 0.0F};
+constexpr Point off{1.0F, 0.0F, 0.0F};
+
+/// A local map whose observations registered these points.
+LocalMap observed(const std::vector<std::vector<Point>>& observations) {
+  LocalMap local;
+  for (const std::vector<Point>& points : observations) {
+    for (const Point& point : points) local.points.push_back(point);
+    local.ends.push_back(local.points.size());
+  }
+  return local;
+}
+
+double omega_place(int window, const LocalMap& local) {
+  UnknownPlaceMonitor monitor({.window = window, .contact_epsilon = 0.1}, four_points());
+  return monitor.update(local, {{pose, {}, 0.9}}).value_or(-1.0);
+}
+
+TEST(UnknownPlace, IsTheMeanOfTheSharesOfTheObservations) {
+  // 1 of 4, 2 of 2, 0 of 1: every observation counts the same, however many points it has.
+  const LocalMap local = observed({{on, off, off, off}, {on, on}, {off}});
+  EXPECT_DOUBLE_EQ(omega_place(10, local), (0.25 + 1.0 + 0.0) / 3.0);
+}
+
+TEST(UnknownPlace, LooksBackAsFarAsTheWindow) {
+  const LocalMap local = observed({{on, off, off, off}, {on, on}, {off}});
+  EXPECT_DOUBLE_EQ(omega_place(3, local), 1.25 / 3.0);
+  EXPECT_DOUBLE_EQ(omega_place(2, local), 0.5);
+  EXPECT_DOUBLE_EQ(omega_place(1, local), 0.0);
+}
+
+TEST(UnknownPlace, ObservationsWithoutPointsDoNotCount) {
+  EXPECT_DOUBLE_EQ(omega_place(2, observed({{off}, {on, off}, {}, {on}, {}, {}})), 0.75);
+  EXPECT_DOUBLE_EQ(omega_place(10, observed({{}, {on}, {}})), 1.0);
+  EXPECT_DOUBLE_EQ(omega_place(10, observed({{}, {}})), -1.0);
+}
+
+TEST(UnknownPlace, IsJudgedByTheBestHypothesis) {
+  const GlobalMap map = four_points();
+  UnknownPlaceMonitor monitor({}, map);
+  const LocalMap local = observed({{{0.0F, 0.0F, 0.0F}, {0.0F, 3.0F, 0.0F}}});
+  // Turned by a quarter both points are met, unturned one of them is.
+  EXPECT_EQ(monitor.update(local, {{pose, {}, 0.9}, {{}, {}, 0.9}}), 1.0);
+  EXPECT_EQ(monitor.update(local, {{{}, {}, 0.9}, {pose, {}, 0.9}}), 0.5);
+}
+
+TEST(UnknownPlace, AStepWithoutHypothesesIsJudgedByTheLastBest) {
+  const GlobalMap map = four_points();
+  UnknownPlaceMonitor monitor({}, map);
+  EXPECT_EQ(monitor.update(observed({{on}}), {}), std::nullopt);
+  EXPECT_EQ(monitor.update(observed({{on}}), {{pose, {}, 0.9}}), 1.0);
+  EXPECT_EQ(monitor.update(observed({{on}, {off}}), {}), 0.5);
+  EXPECT_EQ(monitor.update(observed({{on}, {off}, {off}, {off}}), {}), 0.25);
+}
+
+TEST(UnknownPlace, APoseInTheFrameOfAnEarlierLocalMapMeansNothing) {
+  const GlobalMap map = four_points();
+  UnknownPlaceMonitor monitor({}, map);
+  LocalMap local = observed({{on}});
+  EXPECT_EQ(monitor.update(local, {{pose, {}, 0.9}}), 1.0);
+  local.generation = 1;
+  EXPECT_EQ(monitor.update(local, {}), std::nullopt);
+  EXPECT_EQ(monitor.update(local, {{{}, {}, 0.9}}), 0.0);
+  EXPECT_EQ(monitor.update(local, {}), 0.0);
+}
+
+TEST(UnknownPlace, ForgetsTheBestWhenReset) {
+  const GlobalMap map = four_points();
+  UnknownPlaceMonitor monitor({}, map);
+  EXPECT_EQ(monitor.update(observed({{on}}), {{pose, {}, 0.9}}), 1.0);
+  monitor.reset();
+  EXPECT_EQ(monitor.update(observed({{on}}), {}), std::nullopt);
+}
+
+TEST(UnknownPlace, IsUnknownBelowTheLimitOnly) {
+  const GlobalMap map = four_points();
+  const UnknownPlaceMonitor monitor({.max_contact = 0.2}, map);
+  EXPECT_FALSE(monitor.is_unknown(std::nullopt));
+  EXPECT_TRUE(monitor.is_unknown(0.0));
+  EXPECT_TRUE(monitor.is_unknown(0.199));
+  EXPECT_FALSE(monitor.is_unknown(0.2));
+  const UnknownPlaceMonitor off_switched({.max_contact = 0.0}, map);
+  EXPECT_FALSE(off_switched.is_unknown(0.0));
+}
+
+}  // namespace
+}  // namespace glocal::test

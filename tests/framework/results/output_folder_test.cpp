@@ -1,0 +1,160 @@
+#include "results/output_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <iterator>
+
+#include "glocal/error.hpp"
+#include "sources/files.hpp"
+
+namespace glocal::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::ptrdiff_t entries(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+template <class Call>
+std::string run_error(Call call) {
+  try {
+    call();
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Files of at most so many bytes, as if the disk were full; the limit before is restored.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    static_cast<void>(std::signal(SIGXFSZ, handler_));
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST(OutputFolder, AppearsWholeWhenCommitted) {
+  const TempFolder folder;
+  {
+    OutputFolder out(folder / "a/results", false);
+    out.append("steps.jsonl", "one\n");
+    out.append("maps/global.pcd", "points");
+    out.append("steps.jsonl", "two\n");
+    EXPECT_FALSE(fs::exists(folder / "a/results"));
+    EXPECT_EQ(out.path(), folder / "a/results");
+    out.commit();
+  }
+  EXPECT_EQ(content(folder / "a/results/steps.jsonl"), "one\ntwo\n");
+  EXPECT_EQ(content(folder / "a/results/maps/global.pcd"), "points");
+  EXPECT_EQ(entries(folder / "a"), 1);
+}
+
+TEST(OutputFolder, LeavesNothingWithoutCommit) {
+  const TempFolder folder;
+  {
+    OutputFolder out(folder / "results", false);
+    out.append("maps/global.pcd", "points");
+  }
+  EXPECT_EQ(entries(folder / ""), 0);
+}
+
+TEST(OutputFolder, AnEmptyFolderIsFree) {
+  const TempFolder folder;
+  fs::create_directory(folder / "results");
+  OutputFolder out(folder / "results/", false);
+  out.append("a", "1");
+  out.commit();
+  EXPECT_EQ(content(folder / "results/a"), "1");
+}
+
+TEST(OutputFolder, RefusesWhatIsThere) {
+  const TempFolder folder;
+  const fs::path file = folder.write("a.txt", "mine");
+  const fs::path parent = file.parent_path();
+  EXPECT_EQ(
+      config_error(parent.parent_path(), [&] { OutputFolder(parent, false); }),
+      parent.filename().string() +
+          ": error: output: the folder exists and is not empty; choose another one with --out, or replace "
+          "earlier results with --force");
+  EXPECT_EQ(config_error(parent, [&] { OutputFolder(file, true); }),
+            "a.txt: error: output: exists and is not a folder; choose another one with --out");
+  EXPECT_EQ(content(file), "mine");
+  EXPECT_EQ(entries(parent), 1);
+}
+
+TEST(OutputFolder, ReplacesOnlyEarlierResults) {
+  const TempFolder folder;
+  const fs::path parent = (folder / "").parent_path();
+  fs::create_directory(folder / "home");
+  folder.write("home/thesis.tex", "years of work");
+  EXPECT_EQ(config_error(parent, [&] { OutputFolder(folder / "home", true); }),
+            "home: error: output: --force replaces only earlier results, and this folder has no "
+            "provenance.json; choose another one with --out");
+  EXPECT_EQ(content(folder / "home/thesis.tex"), "years of work");
+
+  fs::create_directory(folder / "results");
+  folder.write("results/provenance.json", "old");
+  folder.write("results/old.txt", "old");
+  OutputFolder out(folder / "results", true);
+  out.append("provenance.json", "new");
+  EXPECT_EQ(content(folder / "results/provenance.json"), "old");
+  out.commit();
+  EXPECT_EQ(content(folder / "results/provenance.json"), "new");
+  EXPECT_FALSE(fs::exists(folder / "results/old.txt"));
+  EXPECT_EQ(entries(parent), 2);
+}
+
+TEST(OutputFolder, KeepsResultsThatAppearedMeanwhile) {
+  const TempFolder folder;
+  {
+    OutputFolder out(folder / "results", false);
+    out.append("provenance.json", "later");
+    fs::create_directory(folder / "results");
+    folder.write("results/provenance.json", "sooner");
+    EXPECT_NE(run_error([&] { out.commit(); }), "");
+  }
+  EXPECT_EQ(content(folder / "results/provenance.json"), "sooner");
+  EXPECT_EQ(entries(folder / ""), 1);
+}
+
+TEST(OutputFolder, SaysWhyItCannotBeMade) {
+  const TempFolder folder;
+  const fs::path file = folder.write("a.txt", "");
+  EXPECT_EQ(run_error([&] { OutputFolder(file / "results", false); }),
+            (file / "results").string() + ": cannot write: Not a directory");
+}
+
+TEST(OutputFolder, AFullDiskLeavesNothing) {
+  const TempFolder folder;
+  {
+    OutputFolder out(folder / "results", false);
+    out.append("provenance.json", "small");
+    const FileSizeLimit full(1000);
+    EXPECT_EQ(run_error([&] { out.append("steps.jsonl", std::string(5000, 'x')); }),
+              (folder / "results/steps.jsonl").string() + ": cannot write: File too large");
+  }
+  EXPECT_EQ(entries(folder / ""), 0);
+}
+
+}  // namespace
+}  // namespace glocal::test
