@@ -50,8 +50,7 @@ void Summary::add(const TrialRecord& trial) {
     ms_.cluster.push_back(ms.cluster);
     ms_.rate.push_back(ms.rate);
     ms_.total.push_back(ms.total());
-    const bool later = trial.pose && step.result.step + 1 >= trial.steps;
-    if (later && step.on_map && step.error && step.result.verdict.kind != VerdictKind::unknown_place) {
+    if (step.result.verdict.kind == VerdictKind::localized && step.on_map && step.error) {
       later_translations_m_.push_back(step.error->translation_m);
       later_rotations_deg_.push_back(degrees(step.error->rotation_rad));
     }

@@ -75,13 +75,14 @@ TEST(Summary, TimesAreOfAllStepsOfAllTrials) {
   expect_spread(json["stage_ms"]["rate"], 4.0, 36.4, 40.0);
 }
 
-TEST(Summary, ErrorsAfterTheDeclarationAreThoseInMappedAndKnownPlaces) {
+TEST(Summary, ErrorsAfterTheDeclarationAreThoseOfLocalizedStepsOnTheMap) {
   TrialRecord record = trial(Outcome::right, 2, 1.0, error_of(0.1, 1.0));
-  // Step 0 is before the declaration in step 1; steps 3 and 4 do not count; step 6 has no estimate.
+  // Step 0 is before the declaration; step 3 is off the map, step 4 is not localized; step 6 has no error.
   const std::vector<double> errors = {9.0, 0.1, 0.2, 9.0, 9.0, 0.4, 0.0};
   for (std::size_t i = 0; i < errors.size(); ++i) {
     record.records.push_back(step_record(i, {}));
     record.records[i].error = error_of(errors[i], 10.0 * errors[i]);
+    record.records[i].result.verdict.kind = i == 0 ? VerdictKind::searching : VerdictKind::localized;
   }
   record.records[3].on_map = false;
   record.records[4].result.verdict.kind = VerdictKind::unknown_place;
