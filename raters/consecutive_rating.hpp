@@ -17,7 +17,7 @@ class ConsecutiveRating final : public VerdictRule {
     int consecutive = 3;
     double same_distance = 0.5;
     double same_rotation_deg = 15.0;
-    double candidate_share = 0.7;
+    double candidate_share = 0.4;
     int max_candidates = 10;
   };
 

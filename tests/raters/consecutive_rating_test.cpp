@@ -90,7 +90,7 @@ TEST(ConsecutiveRating, EquallyGoodPosesAreAmbiguous) {
   ConsecutiveRating rule({});
   const Rated other{{8.0, 1.0, 2.0}, 0.85};
   const Rated repeated{{3.1, 4.1, 0.55}, 0.8};  // the same place as the first
-  const Rated weak{{1.0, 1.0, 1.0}, 0.5};
+  const Rated weak{{1.0, 1.0, 1.0}, 0.3};
   const Verdict verdict = rule.judge(step({good, other, repeated, weak}));
   EXPECT_EQ(verdict.kind, VerdictKind::ambiguous);
   EXPECT_THAT(verdict.candidates, testing::ElementsAre(good.pose, other.pose));
