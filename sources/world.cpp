@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "glocal/error.hpp"
 #include "glocal/pose2.hpp"
@@ -100,110 +101,78 @@ std::vector<Fault> check_drive(const World& world, const std::string& file) {
   return faults;
 }
 
+/// A field of coordinates within the largest world.
+FieldInfo coordinates(Doc doc, std::size_t min_items,
+                      std::size_t max_items = std::numeric_limits<std::size_t>::max()) {
+  return {.doc = doc,
+          .unit = "m",
+          .min = -lengths,
+          .max = lengths,
+          .min_items = min_items,
+          .max_items = max_items,
+          .required = true};
+}
+
+/// A field of a length and a width.
+FieldInfo extent(Doc doc) {
+  return {.doc = doc,
+          .unit = "m",
+          .max = lengths,
+          .above = 0.0,
+          .min_items = 2,
+          .max_items = 2,
+          .required = true};
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, Wall& p) {
-  v.field("points", p.points,
-          {.doc = "Corners, [x, y] each.",
-           .unit = "m",
-           .min = -lengths,
-           .max = lengths,
-           .min_items = 2,
-           .required = true});
+  v.field("points", p.points, coordinates("Corners, [x, y] each.", 2));
   v.field("closed", p.closed, {.doc = "Whether a wall leads back from the last corner to the first."});
   describe_presence(v, p.presence);
 }
 
 void describe(ParamVisitor& v, Rectangle& p) {
-  v.field("centre", p.centre,
-          {.doc = "[x, y]",
-           .unit = "m",
-           .min = -lengths,
-           .max = lengths,
-           .min_items = 2,
-           .max_items = 2,
-           .required = true});
-  v.field("size", p.size,
-          {.doc = "Length and width.",
-           .unit = "m",
-           .max = lengths,
-           .above = 0.0,
-           .min_items = 2,
-           .max_items = 2,
-           .required = true});
+  v.field("centre", p.centre, coordinates("[x, y]", 2, 2));
+  v.field("size", p.size, extent("Length and width."));
   v.field("angle_deg", p.angle_deg,
           {.doc = "Direction of the length.", .unit = "deg", .min = -360.0, .max = 360.0});
   describe_presence(v, p.presence);
 }
 
 void describe(ParamVisitor& v, RoundThing& p) {
-  v.field("centre", p.centre,
-          {.doc = "[x, y]",
-           .unit = "m",
-           .min = -lengths,
-           .max = lengths,
-           .min_items = 2,
-           .max_items = 2,
-           .required = true});
+  v.field("centre", p.centre, coordinates("[x, y]", 2, 2));
   v.field("radius", p.radius,
           {.doc = "Of the outline.", .unit = "m", .max = lengths, .above = 0.0, .required = true});
   describe_presence(v, p.presence);
 }
 
 void describe(ParamVisitor& v, Walker& p) {
-  v.field("points", p.points,
-          {.doc = "Way points, [x, y] each.",
-           .unit = "m",
-           .min = -lengths,
-           .max = lengths,
-           .min_items = 1,
-           .required = true});
+  v.field("points", p.points, coordinates("Way points, [x, y] each.", 1));
   v.field("speed", p.speed, {.doc = "How fast.", .unit = "m/s", .min = 0.0});
   v.field("radius", p.radius,
           {.doc = "Of the legs, as a laser sees them together.", .unit = "m", .max = lengths, .above = 0.0});
 }
 
 void describe(ParamVisitor& v, UnmappedArea& p) {
-  v.field("corners", p.corners,
-          {.doc = "Two opposite corners, [x, y] each.",
-           .unit = "m",
-           .min = -lengths,
-           .max = lengths,
-           .min_items = 2,
-           .max_items = 2,
-           .required = true});
+  v.field("corners", p.corners, coordinates("Two opposite corners, [x, y] each.", 2, 2));
 }
 
 void describe(ParamVisitor& v, World& p) {
-  v.field("size", p.size,
-          {.doc = "Extent in x and y; everything lies between [0, 0] and here.",
-           .unit = "m",
-           .max = lengths,
-           .above = 0.0,
-           .min_items = 2,
-           .max_items = 2,
-           .required = true});
+  v.field("size", p.size, extent("Extent in x and y; everything lies between [0, 0] and here."));
   v.field("walls", p.walls, {.doc = "Straight walls."});
   v.field("rectangles", p.rectangles, {.doc = "Boxes, tables and the like."});
   v.field("circles", p.circles, {.doc = "Round things."});
   v.field("people", p.people, {.doc = "People who walk about when the robot drives."});
   v.field("unmapped", p.unmapped, {.doc = "Rectangles of which the map says nothing."});
   v.field("free_from", p.free_from,
-          {.doc = "Places from which free space spreads on the map, up to the walls it shows; [x, y] each.",
-           .unit = "m",
-           .min = -lengths,
-           .max = lengths,
-           .min_items = 1,
-           .required = true});
+          coordinates(
+              "Places from which free space spreads on the map, up to the walls it shows; [x, y] each.", 1));
   v.field(
       "way_points", p.way_points,
-      {.doc =
-           "The drive: straight from place to place, turning on the spot; it begins looking to the second.",
-       .unit = "m",
-       .min = -lengths,
-       .max = lengths,
-       .min_items = 2,
-       .required = true});
+      coordinates(
+          "The drive: straight from place to place, turning on the spot; it begins looking to the second.",
+          2));
   v.require(inside(p, p.free_from), "free_from", "must lie within size");
   v.require(inside(p, p.way_points), "way_points", "must lie within size");
 }
