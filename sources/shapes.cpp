@@ -27,7 +27,8 @@ double ray_distance(const Segment& segment, const Position& origin, const Positi
   if (area == 0.0) return infinite;
   const double distance = cross(start, along) / area;
   const double share = cross(start, direction) / area;
-  return distance >= 0.0 && share >= 0.0 && share <= 1.0 ? distance : infinite;
+  if (distance < 0.0 || share < 0.0 || share > 1.0) return infinite;
+  return distance;
 }
 
 double ray_distance(const Circle& circle, const Position& origin, const Position& direction) {

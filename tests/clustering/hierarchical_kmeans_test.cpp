@@ -93,7 +93,8 @@ TEST(HierarchicalKmeans, KeepsKnownGroupsApart) {
   std::vector<Hypothesis> hypotheses;
   for (int i = 0; i < 600; ++i) {
     const int group = i % 12;
-    hypotheses.push_back(at(2.0 * (group % 4) + rng.normal(0.01), 3.0 * (group / 4) + rng.normal(0.01),
+    const int row = group / 4;
+    hypotheses.push_back(at(2.0 * (group % 4) + rng.normal(0.01), 3.0 * row + rng.normal(0.01),
                             0.5 * group - 2.5 + rng.normal(0.01)));
   }
   const std::vector<Cluster> clusters = cluster(hypotheses);

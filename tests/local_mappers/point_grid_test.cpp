@@ -76,12 +76,13 @@ TEST(PointGrid, LikelihoodsAreTheBruteForceOnesAcrossTileBorders) {
   for (int i = 0; i < 500; ++i) {
     const GridCell first = world.grid.cell(static_cast<float>(rng.uniform(-5.0, 5.0)),
                                            static_cast<float>(rng.uniform(-5.0, 5.0)));
-    std::array<std::uint8_t, 5 * PointGrid::window_width> window{};
+    std::array<std::uint8_t, std::size_t{5} * PointGrid::window_width> window{};
     world.grid.likelihood_rows(first, 5, window.data());
     for (int row = 0; row < 5; ++row) {
       for (int column = 0; column < PointGrid::window_width; ++column) {
-        const auto k = static_cast<std::size_t>(row * PointGrid::window_width + column);
-        ASSERT_EQ(window[k], world.likelihood({first.column + column, first.row + row}));
+        const int k = row * PointGrid::window_width + column;
+        ASSERT_EQ(window.at(static_cast<std::size_t>(k)),
+                  world.likelihood({first.column + column, first.row + row}));
       }
     }
   }

@@ -23,7 +23,7 @@ constexpr Cell u = Cell::unknown;
 /// A map of one row of grey values.
 class Row {
  public:
-  explicit Row(std::vector<int> greys) {
+  explicit Row(const std::vector<int>& greys) {
     std::string image = "P5 " + std::to_string(greys.size()) + " 1 255\n";
     for (const int grey : greys) image += static_cast<char>(grey);
     folder_.write("map.pgm", image);

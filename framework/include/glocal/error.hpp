@@ -14,7 +14,7 @@ struct Fault {
   int column = 0;  ///< From 1; 0 if the fault has no column.
   std::string message;
 
-  friend auto operator<=>(const Fault&, const Fault&) = default;
+  friend auto operator<=>(const Fault&, const Fault&) = default;  // NOLINT(modernize-use-nullptr)
   friend bool operator==(const Fault&, const Fault&) = default;
 };
 

@@ -46,7 +46,7 @@ void check_free(const fs::path& path, bool replace) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path path, bool replace)
+OutputFolder::OutputFolder(const fs::path& path, bool replace)
     : path_(fs::absolute(path).lexically_normal()), replace_(replace) {
   if (!path_.has_filename()) path_ = path_.parent_path();
   check_free(path_, replace);

@@ -13,7 +13,7 @@ class OutputFolder {
  public:
   /// Throws ConfigError if `path` exists and is not an empty folder, unless `replace` is given and it holds
   /// results of an earlier run.
-  OutputFolder(std::filesystem::path path, bool replace);
+  OutputFolder(const std::filesystem::path& path, bool replace);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
