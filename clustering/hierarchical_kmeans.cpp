@@ -3,14 +3,64 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <numbers>
+#include <span>
 #include <utility>
 
 namespace glocal {
 namespace {
 
-using Members = std::vector<std::size_t>;
-using Centres = std::array<Pose2, 2>;
+/// A hypothesis's robot pose, with what the inner loops would compute again and again.
+struct Item {
+  Pose2 pose;
+  double cosine, sine;
+  double weight;  ///< Proposals it stands for.
+  std::size_t index;
+};
+using Items = std::span<Item>;
+
+Item make_item(const Hypothesis& hypothesis, std::size_t index) {
+  const Pose2& pose = hypothesis.map_from_robot;
+  return {pose, std::cos(pose.theta), std::sin(pose.theta), static_cast<double>(hypothesis.support), index};
+}
+
+/// Between headings in [-pi, pi].
+double angle_between(double a, double b) {
+  const double d = std::abs(a - b);
+  return std::min(d, 2.0 * std::numbers::pi - d);
+}
+
+/// Weighted sums, from which the mean pose comes; the heading's is circular.
+struct Sums {
+  double weight = 0.0, x = 0.0, y = 0.0, cosine = 0.0, sine = 0.0;
+
+  void add(const Item& item) {
+    weight += item.weight;
+    x += item.weight * item.pose.x;
+    y += item.weight * item.pose.y;
+    cosine += item.weight * item.cosine;
+    sine += item.weight * item.sine;
+  }
+  [[nodiscard]] Pose2 mean() const { return {x / weight, y / weight, std::atan2(sine, cosine)}; }
+};
+
+/// Mean pose and variances (eq. 6, diagonal only); members are left empty.
+Cluster moments(std::span<const Item> items) {
+  Sums sums;
+  for (const Item& item : items) sums.add(item);
+  Cluster cluster;
+  cluster.map_from_robot = sums.mean();
+  for (const Item& item : items) {
+    const double share = item.weight / sums.weight;
+    const double dx = item.pose.x - cluster.map_from_robot.x;
+    const double dy = item.pose.y - cluster.map_from_robot.y;
+    const double dtheta = angle_between(item.pose.theta, cluster.map_from_robot.theta);
+    cluster.variance_x += share * dx * dx;
+    cluster.variance_y += share * dy * dy;
+    cluster.variance_theta += share * dtheta * dtheta;
+  }
+  return cluster;
+}
 
 /// Squared distance with each axis in units of the largest allowed deviation, so that metres and radians add
 /// up.
@@ -21,52 +71,56 @@ struct Metric {
   [[nodiscard]] double squared(const Pose2& a, const Pose2& b) const {
     const double dx = a.x - b.x;
     const double dy = a.y - b.y;
-    const double dtheta = wrap_angle(a.theta - b.theta);
+    const double dtheta = angle_between(a.theta, b.theta);
     return (dx * dx + dy * dy) * per_m2 + dtheta * dtheta * per_rad2;
   }
 };
 
-std::size_t farthest_from(const Pose2& pose, const std::vector<Hypothesis>& hypotheses,
-                          const Members& members, const Metric& metric) {
-  const auto it = std::max_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
-    return metric.squared(pose, hypotheses[a].map_from_robot) <
-           metric.squared(pose, hypotheses[b].map_from_robot);
-  });
-  return *it;
-}
-
-/// Deterministic seeds far apart: the member farthest from the mean, and the member farthest from that.
-Centres seeds(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses, const Metric& metric) {
-  const std::size_t first = farthest_from(cluster.map_from_robot, hypotheses, cluster.members, metric);
-  const Pose2& first_pose = hypotheses[first].map_from_robot;
-  const std::size_t second = farthest_from(first_pose, hypotheses, cluster.members, metric);
-  return {first_pose, hypotheses[second].map_from_robot};
-}
-
-std::array<Members, 2> assign(const Members& members, const Centres& centres,
-                              const std::vector<Hypothesis>& hypotheses, const Metric& metric) {
-  std::array<Members, 2> halves;
-  for (const std::size_t i : members) {
-    const Pose2& pose = hypotheses[i].map_from_robot;
-    const bool second = metric.squared(pose, centres[1]) < metric.squared(pose, centres[0]);
-    halves[second ? 1 : 0].push_back(i);
+Pose2 farthest_from(const Pose2& pose, Items items, const Metric& metric) {
+  const Item* farthest = nullptr;
+  double largest = -1.0;
+  for (const Item& item : items) {
+    const double squared = metric.squared(pose, item.pose);
+    if (squared > largest) {
+      largest = squared;
+      farthest = &item;
+    }
   }
-  return halves;
+  return farthest->pose;
 }
 
-/// K-means with K = 2; one half is empty if all members coincide.
-std::array<Members, 2> split(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
-                             const Metric& metric, int max_iterations) {
-  Centres centres = seeds(cluster, hypotheses, metric);
-  std::array<Members, 2> halves = assign(cluster.members, centres, hypotheses, metric);
-  for (int i = 0; i < max_iterations && !halves[0].empty() && !halves[1].empty(); ++i) {
-    centres = {make_cluster(hypotheses, halves[0]).map_from_robot,
-               make_cluster(hypotheses, halves[1]).map_from_robot};
-    std::array<Members, 2> next = assign(cluster.members, centres, hypotheses, metric);
-    if (next == halves || next[0].empty() || next[1].empty()) break;
-    halves = std::move(next);
+/// Splits items with K-means, K = 2, and moves those of the second half behind those of the first, otherwise
+/// in order. Seeds are far apart: the item farthest from the mean, and the one farthest from that. Returns
+/// the size of the first half; all of them if they coincide.
+std::size_t split(Items items, const Pose2& mean, const Metric& metric, int max_iterations) {
+  std::array<Pose2, 2> centres;
+  centres[0] = farthest_from(mean, items, metric);
+  centres[1] = farthest_from(centres[0], items, metric);
+  std::vector<char> in_second(items.size(), 0);
+  std::vector<char> next(items.size());
+  for (int round = 0; round <= max_iterations; ++round) {
+    std::array<Sums, 2> sums;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const Pose2& pose = items[i].pose;
+      const bool second = metric.squared(pose, centres[1]) < metric.squared(pose, centres[0]);
+      next[i] = second ? 1 : 0;
+      sums[second ? 1 : 0].add(items[i]);
+    }
+    if (next == in_second || sums[0].weight == 0.0 || sums[1].weight == 0.0) break;
+    in_second.swap(next);
+    centres = {sums[0].mean(), sums[1].mean()};
   }
-  return halves;
+  std::vector<Item> second_half;
+  std::size_t first_size = 0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (in_second[i] != 0) {
+      second_half.push_back(items[i]);
+    } else {
+      items[first_size++] = items[i];
+    }
+  }
+  std::copy(second_half.begin(), second_half.end(), items.begin() + static_cast<std::ptrdiff_t>(first_size));
+  return first_size;
 }
 
 }  // namespace
@@ -81,27 +135,10 @@ void describe(ParamVisitor& v, HierarchicalKmeans::Params& p) {
 }
 
 Cluster make_cluster(const std::vector<Hypothesis>& hypotheses, std::vector<std::size_t> members) {
-  Cluster cluster;
-  const auto n = static_cast<double>(members.size());
-  double sine = 0.0;
-  double cosine = 0.0;
-  for (const std::size_t i : members) {
-    const Pose2& pose = hypotheses[i].map_from_robot;
-    cluster.map_from_robot.x += pose.x / n;
-    cluster.map_from_robot.y += pose.y / n;
-    sine += std::sin(pose.theta);
-    cosine += std::cos(pose.theta);
-  }
-  cluster.map_from_robot.theta = std::atan2(sine, cosine);
-  for (const std::size_t i : members) {
-    const Pose2& pose = hypotheses[i].map_from_robot;
-    const double dx = pose.x - cluster.map_from_robot.x;
-    const double dy = pose.y - cluster.map_from_robot.y;
-    const double dtheta = wrap_angle(pose.theta - cluster.map_from_robot.theta);
-    cluster.variance_x += dx * dx / n;
-    cluster.variance_y += dy * dy / n;
-    cluster.variance_theta += dtheta * dtheta / n;
-  }
+  std::vector<Item> items;
+  items.reserve(members.size());
+  for (const std::size_t i : members) items.push_back(make_item(hypotheses[i], i));
+  Cluster cluster = moments(items);
   cluster.members = std::move(members);
   return cluster;
 }
@@ -112,24 +149,26 @@ std::vector<Cluster> HierarchicalKmeans::cluster(const std::vector<Hypothesis>& 
   const double max_variance_rotation = params_.max_variance_rotation_deg2 * degree * degree;
   const Metric metric{1.0 / params_.max_variance_translation, 1.0 / max_variance_rotation};
 
-  Members all(hypotheses.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<Item> items;
+  items.reserve(hypotheses.size());
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) items.push_back(make_item(hypotheses[i], i));
   std::vector<Cluster> done;
-  std::vector<Cluster> open;
-  open.push_back(make_cluster(hypotheses, std::move(all)));
+  std::vector<Items> open{items};
   while (!open.empty()) {
-    Cluster cluster = std::move(open.back());
+    const Items part = open.back();
     open.pop_back();
+    Cluster cluster = moments(part);
     const bool compact =
         std::max(cluster.variance_x, cluster.variance_y) <= params_.max_variance_translation &&
         cluster.variance_theta <= max_variance_rotation;
-    if (compact) {
-      done.push_back(std::move(cluster));
+    if (!compact) {
+      const std::size_t first = split(part, cluster.map_from_robot, metric, params_.max_iterations);
+      open.push_back(part.subspan(first));
+      open.push_back(part.first(first));
       continue;
     }
-    std::array<Members, 2> halves = split(cluster, hypotheses, metric, params_.max_iterations);
-    open.push_back(make_cluster(hypotheses, std::move(halves[1])));
-    open.push_back(make_cluster(hypotheses, std::move(halves[0])));
+    for (const Item& item : part) cluster.members.push_back(item.index);
+    done.push_back(std::move(cluster));
   }
   return done;
 }

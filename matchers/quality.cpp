@@ -4,44 +4,73 @@
 #include <cmath>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 namespace glocal {
+namespace {
 
-QualityTest::QualityTest(const Points& local, std::shared_ptr<const ContactGrid> contact,
-                         const ExtrapolationRule& rule, Rng& rng)
-    : size_(local.size()), contact_(std::move(contact)), rule_(rule) {
+/// eq. 5, solved for the points in contact: n/k + z / (2 sqrt(k)) >= threshold.
+double least_by_interval(double confidence_z, double threshold, double k) {
+  return threshold * k - confidence_z * std::sqrt(k) / 2.0;
+}
+
+/// Wald 1945: with p1 the threshold and p0 the background, n successes in k are pursued while the likelihood
+/// ratio (p1/p0)^n ((1-p1)/(1-p0))^(k-n) stays above the allowed share of false rejects.
+double least_by_wald(const ExtrapolationRule& rule, double threshold, double k) {
+  constexpr double certain = 1e-9;
+  const double p1 = std::clamp(threshold, certain, 1.0 - certain);
+  const double p0 = std::min(rule.background, p1 / 2.0);
+  const double miss = std::log((1.0 - p0) / (1.0 - p1));
+  return (std::log(rule.false_rejects) + k * miss) / (std::log(p1 / p0) + miss);
+}
+
+/// The least count whose share of all points reaches the threshold.
+std::size_t least_of_all(double threshold, std::size_t points) {
+  const auto n = static_cast<double>(points);
+  auto count = static_cast<std::size_t>(std::max(0.0, std::floor(threshold * n) - 1.0));
+  while (static_cast<double>(count) / n < threshold) ++count;
+  return count;
+}
+
+}  // namespace
+
+std::size_t least_in_contact(const ExtrapolationRule& rule, double threshold, std::size_t points,
+                             std::size_t looked_at) {
+  const auto k = static_cast<double>(looked_at);
+  const double least = rule.kind == ExtrapolationRule::Kind::wald
+                           ? least_by_wald(rule, threshold, k)
+                           : least_by_interval(rule.confidence_z, threshold, k);
+  const std::size_t all = least_of_all(threshold, points);
+  const std::size_t others = points - looked_at;
+  return std::max(static_cast<std::size_t>(std::ceil(std::max(0.0, least))), all > others ? all - others : 0);
+}
+
+QualityTest::QualityTest(const Points& local, std::shared_ptr<const ContactIndex> contact,
+                         const ExtrapolationRule& rule, double threshold, Rng& rng)
+    : size_(local.size()),
+      batch_(std::min(static_cast<std::size_t>(rule.batch), local.size())),
+      contact_(std::move(contact)) {
   std::vector<std::uint32_t> order(size_);
   std::iota(order.begin(), order.end(), 0U);
   for (std::size_t i = size_ - 1; i > 0; --i) {
     std::swap(order[i], order[rng.below(static_cast<std::uint32_t>(i + 1))]);
   }
-  const std::size_t batch = std::min(static_cast<std::size_t>(rule_.batch), size_);
-  shuffled_.reserve(size_ + batch);
-  for (const std::uint32_t i : order) shuffled_.push_back(local[i]);
-  for (std::size_t i = 0; i < batch; ++i) shuffled_.push_back(shuffled_[i]);
+  shuffled_.reserve(2 * size_);
+  for (int round = 0; round < 2; ++round) {
+    for (const std::uint32_t i : order) shuffled_.push_back(local[i]);
+  }
+
+  for (std::size_t looked_at = batch_; looked_at < size_; looked_at += batch_) {
+    least_.push_back(static_cast<std::uint32_t>(least_in_contact(rule, threshold, size_, looked_at)));
+  }
+  least_.push_back(static_cast<std::uint32_t>(least_of_all(threshold, size_)));
 }
 
-QualityTest::Outcome QualityTest::test(const Transform& map_from_local, double threshold,
-                                       std::uint32_t start) const {
-  const auto batch = static_cast<std::size_t>(rule_.batch);
-  std::size_t place = start % size_;
-  std::size_t in_contact = 0;
-  std::size_t checked = 0;
-  while (checked < size_) {
-    const std::size_t end = place + std::min(batch, size_ - checked);
-    for (std::size_t i = place; i < end; ++i) {
-      if (contact_->contact(map_from_local(shuffled_[i]))) ++in_contact;
-    }
-    checked += end - place;
-    place = end >= size_ ? end - size_ : end;
-    const auto k = static_cast<double>(checked);
-    const double upper_bound =
-        static_cast<double>(in_contact) / k + rule_.confidence_z / (2.0 * std::sqrt(k));  // eq. 5
-    if (checked < size_ && upper_bound < threshold) return {std::nullopt, checked};
-  }
-  const double quality = static_cast<double>(in_contact) / static_cast<double>(size_);  // eq. 4
-  return {quality >= threshold ? std::optional(quality) : std::nullopt, checked};
+QualityTest::Outcome QualityTest::test(const Transform& map_from_local, std::uint32_t start) const {
+  const auto begin = static_cast<std::size_t>(std::uint64_t{start} * size_ >> 32U);
+  const auto [in_contact, looked_at] =
+      contact_->count_while(shuffled_, begin, size_, batch_, least_, map_from_local);
+  if (looked_at < size_ || in_contact < least_.back()) return {std::nullopt, looked_at};
+  return {static_cast<double>(in_contact) / static_cast<double>(size_), looked_at};  // eq. 4
 }
 
 }  // namespace glocal

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "glocal/contact.hpp"
 #include "glocal/points.hpp"
@@ -11,32 +13,48 @@
 
 namespace glocal {
 
-/// How the extrapolation of eq. 5 goes about it.
+/// When a hypothesis is given up, after a part of its points.
 struct ExtrapolationRule {
+  enum class Kind {
+    interval,  ///< eq. 5: the upper end of a confidence interval is below the threshold.
+    wald       ///< Wald's sequential test of "as good as the threshold" against "background".
+  };
+  Kind kind = Kind::interval;
   int batch = 8;               ///< k of eq. 5: points looked at before the bound is computed again.
-  double confidence_z = 1.96;  ///< Half width of the interval in standard deviations; 1.96 is 95 %.
+  double confidence_z = 1.96;  ///< interval: half width in standard deviations; 1.96 is 95 %.
+  /// wald: how often a hypothesis just as good as the threshold may be given up at all, however often it is
+  /// looked at.
+  double false_rejects = 0.025;
+  double background = 0.3;  ///< wald: share of points a wrong pose has in contact by chance.
 };
 
+/// How many of the first `looked_at` of `points` must be in contact for a hypothesis to be pursued. Besides
+/// the rule, one that misses the threshold even if all the others are in contact is given up.
+[[nodiscard]] std::size_t least_in_contact(const ExtrapolationRule& rule, double threshold,
+                                           std::size_t points, std::size_t looked_at);
+
 /// Tests hypotheses of one local map. Points are taken in a random order, as eq. 5 needs; each hypothesis
-/// begins at another place of that order, so that not all depend on the same few points.
+/// begins at another place of that order, so that not all depend on the same few points. Timed by
+/// bench_extrapolation.
 class QualityTest {
  public:
   /// `local` is not empty; the generator fixes the order.
-  QualityTest(const Points& local, std::shared_ptr<const ContactGrid> contact, const ExtrapolationRule& rule,
-              Rng& rng);
+  QualityTest(const Points& local, std::shared_ptr<const ContactIndex> contact, const ExtrapolationRule& rule,
+              double threshold, Rng& rng);
 
   struct Outcome {
     std::optional<double> quality;  ///< Omega; none if given up or below the threshold.
     std::size_t checks = 0;         ///< Points looked at.
   };
-  /// Omega of a pose if it reaches the threshold. `start` picks where in the order to begin.
-  [[nodiscard]] Outcome test(const Transform& map_from_local, double threshold, std::uint32_t start) const;
+  /// Omega of a pose if it reaches the threshold. `start` (any number) picks where in the order to begin.
+  [[nodiscard]] Outcome test(const Transform& map_from_local, std::uint32_t start) const;
 
  private:
-  Points shuffled_;  ///< All points, followed by the first batch again, so that a batch never wraps.
+  Points shuffled_;  ///< All points twice, so that a test never wraps.
   std::size_t size_;
-  std::shared_ptr<const ContactGrid> contact_;
-  ExtrapolationRule rule_;
+  std::size_t batch_;
+  std::vector<std::uint32_t> least_;  ///< least_in_contact() after each batch.
+  std::shared_ptr<const ContactIndex> contact_;
 };
 
 }  // namespace glocal

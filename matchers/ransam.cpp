@@ -1,49 +1,46 @@
 #include "matchers/ransam.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
 #include "glocal/parallel.hpp"
+#include "matchers/merge.hpp"
 
 namespace glocal {
 namespace {
 
 /// Draws handled together by one thread. Fixed, so that the answer does not depend on the number of threads.
-constexpr std::size_t draws_per_chunk = 8192;
-/// Triangles computed before their slots are touched, so that the memory has time to answer the prefetches.
-constexpr std::size_t draws_in_flight = 64;
+constexpr std::size_t draws_per_chunk = 4096;
 
 unsigned table_bits(const Ransam::Params& p) {
   if (p.table_bits > 0) return static_cast<unsigned>(p.table_bits);
-  // Four slots a draw: about one entry in ten is lost to another relation in its slot.
-  return static_cast<unsigned>(std::bit_width(static_cast<unsigned>(p.iterations) * 4U - 1U));
+  // Two slots a draw. Half of the draws of a map have no relation worth keeping, so about one entry in eight
+  // is lost to another relation in its slot; a larger table costs more time than it gains.
+  return static_cast<unsigned>(std::bit_width(static_cast<unsigned>(p.iterations) * 2U - 1U));
 }
 
-/// Canonical triangles of the draws [begin, end), a few dozen at a time: `prepare(relation)` for each as soon
-/// as it is known, then `use(triangle, draw)` for each of the same few dozen.
-template <class Prepare, class Use>
-void for_each_triangle(const TripleSampler& sampler, const Points& points, const TriangleRule& rule,
-                       std::uint64_t seed, std::size_t begin, std::size_t end, Prepare prepare, Use use) {
-  struct Pending {
-    CanonicalTriangle triangle;
-    std::size_t draw;
-  };
-  std::array<Pending, draws_in_flight> pending;
+ExtrapolationRule extrapolation_rule(const Ransam::Params& p) {
+  return {
+      .kind = p.extrapolation == "wald" ? ExtrapolationRule::Kind::wald : ExtrapolationRule::Kind::interval,
+      .batch = p.extrapolation_batch,
+      .confidence_z = p.extrapolation_z,
+      .false_rejects = p.wald_false_rejects,
+      .background = p.wald_background};
+}
+
+/// Draws [begin, end) of a seed and calls `use` with the relations of a batch of them at a time.
+template <class Use>
+void for_each_batch(const TripleSampler& sampler, const Points& points, const TriangleRule& rule,
+                    bool neighbours, std::uint64_t seed, std::size_t begin, std::size_t end, Use use) {
+  TripleBatch triples;
+  RelationBatch relations;
   while (begin < end) {
-    const std::size_t stop = std::min(begin + draws_in_flight, end);
-    std::size_t n = 0;
-    for (std::size_t draw = begin; draw < stop; ++draw) {
-      const std::optional<Triple> triple = sampler.draw(seed, draw);
-      if (!triple) continue;
-      const auto triangle = canonical_triangle(points, *triple, rule);
-      if (!triangle) continue;
-      prepare(triangle->relation);
-      pending[n++] = {*triangle, draw};
-    }
-    for (std::size_t i = 0; i < n; ++i) use(pending[i].triangle, pending[i].draw);
-    begin = stop;
+    triples.clear();
+    while (begin < end && !triples.full()) triples.add_number(static_cast<std::uint32_t>(begin++));
+    sampler.draw(seed, triples);
+    find_relations(points, triples, rule, neighbours, relations);
+    use(relations);
   }
 }
 
@@ -88,8 +85,35 @@ void describe(ParamVisitor& v, Ransam::Params& p) {
   v.field("extrapolation_z", p.extrapolation_z,
           {.doc = "Half width of the bound's interval in standard deviations (1.96 is the paper's 95 %).",
            .min = 0.0});
+  v.field(
+      "extrapolation", p.extrapolation,
+      {.doc = "When a hypothesis is given up early: at the interval of eq. 5, or by Wald's sequential test, "
+              "whose share of false rejects holds however often it looks.",
+       .choices = {"interval", "wald"}});
+  v.field("wald_false_rejects", p.wald_false_rejects,
+          {.doc = "Share of hypotheses just as good as the threshold that Wald's test may give up.",
+           .max = 0.5,
+           .above = 0.0});
+  v.field("wald_background", p.wald_background,
+          {.doc = "Share of points a wrong pose has in contact by chance, for Wald's test; at most half the "
+                  "threshold is taken.",
+           .max = 0.9,
+           .above = 0.0});
+  v.field("contact", p.contact,
+          {.doc = "How contact is found: bits on a grid of contact_epsilon / 4, or exactly by a kd-tree (a "
+                  "hundred times slower).",
+           .choices = contact_index_names()});
+  v.field(
+      "neighbour_cells", p.neighbour_cells,
+      {.doc = "Look a local triple up in the nearer neighbouring relation cells too (eight look-ups instead "
+              "of one), so that sides near a cell's boundary are not lost."});
+  v.field(
+      "max_hypotheses", p.max_hypotheses,
+      {.doc = "Where a step has more, those that mean nearly the same pose (5 cm and 2 degrees, or coarser "
+              "until they fit) become one that counts as many.",
+       .min = 100});
   v.field("table_bits", p.table_bits,
-          {.doc = "The hash table has 2^this slots of 8 bytes; 0 chooses four slots a draw.",
+          {.doc = "The hash table has 2^this slots of 8 bytes; 0 chooses two to four slots a draw.",
            .min = 0,
            .max = 30});
 }
@@ -97,28 +121,26 @@ void describe(ParamVisitor& v, Ransam::Params& p) {
 Ransam::Ransam(const Params& params, const StageSetup& setup)
     : params_(params),
       setup_(setup),
-      contact_(ContactGrid::of(*setup.map, params.contact_epsilon)),
+      contact_(contact_index(*setup.map, params.contact, params.contact_epsilon)),
       sampler_(setup.map->points(), params.local_radius),
-      rule_{.cell = params.relation_cell, .min_side = params.min_side, .min_height = params.min_height},
-      table_(table_bits(params)),
-      map_triples_(static_cast<std::size_t>(params.iterations)) {}
+      table_(table_bits(params)) {}
 
 MatchResult Ransam::match(const LocalMap& local, const Observation& /*latest*/, double omega_max, Rng& rng) {
   if (local.points.empty()) return {};
-  const std::uint64_t map_seed = rng.next();
-  const std::uint64_t local_seed = rng.next();
-  const QualityTest quality(local.points, contact_, {params_.extrapolation_batch, params_.extrapolation_z},
-                            rng);
-
-  // A triangle of the map that is larger than the whole local map has no partner there.
-  rule_.max_side =
-      std::min(diameter_bound(local.points) + rule_.cell, rule_.cell * (1U << relation_side_bits));
-  draw_map_triples(map_seed);
-
+  const Draws draws{rng.next(), rng.next()};
+  const QualityTest quality(local.points, contact_, extrapolation_rule(params_), omega_max, rng);
   const TripleSampler local_sampler(local.points, params_.local_radius);
+  // A triangle of the map that is larger than the whole local map has no partner there.
+  const TriangleRule rule{.cell = params_.relation_cell,
+                          .min_side = params_.min_side,
+                          .min_height = params_.min_height,
+                          .max_side = std::min(diameter_bound(local.points) + params_.relation_cell,
+                                               largest_side(params_.relation_cell))};
+
+  hash_map_triples(draws.map_seed, rule);
   std::vector<Chunk> chunks(chunk_count());
   parallel_for(setup_.threads, chunks.size(), [&](std::size_t i) {
-    chunks[i] = match_local_triples(local, local_sampler, quality, local_seed, omega_max, i);
+    chunks[i] = match_local_triples(local, local_sampler, quality, rule, draws, i);
   });
 
   MatchResult result;
@@ -129,51 +151,84 @@ MatchResult Ransam::match(const LocalMap& local, const Observation& /*latest*/, 
   }
   std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
+  merge_hypotheses(result.hypotheses, static_cast<std::size_t>(params_.max_hypotheses));
   return result;
 }
 
 std::size_t Ransam::chunk_count() const {
-  return (map_triples_.size() + draws_per_chunk - 1) / draws_per_chunk;
+  return (iterations() + draws_per_chunk - 1) / draws_per_chunk;
 }
 
-void Ransam::draw_map_triples(std::uint64_t seed) {
-  first_draw_ = table_.begin_fill(map_triples_.size());
+void Ransam::hash_map_triples(std::uint64_t seed, const TriangleRule& rule) {
+  first_draw_ = table_.begin_fill(iterations());
+  const bool alone = setup_.threads <= 1;
   parallel_for(setup_.threads, chunk_count(), [&](std::size_t chunk) {
     const std::size_t begin = chunk * draws_per_chunk;
-    const std::size_t end = std::min(begin + draws_per_chunk, map_triples_.size());
-    for_each_triangle(
-        sampler_, setup_.map->points(), rule_, seed, begin, end, [&](Relation r) { table_.prefetch(r); },
-        [&](const CanonicalTriangle& triangle, std::size_t draw) {
-          map_triples_[draw] = triangle.triple;
-          table_.insert(triangle.relation, first_draw_ + draw);
-        });
+    const std::size_t end = std::min(begin + draws_per_chunk, iterations());
+    for_each_batch(sampler_, setup_.map->points(), rule, false, seed, begin, end,
+                   [&](const RelationBatch& batch) {
+                     for (std::size_t i = 0; i < batch.size; ++i) table_.prefetch(batch.relations[i]);
+                     for (std::size_t i = 0; i < batch.size; ++i) {
+                       const std::uint64_t number = first_draw_ + batch.numbers[i];
+                       if (alone) {
+                         table_.append(batch.relations[i], number);
+                       } else {
+                         table_.insert(batch.relations[i], number);
+                       }
+                     }
+                   });
   });
 }
 
-Ransam::Chunk Ransam::match_local_triples(const LocalMap& local, const TripleSampler& sampler,
-                                          const QualityTest& quality, std::uint64_t seed, double omega_max,
-                                          std::size_t chunk) const {
+Ransam::Chunk Ransam::match_local_triples(const LocalMap& local, const TripleSampler& local_sampler,
+                                          const QualityTest& quality, const TriangleRule& rule,
+                                          const Draws& draws, std::size_t chunk) const {
   Chunk found;
+  TripleBatch local_triples;
+  TripleBatch map_triples;
+  const auto test_collisions = [&] {
+    map_triples.size = local_triples.size;
+    test_hypotheses(local, local_sampler, quality, draws, local_triples, map_triples, found);
+    local_triples.clear();
+  };
   const std::size_t begin = chunk * draws_per_chunk;
-  const std::size_t end = std::min(begin + draws_per_chunk, map_triples_.size());
-  for_each_triangle(
-      sampler, local.points, rule_, seed, begin, end, [&](Relation r) { table_.prefetch(r); },
-      [&](const CanonicalTriangle& triangle, std::size_t draw) {
-        const auto partner = table_.find(triangle.relation);  // eq. 2
-        if (!partner) return;
-        const Triple& map_triple = map_triples_[*partner - first_draw_];
-        const Transform map_from_local =
-            least_squares_motion(local.points, triangle.triple, setup_.map->points(), map_triple);  // eq. 3
-        const auto start = static_cast<std::uint32_t>(mix64(draw));
-        const QualityTest::Outcome outcome = quality.test(map_from_local, omega_max, start);
-        ++found.collisions;
-        found.checks += outcome.checks;
-        if (outcome.quality) {
-          const Pose2 pose = map_from_local.pose();
-          found.hypotheses.push_back({pose, pose * local.local_from_robot, *outcome.quality});
-        }
-      });
+  const std::size_t end = std::min(begin + draws_per_chunk, iterations());
+  for_each_batch(local_sampler, local.points, rule, params_.neighbour_cells, draws.local_seed, begin, end,
+                 [&](const RelationBatch& batch) {
+                   for (std::size_t i = 0; i < batch.size; ++i) table_.prefetch(batch.relations[i]);
+                   for (std::size_t i = 0; i < batch.size; ++i) {
+                     const std::uint64_t partner = table_.find(batch.relations[i]);  // eq. 2
+                     // One in four has a partner, at random: counting on is faster than branching.
+                     const std::size_t place = local_triples.size;
+                     local_triples.numbers[place] = batch.numbers[i];
+                     map_triples.numbers[place] = static_cast<std::uint32_t>(partner - first_draw_);
+                     local_triples.size += partner != RelationTable::none ? 1 : 0;
+                     if (local_triples.full()) test_collisions();
+                   }
+                 });
+  test_collisions();
   return found;
+}
+
+void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_sampler,
+                             const QualityTest& quality, const Draws& draws, TripleBatch& local_triples,
+                             TripleBatch& map_triples, Chunk& found) const {
+  // Drawing again is cheaper than having kept the triples of all draws.
+  local_sampler.draw(draws.local_seed, local_triples);
+  sampler_.draw(draws.map_seed, map_triples);
+  MotionBatch motions;
+  least_squares_motions(local.points, local_triples, setup_.map->points(), map_triples, motions);  // eq. 3
+  for (std::size_t i = 0; i < local_triples.size; ++i) {
+    const Transform map_from_local = motions[i];
+    const auto start = static_cast<std::uint32_t>(mix64(local_triples.numbers[i]));
+    const QualityTest::Outcome outcome = quality.test(map_from_local, start);
+    ++found.collisions;
+    found.checks += outcome.checks;
+    if (outcome.quality) {
+      const Pose2 pose = map_from_local.pose();
+      found.hypotheses.push_back({pose, pose * local.local_from_robot, *outcome.quality});
+    }
+  }
 }
 
 }  // namespace glocal

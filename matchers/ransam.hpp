@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "glocal/catalog.hpp"
@@ -33,6 +34,12 @@ class Ransam final : public Matcher {
     double local_radius = 0.0;
     int extrapolation_batch = 8;
     double extrapolation_z = 1.96;
+    std::string extrapolation = "interval";
+    double wald_false_rejects = 0.025;
+    double wald_background = 0.3;
+    std::string contact = "bitset";
+    bool neighbour_cells = false;
+    int max_hypotheses = 10000;
     int table_bits = 0;
   };
 
@@ -44,25 +51,33 @@ class Ransam final : public Matcher {
   void reset() override {}
 
  private:
+  /// Seeds of a step's draws: draw number n of a seed is always the same triple.
+  struct Draws {
+    std::uint64_t map_seed;
+    std::uint64_t local_seed;
+  };
   struct Chunk {
     std::vector<Hypothesis> hypotheses;
     std::size_t collisions = 0;
     std::size_t checks = 0;
   };
+  [[nodiscard]] std::size_t iterations() const { return static_cast<std::size_t>(params_.iterations); }
   [[nodiscard]] std::size_t chunk_count() const;
-  void draw_map_triples(std::uint64_t seed);
-  [[nodiscard]] Chunk match_local_triples(const LocalMap& local, const TripleSampler& sampler,
-                                          const QualityTest& quality, std::uint64_t seed, double omega_max,
-                                          std::size_t chunk) const;
+  void hash_map_triples(std::uint64_t seed, const TriangleRule& rule);
+  [[nodiscard]] Chunk match_local_triples(const LocalMap& local, const TripleSampler& local_sampler,
+                                          const QualityTest& quality, const TriangleRule& rule,
+                                          const Draws& draws, std::size_t chunk) const;
+  /// Tests the hypotheses of pairs of triples, given by their numbers.
+  void test_hypotheses(const LocalMap& local, const TripleSampler& local_sampler, const QualityTest& quality,
+                       const Draws& draws, TripleBatch& local_triples, TripleBatch& map_triples,
+                       Chunk& found) const;
 
   Params params_;
   StageSetup setup_;
-  std::shared_ptr<const ContactGrid> contact_;
+  std::shared_ptr<const ContactIndex> contact_;
   TripleSampler sampler_;  ///< Of the global map.
-  TriangleRule rule_;
   RelationTable table_;
-  std::uint64_t first_draw_ = 0;     ///< Number in table_ of the first map triple of this step.
-  std::vector<Triple> map_triples_;  ///< Canonical, one for each draw.
+  std::uint64_t first_draw_ = 0;  ///< Number in table_ of the first map triple of this step.
 };
 void describe(ParamVisitor& v, Ransam::Params& p);
 

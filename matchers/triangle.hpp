@@ -1,10 +1,10 @@
-// Triples of points and the relation that a rigid motion leaves unchanged (Section II of the paper, eq. 1 and
-// 2).
+// Triples of points, the relation that a rigid motion leaves unchanged, and the motion between two triples
+// (Section II of the paper, eq. 1 to 3), for batches of them.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "glocal/points.hpp"
 
@@ -13,10 +13,27 @@ namespace glocal {
 /// Three indexes into a point set.
 using Triple = std::array<std::uint32_t, 3>;
 
-/// The quantised side lengths of a triangle, longest first, then counter-clockwise: 12 bits each in units of
+/// A few hundred draws: few enough to stay in the fastest memory from stage to stage, a multiple of every
+/// vector's length. Only the first `size` entries count; the others are zero or left over, but always valid.
+struct TripleBatch {
+  static constexpr std::size_t capacity = 256;
+  using Column = std::array<std::uint32_t, capacity>;
+
+  std::size_t size = 0;
+  alignas(64) Column numbers{};  ///< Which draws they are.
+  alignas(64) Column first{};    ///< Indexes of their points.
+  alignas(64) Column second{};
+  alignas(64) Column third{};
+
+  void clear() { size = 0; }
+  [[nodiscard]] bool full() const { return size == capacity; }
+  void add_number(std::uint32_t number) { numbers[size++] = number; }
+};
+
+/// The quantised side lengths of a triangle, longest first, then counter-clockwise: 10 bits each in units of
 /// a relation cell.
-using Relation = std::uint64_t;
-inline constexpr unsigned relation_side_bits = 12;
+using Relation = std::uint32_t;
+inline constexpr unsigned relation_side_bits = 10;
 inline constexpr unsigned relation_bits = 3 * relation_side_bits;
 
 /// Which triangles are worth a relation.
@@ -24,23 +41,49 @@ struct TriangleRule {
   double cell = 0.1;        ///< Side lengths that differ by less can have the same relation, m.
   double min_side = 0.3;    ///< Shorter sides give poor poses, m.
   double min_height = 0.1;  ///< So do flat triangles: the height over the longest side, m.
-  double max_side = 400.0;  ///< Longer sides cannot occur on the other side, m; at most `cell` * 2^12.
+  double max_side = 100.0;  ///< Longer sides cannot occur on the other side, m; at most largest_side(cell).
 };
 
-struct CanonicalTriangle {
-  Triple triple;  ///< Counter-clockwise, the longest side from [0] to [1].
-  Relation relation;
+/// The longest side a relation can hold, m; one cell less, so that a neighbouring cell is one too.
+[[nodiscard]] constexpr double largest_side(double cell) {
+  return cell * ((1U << relation_side_bits) - 2U);
+}
+
+/// Relations of a batch of triples, and of which.
+struct RelationBatch {
+  static constexpr std::size_t probes = 8;
+  /// The last entries are room for a vector that is stored whole.
+  static constexpr std::size_t capacity = probes * TripleBatch::capacity + 64;
+
+  std::size_t size = 0;
+  alignas(64) std::array<Relation, capacity> relations;
+  alignas(64) std::array<std::uint32_t, capacity> numbers;  ///< Of the draw.
 };
 
-/// The triangle in an order that does not depend on the order of drawing; mirrored triangles have different
-/// relations, as a motion in the plane cannot rotate one into the other. Heights play no part: a robot on a
-/// floor does not change them. None if the rule excludes it (always so if two points are the same).
-[[nodiscard]] std::optional<CanonicalTriangle> canonical_triangle(const Points& points, Triple triple,
-                                                                  const TriangleRule& rule);
+/// The relations of those triples the rule admits. A triangle's sides are put in an order that does not
+/// depend on the order of drawing; mirrored triangles have different relations, as a motion in the plane
+/// cannot rotate one into the other. Heights play no part: a robot on a floor does not change them. Triples
+/// with the same point twice are never admitted. The same for all instruction sets.
+/// With `neighbours`, each triple has eight relations instead of one: each side in its own and in the nearer
+/// neighbouring cell, so that a side near a cell's boundary meets its partner on the other side.
+/// Timed by bench_hashing.
+void find_relations(const Points& points, const TripleBatch& batch, const TriangleRule& rule, bool neighbours,
+                    RelationBatch& relations);
 
-/// The motion in the plane that moves the points of `from` onto those of `to` with the least sum of squares
-/// (eq. 3, with centroids; closed form in two dimensions). The triples must be canonical.
-[[nodiscard]] Transform least_squares_motion(const Points& from_points, const Triple& from,
-                                             const Points& to_points, const Triple& to);
+/// Motions in the plane, as Transform has them.
+struct MotionBatch {
+  alignas(64) std::array<float, TripleBatch::capacity> cosine;
+  alignas(64) std::array<float, TripleBatch::capacity> sine;
+  alignas(64) std::array<float, TripleBatch::capacity> x;
+  alignas(64) std::array<float, TripleBatch::capacity> y;
+
+  [[nodiscard]] Transform operator[](std::size_t i) const { return {cosine[i], sine[i], x[i], y[i]}; }
+};
+
+/// For each i, the motion that moves triple i of `from` onto triple i of `to` with the least sum of squares
+/// (eq. 3, with centroids; closed form in two dimensions), both with their sides in the order of relations.
+/// Both batches have the same size. The same for all instruction sets.
+void least_squares_motions(const Points& from_points, const TripleBatch& from, const Points& to_points,
+                           const TripleBatch& to, MotionBatch& motions);
 
 }  // namespace glocal

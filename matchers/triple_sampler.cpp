@@ -41,18 +41,27 @@ std::size_t TripleSampler::cell_of(float x, float y) const {
   return row * columns_ + static_cast<std::size_t>((x - min_x_) / radius_) + 1;
 }
 
-std::optional<Triple> TripleSampler::draw(std::uint64_t seed, std::uint64_t number) const {
-  Rng rng(seed);
-  rng.skip(number * numbers_per_draw);
+void TripleSampler::draw(std::uint64_t seed, TripleBatch& batch) const {
   if (radius_ <= 0.0F) {
-    const std::uint64_t bits = rng.next();
-    return Triple{pick(bits >> 32U), pick(bits & 0xffffffffU), pick(rng.next() >> 32U)};
+    draw_uniform(seed, size_, batch);
+    return;
   }
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    Rng rng(seed);
+    rng.skip(batch.numbers[i] * numbers_per_draw);
+    const Triple triple = draw_local(rng);
+    batch.first[i] = triple[0];
+    batch.second[i] = triple[1];
+    batch.third[i] = triple[2];
+  }
+}
+
+Triple TripleSampler::draw_local(Rng rng) const {
   const std::uint32_t first = rng.below(size_);
   const auto second = draw_near(first, rng);
   const auto third = draw_near(first, rng);
-  if (!second || !third) return std::nullopt;
-  return Triple{first, *second, *third};
+  if (!second || !third) return {first, first, first};
+  return {first, *second, *third};
 }
 
 std::optional<std::uint32_t> TripleSampler::draw_near(std::uint32_t centre, Rng& rng) const {

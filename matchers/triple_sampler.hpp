@@ -19,14 +19,12 @@ class TripleSampler {
   /// `local_radius` 0: uniform over all points. The points must outlive the sampler and must not be empty.
   TripleSampler(const Points& points, double local_radius);
 
-  /// None where a local draw finds no other point near.
-  [[nodiscard]] std::optional<Triple> draw(std::uint64_t seed, std::uint64_t number) const;
+  /// Fills in the triples of `batch.numbers`. Where a local draw finds no other point near, it is three times
+  /// the same point, of which no relation comes.
+  void draw(std::uint64_t seed, TripleBatch& batch) const;
 
  private:
-  /// A point from 32 random bits.
-  [[nodiscard]] std::uint32_t pick(std::uint64_t bits) const {
-    return static_cast<std::uint32_t>(bits * size_ >> 32U);
-  }
+  [[nodiscard]] Triple draw_local(Rng rng) const;
   [[nodiscard]] std::optional<std::uint32_t> draw_near(std::uint32_t centre, Rng& rng) const;
   [[nodiscard]] std::size_t cell_of(float x, float y) const;
 
@@ -40,5 +38,9 @@ class TripleSampler {
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> starts_;  ///< Where each cell begins in order_; one more at the end.
 };
+
+/// Uniform triples of n points, n < 2^31: those of `batch.numbers`. The same for all instruction sets. Timed
+/// by bench_sampling.
+void draw_uniform(std::uint64_t seed, std::uint32_t n, TripleBatch& batch);
 
 }  // namespace glocal

@@ -30,9 +30,11 @@ void describe(ParamVisitor& v, ClusterRating::Params& p) {
 std::vector<Rating> ClusterRating::rate(const std::vector<Cluster>& clusters,
                                         const std::vector<Hypothesis>& hypotheses) {
   std::vector<Rating> ratings(clusters.size());
+  double all_support = 0.0;
+  for (const Hypothesis& hypothesis : hypotheses) all_support += static_cast<double>(hypothesis.support);
   double sum = 0.0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
-    ratings[i].r = rate_one(clusters[i], hypotheses);
+    ratings[i].r = rate_one(clusters[i], hypotheses, all_support);
     sum += ratings[i].r;
   }
   for (Rating& rating : ratings) rating.r_normalised = rating.r / sum;  // eq. 8
@@ -41,14 +43,20 @@ std::vector<Rating> ClusterRating::rate(const std::vector<Cluster>& clusters,
 
 /// eq. 7. A cluster from another clusterer may be spread more widely than the limits: the terms of spread
 /// stop at 0, so that r stays in ]0, 1].
-double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses) const {
+double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
+                               double all_support) const {
   const double degree = radians(1.0);
   const double max_variance_rotation = params_.max_variance_rotation_deg2 * degree * degree;
-  const auto size = static_cast<double>(cluster.members.size());
+  double support = 0.0;
   double quality = 0.0;
-  for (const std::size_t i : cluster.members) quality += hypotheses[i].quality / size;
+  for (const std::size_t i : cluster.members) {
+    const auto weight = static_cast<double>(hypotheses[i].support);
+    support += weight;
+    quality += weight * hypotheses[i].quality;
+  }
+  quality /= support;
 
-  const double share = size / static_cast<double>(hypotheses.size());
+  const double share = support / all_support;
   const double variance = std::max(cluster.variance_x, cluster.variance_y);
   const double narrow = std::max(0.0, 1.0 - variance / params_.max_variance_translation);
   const double straight = std::max(0.0, 1.0 - cluster.variance_theta / max_variance_rotation);

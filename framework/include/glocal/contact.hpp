@@ -1,9 +1,12 @@
-// "Is there a point of the map within epsilon?" (contact_B of eq. 4), answered in constant time.
+// "Is there a point of the map within epsilon?" (contact_B of eq. 4), for runs of points.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "glocal/global_map.hpp"
@@ -11,43 +14,87 @@
 
 namespace glocal {
 
-/// The map's points dilated by epsilon, one bit per voxel of side epsilon / 4. A planar map (all points of
-/// one height) has a single layer, which takes in everything within epsilon of that height. A voxel is in
-/// contact if its centre is within epsilon of a point, so an answer can differ from the exact one only where
-/// the distance is within half a voxel's diagonal of epsilon (0.18 epsilon in the plane).
-class ContactGrid {
+struct VoxelLookup;
+
+/// Tells which points are within epsilon (m) of a point of the map. Immutable, to be shared by all threads.
+class ContactIndex {
  public:
-  /// Throws ConfigError if the grid would need more than 1 GiB.
-  ContactGrid(const Points& points, double epsilon);
+  virtual ~ContactIndex() = default;
 
-  /// The grid of a map for an epsilon, built once per map.
-  [[nodiscard]] static std::shared_ptr<const ContactGrid> of(const GlobalMap& map, double epsilon);
+  /// How many of the points [begin, begin + n) are in contact, once moved into the map's frame. Points far
+  /// away and points that are not numbers are in contact with nothing.
+  [[nodiscard]] virtual std::size_t count(const Points& points, std::size_t begin, std::size_t n,
+                                          const Transform& map_from_points) const = 0;
 
-  [[nodiscard]] bool contact(const Point& p) const {
-    const float x = (p.x - min_.x) * scale_;
-    const float y = (p.y - min_.y) * scale_;
-    const float z = (p.z - min_.z) * scale_z_;
-    // Compared as floats, so that points far away and NaN never reach the conversion to integers.
-    if (!(x >= 0.0F && x < columns_ && y >= 0.0F && y < rows_ && z >= 0.0F && z < layers_)) return false;
-    const std::size_t bit =
-        bit_index(static_cast<std::size_t>(x), static_cast<std::size_t>(y), static_cast<std::size_t>(z));
-    return ((bits_[bit >> 6U] >> (bit & 63U)) & 1U) != 0;
+  struct Count {
+    std::size_t in_contact = 0;  ///< Where it stopped early: only that it is less than asked for.
+    std::size_t looked_at = 0;
+  };
+  /// Counts the points from `begin` on, a batch at a time and n at most, and stops after batch b if fewer
+  /// than least[b] have been found in contact up to there. `least` has an entry for each batch, the last of
+  /// which may be smaller.
+  [[nodiscard]] virtual Count count_while(const Points& points, std::size_t begin, std::size_t n,
+                                          std::size_t batch, std::span<const std::uint32_t> least,
+                                          const Transform& map_from_points) const;
+
+  [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
+};
+
+/// The map's points dilated by epsilon, one bit per voxel of side epsilon / 4 (half a cell of a map whose
+/// cells are as large as epsilon / 2): constant time. A planar map (all points of one height) has a single
+/// layer, which takes in everything within epsilon of that height. A voxel is in contact if its centre is
+/// within epsilon of a point, so an answer can differ from the exact one only where the distance is within
+/// half a voxel's diagonal of epsilon (0.18 epsilon in the plane).
+class BitsetContact final : public ContactIndex {
+ public:
+  /// Throws ConfigError if it would need more than 1 GiB.
+  BitsetContact(const Points& points, double epsilon);
+
+  [[nodiscard]] std::size_t count(const Points& points, std::size_t begin, std::size_t n,
+                                  const Transform& map_from_points) const override;
+  [[nodiscard]] Count count_while(const Points& points, std::size_t begin, std::size_t n, std::size_t batch,
+                                  std::span<const std::uint32_t> least,
+                                  const Transform& map_from_points) const override;
+  [[nodiscard]] std::size_t memory_bytes() const override {
+    return (words_.size() + coarse_words_.size()) * sizeof(std::uint32_t);
   }
-
-  [[nodiscard]] std::size_t memory_bytes() const { return bits_.size() * sizeof(std::uint64_t); }
 
  private:
-  [[nodiscard]] std::size_t bit_index(std::size_t column, std::size_t row, std::size_t layer) const {
-    return layer * layer_stride_ + row * row_stride_ + column;
-  }
   void dilate(const Point& p, double epsilon);
+  void set(const std::array<std::size_t, 3>& voxel);
+  [[nodiscard]] VoxelLookup lookup(const Transform& map_from_points) const;
 
   Point min_;                            ///< Outer corner of voxel (0, 0, 0).
   float scale_ = 0.0F, scale_z_ = 0.0F;  ///< Voxels per metre.
-  float columns_ = 0, rows_ = 0,
-        layers_ = 0;  ///< Numbers of voxels; whole, but only ever compared with floats.
-  std::size_t row_stride_ = 0, layer_stride_ = 0;
-  std::vector<std::uint64_t> bits_;
+  std::size_t columns_ = 0, rows_ = 0, layers_ = 0;
+  std::size_t coarse_rows_ = 0;
+  std::vector<std::uint32_t> words_;         ///< 32 voxels of a row in each; rows, then layers.
+  std::vector<std::uint32_t> coarse_words_;  ///< The same for 4 x 4 x 4 voxels joined: set if one of them is.
 };
+
+/// A kd-tree over the map's points: exact, and a hundred times slower.
+class KdTreeContact final : public ContactIndex {
+ public:
+  KdTreeContact(const Points& points, double epsilon);
+  ~KdTreeContact() override;
+  KdTreeContact(KdTreeContact&&) noexcept;
+  KdTreeContact& operator=(KdTreeContact&&) noexcept;
+
+  [[nodiscard]] std::size_t count(const Points& points, std::size_t begin, std::size_t n,
+                                  const Transform& map_from_points) const override;
+  [[nodiscard]] std::size_t memory_bytes() const override;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+/// The names contact_index() knows.
+[[nodiscard]] std::vector<std::string> contact_index_names();
+
+/// The index of that name over a map for an epsilon (m), built once per map. Throws ConfigError if it does
+/// not fit into memory, std::invalid_argument for an unknown name.
+[[nodiscard]] std::shared_ptr<const ContactIndex> contact_index(const GlobalMap& map, const std::string& name,
+                                                                double epsilon);
 
 }  // namespace glocal

@@ -13,6 +13,9 @@ struct Hypothesis {
   Pose2 map_from_local;
   Pose2 map_from_robot;
   double quality = 0.0;  ///< Omega (eq. 4): share of local map points in contact with the map, in [0, 1].
+  /// How many proposals it stands for, where a matcher merged those that mean nearly the same pose. Counts as
+  /// a weight wherever hypotheses are counted or averaged.
+  std::size_t support = 1;
 };
 
 /// Hypotheses that mean the same robot pose.

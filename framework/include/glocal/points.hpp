@@ -65,6 +65,10 @@ class Transform {
   [[nodiscard]] Point operator()(const Point& p) const {
     return {c_ * p.x - s_ * p.y + tx_, s_ * p.x + c_ * p.y + ty_, p.z};
   }
+  [[nodiscard]] float cosine() const { return c_; }
+  [[nodiscard]] float sine() const { return s_; }
+  [[nodiscard]] float x() const { return tx_; }
+  [[nodiscard]] float y() const { return ty_; }
   [[nodiscard]] Pose2 pose() const { return {tx_, ty_, wrap_angle(std::atan2(s_, c_))}; }
 
  private:

@@ -40,7 +40,7 @@ class UnknownPlaceMonitor {
     int generation;
   };
   UnknownPlaceParams params_;
-  std::shared_ptr<const ContactGrid> contact_;
+  std::shared_ptr<const ContactIndex> contact_;
   std::optional<Best> best_;
 };
 

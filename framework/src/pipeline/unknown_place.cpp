@@ -13,7 +13,7 @@ void describe(ParamVisitor& v, UnknownPlaceParams& p) {
 }
 
 UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map)
-    : params_(params), contact_(ContactGrid::of(map, params.contact_epsilon)) {}
+    : params_(params), contact_(contact_index(map, "bitset", params.contact_epsilon)) {}
 
 std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
                                                   const std::vector<Hypothesis>& hypotheses) {
@@ -27,10 +27,7 @@ std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
     const std::size_t end = local.ends[k - 1];
     const std::size_t begin = k > 1 ? local.ends[k - 2] : 0;
     if (begin == end) continue;
-    std::size_t in_contact = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (contact_->contact(map_from_local(local.points[i]))) ++in_contact;
-    }
+    const std::size_t in_contact = contact_->count(local.points, begin, end - begin, map_from_local);
     sum_of_shares += static_cast<double>(in_contact) / static_cast<double>(end - begin);
     ++observations;
   }

@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "glocal/contact.hpp"
+#include "glocal/error.hpp"
+#include "maps/count_contacts.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr double voxels_per_epsilon = 4.0;
+constexpr std::size_t voxels_per_word = 32;
+/// Rows of the coarse bits are whole words too.
+constexpr double columns_step = voxels_per_word << VoxelLookup::coarse_shift;
+constexpr double largest_bytes = 1024.0 * 1024.0 * 1024.0;
+
+struct Range {
+  double low;
+  double high;
+};
+
+Range range_of(const std::vector<float>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return {*low, *high};
+}
+
+}  // namespace
+
+BitsetContact::BitsetContact(const Points& points, double epsilon) {
+  if (points.empty()) {
+    words_.assign(1, 0);  // a place to look at, although nothing is there
+    coarse_words_.assign(1, 0);
+    return;
+  }
+  const double voxel = epsilon / voxels_per_epsilon;
+  const double margin = epsilon + voxel;
+  const Range x = range_of(points.x);
+  const Range y = range_of(points.y);
+  const Range z = range_of(points.z);
+  const bool planar = z.low == z.high;
+  const auto voxels = [&](const Range& r) {
+    return std::ceil((r.high - r.low + 2.0 * margin) / voxel) + 1.0;
+  };
+  const double columns = std::ceil(voxels(x) / columns_step) * columns_step;
+  const double rows = voxels(y);
+  const double layers = planar ? 1.0 : voxels(z);
+  const double bytes = columns * rows * layers / 8.0;
+  if (!(bytes <= largest_bytes)) {
+    throw ConfigError(
+        {{"", 0, 0,
+          fmt::format("a contact grid over {:.0f} m x {:.0f} m x {:.0f} m with contact_epsilon {} m would "
+                      "need {:.1f} GiB, at most 1 GiB is allowed; use a larger contact_epsilon or a "
+                      "smaller map",
+                      x.high - x.low, y.high - y.low, z.high - z.low, epsilon, bytes / largest_bytes)}});
+  }
+  min_ = {static_cast<float>(x.low - margin), static_cast<float>(y.low - margin),
+          static_cast<float>(planar ? z.low - epsilon : z.low - margin)};
+  scale_ = static_cast<float>(1.0 / voxel);
+  scale_z_ = planar ? static_cast<float>(0.5 / epsilon) : scale_;
+  columns_ = static_cast<std::size_t>(columns);
+  rows_ = static_cast<std::size_t>(rows);
+  layers_ = static_cast<std::size_t>(layers);
+  words_.assign(columns_ * rows_ * layers_ / voxels_per_word, 0);
+  const auto joined = [](std::size_t n) { return ((n - 1) >> VoxelLookup::coarse_shift) + 1; };
+  coarse_rows_ = joined(rows_);
+  coarse_words_.assign(joined(columns_) * coarse_rows_ * joined(layers_) / voxels_per_word, 0);
+  for (std::size_t i = 0; i < points.size(); ++i) dilate(points[i], epsilon);
+}
+
+VoxelLookup BitsetContact::lookup(const Transform& map_from_points) const {
+  const Transform& t = map_from_points;
+  const float c = t.cosine() * scale_;
+  const float s = t.sine() * scale_;
+  const auto bits = [](const std::vector<std::uint32_t>& words, std::size_t columns, std::size_t rows) {
+    const auto row_words = static_cast<std::uint32_t>(columns / voxels_per_word);
+    return VoxelBits{words.data(), row_words, row_words * static_cast<std::uint32_t>(rows)};
+  };
+  return {.fine = bits(words_, columns_, rows_),
+          .coarse = bits(coarse_words_, columns_ >> VoxelLookup::coarse_shift, coarse_rows_),
+          .columns = static_cast<float>(columns_),
+          .rows = static_cast<float>(rows_),
+          .layers = static_cast<float>(layers_),
+          .xx = c,
+          .xy = -s,
+          .x0 = (t.x() - min_.x) * scale_,
+          .yx = s,
+          .yy = c,
+          .y0 = (t.y() - min_.y) * scale_,
+          .zz = scale_z_,
+          .z0 = -min_.z * scale_z_};
+}
+
+std::size_t BitsetContact::count(const Points& points, std::size_t begin, std::size_t n,
+                                 const Transform& map_from_points) const {
+  constexpr std::array<std::uint32_t, 1> any{0};
+  return count_while(points, begin, n, n, any, map_from_points).in_contact;
+}
+
+ContactIndex::Count BitsetContact::count_while(const Points& points, std::size_t begin, std::size_t n,
+                                               std::size_t batch, std::span<const std::uint32_t> least,
+                                               const Transform& map_from_points) const {
+  return count_contacts(lookup(map_from_points),
+                        {points.x.data() + begin, points.y.data() + begin, points.z.data() + begin, n}, batch,
+                        least);
+}
+
+void BitsetContact::dilate(const Point& p, double epsilon) {
+  // In voxels, relative to voxel (0, 0, 0).
+  const double reach = epsilon * scale_;
+  const double x = (static_cast<double>(p.x) - min_.x) * scale_;
+  const double y = (static_cast<double>(p.y) - min_.y) * scale_;
+  const double z = (static_cast<double>(p.z) - min_.z) * scale_;
+  const bool planar = layers_ == 1;
+  const auto first = [&](double centre) { return static_cast<int>(std::ceil(centre - reach - 0.5)); };
+  const auto last = [&](double centre) { return static_cast<int>(std::floor(centre + reach - 0.5)); };
+  const auto squared = [](double centre, int voxel) {
+    const double d = voxel + 0.5 - centre;
+    return d * d;
+  };
+  const int first_layer = planar ? 0 : first(z);
+  const int last_layer = planar ? 0 : last(z);
+  for (int layer = first_layer; layer <= last_layer; ++layer) {
+    const double left_by_z = reach * reach - (planar ? 0.0 : squared(z, layer));
+    for (int row = first(y); row <= last(y); ++row) {
+      const double left_by_y = left_by_z - squared(y, row);
+      for (int column = first(x); column <= last(x); ++column) {
+        if (squared(x, column) > left_by_y) continue;
+        set({static_cast<std::size_t>(column), static_cast<std::size_t>(row),
+             static_cast<std::size_t>(layer)});
+      }
+    }
+  }
+}
+
+void BitsetContact::set(const std::array<std::size_t, 3>& voxel) {
+  const auto set_bit = [](std::vector<std::uint32_t>& words, std::size_t bit) {
+    words[bit / voxels_per_word] |= std::uint32_t{1} << (bit % voxels_per_word);
+  };
+  const auto [column, row, layer] = voxel;
+  set_bit(words_, (layer * rows_ + row) * columns_ + column);
+  constexpr unsigned shift = VoxelLookup::coarse_shift;
+  set_bit(coarse_words_,
+          ((layer >> shift) * coarse_rows_ + (row >> shift)) * (columns_ >> shift) + (column >> shift));
+}
+
+}  // namespace glocal

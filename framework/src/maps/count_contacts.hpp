@@ -1,0 +1,40 @@
+// The inner loop of BitsetContact, compiled for each instruction set and chosen when the program runs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "glocal/contact.hpp"
+
+namespace glocal {
+
+/// Bits of voxels: 32 of a row in each word; rows, then layers.
+struct VoxelBits {
+  const std::uint32_t* words;
+  std::uint32_t row_words, layer_words;
+};
+
+/// A grid of bits and the way from a point to its voxel: column = xx * x + xy * y + x0, row likewise,
+/// layer = zz * z + z0.
+struct VoxelLookup {
+  /// A coarse voxel joins 4 x 4 x 4 and is set if one of them is.
+  static constexpr unsigned coarse_shift = 2;
+
+  VoxelBits fine;
+  VoxelBits coarse;
+  float columns, rows, layers;  ///< Of the fine voxels; whole numbers.
+  float xx, xy, x0, yx, yy, y0, zz, z0;
+};
+
+struct PointRun {
+  const float *x, *y, *z;
+  std::size_t size;
+};
+
+/// ContactIndex::count_while(). Reads no point beyond the run. The answer is the same for all instruction
+/// sets. Timed by bench_contact and bench_extrapolation.
+[[nodiscard]] ContactIndex::Count count_contacts(const VoxelLookup& grid, const PointRun& points,
+                                                 std::size_t batch, std::span<const std::uint32_t> least);
+
+}  // namespace glocal

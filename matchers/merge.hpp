@@ -1,0 +1,17 @@
+// Keeps the flood of the first steps small without losing a distinct pose.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "glocal/hypothesis.hpp"
+
+namespace glocal {
+
+/// Merges hypotheses whose robot poses lie in the same cell of a pose grid, if there are more than `most` of
+/// them. The best of each cell stays and takes over the support of the others. Cells begin at 5 cm and 2
+/// degrees and double until no more than `most` are left, so every pose that is distinct at the final cell
+/// size keeps a hypothesis. `hypotheses` come and stay sorted by falling quality; most >= 8.
+void merge_hypotheses(std::vector<Hypothesis>& hypotheses, std::size_t most);
+
+}  // namespace glocal
