@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "bench/scenes.hpp"
 #include "glocal/rng.hpp"
 #include "local_mappers/scan_matching.hpp"
 
-namespace glocal {
+namespace glocal::bench {
 namespace {
 
 constexpr double keyframe_m = 0.25;
@@ -82,6 +83,7 @@ void last_keyframes_of_a_drive(benchmark::State& state) {
   // Says that the mapper kept up: about the way driven.
   state.counters["way_m"] = std::hypot(mapper.map().local_from_robot.x, mapper.map().local_from_robot.y);
 }
+BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
 BENCHMARK(last_keyframes_of_a_drive)
     ->Arg(10)
     ->Arg(40)
@@ -104,6 +106,6 @@ void wide_search(benchmark::State& state) {
 BENCHMARK(wide_search)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::bench
 
 BENCHMARK_MAIN();

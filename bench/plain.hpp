@@ -12,9 +12,16 @@
 #include <vector>
 
 #include "glocal/points.hpp"
+#include "glocal/rng.hpp"
 #include "matchers/triangle.hpp"
 
 namespace glocal::plain {
+
+/// Three points, each as likely as any other.
+inline Triple draw(const Points& points, Rng& rng) {
+  const auto n = static_cast<std::uint32_t>(points.size());
+  return {rng.below(n), rng.below(n), rng.below(n)};
+}
 
 struct CanonicalTriangle {
   Triple triple;  ///< Counter-clockwise, the longest side from [0] to [1].
@@ -110,6 +117,8 @@ class ByteGrid {
     }
     return cells_[place(static_cast<int>(column), static_cast<int>(row))] != 0;
   }
+
+  [[nodiscard]] std::size_t memory_bytes() const { return cells_.size(); }
 
  private:
   [[nodiscard]] std::size_t place(int column, int row) const {

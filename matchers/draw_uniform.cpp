@@ -35,7 +35,7 @@ HWY_INLINE Vector below(Vector bits, Vector n) {
 #endif
 }
 
-void DrawUniform(std::uint64_t seed, std::uint32_t n, TripleBatch& batch) {
+void draw_uniform_in_vectors(std::uint64_t seed, std::uint32_t n, TripleBatch& batch) {
   const Words d;
   const Vector size = hn::Set(d, n);
   const auto low = static_cast<std::uint32_t>(seed);
@@ -60,10 +60,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace glocal {
 
-HWY_EXPORT(DrawUniform);
+HWY_EXPORT(draw_uniform_in_vectors);
 
 void draw_uniform(std::uint64_t seed, std::uint32_t n, TripleBatch& batch) {
-  HWY_DYNAMIC_DISPATCH(DrawUniform)(seed, n, batch);
+  HWY_DYNAMIC_DISPATCH(draw_uniform_in_vectors)(seed, n, batch);
 }
 
 }  // namespace glocal

@@ -100,8 +100,8 @@ HWY_INLINE Cells cells_of(VF square, VF cells_per_metre) {
   return {own, hn::IfThenElse(hn::RebindMask(words, lower), hn::Sub(own, one), hn::Add(own, one))};
 }
 
-void FindRelations(const Points& points, const TripleBatch& batch, const TriangleRule& rule, bool neighbours,
-                   RelationBatch& relations) {
+void find_relations_in_vectors(const Points& points, const TripleBatch& batch, const TriangleRule& rule,
+                               bool neighbours, RelationBatch& relations) {
   const Floats d;
   const Words words;
   const auto square = [](double value) { return static_cast<float>(value) * static_cast<float>(value); };
@@ -159,8 +159,8 @@ HWY_INLINE Corners ordered(const Corners& t) {
           first_of(order, by, cy, t.ay), first_of(order, cx, t.ax, bx), first_of(order, cy, t.ay, by)};
 }
 
-void LeastSquaresMotions(const Points& from_points, const TripleBatch& from, const Points& to_points,
-                         const TripleBatch& to, MotionBatch& motions) {
+void least_squares_motions_in_vectors(const Points& from_points, const TripleBatch& from,
+                                      const Points& to_points, const TripleBatch& to, MotionBatch& motions) {
   const Floats d;
   const VF third = hn::Set(d, 1.0F / 3.0F);
   const auto mean = [&](VF a, VF b, VF c) { return hn::Mul(hn::Add(hn::Add(a, b), c), third); };
@@ -204,17 +204,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace glocal {
 
-HWY_EXPORT(FindRelations);
-HWY_EXPORT(LeastSquaresMotions);
+HWY_EXPORT(find_relations_in_vectors);
+HWY_EXPORT(least_squares_motions_in_vectors);
 
 void find_relations(const Points& points, const TripleBatch& batch, const TriangleRule& rule, bool neighbours,
                     RelationBatch& relations) {
-  HWY_DYNAMIC_DISPATCH(FindRelations)(points, batch, rule, neighbours, relations);
+  HWY_DYNAMIC_DISPATCH(find_relations_in_vectors)(points, batch, rule, neighbours, relations);
 }
 
 void least_squares_motions(const Points& from_points, const TripleBatch& from, const Points& to_points,
                            const TripleBatch& to, MotionBatch& motions) {
-  HWY_DYNAMIC_DISPATCH(LeastSquaresMotions)(from_points, from, to_points, to, motions);
+  HWY_DYNAMIC_DISPATCH(least_squares_motions_in_vectors)(from_points, from, to_points, to, motions);
 }
 
 }  // namespace glocal

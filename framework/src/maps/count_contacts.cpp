@@ -87,8 +87,8 @@ HWY_INLINE std::size_t count_batch(const VoxelLookup& grid, const VoxelBits& bit
   return in_contact + count_set<shift>(bits, voxels_of(grid, rest.run(), 0));
 }
 
-ContactIndex::Count CountContacts(const VoxelLookup& grid, const PointRun& points, std::size_t batch,
-                                  std::span<const std::uint32_t> least) {
+ContactIndex::Count count_contacts_in_vectors(const VoxelLookup& grid, const PointRun& points,
+                                              std::size_t batch, std::span<const std::uint32_t> least) {
   // Most poses miss most points of the first batch by far. The coarse bits, which stay in the fastest memory,
   // tell: who has too few there has too few.
   const std::size_t first = std::min(batch, points.size);
@@ -114,11 +114,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace glocal {
 
-HWY_EXPORT(CountContacts);
+HWY_EXPORT(count_contacts_in_vectors);
 
 ContactIndex::Count count_contacts(const VoxelLookup& grid, const PointRun& points, std::size_t batch,
                                    std::span<const std::uint32_t> least) {
-  return HWY_DYNAMIC_DISPATCH(CountContacts)(grid, points, batch, least);
+  return HWY_DYNAMIC_DISPATCH(count_contacts_in_vectors)(grid, points, batch, least);
 }
 
 }  // namespace glocal

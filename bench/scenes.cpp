@@ -1,0 +1,146 @@
+#include "bench/scenes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "bench/plain.hpp"
+#include "clustering/register.hpp"
+#include "glocal/rng.hpp"
+#include "local_mappers/register.hpp"
+#include "matchers/register.hpp"
+#include "raters/register.hpp"
+#include "sources/register.hpp"
+
+namespace glocal::bench {
+namespace {
+
+constexpr float tile_width = 26.16F;
+constexpr float tile_height = 26.7F;
+
+Scene load(const std::string& name) {
+  Scene scene;
+  scene.experiment =
+      read_experiment(GLOCAL_SOURCE_DIR "/configs/experiments/" + name + ".yaml", {}, catalog());
+  scene.prepared = prepare(scene.experiment, catalog(), [](const std::string&) {});
+  return scene;
+}
+
+/// Whether a copy of the map lacks what stands in this square metre.
+bool is_missing(int copy, float x, float y) {
+  const auto square =
+      static_cast<std::uint64_t>(std::floor(x)) * 1000 + static_cast<std::uint64_t>(std::floor(y));
+  return Rng(0).stream({static_cast<std::uint64_t>(copy), square}).uniform() < 0.3;
+}
+
+}  // namespace
+
+const Catalog& catalog() {
+  struct Filled : Catalog {
+    Filled() {
+      register_sources(*this);
+      register_local_mappers(*this);
+      register_matchers(*this);
+      register_clustering(*this);
+      register_raters(*this);
+    }
+  };
+  static const Filled filled;
+  return filled;
+}
+
+const Scene& scene(const std::string& name) {
+  static std::map<std::string, Scene> scenes;
+  const auto known = scenes.find(name);
+  return known != scenes.end() ? known->second : scenes.emplace(name, load(name)).first->second;
+}
+
+bool has_datasets() {
+  return std::getenv("GLOCAL_DATASETS") != nullptr;
+}
+
+std::unique_ptr<Matcher> make_matcher(const Scene& scene, std::shared_ptr<const GlobalMap> map, int threads) {
+  return catalog().matchers.make(scene.experiment.localizer.matcher, {std::move(map), threads});
+}
+
+LocalMap local_map_at(const Scene& scene, std::size_t start, std::size_t step) {
+  const auto mapper =
+      catalog().local_mappers.make(scene.experiment.localizer.local_mapper, {scene.prepared.map, 1});
+  for (std::size_t i = start; i <= start + step; ++i)
+    mapper->add(scene.prepared.drive.samples[i].observation);
+  return mapper->map();
+}
+
+Pose2 true_map_from_local(const Scene& scene, std::size_t start, std::size_t step, const LocalMap& local) {
+  return scene.prepared.drive.samples[start + step].map_from_robot.value() * inverse(local.local_from_robot);
+}
+
+std::shared_ptr<const GlobalMap> tiled_map(int n) {
+  const Points& tile = simulation().map();
+  MapData data;
+  for (int copy = 0; copy < n * n; ++copy) {
+    const float x0 = tile_width * static_cast<float>(copy % n);
+    const float y0 = tile_height * static_cast<float>(copy / n);
+    for (std::size_t i = 0; i < tile.size(); ++i) {
+      if (copy > 0 && is_missing(copy, tile.x[i], tile.y[i])) continue;
+      const float x = copy % 2 == 0 ? tile.x[i] : tile_width - tile.x[i];
+      const float y = copy % 3 == 0 ? tile.y[i] : tile_height - tile.y[i];
+      data.points.push_back({x0 + x, y0 + y, 0.0F});
+    }
+  }
+  return std::make_shared<const GlobalMap>(std::move(data));
+}
+
+Points walls(std::size_t n) {
+  // A wall of 4 m in each 4 m x 4 m square: 133 points.
+  constexpr std::size_t points_per_wall = 133;
+  const auto squares = static_cast<std::size_t>(
+      std::ceil(std::sqrt(static_cast<double>(n) / static_cast<double>(points_per_wall))));
+  Rng rng(1);
+  Points points;
+  points.reserve(n);
+  for (std::size_t wall = 0; points.size() < n; ++wall) {
+    const auto x = static_cast<float>(4 * (wall % squares));
+    const auto y = static_cast<float>(4 * (wall / squares));
+    const bool along_x = rng.below(2) == 0;
+    for (std::size_t i = 0; i < points_per_wall && points.size() < n; ++i) {
+      const float along = 0.03F * static_cast<float>(i);
+      points.push_back({along_x ? x + along : x, along_x ? y : y + along, 0.0F});
+    }
+  }
+  return points;
+}
+
+void reference_loop(benchmark::State& state) {
+  constexpr std::size_t late_step = 110;
+  constexpr std::uint32_t iterations = 200'000;
+  constexpr unsigned table_bits = 19;
+  constexpr TriangleRule rule{.cell = 0.15, .min_side = 1.5, .min_height = 1.0};
+  const Points& map = simulation().map();
+  const LocalMap local = local_map_at(simulation(), 0, late_step);
+
+  std::vector<std::uint64_t> table(std::size_t{1} << table_bits);
+  const auto entry = [&](Relation relation) -> std::uint64_t& {
+    return table[relation * std::uint64_t{0x9e3779b97f4a7c15} >> (64U - table_bits)];
+  };
+  Rng rng(1);
+  std::size_t hits = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    std::fill(table.begin(), table.end(), 0);
+    for (std::uint32_t i = 0; i < iterations; ++i) {
+      const auto triangle = plain::canonical_triangle(map, plain::draw(map, rng), rule);
+      if (triangle) entry(triangle->relation) = std::uint64_t{i} << 32U | triangle->relation;
+    }
+    for (std::uint32_t i = 0; i < iterations; ++i) {
+      const auto triangle = plain::canonical_triangle(local.points, plain::draw(local.points, rng), rule);
+      if (triangle && static_cast<Relation>(entry(triangle->relation)) == triangle->relation) ++hits;
+    }
+    benchmark::DoNotOptimize(hits);
+  }
+}
+
+}  // namespace glocal::bench

@@ -1,0 +1,65 @@
+// What the benchmarks look at: experiments from configs/, and maps as large as one likes.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "glocal/experiment.hpp"
+#include "glocal/global_map.hpp"
+#include "glocal/local_map.hpp"
+#include "pipeline/run.hpp"
+
+namespace glocal::bench {
+
+/// An experiment with its map, drive and starts loaded.
+struct Scene {
+  Experiment experiment;
+  Prepared prepared;
+
+  [[nodiscard]] const Points& map() const { return prepared.map->points(); }
+};
+
+/// configs/experiments/NAME.yaml, loaded once. Experiments on recorded drives need GLOCAL_DATASETS.
+[[nodiscard]] const Scene& scene(const std::string& name);
+/// The paper's simulated drive.
+[[nodiscard]] inline const Scene& simulation() {
+  return scene("paper_simulation");
+}
+/// Whether scene("intel") and the like can be had.
+[[nodiscard]] bool has_datasets();
+
+/// Every strategy, to make stages from.
+[[nodiscard]] const Catalog& catalog();
+
+/// The matcher of an experiment on another map or with more threads.
+[[nodiscard]] std::unique_ptr<Matcher> make_matcher(const Scene& scene, std::shared_ptr<const GlobalMap> map,
+                                                    int threads);
+
+/// The local map after `step` + 1 observations from sample `start` on.
+[[nodiscard]] LocalMap local_map_at(const Scene& scene, std::size_t start, std::size_t step);
+
+/// Where that local map really lies in the global map.
+[[nodiscard]] Pose2 true_map_from_local(const Scene& scene, std::size_t start, std::size_t step,
+                                        const LocalMap& local);
+
+/// The simulation's map, n x n times side by side. Each copy is mirrored or turned and lacks some stretches
+/// of its walls, so that only the first shows what the robot sees.
+[[nodiscard]] std::shared_ptr<const GlobalMap> tiled_map(int n);
+
+/// `n` points on walls of a building as large as they need at 3 cm.
+[[nodiscard]] Points walls(std::size_t n);
+
+/// The time of one of the `items` of each iteration, in seconds.
+[[nodiscard]] inline benchmark::Counter time_per_item(double items) {
+  return {items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
+}
+
+/// To be registered in every benchmark, so that times can be compared over machines and days as multiples of
+/// it: 200,000 triples of the map and as many of a late local map, drawn one at a time in plain code, hashed
+/// and looked up in a table of 8-byte entries, and nothing else.
+void reference_loop(benchmark::State& state);
+
+}  // namespace glocal::bench
