@@ -19,16 +19,33 @@ namespace {
 
 constexpr double epsilon = 0.05;  // As in paper_simulation.yaml.
 
-/// Poses that a match of the simulation's local map proposes, with their qualities.
+using Batches = std::vector<MotionBatch>;
+
+/// Poses that a match of the simulation's local map proposes.
 struct Proposals {
   LocalMap local;
-  std::vector<Transform> wrong;   ///< Pairs of equal triples; nearly all of them wrong.
-  std::vector<Transform> nearly;  ///< Around the true pose, up to 0.2 m and 2 degrees off: of all qualities.
+  Batches wrong;   ///< Of pairs of equal triples; nearly all of them wrong.
+  Batches nearly;  ///< Around the true pose, up to 0.2 m and 2 degrees off: of all qualities.
   std::shared_ptr<const ContactIndex> contact;
 };
 
+/// As many poses as `pose()` is called for.
+template <class Pose>
+Batches batches_of(Pose pose) {
+  Batches batches(16);
+  for (MotionBatch& batch : batches) {
+    for (std::size_t i = 0; i < MotionBatch::capacity; ++i) {
+      const Transform t = pose();
+      batch.cosine[i] = t.cosine();
+      batch.sine[i] = t.sine();
+      batch.x[i] = t.x();
+      batch.y[i] = t.y();
+    }
+  }
+  return batches;
+}
+
 Proposals proposals_at(std::size_t step) {
-  constexpr std::size_t count = 4096;
   constexpr std::uint32_t draws = 200'000;
   constexpr TriangleRule rule{.cell = 0.15, .min_side = 1.5, .min_height = 1.0, .max_side = 50.0};
   Proposals result{local_map_at(simulation(), 0, step), {}, {}, {}};
@@ -42,19 +59,21 @@ Proposals proposals_at(std::size_t step) {
     const auto triangle = plain::canonical_triangle(map, plain::draw(map, rng), rule);
     if (triangle) table[triangle->relation] = triangle->triple;
   }
-  while (result.wrong.size() < count) {
-    const auto triangle = plain::canonical_triangle(local, plain::draw(local, rng), rule);
-    const auto partner = triangle ? table.find(triangle->relation) : table.end();
-    if (partner == table.end()) continue;
-    result.wrong.push_back(plain::least_squares_motion(local, triangle->triple, map, partner->second));
-  }
+  result.wrong = batches_of([&] {
+    while (true) {
+      const auto triangle = plain::canonical_triangle(local, plain::draw(local, rng), rule);
+      const auto partner = triangle ? table.find(triangle->relation) : table.end();
+      if (partner == table.end()) continue;
+      return plain::least_squares_motion(local, triangle->triple, map, partner->second);
+    }
+  });
 
   const Pose2 truth = true_map_from_local(simulation(), 0, step, result.local);
   const Pose2& robot = result.local.local_from_robot;
-  while (result.nearly.size() < count) {
+  result.nearly = batches_of([&] {
     const Pose2 error{rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2), radians(rng.uniform(-2.0, 2.0))};
-    result.nearly.emplace_back(truth * robot * error * inverse(robot));
-  }
+    return Transform(truth * robot * error * inverse(robot));
+  });
   return result;
 }
 
@@ -74,25 +93,26 @@ void give_up(benchmark::State& state, const ExtrapolationRule& rule, double thre
   const Proposals& p = proposals(step);
   Rng rng(1);
   const QualityTest test(p.local.points, p.contact, rule, threshold, rng);
+  ContactIndex::BatchColumn starts;
+  for (std::uint32_t& start : starts) start = static_cast<std::uint32_t>(rng.next());
   std::size_t checks = 0;
   std::size_t tested = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const Transform& pose = p.wrong[tested++ % p.wrong.size()];
-    const auto outcome = test.test(pose, static_cast<std::uint32_t>(mix64(tested)));
+    const auto outcome = test.test(p.wrong[tested++ % p.wrong.size()], MotionBatch::capacity, starts);
     checks += outcome.checks;
-    benchmark::DoNotOptimize(outcome);
   }
 
   std::size_t good = 0;
-  std::size_t lost = 0;
-  for (std::size_t i = 0; i < p.nearly.size(); ++i) {
-    if (quality(p, p.nearly[i]) < threshold) continue;
-    ++good;
-    if (!test.test(p.nearly[i], static_cast<std::uint32_t>(mix64(i))).quality) ++lost;
+  std::size_t kept = 0;
+  for (const MotionBatch& batch : p.nearly) {
+    for (std::size_t i = 0; i < MotionBatch::capacity; ++i) good += quality(p, batch[i]) >= threshold ? 1 : 0;
+    kept += test.test(batch, MotionBatch::capacity, starts).passed.size();
   }
-  state.counters["checks"] = static_cast<double>(checks) / static_cast<double>(tested);
+  state.counters["per_pose"] = time_per_item(MotionBatch::capacity);
+  state.counters["checks"] =
+      static_cast<double>(checks) / static_cast<double>(tested * MotionBatch::capacity);
   state.counters["good"] = static_cast<double>(good);
-  state.counters["lost"] = good == 0 ? 0.0 : static_cast<double>(lost) / static_cast<double>(good);
+  state.counters["lost"] = good == 0 ? 0.0 : static_cast<double>(good - kept) / static_cast<double>(good);
   state.counters["local_points"] = static_cast<double>(p.local.points.size());
 }
 

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -89,41 +91,61 @@ std::vector<Relation> relations_of(const Points& points, std::uint64_t seed) {
 class Narrow {
  public:
   explicit Narrow(unsigned bits) : table_(bits) {}
-  void begin() { first_ = table_.begin_fill(draws); }
-  void prefetch(Relation relation) const { table_.prefetch(relation); }
-  void append(Relation relation, std::uint32_t number) { table_.append(relation, first_ + number); }
-  [[nodiscard]] bool find(Relation relation) const { return table_.find(relation) != RelationTable::none; }
+  void begin() { table_.begin_fill(draws); }
+  void fill(std::span<const Relation> relations, std::span<const std::uint32_t> numbers) {
+    table_.fill(relations, numbers);
+  }
+  [[nodiscard]] std::size_t find(std::span<const Relation> relations) {
+    batch_.size = relations.size();
+    std::copy(relations.begin(), relations.end(), batch_.relations.begin());
+    table_.find(batch_, found_);
+    return found_.size;
+  }
   [[nodiscard]] std::size_t memory_bytes() const { return table_.memory_bytes(); }
 
  private:
   RelationTable table_;
-  std::uint64_t first_ = 0;
+  RelationBatch batch_{};
+  PartnerBatch found_;
 };
 
-/// Entries of 16 bytes, which hold the triple itself, and are cleared for each fill.
-class Wide {
+/// Entries of 8 or 16 bytes, the latter for the triple itself; cleared for each fill. With or without asking
+/// for slots ahead.
+template <class Entry, bool ahead>
+class Plain {
  public:
-  explicit Wide(unsigned bits) : shift_(64 - bits), slots_(std::size_t{1} << bits) {}
+  explicit Plain(unsigned bits) : shift_(64 - bits), slots_(std::size_t{1} << bits) {}
   void begin() { slots_.assign(slots_.size(), {}); }
-  void prefetch(Relation relation) const { __builtin_prefetch(&slots_[slot(relation)]); }
-  void append(Relation relation, std::uint32_t number) {
-    slots_[slot(relation)] = {relation + 1, {number, number, number}};
+  void fill(std::span<const Relation> relations, std::span<const std::uint32_t> numbers) {
+    ask_for(relations);
+    for (std::size_t i = 0; i < relations.size(); ++i) {
+      slots_[slot(relations[i])] = {relations[i] + 1, {numbers[i]}};
+    }
   }
-  [[nodiscard]] bool find(Relation relation) const {
-    return slots_[slot(relation)].relation_plus_1 == relation + 1;
+  [[nodiscard]] std::size_t find(std::span<const Relation> relations) const {
+    ask_for(relations);
+    std::size_t found = 0;
+    for (const Relation relation : relations) found += slots_[slot(relation)].relation_plus_1 == relation + 1;
+    return found;
   }
   [[nodiscard]] std::size_t memory_bytes() const { return slots_.size() * sizeof(Entry); }
 
  private:
-  struct Entry {
-    Relation relation_plus_1 = 0;
-    Triple triple{};
-  };
   [[nodiscard]] std::size_t slot(Relation relation) const {
     return static_cast<std::size_t>(relation * std::uint64_t{0x9e3779b97f4a7c15} >> shift_);
   }
+  void ask_for(std::span<const Relation> relations) const {
+    if constexpr (ahead) {
+      for (const Relation relation : relations) __builtin_prefetch(&slots_[slot(relation)]);
+    }
+  }
   unsigned shift_;
   std::vector<Entry> slots_;
+};
+template <std::size_t n>
+struct Entry {
+  Relation relation_plus_1 = 0;
+  std::array<std::uint32_t, n> numbers{};
 };
 
 /// What the standard library offers; loses nothing.
@@ -131,9 +153,14 @@ class Standard {
  public:
   explicit Standard(unsigned bits) { map_.reserve(std::size_t{1} << bits); }
   void begin() { map_.clear(); }
-  void prefetch(Relation /*relation*/) const {}
-  void append(Relation relation, std::uint32_t number) { map_[relation] = number; }
-  [[nodiscard]] bool find(Relation relation) const { return map_.contains(relation); }
+  void fill(std::span<const Relation> relations, std::span<const std::uint32_t> numbers) {
+    for (std::size_t i = 0; i < relations.size(); ++i) map_[relations[i]] = numbers[i];
+  }
+  [[nodiscard]] std::size_t find(std::span<const Relation> relations) const {
+    std::size_t found = 0;
+    for (const Relation relation : relations) found += map_.contains(relation) ? 1 : 0;
+    return found;
+  }
   [[nodiscard]] std::size_t memory_bytes() const {
     struct Node {
       void* next;
@@ -146,35 +173,38 @@ class Standard {
   std::unordered_map<Relation, std::uint32_t> map_;
 };
 
-/// Calls `use` for all relations, each batch of them after having been asked for ahead.
-template <bool ahead, class Table, class Use>
-void in_batches(const Table& table, const std::vector<Relation>& relations, Use use) {
+/// Calls `use` with a batch of relations after the other.
+template <class Use>
+void in_batches(const std::vector<Relation>& relations, Use use) {
   for (std::size_t begin = 0; begin < relations.size(); begin += TripleBatch::capacity) {
-    const std::size_t end = std::min(begin + TripleBatch::capacity, relations.size());
-    if constexpr (ahead) {
-      for (std::size_t i = begin; i < end; ++i) table.prefetch(relations[i]);
-    }
-    for (std::size_t i = begin; i < end; ++i) use(i);
+    use(begin, std::min(TripleBatch::capacity, relations.size() - begin));
   }
 }
 
 /// Fills the table with the map's relations and looks the local map's up. Argument: 2^this slots.
-template <class Table, bool ahead>
+template <class Table>
 void fill_and_find(benchmark::State& state) {
   const std::vector<Relation> map = relations_of(simulation().map(), 1);
   const std::vector<Relation> local = relations_of(local_map_at(simulation(), 0, late_step).points, 2);
+  std::vector<std::uint32_t> numbers(map.size());
+  std::iota(numbers.begin(), numbers.end(), 0U);
   Table table(static_cast<unsigned>(state.range(0)));
+  const auto find_all = [&](const std::vector<Relation>& relations) {
+    std::size_t found = 0;
+    in_batches(relations, [&](std::size_t begin, std::size_t n) {
+      found += table.find(std::span(relations).subspan(begin, n));
+    });
+    return found;
+  };
   std::size_t hits = 0;
   for ([[maybe_unused]] auto _ : state) {
     table.begin();
-    in_batches<ahead>(table, map,
-                      [&](std::size_t i) { table.append(map[i], static_cast<std::uint32_t>(i)); });
-    hits = 0;
-    in_batches<ahead>(table, local, [&](std::size_t i) { hits += table.find(local[i]) ? 1 : 0; });
-    benchmark::DoNotOptimize(hits);
+    in_batches(map, [&](std::size_t begin, std::size_t n) {
+      table.fill(std::span(map).subspan(begin, n), std::span(numbers).subspan(begin, n));
+    });
+    hits = find_all(local);
   }
-  std::size_t found_again = 0;
-  for (const Relation relation : map) found_again += table.find(relation) ? 1 : 0;
+  const std::size_t found_again = find_all(map);
   state.counters["per_access"] = time_per_item(static_cast<double>(map.size() + local.size()));
   state.counters["load"] = static_cast<double>(map.size()) / std::exp2(static_cast<double>(state.range(0)));
   state.counters["lost"] = 1.0 - static_cast<double>(found_again) / static_cast<double>(map.size());
@@ -283,19 +313,20 @@ BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
 BENCHMARK(plain_relations);
 BENCHMARK_CAPTURE(batch_relations, own_cell, false);
 BENCHMARK_CAPTURE(batch_relations, neighbour_cells, true);
-BENCHMARK(fill_and_find<Narrow, true>)
+BENCHMARK(fill_and_find<Narrow>)->Name("relation_table")->DenseRange(16, 22)->Unit(benchmark::kMillisecond);
+BENCHMARK(fill_and_find<Plain<Entry<1>, true>>)
     ->Name("entries_of_8_bytes")
     ->DenseRange(16, 22)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(fill_and_find<Narrow, false>)
-    ->Name("without_prefetch")
-    ->DenseRange(16, 22)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(fill_and_find<Wide, true>)
+BENCHMARK(fill_and_find<Plain<Entry<3>, true>>)
     ->Name("entries_of_16_bytes")
     ->DenseRange(16, 22)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(fill_and_find<Standard, false>)->Name("unordered_map")->Arg(18)->Unit(benchmark::kMillisecond);
+BENCHMARK(fill_and_find<Plain<Entry<1>, false>>)
+    ->Name("without_prefetch")
+    ->DenseRange(16, 22)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(fill_and_find<Standard>)->Name("unordered_map")->Arg(18)->Unit(benchmark::kMillisecond);
 BENCHMARK(kind<canonical>)
     ->Name("canonical_relations")
     ->Arg(5)

@@ -65,12 +65,28 @@ QualityTest::QualityTest(const Points& local, std::shared_ptr<const ContactIndex
   least_.push_back(static_cast<std::uint32_t>(least_of_all(threshold, size_)));
 }
 
-QualityTest::Outcome QualityTest::test(const Transform& map_from_local, std::uint32_t start) const {
-  const auto begin = static_cast<std::size_t>(std::uint64_t{start} * size_ >> 32U);
-  const auto [in_contact, looked_at] =
-      contact_->count_while(shuffled_, begin, size_, batch_, least_, map_from_local);
-  if (looked_at < size_ || in_contact < least_.back()) return {std::nullopt, looked_at};
-  return {static_cast<double>(in_contact) / static_cast<double>(size_), looked_at};  // eq. 4
+QualityTest::Outcome QualityTest::test(const MotionBatch& map_from_local, std::size_t size,
+                                       const ContactIndex::BatchColumn& starts) const {
+  ContactIndex::BatchColumn begins{};
+  for (std::size_t i = 0; i < size; ++i) {
+    begins[i] = static_cast<std::uint32_t>(std::uint64_t{starts[i]} * size_ >> 32U);
+  }
+  ContactIndex::BatchColumn at_most;
+  contact_->count_at_most(shuffled_, batch_, map_from_local, size, begins, at_most);
+
+  Outcome outcome;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (at_most[i] < least_.front()) {
+      outcome.checks += batch_;
+      continue;
+    }
+    const auto [in_contact, looked_at] =
+        contact_->count_while(shuffled_, begins[i], size_, batch_, least_, map_from_local[i]);
+    outcome.checks += looked_at;
+    if (looked_at < size_ || in_contact < least_.back()) continue;
+    outcome.passed.push_back({i, static_cast<double>(in_contact) / static_cast<double>(size_)});  // eq. 4
+  }
+  return outcome;
 }
 
 }  // namespace glocal

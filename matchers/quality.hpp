@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "glocal/contact.hpp"
@@ -42,12 +41,18 @@ class QualityTest {
   QualityTest(const Points& local, std::shared_ptr<const ContactIndex> contact, const ExtrapolationRule& rule,
               double threshold, Rng& rng);
 
-  struct Outcome {
-    std::optional<double> quality;  ///< Omega; none if given up or below the threshold.
-    std::size_t checks = 0;         ///< Points looked at.
+  /// A pose that reaches the threshold.
+  struct Passed {
+    std::size_t index;  ///< Among those tested.
+    double quality;     ///< Omega
   };
-  /// Omega of a pose if it reaches the threshold. `start` (any number) picks where in the order to begin.
-  [[nodiscard]] Outcome test(const Transform& map_from_local, std::uint32_t start) const;
+  struct Outcome {
+    std::vector<Passed> passed;  ///< In the order of the poses.
+    std::size_t checks = 0;      ///< Points looked at.
+  };
+  /// Tests the first `size` poses of a batch. `starts` (any numbers) pick where in the order each begins.
+  [[nodiscard]] Outcome test(const MotionBatch& map_from_local, std::size_t size,
+                             const ContactIndex::BatchColumn& starts) const;
 
  private:
   Points shuffled_;  ///< All points twice, so that a test never wraps.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "glocal/parallel.hpp"
 #include "matchers/merge.hpp"
@@ -159,24 +160,39 @@ std::size_t Ransam::chunk_count() const {
   return (iterations() + draws_per_chunk - 1) / draws_per_chunk;
 }
 
+void Ransam::Drawn::clear() {
+  relations.clear();
+  numbers.clear();
+}
+
+void Ransam::Drawn::append(const RelationBatch& batch) {
+  relations.insert(relations.end(), batch.relations.begin(), batch.relations.begin() + batch.size);
+  numbers.insert(numbers.end(), batch.numbers.begin(), batch.numbers.begin() + batch.size);
+}
+
 void Ransam::hash_map_triples(std::uint64_t seed, const TriangleRule& rule) {
-  first_draw_ = table_.begin_fill(iterations());
-  const bool alone = setup_.threads <= 1;
+  const Points& points = setup_.map->points();
+  table_.begin_fill(iterations());
+  if (setup_.threads <= 1) {
+    for_each_batch(sampler_, points, rule, false, seed, 0, iterations(), [&](const RelationBatch& batch) {
+      table_.fill(std::span(batch.relations).first(batch.size), std::span(batch.numbers).first(batch.size));
+    });
+    return;
+  }
+  // Threads that wrote to the whole table would take its lines from each other all the time. So relations are
+  // found first, and then each thread fills a share of the table of its own.
+  drawn_.resize(chunk_count());
   parallel_for(setup_.threads, chunk_count(), [&](std::size_t chunk) {
+    Drawn& drawn = drawn_[chunk];
+    drawn.clear();
     const std::size_t begin = chunk * draws_per_chunk;
     const std::size_t end = std::min(begin + draws_per_chunk, iterations());
-    for_each_batch(sampler_, setup_.map->points(), rule, false, seed, begin, end,
-                   [&](const RelationBatch& batch) {
-                     for (std::size_t i = 0; i < batch.size; ++i) table_.prefetch(batch.relations[i]);
-                     for (std::size_t i = 0; i < batch.size; ++i) {
-                       const std::uint64_t number = first_draw_ + batch.numbers[i];
-                       if (alone) {
-                         table_.append(batch.relations[i], number);
-                       } else {
-                         table_.insert(batch.relations[i], number);
-                       }
-                     }
-                   });
+    for_each_batch(sampler_, points, rule, false, seed, begin, end,
+                   [&](const RelationBatch& batch) { drawn.append(batch); });
+  });
+  const auto shares = static_cast<std::size_t>(setup_.threads);
+  parallel_for(setup_.threads, shares, [&](std::size_t share) {
+    for (const Drawn& drawn : drawn_) table_.fill_share(drawn.relations, drawn.numbers, share, shares);
   });
 }
 
@@ -184,25 +200,22 @@ Ransam::Chunk Ransam::match_local_triples(const LocalMap& local, const TripleSam
                                           const QualityTest& quality, const TriangleRule& rule,
                                           const Draws& draws, std::size_t chunk) const {
   Chunk found;
+  PartnerBatch partners;
   TripleBatch local_triples;
   TripleBatch map_triples;
   const auto test_collisions = [&] {
-    map_triples.size = local_triples.size;
     test_hypotheses(local, local_sampler, quality, draws, local_triples, map_triples, found);
     local_triples.clear();
+    map_triples.clear();
   };
   const std::size_t begin = chunk * draws_per_chunk;
   const std::size_t end = std::min(begin + draws_per_chunk, iterations());
   for_each_batch(local_sampler, local.points, rule, params_.neighbour_cells, draws.local_seed, begin, end,
                  [&](const RelationBatch& batch) {
-                   for (std::size_t i = 0; i < batch.size; ++i) table_.prefetch(batch.relations[i]);
-                   for (std::size_t i = 0; i < batch.size; ++i) {
-                     const std::uint64_t partner = table_.find(batch.relations[i]);  // eq. 2
-                     // One in four has a partner, at random: counting on is faster than branching.
-                     const std::size_t place = local_triples.size;
-                     local_triples.numbers[place] = batch.numbers[i];
-                     map_triples.numbers[place] = static_cast<std::uint32_t>(partner - first_draw_);
-                     local_triples.size += partner != RelationTable::none ? 1 : 0;
+                   table_.find(batch, partners);  // eq. 2
+                   for (std::size_t i = 0; i < partners.size; ++i) {
+                     local_triples.add_number(partners.number(i));
+                     map_triples.add_number(partners.partner(i));
                      if (local_triples.full()) test_collisions();
                    }
                  });
@@ -217,17 +230,17 @@ void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_s
   local_sampler.draw(draws.local_seed, local_triples);
   sampler_.draw(draws.map_seed, map_triples);
   MotionBatch motions;
+  ContactIndex::BatchColumn starts;
   least_squares_motions(local.points, local_triples, setup_.map->points(), map_triples, motions);  // eq. 3
   for (std::size_t i = 0; i < local_triples.size; ++i) {
-    const Transform map_from_local = motions[i];
-    const auto start = static_cast<std::uint32_t>(mix64(local_triples.numbers[i]));
-    const QualityTest::Outcome outcome = quality.test(map_from_local, start);
-    ++found.collisions;
-    found.checks += outcome.checks;
-    if (outcome.quality) {
-      const Pose2 pose = map_from_local.pose();
-      found.hypotheses.push_back({pose, pose * local.local_from_robot, *outcome.quality});
-    }
+    starts[i] = static_cast<std::uint32_t>(mix64(local_triples.numbers[i]));
+  }
+  const QualityTest::Outcome outcome = quality.test(motions, local_triples.size, starts);
+  found.collisions += local_triples.size;
+  found.checks += outcome.checks;
+  for (const auto& [i, omega] : outcome.passed) {
+    const Pose2 pose = motions[i].pose();
+    found.hypotheses.push_back({pose, pose * local.local_from_robot, omega});
   }
 }
 

@@ -56,6 +56,14 @@ class Ransam final : public Matcher {
     std::uint64_t map_seed;
     std::uint64_t local_seed;
   };
+  /// Relations of a chunk of draws.
+  struct Drawn {
+    std::vector<Relation> relations;
+    std::vector<std::uint32_t> numbers;
+
+    void clear();
+    void append(const RelationBatch& batch);
+  };
   struct Chunk {
     std::vector<Hypothesis> hypotheses;
     std::size_t collisions = 0;
@@ -77,7 +85,7 @@ class Ransam final : public Matcher {
   std::shared_ptr<const ContactIndex> contact_;
   TripleSampler sampler_;  ///< Of the global map.
   RelationTable table_;
-  std::uint64_t first_draw_ = 0;  ///< Number in table_ of the first map triple of this step.
+  std::vector<Drawn> drawn_;  ///< Room for the map's relations, where several threads find them.
 };
 void describe(ParamVisitor& v, Ransam::Params& p);
 

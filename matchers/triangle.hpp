@@ -13,10 +13,10 @@ namespace glocal {
 /// Three indexes into a point set.
 using Triple = std::array<std::uint32_t, 3>;
 
-/// A few hundred draws: few enough to stay in the fastest memory from stage to stage, a multiple of every
-/// vector's length. Only the first `size` entries count; the others are zero or left over, but always valid.
+/// As many draws as a MotionBatch has motions. Only the first `size` entries count; the others are zero or
+/// left over, but always valid.
 struct TripleBatch {
-  static constexpr std::size_t capacity = 256;
+  static constexpr std::size_t capacity = MotionBatch::capacity;
   using Column = std::array<std::uint32_t, capacity>;
 
   std::size_t size = 0;
@@ -69,16 +69,6 @@ struct RelationBatch {
 /// Timed by bench_hashing.
 void find_relations(const Points& points, const TripleBatch& batch, const TriangleRule& rule, bool neighbours,
                     RelationBatch& relations);
-
-/// Motions in the plane, as Transform has them.
-struct MotionBatch {
-  alignas(64) std::array<float, TripleBatch::capacity> cosine;
-  alignas(64) std::array<float, TripleBatch::capacity> sine;
-  alignas(64) std::array<float, TripleBatch::capacity> x;
-  alignas(64) std::array<float, TripleBatch::capacity> y;
-
-  [[nodiscard]] Transform operator[](std::size_t i) const { return {cosine[i], sine[i], x[i], y[i]}; }
-};
 
 /// For each i, the motion that moves triple i of `from` onto triple i of `to` with the least sum of squares
 /// (eq. 3, with centroids; closed form in two dimensions), both with their sides in the order of relations.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -123,6 +124,54 @@ TYPED_TEST(Contact, CountsRunsOfAnyLengthForEveryInstructionSet) {
       }
     }
   });
+}
+
+TYPED_TEST(Contact, CountAtMostIsNeverLessThanTheCount) {
+  constexpr std::size_t n = 8;
+  const TypeParam index(testing::small_world_points(), 0.1);
+  Rng rng(6);
+  Points points;
+  for (int i = 0; i < 100; ++i) {
+    points.push_back(
+        {static_cast<float>(rng.uniform(-0.3, 0.3)), static_cast<float>(rng.uniform(0, 9)), 0.0F});
+  }
+  MotionBatch motions;
+  ContactIndex::BatchColumn begins{};
+  for (std::size_t i = 0; i < MotionBatch::capacity; ++i) {
+    const double theta = i % 2 == 0 ? 0.0 : rng.uniform(-3.0, 3.0);
+    motions.cosine[i] = static_cast<float>(std::cos(theta));
+    motions.sine[i] = static_cast<float>(std::sin(theta));
+    motions.x[i] = static_cast<float>(rng.uniform(-0.3, 0.3));
+    motions.y[i] = i % 50 == 3 ? std::numeric_limits<float>::quiet_NaN() : 0.0F;
+    begins[i] = rng.below(92);
+  }
+  std::optional<ContactIndex::BatchColumn> first;
+  testing::with_every_instruction_set([&] {
+    for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{37}, MotionBatch::capacity}) {
+      ContactIndex::BatchColumn at_most{};
+      index.count_at_most(points, n, motions, size, begins, at_most);
+      for (std::size_t i = 0; i < size; ++i) {
+        ASSERT_GE(at_most[i], index.count(points, begins[i], n, motions[i])) << i;
+        ASSERT_LE(at_most[i], n);
+      }
+      if (size < MotionBatch::capacity) continue;
+      if (!first) first = at_most;
+      EXPECT_EQ(at_most, *first);
+    }
+  });
+}
+
+TEST(BitsetContact, CountAtMostTellsWhatIsFarOff) {
+  const BitsetContact index(testing::small_world_points(), 0.1);
+  Points points;
+  for (int i = 0; i < 8; ++i) points.push_back({2.0F, 0.0F, 0.0F});
+  MotionBatch motions;
+  motions.cosine.fill(1.0F);
+  motions.y[1] = 1.5F;
+  ContactIndex::BatchColumn at_most{};
+  index.count_at_most(points, 8, motions, 2, {}, at_most);
+  EXPECT_EQ(at_most[0], 8U);
+  EXPECT_EQ(at_most[1], 0U);
 }
 
 TYPED_TEST(Contact, CountingStopsWhereTooFewWereFound) {

@@ -2,74 +2,131 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <optional>
+#include <vector>
+
 #include "glocal/rng.hpp"
 
 namespace glocal {
 namespace {
 
-TEST(RelationTable, FindsWhatWasInserted) {
-  RelationTable table(10);
-  const std::uint64_t first = table.begin_fill(3);
-  table.insert(0x12345679, first + 1);
-  EXPECT_EQ(table.find(0x12345679), first + 1);
-  EXPECT_EQ(table.find(0x12345678), RelationTable::none);
+std::optional<std::uint32_t> find(const RelationTable& table, Relation relation) {
+  RelationBatch batch;
+  batch.size = 1;
+  batch.relations[0] = relation;
+  batch.numbers[0] = 17;
+  PartnerBatch found;
+  table.find(batch, found);
+  if (found.size == 0) return std::nullopt;
+  EXPECT_EQ(found.size, 1U);
+  EXPECT_EQ(found.number(0), 17U);
+  return found.partner(0);
 }
 
-TEST(RelationTable, AppendingInOrderIsInserting) {
-  RelationTable inserted(6);
-  RelationTable appended(6);
-  const std::uint64_t first = inserted.begin_fill(300);
-  ASSERT_EQ(appended.begin_fill(300), first);
-  Rng rng(3);
-  for (std::size_t i = 0; i < 300; ++i) {
-    const Relation relation = rng.below(100);
-    inserted.insert(relation, first + i);
-    appended.append(relation, first + i);
+void fill(RelationTable& table, Relation relation, std::uint32_t draw) {
+  table.fill({{relation}}, {{draw}});
+}
+
+/// Random relations, many of them several times.
+struct Drawn {
+  explicit Drawn(std::uint32_t n) {
+    Rng rng(3);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      relations.push_back(rng.below(400) * 2'000'003);
+      draws.push_back(i);
+    }
   }
-  for (Relation relation = 0; relation < 100; ++relation)
-    EXPECT_EQ(inserted.find(relation), appended.find(relation));
+  std::vector<Relation> relations;
+  std::vector<std::uint32_t> draws;
+};
+
+TEST(RelationTable, FindsWhatWasFilledIn) {
+  RelationTable table(10);
+  table.begin_fill(3);
+  EXPECT_EQ(find(table, 0x12345679), std::nullopt);
+  fill(table, 0x12345679, 1);
+  EXPECT_EQ(find(table, 0x12345679), 1U);
+  EXPECT_EQ(find(table, 0x12345678), std::nullopt);
+}
+
+TEST(RelationTable, TheLastDrawOfARelationStays) {
+  const Drawn drawn(1000);
+  RelationTable table(20);  // so large that no two of the relations share a slot
+  table.begin_fill(1000);
+  table.fill(drawn.relations, drawn.draws);
+  std::map<Relation, std::uint32_t> last;
+  for (std::size_t i = 0; i < 1000; ++i) last[drawn.relations[i]] = drawn.draws[i];
+  for (const auto& [relation, draw] : last) EXPECT_EQ(find(table, relation), draw);
+}
+
+TEST(RelationTable, ABatchFindsWhatEachOfItsRelationsFinds) {
+  const Drawn drawn(300);
+  RelationTable table(6);
+  table.begin_fill(300);
+  table.fill(drawn.relations, drawn.draws);
+  RelationBatch batch;
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    batch.relations[i] = i % 2 == 0 ? i : drawn.relations[i];
+    batch.numbers[i] = 1000 + i;
+  }
+  batch.size = 256;
+  PartnerBatch found;
+  table.find(batch, found);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    const auto alone = find(table, batch.relations[i]);
+    if (!alone) continue;
+    ASSERT_LT(n, found.size);
+    EXPECT_EQ(found.number(n), batch.numbers[i]);
+    EXPECT_EQ(found.partner(n), *alone);
+    ++n;
+  }
+  EXPECT_EQ(n, found.size);
+  EXPECT_GT(n, 20U);
 }
 
 TEST(RelationTable, AHashCollisionIsNoRelationCollision) {
   RelationTable table(1);  // two slots for a hundred relations
-  const std::uint64_t first = table.begin_fill(1);
-  table.insert(42, first);
-  for (Relation relation = 43; relation < 143; ++relation)
-    EXPECT_EQ(table.find(relation), RelationTable::none);
+  table.begin_fill(1);
+  fill(table, 42, 0);
+  for (Relation relation = 43; relation < 143; ++relation) EXPECT_EQ(find(table, relation), std::nullopt);
 }
 
-TEST(RelationTable, TheOrderOfInsertionDoesNotMatter) {
-  RelationTable a(4);
-  RelationTable b(4);
-  const std::uint64_t first = a.begin_fill(200);
-  ASSERT_EQ(b.begin_fill(200), first);
-  Rng rng(2);
-  std::vector<Relation> relations;
-  for (int i = 0; i < 200; ++i)
-    relations.push_back(static_cast<Relation>(rng.next() >> (64 - relation_bits)));
-  for (std::size_t i = 0; i < 200; ++i) a.insert(relations[i], first + i);
-  for (std::size_t i = 200; i-- > 0;) b.insert(relations[i], first + i);
-  for (const Relation relation : relations) EXPECT_EQ(a.find(relation), b.find(relation));
+TEST(RelationTable, FilledInSharesItIsTheSame) {
+  const Drawn drawn(1000);
+  RelationTable whole(7);
+  whole.begin_fill(1000);
+  whole.fill(drawn.relations, drawn.draws);
+  for (const std::size_t shares : {1U, 2U, 3U, 7U}) {
+    RelationTable shared(7);
+    shared.begin_fill(1000);
+    for (std::size_t share = shares; share-- > 0;) {
+      shared.fill_share(drawn.relations, drawn.draws, share, shares);
+    }
+    for (const Relation relation : drawn.relations) EXPECT_EQ(find(shared, relation), find(whole, relation));
+  }
 }
 
 TEST(RelationTable, ANewFillForgetsTheOldOne) {
   RelationTable table(10);
-  table.insert(7, table.begin_fill(1));
-  const std::uint64_t second = table.begin_fill(1);
-  EXPECT_EQ(table.find(7), RelationTable::none);
-  table.insert(7, second);
-  EXPECT_EQ(table.find(7), second);
+  table.begin_fill(1);
+  fill(table, 7, 0);
+  table.begin_fill(1);
+  EXPECT_EQ(find(table, 7), std::nullopt);
+  fill(table, 7, 0);
+  EXPECT_EQ(find(table, 7), 0U);
 }
 
 TEST(RelationTable, StartsOverWhenNumbersRunOut) {
   RelationTable table(4);
-  const std::uint64_t most = (std::uint64_t{1} << RelationTable::number_bits) / 2;
-  table.insert(7, table.begin_fill(most));
-  for (int i = 0; i < 3; ++i) {
-    const std::uint64_t first = table.begin_fill(most);
-    EXPECT_EQ(table.find(7), RelationTable::none);
-    table.insert(7, first + most - 1);
-    EXPECT_EQ(table.find(7), first + most - 1);
+  constexpr std::uint64_t most = std::uint64_t{1} << 32U;
+  ASSERT_GT(3 * most, std::uint64_t{1} << (RelationTable::number_bits - 1));
+  for (int i = 0; i < 9; ++i) {
+    table.begin_fill(most);
+    EXPECT_EQ(find(table, 7), std::nullopt);
+    fill(table, 7, 0xffffffffU);
+    EXPECT_EQ(find(table, 7), 0xffffffffU);
   }
 }
 

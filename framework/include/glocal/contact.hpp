@@ -14,11 +14,14 @@
 
 namespace glocal {
 
-struct VoxelLookup;
+struct VoxelGrid;
 
 /// Tells which points are within epsilon (m) of a point of the map. Immutable, to be shared by all threads.
 class ContactIndex {
  public:
+  /// One number for each motion of a batch.
+  using BatchColumn = std::array<std::uint32_t, MotionBatch::capacity>;
+
   virtual ~ContactIndex() = default;
 
   /// How many of the points [begin, begin + n) are in contact, once moved into the map's frame. Points far
@@ -36,6 +39,12 @@ class ContactIndex {
   [[nodiscard]] virtual Count count_while(const Points& points, std::size_t begin, std::size_t n,
                                           std::size_t batch, std::span<const std::uint32_t> least,
                                           const Transform& map_from_points) const;
+
+  /// For each of the first `size` motions, a number that count() of the `n` points from begins[i] on does not
+  /// exceed: a cheap look that spares most wrong poses a closer one. `begins` and `at_most` have room for a
+  /// whole batch. Without anything better, n.
+  virtual void count_at_most(const Points& points, std::size_t n, const MotionBatch& motions,
+                             std::size_t size, const BatchColumn& begins, BatchColumn& at_most) const;
 
   [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 };
@@ -55,6 +64,8 @@ class BitsetContact final : public ContactIndex {
   [[nodiscard]] Count count_while(const Points& points, std::size_t begin, std::size_t n, std::size_t batch,
                                   std::span<const std::uint32_t> least,
                                   const Transform& map_from_points) const override;
+  void count_at_most(const Points& points, std::size_t n, const MotionBatch& motions, std::size_t size,
+                     const BatchColumn& begins, BatchColumn& at_most) const override;
   [[nodiscard]] std::size_t memory_bytes() const override {
     return (words_.size() + coarse_words_.size()) * sizeof(std::uint32_t);
   }
@@ -62,7 +73,7 @@ class BitsetContact final : public ContactIndex {
  private:
   void dilate(const Point& p, double epsilon);
   void set(const std::array<std::size_t, 3>& voxel);
-  [[nodiscard]] VoxelLookup lookup(const Transform& map_from_points) const;
+  [[nodiscard]] VoxelGrid grid() const;
 
   Point min_;                            ///< Outer corner of voxel (0, 0, 0).
   float scale_ = 0.0F, scale_z_ = 0.0F;  ///< Voxels per metre.

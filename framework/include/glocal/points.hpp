@@ -1,6 +1,7 @@
 // Point sets, stored one axis after the other so that inner loops run over contiguous floats.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -73,6 +74,19 @@ class Transform {
 
  private:
   float c_, s_, tx_, ty_;
+};
+
+/// Motions in the plane, as Transform has them. A few hundred: few enough to stay in the fastest memory from
+/// stage to stage, a multiple of every vector's length.
+struct MotionBatch {
+  static constexpr std::size_t capacity = 256;
+
+  alignas(64) std::array<float, capacity> cosine{};
+  alignas(64) std::array<float, capacity> sine{};
+  alignas(64) std::array<float, capacity> x{};
+  alignas(64) std::array<float, capacity> y{};
+
+  [[nodiscard]] Transform operator[](std::size_t i) const { return {cosine[i], sine[i], x[i], y[i]}; }
 };
 
 }  // namespace glocal

@@ -14,7 +14,7 @@ namespace {
 constexpr double voxels_per_epsilon = 4.0;
 constexpr std::size_t voxels_per_word = 32;
 /// Rows of the coarse bits are whole words too.
-constexpr double columns_step = voxels_per_word << VoxelLookup::coarse_shift;
+constexpr double columns_step = voxels_per_word << VoxelGrid::coarse_shift;
 constexpr double largest_bytes = 1024.0 * 1024.0 * 1024.0;
 
 struct Range {
@@ -64,33 +64,25 @@ BitsetContact::BitsetContact(const Points& points, double epsilon) {
   rows_ = static_cast<std::size_t>(rows);
   layers_ = static_cast<std::size_t>(layers);
   words_.assign(columns_ * rows_ * layers_ / voxels_per_word, 0);
-  const auto joined = [](std::size_t n) { return ((n - 1) >> VoxelLookup::coarse_shift) + 1; };
+  const auto joined = [](std::size_t n) { return ((n - 1) >> VoxelGrid::coarse_shift) + 1; };
   coarse_rows_ = joined(rows_);
   coarse_words_.assign(joined(columns_) * coarse_rows_ * joined(layers_) / voxels_per_word, 0);
   for (std::size_t i = 0; i < points.size(); ++i) dilate(points[i], epsilon);
 }
 
-VoxelLookup BitsetContact::lookup(const Transform& map_from_points) const {
-  const Transform& t = map_from_points;
-  const float c = t.cosine() * scale_;
-  const float s = t.sine() * scale_;
+VoxelGrid BitsetContact::grid() const {
   const auto bits = [](const std::vector<std::uint32_t>& words, std::size_t columns, std::size_t rows) {
     const auto row_words = static_cast<std::uint32_t>(columns / voxels_per_word);
     return VoxelBits{words.data(), row_words, row_words * static_cast<std::uint32_t>(rows)};
   };
   return {.fine = bits(words_, columns_, rows_),
-          .coarse = bits(coarse_words_, columns_ >> VoxelLookup::coarse_shift, coarse_rows_),
+          .coarse = bits(coarse_words_, columns_ >> VoxelGrid::coarse_shift, coarse_rows_),
           .columns = static_cast<float>(columns_),
           .rows = static_cast<float>(rows_),
           .layers = static_cast<float>(layers_),
-          .xx = c,
-          .xy = -s,
-          .x0 = (t.x() - min_.x) * scale_,
-          .yx = s,
-          .yy = c,
-          .y0 = (t.y() - min_.y) * scale_,
-          .zz = scale_z_,
-          .z0 = -min_.z * scale_z_};
+          .min = min_,
+          .scale = scale_,
+          .scale_z = scale_z_};
 }
 
 std::size_t BitsetContact::count(const Points& points, std::size_t begin, std::size_t n,
@@ -102,9 +94,14 @@ std::size_t BitsetContact::count(const Points& points, std::size_t begin, std::s
 ContactIndex::Count BitsetContact::count_while(const Points& points, std::size_t begin, std::size_t n,
                                                std::size_t batch, std::span<const std::uint32_t> least,
                                                const Transform& map_from_points) const {
-  return count_contacts(lookup(map_from_points),
+  return count_contacts(grid(), map_from_points,
                         {points.x.data() + begin, points.y.data() + begin, points.z.data() + begin, n}, batch,
                         least);
+}
+
+void BitsetContact::count_at_most(const Points& points, std::size_t n, const MotionBatch& motions,
+                                  std::size_t size, const BatchColumn& begins, BatchColumn& at_most) const {
+  count_coarse(grid(), points, n, motions, size, begins, at_most);
 }
 
 void BitsetContact::dilate(const Point& p, double epsilon) {
@@ -141,7 +138,7 @@ void BitsetContact::set(const std::array<std::size_t, 3>& voxel) {
   };
   const auto [column, row, layer] = voxel;
   set_bit(words_, (layer * rows_ + row) * columns_ + column);
-  constexpr unsigned shift = VoxelLookup::coarse_shift;
+  constexpr unsigned shift = VoxelGrid::coarse_shift;
   set_bit(coarse_words_,
           ((layer >> shift) * coarse_rows_ + (row >> shift)) * (columns_ >> shift) + (column >> shift));
 }

@@ -20,6 +20,12 @@ ContactIndex::Count ContactIndex::count_while(const Points& points, std::size_t 
   return result;
 }
 
+void ContactIndex::count_at_most(const Points& /*points*/, std::size_t n, const MotionBatch& /*motions*/,
+                                 std::size_t size, const BatchColumn& /*begins*/,
+                                 BatchColumn& at_most) const {
+  std::fill_n(at_most.begin(), size, static_cast<std::uint32_t>(n));
+}
+
 std::vector<std::string> contact_index_names() {
   return {"bitset", "kd_tree"};
 }

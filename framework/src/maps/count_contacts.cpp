@@ -14,53 +14,83 @@ namespace glocal::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-// Eight lanes at most: a batch of eq. 5 is eight points.
-using Floats = hn::CappedTag<float, 8>;
-using Words = hn::Rebind<std::uint32_t, Floats>;
-using Ints = hn::Rebind<std::int32_t, Floats>;
 
 /// Where points fall in the grid.
+template <class D>
 struct Voxels {
-  hn::Mask<Floats> inside;
-  hn::Vec<Words> column, row, layer;  ///< 0 where not inside.
+  using Words = hn::Vec<hn::Rebind<std::uint32_t, D>>;
+  hn::Mask<D> inside;
+  Words column, row, layer;  ///< 0 where not inside.
+};
+
+/// The way from a point to its voxel: column = xx * x + xy * y + x0, row likewise, layer = zz * z + z0.
+template <class D>
+struct Lookup {
+  using V = hn::Vec<D>;
+  V xx, xy, x0, yx, yy, y0, zz, z0;
+
+  HWY_INLINE Lookup(D d, const VoxelGrid& grid, V cosine, V sine, V x, V y) {
+    const V scale = hn::Set(d, grid.scale);
+    xx = hn::Mul(cosine, scale);
+    yx = hn::Mul(sine, scale);
+    xy = hn::Neg(yx);
+    yy = xx;
+    x0 = hn::Mul(hn::Sub(x, hn::Set(d, grid.min.x)), scale);
+    y0 = hn::Mul(hn::Sub(y, hn::Set(d, grid.min.y)), scale);
+    zz = hn::Set(d, grid.scale_z);
+    z0 = hn::Set(d, -grid.min.z * grid.scale_z);
+  }
 };
 
 // Products are added without fusing them, so that all instruction sets round alike.
-HWY_INLINE Voxels voxels_of(const VoxelLookup& grid, const PointRun& points, std::size_t i) {
-  const Floats d;
-  const auto x = hn::LoadU(d, points.x + i);
-  const auto y = hn::LoadU(d, points.y + i);
-  const auto z = hn::LoadU(d, points.z + i);
-  const auto at = [&](float a, float b, float c) {
-    return hn::Add(hn::Add(hn::Mul(hn::Set(d, a), x), hn::Mul(hn::Set(d, b), y)), hn::Set(d, c));
-  };
-  const auto within = [&](hn::Vec<Floats> value, float end) {
+template <class D>
+HWY_INLINE Voxels<D> voxels_of(D d, const VoxelGrid& grid, const Lookup<D>& lookup, hn::Vec<D> x,
+                               hn::Vec<D> y, hn::Vec<D> z) {
+  using V = hn::Vec<D>;
+  const hn::Rebind<std::int32_t, D> ints;
+  const hn::Rebind<std::uint32_t, D> words;
+  const auto at = [&](V a, V b, V c) { return hn::Add(hn::Add(hn::Mul(a, x), hn::Mul(b, y)), c); };
+  const auto within = [&](V value, float end) {
     return hn::And(hn::Ge(value, hn::Zero(d)), hn::Lt(value, hn::Set(d, end)));
   };
-  const auto column = at(grid.xx, grid.xy, grid.x0);
-  const auto row = at(grid.yx, grid.yy, grid.y0);
-  const auto layer = hn::Add(hn::Mul(hn::Set(d, grid.zz), z), hn::Set(d, grid.z0));
+  const V column = at(lookup.xx, lookup.xy, lookup.x0);
+  const V row = at(lookup.yx, lookup.yy, lookup.y0);
+  const V layer = hn::Add(hn::Mul(lookup.zz, z), lookup.z0);
   const auto inside =
       hn::And(hn::And(within(column, grid.columns), within(row, grid.rows)), within(layer, grid.layers));
   // Compared as floats, so that points far away and NaN never reach the conversion to integers.
-  const auto whole = [&](hn::Vec<Floats> value) {
-    return hn::BitCast(Words(), hn::ConvertTo(Ints(), hn::IfThenElseZero(inside, value)));
+  const auto whole = [&](V value) {
+    return hn::BitCast(words, hn::ConvertTo(ints, hn::IfThenElseZero(inside, value)));
   };
   return {inside, whole(column), whole(row), whole(layer)};
 }
 
-/// How many of them have their bit set, in voxels joined by 2^shift along each axis.
-template <int shift>
-HWY_INLINE std::size_t count_set(const VoxelBits& bits, const Voxels& voxels) {
-  const Floats d;
-  const Words words;
+/// Which of them have their bit set, in voxels joined by 2^shift along each axis.
+template <int shift, class D>
+HWY_INLINE hn::Mask<D> are_set(D d, const VoxelBits& bits, const Voxels<D>& voxels) {
+  const hn::Rebind<std::int32_t, D> ints;
+  const hn::Rebind<std::uint32_t, D> words;
   const auto column = hn::ShiftRight<shift>(voxels.column);
   const auto row = hn::Mul(hn::ShiftRight<shift>(voxels.row), hn::Set(words, bits.row_words));
   const auto layer = hn::Mul(hn::ShiftRight<shift>(voxels.layer), hn::Set(words, bits.layer_words));
   const auto word = hn::Add(hn::Add(hn::ShiftRight<5>(column), row), layer);
-  const auto found = hn::GatherIndex(words, bits.words, hn::BitCast(Ints(), word));
+  const auto found = hn::GatherIndex(words, bits.words, hn::BitCast(ints, word));
   const auto bit = hn::Shl(hn::Set(words, 1U), hn::And(column, hn::Set(words, 31U)));
-  return hn::CountTrue(d, hn::And(voxels.inside, hn::RebindMask(d, hn::TestBit(found, bit))));
+  return hn::And(voxels.inside, hn::RebindMask(d, hn::TestBit(found, bit)));
+}
+
+// --- One pose, many points -----------------------------------------------------------------------------
+
+// Eight lanes at most: a batch of eq. 5 is eight points.
+using Batch = hn::CappedTag<float, 8>;
+
+template <int shift>
+HWY_INLINE std::size_t count_set(const VoxelGrid& grid, const VoxelBits& bits, const Lookup<Batch>& lookup,
+                                 const PointRun& points, std::size_t i) {
+  const Batch d;
+  const auto voxels = voxels_of(d, grid, lookup, hn::LoadU(d, points.x + i), hn::LoadU(d, points.y + i),
+                                hn::LoadU(d, points.z + i));
+  return hn::CountTrue(d, are_set<shift>(d, bits, voxels));
 }
 
 /// The last points of a run, fewer than a vector has lanes; what is not a number is in contact with nothing.
@@ -77,34 +107,58 @@ struct Rest {
 };
 
 template <int shift>
-HWY_INLINE std::size_t count_batch(const VoxelLookup& grid, const VoxelBits& bits, const PointRun& points,
-                                   std::size_t i, std::size_t end) {
-  const std::size_t lanes = hn::Lanes(Floats());
+HWY_INLINE std::size_t count_batch(const VoxelGrid& grid, const VoxelBits& bits, const Lookup<Batch>& lookup,
+                                   const PointRun& points, std::size_t i, std::size_t end) {
+  const std::size_t lanes = hn::Lanes(Batch());
   std::size_t in_contact = 0;
-  for (; i + lanes <= end; i += lanes) in_contact += count_set<shift>(bits, voxels_of(grid, points, i));
+  for (; i + lanes <= end; i += lanes) in_contact += count_set<shift>(grid, bits, lookup, points, i);
   if (i == end) return in_contact;
   const Rest rest(points, i, end);
-  return in_contact + count_set<shift>(bits, voxels_of(grid, rest.run(), 0));
+  return in_contact + count_set<shift>(grid, bits, lookup, rest.run(), 0);
 }
 
-ContactIndex::Count count_contacts_in_vectors(const VoxelLookup& grid, const PointRun& points,
-                                              std::size_t batch, std::span<const std::uint32_t> least) {
-  // Most poses miss most points of the first batch by far. The coarse bits, which stay in the fastest memory,
-  // tell: who has too few there has too few.
-  const std::size_t first = std::min(batch, points.size);
-  if (least.front() > 0) {
-    const std::size_t most = count_batch<VoxelLookup::coarse_shift>(grid, grid.coarse, points, 0, first);
-    if (most < least.front()) return {most, first};
-  }
+ContactIndex::Count count_contacts_in_vectors(const VoxelGrid& grid, const Transform& map_from_points,
+                                              const PointRun& points, std::size_t batch,
+                                              std::span<const std::uint32_t> least) {
+  const Batch d;
+  const Transform& t = map_from_points;
+  const Lookup<Batch> lookup(d, grid, hn::Set(d, t.cosine()), hn::Set(d, t.sine()), hn::Set(d, t.x()),
+                             hn::Set(d, t.y()));
   std::size_t in_contact = 0;
   std::size_t i = 0;
   for (const std::uint32_t enough : least) {
     const std::size_t end = std::min(i + batch, points.size);
-    in_contact += count_batch<0>(grid, grid.fine, points, i, end);
+    in_contact += count_batch<0>(grid, grid.fine, lookup, points, i, end);
     i = end;
     if (in_contact < enough) break;
   }
   return {in_contact, i};
+}
+
+// --- Many poses, a few points each ---------------------------------------------------------------------
+
+void count_coarse_in_vectors(const VoxelGrid& grid, const Points& points, std::size_t n,
+                             const MotionBatch& motions, std::size_t size,
+                             const ContactIndex::BatchColumn& begins, ContactIndex::BatchColumn& at_most) {
+  using Poses = hn::CappedTag<float, 16>;
+  const Poses d;
+  const hn::Rebind<std::int32_t, Poses> ints;
+  const hn::Rebind<std::uint32_t, Poses> words;
+  for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
+    const Lookup<Poses> lookup(d, grid, hn::Load(d, &motions.cosine[i]), hn::Load(d, &motions.sine[i]),
+                               hn::Load(d, &motions.x[i]), hn::Load(d, &motions.y[i]));
+    auto point = hn::BitCast(ints, hn::LoadU(words, &begins[i]));
+    auto count = hn::Zero(ints);
+    for (std::size_t k = 0; k < n; ++k, point = hn::Add(point, hn::Set(ints, 1))) {
+      const auto voxels =
+          voxels_of(d, grid, lookup, hn::GatherIndex(d, points.x.data(), point),
+                    hn::GatherIndex(d, points.y.data(), point), hn::GatherIndex(d, points.z.data(), point));
+      const auto set = are_set<VoxelGrid::coarse_shift>(d, grid.coarse, voxels);
+      // A mask is -1 in each lane that is set.
+      count = hn::Sub(count, hn::VecFromMask(ints, hn::RebindMask(ints, set)));
+    }
+    hn::StoreU(hn::BitCast(words, count), words, &at_most[i]);
+  }
 }
 
 }  // namespace
@@ -115,10 +169,18 @@ HWY_AFTER_NAMESPACE();
 namespace glocal {
 
 HWY_EXPORT(count_contacts_in_vectors);
+HWY_EXPORT(count_coarse_in_vectors);
 
-ContactIndex::Count count_contacts(const VoxelLookup& grid, const PointRun& points, std::size_t batch,
+ContactIndex::Count count_contacts(const VoxelGrid& grid, const Transform& map_from_points,
+                                   const PointRun& points, std::size_t batch,
                                    std::span<const std::uint32_t> least) {
-  return HWY_DYNAMIC_DISPATCH(count_contacts_in_vectors)(grid, points, batch, least);
+  return HWY_DYNAMIC_DISPATCH(count_contacts_in_vectors)(grid, map_from_points, points, batch, least);
+}
+
+void count_coarse(const VoxelGrid& grid, const Points& points, std::size_t n, const MotionBatch& motions,
+                  std::size_t size, const ContactIndex::BatchColumn& begins,
+                  ContactIndex::BatchColumn& at_most) {
+  HWY_DYNAMIC_DISPATCH(count_coarse_in_vectors)(grid, points, n, motions, size, begins, at_most);
 }
 
 }  // namespace glocal

@@ -15,16 +15,16 @@ struct VoxelBits {
   std::uint32_t row_words, layer_words;
 };
 
-/// A grid of bits and the way from a point to its voxel: column = xx * x + xy * y + x0, row likewise,
-/// layer = zz * z + z0.
-struct VoxelLookup {
+/// A grid of bits and where it lies.
+struct VoxelGrid {
   /// A coarse voxel joins 4 x 4 x 4 and is set if one of them is.
   static constexpr unsigned coarse_shift = 2;
 
   VoxelBits fine;
   VoxelBits coarse;
   float columns, rows, layers;  ///< Of the fine voxels; whole numbers.
-  float xx, xy, x0, yx, yy, y0, zz, z0;
+  Point min;                    ///< Outer corner of voxel (0, 0, 0).
+  float scale, scale_z;         ///< Voxels per metre.
 };
 
 struct PointRun {
@@ -34,7 +34,13 @@ struct PointRun {
 
 /// ContactIndex::count_while(). Reads no point beyond the run. The answer is the same for all instruction
 /// sets. Timed by bench_contact and bench_extrapolation.
-[[nodiscard]] ContactIndex::Count count_contacts(const VoxelLookup& grid, const PointRun& points,
-                                                 std::size_t batch, std::span<const std::uint32_t> least);
+[[nodiscard]] ContactIndex::Count count_contacts(const VoxelGrid& grid, const Transform& map_from_points,
+                                                 const PointRun& points, std::size_t batch,
+                                                 std::span<const std::uint32_t> least);
+
+/// ContactIndex::count_at_most(), by the coarse bits: one pose in each lane of a vector.
+void count_coarse(const VoxelGrid& grid, const Points& points, std::size_t n, const MotionBatch& motions,
+                  std::size_t size, const ContactIndex::BatchColumn& begins,
+                  ContactIndex::BatchColumn& at_most);
 
 }  // namespace glocal
