@@ -93,7 +93,10 @@ class Narrow {
   explicit Narrow(unsigned bits) : table_(bits) {}
   void begin() { table_.begin_fill(draws); }
   void fill(std::span<const Relation> relations, std::span<const std::uint32_t> numbers) {
-    table_.fill(relations, numbers);
+    batch_.size = relations.size();
+    std::copy(relations.begin(), relations.end(), batch_.relations.begin());
+    std::copy(numbers.begin(), numbers.end(), batch_.numbers.begin());
+    table_.fill(batch_);
   }
   [[nodiscard]] std::size_t find(std::span<const Relation> relations) {
     batch_.size = relations.size();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <span>
 
 #include "glocal/parallel.hpp"
 #include "matchers/merge.hpp"
@@ -160,23 +159,23 @@ std::size_t Ransam::chunk_count() const {
   return (iterations() + draws_per_chunk - 1) / draws_per_chunk;
 }
 
-void Ransam::Drawn::clear() {
-  relations.clear();
-  numbers.clear();
-}
-
 void Ransam::Drawn::append(const RelationBatch& batch) {
   relations.insert(relations.end(), batch.relations.begin(), batch.relations.begin() + batch.size);
   numbers.insert(numbers.end(), batch.numbers.begin(), batch.numbers.begin() + batch.size);
+}
+
+void Ransam::Drawn::take(std::size_t begin, RelationBatch& batch) const {
+  batch.size = std::min(TripleBatch::capacity, relations.size() - begin);
+  std::copy_n(&relations[begin], batch.size, batch.relations.begin());
+  std::copy_n(&numbers[begin], batch.size, batch.numbers.begin());
 }
 
 void Ransam::hash_map_triples(std::uint64_t seed, const TriangleRule& rule) {
   const Points& points = setup_.map->points();
   table_.begin_fill(iterations());
   if (setup_.threads <= 1) {
-    for_each_batch(sampler_, points, rule, false, seed, 0, iterations(), [&](const RelationBatch& batch) {
-      table_.fill(std::span(batch.relations).first(batch.size), std::span(batch.numbers).first(batch.size));
-    });
+    for_each_batch(sampler_, points, rule, false, seed, 0, iterations(),
+                   [&](const RelationBatch& batch) { table_.fill(batch); });
     return;
   }
   // Threads that wrote to the whole table would take its lines from each other all the time. So relations are
@@ -184,7 +183,8 @@ void Ransam::hash_map_triples(std::uint64_t seed, const TriangleRule& rule) {
   drawn_.resize(chunk_count());
   parallel_for(setup_.threads, chunk_count(), [&](std::size_t chunk) {
     Drawn& drawn = drawn_[chunk];
-    drawn.clear();
+    drawn.relations.clear();
+    drawn.numbers.clear();
     const std::size_t begin = chunk * draws_per_chunk;
     const std::size_t end = std::min(begin + draws_per_chunk, iterations());
     for_each_batch(sampler_, points, rule, false, seed, begin, end,
@@ -192,7 +192,13 @@ void Ransam::hash_map_triples(std::uint64_t seed, const TriangleRule& rule) {
   });
   const auto shares = static_cast<std::size_t>(setup_.threads);
   parallel_for(setup_.threads, shares, [&](std::size_t share) {
-    for (const Drawn& drawn : drawn_) table_.fill_share(drawn.relations, drawn.numbers, share, shares);
+    RelationBatch batch;
+    for (const Drawn& drawn : drawn_) {
+      for (std::size_t i = 0; i < drawn.relations.size(); i += TripleBatch::capacity) {
+        drawn.take(i, batch);
+        table_.fill(batch, share, shares);
+      }
+    }
   });
 }
 

@@ -61,8 +61,9 @@ class Ransam final : public Matcher {
     std::vector<Relation> relations;
     std::vector<std::uint32_t> numbers;
 
-    void clear();
     void append(const RelationBatch& batch);
+    /// The relations from `begin` on, as many as there are draws in a batch.
+    void take(std::size_t begin, RelationBatch& batch) const;
   };
   struct Chunk {
     std::vector<Hypothesis> hypotheses;

@@ -16,15 +16,37 @@ using Entries = hn::ScalableTag<std::uint64_t>;
 using Indexes = hn::RebindToSigned<Entries>;
 using Words = hn::Rebind<std::uint32_t, Entries>;
 
-/// Slots of relations; writes whole vectors.
-void hash_in_vectors(const Relation* relations, std::size_t n, unsigned bits, std::uint64_t* slots) {
+HWY_INLINE hn::Vec<Entries> slots_of(hn::Vec<Entries> relations, unsigned bits) {
+  return hn::ShiftRightSame(hn::Mul(relations, hn::Set(Entries(), hash_factor)), static_cast<int>(64 - bits));
+}
+
+/// Writes whole vectors.
+void slots_in_vectors(const RelationBatch& batch, unsigned bits, std::uint64_t* slots) {
   const Entries d;
-  const auto factor = hn::Set(d, hash_factor);
-  const int shift = static_cast<int>(64 - bits);
-  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const auto relation = hn::PromoteTo(d, hn::LoadU(Words(), relations + i));
-    hn::StoreU(hn::ShiftRightSame(hn::Mul(relation, factor), shift), d, slots + i);
+  for (std::size_t i = 0; i < batch.size; i += hn::Lanes(d)) {
+    const auto relation = hn::PromoteTo(d, hn::LoadU(Words(), &batch.relations[i]));
+    hn::StoreU(slots_of(relation, bits), d, slots + i);
   }
+}
+
+/// Slots and entries of those relations whose slot is in [begin, end); how many they are.
+std::size_t entries_in_vectors(const RelationBatch& batch, std::uint64_t first, unsigned bits,
+                               std::uint64_t begin, std::uint64_t end, std::uint64_t* slots,
+                               std::uint64_t* entries) {
+  const Entries d;
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < batch.size; i += hn::Lanes(d)) {
+    const auto relation = hn::PromoteTo(d, hn::LoadU(Words(), &batch.relations[i]));
+    const auto number = hn::Add(hn::PromoteTo(d, hn::LoadU(Words(), &batch.numbers[i])), hn::Set(d, first));
+    const auto slot = slots_of(relation, bits);
+    const auto outside =
+        hn::Or(hn::Lt(hn::BitCast(Indexes(), slot), hn::Set(Indexes(), static_cast<std::int64_t>(begin))),
+               hn::Gt(hn::BitCast(Indexes(), slot), hn::Set(Indexes(), static_cast<std::int64_t>(end) - 1)));
+    const auto mine = hn::AndNot(hn::RebindMask(d, outside), hn::FirstN(d, batch.size - i));
+    hn::CompressStore(hn::Or(hn::ShiftLeft<relation_bits>(number), relation), mine, d, entries + size);
+    size += hn::CompressStore(slot, mine, d, slots + size);
+  }
+  return size;
 }
 
 std::size_t find_in_vectors(const std::uint64_t* table, const std::uint64_t* slots, std::uint64_t first,
@@ -57,22 +79,11 @@ HWY_AFTER_NAMESPACE();
 namespace glocal {
 namespace {
 
-HWY_EXPORT(hash_in_vectors);
+HWY_EXPORT(slots_in_vectors);
+HWY_EXPORT(entries_in_vectors);
 HWY_EXPORT(find_in_vectors);
 
-/// Slots asked for before the first of them is used.
-constexpr std::size_t ahead = TripleBatch::capacity;
-
-class Hash {
- public:
-  explicit Hash(unsigned bits) : shift_(64 - bits) {}
-  [[nodiscard]] std::size_t operator()(Relation relation) const {
-    return static_cast<std::size_t>(std::uint64_t{relation} * hash_factor >> shift_);
-  }
-
- private:
-  unsigned shift_;
-};
+using Column = std::array<std::uint64_t, RelationBatch::capacity>;
 
 }  // namespace
 
@@ -85,40 +96,19 @@ void RelationTable::begin_fill(std::uint64_t draws) {
   end_ += draws;
 }
 
-void RelationTable::fill(std::span<const Relation> relations, std::span<const std::uint32_t> draws) {
-  const Hash slot(bits_);
-  std::uint64_t* const slots = slots_.data();
-  for (std::size_t begin = 0; begin < relations.size(); begin += ahead) {
-    const std::size_t end = std::min(begin + ahead, relations.size());
-    for (std::size_t i = begin; i < end; ++i) __builtin_prefetch(&slots[slot(relations[i])], 1);
-    for (std::size_t i = begin; i < end; ++i) {
-      slots[slot(relations[i])] = (first_ + draws[i]) << relation_bits | relations[i];
-    }
-  }
-}
-
-void RelationTable::fill_share(std::span<const Relation> relations, std::span<const std::uint32_t> draws,
-                               std::size_t share, std::size_t shares) {
-  const Hash slot(bits_);
-  const std::size_t begin = (share << bits_) / shares;
-  const std::size_t slots_of_share = ((share + 1) << bits_) / shares - begin;
-  std::array<Relation, ahead> my_relations;
-  std::array<std::uint32_t, ahead> my_draws;
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < relations.size(); ++i) {
-    // At random: counting on is faster than branching.
-    my_relations[n] = relations[i];
-    my_draws[n] = draws[i];
-    n += slot(relations[i]) - begin < slots_of_share ? 1 : 0;
-    if (n < ahead && i + 1 < relations.size()) continue;
-    fill(std::span(my_relations).first(n), std::span(my_draws).first(n));
-    n = 0;
-  }
+void RelationTable::fill(const RelationBatch& batch, std::size_t share, std::size_t shares) {
+  Column slots;
+  Column entries;
+  const std::size_t size =
+      HWY_DYNAMIC_DISPATCH(entries_in_vectors)(batch, first_, bits_, (share << bits_) / shares,
+                                               ((share + 1) << bits_) / shares, slots.data(), entries.data());
+  for (std::size_t i = 0; i < size; ++i) __builtin_prefetch(&slots_[slots[i]], 1);
+  for (std::size_t i = 0; i < size; ++i) slots_[slots[i]] = entries[i];
 }
 
 void RelationTable::find(const RelationBatch& batch, PartnerBatch& found) const {
-  std::array<std::uint64_t, RelationBatch::capacity> slots;
-  HWY_DYNAMIC_DISPATCH(hash_in_vectors)(batch.relations.data(), batch.size, bits_, slots.data());
+  Column slots;
+  HWY_DYNAMIC_DISPATCH(slots_in_vectors)(batch, bits_, slots.data());
   for (std::size_t i = 0; i < batch.size; ++i) __builtin_prefetch(&slots_[slots[i]]);
   found.size = HWY_DYNAMIC_DISPATCH(find_in_vectors)(slots_.data(), slots.data(), first_, batch, found);
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "matchers/triangle.hpp"
@@ -42,14 +41,10 @@ class RelationTable {
   /// Forgets everything; at most `draws` draws follow, numbered from 0.
   void begin_fill(std::uint64_t draws);
 
-  /// Relations and their draws, in rising order from call to call.
-  void fill(std::span<const Relation> relations, std::span<const std::uint32_t> draws);
-
-  /// The same for those relations alone that fall into one of `parts` equal shares of the slots: calls for
-  /// different shares may run at the same time. Once all relations have been given to each share, the table
-  /// is as fill() would have left it.
-  void fill_share(std::span<const Relation> relations, std::span<const std::uint32_t> draws,
-                  std::size_t share, std::size_t shares);
+  /// Puts in relations and their draws, which rise from call to call. With several `shares`, only those that
+  /// fall into that share of the slots: threads may fill different shares at the same time, and once each
+  /// share has been given all batches, the table is as if it had been filled as a whole.
+  void fill(const RelationBatch& batch, std::size_t share = 0, std::size_t shares = 1);
 
   /// Looks the relations of a batch up. Replaces what is in `found`.
   void find(const RelationBatch& batch, PartnerBatch& found) const;

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "glocal/rng.hpp"
+#include "instruction_sets.hpp"
 
 namespace glocal {
 namespace {
@@ -25,7 +27,11 @@ std::optional<std::uint32_t> find(const RelationTable& table, Relation relation)
 }
 
 void fill(RelationTable& table, Relation relation, std::uint32_t draw) {
-  table.fill({{relation}}, {{draw}});
+  RelationBatch batch;
+  batch.size = 1;
+  batch.relations[0] = relation;
+  batch.numbers[0] = draw;
+  table.fill(batch);
 }
 
 /// Random relations, many of them several times.
@@ -37,6 +43,20 @@ struct Drawn {
       draws.push_back(i);
     }
   }
+  void fill_into(RelationTable& table) const {
+    table.begin_fill(relations.size());
+    fill_share(table, 0, 1);
+  }
+  void fill_share(RelationTable& table, std::size_t share, std::size_t shares) const {
+    RelationBatch batch;
+    for (std::size_t begin = 0; begin < relations.size(); begin += 100) {
+      batch.size = std::min<std::size_t>(100, relations.size() - begin);
+      std::copy_n(&relations[begin], batch.size, batch.relations.begin());
+      std::copy_n(&draws[begin], batch.size, batch.numbers.begin());
+      table.fill(batch, share, shares);
+    }
+  }
+
   std::vector<Relation> relations;
   std::vector<std::uint32_t> draws;
 };
@@ -53,8 +73,7 @@ TEST(RelationTable, FindsWhatWasFilledIn) {
 TEST(RelationTable, TheLastDrawOfARelationStays) {
   const Drawn drawn(1000);
   RelationTable table(20);  // so large that no two of the relations share a slot
-  table.begin_fill(1000);
-  table.fill(drawn.relations, drawn.draws);
+  drawn.fill_into(table);
   std::map<Relation, std::uint32_t> last;
   for (std::size_t i = 0; i < 1000; ++i) last[drawn.relations[i]] = drawn.draws[i];
   for (const auto& [relation, draw] : last) EXPECT_EQ(find(table, relation), draw);
@@ -63,8 +82,7 @@ TEST(RelationTable, TheLastDrawOfARelationStays) {
 TEST(RelationTable, ABatchFindsWhatEachOfItsRelationsFinds) {
   const Drawn drawn(300);
   RelationTable table(6);
-  table.begin_fill(300);
-  table.fill(drawn.relations, drawn.draws);
+  drawn.fill_into(table);
   RelationBatch batch;
   for (std::uint32_t i = 0; i < 256; ++i) {
     batch.relations[i] = i % 2 == 0 ? i : drawn.relations[i];
@@ -96,16 +114,17 @@ TEST(RelationTable, AHashCollisionIsNoRelationCollision) {
 TEST(RelationTable, FilledInSharesItIsTheSame) {
   const Drawn drawn(1000);
   RelationTable whole(7);
-  whole.begin_fill(1000);
-  whole.fill(drawn.relations, drawn.draws);
-  for (const std::size_t shares : {1U, 2U, 3U, 7U}) {
-    RelationTable shared(7);
-    shared.begin_fill(1000);
-    for (std::size_t share = shares; share-- > 0;) {
-      shared.fill_share(drawn.relations, drawn.draws, share, shares);
+  drawn.fill_into(whole);
+  testing::with_every_instruction_set([&] {
+    for (const std::size_t shares : {1U, 2U, 3U, 7U}) {
+      RelationTable shared(7);
+      shared.begin_fill(1000);
+      for (std::size_t share = shares; share-- > 0;) drawn.fill_share(shared, share, shares);
+      for (const Relation relation : drawn.relations) {
+        ASSERT_EQ(find(shared, relation), find(whole, relation));
+      }
     }
-    for (const Relation relation : drawn.relations) EXPECT_EQ(find(shared, relation), find(whole, relation));
-  }
+  });
 }
 
 TEST(RelationTable, ANewFillForgetsTheOldOne) {
