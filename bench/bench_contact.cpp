@@ -60,11 +60,16 @@ void byte_grid(benchmark::State& state, const Points& map) {
 }
 
 void register_for(const std::string& name, const std::shared_ptr<const Points>& map) {
-  benchmark::RegisterBenchmark(("bitset/" + name).c_str(),
-                               [map](auto& state) { index<BitsetContact>(state, *map); });
-  benchmark::RegisterBenchmark(("byte_grid/" + name).c_str(), [map](auto& state) { byte_grid(state, *map); });
-  benchmark::RegisterBenchmark(("kd_tree/" + name).c_str(),
-                               [map](auto& state) { index<KdTreeContact>(state, *map); });
+  // A fixed number, so that large indexes are built only once.
+  constexpr int iterations = 4096;
+  const auto add = [&](const std::string& what, auto run) {
+    benchmark::RegisterBenchmark((what + "/" + name).c_str(), [map, run](auto& state) {
+      run(state, *map);
+    })->Iterations(iterations);
+  };
+  add("bitset", index<BitsetContact>);
+  add("byte_grid", byte_grid);
+  add("kd_tree", index<KdTreeContact>);
 }
 
 void register_all() {

@@ -63,6 +63,7 @@ void batch_relations(benchmark::State& state, bool neighbours) {
   RelationBatch relations;
   std::size_t i = 0;
   for ([[maybe_unused]] auto _ : state) {
+    relations.size = 0;
     find_relations(map, batches[i++ % batches.size()], rule, neighbours, relations);
     benchmark::DoNotOptimize(relations);
   }
@@ -80,6 +81,7 @@ std::vector<Relation> relations_of(const Points& points, std::uint64_t seed) {
     TripleBatch batch;
     while (!batch.full() && number < draws) batch.add_number(number++);
     sampler.draw(seed, batch);
+    relations.size = 0;
     find_relations(points, batch, rule, false, relations);
     result.insert(result.end(), relations.relations.begin(),
                   relations.relations.begin() + static_cast<std::ptrdiff_t>(relations.size));

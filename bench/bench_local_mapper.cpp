@@ -76,8 +76,7 @@ void last_keyframes_of_a_drive(benchmark::State& state) {
     for (std::size_t i = observations.size() - measured; i < observations.size(); ++i)
       mapper.add(observations[i]);
   }
-  state.counters["ms_per_keyframe"] = benchmark::Counter(
-      1e3 / measured, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_keyframe"] = time_per_item(measured);
   state.counters["points"] = static_cast<double>(mapper.map().points.size());
   state.counters["index_MB"] = static_cast<double>(mapper.grid().memory_bytes()) / 1e6;
   // Says that the mapper kept up: about the way driven.

@@ -7,6 +7,7 @@
 
 #include "bench/scenes.hpp"
 #include "glocal/contact.hpp"
+#include "matchers/ransam.hpp"
 
 namespace glocal::bench {
 namespace {
@@ -51,10 +52,33 @@ void threads(benchmark::State& state) {
   match(state, simulation().prepared.map, late_step, static_cast<int>(state.range(0)));
 }
 
+/// What a split into partitions with a table each would find, as in the parallel form the paper cites: so
+/// many matches, of a share of the draws each.
+void separate_tables(benchmark::State& state) {
+  const auto partitions = static_cast<int>(state.range(0));
+  const LocalMap local = local_map_at(simulation(), 0, late_step);
+  Ransam ransam({.iterations = 200'000 / partitions,
+                 .contact_epsilon = 0.05,
+                 .relation_cell = 0.15,
+                 .min_side = 1.5,
+                 .min_height = 1.0,
+                 .table_bits = 20},
+                {simulation().prepared.map, 1});
+  Rng rng(1);
+  std::size_t collisions = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    for (int i = 0; i < partitions; ++i)
+      collisions += ransam.match(local, {}, late_omega_max, rng).collisions;
+  }
+  state.counters["collisions"] =
+      benchmark::Counter(static_cast<double>(collisions), benchmark::Counter::kAvgIterations);
+}
+
 BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
 BENCHMARK(growing_local_map)->Arg(0)->Arg(10)->Arg(30)->Arg(60)->Arg(110)->Unit(benchmark::kMillisecond);
 BENCHMARK(growing_map)->Arg(1)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 BENCHMARK(threads)->Arg(1)->Arg(2)->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(separate_tables)->RangeMultiplier(2)->Range(1, 16)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace glocal::bench

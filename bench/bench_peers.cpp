@@ -212,7 +212,7 @@ void register_all() {
   add("reference_loop", reference_loop);
   if (!has_datasets()) return;
   add("glocal_ransam", glocal_ransam)->Arg(steps);
-  add("pcl_prerejective", pcl_prerejective)->Args({steps, 10})->Args({steps, 50})->Iterations(1);
+  add("pcl_prerejective", pcl_prerejective)->Args({steps, 50})->Args({steps, 500})->Iterations(1);
   add("pcl_icp", pcl_icp)->Args({steps, 8})->Iterations(1);
 }
 

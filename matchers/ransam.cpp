@@ -11,7 +11,7 @@ namespace glocal {
 namespace {
 
 /// Draws handled together by one thread. Fixed, so that the answer does not depend on the number of threads.
-constexpr std::size_t draws_per_chunk = 4096;
+constexpr std::size_t draws_per_chunk = RelationBatch::probes * TripleBatch::capacity;
 
 unsigned table_bits(const Ransam::Params& p) {
   if (p.table_bits > 0) return static_cast<unsigned>(p.table_bits);
@@ -29,18 +29,16 @@ ExtrapolationRule extrapolation_rule(const Ransam::Params& p) {
       .background = p.wald_background};
 }
 
-/// Draws [begin, end) of a seed and calls `use` with the relations of a batch of them at a time.
-template <class Use>
-void for_each_batch(const TripleSampler& sampler, const Points& points, const TriangleRule& rule,
-                    bool neighbours, std::uint64_t seed, std::size_t begin, std::size_t end, Use use) {
+/// Adds the relations of draws [begin, end) of a seed.
+void add_relations_of_draws(const TripleSampler& sampler, const Points& points, const TriangleRule& rule,
+                            bool neighbours, std::uint64_t seed, std::size_t begin, std::size_t end,
+                            RelationBatch& relations) {
   TripleBatch triples;
-  RelationBatch relations;
   while (begin < end) {
     triples.clear();
     while (begin < end && !triples.full()) triples.add_number(static_cast<std::uint32_t>(begin++));
     sampler.draw(seed, triples);
     find_relations(points, triples, rule, neighbours, relations);
-    use(relations);
   }
 }
 
@@ -159,46 +157,24 @@ std::size_t Ransam::chunk_count() const {
   return (iterations() + draws_per_chunk - 1) / draws_per_chunk;
 }
 
-void Ransam::Drawn::append(const RelationBatch& batch) {
-  relations.insert(relations.end(), batch.relations.begin(), batch.relations.begin() + batch.size);
-  numbers.insert(numbers.end(), batch.numbers.begin(), batch.numbers.begin() + batch.size);
-}
-
-void Ransam::Drawn::take(std::size_t begin, RelationBatch& batch) const {
-  batch.size = std::min(TripleBatch::capacity, relations.size() - begin);
-  std::copy_n(&relations[begin], batch.size, batch.relations.begin());
-  std::copy_n(&numbers[begin], batch.size, batch.numbers.begin());
-}
-
 void Ransam::hash_map_triples(std::uint64_t seed, const TriangleRule& rule) {
-  const Points& points = setup_.map->points();
   table_.begin_fill(iterations());
-  if (setup_.threads <= 1) {
-    for_each_batch(sampler_, points, rule, false, seed, 0, iterations(),
-                   [&](const RelationBatch& batch) { table_.fill(batch); });
-    return;
-  }
-  // Threads that wrote to the whole table would take its lines from each other all the time. So relations are
-  // found first, and then each thread fills a share of the table of its own.
-  drawn_.resize(chunk_count());
+  const bool alone = setup_.threads <= 1;
+  drawn_.resize(alone ? 1 : chunk_count());
   parallel_for(setup_.threads, chunk_count(), [&](std::size_t chunk) {
-    Drawn& drawn = drawn_[chunk];
-    drawn.relations.clear();
-    drawn.numbers.clear();
+    RelationBatch& drawn = drawn_[alone ? 0 : chunk];
+    drawn.size = 0;
     const std::size_t begin = chunk * draws_per_chunk;
     const std::size_t end = std::min(begin + draws_per_chunk, iterations());
-    for_each_batch(sampler_, points, rule, false, seed, begin, end,
-                   [&](const RelationBatch& batch) { drawn.append(batch); });
+    add_relations_of_draws(sampler_, setup_.map->points(), rule, false, seed, begin, end, drawn);
+    if (alone) table_.fill(drawn);
   });
+  if (alone) return;
+  // Threads that wrote to the whole table would take its lines from each other all the time; so each fills a
+  // share of its own.
   const auto shares = static_cast<std::size_t>(setup_.threads);
   parallel_for(setup_.threads, shares, [&](std::size_t share) {
-    RelationBatch batch;
-    for (const Drawn& drawn : drawn_) {
-      for (std::size_t i = 0; i < drawn.relations.size(); i += TripleBatch::capacity) {
-        drawn.take(i, batch);
-        table_.fill(batch, share, shares);
-      }
-    }
+    for (const RelationBatch& drawn : drawn_) table_.fill(drawn, share, shares);
   });
 }
 
@@ -206,6 +182,7 @@ Ransam::Chunk Ransam::match_local_triples(const LocalMap& local, const TripleSam
                                           const QualityTest& quality, const TriangleRule& rule,
                                           const Draws& draws, std::size_t chunk) const {
   Chunk found;
+  RelationBatch relations;
   PartnerBatch partners;
   TripleBatch local_triples;
   TripleBatch map_triples;
@@ -214,17 +191,18 @@ Ransam::Chunk Ransam::match_local_triples(const LocalMap& local, const TripleSam
     local_triples.clear();
     map_triples.clear();
   };
-  const std::size_t begin = chunk * draws_per_chunk;
-  const std::size_t end = std::min(begin + draws_per_chunk, iterations());
-  for_each_batch(local_sampler, local.points, rule, params_.neighbour_cells, draws.local_seed, begin, end,
-                 [&](const RelationBatch& batch) {
-                   table_.find(batch, partners);  // eq. 2
-                   for (std::size_t i = 0; i < partners.size; ++i) {
-                     local_triples.add_number(partners.number(i));
-                     map_triples.add_number(partners.partner(i));
-                     if (local_triples.full()) test_collisions();
-                   }
-                 });
+  const std::size_t end = std::min((chunk + 1) * draws_per_chunk, iterations());
+  for (std::size_t begin = chunk * draws_per_chunk; begin < end; begin += TripleBatch::capacity) {
+    relations.size = 0;
+    add_relations_of_draws(local_sampler, local.points, rule, params_.neighbour_cells, draws.local_seed,
+                           begin, std::min(begin + TripleBatch::capacity, end), relations);
+    table_.find(relations, partners);  // eq. 2
+    for (std::size_t i = 0; i < partners.size; ++i) {
+      local_triples.add_number(partners.number(i));
+      map_triples.add_number(partners.partner(i));
+      if (local_triples.full()) test_collisions();
+    }
+  }
   test_collisions();
   return found;
 }

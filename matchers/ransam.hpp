@@ -56,15 +56,6 @@ class Ransam final : public Matcher {
     std::uint64_t map_seed;
     std::uint64_t local_seed;
   };
-  /// Relations of a chunk of draws.
-  struct Drawn {
-    std::vector<Relation> relations;
-    std::vector<std::uint32_t> numbers;
-
-    void append(const RelationBatch& batch);
-    /// The relations from `begin` on, as many as there are draws in a batch.
-    void take(std::size_t begin, RelationBatch& batch) const;
-  };
   struct Chunk {
     std::vector<Hypothesis> hypotheses;
     std::size_t collisions = 0;
@@ -86,7 +77,7 @@ class Ransam final : public Matcher {
   std::shared_ptr<const ContactIndex> contact_;
   TripleSampler sampler_;  ///< Of the global map.
   RelationTable table_;
-  std::vector<Drawn> drawn_;  ///< Room for the map's relations, where several threads find them.
+  std::vector<RelationBatch> drawn_;  ///< Relations of the map, a chunk each; one alone for a single thread.
 };
 void describe(ParamVisitor& v, Ransam::Params& p);
 

@@ -29,20 +29,20 @@ void slots_in_vectors(const RelationBatch& batch, unsigned bits, std::uint64_t* 
   }
 }
 
-/// Slots and entries of those relations whose slot is in [begin, end); how many they are.
-std::size_t entries_in_vectors(const RelationBatch& batch, std::uint64_t first, unsigned bits,
-                               std::uint64_t begin, std::uint64_t end, std::uint64_t* slots,
-                               std::uint64_t* entries) {
+/// Slots and entries of those of the relations [from, to) whose slot is in [begin, end); how many they are.
+std::size_t entries_in_vectors(const RelationBatch& batch, std::size_t from, std::size_t to,
+                               std::uint64_t first, unsigned bits, std::uint64_t begin, std::uint64_t end,
+                               std::uint64_t* slots, std::uint64_t* entries) {
   const Entries d;
   std::size_t size = 0;
-  for (std::size_t i = 0; i < batch.size; i += hn::Lanes(d)) {
+  for (std::size_t i = from; i < to; i += hn::Lanes(d)) {
     const auto relation = hn::PromoteTo(d, hn::LoadU(Words(), &batch.relations[i]));
     const auto number = hn::Add(hn::PromoteTo(d, hn::LoadU(Words(), &batch.numbers[i])), hn::Set(d, first));
     const auto slot = slots_of(relation, bits);
     const auto outside =
         hn::Or(hn::Lt(hn::BitCast(Indexes(), slot), hn::Set(Indexes(), static_cast<std::int64_t>(begin))),
                hn::Gt(hn::BitCast(Indexes(), slot), hn::Set(Indexes(), static_cast<std::int64_t>(end) - 1)));
-    const auto mine = hn::AndNot(hn::RebindMask(d, outside), hn::FirstN(d, batch.size - i));
+    const auto mine = hn::AndNot(hn::RebindMask(d, outside), hn::FirstN(d, to - i));
     hn::CompressStore(hn::Or(hn::ShiftLeft<relation_bits>(number), relation), mine, d, entries + size);
     size += hn::CompressStore(slot, mine, d, slots + size);
   }
@@ -83,8 +83,6 @@ HWY_EXPORT(slots_in_vectors);
 HWY_EXPORT(entries_in_vectors);
 HWY_EXPORT(find_in_vectors);
 
-using Column = std::array<std::uint64_t, RelationBatch::capacity>;
-
 }  // namespace
 
 void RelationTable::begin_fill(std::uint64_t draws) {
@@ -97,17 +95,20 @@ void RelationTable::begin_fill(std::uint64_t draws) {
 }
 
 void RelationTable::fill(const RelationBatch& batch, std::size_t share, std::size_t shares) {
-  Column slots;
-  Column entries;
-  const std::size_t size =
-      HWY_DYNAMIC_DISPATCH(entries_in_vectors)(batch, first_, bits_, (share << bits_) / shares,
-                                               ((share + 1) << bits_) / shares, slots.data(), entries.data());
-  for (std::size_t i = 0; i < size; ++i) __builtin_prefetch(&slots_[slots[i]], 1);
-  for (std::size_t i = 0; i < size; ++i) slots_[slots[i]] = entries[i];
+  constexpr std::size_t ahead = TripleBatch::capacity;
+  std::array<std::uint64_t, ahead> slots;
+  std::array<std::uint64_t, ahead> entries;
+  for (std::size_t i = 0; i < batch.size; i += ahead) {
+    const std::size_t size = HWY_DYNAMIC_DISPATCH(entries_in_vectors)(
+        batch, i, std::min(i + ahead, batch.size), first_, bits_, (share << bits_) / shares,
+        ((share + 1) << bits_) / shares, slots.data(), entries.data());
+    for (std::size_t k = 0; k < size; ++k) __builtin_prefetch(&slots_[slots[k]], 1);
+    for (std::size_t k = 0; k < size; ++k) slots_[slots[k]] = entries[k];
+  }
 }
 
 void RelationTable::find(const RelationBatch& batch, PartnerBatch& found) const {
-  Column slots;
+  std::array<std::uint64_t, RelationBatch::capacity> slots;
   HWY_DYNAMIC_DISPATCH(slots_in_vectors)(batch, bits_, slots.data());
   for (std::size_t i = 0; i < batch.size; ++i) __builtin_prefetch(&slots_[slots[i]]);
   found.size = HWY_DYNAMIC_DISPATCH(find_in_vectors)(slots_.data(), slots.data(), first_, batch, found);

@@ -111,7 +111,6 @@ void find_relations_in_vectors(const Points& points, const TripleBatch& batch, c
   const VF cells_per_metre = hn::Set(d, static_cast<float>(1.0 / rule.cell));
   const VF tiny = hn::Set(d, std::numeric_limits<float>::min());
 
-  relations.size = 0;
   for (std::size_t i = 0; i < batch.size; i += hn::Lanes(d)) {
     Sides s = sides_of(gather(points, batch, i));
     const VF longest = longest_of(s);

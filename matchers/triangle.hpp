@@ -49,7 +49,7 @@ struct TriangleRule {
   return cell * ((1U << relation_side_bits) - 2U);
 }
 
-/// Relations of a batch of triples, and of which.
+/// Relations of triples, and of which: of one batch with all its probes, or of as many batches with one each.
 struct RelationBatch {
   static constexpr std::size_t probes = 8;
   /// The last entries are room for a vector that is stored whole.
@@ -60,7 +60,7 @@ struct RelationBatch {
   alignas(64) std::array<std::uint32_t, capacity> numbers;  ///< Of the draw.
 };
 
-/// The relations of those triples the rule admits. A triangle's sides are put in an order that does not
+/// Adds the relations of those triples the rule admits. A triangle's sides are put in an order that does not
 /// depend on the order of drawing; mirrored triangles have different relations, as a motion in the plane
 /// cannot rotate one into the other. Heights play no part: a robot on a floor does not change them. Triples
 /// with the same point twice are never admitted. The same for all instruction sets.

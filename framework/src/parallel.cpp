@@ -5,18 +5,32 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
+#include <map>
+#include <mutex>
 
 namespace glocal {
+namespace {
+
+/// Kept from call to call: threads that have just worked in an arena are still awake there.
+oneapi::tbb::task_arena& arena_of(int threads) {
+  // TBB keeps to the number of processors unless it is told otherwise; users may ask for more.
+  constexpr std::size_t most_threads = 256;
+  static const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                                 most_threads);
+  static std::mutex mutex;
+  static std::map<int, oneapi::tbb::task_arena> arenas;
+  const std::lock_guard lock(mutex);
+  return arenas.try_emplace(threads, threads).first->second;
+}
+
+}  // namespace
 
 void parallel_for(int threads, std::size_t n, const std::function<void(std::size_t)>& work) {
   if (threads <= 1 || n <= 1) {
     for (std::size_t i = 0; i < n; ++i) work(i);
     return;
   }
-  // TBB keeps to the number of processors unless it is told otherwise; users may ask for more.
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                          static_cast<std::size_t>(threads));
-  oneapi::tbb::task_arena arena(threads);
+  oneapi::tbb::task_arena& arena = arena_of(threads);
   // TBB orders these calls by itself, but ThreadSanitizer cannot see into it: said once more in terms it
   // knows.
   std::atomic<std::size_t> begun{0};

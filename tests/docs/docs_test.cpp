@@ -104,6 +104,28 @@ TEST(Docs, NamedFunctionsExist) {
   }
 }
 
+TEST(Docs, ScriptsAndTheirOptionsExist) {
+  std::size_t scripts = 0;
+  for (const fs::path& document : documents()) {
+    for (const Block& block : blocks_of(document, "sh")) {
+      for (const std::string& line : lines_of(block.text)) {
+        if (!line.starts_with("scripts/")) continue;
+        ++scripts;
+        std::istringstream words(line.substr(0, line.find(" #")));
+        std::string script;
+        words >> script;
+        ASSERT_TRUE(fs::exists(root / script)) << document << " calls " << script;
+        const std::string text = read(root / script);
+        for (std::string word; words >> word;) {
+          if (!word.starts_with("--")) continue;
+          EXPECT_NE(text.find(word), std::string::npos) << document << ": " << script << " has no " << word;
+        }
+      }
+    }
+  }
+  EXPECT_GT(scripts, 1U);
+}
+
 TEST(Docs, EveryEquationHasItsFunction) {
   const std::string text = read(root / "docs/method.md");
   for (int equation = 1; equation <= 10; ++equation) {
