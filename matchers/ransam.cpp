@@ -12,6 +12,8 @@ namespace {
 
 /// Draws handled together by one thread. Fixed, so that the answer does not depend on the number of threads.
 constexpr std::size_t draws_per_chunk = RelationBatch::probes * TripleBatch::capacity;
+/// Chunks of the map's relations kept in memory: 4.5 MB.
+constexpr std::size_t chunks_at_a_time = 256;
 
 unsigned table_bits(const Ransam::Params& p) {
   if (p.table_bits > 0) return static_cast<unsigned>(p.table_bits);
@@ -158,24 +160,31 @@ std::size_t Ransam::chunk_count() const {
 }
 
 void Ransam::hash_map_triples(std::uint64_t seed, const TriangleRule& rule) {
-  table_.begin_fill(iterations());
-  const bool alone = setup_.threads <= 1;
-  drawn_.resize(alone ? 1 : chunk_count());
-  parallel_for(setup_.threads, chunk_count(), [&](std::size_t chunk) {
-    RelationBatch& drawn = drawn_[alone ? 0 : chunk];
+  const auto draw_chunk = [&](std::size_t chunk, RelationBatch& drawn) {
     drawn.size = 0;
     const std::size_t begin = chunk * draws_per_chunk;
     const std::size_t end = std::min(begin + draws_per_chunk, iterations());
     add_relations_of_draws(sampler_, setup_.map->points(), rule, false, seed, begin, end, drawn);
-    if (alone) table_.fill(drawn);
-  });
-  if (alone) return;
-  // Threads that wrote to the whole table would take its lines from each other all the time; so each fills a
-  // share of its own.
+  };
+  table_.begin_fill(iterations());
+  if (setup_.threads <= 1) {
+    RelationBatch drawn;
+    for (std::size_t chunk = 0; chunk < chunk_count(); ++chunk) {
+      draw_chunk(chunk, drawn);
+      table_.fill(drawn);
+    }
+    return;
+  }
+  // Threads that wrote to the whole table would take its lines from each other all the time. So relations are
+  // found first, some chunks at a time, and then each thread fills a share of the table of its own.
   const auto shares = static_cast<std::size_t>(setup_.threads);
-  parallel_for(setup_.threads, shares, [&](std::size_t share) {
-    for (const RelationBatch& drawn : drawn_) table_.fill(drawn, share, shares);
-  });
+  for (std::size_t begin = 0; begin < chunk_count(); begin += chunks_at_a_time) {
+    drawn_.resize(std::min(chunks_at_a_time, chunk_count() - begin));
+    parallel_for(setup_.threads, drawn_.size(), [&](std::size_t i) { draw_chunk(begin + i, drawn_[i]); });
+    parallel_for(setup_.threads, shares, [&](std::size_t share) {
+      for (const RelationBatch& drawn : drawn_) table_.fill(drawn, share, shares);
+    });
+  }
 }
 
 Ransam::Chunk Ransam::match_local_triples(const LocalMap& local, const TripleSampler& local_sampler,

@@ -77,7 +77,7 @@ class Ransam final : public Matcher {
   std::shared_ptr<const ContactIndex> contact_;
   TripleSampler sampler_;  ///< Of the global map.
   RelationTable table_;
-  std::vector<RelationBatch> drawn_;  ///< Relations of the map, a chunk each; one alone for a single thread.
+  std::vector<RelationBatch> drawn_;  ///< Relations of the map, where several threads find them.
 };
 void describe(ParamVisitor& v, Ransam::Params& p);
 

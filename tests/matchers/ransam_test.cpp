@@ -113,8 +113,10 @@ TEST(Ransam, TheRobotIsWhereTheLocalMapSays) {
 
 TEST(Ransam, TheNumberOfThreadsChangesNothing) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
-  for (const double local_radius : {0.0, 1.5}) {
-    const Ransam::Params params{.iterations = 60000, .local_radius = local_radius};
+  // So many draws that threads fill the table in two rounds; and a few near ones.
+  const Ransam::Params many_draws{.iterations = 600'000};
+  const Ransam::Params near_draws{.iterations = 60'000, .local_radius = 1.5};
+  for (const Ransam::Params& params : {many_draws, near_draws}) {
     const MatchResult one = match(params, local, 0.6, 1);
     for (const int threads : {2, 5}) {
       const MatchResult many = match(params, local, 0.6, threads);
