@@ -19,19 +19,20 @@ struct CheckOptions {
   ExperimentOptions experiment;
 };
 
-void check(const std::string& file, const ExperimentOptions& options, const Catalog& catalog) {
-  const Experiment experiment = options.read(file, catalog);
-  const Prepared prepared = prepare(experiment, catalog, [](const std::string& text) { spdlog::warn(text); });
-  static_cast<void>(make_localizer(experiment, catalog, prepared));
+void check(const std::string& file, const ExperimentOptions& options, Context& context) {
+  const Experiment experiment = options.read(file, context);
+  const Prepared prepared =
+      prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
+  static_cast<void>(make_localizer(experiment, context.catalog, prepared));
   fmt::print("{}: ok, {} map points, {} observations, {} trials\n", file, prepared.map->points().size(),
              prepared.drive.samples.size(), prepared.starts.size());
 }
 
-void check_all(const CheckOptions& options, const Catalog& catalog) {
+void check_all(const CheckOptions& options, Context& context) {
   std::vector<Fault> faults;
   for (const std::string& file : options.files) {
     try {
-      check(file, options.experiment, catalog);
+      check(file, options.experiment, context);
     } catch (const ConfigError& error) {
       faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }
@@ -47,7 +48,7 @@ void add_check(CLI::App& app, Context& context) {
       app.add_subcommand("check", "Read experiments, load their maps and observations, but run nothing.");
   command->add_option("FILE", options->files, "Experiment files (YAML)")->required();
   options->experiment.add_overrides_to(*command);
-  command->callback([options, &context] { check_all(*options, context.catalog); });
+  command->callback([options, &context] { check_all(*options, context); });
 }
 
 }  // namespace glocal::app

@@ -69,6 +69,9 @@ int run_command_line(CLI::App& app, const Context& context, int argc, char** arg
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return failed;
+  } catch (...) {
+    fmt::print(stderr, "error: a plugin threw something that is no std::exception\n");
+    return failed;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "glocal/catalog.hpp"
+#include "plugins/plugin_loader.hpp"
 
 namespace glocal::app {
 
@@ -11,8 +12,13 @@ namespace glocal::app {
 /// wrong usage or configuration, 3 incomplete); exceptions are turned into messages and codes in main().
 struct Context {
   Catalog catalog;
+  PluginLoader plugins{catalog};
   int exit_code = 0;
 };
+
+/// Adds --plugin, before and after every subcommand, and loads what it and GLOCAL_PLUGIN_PATH name before the
+/// subcommand runs. To be called after the subcommands have been added.
+void add_plugins(CLI::App& app, Context& context);
 
 void add_check(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);

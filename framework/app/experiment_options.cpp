@@ -34,11 +34,12 @@ std::vector<Override> ExperimentOptions::overrides() const {
   return overrides;
 }
 
-Experiment ExperimentOptions::read(const std::string& other_file, const Catalog& catalog) const {
+Experiment ExperimentOptions::read(const std::string& other_file, Context& context) const {
   std::vector<Override> all = overrides();
   if (seed) all.emplace_back("seed", std::to_string(*seed));
   if (threads) all.emplace_back("threads", std::to_string(*threads));
-  return read_experiment(other_file, all, catalog);
+  for (const FilePath& plugin : read_plugins(other_file, all)) context.plugins.load(plugin.resolved);
+  return read_experiment(other_file, all, context.catalog);
 }
 
 }  // namespace glocal::app

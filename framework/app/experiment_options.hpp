@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "glocal/catalog.hpp"
+#include "commands.hpp"
 #include "glocal/experiment.hpp"
 
 namespace glocal::app {
@@ -29,9 +29,9 @@ struct ExperimentOptions {
   /// What was given with --set. Throws ConfigError for what is not of the form path=value.
   [[nodiscard]] std::vector<Override> overrides() const;
 
-  /// Throws ConfigError.
-  [[nodiscard]] Experiment read(const Catalog& catalog) const { return read(file, catalog); }
-  [[nodiscard]] Experiment read(const std::string& other_file, const Catalog& catalog) const;
+  /// Loads the plugins the file names, too. Throws ConfigError.
+  [[nodiscard]] Experiment read(Context& context) const { return read(file, context); }
+  [[nodiscard]] Experiment read(const std::string& other_file, Context& context) const;
 };
 
 }  // namespace glocal::app

@@ -50,5 +50,6 @@ int main(int argc, char** argv) {
                        std::string("glocal ") + glocal::version + " (" + glocal::revision() + ")");
   app.require_subcommand(1);
   add_all(app, context);
+  glocal::app::add_plugins(app, context);
   return glocal::app::run_command_line(app, context, argc, argv);
 }

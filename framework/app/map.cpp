@@ -46,10 +46,10 @@ bool is_ros_map(const std::string& file) {
   return tree && tree->kind == NodeKind::map && find_entry(*tree, "image") != nullptr;
 }
 
-MapData load(const ExperimentOptions& input, const Catalog& catalog) {
+MapData load(const ExperimentOptions& input, Context& context) {
   if (is_ros_map(input.file)) return RosMap({{input.file, input.file}}, setup_for(0)).load();
-  const Experiment experiment = input.read(catalog);
-  return catalog.map_sources.make(experiment.map, setup_for(experiment.seed))->load();
+  const Experiment experiment = input.read(context);
+  return context.catalog.map_sources.make(experiment.map, setup_for(experiment.seed))->load();
 }
 
 /// The parameters of log_map, from `--set name=value`.
@@ -132,12 +132,12 @@ void add_map(CLI::App& app, Context& context) {
   convert->add_option("FILE", options->input.file, file)->required();
   options->input.add_overrides_to(*convert);
   add_output(*convert, *options);
-  convert->callback([options, &context] { write(load(options->input, context.catalog), *options); });
+  convert->callback([options, &context] { write(load(options->input, context), *options); });
 
   CLI::App* info = map->add_subcommand("info", "Show size, cells and points of a map.");
   info->add_option("FILE", options->input.file, file)->required();
   options->input.add_overrides_to(*info);
-  info->callback([options, &context] { show(load(options->input, context.catalog)); });
+  info->callback([options, &context] { show(load(options->input, context)); });
 }
 
 }  // namespace glocal::app

@@ -60,10 +60,10 @@ std::string row(const std::string& name, const MappingAccuracy& accuracy) {
                      quantile(accuracy.add_ms, 0.5), quantile(accuracy.add_ms, 0.95));
 }
 
-void mapping(const MappingOptions& options, const Context& context) {
+void mapping(const MappingOptions& options, Context& context) {
   std::vector<Experiment> experiments;
   for (const std::string& file : options.files) {
-    experiments.push_back(options.experiment.read(file, context.catalog));
+    experiments.push_back(options.experiment.read(file, context));
   }
   fmt::print(
       "Error of the local map's robot pose after {} m, starts every {} m; failures ({} m or {} deg) after {} "

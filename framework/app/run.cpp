@@ -110,6 +110,7 @@ void print_summary(const nlohmann::ordered_json& s, const std::filesystem::path&
              s["complete"].get<bool>() ? "" : " (interrupted: some trials are missing)");
   fmt::print("  trials              {}: {} right, {} wrong, {} undecided\n", trials["count"].get<int>(),
              trials["right"].get<int>(), trials["wrong"].get<int>(), trials["undecided"].get<int>());
+  if (trials.contains("failed")) fmt::print("  failed              {}\n", trials["failed"].get<int>());
   const auto& rate = s["success_rate"];
   fmt::print("  success             {:.1f} % (95 %: {:.1f} to {:.1f} %)\n",
              100.0 * rate["value"].get<double>(), 100.0 * rate["low"].get<double>(),
@@ -136,7 +137,9 @@ void print_summary(const nlohmann::ordered_json& s, const std::filesystem::path&
 }
 
 void run(const RunOptions& options, Context& context) {
-  Experiment experiment = options.experiment.read(context.catalog);
+  Experiment experiment = options.experiment.read(context);
+  experiment.plugins.clear();
+  for (const auto& file : context.plugins.loaded()) experiment.plugins.push_back({file.string(), file});
   const std::filesystem::path out = options.out.empty() ? std::filesystem::path("results") / experiment.name
                                                         : std::filesystem::path(options.out);
   // From here on an interrupt ends the run in good order.
@@ -145,6 +148,7 @@ void run(const RunOptions& options, Context& context) {
   Prepared prepared =
       prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
   prepared.inputs.insert(std::filesystem::absolute(options.experiment.file));
+  prepared.inputs.insert(context.plugins.loaded().begin(), context.plugins.loaded().end());
   Localizer localizer = make_localizer(experiment, context.catalog, prepared);
 
   // Nothing is written before everything is known to be in order.
@@ -169,6 +173,10 @@ void run(const RunOptions& options, Context& context) {
   const bool complete =
       run_trials(localizer, experiment, prepared, {on_step, stop}, [&](const TrialRecord& record) {
         writer.finish(record);
+        if (record.outcome == Outcome::failed) {
+          spdlog::error("trial {} failed in step {}: {}", record.trial, record.records.size(), record.why);
+          context.exit_code = 1;
+        }
         summary.add(record);
         ++trial;
       });

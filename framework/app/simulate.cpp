@@ -60,8 +60,9 @@ StrategyChoice recorded_drive(const LaserParams& laser) {
   return {"carmen_log", std::move(params)};
 }
 
-void simulate(const SimulateOptions& options, const Catalog& catalog) {
-  Experiment experiment = options.experiment.read(catalog);
+void simulate(const SimulateOptions& options, Context& context) {
+  Experiment experiment = options.experiment.read(context);
+  const Catalog& catalog = context.catalog;
   const DriveParams drive = drive_of(experiment, options.experiment.file);
   OutputFolder folder(options.out, options.force);
   std::set<std::filesystem::path> inputs{std::filesystem::absolute(options.experiment.file)};
@@ -102,7 +103,7 @@ void add_simulate(CLI::App& app, Context& context) {
   options->experiment.add_to(*command);
   command->add_option("--out", options->out, "Folder for the files")->required();
   command->add_flag("--force", options->force, "Replace earlier files in that folder");
-  command->callback([options, &context] { simulate(*options, context.catalog); });
+  command->callback([options, &context] { simulate(*options, context); });
 }
 
 }  // namespace glocal::app

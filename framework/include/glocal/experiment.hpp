@@ -66,6 +66,11 @@ using Override = std::pair<std::string, std::string>;
 [[nodiscard]] Experiment read_experiment(const std::filesystem::path& file,
                                          const std::vector<Override>& overrides, const Catalog& catalog);
 
+/// The plugins that an experiment file names, as far as they are there: to be loaded before the file is read.
+/// Says nothing of faults, which read_experiment() finds.
+[[nodiscard]] std::vector<FilePath> read_plugins(const std::filesystem::path& file,
+                                                 const std::vector<Override>& overrides);
+
 /// The experiment as YAML with every value, defaulted or not; reading it again gives the same experiment.
 [[nodiscard]] std::string effective_yaml(Experiment& experiment, const Catalog& catalog);
 

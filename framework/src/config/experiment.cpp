@@ -1,6 +1,7 @@
 #include "glocal/experiment.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "config/experiment_params.hpp"
@@ -34,6 +35,16 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
              {.doc = "Says whether the answer can be trusted."});
   v.field("unknown_place", c.unknown_place,
           {.doc = "When the robot counts as somewhere the map does not show."});
+}
+
+constexpr Doc plugins_doc = "Modules with further strategies to load.";
+
+/// The one key of an experiment that must be known before the others.
+struct PluginsSection {
+  std::vector<FilePath> plugins;
+};
+void describe(ParamVisitor& v, PluginsSection& s) {
+  v.field("plugins", s.plugins, {.doc = plugins_doc});
 }
 
 /// Letters, digits, `_`, `-` and `.`, beginning with a letter, a digit or `_`: fit for a folder, and for a
@@ -113,7 +124,7 @@ void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog) {
   v.field("seed", e.seed, {.doc = "Fixes all random numbers: the same seed gives the same results."});
   v.field("threads", e.threads,
           {.doc = "How many threads work at once; results do not depend on it.", .min = 1.0, .max = 256.0});
-  v.field("plugins", e.plugins, {.doc = "Modules with further strategies to load."});
+  v.field("plugins", e.plugins, {.doc = plugins_doc});
   v.strategy("map", e.map, catalog.map_sources, {.doc = "Where the known map comes from.", .required = true});
   v.strategy("observations", e.observations, catalog.observation_sources,
              {.doc = "Where scans and odometry come from.", .required = true});
@@ -148,6 +159,22 @@ Experiment read_experiment(const std::filesystem::path& file, const std::vector<
   }
   if (!faults.empty()) throw ConfigError(std::move(faults));
   return experiment;
+}
+
+std::vector<FilePath> read_plugins(const std::filesystem::path& file,
+                                   const std::vector<Override>& overrides) {
+  std::vector<Fault> ignored;
+  auto tree = parse_yaml(read_text_file(file), origin_of(file), ignored);
+  if (!tree || tree->kind != NodeKind::map) return {};
+  std::erase_if(tree->entries, [](const YamlEntry& entry) { return entry.key != "plugins"; });
+  std::vector<Override> of_plugins;
+  std::copy_if(overrides.begin(), overrides.end(), std::back_inserter(of_plugins),
+               [](const Override& o) { return o.first == "plugins"; });
+  ParamsOf<PluginsSection> params;
+  apply_overrides(*tree, of_plugins, params, ignored);
+  read_params(*tree, params, ignored);
+  std::erase_if(params.value.plugins, [](const FilePath& plugin) { return plugin.resolved.empty(); });
+  return params.value.plugins;
 }
 
 std::string effective_yaml(Experiment& experiment, const Catalog& catalog) {

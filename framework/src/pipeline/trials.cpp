@@ -1,5 +1,8 @@
 #include "pipeline/trials.hpp"
 
+#include <fmt/format.h>
+
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -34,6 +37,20 @@ void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfi
   trial.outcome = judge(trial.error, limits);
 }
 
+/// A step's result; none if a strategy threw an exception, with which the trial has failed.
+std::optional<StepResult> step_or_fail(Localizer& localizer, const Observation& observation,
+                                       TrialRecord& trial) {
+  try {
+    return localizer.step(observation);
+  } catch (const std::exception& error) {
+    trial.why = fmt::format("a strategy threw an exception: {}", error.what());
+  } catch (...) {
+    trial.why = "a strategy threw something that is no std::exception";
+  }
+  trial.outcome = Outcome::failed;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::size_t step_limit(const TrialsConfig& config) {
@@ -55,6 +72,8 @@ const char* to_string(Outcome outcome) {
       return "undecided";
     case Outcome::declared:
       return "declared";
+    case Outcome::failed:
+      return "failed";
   }
   return "";
 }
@@ -77,7 +96,9 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
     if (over || (record.pose && !experiment.trials.whole)) break;
     if (callbacks.stop && callbacks.stop()) return std::nullopt;
 
-    record.records.push_back(make_record(localizer.step(sample.observation), sample, map));
+    auto result = step_or_fail(localizer, sample.observation, record);
+    if (!result) break;
+    record.records.push_back(make_record(std::move(*result), sample, map));
     const StepRecord& step = record.records.back();
     if (callbacks.step) callbacks.step(step, localizer.local_map());
     if (record.pose) continue;

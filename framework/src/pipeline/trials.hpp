@@ -34,6 +34,7 @@ enum class Outcome {
   wrong,      ///< Declared, and outside of them.
   undecided,  ///< Never declared.
   declared,   ///< Declared, but there is no reference to check it against.
+  failed,     ///< A strategy threw an exception; `why` has its message.
 };
 [[nodiscard]] const char* to_string(Outcome outcome);
 
@@ -63,6 +64,7 @@ struct TrialCallbacks {
 /// The most steps a trial takes; the largest number there is where only the end of the drive limits it.
 [[nodiscard]] std::size_t step_limit(const TrialsConfig& config);
 
+/// A trial in which a strategy throws an exception has failed and ends there.
 /// Runs one trial: to the first declaration or `max_steps`, or with `whole` to the end of the drive. No trial
 /// runs across the end of a segment. None if stopped.
 [[nodiscard]] std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive,

@@ -37,6 +37,7 @@ void Summary::add(const TrialRecord& trial) {
   wrong_ += trial.outcome == Outcome::wrong ? 1 : 0;
   undecided_ += trial.outcome == Outcome::undecided ? 1 : 0;
   declared_ += trial.outcome == Outcome::declared ? 1 : 0;
+  failed_ += trial.outcome == Outcome::failed ? 1 : 0;
   if (trial.outcome == Outcome::right) {
     steps_.push_back(static_cast<double>(trial.steps));
     distances_m_.push_back(trial.distance_m);
@@ -60,6 +61,7 @@ void Summary::add(const TrialRecord& trial) {
 Json Summary::to_json(const Run& run) const {
   Json trials = {{"count", count_}, {"right", right_}, {"wrong", wrong_}, {"undecided", undecided_}};
   if (declared_ > 0) trials["declared_without_reference"] = declared_;
+  if (failed_ > 0) trials["failed"] = failed_;
   return {{"name", run.name},
           {"seed", run.seed},
           {"complete", run.complete},

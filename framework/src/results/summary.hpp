@@ -28,7 +28,7 @@ class Summary {
   struct Values {
     std::vector<double> local_map, match, cluster, rate, total;
   };
-  std::size_t count_ = 0, right_ = 0, wrong_ = 0, undecided_ = 0, declared_ = 0;
+  std::size_t count_ = 0, right_ = 0, wrong_ = 0, undecided_ = 0, declared_ = 0, failed_ = 0;
   std::vector<double> steps_, distances_m_;             ///< Of right trials.
   std::vector<double> translations_m_, rotations_deg_;  ///< Of right declarations.
   std::vector<double> later_translations_m_, later_rotations_deg_;

@@ -1,0 +1,141 @@
+// One strategy of every kind, as small as they can be.
+#include "glocal/plugin.hpp"
+
+namespace {
+
+using namespace glocal;
+
+struct NoParams {};
+void describe(ParamVisitor& /*v*/, NoParams& /*p*/) {}
+
+/// A square room of 8 m, a point every 5 cm, and nothing known of what is free.
+class Room final : public MapSource {
+ public:
+  struct Params {
+    double side = 8.0;
+  };
+  explicit Room(const Params& params) : side_(params.side) {}
+  MapData load() override {
+    MapData map;
+    for (double t = 0.0; t < side_; t += 0.05) {
+      const auto a = static_cast<float>(t);
+      const auto b = static_cast<float>(side_);
+      for (const Point& p : {Point{a, 0, 0}, Point{a, b, 0}, Point{0, a, 0}, Point{b, a, 0}})
+        map.points.push_back(p);
+    }
+    return map;
+  }
+
+ private:
+  double side_;
+};
+void describe(ParamVisitor& v, Room::Params& p) {
+  v.field("side", p.side, {.doc = "Side of the room.", .unit = "m", .above = 0.0});
+}
+
+/// Stands in the middle of the room and sees its walls, so many times.
+class Standing final : public ObservationSource {
+ public:
+  struct Params {
+    int scans = 20;
+  };
+  explicit Standing(const Params& params) : left_(params.scans) {}
+  std::optional<Sample> next() override {
+    if (left_-- <= 0) return std::nullopt;
+    Sample sample;
+    sample.map_from_robot = Pose2{4.0, 4.0, 0.0};
+    for (int i = -40; i < 40; ++i)
+      sample.observation.scan.hits.push_back({4.0F, 0.1F * static_cast<float>(i), 0.0F});
+    return sample;
+  }
+
+ private:
+  int left_;
+};
+void describe(ParamVisitor& v, Standing::Params& p) {
+  v.field("scans", p.scans, {.doc = "How many.", .min = 1});
+}
+
+class LastScan final : public LocalMapper {
+ public:
+  using Params = NoParams;
+  explicit LastScan(const Params& /*params*/) {}
+  void add(const Observation& observation) override {
+    map_.points = observation.scan.hits;
+    ++map_.generation;
+  }
+  const LocalMap& map() const override { return map_; }
+  void reset() override { map_ = {}; }
+
+ private:
+  LocalMap map_;
+};
+
+/// Knows the answer.
+class Oracle final : public Matcher {
+ public:
+  using Params = NoParams;
+  explicit Oracle(const Params& /*params*/) {}
+  MatchResult match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
+                    Rng& /*rng*/) override {
+    if (local.points.empty() || omega_max > 1.0) return {};
+    const Pose2 pose{4.0, 4.0, 0.0};
+    return {{{pose, pose, 1.0}}, 1, local.points.size()};
+  }
+  void reset() override {}
+};
+
+class EachAlone final : public Clusterer {
+ public:
+  using Params = NoParams;
+  explicit EachAlone(const Params& /*params*/) {}
+  std::vector<Cluster> cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) override {
+    std::vector<Cluster> clusters;
+    for (std::size_t i = 0; i < hypotheses.size(); ++i)
+      clusters.push_back({{i}, hypotheses[i].map_from_robot});
+    return clusters;
+  }
+};
+
+class AllAlike final : public Rater {
+ public:
+  using Params = NoParams;
+  explicit AllAlike(const Params& /*params*/) {}
+  std::vector<Rating> rate(const std::vector<Cluster>& clusters,
+                           const std::vector<Hypothesis>& /*h*/) override {
+    return std::vector<Rating>(clusters.size(), Rating{1.0, 1.0 / static_cast<double>(clusters.size())});
+  }
+};
+
+class Fixed final : public ThresholdPolicy {
+ public:
+  using Params = NoParams;
+  explicit Fixed(const Params& /*params*/) {}
+  double omega_max() const override { return 0.5; }
+  void update(const std::vector<Hypothesis>& /*hypotheses*/) override {}
+  void reset() override {}
+};
+
+class AtOnce final : public VerdictRule {
+ public:
+  using Params = NoParams;
+  explicit AtOnce(const Params& /*params*/) {}
+  Verdict judge(const StepResult& step) override {
+    if (step.clusters.empty()) return {};
+    return {VerdictKind::localized, step.clusters.front().map_from_robot, {}, "the first guess is taken"};
+  }
+  void reset() override {}
+};
+
+}  // namespace
+
+GLOCAL_PLUGIN("every_kind", "1.2.3", catalog) {
+  catalog.map_sources.add<Room>("room", "A square room.");
+  catalog.observation_sources.add<Standing>("standing", "A robot that stands still.");
+  catalog.local_mappers.add<LastScan>("last_scan", "The last scan alone.");
+  catalog.matchers.add<Oracle>("oracle", "Knows the answer.");
+  catalog.clusterers.add<EachAlone>("each_alone", "Every hypothesis is a cluster.");
+  catalog.raters.add<AllAlike>("all_alike", "Every cluster is as good as any other.");
+  catalog.threshold_policies.add<Fixed>("fixed", "Always 0.5.");
+  catalog.verdict_rules.add<AtOnce>("at_once", "Takes the first guess.");
+}

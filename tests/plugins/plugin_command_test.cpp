@@ -1,0 +1,171 @@
+// Plugins as users name them: --plugin, GLOCAL_PLUGIN_PATH and the key `plugins` of an experiment.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+
+namespace glocal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class PluginCommand : public CommandLine {
+ protected:
+  static std::string plugin(const std::string& name) {
+    return fs::path(GLOCAL_TEST_PLUGINS) / (name + ".so");
+  }
+
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
+
+  /// An experiment of nothing but the plugin's strategies.
+  void write_experiment(const std::string& plugins, const std::string& matcher = "oracle") const {
+    std::ofstream(file("e.yaml")) << "schema: 1\n"
+                                     "name: e\n"
+                                  << plugins
+                                  << "map: {room: {side: 8.0}}\n"
+                                     "observations: {standing: {scans: 20}}\n"
+                                     "trials: {every_scan: 5, max_steps: 5}\n"
+                                     "localizer:\n"
+                                     "  local_mapper: last_scan\n"
+                                     "  clusterer: each_alone\n"
+                                     "  rater: all_alike\n"
+                                     "  threshold_policy: fixed\n"
+                                     "  verdict_rule: at_once\n"
+                                     "  matcher: "
+                                  << matcher << "\n";
+  }
+
+  void expect_refused(const std::string& file, const std::vector<std::string>& words) const {
+    const Answer answer = run("list --plugin " + file);
+    EXPECT_EQ(answer.exit_code, 2) << answer.err;
+    EXPECT_THAT(answer.err, HasSubstr(file + ": error: "));
+    for (const std::string& word : words) EXPECT_THAT(answer.err, HasSubstr(word));
+    EXPECT_EQ(answer.out, "");
+  }
+};
+
+TEST_F(PluginCommand, StrategiesOfEveryKindAreListedAndDescribed) {
+  const Answer list = run("list --plugin " + plugin("every_kind"));
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  for (const char* name :
+       {"room", "standing", "last_scan", "oracle", "each_alone", "all_alike", "fixed", "at_once"}) {
+    EXPECT_THAT(list.out, HasSubstr(name));
+    EXPECT_EQ(run("describe " + std::string(name) + " --plugin " + plugin("every_kind")).exit_code, 0)
+        << name;
+  }
+  const Answer room = run("--plugin " + plugin("every_kind") + " describe room");
+  EXPECT_THAT(room.out, AllOf(HasSubstr("every_kind 1.2.3"), HasSubstr("side: number (> 0 m), default 8")));
+  EXPECT_THAT(run("schema --plugin " + plugin("every_kind")).out, HasSubstr("each_alone"));
+  EXPECT_THAT(run("list").out, Not(HasSubstr("oracle")));
+}
+
+TEST_F(PluginCommand, FoldersOfPluginsComeFromTheEnvironment) {
+  fs::create_directory(file("plugins"));
+  fs::copy(plugin("every_kind"), file("plugins/a.so"));
+  std::ofstream(file("plugins/readme.txt")) << "not a plugin\n";
+  setenv("GLOCAL_PLUGIN_PATH", (":" + file("plugins")).c_str(), 1);
+  const Answer found = run("list matcher");
+  setenv("GLOCAL_PLUGIN_PATH", file("nowhere").c_str(), 1);
+  const Answer missing = run("list matcher");
+  unsetenv("GLOCAL_PLUGIN_PATH");
+  EXPECT_THAT(found.out, HasSubstr("oracle")) << found.err;
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, AllOf(HasSubstr("nowhere"), HasSubstr("GLOCAL_PLUGIN_PATH")));
+}
+
+TEST_F(PluginCommand, AnExperimentNamesItsPluginsAndRecordsThem) {
+  fs::copy(plugin("every_kind"), file("mine.so"));
+  write_experiment("plugins: [mine.so]\n");
+  EXPECT_EQ(run("check " + file("e.yaml")).exit_code, 0);
+  const Answer answer = run("run " + file("e.yaml") + " --quiet --out " + file("results"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(Json::parse(content(file("results/summary.json")))["trials"]["right"], 4);
+  const Json provenance = Json::parse(content(file("results/provenance.json")));
+  EXPECT_EQ(provenance["plugins"], Json({"every_kind 1.2.3"}));
+  EXPECT_TRUE(provenance["inputs_sha256"].contains(fs::canonical(file("mine.so")).string()));
+}
+
+TEST_F(PluginCommand, TheEffectiveExperimentRunsWithoutTheOption) {
+  write_experiment("");
+  const Answer first =
+      run("run " + file("e.yaml") + " --quiet --out " + file("a") + " --plugin " + plugin("every_kind"));
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const Answer again = run("run " + file("a/effective.yaml") + " --quiet --out " + file("b"));
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(content(file("a/trials.jsonl")), content(file("b/trials.jsonl")));
+}
+
+TEST_F(PluginCommand, FaultsInTheParametersOfAPluginsStrategyHavePlaces) {
+  write_experiment("plugins: [" + plugin("every_kind") + "]\n");
+  const Answer answer = run("check " + file("e.yaml") + " --set map.room.side=-1 --set map.room.sid=2");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err,
+              AllOf(HasSubstr("-1 is out of range, must be > 0 m"), HasSubstr("did you mean 'side'?")));
+}
+
+TEST_F(PluginCommand, AMissingPluginOfAnExperimentIsAFaultOfItsFile) {
+  write_experiment("plugins: [nowhere.so]\n");
+  const Answer answer = run("check " + file("e.yaml"));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err,
+              AllOf(HasSubstr("e.yaml:3:11: error: plugins[0]: no such file: "), HasSubstr("nowhere.so")));
+}
+
+TEST_F(PluginCommand, NamedTwiceItIsLoadedOnce) {
+  const Answer answer = run("list --plugin " + plugin("every_kind") + " --plugin " + plugin("every_kind"));
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+}
+
+TEST_F(PluginCommand, AnExceptionInAStepEndsOnlyItsTrial) {
+  write_experiment("plugins: [" + plugin("every_kind") + ", " + plugin("throws_in_step") + "]\n", "moody");
+  const Answer answer = run("run " + file("e.yaml") + " --out " + file("results"));
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("trial 1 failed"), HasSubstr("out of mood")));
+  EXPECT_THAT(answer.out, HasSubstr("failed              1"));
+  const Json trials = Json::parse(content(file("results/summary.json")))["trials"];
+  EXPECT_EQ(trials["count"], 4);
+  EXPECT_EQ(trials["undecided"], 3);
+  EXPECT_EQ(trials["failed"], 1);
+}
+
+TEST_F(PluginCommand, WhatIsNoPluginIsRefused) {
+  expect_refused(file("none.so"), {"no such file"});
+  std::ofstream(file("text.so"))
+      << "#!/bin/sh\necho I am a script, not a plugin, and long enough to be read\n";
+  expect_refused(file("text.so"), {"not a shared object", "glocal_add_plugin()"});
+  fs::copy(plugin("every_kind"), file("cut.so"));
+  fs::resize_file(file("cut.so"), fs::file_size(file("cut.so")) / 3);
+  expect_refused(file("cut.so"), {"truncated", "again"});
+  expect_refused(plugin("wrong_symbol"), {"no function 'glocal_plugin'", "GLOCAL_PLUGIN"});
+}
+
+TEST_F(PluginCommand, WhatDoesNotFitThisProgramIsRefused) {
+  expect_refused(plugin("wrong_tag"), {"API version (it: 999, glocal: 1)",
+                                       "size of Hypothesis (it: none, glocal: ", "build it again"});
+  expect_refused(plugin("missing_dependency"), {"libgone.so", "install what is missing"});
+  expect_refused(plugin("duplicate"),
+                 {"matcher 'ransam' of copycat 2.0 is already registered by glocal", "rename one"});
+}
+
+TEST_F(PluginCommand, WhatThrowsWhileItIsLoadedIsRefused) {
+  expect_refused(plugin("throws_loading"), {"threw an exception while it was loaded: no device"});
+  expect_refused(plugin("throws_registering"),
+                 {"threw an exception while it registered its strategies: no licence for 8 registries"});
+}
+
+TEST_F(PluginCommand, APluginExportsNothingButItsEntry) {
+  const std::string symbols = file("symbols");
+  ASSERT_EQ(std::system(("nm -D --defined-only " + plugin("every_kind") + " >" + symbols).c_str()), 0);
+  const std::string text = content(symbols);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+  EXPECT_THAT(text, HasSubstr(" T glocal_plugin\n"));
+}
+
+}  // namespace
+}  // namespace glocal::test
