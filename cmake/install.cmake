@@ -1,0 +1,29 @@
+# What is installed: the program, the shared library, the headers that plugins need, and what finds them.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glocal)
+
+install(TARGETS glocal EXPORT glocal_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS glocal_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY framework/include/glocal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT glocal_targets FILE glocalTargets.cmake NAMESPACE glocal:: DESTINATION ${package_dir})
+install(FILES cmake/glocal_add_plugin.cmake cmake/plugin_exports.map DESTINATION ${package_dir})
+# The program finds its library wherever both have been put.
+file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+set_target_properties(glocal_app PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
+
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/glocalConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/glocalConfig.cmake
+  "include(\${CMAKE_CURRENT_LIST_DIR}/glocalTargets.cmake)\ninclude(\${CMAKE_CURRENT_LIST_DIR}/glocal_add_plugin.cmake)\n")
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glocalConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/glocalConfigVersion.cmake
+  DESTINATION ${package_dir})
+
+file(RELATIVE_PATH libdir_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(cmake/glocal.pc.in glocal.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glocal.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "glocal")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+include(CPack)
