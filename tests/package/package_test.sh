@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# Installs glocal into an empty folder, builds a plugin with nothing but that, and runs an experiment with it.
+# Installs glocal into an empty folder, and makes, builds and runs plugins with nothing but that.
 # Arguments: the build folder, a folder to work in.
 set -euo pipefail
-here=$(cd "$(dirname "$0")" && pwd)
 build=$1 work=$2
 rm -rf "$work"
 mkdir -p "$work/outside"
@@ -28,31 +27,27 @@ for source in "$work"/headers/*.cpp; do
   [ -z "$brought" ] || fail "$(basename "$source" .cpp).hpp brings in $brought"
 done
 
-# A plugin outside of the tree.
-cp "$here/../plugins/modules/every_kind.cpp" "$work/outside/mine.cpp"
-cat >"$work/outside/CMakeLists.txt" <<'CMAKE'
-cmake_minimum_required(VERSION 3.25)
-project(mine LANGUAGES CXX)
-find_package(glocal REQUIRED)
-glocal_add_plugin(mine mine.cpp)
-CMAKE
-cat >"$work/outside/experiment.yaml" <<'YAML'
-schema: 1
-name: outside
-plugins: [build/mine.so]
-map: room
-observations: standing
-trials: {whole: true}
-localizer: {local_mapper: last_scan, matcher: oracle, clusterer: each_alone, rater: all_alike, threshold_policy: fixed, verdict_rule: at_once}
-YAML
-cmake -S "$work/outside" -B "$work/outside/build" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
-cmake --build "$work/outside/build" >/dev/null
-"$prefix/bin/glocal" run "$work/outside/experiment.yaml" --out "$work/results" | grep -q '1 right' || fail "the experiment"
+# A plugin of every kind, outside of the tree: as new-plugin writes them, they build, pass their test and run.
+kinds=$("$prefix/bin/glocal" list | grep -E '^[a-z_]+$')
+[ "$(wc -w <<<"$kinds")" -eq 8 ] || fail "the kinds of strategies are: $kinds"
+try_kind() {
+  local kind=$1 folder=$work/outside/$1
+  "$prefix/bin/glocal" new-plugin "$kind" "my_$kind" "$folder" >/dev/null
+  cmake -S "$folder" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+  cmake --build "$folder/build" >/dev/null
+  ctest --test-dir "$folder/build" >/dev/null
+  "$prefix/bin/glocal" run "$folder/experiment.yaml" --quiet --out "$work/results/$kind"
+  grep -q "my_$kind 0.1.0" "$work/results/$kind/provenance.json"
+  [ "$(nm -D --defined-only "$folder/build/my_$kind.so" | cut -d ' ' -f 2-)" = "T glocal_plugin" ]
+}
+export -f try_kind
+export prefix work
+xargs -n 1 -P "$(nproc)" bash -c 'set -e; try_kind "$0"' <<<"$kinds" || fail "a new plugin"
 
 # The same without CMake.
 if command -v pkg-config >/dev/null; then
   export PKG_CONFIG_PATH
   PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name glocal.pc)")
-  c++ -shared -fPIC "$work/outside/mine.cpp" $(pkg-config --cflags --libs glocal) -o "$work/by_hand.so"
-  "$prefix/bin/glocal" list matcher --plugin "$work/by_hand.so" | grep -q oracle || fail "pkg-config"
+  c++ -shared -fPIC "$work/outside/matcher/my_matcher.cpp" $(pkg-config --cflags --libs glocal) -o "$work/by_hand.so"
+  "$prefix/bin/glocal" list matcher --plugin "$work/by_hand.so" | grep -q my_matcher || fail "pkg-config"
 fi

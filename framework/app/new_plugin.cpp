@@ -1,0 +1,129 @@
+// glocal new-plugin: a plugin to begin with.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "commands.hpp"
+#include "config/nearest.hpp"
+#include "glocal/error.hpp"
+#include "plugin_templates.hpp"
+#include "results/output_folder.hpp"
+
+namespace glocal::app {
+namespace {
+
+struct NewPluginOptions {
+  std::string kind;
+  std::string name;
+  std::string folder;
+};
+
+/// Fit for a file, a CMake target and, in CamelCase, a class.
+bool is_snake_case(std::string_view name) {
+  return !name.empty() && name.front() >= 'a' && name.front() <= 'z' && name.size() <= 60 &&
+         std::all_of(name.begin(), name.end(),
+                     [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
+}
+
+std::string camel_case(std::string_view snake_case) {
+  std::string result;
+  bool begins_word = true;
+  for (const char c : snake_case) {
+    if (c != '_') result += begins_word ? static_cast<char>(std::toupper(c)) : c;
+    begins_word = c == '_';
+  }
+  return result;
+}
+
+std::string filled(std::string text, const std::vector<std::pair<std::string, std::string>>& values) {
+  for (const auto& [name, value] : values) {
+    const std::string place = "@" + name + "@";
+    for (std::size_t at = text.find(place); at != std::string::npos;
+         at = text.find(place, at + value.size())) {
+      text.replace(at, place.size(), value);
+    }
+  }
+  return text;
+}
+
+/// The kinds there are templates for, which are all.
+std::vector<std::string> kinds_of(const Catalog& catalog) {
+  std::vector<std::string> kinds;
+  for (const RegistryBase* registry : catalog.registries()) kinds.push_back(registry->kind());
+  return kinds;
+}
+
+void check(const NewPluginOptions& options, const Catalog& catalog) {
+  std::vector<Fault> faults;
+  const std::vector<std::string> kinds = kinds_of(catalog);
+  if (std::find(kinds.begin(), kinds.end(), options.kind) == kinds.end()) {
+    faults.push_back(
+        {"", 0, 0, "unknown kind '" + options.kind + "'" + suggestion(options.kind, kinds, "there are")});
+  }
+  if (!is_snake_case(options.name)) {
+    faults.push_back(
+        {"", 0, 0,
+         fmt::format(
+             "the name '{}' must be at most 60 small letters, digits and '_', beginning with a letter: "
+             "it becomes a file and a class",
+             options.name)});
+  }
+  for (const RegistryBase* registry : catalog.registries()) {
+    if (registry->kind() == options.kind && registry->find(options.name) != nullptr) {
+      faults.push_back({"", 0, 0,
+                        fmt::format("there is a {} '{}' already, from {}; choose another name", options.kind,
+                                    options.name, registry->find(options.name)->origin)});
+    }
+  }
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+}
+
+void new_plugin(const NewPluginOptions& options, const Catalog& catalog) {
+  check(options, catalog);
+  const std::string simulation = "{simulation: {world: world.yaml}}";
+  const bool is_stage = options.kind != "map_source" && options.kind != "observation_source";
+  const std::vector<std::pair<std::string, std::string>> values = {
+      {"NAME", options.name},
+      {"CLASS", camel_case(options.name)},
+      {"KIND", options.kind},
+      {"MAP", options.kind == "map_source" ? options.name : simulation},
+      {"OBSERVATIONS", options.kind == "observation_source" ? options.name : simulation},
+      {"LOCALIZER",
+       is_stage ? fmt::format("localizer:\n  {}: {}", options.kind, options.name) : "localizer: {}"}};
+
+  OutputFolder folder(options.folder, false);
+  folder.append("CMakeLists.txt", filled(plugin_template("CMakeLists.txt"), values));
+  folder.append(options.name + ".cpp", filled(plugin_template(options.kind + ".cpp"), values));
+  folder.append("experiment.yaml", filled(plugin_template("experiment.yaml"), values));
+  folder.append("world.yaml", filled(plugin_template("world.yaml"), values));
+  folder.commit();
+  fmt::print(
+      "A {} called {} in {}. Build it, test it, run it:\n"
+      "  cmake -S {} -B {}/build && cmake --build {}/build\n"
+      "  ctest --test-dir {}/build\n"
+      "  glocal run {}/experiment.yaml\n",
+      options.kind, options.name, options.folder, options.folder, options.folder, options.folder,
+      options.folder, options.folder);
+}
+
+}  // namespace
+
+void add_new_plugin(CLI::App& app, Context& context) {
+  auto options = std::make_shared<NewPluginOptions>();
+  CLI::App* command = app.add_subcommand(
+      "new-plugin",
+      "Write a plugin to begin with: a strategy, how to build it, an experiment that tests it.");
+  command->add_option("KIND", options->kind, "matcher, local_mapper, ... (see glocal list)")->required();
+  command->add_option("NAME", options->name, "Name of the strategy, in snake_case")->required();
+  command->add_option("DIR", options->folder, "Folder for the files")->required();
+  command->callback([options, &context] { new_plugin(*options, context.catalog); });
+}
+
+}  // namespace glocal::app
