@@ -2,7 +2,8 @@
 # Installs glocal into an empty folder, and makes, builds and runs plugins with nothing but that.
 # Arguments: the build folder, a folder to work in.
 set -euo pipefail
-build=$1 work=$2
+root=$(cd "$(dirname "$0")/../.." && pwd)
+build=$(cd "$1" && pwd) work=$2
 rm -rf "$work"
 mkdir -p "$work/outside"
 fail() { echo "FAILED: $1" >&2; exit 1; }
@@ -43,6 +44,15 @@ try_kind() {
 export -f try_kind
 export prefix work
 xargs -n 1 -P "$(nproc)" bash -c 'set -e; try_kind "$0"' <<<"$kinds" || fail "a new plugin"
+
+# What docs/writing-a-strategy.md says, as it stands; only the build folder may have another name.
+sed -n '/^```bash$/,/^```$/{/^```/!p}' "$root/docs/writing-a-strategy.md" | sed "s#build/release#$build#" >"$work/commands"
+[ "$(wc -l <"$work/commands")" -gt 10 ] || fail "the commands of docs/writing-a-strategy.md"
+mkdir "$work/reader"
+PREFIX=$work/reader/prefix WORK=$work/reader bash -euo pipefail "$work/commands" >"$work/said" 2>&1 ||
+  { cat "$work/said"; fail "docs/writing-a-strategy.md"; }
+tail -n 2 "$work/said" | jq -s -e '.[0].variant == "mine" and .[1].variant == "paper" and .[0].of == .[1].of and .[1].right > 0' >/dev/null ||
+  fail "the comparison of docs/writing-a-strategy.md: $(tail -n 2 "$work/said")"
 
 # The same without CMake.
 if command -v pkg-config >/dev/null; then
