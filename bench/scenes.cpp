@@ -83,8 +83,10 @@ std::shared_ptr<const GlobalMap> tiled_map(int n) {
   const Points& tile = simulation().map();
   MapData data;
   for (int copy = 0; copy < n * n; ++copy) {
-    const float x0 = tile_width * static_cast<float>(copy % n);
-    const float y0 = tile_height * static_cast<float>(copy / n);
+    const int column = copy % n;
+    const int row = copy / n;
+    const float x0 = tile_width * static_cast<float>(column);
+    const float y0 = tile_height * static_cast<float>(row);
     for (std::size_t i = 0; i < tile.size(); ++i) {
       if (copy > 0 && is_missing(copy, tile.x[i], tile.y[i])) continue;
       const float x = copy % 2 == 0 ? tile.x[i] : tile_width - tile.x[i];
@@ -104,8 +106,10 @@ Points walls(std::size_t n) {
   Points points;
   points.reserve(n);
   for (std::size_t wall = 0; points.size() < n; ++wall) {
-    const auto x = static_cast<float>(4 * (wall % squares));
-    const auto y = static_cast<float>(4 * (wall / squares));
+    const std::size_t column = wall % squares;
+    const std::size_t row = wall / squares;
+    const float x = 4.0F * static_cast<float>(column);
+    const float y = 4.0F * static_cast<float>(row);
     const bool along_x = rng.below(2) == 0;
     for (std::size_t i = 0; i < points_per_wall && points.size() < n; ++i) {
       const float along = 0.03F * static_cast<float>(i);
