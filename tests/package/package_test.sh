@@ -6,6 +6,8 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 build=$(cd "$1" && pwd) work=$2
 rm -rf "$work"
 mkdir -p "$work/outside"
+# As for glocal itself; make, CMake's own choice, need not be there.
+export CMAKE_GENERATOR=Ninja
 fail() { echo "FAILED: $1" >&2; exit 1; }
 prefix=$work/prefix
 
