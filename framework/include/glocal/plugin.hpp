@@ -76,6 +76,7 @@ using PluginEntry = const Plugin* (*)();
 }  // namespace glocal
 
 /// Defines the function; what follows in braces adds strategies to `catalog`. Exceptions end the loading.
+// NOLINTBEGIN(bugprone-macro-parentheses): a parameter's name cannot be in parentheses
 #define GLOCAL_PLUGIN(plugin_name, plugin_version, catalog)                                      \
   static void glocal_register_strategies(glocal::Catalog& catalog);                              \
   extern "C" __attribute__((visibility("default"))) const glocal::Plugin* glocal_plugin();       \
@@ -85,3 +86,4 @@ using PluginEntry = const Plugin* (*)();
     return &plugin;                                                                              \
   }                                                                                              \
   static void glocal_register_strategies(glocal::Catalog& catalog)
+// NOLINTEND(bugprone-macro-parentheses)
