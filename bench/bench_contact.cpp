@@ -73,7 +73,6 @@ void register_for(const std::string& name, const std::shared_ptr<const Points>& 
 }
 
 void register_all() {
-  benchmark::RegisterBenchmark("reference_loop", reference_loop)->Unit(benchmark::kMillisecond);
   if (has_datasets()) register_for("intel", std::make_shared<const Points>(scene("intel").map()));
   for (const std::size_t n : {1'000U, 10'000U, 100'000U, 1'000'000U, 10'000'000U}) {
     register_for(std::to_string(n), std::make_shared<const Points>(walls(n)));
@@ -84,7 +83,5 @@ void register_all() {
 }  // namespace glocal::bench
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  glocal::bench::register_all();
-  benchmark::RunSpecifiedBenchmarks();
+  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
 }

@@ -117,7 +117,6 @@ void give_up(benchmark::State& state, const ExtrapolationRule& rule, double thre
 }
 
 void register_all() {
-  benchmark::RegisterBenchmark("reference_loop", reference_loop)->Unit(benchmark::kMillisecond);
   for (const std::size_t step : {0U, 20U, 110U}) {
     for (const double threshold : {0.4, 0.6, 0.8}) {
       const auto add = [&](const std::string& name, const ExtrapolationRule& rule) {
@@ -141,7 +140,5 @@ void register_all() {
 }  // namespace glocal::bench
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  glocal::bench::register_all();
-  benchmark::RunSpecifiedBenchmarks();
+  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
 }

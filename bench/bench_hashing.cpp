@@ -276,15 +276,8 @@ void kind(benchmark::State& state) {
       if (is_right(motion.pose(), local.local_from_robot, truth)) ++right;
     }
   }
-  state.counters["collisions"] =
-      benchmark::Counter(static_cast<double>(collisions), benchmark::Counter::kAvgIterations);
-  state.counters["right"] =
-      benchmark::Counter(static_cast<double>(right), benchmark::Counter::kAvgIterations);
-}
-
-std::optional<plain::CanonicalTriangle> canonical(const Points& points, const Triple& triple,
-                                                  const TriangleRule& rule_now) {
-  return plain::canonical_triangle(points, triple, rule_now);
+  state.counters["collisions"] = per_iteration(collisions);
+  state.counters["right"] = per_iteration(right);
 }
 
 /// Whole matches. Arguments: relation cell in cm, and whether neighbouring cells are looked up too.
@@ -308,10 +301,8 @@ void match(benchmark::State& state) {
       if (is_right(h.map_from_local, local.local_from_robot, truth)) ++right;
     }
   }
-  state.counters["collisions"] =
-      benchmark::Counter(static_cast<double>(collisions), benchmark::Counter::kAvgIterations);
-  state.counters["right"] =
-      benchmark::Counter(static_cast<double>(right), benchmark::Counter::kAvgIterations);
+  state.counters["collisions"] = per_iteration(collisions);
+  state.counters["right"] = per_iteration(right);
 }
 
 BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
@@ -332,21 +323,13 @@ BENCHMARK(fill_and_find<Plain<Entry<1>, false>>)
     ->DenseRange(16, 22)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(fill_and_find<Standard>)->Name("unordered_map")->Arg(18)->Unit(benchmark::kMillisecond);
-BENCHMARK(kind<canonical>)
+BENCHMARK(kind<plain::canonical_triangle>)
     ->Name("canonical_relations")
-    ->Arg(5)
-    ->Arg(10)
-    ->Arg(15)
-    ->Arg(20)
-    ->Arg(30)
+    ->ArgsProduct({{5, 10, 15, 20, 30}})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(kind<as_drawn>)
     ->Name("relations_as_drawn")
-    ->Arg(5)
-    ->Arg(10)
-    ->Arg(15)
-    ->Arg(20)
-    ->Arg(30)
+    ->ArgsProduct({{5, 10, 15, 20, 30}})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(match)
     ->ArgsProduct({{5, 10, 15, 20}, {0, 1}})

@@ -30,8 +30,7 @@ void match(benchmark::State& state, const std::shared_ptr<const GlobalMap>& map,
   }
   state.counters["map_points"] = static_cast<double>(map->points().size());
   state.counters["local_points"] = static_cast<double>(local.points.size());
-  state.counters["collisions"] =
-      benchmark::Counter(static_cast<double>(collisions), benchmark::Counter::kAvgIterations);
+  state.counters["collisions"] = per_iteration(collisions);
 }
 
 /// Argument: the step; 0 is the flood of the first one.
@@ -70,8 +69,7 @@ void separate_tables(benchmark::State& state) {
     for (int i = 0; i < partitions; ++i)
       collisions += ransam.match(local, {}, late_omega_max, rng).collisions;
   }
-  state.counters["collisions"] =
-      benchmark::Counter(static_cast<double>(collisions), benchmark::Counter::kAvgIterations);
+  state.counters["collisions"] = per_iteration(collisions);
 }
 
 BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);

@@ -209,7 +209,6 @@ void register_all() {
   const auto add = [](const std::string& name, auto run) {
     return benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
   };
-  add("reference_loop", reference_loop);
   if (!has_datasets()) return;
   add("glocal_ransam", glocal_ransam)->Arg(steps);
   add("pcl_prerejective", pcl_prerejective)->Args({steps, 50})->Args({steps, 500})->Iterations(1);
@@ -221,7 +220,5 @@ void register_all() {
 
 int main(int argc, char** argv) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  benchmark::Initialize(&argc, argv);
-  glocal::bench::register_all();
-  benchmark::RunSpecifiedBenchmarks();
+  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
 }

@@ -53,10 +53,8 @@ void match_after_20_steps(benchmark::State& state) {
     collisions += result.collisions;
     hypotheses += result.hypotheses.size();
   }
-  state.counters["collisions"] =
-      benchmark::Counter(static_cast<double>(collisions), benchmark::Counter::kAvgIterations);
-  state.counters["hypotheses"] =
-      benchmark::Counter(static_cast<double>(hypotheses), benchmark::Counter::kAvgIterations);
+  state.counters["collisions"] = per_iteration(collisions);
+  state.counters["hypotheses"] = per_iteration(hypotheses);
 }
 
 BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);

@@ -52,7 +52,6 @@ void register_steps(const std::string& name, std::size_t begin, std::size_t end)
 }
 
 void register_all() {
-  benchmark::RegisterBenchmark("reference_loop", reference_loop)->Unit(benchmark::kMillisecond);
   register_steps("paper_simulation", 0, 5);
   register_steps("paper_simulation", 90, 130);
   if (has_datasets()) register_steps("intel", 0, 40);
@@ -62,7 +61,5 @@ void register_all() {
 }  // namespace glocal::bench
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  glocal::bench::register_all();
-  benchmark::RunSpecifiedBenchmarks();
+  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
 }

@@ -119,6 +119,14 @@ Points walls(std::size_t n) {
   return points;
 }
 
+int run_registered(int argc, char** argv, void (*register_all)()) {
+  benchmark::Initialize(&argc, argv);
+  benchmark::RegisterBenchmark("reference_loop", reference_loop)->Unit(benchmark::kMillisecond);
+  register_all();
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
+
 void reference_loop(benchmark::State& state) {
   constexpr std::size_t late_step = 110;
   constexpr std::uint32_t iterations = 200'000;

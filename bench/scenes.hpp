@@ -57,6 +57,14 @@ struct Scene {
   return {items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
 }
 
+/// What was counted over all iterations, for one of them.
+[[nodiscard]] inline benchmark::Counter per_iteration(std::size_t total) {
+  return {static_cast<double>(total), benchmark::Counter::kAvgIterations};
+}
+
+/// main() of a program that registers its benchmarks itself; the reference loop is there already.
+int run_registered(int argc, char** argv, void (*register_all)());
+
 /// To be registered in every benchmark, so that times can be compared over machines and days as multiples of
 /// it: 200,000 triples of the map and as many of a late local map, drawn one at a time in plain code, hashed
 /// and looked up in a table of 8-byte entries, and nothing else.

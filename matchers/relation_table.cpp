@@ -16,8 +16,10 @@ using Entries = hn::ScalableTag<std::uint64_t>;
 using Indexes = hn::RebindToSigned<Entries>;
 using Words = hn::Rebind<std::uint32_t, Entries>;
 
+/// Multiplicative hashing (Knuth): the upper bits of the product with 2^64 divided by the golden ratio.
 HWY_INLINE hn::Vec<Entries> slots_of(hn::Vec<Entries> relations, unsigned bits) {
-  return hn::ShiftRightSame(hn::Mul(relations, hn::Set(Entries(), hash_factor)), static_cast<int>(64 - bits));
+  return hn::ShiftRightSame(hn::Mul(relations, hn::Set(Entries(), 0x9e3779b97f4a7c15ULL)),
+                            static_cast<int>(64 - bits));
 }
 
 /// Writes whole vectors.

@@ -22,10 +22,6 @@ struct PartnerBatch {
   [[nodiscard]] std::uint32_t partner(std::size_t i) const { return static_cast<std::uint32_t>(pairs[i]); }
 };
 
-/// Multiplicative hashing (Knuth): the slot is the upper bits of the relation's product with 2^64 divided by
-/// the golden ratio.
-inline constexpr std::uint64_t hash_factor = 0x9e3779b97f4a7c15ULL;
-
 /// Entries of 8 bytes: the quantised relation, compared on look-up (a hash collision is not a relation
 /// collision), and the number of the draw. Of two draws that meet in one slot the later one stays. Filling it
 /// anew does not need to clear it: numbers go on counting over all fills, and entries from before the current

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "glocal/catalog.hpp"
+#include "glocal/error.hpp"
 #include "plugins/plugin_loader.hpp"
 
 namespace glocal::app {
@@ -15,6 +17,10 @@ struct Context {
   PluginLoader plugins{catalog};
   int exit_code = 0;
 };
+
+/// The registry of a kind; null if there is none, of which unknown_kind() tells.
+[[nodiscard]] const RegistryBase* registry_of(const std::string& kind, const Catalog& catalog);
+[[nodiscard]] Fault unknown_kind(const std::string& kind, const Catalog& catalog);
 
 /// Adds --plugin, before and after every subcommand, and loads what it and GLOCAL_PLUGIN_PATH name before the
 /// subcommand runs. To be called after the subcommands have been added.

@@ -39,7 +39,11 @@ Experiment ExperimentOptions::read(const std::string& other_file, Context& conte
   if (seed) all.emplace_back("seed", std::to_string(*seed));
   if (threads) all.emplace_back("threads", std::to_string(*threads));
   for (const FilePath& plugin : read_plugins(other_file, all)) context.plugins.load(plugin.resolved);
-  return read_experiment(other_file, all, context.catalog);
+  Experiment experiment = read_experiment(other_file, all, context.catalog);
+  // All that are there, however they were named: the effective experiment must do without --plugin.
+  experiment.plugins.clear();
+  for (const auto& plugin : context.plugins.loaded()) experiment.plugins.push_back({plugin.string(), plugin});
+  return experiment;
 }
 
 }  // namespace glocal::app

@@ -1,6 +1,7 @@
 // glocal list: which strategies there are.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,21 +12,31 @@
 #include "glocal/error.hpp"
 
 namespace glocal::app {
+
+const RegistryBase* registry_of(const std::string& kind, const Catalog& catalog) {
+  const auto all = catalog.registries();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto* r) { return r->kind() == kind; });
+  return found == all.end() ? nullptr : *found;
+}
+
+Fault unknown_kind(const std::string& kind, const Catalog& catalog) {
+  std::vector<std::string> kinds;
+  for (const RegistryBase* registry : catalog.registries()) kinds.push_back(registry->kind());
+  return {"", 0, 0, "unknown kind '" + kind + "'" + suggestion(kind, kinds, "there are")};
+}
+
 namespace {
 
 void list(const std::string& kind, const Catalog& catalog) {
-  std::vector<std::string> kinds;
+  if (!kind.empty()) {
+    const RegistryBase* registry = registry_of(kind, catalog);
+    if (registry == nullptr) throw ConfigError({unknown_kind(kind, catalog)});
+    fmt::print("{}", list_strategies(*registry));
+    return;
+  }
   std::string text;
   for (const RegistryBase* registry : catalog.registries()) {
-    kinds.push_back(registry->kind());
-    if (kind == registry->kind()) {
-      fmt::print("{}", list_strategies(*registry));
-      return;
-    }
     text += (text.empty() ? "" : "\n") + registry->kind() + "\n" + list_strategies(*registry);
-  }
-  if (!kind.empty()) {
-    throw ConfigError({{"", 0, 0, "unknown kind '" + kind + "'" + suggestion(kind, kinds, "there are")}});
   }
   fmt::print("{}", text);
 }

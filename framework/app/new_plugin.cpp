@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <memory>
 #include <string>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "config/nearest.hpp"
 #include "glocal/error.hpp"
 #include "plugin_templates.hpp"
 #include "results/output_folder.hpp"
@@ -53,20 +51,10 @@ std::string filled(std::string text, const std::vector<std::pair<std::string, st
   return text;
 }
 
-/// The kinds there are templates for, which are all.
-std::vector<std::string> kinds_of(const Catalog& catalog) {
-  std::vector<std::string> kinds;
-  for (const RegistryBase* registry : catalog.registries()) kinds.push_back(registry->kind());
-  return kinds;
-}
-
 void check(const NewPluginOptions& options, const Catalog& catalog) {
   std::vector<Fault> faults;
-  const std::vector<std::string> kinds = kinds_of(catalog);
-  if (std::find(kinds.begin(), kinds.end(), options.kind) == kinds.end()) {
-    faults.push_back(
-        {"", 0, 0, "unknown kind '" + options.kind + "'" + suggestion(options.kind, kinds, "there are")});
-  }
+  const RegistryBase* registry = registry_of(options.kind, catalog);
+  if (registry == nullptr) faults.push_back(unknown_kind(options.kind, catalog));
   if (!is_snake_case(options.name)) {
     faults.push_back(
         {"", 0, 0,
@@ -75,12 +63,11 @@ void check(const NewPluginOptions& options, const Catalog& catalog) {
              "it becomes a file and a class",
              options.name)});
   }
-  for (const RegistryBase* registry : catalog.registries()) {
-    if (registry->kind() == options.kind && registry->find(options.name) != nullptr) {
-      faults.push_back({"", 0, 0,
-                        fmt::format("there is a {} '{}' already, from {}; choose another name", options.kind,
-                                    options.name, registry->find(options.name)->origin)});
-    }
+  const StrategyInfo* taken = registry == nullptr ? nullptr : registry->find(options.name);
+  if (taken != nullptr) {
+    faults.push_back({"", 0, 0,
+                      fmt::format("there is a {} '{}' already, from {}; choose another name", options.kind,
+                                  options.name, taken->origin)});
   }
   if (!faults.empty()) throw ConfigError(std::move(faults));
 }

@@ -138,8 +138,6 @@ void print_summary(const nlohmann::ordered_json& s, const std::filesystem::path&
 
 void run(const RunOptions& options, Context& context) {
   Experiment experiment = options.experiment.read(context);
-  experiment.plugins.clear();
-  for (const auto& file : context.plugins.loaded()) experiment.plugins.push_back({file.string(), file});
   const std::filesystem::path out = options.out.empty() ? std::filesystem::path("results") / experiment.name
                                                         : std::filesystem::path(options.out);
   // From here on an interrupt ends the run in good order.
