@@ -9,12 +9,8 @@
 #include <vector>
 
 #include "bench/plain.hpp"
-#include "clustering/register.hpp"
+#include "glocal/builtin.hpp"
 #include "glocal/rng.hpp"
-#include "local_mappers/register.hpp"
-#include "matchers/register.hpp"
-#include "raters/register.hpp"
-#include "sources/register.hpp"
 
 namespace glocal::bench {
 namespace {
@@ -41,13 +37,7 @@ bool is_missing(int copy, float x, float y) {
 
 const Catalog& catalog() {
   struct Filled : Catalog {
-    Filled() {
-      register_sources(*this);
-      register_local_mappers(*this);
-      register_matchers(*this);
-      register_clustering(*this);
-      register_raters(*this);
-    }
+    Filled() { register_builtin_strategies(*this); }
   };
   static const Filled filled;
   return filled;

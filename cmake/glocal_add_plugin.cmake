@@ -9,5 +9,6 @@ function(glocal_add_plugin name)
   target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_libraries(${name} PRIVATE glocal::glocal)
   target_link_options(${name} PRIVATE -Wl,--no-undefined -Wl,--version-script=${GLOCAL_PLUGIN_EXPORTS})
-  set_target_properties(${name} PROPERTIES PREFIX "" SUFFIX ".so" LINK_DEPENDS ${GLOCAL_PLUGIN_EXPORTS})
+  set_target_properties(${name} PROPERTIES PREFIX "" SUFFIX ".so" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+    LINK_DEPENDS ${GLOCAL_PLUGIN_EXPORTS})
 endfunction()

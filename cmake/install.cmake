@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glocal)
 
-install(TARGETS glocal EXPORT glocal_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS glocal glocal_builtin EXPORT glocal_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 set_target_properties(glocal_app PROPERTIES EXPORT_NAME program)
 install(TARGETS glocal_app EXPORT glocal_targets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY framework/include/glocal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -99,10 +99,7 @@ void describe(ParamVisitor& v, Ransam::Params& p) {
                   "threshold is taken.",
            .max = 0.9,
            .above = 0.0});
-  v.field("contact", p.contact,
-          {.doc = "How contact is found: bits on a grid of contact_epsilon / 4, or exactly by a kd-tree (a "
-                  "hundred times slower).",
-           .choices = contact_index_names()});
+  p.contact.describe_as("contact", v);
   v.field(
       "neighbour_cells", p.neighbour_cells,
       {.doc = "Look a local triple up in the nearer neighbouring relation cells too (eight look-ups instead "

@@ -37,7 +37,7 @@ class Ransam final : public Matcher {
     std::string extrapolation = "interval";
     double wald_false_rejects = 0.025;
     double wald_background = 0.3;
-    std::string contact = "bitset";
+    ContactChoice contact = "bitset";
     bool neighbour_cells = false;
     int max_hypotheses = 10000;
     int table_bits = 0;

@@ -5,24 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "clustering/register.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
-#include "local_mappers/register.hpp"
-#include "matchers/register.hpp"
-#include "raters/register.hpp"
-#include "sources/register.hpp"
+#include "glocal/builtin.hpp"
 #include "version.hpp"
 
 namespace {
-
-void register_all(glocal::Catalog& catalog) {
-  glocal::register_sources(catalog);
-  glocal::register_local_mappers(catalog);
-  glocal::register_matchers(catalog);
-  glocal::register_clustering(catalog);
-  glocal::register_raters(catalog);
-}
 
 void add_all(CLI::App& app, glocal::app::Context& context) {
   using namespace glocal::app;
@@ -45,7 +33,7 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("glocal"));
   spdlog::set_pattern("%^%l%$: %v");
   glocal::app::Context context;
-  register_all(context.catalog);
+  glocal::register_builtin_strategies(context.catalog);
   CLI::App app("Finds out where a mobile robot is on a known map from range scans and odometry.", "glocal");
   app.set_version_flag("--version",
                        std::string("glocal ") + glocal::version + " (" + glocal::revision() + ")");

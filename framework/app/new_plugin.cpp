@@ -72,18 +72,24 @@ void check(const NewPluginOptions& options, const Catalog& catalog) {
   if (!faults.empty()) throw ConfigError(std::move(faults));
 }
 
+/// The localizer's section of an experiment that uses the strategy.
+std::string localizer_with(const std::string& kind, const std::string& name) {
+  if (kind == "map_source" || kind == "observation_source") return "localizer: {}";
+  if (kind == "contact_index")
+    return fmt::format("localizer:\n  matcher:\n    ransam: {{contact: {}}}", name);
+  return fmt::format("localizer:\n  {}: {}", kind, name);
+}
+
 void new_plugin(const NewPluginOptions& options, const Catalog& catalog) {
   check(options, catalog);
   const std::string simulation = "{simulation: {world: world.yaml}}";
-  const bool is_stage = options.kind != "map_source" && options.kind != "observation_source";
   const std::vector<std::pair<std::string, std::string>> values = {
       {"NAME", options.name},
       {"CLASS", camel_case(options.name)},
       {"KIND", options.kind},
       {"MAP", options.kind == "map_source" ? options.name : simulation},
       {"OBSERVATIONS", options.kind == "observation_source" ? options.name : simulation},
-      {"LOCALIZER",
-       is_stage ? fmt::format("localizer:\n  {}: {}", options.kind, options.name) : "localizer: {}"}};
+      {"LOCALIZER", localizer_with(options.kind, options.name)}};
 
   OutputFolder folder(options.folder, false);
   folder.append("CMakeLists.txt", filled(plugin_template("CMakeLists.txt"), values));

@@ -29,7 +29,7 @@ struct SimulateOptions {
 };
 
 DriveParams drive_of(const Experiment& experiment, const std::string& file) {
-  const auto* params = dynamic_cast<const ParamsOf<DriveParams>*>(experiment.observations.params.get());
+  const auto* params = dynamic_cast<const ParamsOf<DriveParams>*>(&*experiment.observations.params);
   if (params != nullptr) return params->value;
   throw ConfigError({{file, 0, 0,
                       fmt::format("observations: come from {}; only a simulation can be simulated",

@@ -36,6 +36,7 @@ TEST_F(Contract, DefaultsAreInRangeAndComeBackFromYaml) {
       SCOPED_TRACE(registry->kind() + " " + info->name);
       const StrategyChoice chosen = choice(*registry, *info);
       const std::string text = write_yaml(*chosen.params);
+      if (text.empty()) continue;  // no parameters
       const auto again = info->default_params();
       ASSERT_NO_THROW(read_yaml(folder_.write("params.yaml", text), *again)) << text;
       EXPECT_EQ(write_yaml(*again), text);

@@ -1,7 +1,9 @@
 // What every stage promises (glocal/strategies.hpp).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "contract/strategies.hpp"
@@ -113,6 +115,45 @@ TEST_F(Stages, LocalMappersRepeatThemselvesAfterAReset) {
     EXPECT_EQ(first.points, second.points);
     EXPECT_EQ(first.ends, second.ends);
     EXPECT_EQ(first.local_from_robot, second.local_from_robot);
+  });
+}
+
+TEST_F(Stages, ContactIndexesCountWhatIsClearlyInContactAndNothingElse) {
+  constexpr double epsilon = 0.1;
+  const Points& wall = map_->points();
+  const auto nearest = [&](const Point& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < wall.size(); ++i)
+      least = std::min(least, std::hypot(double{p.x} - wall.x[i], double{p.y} - wall.y[i]));
+    return least;
+  };
+  Points near;
+  Points far;
+  Rng rng(5);
+  while (near.size() < 100 || far.size() < 100) {
+    const auto x = static_cast<float>(rng.uniform(-2.0, 12.0));
+    const auto y = static_cast<float>(rng.uniform(-2.0, 10.0));
+    const double distance = nearest({x, y, 0.0F});
+    if (distance < 0.8 * epsilon) near.push_back({x, y, 0.0F});
+    if (distance > 1.2 * epsilon) far.push_back({x, y, 0.0F});
+  }
+  far.push_back({1e30F, 0.0F, 0.0F});
+  far.push_back({0.0F, std::numeric_limits<float>::quiet_NaN(), 0.0F});
+
+  for_each(catalog_.contact_indexes, [&](const StrategyChoice& choice) {
+    const auto index = catalog_.contact_indexes.make(choice, {&wall, epsilon});
+    EXPECT_EQ(index->count(near, 0, near.size(), Transform(Pose2{})), near.size());
+    EXPECT_EQ(index->count(far, 0, far.size(), Transform(Pose2{})), 0U);
+    const MotionBatch at_rest = [] {
+      MotionBatch motions;
+      motions.cosine.fill(1.0F);
+      return motions;
+    }();
+    ContactIndex::BatchColumn begins{};
+    ContactIndex::BatchColumn at_most{};
+    index->count_at_most(near, 8, at_rest, 1, begins, at_most);
+    EXPECT_EQ(at_most[0], 8U);
+    EXPECT_GT(index->memory_bytes(), 0U);
   });
 }
 

@@ -8,15 +8,10 @@
 #include <memory>
 #include <string>
 
-#include "clustering/register.hpp"
-#include "glocal/catalog.hpp"
-#include "local_mappers/register.hpp"
-#include "matchers/register.hpp"
-#include "raters/register.hpp"
+#include "glocal/builtin.hpp"
 #include "sources/carmen_log.hpp"
 #include "sources/files.hpp"
 #include "sources/log_map.hpp"
-#include "sources/register.hpp"
 #include "sources/ros_map.hpp"
 #include "sources/simulation.hpp"
 #include "test_world.hpp"
@@ -26,11 +21,7 @@ namespace glocal::test {
 class Contract : public ::testing::Test {
  protected:
   Contract() {
-    register_sources(catalog_);
-    register_local_mappers(catalog_);
-    register_matchers(catalog_);
-    register_clustering(catalog_);
-    register_raters(catalog_);
+    register_builtin_strategies(catalog_);
     world_ =
         file_path(folder_.write("world.yaml",
                                 "size: [6, 4]\n"
@@ -55,9 +46,9 @@ class Contract : public ::testing::Test {
       p.log.path = log_;
       p.min_hits = 1;
     });
-    for (const char* stage :
-         {"local_mapper/scan_matching", "matcher/ransam", "clusterer/hierarchical_kmeans",
-          "rater/cluster_rating", "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
+    for (const char* stage : {"local_mapper/scan_matching", "contact_index/bitset", "contact_index/kd_tree",
+                              "matcher/ransam", "clusterer/hierarchical_kmeans", "rater/cluster_rating",
+                              "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
       fillers_[stage] = [](AnyParams&) {};
     }
   }

@@ -207,7 +207,7 @@ TEST(ContactIndex, IsSharedByThoseWhoAskForTheSameEpsilon) {
   EXPECT_EQ(contact_index(*map, "bitset", 0.1), contact_index(*map, "bitset", 0.1));
   EXPECT_NE(contact_index(*map, "bitset", 0.1), contact_index(*map, "bitset", 0.2));
   EXPECT_NE(contact_index(*map, "bitset", 0.1), contact_index(*map, "kd_tree", 0.1));
-  EXPECT_THROW((void)contact_index(*map, "none", 0.1), std::invalid_argument);
+  EXPECT_THROW((void)contact_index(*map, "none", 0.1), std::out_of_range);
 }
 
 }  // namespace

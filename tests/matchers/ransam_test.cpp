@@ -171,7 +171,7 @@ TEST(Ransam, LocalDrawsGiveMoreCorrectHypothesesOnALargeMap) {
 
 TEST(Ransam, BitsAndKdTreeFindTheSamePoses) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
-  const auto best = [&](const std::string& contact) {
+  const auto best = [&](const char* contact) {
     MatchResult result = match({.iterations = 20000, .contact = contact}, local, 0.8);
     EXPECT_GT(result.hypotheses.size(), 10U);
     return result;

@@ -32,7 +32,7 @@ done
 
 # A plugin of every kind, outside of the tree: as new-plugin writes them, they build, pass their test and run.
 kinds=$("$prefix/bin/glocal" list | grep -E '^[a-z_]+$')
-[ "$(wc -w <<<"$kinds")" -eq 8 ] || fail "the kinds of strategies are: $kinds"
+[ "$(wc -w <<<"$kinds")" -eq 9 ] || fail "the kinds of strategies are: $kinds"
 try_kind() {
   local kind=$1 folder=$work/outside/$1
   "$prefix/bin/glocal" new-plugin "$kind" "my_$kind" "$folder" >/dev/null
@@ -47,14 +47,23 @@ export -f try_kind
 export prefix work
 xargs -n 1 -P "$(nproc)" bash -c 'set -e; try_kind "$0"' <<<"$kinds" || fail "a new plugin"
 
-# What docs/writing-a-strategy.md says, as it stands; only the build folder may have another name.
-sed -n '/^```bash$/,/^```$/{/^```/!p}' "$root/docs/writing-a-strategy.md" | sed "s#build/release#$build#" >"$work/commands"
-[ "$(wc -l <"$work/commands")" -gt 10 ] || fail "the commands of docs/writing-a-strategy.md"
-mkdir "$work/reader"
-PREFIX=$work/reader/prefix WORK=$work/reader bash -euo pipefail "$work/commands" >"$work/said" 2>&1 ||
-  { cat "$work/said"; fail "docs/writing-a-strategy.md"; }
-tail -n 2 "$work/said" | jq -s -e '.[0].variant == "mine" and .[1].variant == "paper" and .[0].of == .[1].of and .[1].right > 0' >/dev/null ||
-  fail "the comparison of docs/writing-a-strategy.md: $(tail -n 2 "$work/said")"
+# What a page of docs/ says, as it stands; only the build folder may have another name.
+run_page() {
+  local page=$1 reader=$work/$1
+  mkdir "$reader"
+  sed -n '/^```bash$/,/^```$/{/^```/!p}' "$root/docs/$page.md" | sed "s#build/release#$build#" >"$reader/commands"
+  [ "$(wc -l <"$reader/commands")" -gt 5 ] || fail "the commands of docs/$page.md"
+  (cd "$root" && PREFIX=$reader/prefix WORK=$reader bash -euo pipefail "$reader/commands") >"$reader/said" 2>&1 ||
+    { cat "$reader/said"; fail "docs/$page.md"; }
+}
+run_page writing-a-strategy
+tail -n 2 "$work/writing-a-strategy/said" | jq -s -e '.[0].variant == "mine" and .[1].variant == "paper" and .[0].of == .[1].of and .[1].right > 0' >/dev/null ||
+  fail "the comparison of docs/writing-a-strategy.md: $(tail -n 2 "$work/writing-a-strategy/said")"
+run_page embedding
+# The embedding program says what the program says.
+"$prefix/bin/glocal" run "$work/embedding/drive/experiment.yaml" --set 'trials={whole: true}' --quiet --out "$work/whole"
+diff <(jq -r '"\(.step) \(.verdict)"' "$work/whole/steps.jsonl") <(awk '{ sub(":", "", $2); print $1, $2 }' "$work/embedding/verdicts") ||
+  fail "the embedding program's verdicts"
 
 # The same without CMake.
 if command -v pkg-config >/dev/null; then

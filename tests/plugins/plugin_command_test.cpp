@@ -156,7 +156,7 @@ TEST_F(PluginCommand, WhatDoesNotFitThisProgramIsRefused) {
 TEST_F(PluginCommand, WhatThrowsWhileItIsLoadedIsRefused) {
   expect_refused(plugin("throws_loading"), {"threw an exception while it was loaded: no device"});
   expect_refused(plugin("throws_registering"),
-                 {"threw an exception while it registered its strategies: no licence for 8 registries"});
+                 {"threw an exception while it registered its strategies: no licence for 9 registries"});
 }
 
 TEST_F(PluginCommand, APluginExportsNothingButItsEntry) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "glocal/contact.hpp"
 #include "glocal/registry.hpp"
 #include "glocal/strategies.hpp"
 
@@ -34,6 +35,7 @@ struct Catalog {
   Registry<MapSource, SourceSetup> map_sources{"map_source"};
   Registry<ObservationSource, SourceSetup> observation_sources{"observation_source"};
   Registry<LocalMapper, StageSetup> local_mappers{"local_mapper"};
+  ContactIndexes contact_indexes{"contact_index"};
   Registry<Matcher, StageSetup> matchers{"matcher"};
   Registry<Clusterer, StageSetup> clusterers{"clusterer"};
   Registry<Rater, StageSetup> raters{"rater"};
@@ -41,12 +43,12 @@ struct Catalog {
   Registry<VerdictRule, StageSetup> verdict_rules{"verdict_rule"};
 
   /// Every registry, in the order of the data's way.
-  [[nodiscard]] std::array<RegistryBase*, 8> registries() {
-    return {&map_sources, &observation_sources, &local_mappers, &matchers, &clusterers,
+  [[nodiscard]] std::array<RegistryBase*, 9> registries() {
+    return {&map_sources, &observation_sources, &local_mappers, &contact_indexes, &matchers, &clusterers,
             &raters,      &threshold_policies,  &verdict_rules};
   }
-  [[nodiscard]] std::array<const RegistryBase*, 8> registries() const {
-    return {&map_sources, &observation_sources, &local_mappers, &matchers, &clusterers,
+  [[nodiscard]] std::array<const RegistryBase*, 9> registries() const {
+    return {&map_sources, &observation_sources, &local_mappers, &contact_indexes, &matchers, &clusterers,
             &raters,      &threshold_policies,  &verdict_rules};
   }
 };

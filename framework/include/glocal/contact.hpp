@@ -10,13 +10,16 @@
 #include <vector>
 
 #include "glocal/global_map.hpp"
+#include "glocal/params.hpp"
 #include "glocal/points.hpp"
+#include "glocal/registry.hpp"
 
 namespace glocal {
 
 struct VoxelGrid;
 
 /// Tells which points are within epsilon (m) of a point of the map. Immutable, to be shared by all threads.
+/// Contract: all that is nearer than 0.8 epsilon is in contact, nothing that is farther than 1.2 epsilon.
 class ContactIndex {
  public:
   /// One number for each motion of a batch.
@@ -49,6 +52,14 @@ class ContactIndex {
   [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 };
 
+/// What a contact index is made from.
+struct ContactSetup {
+  const Points* map_points = nullptr;  ///< Not empty; there only while the index is made.
+  double epsilon = 0.0;                ///< m
+};
+
+using ContactIndexes = Registry<ContactIndex, ContactSetup>;
+
 /// The map's points dilated by epsilon, one bit per voxel of side epsilon / 4 (half a cell of a map whose
 /// cells are as large as epsilon / 2): constant time. A planar map (all points of one height) has a single
 /// layer, which takes in everything within epsilon of that height. A voxel is in contact if its centre is
@@ -56,8 +67,12 @@ class ContactIndex {
 /// half a voxel's diagonal of epsilon (0.18 epsilon in the plane).
 class BitsetContact final : public ContactIndex {
  public:
+  struct Params {};
+
   /// Throws ConfigError if it would need more than 1 GiB.
   BitsetContact(const Points& points, double epsilon);
+  BitsetContact(const Params& /*params*/, const ContactSetup& setup)
+      : BitsetContact(*setup.map_points, setup.epsilon) {}
 
   [[nodiscard]] std::size_t count(const Points& points, std::size_t begin, std::size_t n,
                                   const Transform& map_from_points) const override;
@@ -83,10 +98,16 @@ class BitsetContact final : public ContactIndex {
   std::vector<std::uint32_t> coarse_words_;  ///< The same for 4 x 4 x 4 voxels joined: set if one of them is.
 };
 
+inline void describe(ParamVisitor& /*v*/, BitsetContact::Params& /*p*/) {}
+
 /// A kd-tree over the map's points: exact, and a hundred times slower.
 class KdTreeContact final : public ContactIndex {
  public:
+  struct Params {};
+
   KdTreeContact(const Points& points, double epsilon);
+  KdTreeContact(const Params& /*params*/, const ContactSetup& setup)
+      : KdTreeContact(*setup.map_points, setup.epsilon) {}
   ~KdTreeContact() override;
   KdTreeContact(KdTreeContact&&) noexcept;
   KdTreeContact& operator=(KdTreeContact&&) noexcept;
@@ -100,12 +121,33 @@ class KdTreeContact final : public ContactIndex {
   std::unique_ptr<Tree> tree_;
 };
 
-/// The names contact_index() knows.
-[[nodiscard]] std::vector<std::string> contact_index_names();
+inline void describe(ParamVisitor& /*v*/, KdTreeContact::Params& /*p*/) {}
 
-/// The index of that name over a map for an epsilon (m), built once per map. Throws ConfigError if it does
-/// not fit into memory, std::invalid_argument for an unknown name.
-[[nodiscard]] std::shared_ptr<const ContactIndex> contact_index(const GlobalMap& map, const std::string& name,
-                                                                double epsilon);
+/// Adds the two above, as `bitset` and `kd_tree`.
+void register_contact_indexes(ContactIndexes& indexes);
+
+/// The contact index a strategy is to use: a parameter of it.
+class ContactChoice {
+ public:
+  /// One of the two above.
+  ContactChoice(const char* name = "bitset")  // NOLINT(google-explicit-constructor): reads as the name
+      : choice_{name} {}
+  /// Any of a catalog's, which must outlive the choice.
+  explicit ContactChoice(const ContactIndexes& indexes) : choice_{"bitset"}, indexes_(&indexes) {}
+
+  /// The field `name` of the strategy that has this parameter.
+  void describe_as(const char* name, ParamVisitor& v);
+
+ private:
+  friend std::shared_ptr<const ContactIndex> contact_index(const GlobalMap&, const ContactChoice&, double);
+
+  StrategyChoice choice_;
+  const ContactIndexes* indexes_ = nullptr;  ///< Null: the two above.
+};
+
+/// The chosen index over a map for an epsilon (m), built once per map. Throws ConfigError if it does not fit
+/// into memory, std::out_of_range for an unknown name.
+[[nodiscard]] std::shared_ptr<const ContactIndex> contact_index(const GlobalMap& map,
+                                                                const ContactChoice& choice, double epsilon);
 
 }  // namespace glocal

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -139,10 +140,31 @@ class ParamsOf final : public AnyParams {
   T value;
 };
 
-/// A strategy picked by name, with its own parameters.
+/// Owns parameters of some strategy, or none; a copy owns a copy.
+class OwnedParams {
+ public:
+  OwnedParams() = default;
+  template <std::derived_from<AnyParams> T>  // NOLINTNEXTLINE(google-explicit-constructor): as the pointer
+                                             // would
+  OwnedParams(std::unique_ptr<T> params) : params_(std::move(params)) {}
+  OwnedParams(const OwnedParams& other) : params_(other ? other->clone() : nullptr) {}
+  OwnedParams(OwnedParams&&) noexcept = default;
+  OwnedParams& operator=(const OwnedParams& other) { return *this = OwnedParams(other); }
+  OwnedParams& operator=(OwnedParams&&) noexcept = default;
+  ~OwnedParams() = default;
+
+  explicit operator bool() const { return params_ != nullptr; }
+  AnyParams& operator*() const { return *params_; }
+  AnyParams* operator->() const { return params_.get(); }
+
+ private:
+  std::unique_ptr<AnyParams> params_;
+};
+
+/// A strategy picked by name, with its own parameters: without any, its defaults.
 struct StrategyChoice {
   std::string name;
-  std::unique_ptr<AnyParams> params;  ///< Never null once read.
+  OwnedParams params = {};
 };
 
 }  // namespace glocal

@@ -60,10 +60,15 @@ class Registry final : public RegistryBase {
   using RegistryBase::RegistryBase;
 
   /// T has a described struct T::Params and is constructible from (Params) or (Params, const Setup&).
+  /// `defaults` are given where they hold what only the registering function has at hand: another registry.
   template <std::derived_from<Interface> T>
-  void add(std::string name, std::string doc) {
+  void add(std::string name, std::string doc, typename T::Params defaults = {}) {
     using Params = typename T::Params;
-    insert(name, std::move(doc), [] { return std::make_unique<ParamsOf<Params>>(); });
+    insert(name, std::move(doc), [defaults = std::move(defaults)] {
+      auto params = std::make_unique<ParamsOf<Params>>();
+      params->value = defaults;
+      return params;
+    });
     makers_[std::move(name)] = [](const AnyParams& any, const Setup& setup) -> std::unique_ptr<Interface> {
       const Params& params = dynamic_cast<const ParamsOf<Params>&>(any).value;
       if constexpr (std::is_constructible_v<T, const Params&, const Setup&>) {
@@ -75,6 +80,7 @@ class Registry final : public RegistryBase {
   }
 
   [[nodiscard]] std::unique_ptr<Interface> make(const StrategyChoice& choice, const Setup& setup) const {
+    if (!choice.params) return make(choose(choice.name), setup);
     return makers_.at(choice.name)(*choice.params, setup);
   }
 

@@ -60,7 +60,7 @@ bool is_folder_name(std::string_view name) {
 
 /// The named strategy with its defaults, or its bare name if it is not registered.
 StrategyChoice choose_if_there(const RegistryBase& registry, const char* name) {
-  return registry.find(name) != nullptr ? registry.choose(name) : StrategyChoice{name, nullptr};
+  return registry.find(name) != nullptr ? registry.choose(name) : StrategyChoice{name};
 }
 
 }  // namespace

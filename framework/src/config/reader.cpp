@@ -52,6 +52,8 @@ class MapReader final : public UniformVisitor<MapReader> {
     const YamlNode* node = take(name, info);
     if (node != nullptr) {
       read_strategy(*node, name, choice, registry);
+    } else if (!choice.params && registry.find(choice.name) != nullptr) {
+      choice = registry.choose(choice.name);
     } else if (!choice.params && !given(name) && !info.required) {
       refuse(map_->place, std::string(name),
              "the default " + registry.kind() + " '" + choice.name + "' does not exist; name another" +

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <string>
+
+#include "config/writer.hpp"
 
 namespace glocal {
 
@@ -26,18 +28,41 @@ void ContactIndex::count_at_most(const Points& /*points*/, std::size_t n, const 
   std::fill_n(at_most.begin(), size, static_cast<std::uint32_t>(n));
 }
 
-std::vector<std::string> contact_index_names() {
-  return {"bitset", "kd_tree"};
+void register_contact_indexes(ContactIndexes& indexes) {
+  indexes.add<BitsetContact>("bitset",
+                             "Bits on a grid of epsilon / 4: constant time, exact up to half a voxel.");
+  indexes.add<KdTreeContact>("kd_tree", "Exact, and twenty-five times slower.");
 }
 
-std::shared_ptr<const ContactIndex> contact_index(const GlobalMap& map, const std::string& name,
+namespace {
+
+/// Calls `use` with the registry a choice is from.
+template <class Use>
+auto with_indexes(const ContactIndexes* indexes, Use use) {
+  if (indexes != nullptr) return use(*indexes);
+  ContactIndexes built_in("contact_index");
+  register_contact_indexes(built_in);
+  return use(built_in);
+}
+
+}  // namespace
+
+void ContactChoice::describe_as(const char* name, ParamVisitor& v) {
+  with_indexes(indexes_, [&](const ContactIndexes& indexes) {
+    v.strategy(name, choice_, indexes, {.doc = "How contact with the map is found."});
+  });
+}
+
+std::shared_ptr<const ContactIndex> contact_index(const GlobalMap& map, const ContactChoice& choice,
                                                   double epsilon) {
-  const std::string key = fmt::format("{}", epsilon);
-  if (name == "bitset")
-    return map.index<BitsetContact>(key, [&] { return BitsetContact(map.points(), epsilon); });
-  if (name == "kd_tree")
-    return map.index<KdTreeContact>(key, [&] { return KdTreeContact(map.points(), epsilon); });
-  throw std::invalid_argument("no contact index '" + name + "'");
+  const std::string params = choice.choice_.params ? write_yaml(*choice.choice_.params) : "";
+  const std::string key = fmt::format("{} {} {}", choice.choice_.name, epsilon, params);
+  const auto owner = map.index<std::unique_ptr<ContactIndex>>(key, [&] {
+    return with_indexes(choice.indexes_, [&](const ContactIndexes& indexes) {
+      return indexes.make(choice.choice_, {&map.points(), epsilon});
+    });
+  });
+  return {owner, owner->get()};
 }
 
 }  // namespace glocal

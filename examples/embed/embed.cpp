@@ -1,0 +1,52 @@
+// Localizes a robot with the map and the strategies of an experiment file. Each line of standard input is one
+// key frame: the odometry pose (x and y in m, heading in rad), then the ranges of a 180 degree laser from
+// right to left (m; 8 m and more: nothing seen).
+#include <cmath>
+#include <glocal/builtin.hpp>
+#include <glocal/error.hpp>
+#include <glocal/experiment.hpp>
+#include <glocal/localizer.hpp>
+#include <iostream>
+#include <iterator>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+glocal::Observation parse(const std::string& line) {
+  constexpr float max_range = 8.0F;
+  std::istringstream text(line);
+  glocal::Observation observation;
+  glocal::Pose2& odom = observation.odom_from_robot;
+  text >> odom.x >> odom.y >> odom.theta;
+  const std::vector<float> ranges{std::istream_iterator<float>(text), {}};
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const double bearing =
+        std::numbers::pi * (static_cast<double>(i) / static_cast<double>(ranges.size() - 1) - 0.5);
+    const float range = std::min(ranges[i], max_range);
+    const glocal::Point end{range * static_cast<float>(std::cos(bearing)),
+                            range * static_cast<float>(std::sin(bearing))};
+    (ranges[i] < max_range ? observation.scan.hits : observation.scan.free_ends).push_back(end);
+  }
+  return observation;
+}
+
+int main(int argc, char** argv) try {
+  glocal::Catalog catalog;
+  glocal::register_builtin_strategies(catalog);
+  const glocal::Experiment experiment =
+      glocal::read_experiment(argc > 1 ? argv[1] : "experiment.yaml", {}, catalog);
+  const auto map =
+      std::make_shared<const glocal::GlobalMap>(catalog.map_sources.make(experiment.map, {})->load());
+  glocal::Localizer localizer(experiment.localizer, catalog, {map, experiment.threads}, experiment.seed);
+
+  for (std::string line; std::getline(std::cin, line);) {
+    const glocal::StepResult step = localizer.step(parse(line));
+    std::cout << step.step << ' ' << glocal::to_string(step.verdict.kind);
+    if (const auto& pose = step.verdict.map_from_robot)
+      std::cout << ' ' << pose->x << ' ' << pose->y << ' ' << pose->theta;
+    std::cout << ": " << step.verdict.why << '\n';
+  }
+} catch (const glocal::ConfigError& e) {
+  std::cerr << e.what() << '\n';
+  return 2;
+}

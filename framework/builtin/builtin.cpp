@@ -1,0 +1,20 @@
+#include "glocal/builtin.hpp"
+
+#include "clustering/register.hpp"
+#include "local_mappers/register.hpp"
+#include "matchers/register.hpp"
+#include "raters/register.hpp"
+#include "sources/register.hpp"
+
+namespace glocal {
+
+void register_builtin_strategies(Catalog& catalog) {
+  register_contact_indexes(catalog.contact_indexes);
+  register_sources(catalog);
+  register_local_mappers(catalog);
+  register_matchers(catalog);
+  register_clustering(catalog);
+  register_raters(catalog);
+}
+
+}  // namespace glocal
