@@ -16,6 +16,7 @@
 #include "config/yaml_parser.hpp"
 #include "experiment_options.hpp"
 #include "glocal/error.hpp"
+#include "map_align.hpp"
 #include "results/atomic_file.hpp"
 #include "results/writers.hpp"
 #include "sources/log_map.hpp"
@@ -46,6 +47,7 @@ bool is_ros_map(const std::string& file) {
   return tree && tree->kind == NodeKind::map && find_entry(*tree, "image") != nullptr;
 }
 
+/// The map of a file; `input` has what may be changed in it.
 MapData load(const ExperimentOptions& input, Context& context) {
   if (is_ros_map(input.file)) return RosMap({{input.file, input.file}}, setup_for(0)).load();
   const Experiment experiment = input.read(context);
@@ -105,6 +107,34 @@ void show(const MapData& map) {
   fmt::print("path        {} poses\n", map.path.size());
 }
 
+struct AlignOptions {
+  ExperimentOptions map;
+  ExperimentOptions other;
+  double contact_epsilon = 0.15;
+};
+
+void align(const AlignOptions& options, Context& context) {
+  const auto map = std::make_shared<const GlobalMap>(load(options.map, context));
+  const MapData other = load(options.other, context);
+  // Whole maps have room for large triangles, which say more.
+  const Ransam::Params params{.iterations = 2'000'000,
+                              .contact_epsilon = options.contact_epsilon,
+                              .relation_cell = options.contact_epsilon,
+                              .min_side = 3.0,
+                              .min_height = 1.0};
+  const auto found = align_maps(map, other.points, params, 1);
+  if (!found) {
+    throw RunError(fmt::format(
+        "{} does not fit into {}: no pose brings a quarter of its points within {} m of the map's",
+        options.other.file, options.map.file, options.contact_epsilon));
+  }
+  const Pose2& p = found->map_from_other;
+  fmt::print("pose        [{:.3f}, {:.3f}, {:.4f}]: x, y (m), yaw (rad) of {} in {}\n", p.x, p.y, p.theta,
+             options.other.file, options.map.file);
+  fmt::print("contact     {:.1f} % of its points within {} m\n", 100.0 * found->in_contact,
+             options.contact_epsilon);
+}
+
 void add_output(CLI::App& command, MapOptions& options) {
   command.add_option("-o,--out", options.out, "NAME.yaml: ROS map with its image; NAME.pcd: points")
       ->required();
@@ -133,6 +163,14 @@ void add_map(CLI::App& app, Context& context) {
   options->input.add_overrides_to(*convert);
   add_output(*convert, *options);
   convert->callback([options, &context] { write(load(options->input, context), *options); });
+
+  auto aligned = std::make_shared<AlignOptions>();
+  CLI::App* align_command = map->add_subcommand("align", "Find out where one map lies in another.");
+  align_command->add_option("MAP", aligned->map.file, file)->required();
+  align_command->add_option("OTHER", aligned->other.file, file)->required();
+  align_command->add_option("--epsilon", aligned->contact_epsilon, "Distance that counts as contact, m")
+      ->check(CLI::Range(0.01, 1.0));
+  align_command->callback([aligned, &context] { align(*aligned, context); });
 
   CLI::App* info = map->add_subcommand("info", "Show size, cells and points of a map.");
   info->add_option("FILE", options->input.file, file)->required();

@@ -69,8 +69,11 @@ class ResultsWriter {
     if (config_.steps) folder_.append("steps.jsonl", "");
   }
 
-  void step(const StepRecord& record, const LocalMap& local) {
-    if (keeps_map(trial_)) local_maps_.push_back({record.result.step, pcd(local.points)});
+  void step(const StepRecord& record, const Localizer& localizer) {
+    if (!keeps_map(trial_)) return;
+    local_maps_.push_back({record.result.step, {"pcd", pcd(localizer.local_map().points)}});
+    for (MapFile& file : localizer.local_map_files())
+      local_maps_.push_back({record.result.step, std::move(file)});
   }
 
   void finish(const TrialRecord& trial) {
@@ -86,8 +89,9 @@ class ResultsWriter {
       folder_.append(fmt::format("trajectories/trial_{:04}_reference.tum", trial.trial),
                      trajectories.reference);
     }
-    for (const auto& [step, content] : local_maps_) {
-      folder_.append(fmt::format("maps/trial_{:04}/step_{:04}.pcd", trial.trial, step), content);
+    for (const auto& [step, file] : local_maps_) {
+      folder_.append(fmt::format("maps/trial_{:04}/step_{:04}.{}", trial.trial, step, file.extension),
+                     file.content);
     }
     local_maps_.clear();
     ++trial_;
@@ -101,7 +105,7 @@ class ResultsWriter {
   OutputFolder& folder_;
   const OutputConfig& config_;
   std::size_t trial_ = 0;
-  std::vector<std::pair<std::size_t, std::string>> local_maps_;
+  std::vector<std::pair<std::size_t, MapFile>> local_maps_;
 };
 
 void print_summary(const nlohmann::ordered_json& s, const std::filesystem::path& folder) {
@@ -161,8 +165,8 @@ void run(const RunOptions& options, Context& context) {
   Summary summary;
   std::size_t trial = 0;
   const auto stop = [] { return interrupted != 0; };
-  const auto on_step = [&](const StepRecord& record, const LocalMap& local) {
-    writer.step(record, local);
+  const auto on_step = [&](const StepRecord& record, const Localizer& now) {
+    writer.step(record, now);
     const auto& result = record.result;
     const std::size_t steps = std::min(prepared.drive.samples.size(), step_limit(experiment.trials));
     progress.show(trial, result.step, static_cast<double>(result.step) / static_cast<double>(steps),

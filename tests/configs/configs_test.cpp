@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <regex>
 #include <vector>
 
 #include "app/program.hpp"
@@ -39,12 +41,24 @@ TEST_P(Experiments, OpenWithWhatTheyShow) {
   EXPECT_THAT(text, testing::HasSubstr("\nname: " + GetParam() + "\n"));
 }
 
+/// Names the plugins of this build where the experiment names those of the usual one. None if they are not
+/// built.
+std::optional<std::string> plugins_of(const std::string& experiment) {
+  std::smatch name;
+  if (!std::regex_search(experiment, name, std::regex("plugins: \\[.*/(\\w+\\.so)\\]"))) return "";
+  const fs::path plugin = fs::path(GLOCAL_PLUGINS_FOLDER) / name[1].str();
+  if (!fs::exists(plugin)) return std::nullopt;
+  return " --set plugins=[" + plugin.string() + "]";
+}
+
 TEST_P(Experiments, PassTheCheck) {
   const std::string file = path_of("experiments", GetParam());
+  const auto plugins = plugins_of(content(file));
+  if (!plugins) GTEST_SKIP() << "its plugin is not built: the package it brings is not installed";
   if (content(file).find("data:") != std::string::npos && dataset("").empty()) {
     GTEST_SKIP() << "GLOCAL_DATASETS is not set";
   }
-  const Answer answer = run("check " + file);
+  const Answer answer = run("check " + file + *plugins);
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, testing::HasSubstr(": ok, "));
 }

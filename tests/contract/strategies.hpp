@@ -9,6 +9,9 @@
 #include <string>
 
 #include "glocal/builtin.hpp"
+#include "glocal/yaml.hpp"
+#include "octree_files.hpp"
+#include "plugins/plugin_loader.hpp"
 #include "sources/carmen_log.hpp"
 #include "sources/files.hpp"
 #include "sources/log_map.hpp"
@@ -22,6 +25,7 @@ class Contract : public ::testing::Test {
  protected:
   Contract() {
     register_builtin_strategies(catalog_);
+    PluginLoader(catalog_).load_folders(GLOCAL_PLUGINS_FOLDER);
     world_ =
         file_path(folder_.write("world.yaml",
                                 "size: [6, 4]\n"
@@ -46,9 +50,14 @@ class Contract : public ::testing::Test {
       p.log.path = log_;
       p.min_hits = 1;
     });
-    for (const char* stage : {"local_mapper/scan_matching", "contact_index/bitset", "contact_index/kd_tree",
-                              "matcher/ransam", "clusterer/hierarchical_kmeans", "rater/cluster_rating",
-                              "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
+    const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
+    const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
+    fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };
+    for (const char* stage :
+         {"local_mapper/scan_matching", "contact_index/bitset", "contact_index/kd_tree",
+          "contact_index/pcl_kd_tree", "matcher/pcl_icp", "matcher/pcl_prerejective", "local_mapper/octomap",
+          "matcher/ransam", "clusterer/hierarchical_kmeans", "rater/cluster_rating",
+          "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
       fillers_[stage] = [](AnyParams&) {};
     }
   }

@@ -36,6 +36,7 @@ class Localizer {
 
   /// The local map after the last step.
   [[nodiscard]] const LocalMap& local_map() const { return local_mapper_->map(); }
+  [[nodiscard]] std::vector<MapFile> local_map_files() const { return local_mapper_->files(); }
 
  private:
   std::unique_ptr<LocalMapper> local_mapper_;

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "glocal/global_map.hpp"
@@ -35,15 +36,23 @@ class MapSource {
   [[nodiscard]] virtual MapData load() = 0;
 };
 
+/// A map in some format of its own.
+struct MapFile {
+  std::string extension;  ///< "bt"
+  std::string content;
+};
+
 /// Joins observations into a local map.
 /// Contract: the first observation of a map is placed at the local frame's origin; an observation without
-/// hits only moves the robot; points once registered keep their index until the generation changes.
+/// hits only moves the robot; points keep their order until the generation changes, though some may go.
 class LocalMapper {
  public:
   virtual ~LocalMapper() = default;
   virtual void add(const Observation& observation) = 0;
   [[nodiscard]] virtual const LocalMap& map() const = 0;
   virtual void reset() = 0;
+  /// More files that a run keeps beside the points of the map.
+  [[nodiscard]] virtual std::vector<MapFile> files() const { return {}; }
 };
 
 struct MatchResult {

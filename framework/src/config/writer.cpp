@@ -5,6 +5,7 @@
 
 #include "config/scalars.hpp"
 #include "config/uniform_visitor.hpp"
+#include "glocal/registry.hpp"
 
 namespace glocal {
 namespace {
@@ -36,10 +37,12 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
     line(name, flow(v));
   }
 
-  void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& /*registry*/,
+  void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
                 const FieldInfo& /*info*/) override {
     YamlWriter parameters(indent_.size() + 4);
-    if (choice.params) choice.params->visit(parameters);
+    const bool left_open = !choice.params && registry.find(choice.name) != nullptr;
+    const OwnedParams params = left_open ? registry.choose(choice.name).params : choice.params;
+    if (params) params->visit(parameters);
     if (parameters.text_.empty()) {
       line(name, to_yaml(std::string_view(choice.name)));
     } else {

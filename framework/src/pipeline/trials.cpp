@@ -100,7 +100,7 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
     if (!result) break;
     record.records.push_back(make_record(std::move(*result), sample, map));
     const StepRecord& step = record.records.back();
-    if (callbacks.step) callbacks.step(step, localizer.local_map());
+    if (callbacks.step) callbacks.step(step, localizer);
     if (record.pose) continue;
     record.steps = i - start_sample + 1;
     record.distance_m = drive.path_m[i] - record.start_m;

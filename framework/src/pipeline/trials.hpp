@@ -56,7 +56,7 @@ struct TrialRecord {
 
 /// What to do while trials run; each may be empty.
 struct TrialCallbacks {
-  std::function<void(const StepRecord&, const LocalMap&)> step;
+  std::function<void(const StepRecord&, const Localizer&)> step;
   std::function<bool()>
       stop;  ///< Asked before each step; true gives up the running trial and all later ones.
 };
@@ -64,9 +64,9 @@ struct TrialCallbacks {
 /// The most steps a trial takes; the largest number there is where only the end of the drive limits it.
 [[nodiscard]] std::size_t step_limit(const TrialsConfig& config);
 
-/// A trial in which a strategy throws an exception has failed and ends there.
 /// Runs one trial: to the first declaration or `max_steps`, or with `whole` to the end of the drive. No trial
-/// runs across the end of a segment. None if stopped.
+/// runs across the end of a segment. One in which a strategy throws an exception has failed and ends there.
+/// None if stopped.
 [[nodiscard]] std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive,
                                                    const GlobalMap& map, const Experiment& experiment,
                                                    std::size_t trial, std::size_t start_sample,

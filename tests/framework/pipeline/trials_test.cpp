@@ -48,9 +48,9 @@ class TrialTest : public testing::Test {
     script_->local.local_from_robot = {static_cast<double>(start), 0.0, 0.0};
     const auto given = callbacks.step;
     // The scripted mapper knows the robot's pose: a metre on with each step.
-    callbacks.step = [this, given](const StepRecord& record, const LocalMap& local) {
+    callbacks.step = [this, given](const StepRecord& record, const Localizer& localizer) {
       script_->local.local_from_robot.x += 1.0;
-      if (given) given(record, local);
+      if (given) given(record, localizer);
     };
     MapData data;
     data.points.push_back({});
@@ -158,7 +158,7 @@ TEST_F(TrialTest, EachStepKnowsItsErrorAndWhetherTheMapShowsItsPlace) {
 TEST_F(TrialTest, GivesUpWhenToldToStop) {
   int asked = 0;
   int steps = 0;
-  const TrialCallbacks callbacks{[&](const StepRecord&, const LocalMap&) { ++steps; },
+  const TrialCallbacks callbacks{[&](const StepRecord&, const Localizer&) { ++steps; },
                                  [&] { return ++asked == 3; }};
   EXPECT_FALSE(try_trial(0, callbacks).has_value());
   EXPECT_EQ(steps, 2);

@@ -1,0 +1,140 @@
+#include "octomap_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "glocal/error.hpp"
+#include "tree_file.hpp"
+
+namespace glocal {
+namespace {
+
+/// Smallest voxels of a tree, numbered along x, y and z as in octomap::OcTreeKey.
+struct Voxel {
+  int x, y, z;
+};
+
+/// Calls visit(voxel, occupied) for each smallest voxel whose centre lies between the heights. Leaves of any
+/// size are taken apart.
+template <class Visit>
+void for_each_voxel(const octomap::OcTree& tree, const OctomapMap::Params& params, Visit visit) {
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    const bool occupied = leaf->getOccupancy() > params.occupied_above;
+    const octomap::OcTreeKey first = leaf.getIndexKey();
+    const int side = 1 << (tree.getTreeDepth() - leaf.getDepth());
+    for (int z = first[2]; z < first[2] + side; ++z) {
+      const double height = tree.keyToCoord(static_cast<octomap::key_type>(z));
+      if (height < params.min_height || height > params.max_height) continue;
+      for (int y = first[1]; y < first[1] + side; ++y) {
+        for (int x = first[0]; x < first[0] + side; ++x) visit(Voxel{x, y, z}, occupied);
+      }
+    }
+  }
+}
+
+struct Extent {
+  int min_x = std::numeric_limits<int>::max();
+  int min_y = std::numeric_limits<int>::max();
+  int max_x = std::numeric_limits<int>::min();
+  int max_y = std::numeric_limits<int>::min();
+
+  void add(const Voxel& v) {
+    min_x = std::min(min_x, v.x);
+    min_y = std::min(min_y, v.y);
+    max_x = std::max(max_x, v.x);
+    max_y = std::max(max_y, v.y);
+  }
+};
+
+}  // namespace
+
+void describe(ParamVisitor& v, OctomapMap::Params& p) {
+  v.field("path", p.path, {.doc = "A .bt or .ot file of OctoMap.", .required = true});
+  v.field("min_height", p.min_height,
+          {.doc = "Voxels whose centre is lower are left out.", .unit = "m", .min = -1000.0, .max = 1000.0});
+  v.field("max_height", p.max_height,
+          {.doc = "So are those whose centre is higher: a planar laser sees a band around its own height.",
+           .unit = "m",
+           .min = -1000.0,
+           .max = 1000.0});
+  v.require(p.min_height < p.max_height, "max_height", "must be above min_height");
+  v.field("occupied_above", p.occupied_above,
+          {.doc = "Probability above which a voxel is occupied; .bt files know only yes and no.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("min_voxels", p.min_voxels,
+          {.doc = "A cell of the plan is occupied if so many voxels above one another are.",
+           .min = 1,
+           .max = 65536});
+  v.field("points", p.points,
+          {.doc = "Points of the map: the plan's occupied cells, or every occupied voxel in space.",
+           .choices = {"plan", "space"}});
+  v.field("map_from_tree", p.map_from_tree,
+          {.doc = "Pose of the tree's frame in the map's: x, y (m), yaw (rad).",
+           .min = -1e6,
+           .max = 1e6,
+           .min_items = 3,
+           .max_items = 3});
+}
+
+OctomapMap::OctomapMap(const Params& params, const SourceSetup& setup) : params_(params) {
+  setup.note_input(params.path.resolved);
+}
+
+MapData OctomapMap::load() {
+  const auto refuse = [&](const char* why) {
+    throw ConfigError({{params_.path.resolved.string(), 0, 0, why}});
+  };
+  const std::unique_ptr<octomap::OcTree> tree = read_tree(params_.path.resolved);
+  Extent extent;
+  for_each_voxel(*tree, params_, [&](const Voxel& v, bool /*occupied*/) { extent.add(v); });
+  if (extent.min_x > extent.max_x)
+    refuse("has no voxel between min_height and max_height; take a wider band");
+
+  MapData map;
+  OccupancyGrid& grid = map.grid;
+  const Pose2 map_from_tree{params_.map_from_tree[0], params_.map_from_tree[1],
+                            wrap_angle(params_.map_from_tree[2])};
+  const double side = tree->getResolution();
+  const auto corner = [&](int key) {
+    return tree->keyToCoord(static_cast<octomap::key_type>(key)) - side / 2.0;
+  };
+  grid.map_from_grid = map_from_tree * Pose2{corner(extent.min_x), corner(extent.min_y), 0.0};
+  grid.resolution = side;
+  grid.width = extent.max_x - extent.min_x + 1;
+  grid.height = extent.max_y - extent.min_y + 1;
+  constexpr double most_cells = 64e6;
+  if (static_cast<double>(grid.width) * grid.height > most_cells) {
+    refuse("covers more than 64 million cells; cut it smaller, or reduce its depth");
+  }
+  const auto cells = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
+  std::vector<int> occupied_voxels(cells, 0);
+  grid.cells.assign(cells, Cell::unknown);
+  for_each_voxel(*tree, params_, [&](const Voxel& v, bool occupied) {
+    const std::size_t cell = grid.index(v.x - extent.min_x, v.y - extent.min_y);
+    if (!occupied) {
+      grid.cells[cell] = Cell::free;
+      return;
+    }
+    ++occupied_voxels[cell];
+    if (params_.points != "space") return;
+    const Pose2 centre = grid.centre(v.x - extent.min_x, v.y - extent.min_y);
+    map.points.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y),
+                          static_cast<float>(tree->keyToCoord(static_cast<octomap::key_type>(v.z)))});
+  });
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = 0; column < grid.width; ++column) {
+      if (occupied_voxels[grid.index(column, row)] < params_.min_voxels) continue;
+      grid.cell(column, row) = Cell::occupied;
+      if (params_.points != "plan") continue;
+      const Pose2 centre = grid.centre(column, row);
+      map.points.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y), 0.0F});
+    }
+  }
+  if (map.points.empty()) refuse("has nothing occupied between min_height and max_height; take a wider band");
+  return map;
+}
+
+}  // namespace glocal

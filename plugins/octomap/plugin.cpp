@@ -1,0 +1,13 @@
+#include "glocal/plugin.hpp"
+
+#include "octomap_map.hpp"
+#include "octomap_mapper.hpp"
+
+GLOCAL_PLUGIN("glocal_octomap", "0.1.0", catalog) {
+  using namespace glocal;
+  catalog.map_sources.add<OctomapMap>("octomap",
+                                      "A map of OctoMap: a .bt or .ot file, or a band of heights of it.");
+  catalog.local_mappers.add<OctomapMapper>(
+      "octomap", "An octree of occupancy: what later rays pass through, as people who walked by, fades.",
+      {.mappers = &catalog.local_mappers});
+}

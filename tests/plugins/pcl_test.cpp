@@ -1,0 +1,109 @@
+// plugins/pcl, as users have it: a plugin's strategies, chosen by name.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "glocal/builtin.hpp"
+#include "glocal/yaml.hpp"
+#include "plugins/plugin_loader.hpp"
+#include "sources/files.hpp"
+#include "test_world.hpp"
+
+namespace glocal::test {
+namespace {
+
+class Pcl : public ::testing::Test {
+ protected:
+  Pcl() {
+    register_builtin_strategies(catalog_);
+    PluginLoader(catalog_).load(GLOCAL_PCL_PLUGIN);
+  }
+
+  MatchResult match(const std::string& name, const LocalMap& local, std::uint64_t seed = 1) {
+    const auto matcher =
+        catalog_.matchers.make(catalog_.matchers.choose(name), {glocal::testing::small_world(), 1});
+    Rng rng(seed);
+    return matcher->match(local, {}, 0.7, rng);
+  }
+
+  TempFolder folder_;
+  Catalog catalog_;
+};
+
+LocalMap local_map_at(const Pose2& map_from_robot) {
+  LocalMap local;
+  local.points = glocal::testing::seen_from(glocal::testing::small_world_points(), map_from_robot, 3.5);
+  local.ends = {local.points.size()};
+  return local;
+}
+
+TEST_F(Pcl, BothMatchersFindThePose) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  for (const char* name : {"pcl_icp", "pcl_prerejective"}) {
+    const MatchResult result = match(name, local_map_at(truth));
+    ASSERT_FALSE(result.hypotheses.empty()) << name;
+    const Pose2& best = result.hypotheses.front().map_from_robot;
+    EXPECT_LT(distance(best, truth), 0.03) << name;
+    EXPECT_LT(rotation_between(best, truth), radians(1.0)) << name;
+    EXPECT_GT(result.hypotheses.front().quality, 0.98) << name;
+  }
+}
+
+TEST_F(Pcl, AnotherOriginOfTheLocalMapChangesNothing) {
+  const Pose2 truth{2.0, 6.0, -1.0};
+  const Pose2 local_from_robot{3.0, -1.0, 0.5};
+  LocalMap local = local_map_at(truth);
+  local.points = glocal::testing::moved(local.points, local_from_robot);
+  local.local_from_robot = local_from_robot;
+  const MatchResult result = match("pcl_icp", local);
+  ASSERT_FALSE(result.hypotheses.empty());
+  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.03);
+}
+
+TEST_F(Pcl, KdTreesOfPclAndOfNanoflannAgreePointByPoint) {
+  const auto map = glocal::testing::small_world();
+  constexpr double epsilon = 0.1;
+  const ContactSetup setup{&map->points(), epsilon};
+  const auto pcl = catalog_.contact_indexes.make({"pcl_kd_tree"}, setup);
+  const auto nanoflann = catalog_.contact_indexes.make({"kd_tree"}, setup);
+  Rng rng(3);
+  Points points;
+  for (int i = 0; i < 2000; ++i) {
+    points.push_back({static_cast<float>(rng.uniform(-1.0, 9.0)), static_cast<float>(rng.uniform(-1.0, 10.0)),
+                      static_cast<float>(rng.uniform(-0.1, 0.1))});
+  }
+  const Transform turned(Pose2{0.3, -0.2, 0.1});
+  std::size_t both = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ASSERT_EQ(pcl->count(points, i, 1, turned), nanoflann->count(points, i, 1, turned)) << i;
+    both += pcl->count(points, i, 1, turned);
+  }
+  EXPECT_GT(both, 50U);
+}
+
+TEST_F(Pcl, RansamTakesPclsKdTree) {
+  StrategyChoice choice = catalog_.matchers.choose("ransam");
+  read_yaml(folder_.write("params.yaml", "iterations: 5000\ncontact: pcl_kd_tree\n"), *choice.params);
+  const auto matcher = catalog_.matchers.make(choice, {glocal::testing::small_world(), 1});
+  const Pose2 truth{5.5, 2.5, 0.7};
+  Rng rng(1);
+  const MatchResult result = matcher->match(local_map_at(truth), {}, 0.8, rng);
+  ASSERT_FALSE(result.hypotheses.empty());
+  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.1);
+}
+
+TEST_F(Pcl, AMapWithoutFreeSpaceIsRefused) {
+  MapData data;
+  data.points = glocal::testing::small_world_points();
+  data.grid = {{}, 0.1, 10, 10, std::vector<Cell>(100, Cell::unknown)};
+  const auto map = std::make_shared<const GlobalMap>(std::move(data));
+  EXPECT_NE(config_error(folder_ / "",
+                         [&] {
+                           (void)catalog_.matchers.make({"pcl_icp"}, {map, 1});
+                         })
+                .find("no free cell to start from"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace glocal::test
