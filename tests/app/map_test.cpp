@@ -1,6 +1,8 @@
 // glocal map.
 #include <gmock/gmock.h>
 
+#include <cstdio>
+
 #include "app/program.hpp"
 
 namespace glocal::test {
@@ -35,6 +37,44 @@ TEST_F(MapCommand, BuildsShowsAndConverts) {
   EXPECT_EQ(run("map info " + file("b.yaml")).out, answer.out);
   EXPECT_EQ(run("map convert " + file("a.yaml") + " -o " + file("c.pcd")).exit_code, 0);
   EXPECT_THAT(content(file("c.pcd")), HasSubstr("POINTS 2\n"));
+}
+
+TEST_F(MapCommand, AlignsAMapWithACopyInAnotherFrame) {
+  const std::string experiment = std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml";
+  ASSERT_EQ(run("map convert " + experiment + " -o " + file("lab.yaml")).exit_code, 0);
+  // The same image, laid elsewhere: the corner that was at (-0.015, -0.015) is now at (5, -3), and all is
+  // turned by 0.3 rad. So the origin comes to (5, -3) + 0.015 (cos 0.3 - sin 0.3, sin 0.3 + cos 0.3).
+  std::string moved = content(file("lab.yaml"));
+  const std::size_t origin = moved.find("origin: [");
+  moved.replace(origin, moved.find(']', origin) + 1 - origin, "origin: [5, -3, 0.3]");
+  std::ofstream(file("moved.yaml")) << moved;
+  const Answer info = run("map info " + file("lab.yaml"));
+  ASSERT_THAT(info.out, HasSubstr("origin      x -0.015 m, y -0.015 m, yaw 0.00 deg"));
+
+  const Answer answer = run("map align " + file("moved.yaml") + " " + file("lab.yaml") + " --epsilon 0.1");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  double x = 0.0;
+  double y = 0.0;
+  double yaw = 0.0;
+  double percent = 0.0;
+  ASSERT_EQ(std::sscanf(answer.out.c_str(), "pose [%lf, %lf, %lf]", &x, &y, &yaw), 3) << answer.out;
+  ASSERT_EQ(std::sscanf(answer.out.substr(answer.out.find("contact")).c_str(), "contact %lf", &percent), 1);
+  EXPECT_NEAR(x, 5.0099, 0.01);
+  EXPECT_NEAR(y, -2.9812, 0.01);
+  EXPECT_NEAR(yaw, 0.3, 0.001);
+  EXPECT_GT(percent, 99.0);
+
+  EXPECT_EQ(run("map align " + file("lab.yaml") + " " + experiment + " --epsilon 0").exit_code, 2);
+}
+
+TEST_F(MapCommand, SaysWhereMapsDoNotFit) {
+  ASSERT_EQ(
+      run("map build " + file("drive.log") + " -o " + file("tiny.yaml") + " --set resolution=0.5").exit_code,
+      0);
+  const std::string lab = std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml";
+  const Answer answer = run("map align " + file("tiny.yaml") + " " + lab);
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.err, HasSubstr("does not fit into"));
 }
 
 TEST_F(MapCommand, ReplacesFilesOnlyByForce) {
