@@ -1,5 +1,6 @@
 # What is installed: the program, the shared library, the headers that plugins need, and what finds them.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME core)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glocal)
 
 install(TARGETS glocal glocal_builtin EXPORT glocal_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
@@ -22,9 +23,18 @@ file(RELATIVE_PATH libdir_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMA
 configure_file(cmake/glocal.pc.in glocal.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glocal.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
+# A package of glocal itself, and one for each plugin of this tree that is built: who installs the first needs no PCL.
 set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_CORE_PACKAGE_NAME glocal)
+foreach(package octomap pcl)
+  string(TOUPPER ${package} upper)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME glocal-${package})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "glocal (= ${PROJECT_VERSION})")
+endforeach()
 set(CPACK_PACKAGE_CONTACT "glocal")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/framework)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 include(CPack)

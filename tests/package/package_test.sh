@@ -17,6 +17,13 @@ for library in pcl octomap vtk Qt; do
   ! ldd "$prefix/bin/glocal" "$prefix"/lib*/libglocal.so | grep -qi "lib$library" || fail "the framework needs $library"
 done
 
+# The plugins of this tree, where they are built, export what every plugin does.
+for plugin in "$prefix"/lib*/glocal/*.so; do
+  [ -e "$plugin" ] || continue
+  [ "$(nm -D --defined-only "$plugin" | cut -d ' ' -f 2-)" = "T glocal_plugin" ] || fail "$plugin exports more than its entry"
+  "$prefix/bin/glocal" list --plugin "$plugin" >/dev/null || fail "$plugin cannot be loaded"
+done
+
 # Each header compiles alone, and brings in no other library.
 mkdir "$work/headers"
 for header in "$prefix"/include/glocal/*.hpp; do
