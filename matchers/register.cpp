@@ -1,10 +1,14 @@
 #include "matchers/register.hpp"
 
+#include "matchers/indexed_ransam.hpp"
 #include "matchers/ransam.hpp"
 
 namespace glocal {
 
 void register_matchers(Catalog& catalog) {
+  catalog.matchers.add<IndexedRansam>(
+      "indexed_ransam",
+      "Random sample matching of dipoles over an index of the map; refined, carried on, checked by beams.");
   catalog.matchers.add<Ransam>("ransam",
                                "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",
                                {.contact = ContactChoice(catalog.contact_indexes)});

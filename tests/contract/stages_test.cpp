@@ -255,8 +255,13 @@ TEST_F(Stages, VerdictsAreWholeNeverUnknownPlaceAndForgottenByAReset) {
     const auto rule = catalog_.verdict_rules.make(choice, setup());
     EXPECT_EQ(rule->judge({}).kind, VerdictKind::searching);
     StepResult step;
-    step.hypotheses = hypotheses();
-    step.clusters = {clusters().front()};
+    // Ten hypotheses at one place, and their cluster.
+    Cluster cluster = clusters().front();
+    for (std::size_t& member : cluster.members) {
+      step.hypotheses.push_back(hypotheses()[member]);
+      member = step.hypotheses.size() - 1;
+    }
+    step.clusters = {cluster};
     step.ratings = {{0.9, 1.0}};
     const auto drive = [&] {
       std::vector<VerdictKind> kinds;

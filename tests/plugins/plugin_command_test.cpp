@@ -35,7 +35,7 @@ class PluginCommand : public CommandLine {
                                      "  local_mapper: last_scan\n"
                                      "  clusterer: each_alone\n"
                                      "  rater: all_alike\n"
-                                     "  threshold_policy: fixed\n"
+                                     "  threshold_policy: always_half\n"
                                      "  verdict_rule: at_once\n"
                                      "  matcher: "
                                   << matcher << "\n";
@@ -54,7 +54,7 @@ TEST_F(PluginCommand, StrategiesOfEveryKindAreListedAndDescribed) {
   const Answer list = run("list --plugin " + plugin("every_kind"));
   ASSERT_EQ(list.exit_code, 0) << list.err;
   for (const char* name :
-       {"room", "standing", "last_scan", "oracle", "each_alone", "all_alike", "fixed", "at_once"}) {
+       {"room", "standing", "last_scan", "oracle", "each_alone", "all_alike", "always_half", "at_once"}) {
     EXPECT_THAT(list.out, HasSubstr(name));
     EXPECT_EQ(run("describe " + std::string(name) + " --plugin " + plugin("every_kind")).exit_code, 0)
         << name;

@@ -136,6 +136,6 @@ GLOCAL_PLUGIN("every_kind", "1.2.3", catalog) {
   catalog.matchers.add<Oracle>("oracle", "Knows the answer.");
   catalog.clusterers.add<EachAlone>("each_alone", "Every hypothesis is a cluster.");
   catalog.raters.add<AllAlike>("all_alike", "Every cluster is as good as any other.");
-  catalog.threshold_policies.add<Fixed>("fixed", "Always 0.5.");
+  catalog.threshold_policies.add<Fixed>("always_half", "Always 0.5.");
   catalog.verdict_rules.add<AtOnce>("at_once", "Takes the first guess.");
 }

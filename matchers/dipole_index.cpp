@@ -1,0 +1,127 @@
+#include "matchers/dipole_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "glocal/rng.hpp"
+
+namespace glocal {
+namespace {
+
+/// Numbers of points sorted into squares as wide as the longest dipole, so that partners are in nine of them.
+class Squares {
+ public:
+  Squares(const Surfaces& s, double side) : side_(side) {
+    if (s.size() == 0) return;
+    const auto [min_x, max_x] = std::minmax_element(s.x.begin(), s.x.end());
+    const auto [min_y, max_y] = std::minmax_element(s.y.begin(), s.y.end());
+    min_x_ = *min_x;
+    min_y_ = *min_y;
+    columns_ = static_cast<int>((*max_x - *min_x) / side) + 1;
+    rows_ = static_cast<int>((*max_y - *min_y) / side) + 1;
+    members_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      members_[index(column(s.x[i]), row(s.y[i]))].push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  template <class Visit>
+  void near(float x, float y, Visit visit) const {
+    for (int r = std::max(0, row(y) - 1); r <= std::min(rows_ - 1, row(y) + 1); ++r) {
+      for (int c = std::max(0, column(x) - 1); c <= std::min(columns_ - 1, column(x) + 1); ++c) {
+        for (const std::uint32_t i : members_[index(c, r)]) visit(i);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] int column(float x) const { return static_cast<int>((x - min_x_) / side_); }
+  [[nodiscard]] int row(float y) const { return static_cast<int>((y - min_y_) / side_); }
+  [[nodiscard]] std::size_t index(int c, int r) const {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
+  }
+
+  double side_;
+  float min_x_ = 0.0F, min_y_ = 0.0F;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::vector<std::uint32_t>> members_;
+};
+
+/// Calls visit(dipole) for each ordered pair of different points at an allowed distance.
+template <class Visit>
+void for_each_dipole(const Surfaces& s, const DipoleRule& rule, Visit visit) {
+  const Squares squares(s, rule.max_length);
+  const double shortest = rule.min_length * rule.min_length;
+  const double longest = rule.max_length * rule.max_length;
+  for (std::uint32_t i = 0; i < s.size(); ++i) {
+    squares.near(s.x[i], s.y[i], [&](std::uint32_t k) {
+      const double dx = s.x[k] - s.x[i];
+      const double dy = s.y[k] - s.y[i];
+      const double squared = dx * dx + dy * dy;
+      if (squared >= shortest && squared < longest) visit(DipoleIndex::Dipole{i, k});
+    });
+  }
+}
+
+/// Whether a dipole is among an even share of all, the same in every run.
+bool is_taken(const DipoleIndex::Dipole& dipole, double share) {
+  const std::uint64_t hash = mix64(std::uint64_t{dipole.first} << 32U | dipole.second);
+  return static_cast<double>(hash >> 11U) * 0x1.0p-53 < share;
+}
+
+}  // namespace
+
+DipoleIndex::DipoleIndex(Surfaces surfaces, const DipoleRule& rule)
+    : surfaces_(std::move(surfaces)), rule_(rule) {
+  std::size_t all = 0;
+  for_each_dipole(surfaces_, rule_, [&](const Dipole& /*dipole*/) { ++all; });
+  const double share =
+      static_cast<double>(rule_.max_entries) / static_cast<double>(std::max<std::size_t>(all, 1));
+
+  std::vector<std::pair<std::uint32_t, Dipole>> taken;
+  for_each_dipole(surfaces_, rule_, [&](const Dipole& dipole) {
+    if (share < 1.0 && !is_taken(dipole, share)) return;
+    if (const auto b = bin(surfaces_, dipole)) taken.emplace_back(*b, dipole);
+  });
+  const auto lengths =
+      static_cast<std::size_t>(std::ceil((rule_.max_length - rule_.min_length) / rule_.length_cell));
+  const auto angles = static_cast<std::size_t>(rule_.angle_cells);
+  begins_.assign(lengths * angles * angles + 1, 0);
+  for (const auto& [b, dipole] : taken) ++begins_[b + 1];
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
+  dipoles_.resize(taken.size());
+  for (const auto& [b, dipole] : taken) dipoles_[next[b]++] = dipole;
+}
+
+std::size_t DipoleIndex::memory_bytes() const {
+  return dipoles_.size() * sizeof(Dipole) + begins_.size() * sizeof(std::uint32_t) +
+         surfaces_.size() * 3 * sizeof(float);
+}
+
+std::span<const DipoleIndex::Dipole> DipoleIndex::find(const Surfaces& surfaces, const Dipole& dipole) const {
+  const auto b = bin(surfaces, dipole);
+  if (!b) return {};
+  return std::span(dipoles_).subspan(begins_[*b], begins_[*b + 1] - begins_[*b]);
+}
+
+std::optional<std::uint32_t> DipoleIndex::bin(const Surfaces& s, const Dipole& dipole) const {
+  const float dx = s.x[dipole.second] - s.x[dipole.first];
+  const float dy = s.y[dipole.second] - s.y[dipole.first];
+  const float length = std::hypot(dx, dy);
+  if (!(length >= rule_.min_length && length < rule_.max_length)) return std::nullopt;
+  const auto length_cell = static_cast<std::uint32_t>((length - rule_.min_length) / rule_.length_cell);
+  const float direction = std::atan2(dy, dx);
+  const auto angle_cells = static_cast<std::uint32_t>(rule_.angle_cells);
+  const auto angle_cell = [&](std::uint32_t i) {
+    const double turn = (s.angle[i] - direction) / (2.0 * std::numbers::pi);
+    const auto cell = static_cast<std::uint32_t>((turn - std::floor(turn)) * rule_.angle_cells);
+    return std::min(cell, angle_cells - 1);
+  };
+  return (length_cell * angle_cells + angle_cell(dipole.first)) * angle_cells + angle_cell(dipole.second);
+}
+
+}  // namespace glocal

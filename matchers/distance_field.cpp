@@ -1,0 +1,97 @@
+#include "matchers/distance_field.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "glocal/error.hpp"
+
+namespace glocal {
+
+DistanceField::DistanceField(const Points& points, double resolution, double reach)
+    : scale_(static_cast<float>(1.0 / resolution)), reach_(static_cast<float>(reach)) {
+  const auto [min_x, max_x] = std::minmax_element(points.x.begin(), points.x.end());
+  const auto [min_y, max_y] = std::minmax_element(points.y.begin(), points.y.end());
+  min_x_ = *min_x - reach_;
+  min_y_ = *min_y - reach_;
+  const double columns = std::ceil((double{*max_x} - *min_x + 2.0 * reach) / resolution) + 2.0;
+  const double rows = std::ceil((double{*max_y} - *min_y + 2.0 * reach) / resolution) + 2.0;
+  constexpr double most_cells = 268435456.0;  // 1 GiB
+  if (columns * rows > most_cells) {
+    throw ConfigError(
+        {{"", 0, 0,
+          "the map is too large for a distance field: it would need more than 1 GiB; cut the map, or take "
+          "a larger field_cell"}});
+  }
+  columns_ = static_cast<int>(columns);
+  rows_ = static_cast<int>(rows);
+  cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), reach_);
+
+  const int around = static_cast<int>(std::ceil(reach / resolution));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float x = (points.x[i] - min_x_) * scale_;
+    const float y = (points.y[i] - min_y_) * scale_;
+    const int column = static_cast<int>(std::lround(x));
+    const int row = static_cast<int>(std::lround(y));
+    for (int r = std::max(0, row - around); r <= std::min(rows_ - 1, row + around); ++r) {
+      for (int c = std::max(0, column - around); c <= std::min(columns_ - 1, column + around); ++c) {
+        const float dx = static_cast<float>(c) - x;
+        const float dy = static_cast<float>(r) - y;
+        float& cell = cells_[index(c, r)];
+        cell = std::min(cell, std::sqrt(dx * dx + dy * dy) / scale_);
+      }
+    }
+  }
+}
+
+DistanceField::Value DistanceField::at(float x, float y) const {
+  const float u = (x - min_x_) * scale_;
+  const float v = (y - min_y_) * scale_;
+  const auto last_column = static_cast<float>(columns_ - 1);
+  const auto last_row = static_cast<float>(rows_ - 1);
+  if (!(u >= 0.0F && v >= 0.0F && u < last_column && v < last_row)) return {reach_, 0.0F, 0.0F};
+  const int column = static_cast<int>(u);
+  const int row = static_cast<int>(v);
+  const float a = u - static_cast<float>(column);
+  const float b = v - static_cast<float>(row);
+  const float* low = &cells_[index(column, row)];
+  const float* high = low + columns_;
+  const float below = low[0] + a * (low[1] - low[0]);
+  const float above = high[0] + a * (high[1] - high[0]);
+  const float dx = (1.0F - b) * (low[1] - low[0]) + b * (high[1] - high[0]);
+  return {below + b * (above - below), dx * scale_, (above - below) * scale_};
+}
+
+Pose2 refined_pose(const DistanceField& field, const Points& points, const Pose2& map_from_points,
+                   const PoseRefinement& refinement) {
+  constexpr double settled = 1e-4;  // m, rad
+  const auto squared_kernel = static_cast<float>(refinement.kernel * refinement.kernel);
+  Pose2 pose = map_from_points;
+  for (int iteration = 0; iteration < refinement.iterations; ++iteration) {
+    const Transform transform(pose);
+    Eigen::Matrix3f h = Eigen::Matrix3f::Zero();
+    Eigen::Vector3f g = Eigen::Vector3f::Zero();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Point p = transform(points[i]);
+      const DistanceField::Value value = field.at(p.x, p.y);
+      if (value.dx == 0.0F && value.dy == 0.0F) continue;
+      const float share = squared_kernel / (squared_kernel + value.distance * value.distance);
+      const float weight = share * share;  // Geman-McClure
+      const Eigen::Vector3f j(value.dx, value.dy,
+                              value.dy * (p.x - transform.x()) - value.dx * (p.y - transform.y()));
+      h += weight * j * j.transpose();
+      g += weight * value.distance * j;
+    }
+    constexpr float damping = 1e-3F;
+    h.diagonal() *= 1.0F + damping;
+    const Eigen::LDLT<Eigen::Matrix3f> solver(h);
+    const Eigen::Vector3f step = solver.solve(-g);
+    if (!step.allFinite() || step.norm() > 1.0F) return map_from_points;
+    pose = {pose.x + step.x(), pose.y + step.y(), wrap_angle(pose.theta + step.z())};
+    if (std::abs(step.x()) < settled && std::abs(step.y()) < settled && std::abs(step.z()) < settled) break;
+  }
+  return pose;
+}
+
+}  // namespace glocal

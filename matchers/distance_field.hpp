@@ -1,0 +1,51 @@
+// How far it is to the nearest point of a map, everywhere.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "glocal/points.hpp"
+#include "glocal/pose2.hpp"
+
+namespace glocal {
+
+/// Distances in the plane from the centres of square cells to the nearest point, up to `reach`, and in
+/// between by bilinear interpolation.
+class DistanceField {
+ public:
+  /// Throws ConfigError if it would need more than 1 GiB.
+  DistanceField(const Points& points, double resolution, double reach);
+
+  struct Value {
+    float distance = 0.0F;  ///< m
+    float dx = 0.0F;        ///< Its derivatives; 0 where the field is cut off.
+    float dy = 0.0F;
+  };
+  [[nodiscard]] Value at(float x, float y) const;
+  [[nodiscard]] float reach() const { return reach_; }
+  [[nodiscard]] std::size_t memory_bytes() const { return cells_.size() * sizeof(float); }
+
+ private:
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+
+  float min_x_ = 0.0F, min_y_ = 0.0F;  ///< Centre of cell (0, 0).
+  float scale_ = 0.0F;                 ///< Cells per metre.
+  float reach_ = 0.0F;
+  int columns_ = 0, rows_ = 0;
+  std::vector<float> cells_;
+};
+
+struct PoseRefinement {
+  int iterations = 12;
+  double kernel = 0.15;  ///< m; points at this distance count a quarter (Geman-McClure).
+};
+
+/// Moves a pose to where the points lie nearest to the field's, by Gauss-Newton with a robust kernel. Gives
+/// up, and returns the pose it came with, where the points say nothing.
+[[nodiscard]] Pose2 refined_pose(const DistanceField& field, const Points& points,
+                                 const Pose2& map_from_points, const PoseRefinement& refinement);
+
+}  // namespace glocal

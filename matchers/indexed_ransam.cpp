@@ -1,0 +1,294 @@
+#include "matchers/indexed_ransam.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace glocal {
+namespace {
+
+SurfaceRule surface_rule(const IndexedRansam::Params& p) {
+  return {.thinning = p.thinning, .radius = p.normal_radius};
+}
+
+DipoleRule dipole_rule(const IndexedRansam::Params& p) {
+  return {.min_length = p.min_length,
+          .max_length = p.max_length,
+          .length_cell = p.length_cell,
+          .angle_cells = p.angle_cells,
+          .max_entries = static_cast<std::size_t>(p.max_entries)};
+}
+
+/// What the index depends on, besides the map.
+std::string index_key(const IndexedRansam::Params& p) {
+  return fmt::format("{} {} {} {} {} {} {}", p.min_length, p.max_length, p.length_cell, p.angle_cells,
+                     p.max_entries, p.thinning, p.normal_radius);
+}
+
+/// At most n of the points, picked at random, in random order.
+Points sample_of(const Points& points, std::size_t n, Rng& rng) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  Points sample;
+  for (std::size_t i = 0; i < std::min(n, order.size()); ++i) {
+    std::swap(order[i], order[i + rng.below(static_cast<std::uint32_t>(order.size() - i))]);
+    sample.push_back(points[order[i]]);
+  }
+  return sample;
+}
+
+Points first_of(const Points& points, std::size_t n) {
+  Points first;
+  for (std::size_t i = 0; i < std::min(n, points.size()); ++i) first.push_back(points[i]);
+  return first;
+}
+
+/// Two points drawn until their distance is in range: in a large local map most pairs are too far apart.
+/// Given up after some tries.
+DipoleIndex::Dipole draw_dipole(const Surfaces& s, double min_length, double max_length, Rng& rng) {
+  constexpr int most_tries = 32;
+  const auto n = static_cast<std::uint32_t>(s.size());
+  DipoleIndex::Dipole dipole{};
+  for (int i = 0; i < most_tries; ++i) {
+    dipole = {rng.below(n), rng.below(n)};
+    const float dx = s.x[dipole.second] - s.x[dipole.first];
+    const float dy = s.y[dipole.second] - s.y[dipole.first];
+    const double squared = dx * dx + dy * dy;
+    if (squared >= min_length * min_length && squared < max_length * max_length) break;
+  }
+  return dipole;
+}
+
+/// The motion that lays one dipole on another, middle on middle.
+void lay(const Surfaces& local, const DipoleIndex::Dipole& from, const Surfaces& map,
+         const DipoleIndex::Dipole& to, MotionBatch& motions, std::size_t i) {
+  const float ux = local.x[from.second] - local.x[from.first];
+  const float uy = local.y[from.second] - local.y[from.first];
+  const float vx = map.x[to.second] - map.x[to.first];
+  const float vy = map.y[to.second] - map.y[to.first];
+  const float lengths = std::sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy));
+  const float c = (ux * vx + uy * vy) / lengths;
+  const float s = (ux * vy - uy * vx) / lengths;
+  const float mx = 0.5F * (local.x[from.first] + local.x[from.second]);
+  const float my = 0.5F * (local.y[from.first] + local.y[from.second]);
+  motions.cosine[i] = c;
+  motions.sine[i] = s;
+  motions.x[i] = 0.5F * (map.x[to.first] + map.x[to.second]) - (c * mx - s * my);
+  motions.y[i] = 0.5F * (map.y[to.first] + map.y[to.second]) - (s * mx + c * my);
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, PoseRefinement& p) {
+  v.field("iterations", p.iterations, {.doc = "Gauss-Newton iterations at most.", .min = 0, .max = 1000});
+  v.field("kernel", p.kernel,
+          {.doc = "Points at this distance from the map count a quarter (Geman-McClure).",
+           .unit = "m",
+           .above = 0.0});
+}
+
+void describe(ParamVisitor& v, IndexedRansam::Params& p) {
+  v.field("iterations", p.iterations,
+          {.doc = "Dipoles drawn from the local map in a step.", .min = 0, .max = 10e6});
+  v.field("first_iterations", p.first_iterations,
+          {.doc = "The same in the first steps, when nothing is carried yet.", .min = 0, .max = 10e6});
+  v.field("first_steps", p.first_steps, {.doc = "How many steps those are.", .min = 0});
+  v.field("contact_epsilon", p.contact_epsilon,
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
+           .unit = "m",
+           .above = 0.0});
+  v.field("min_contact", p.min_contact,
+          {.doc = "Contact a pose needs before it is refined: the right one may have little then.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("contact_points", p.contact_points,
+          {.doc = "Points looked at for that.", .min = 16, .max = 100000});
+  v.field("modes", p.modes, {.doc = "Distinct poses that are refined and judged.", .min = 1, .max = 10000});
+  v.field("carried", p.carried,
+          {.doc = "Of these, the best that go on to the next step.", .min = 0, .max = 10000});
+  v.field("mode_distance", p.mode_distance,
+          {.doc = "Robot poses nearer to each other are one mode.", .unit = "m", .above = 0.0});
+  v.field("mode_rotation", p.mode_rotation,
+          {.doc = "… if they are turned by less.", .unit = "rad", .above = 0.0});
+  v.field("refinement_points", p.refinement_points, {.doc = "Points used to refine a pose.", .min = 3});
+  v.field("refinement", p.refinement, {.doc = "How poses are refined on the distance field."});
+  v.field("field_cell", p.field_cell,
+          {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
+  v.field("blocked_weight", p.blocked_weight,
+          {.doc = "What the share of beams through occupied cells takes off the quality.", .min = 0.0});
+  v.field("unknown_weight", p.unknown_weight,
+          {.doc = "What the share of points in unknown cells adds to it.", .min = 0.0, .max = 1.0});
+  v.field("beam_scans", p.beam_scans,
+          {.doc = "Latest scans whose beams are looked at.", .min = 1, .max = 1000});
+  v.field("beams", p.beams, {.doc = "Beams of each.", .min = 1, .max = 10000});
+  v.field("beam_margin", p.beam_margin,
+          {.doc = "Before its hit a beam may touch occupied cells for this far.", .unit = "m", .min = 0.0});
+  v.field("min_length", p.min_length, {.doc = "Shortest dipole.", .unit = "m", .above = 0.0});
+  v.field("max_length", p.max_length, {.doc = "Longest dipole.", .unit = "m", .max = 100.0, .above = 0.0});
+  v.require(p.max_length > p.min_length, "max_length", "must be above min_length");
+  v.field("length_cell", p.length_cell,
+          {.doc = "Dipoles in a bin differ in length by less.", .unit = "m", .min = 0.01});
+  v.field("angle_cells", p.angle_cells,
+          {.doc = "Bins of each of a dipole's two angles in a full turn.", .min = 4, .max = 360});
+  v.field("max_entries", p.max_entries,
+          {.doc = "Of more dipoles an even share is kept; each takes 8 bytes.", .min = 1000, .max = 100e6});
+  v.field(
+      "thinning", p.thinning,
+      {.doc = "The map gives one point to dipoles in each square of this side.", .unit = "m", .min = 0.01});
+  v.field("normal_radius", p.normal_radius,
+          {.doc = "Neighbourhood that gives a point's normal; at most twice the thinning.",
+           .unit = "m",
+           .above = 0.0});
+  v.require(p.normal_radius <= 2.0 * p.thinning, "normal_radius", "must be at most twice the thinning");
+}
+
+IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
+    : params_(params),
+      map_(setup.map),
+      contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
+      index_(setup.map->index<DipoleIndex>(
+          index_key(params),
+          [&] { return DipoleIndex(surfaces_of(*setup.map, surface_rule(params)), dipole_rule(params)); })),
+      field_(setup.map->index<DistanceField>(fmt::format("{}", params.field_cell),
+                                             [&] {
+                                               constexpr double reach = 0.5;
+                                               return DistanceField(setup.map->points(), params.field_cell,
+                                                                    reach);
+                                             })),
+      beams_({.scans = params.beam_scans, .beams = params.beams, .margin = params.beam_margin}) {}
+
+void IndexedRansam::reset() {
+  beams_.clear();
+  carried_.clear();
+  generation_ = 0;
+  steps_ = 0;
+}
+
+MatchResult IndexedRansam::match(const LocalMap& local, const Observation& latest, double omega_max,
+                                 Rng& rng) {
+  MatchResult result;
+  if (local.points.empty()) return result;
+  if (local.generation != generation_) reset();
+  generation_ = local.generation;
+  beams_.add(local, latest.scan);
+
+  const Points sample = sample_of(local.points, static_cast<std::size_t>(params_.contact_points), rng);
+  std::vector<Mode> modes;
+  for (const Mode& mode : carried_) {
+    modes.push_back({mode.map_from_local, contact_share(sample, mode.map_from_local)});
+  }
+  const int draws = steps_++ < params_.first_steps ? params_.first_iterations : params_.iterations;
+  draw(surfaces_of(local, surface_rule(params_)), sample, static_cast<std::size_t>(draws), rng, modes,
+       result);
+
+  modes = distinct(std::move(modes), local.local_from_robot);
+  const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
+  for (Mode& mode : modes) {
+    mode.map_from_local = refined_pose(*field_, anchors, mode.map_from_local, params_.refinement);
+    mode.quality = contact_share(sample, mode.map_from_local);
+  }
+  modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
+  for (Mode& mode : modes) mode.quality = quality(local, sample, mode.map_from_local);
+  result.checks += modes.size() * local.points.size();
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const Mode& a, const Mode& b) { return a.quality > b.quality; });
+
+  carried_.assign(modes.begin(),
+                  modes.begin() + static_cast<std::ptrdiff_t>(
+                                      std::min(modes.size(), static_cast<std::size_t>(params_.carried))));
+  for (const Mode& mode : modes) {
+    if (mode.quality < omega_max) break;
+    result.hypotheses.push_back(
+        {mode.map_from_local, mode.map_from_local * local.local_from_robot, std::min(mode.quality, 1.0)});
+  }
+  return result;
+}
+
+void IndexedRansam::draw(const Surfaces& surfaces, const Points& sample, std::size_t draws, Rng& rng,
+                         std::vector<Mode>& modes, MatchResult& result) const {
+  const auto n = static_cast<std::uint32_t>(surfaces.size());
+  if (n < 2) return;
+  MotionBatch motions;
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < draws; ++i) {
+    const DipoleIndex::Dipole dipole = draw_dipole(surfaces, params_.min_length, params_.max_length, rng);
+    const auto partners = index_->find(surfaces, dipole);
+    if (partners.empty()) continue;
+    const DipoleIndex::Dipole& partner = partners[rng.below(static_cast<std::uint32_t>(partners.size()))];
+    lay(surfaces, dipole, index_->surfaces(), partner, motions, size++);
+    if (size < MotionBatch::capacity) continue;
+    test(motions, size, sample, modes, result);
+    size = 0;
+  }
+  test(motions, size, sample, modes, result);
+}
+
+void IndexedRansam::test(const MotionBatch& motions, std::size_t size, const Points& sample,
+                         std::vector<Mode>& modes, MatchResult& result) const {
+  constexpr std::size_t first_look = 16;
+  const std::size_t looked_at = std::min(first_look, sample.size());
+  ContactIndex::BatchColumn begins{};
+  ContactIndex::BatchColumn at_most{};
+  contact_->count_at_most(sample, looked_at, motions, size, begins, at_most);
+  result.collisions += size;
+  for (std::size_t i = 0; i < size; ++i) {
+    // Even the coarse look is below what is asked for.
+    if (static_cast<double>(at_most[i]) < params_.min_contact * static_cast<double>(looked_at)) {
+      result.checks += looked_at;
+      continue;
+    }
+    result.checks += sample.size();
+    const std::size_t in_contact = contact_->count(sample, 0, sample.size(), motions[i]);
+    const double share = static_cast<double>(in_contact) / static_cast<double>(sample.size());
+    if (share >= params_.min_contact) modes.push_back({motions[i].pose(), share});
+  }
+}
+
+/// The best modes, leaving out those that only repeat a better one: the same robot pose.
+std::vector<IndexedRansam::Mode> IndexedRansam::distinct(std::vector<Mode> modes,
+                                                         const Pose2& local_from_robot) const {
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const Mode& a, const Mode& b) { return a.quality > b.quality; });
+  std::vector<Mode> kept;
+  std::vector<Pose2> robots;
+  for (const Mode& mode : modes) {
+    const Pose2 robot = mode.map_from_local * local_from_robot;
+    const bool repeats = std::any_of(robots.begin(), robots.end(), [&](const Pose2& other) {
+      return distance(robot, other) < params_.mode_distance &&
+             rotation_between(robot, other) < params_.mode_rotation;
+    });
+    if (repeats) continue;
+    kept.push_back(mode);
+    robots.push_back(robot);
+    if (kept.size() == static_cast<std::size_t>(params_.modes)) break;
+  }
+  return kept;
+}
+
+double IndexedRansam::contact_share(const Points& points, const Pose2& map_from_local) const {
+  const std::size_t n = points.size();
+  return static_cast<double>(contact_->count(points, 0, n, Transform(map_from_local))) /
+         static_cast<double>(n);
+}
+
+double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_local) const {
+  const Transform transform(map_from_local);
+  std::size_t unknown = 0;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const Point p = transform(sample[i]);
+    if (map_->grid().at(p.x, p.y) == Cell::unknown) ++unknown;
+  }
+  return static_cast<double>(unknown) / static_cast<double>(sample.size());
+}
+
+double IndexedRansam::quality(const LocalMap& local, const Points& sample,
+                              const Pose2& map_from_local) const {
+  return contact_share(local.points, map_from_local) -
+         params_.blocked_weight * beams_.blocked_share(map_->grid(), map_from_local) +
+         params_.unknown_weight * unknown_share(sample, map_from_local);
+}
+
+}  // namespace glocal

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/contact.hpp"
+#include "glocal/params.hpp"
+#include "glocal/strategies.hpp"
+#include "matchers/beam_evidence.hpp"
+#include "matchers/dipole_index.hpp"
+#include "matchers/distance_field.hpp"
+
+namespace glocal {
+
+/// Random sample matching against an index: the map's dipoles (two points with their normals) are sorted
+/// once, so every draw from the local map meets partners. The best distinct poses are refined before they are
+/// judged, carried to the next step beside fresh ones, and judged by contact, by beams through walls, and by
+/// what the map does not show.
+///
+/// Hypotheses are distinct poses (modes), a few dozen at most; their quality is contact (Omega, eq. 4) less
+/// `blocked_weight` times the share of blocked beams, plus `unknown_weight` times the share of points in
+/// unknown cells.
+class IndexedRansam final : public Matcher {
+ public:
+  struct Params {
+    int iterations = 600;
+    int first_iterations = 1500;
+    int first_steps = 4;
+    double contact_epsilon = 0.10;
+    double min_contact = 0.2;
+    int contact_points = 128;
+    int modes = 50;
+    int carried = 10;
+    double mode_distance = 0.4;
+    double mode_rotation = 0.2;
+    int refinement_points = 100;
+    PoseRefinement refinement = {};
+    double field_cell = 0.05;
+    double blocked_weight = 1.0;
+    double unknown_weight = 0.0;
+    int beam_scans = 5;
+    int beams = 40;
+    double beam_margin = 0.3;
+    double min_length = 0.5;
+    double max_length = 6.0;
+    double length_cell = 0.1;
+    int angle_cells = 24;
+    int max_entries = 1000000;
+    double thinning = 0.1;
+    double normal_radius = 0.2;
+  };
+
+  /// Throws ConfigError where the map is too large for a contact grid or a distance field.
+  IndexedRansam(const Params& params, const StageSetup& setup);
+
+  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
+                                  Rng& rng) override;
+  void reset() override;
+
+ private:
+  /// A pose of the local map, and how good it looks so far.
+  struct Mode {
+    Pose2 map_from_local;
+    double quality = 0.0;
+  };
+  void draw(const Surfaces& surfaces, const Points& sample, std::size_t draws, Rng& rng,
+            std::vector<Mode>& modes, MatchResult& result) const;
+  void test(const MotionBatch& motions, std::size_t size, const Points& sample, std::vector<Mode>& modes,
+            MatchResult& result) const;
+  [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
+  [[nodiscard]] double contact_share(const Points& points, const Pose2& map_from_local) const;
+  [[nodiscard]] double unknown_share(const Points& sample, const Pose2& map_from_local) const;
+  [[nodiscard]] double quality(const LocalMap& local, const Points& sample,
+                               const Pose2& map_from_local) const;
+
+  Params params_;
+  std::shared_ptr<const GlobalMap> map_;
+  std::shared_ptr<const ContactIndex> contact_;
+  std::shared_ptr<const DipoleIndex> index_;
+  std::shared_ptr<const DistanceField> field_;
+  BeamEvidence beams_;
+  std::vector<Mode> carried_;
+  int generation_ = 0;  ///< Of the local map in whose frame the carried ones are.
+  int steps_ = 0;       ///< In that frame.
+};
+void describe(ParamVisitor& v, PoseRefinement& p);
+void describe(ParamVisitor& v, IndexedRansam::Params& p);
+
+}  // namespace glocal

@@ -1,0 +1,41 @@
+// Points with the direction in which the free side lies: what dipoles are made of.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "glocal/global_map.hpp"
+#include "glocal/local_map.hpp"
+
+namespace glocal {
+
+/// Points on surfaces in the plane.
+struct Surfaces {
+  std::vector<float> x;      ///< m
+  std::vector<float> y;      ///< m
+  std::vector<float> angle;  ///< rad; of the unit normal that points to the free side.
+
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+  void add(float px, float py, float normal_angle) {
+    x.push_back(px);
+    y.push_back(py);
+    angle.push_back(normal_angle);
+  }
+};
+
+struct SurfaceRule {
+  double thinning = 0.1;  ///< m; one point in each square of this side.
+  double radius = 0.2;    ///< m; neighbours that give the normal.
+  /// Standard deviation across the surface, as a share of that along it, from which there is no normal.
+  double max_roughness = 0.4;
+};
+
+/// The map's: normals by principal components, turned to the free cells; a wall that is free on both sides
+/// gives two points, one that is free on neither as well.
+[[nodiscard]] Surfaces surfaces_of(const GlobalMap& map, const SurfaceRule& rule);
+
+/// The local map's: where it has normals, those; they point to where the sensor was. Else by principal
+/// components, in both directions.
+[[nodiscard]] Surfaces surfaces_of(const LocalMap& local, const SurfaceRule& rule);
+
+}  // namespace glocal

@@ -1,0 +1,85 @@
+#include "matchers/beam_evidence.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glocal {
+namespace {
+
+/// 4 m x 4 m of free cells with an occupied column from x = 2 to 2.1 m, and unknown ones from x = 3 m on.
+OccupancyGrid grid_with_a_wall() {
+  OccupancyGrid grid{{0.0, 0.0, 0.0}, 0.1, 40, 40, std::vector<Cell>(1600, Cell::free)};
+  for (int row = 0; row < 40; ++row) {
+    grid.cell(20, row) = Cell::occupied;
+    for (int column = 30; column < 40; ++column) grid.cell(column, row) = Cell::unknown;
+  }
+  return grid;
+}
+
+Scan beams_along_x(const std::vector<float>& ranges) {
+  Scan scan;
+  for (const float range : ranges) scan.hits.push_back({range, 0.0F, 0.0F});
+  return scan;
+}
+
+double blocked(const Scan& scan, const Pose2& map_from_local, const BeamRule& rule = {}) {
+  BeamEvidence evidence(rule);
+  LocalMap local;
+  evidence.add(local, scan);
+  return evidence.blocked_share(grid_with_a_wall(), map_from_local);
+}
+
+TEST(BeamEvidence, CountsBeamsThatPassThroughAWall) {
+  // From x = 1 m: 0.9 m ends before the wall, 1.2 m within the margin behind it, 1.5 m and more do not.
+  EXPECT_EQ(blocked(beams_along_x({0.9F}), {1.0, 1.0, 0.0}), 0.0);
+  EXPECT_EQ(blocked(beams_along_x({1.2F}), {1.0, 1.0, 0.0}), 0.0);
+  EXPECT_EQ(blocked(beams_along_x({1.5F}), {1.0, 1.0, 0.0}), 1.0);
+  EXPECT_EQ(blocked(beams_along_x({0.9F, 1.5F, 1.2F, 1.8F}), {1.0, 1.0, 0.0}), 0.5);
+  // The other way there is no wall; nor in unknown cells, nor beyond the grid.
+  EXPECT_EQ(blocked(beams_along_x({0.9F, 5.0F}), {1.0, 1.0, 3.14159}), 0.0);
+  EXPECT_EQ(blocked(beams_along_x({5.0F}), {2.5, 1.0, 0.0}), 0.0);
+}
+
+TEST(BeamEvidence, FreeRaysCountToo) {
+  Scan scan;
+  scan.free_ends.push_back({1.8F, 0.0F, 0.0F});
+  EXPECT_EQ(blocked(scan, {1.0, 1.0, 0.0}), 1.0);
+  EXPECT_EQ(blocked({}, {1.0, 1.0, 0.0}), 0.0);
+}
+
+TEST(BeamEvidence, BeamsBeginAtTheSensorWhereTheRobotWas) {
+  BeamEvidence evidence(BeamRule{});
+  LocalMap local;
+  local.local_from_robot = {0.5, 0.0, 0.0};
+  Scan scan = beams_along_x({1.2F});
+  scan.origin = {0.2F, 0.0F, 0.0F};
+  evidence.add(local, scan);
+  // Sensor at 1.7 m, hit at 2.7 m: through the wall. With the local map half a metre back: 2.2 m, within the
+  // margin.
+  EXPECT_EQ(evidence.blocked_share(grid_with_a_wall(), {1.0, 1.0, 0.0}), 1.0);
+  EXPECT_EQ(evidence.blocked_share(grid_with_a_wall(), {0.5, 1.0, 0.0}), 0.0);
+}
+
+TEST(BeamEvidence, OnlyTheLatestScansOfThisLocalMapCount) {
+  BeamEvidence evidence({.scans = 2});
+  LocalMap local;
+  const OccupancyGrid grid = grid_with_a_wall();
+  const Pose2 pose{1.0, 1.0, 0.0};
+  evidence.add(local, beams_along_x({1.8F}));
+  evidence.add(local, beams_along_x({0.5F}));
+  EXPECT_EQ(evidence.blocked_share(grid, pose), 0.5);
+  evidence.add(local, beams_along_x({0.5F}));
+  EXPECT_EQ(evidence.blocked_share(grid, pose), 0.0);
+  evidence.add(local, beams_along_x({1.8F}));
+  local.generation = 1;
+  evidence.add(local, beams_along_x({0.5F}));
+  EXPECT_EQ(evidence.blocked_share(grid, pose), 0.0);
+}
+
+TEST(BeamEvidence, ManyBeamsAreThinnedEvenly) {
+  std::vector<float> ranges(1000, 0.5F);
+  std::fill(ranges.begin(), ranges.begin() + 500, 1.8F);
+  EXPECT_NEAR(blocked(beams_along_x(ranges), {1.0, 1.0, 0.0}, {.beams = 40}), 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace glocal

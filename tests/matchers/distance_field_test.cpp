@@ -1,0 +1,87 @@
+#include "matchers/distance_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "glocal/error.hpp"
+#include "glocal/rng.hpp"
+#include "test_world.hpp"
+
+namespace glocal {
+namespace {
+
+TEST(DistanceField, IsTheDistanceToTheNearestPointUpToItsReach) {
+  const Points points = testing::small_world_points();
+  const DistanceField field(points, 0.05, 0.5);
+  Rng rng(2);
+  for (int i = 0; i < 2000; ++i) {
+    const auto x = static_cast<float>(rng.uniform(-2.0, 10.0));
+    const auto y = static_cast<float>(rng.uniform(-2.0, 11.0));
+    float nearest = field.reach();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      nearest = std::min(nearest, std::hypot(x - points.x[k], y - points.y[k]));
+    }
+    EXPECT_NEAR(field.at(x, y).distance, nearest, 0.03) << x << " " << y;
+  }
+}
+
+TEST(DistanceField, ItsDerivativesAreThoseOfItsValues) {
+  const DistanceField field(testing::small_world_points(), 0.05, 0.5);
+  Rng rng(2);
+  constexpr float h = 1e-3F;
+  int checked = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto x = static_cast<float>(rng.uniform(-0.4, 8.4));
+    const auto y = static_cast<float>(rng.uniform(-0.4, 9.4));
+    const auto value = field.at(x, y);
+    const float dx = (field.at(x + h, y).distance - field.at(x - h, y).distance) / (2.0F * h);
+    const float dy = (field.at(x, y + h).distance - field.at(x, y - h).distance) / (2.0F * h);
+    // Where a cell ends, the difference looks into the next one.
+    if (std::abs(dx - value.dx) > 0.1F || std::abs(dy - value.dy) > 0.1F) continue;
+    ++checked;
+  }
+  EXPECT_GT(checked, 2700);
+}
+
+TEST(DistanceField, FarAwayAndNotANumberAreBeyondReach) {
+  const DistanceField field(testing::small_world_points(), 0.05, 0.5);
+  EXPECT_EQ(field.at(1e30F, 0.0F).distance, 0.5F);
+  EXPECT_EQ(field.at(NAN, 0.0F).distance, 0.5F);
+  EXPECT_EQ(field.at(-50.0F, 3.0F).dx, 0.0F);
+}
+
+TEST(DistanceField, RefusesWhatDoesNotFitIntoMemory) {
+  Points points;
+  points.push_back({0.0F, 0.0F, 0.0F});
+  points.push_back({1e5F, 1e5F, 0.0F});
+  EXPECT_THROW(DistanceField(points, 0.05, 0.5), ConfigError);
+}
+
+TEST(RefinedPose, ComesBackFromAShiftAndATurn) {
+  const Points world = testing::small_world_points();
+  const DistanceField field(world, 0.05, 0.5);
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const Points seen = testing::seen_from(world, truth, 4.0);
+  Rng rng(4);
+  for (int i = 0; i < 20; ++i) {
+    const Pose2 start =
+        truth * Pose2{rng.uniform(-0.15, 0.15), rng.uniform(-0.15, 0.15), rng.uniform(-0.08, 0.08)};
+    const Pose2 pose = refined_pose(field, seen, start, {.iterations = 30});
+    EXPECT_LT(distance(pose, truth), 0.02) << i;
+    EXPECT_LT(rotation_between(pose, truth), radians(0.5)) << i;
+  }
+}
+
+TEST(RefinedPose, StaysWherePointsSayNothing) {
+  const DistanceField field(testing::small_world_points(), 0.05, 0.5);
+  Points seen;
+  seen.push_back({0.0F, 0.0F, 0.0F});
+  const Pose2 nowhere{100.0, 100.0, 0.3};
+  EXPECT_EQ(refined_pose(field, seen, nowhere, {}), nowhere);
+  EXPECT_EQ(refined_pose(field, {}, nowhere, {}), nowhere);
+}
+
+}  // namespace
+}  // namespace glocal

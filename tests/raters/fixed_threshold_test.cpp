@@ -1,0 +1,17 @@
+#include "raters/fixed_threshold.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glocal {
+namespace {
+
+TEST(FixedThreshold, StaysWhateverTheHypothesesAre) {
+  FixedThreshold policy({.omega_max = 0.35});
+  EXPECT_EQ(policy.omega_max(), 0.35);
+  policy.update({{{}, {}, 0.9}});
+  policy.update({});
+  EXPECT_EQ(policy.omega_max(), 0.35);
+}
+
+}  // namespace
+}  // namespace glocal

@@ -1,0 +1,101 @@
+#include "raters/staged_margin.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glocal {
+namespace {
+
+const Pose2 here{3.0, 4.0, 0.5};
+const Pose2 there{8.0, 1.0, 2.0};
+
+/// A step with the best pose `here` and a rival, after a drive of `driven` metres straight on.
+StepResult step(double best, double rival, double driven = 0.0, int generation = 0) {
+  StepResult result;
+  result.omega_max = 0.1;
+  result.local_from_robot = {driven, 0.0, 0.0};
+  result.local_map_generation = generation;
+  const Pose2 ahead{driven, 0.0, 0.0};
+  result.hypotheses.push_back({here, here * ahead, best});
+  result.hypotheses.push_back({there, there * ahead, rival});
+  return result;
+}
+
+TEST(StagedMargin, AClearLeadIsEnoughAfterThreeSteps) {
+  StagedMargin rule({});
+  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::searching);
+  const Verdict verdict = rule.judge(step(0.9, 0.55));
+  EXPECT_EQ(verdict.kind, VerdictKind::localized);
+  EXPECT_EQ(verdict.map_from_robot, here);
+}
+
+TEST(StagedMargin, ASmallerLeadMustLastLongerAndOverSomeWay) {
+  // 0.22 needs 5 steps and 2 m.
+  for (const double each : {0.3, 0.6}) {
+    StagedMargin rule({});
+    int declared_in = 0;
+    for (int i = 1; i <= 10 && declared_in == 0; ++i) {
+      if (rule.judge(step(0.9, 0.68, each * i)).kind == VerdictKind::localized) declared_in = i;
+    }
+    // The way counts from the first step with the lead: seven times 0.3 m, or four times 0.6 m.
+    EXPECT_EQ(declared_in, each < 0.5 ? 8 : 5) << each;
+  }
+}
+
+TEST(StagedMargin, OneStepWithoutTheLeadBeginsAnew) {
+  StagedMargin rule({});
+  (void)rule.judge(step(0.9, 0.5));
+  (void)rule.judge(step(0.9, 0.5));
+  EXPECT_EQ(rule.judge(step(0.9, 0.7)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step(0.9, 0.5)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step(0.9, 0.5)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step(0.9, 0.5)).kind, VerdictKind::localized);
+}
+
+TEST(StagedMargin, AnotherBestPoseBeginsAnewAndTakesTheVerdictBack) {
+  StagedMargin rule({});
+  for (int i = 0; i < 5; ++i) (void)rule.judge(step(0.9, 0.5));
+  StepResult other = step(0.9, 0.5);
+  std::swap(other.hypotheses[0].map_from_robot, other.hypotheses[1].map_from_robot);
+  EXPECT_EQ(rule.judge(other).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(other).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(other).kind, VerdictKind::localized);
+}
+
+TEST(StagedMargin, AnotherLocalFrameOrAStepWithoutHypothesesBeginsAnew) {
+  for (const bool empty : {true, false}) {
+    StagedMargin rule({});
+    for (int i = 0; i < 3; ++i) (void)rule.judge(step(0.9, 0.5));
+    if (empty) {
+      EXPECT_EQ(rule.judge({}).kind, VerdictKind::searching);
+      EXPECT_EQ(rule.judge(step(0.9, 0.5)).kind, VerdictKind::searching);
+    } else {
+      EXPECT_EQ(rule.judge(step(0.9, 0.5, 0.0, 1)).kind, VerdictKind::searching);
+    }
+  }
+}
+
+TEST(StagedMargin, PosesNearTheBestAreNoRivals) {
+  StagedMargin rule({});
+  StepResult near = step(0.9, 0.88);
+  near.hypotheses[1].map_from_robot = here * Pose2{0.5, 0.0, radians(20.0)};
+  // The only rivals can be below Omega_max: a lead of 0.8.
+  for (int i = 0; i < 2; ++i) (void)rule.judge(near);
+  EXPECT_EQ(rule.judge(near).kind, VerdictKind::localized);
+  // Turned by more than 30 degrees, it is one.
+  near.hypotheses[1].map_from_robot = here * Pose2{0.5, 0.0, radians(40.0)};
+  EXPECT_EQ(rule.judge(near).kind, VerdictKind::ambiguous);
+}
+
+TEST(StagedMargin, RivalsOfTheSameQualityAreCandidates) {
+  StagedMargin rule({});
+  const Verdict verdict = rule.judge(step(0.9, 0.87));
+  EXPECT_EQ(verdict.kind, VerdictKind::ambiguous);
+  ASSERT_EQ(verdict.candidates.size(), 2U);
+  EXPECT_EQ(verdict.candidates[0], here);
+  EXPECT_EQ(verdict.candidates[1], there);
+  EXPECT_EQ(rule.judge(step(0.9, 0.80)).kind, VerdictKind::searching);
+}
+
+}  // namespace
+}  // namespace glocal
