@@ -4,38 +4,58 @@
 #include <cmath>
 
 namespace glocal {
-namespace {
-
-/// A pose as a transform into the grid's cells: cell (c, r) reaches from (c, r) to (c + 1, r + 1).
-Transform cells_from(const OccupancyGrid& grid, const Pose2& map_from_local) {
-  const Pose2 grid_from_local = inverse(grid.map_from_grid) * map_from_local;
-  return Transform(grid_from_local);
-}
-
-bool is_occupied(const OccupancyGrid& grid, float column, float row) {
-  if (!(column >= 0.0F && row >= 0.0F && column < static_cast<float>(grid.width) &&
-        row < static_cast<float>(grid.height))) {
-    return false;
+ClearanceGrid::ClearanceGrid(const OccupancyGrid& grid)
+    : grid_from_map_(inverse(grid.map_from_grid)),
+      resolution_(static_cast<float>(grid.resolution)),
+      width_(grid.width),
+      height_(grid.height),
+      clearance_(grid.cells.size()) {
+  constexpr int most = 255;
+  const auto at = [&](int column, int row) -> int {
+    const bool inside = column >= 0 && row >= 0 && column < width_ && row < height_;
+    return inside ? clearance_[index(column, row)] : most;
+  };
+  const auto lower = [&](int column, int row, int neighbour) {
+    std::uint8_t& cell = clearance_[index(column, row)];
+    cell = static_cast<std::uint8_t>(std::min<int>(cell, std::min(neighbour + 1, most)));
+  };
+  for (std::size_t i = 0; i < clearance_.size(); ++i)
+    clearance_[i] = grid.cells[i] == Cell::occupied ? 0 : most;
+  // Two passes over the neighbours already visited give the chessboard distance (Rosenfeld and Pfaltz 1966).
+  for (int row = 0; row < height_; ++row) {
+    for (int column = 0; column < width_; ++column) {
+      for (int d = -1; d <= 1; ++d) lower(column, row, at(column + d, row - 1));
+      lower(column, row, at(column - 1, row));
+    }
   }
-  return grid.cell(static_cast<int>(column), static_cast<int>(row)) == Cell::occupied;
+  for (int row = height_ - 1; row >= 0; --row) {
+    for (int column = width_ - 1; column >= 0; --column) {
+      for (int d = -1; d <= 1; ++d) lower(column, row, at(column + d, row + 1));
+      lower(column, row, at(column + 1, row));
+    }
+  }
 }
 
-/// Whether a beam, both ends in metres of the grid's frame, meets an occupied cell before the last `margin`.
-bool is_blocked(const OccupancyGrid& grid, const Point& from, const Point& to, double margin) {
-  const float dx = to.x - from.x;
-  const float dy = to.y - from.y;
-  const float length = std::hypot(dx, dy);
-  const float scale = 1.0F / static_cast<float>(grid.resolution);
-  const float step = 0.5F * static_cast<float>(grid.resolution);
-  const int steps = static_cast<int>((length - static_cast<float>(margin)) / step);
-  for (int i = 1; i <= steps; ++i) {
-    const float t = static_cast<float>(i) * step / length;
-    if (is_occupied(grid, (from.x + t * dx) * scale, (from.y + t * dy) * scale)) return true;
+bool ClearanceGrid::is_blocked(const Point& from, const Point& to, double margin) const {
+  const Point a = grid_from_map_(from);
+  const Point b = grid_from_map_(to);
+  const float dx = b.x - a.x;
+  const float dy = b.y - a.y;
+  const float length = std::sqrt(dx * dx + dy * dy);
+  if (!(length > 0.0F)) return false;
+  const float scale = 1.0F / resolution_;
+  const float end = (length - static_cast<float>(margin)) * scale;
+  for (float t = 0.5F; t <= end;) {
+    const float column = a.x * scale + t * dx / length;
+    const float row = a.y * scale + t * dy / length;
+    const bool inside = column >= 0.0F && row >= 0.0F && column < static_cast<float>(width_) &&
+                        row < static_cast<float>(height_);
+    const int clearance = inside ? clearance_[index(static_cast<int>(column), static_cast<int>(row))] : 1;
+    if (clearance == 0) return true;
+    t += std::max(0.5F, static_cast<float>(clearance - 1));
   }
   return false;
 }
-
-}  // namespace
 
 void BeamEvidence::add(const LocalMap& local, const Scan& scan) {
   if (local.generation != generation_) scans_.clear();
@@ -53,14 +73,14 @@ void BeamEvidence::add(const LocalMap& local, const Scan& scan) {
   if (scans_.size() > static_cast<std::size_t>(rule_.scans)) scans_.pop_front();
 }
 
-double BeamEvidence::blocked_share(const OccupancyGrid& grid, const Pose2& map_from_local) const {
-  const Transform grid_from_local = cells_from(grid, map_from_local);
+double BeamEvidence::blocked_share(const ClearanceGrid& grid, const Pose2& map_from_local) const {
+  const Transform transform(map_from_local);
   std::size_t all = 0;
   std::size_t blocked = 0;
   for (const Beams& beams : scans_) {
-    const Point from = grid_from_local(beams.origin);
+    const Point from = transform(beams.origin);
     for (std::size_t i = 0; i < beams.ends.size(); ++i) {
-      if (is_blocked(grid, from, grid_from_local(beams.ends[i]), rule_.margin)) ++blocked;
+      if (grid.is_blocked(from, transform(beams.ends[i]), rule_.margin)) ++blocked;
     }
     all += beams.ends.size();
   }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <vector>
 
 #include "glocal/local_map.hpp"
 #include "glocal/observation.hpp"
@@ -16,6 +18,28 @@ struct BeamRule {
   double margin = 0.3;  ///< m; the last part of a beam before its hit, where a wall may well be.
 };
 
+/// For each cell of a grid, how many rows or columns away the nearest occupied one is (0: it is occupied
+/// itself), up to 255: so far a ray may go without looking.
+class ClearanceGrid {
+ public:
+  explicit ClearanceGrid(const OccupancyGrid& grid);
+
+  /// Whether the way between two points (m, in the map's frame) meets an occupied cell before its last
+  /// `margin` (m). It is looked at every half cell. What lies beyond the grid is not occupied.
+  [[nodiscard]] bool is_blocked(const Point& from, const Point& to, double margin) const;
+
+ private:
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(column);
+  }
+
+  Transform grid_from_map_;
+  float resolution_;
+  int width_, height_;
+  std::vector<std::uint8_t> clearance_;
+};
+
 /// Beams of the latest scans in the local frame. Only cells known to be occupied stop a beam; unknown ones
 /// say nothing.
 class BeamEvidence {
@@ -27,7 +51,7 @@ class BeamEvidence {
   void clear() { scans_.clear(); }
 
   /// Share of the beams that would have passed through occupied cells; 0 without any beam.
-  [[nodiscard]] double blocked_share(const OccupancyGrid& grid, const Pose2& map_from_local) const;
+  [[nodiscard]] double blocked_share(const ClearanceGrid& grid, const Pose2& map_from_local) const;
 
  private:
   struct Beams {

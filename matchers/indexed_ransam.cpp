@@ -107,8 +107,10 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("contact_points", p.contact_points,
           {.doc = "Points looked at for that.", .min = 16, .max = 100000});
   v.field("modes", p.modes, {.doc = "Distinct poses that are refined and judged.", .min = 1, .max = 10000});
-  v.field("carried", p.carried,
-          {.doc = "Of these, the best that go on to the next step.", .min = 0, .max = 10000});
+  v.field("best", p.best,
+          {.doc = "Of these, the best that become hypotheses and go on to the next step.",
+           .min = 1,
+           .max = 10000});
   v.field("mode_distance", p.mode_distance,
           {.doc = "Robot poses nearer to each other are one mode.", .unit = "m", .above = 0.0});
   v.field("mode_rotation", p.mode_rotation,
@@ -158,6 +160,7 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
                                                return DistanceField(setup.map->points(), params.field_cell,
                                                                     reach);
                                              })),
+      clearance_(setup.map->index<ClearanceGrid>("", [&] { return ClearanceGrid(setup.map->grid()); })),
       beams_({.scans = params.beam_scans, .beams = params.beams, .margin = params.beam_margin}) {}
 
 void IndexedRansam::reset() {
@@ -191,15 +194,9 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
     mode.quality = contact_share(sample, mode.map_from_local);
   }
   modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
-  for (Mode& mode : modes) mode.quality = quality(local, sample, mode.map_from_local);
+  carried_ = judged(modes, local, sample);
   result.checks += modes.size() * local.points.size();
-  std::stable_sort(modes.begin(), modes.end(),
-                   [](const Mode& a, const Mode& b) { return a.quality > b.quality; });
-
-  carried_.assign(modes.begin(),
-                  modes.begin() + static_cast<std::ptrdiff_t>(
-                                      std::min(modes.size(), static_cast<std::size_t>(params_.carried))));
-  for (const Mode& mode : modes) {
+  for (const Mode& mode : carried_) {
     if (mode.quality < omega_max) break;
     result.hypotheses.push_back(
         {mode.map_from_local, mode.map_from_local * local.local_from_robot, std::min(mode.quality, 1.0)});
@@ -284,11 +281,28 @@ double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_
   return static_cast<double>(unknown) / static_cast<double>(sample.size());
 }
 
-double IndexedRansam::quality(const LocalMap& local, const Points& sample,
-                              const Pose2& map_from_local) const {
-  return contact_share(local.points, map_from_local) -
-         params_.blocked_weight * beams_.blocked_share(map_->grid(), map_from_local) +
-         params_.unknown_weight * unknown_share(sample, map_from_local);
+/// The best modes by their quality, which falls. Beams take most of the time, and only take quality off:
+/// modes are looked at in the order of what they could reach, until no other one can be among the best.
+std::vector<IndexedRansam::Mode> IndexedRansam::judged(const std::vector<Mode>& modes, const LocalMap& local,
+                                                       const Points& sample) const {
+  const auto better = [](const Mode& a, const Mode& b) { return a.quality > b.quality; };
+  std::vector<Mode> at_most;
+  for (const Mode& mode : modes) {
+    at_most.push_back(
+        {mode.map_from_local, contact_share(local.points, mode.map_from_local) +
+                                  params_.unknown_weight * unknown_share(sample, mode.map_from_local)});
+  }
+  std::stable_sort(at_most.begin(), at_most.end(), better);
+  const auto most = static_cast<std::size_t>(params_.best);
+  std::vector<Mode> best;
+  for (const Mode& mode : at_most) {
+    if (best.size() == most && best.back().quality >= mode.quality) break;
+    const double blocked = beams_.blocked_share(*clearance_, mode.map_from_local);
+    const Mode now{mode.map_from_local, mode.quality - params_.blocked_weight * blocked};
+    best.insert(std::upper_bound(best.begin(), best.end(), now, better), now);
+    if (best.size() > most) best.pop_back();
+  }
+  return best;
 }
 
 }  // namespace glocal

@@ -20,7 +20,7 @@ namespace glocal {
 /// judged, carried to the next step beside fresh ones, and judged by contact, by beams through walls, and by
 /// what the map does not show.
 ///
-/// Hypotheses are distinct poses (modes), a few dozen at most; their quality is contact (Omega, eq. 4) less
+/// Hypotheses are the best distinct poses (modes); their quality is contact (Omega, eq. 4) less
 /// `blocked_weight` times the share of blocked beams, plus `unknown_weight` times the share of points in
 /// unknown cells.
 class IndexedRansam final : public Matcher {
@@ -33,7 +33,7 @@ class IndexedRansam final : public Matcher {
     double min_contact = 0.2;
     int contact_points = 128;
     int modes = 50;
-    int carried = 10;
+    int best = 10;
     double mode_distance = 0.4;
     double mode_rotation = 0.2;
     int refinement_points = 100;
@@ -73,14 +73,15 @@ class IndexedRansam final : public Matcher {
   [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
   [[nodiscard]] double contact_share(const Points& points, const Pose2& map_from_local) const;
   [[nodiscard]] double unknown_share(const Points& sample, const Pose2& map_from_local) const;
-  [[nodiscard]] double quality(const LocalMap& local, const Points& sample,
-                               const Pose2& map_from_local) const;
+  [[nodiscard]] std::vector<Mode> judged(const std::vector<Mode>& modes, const LocalMap& local,
+                                         const Points& sample) const;
 
   Params params_;
   std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const DipoleIndex> index_;
   std::shared_ptr<const DistanceField> field_;
+  std::shared_ptr<const ClearanceGrid> clearance_;
   BeamEvidence beams_;
   std::vector<Mode> carried_;
   int generation_ = 0;  ///< Of the local map in whose frame the carried ones are.

@@ -2,17 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "glocal/rng.hpp"
+
 namespace glocal {
 namespace {
 
 /// 4 m x 4 m of free cells with an occupied column from x = 2 to 2.1 m, and unknown ones from x = 3 m on.
-OccupancyGrid grid_with_a_wall() {
+ClearanceGrid grid_with_a_wall() {
   OccupancyGrid grid{{0.0, 0.0, 0.0}, 0.1, 40, 40, std::vector<Cell>(1600, Cell::free)};
   for (int row = 0; row < 40; ++row) {
     grid.cell(20, row) = Cell::occupied;
     for (int column = 30; column < 40; ++column) grid.cell(column, row) = Cell::unknown;
   }
-  return grid;
+  return ClearanceGrid(grid);
 }
 
 Scan beams_along_x(const std::vector<float>& ranges) {
@@ -39,6 +44,34 @@ TEST(BeamEvidence, CountsBeamsThatPassThroughAWall) {
   EXPECT_EQ(blocked(beams_along_x({5.0F}), {2.5, 1.0, 0.0}), 0.0);
 }
 
+TEST(ClearanceGrid, BlocksWhatLookingAtEveryHalfCellWouldBlock) {
+  Rng rng(9);
+  OccupancyGrid grid{{1.0, -2.0, 0.4}, 0.1, 60, 50, std::vector<Cell>(3000, Cell::free)};
+  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.01 ? Cell::occupied : Cell::free;
+  const ClearanceGrid clearance(grid);
+  int blocked = 0;
+  int differ = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto point = [&] {
+      return Point{static_cast<float>(rng.uniform(-2.0, 7.0)), static_cast<float>(rng.uniform(-3.0, 6.0)),
+                   0.0F};
+    };
+    const Point from = point();
+    const Point to = point();
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    bool expected = false;
+    for (double t = 0.05; t <= length - 0.3; t += 0.05) {
+      expected = expected || grid.at(from.x + t * (to.x - from.x) / length,
+                                     from.y + t * (to.y - from.y) / length) == Cell::occupied;
+    }
+    blocked += expected ? 1 : 0;
+    differ += expected != clearance.is_blocked(from, to, 0.3) ? 1 : 0;
+  }
+  EXPECT_GT(blocked, 500);
+  // Steps that skip free cells look at other places of those behind: rays that touch a corner may differ.
+  EXPECT_LT(differ, 60);
+}
+
 TEST(BeamEvidence, FreeRaysCountToo) {
   Scan scan;
   scan.free_ends.push_back({1.8F, 0.0F, 0.0F});
@@ -62,7 +95,7 @@ TEST(BeamEvidence, BeamsBeginAtTheSensorWhereTheRobotWas) {
 TEST(BeamEvidence, OnlyTheLatestScansOfThisLocalMapCount) {
   BeamEvidence evidence({.scans = 2});
   LocalMap local;
-  const OccupancyGrid grid = grid_with_a_wall();
+  const ClearanceGrid grid = grid_with_a_wall();
   const Pose2 pose{1.0, 1.0, 0.0};
   evidence.add(local, beams_along_x({1.8F}));
   evidence.add(local, beams_along_x({0.5F}));
