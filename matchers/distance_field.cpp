@@ -45,27 +45,9 @@ DistanceField::DistanceField(const Points& points, double resolution, double rea
   }
 }
 
-DistanceField::Value DistanceField::at(float x, float y) const {
-  const float u = (x - min_x_) * scale_;
-  const float v = (y - min_y_) * scale_;
-  const auto last_column = static_cast<float>(columns_ - 1);
-  const auto last_row = static_cast<float>(rows_ - 1);
-  if (!(u >= 0.0F && v >= 0.0F && u < last_column && v < last_row)) return {reach_, 0.0F, 0.0F};
-  const int column = static_cast<int>(u);
-  const int row = static_cast<int>(v);
-  const float a = u - static_cast<float>(column);
-  const float b = v - static_cast<float>(row);
-  const float* low = &cells_[index(column, row)];
-  const float* high = low + columns_;
-  const float below = low[0] + a * (low[1] - low[0]);
-  const float above = high[0] + a * (high[1] - high[0]);
-  const float dx = (1.0F - b) * (low[1] - low[0]) + b * (high[1] - high[0]);
-  return {below + b * (above - below), dx * scale_, (above - below) * scale_};
-}
-
 Pose2 refined_pose(const DistanceField& field, const Points& points, const Pose2& map_from_points,
                    const PoseRefinement& refinement) {
-  constexpr double settled = 1e-4;  // m, rad
+  constexpr double settled = 1e-3;  // m, rad; a hundredth of what counts as contact
   const auto squared_kernel = static_cast<float>(refinement.kernel * refinement.kernel);
   Pose2 pose = map_from_points;
   for (int iteration = 0; iteration < refinement.iterations; ++iteration) {

@@ -38,6 +38,24 @@ class DistanceField {
   std::vector<float> cells_;
 };
 
+inline DistanceField::Value DistanceField::at(float x, float y) const {
+  const float u = (x - min_x_) * scale_;
+  const float v = (y - min_y_) * scale_;
+  const auto last_column = static_cast<float>(columns_ - 1);
+  const auto last_row = static_cast<float>(rows_ - 1);
+  if (!(u >= 0.0F && v >= 0.0F && u < last_column && v < last_row)) return {reach_, 0.0F, 0.0F};
+  const int column = static_cast<int>(u);
+  const int row = static_cast<int>(v);
+  const float a = u - static_cast<float>(column);
+  const float b = v - static_cast<float>(row);
+  const float* low = &cells_[index(column, row)];
+  const float* high = low + columns_;
+  const float below = low[0] + a * (low[1] - low[0]);
+  const float above = high[0] + a * (high[1] - high[0]);
+  const float dx = (1.0F - b) * (low[1] - low[0]) + b * (high[1] - high[0]);
+  return {below + b * (above - below), dx * scale_, (above - below) * scale_};
+}
+
 struct PoseRefinement {
   int iterations = 12;
   double kernel = 0.15;  ///< m; points at this distance count a quarter (Geman-McClure).

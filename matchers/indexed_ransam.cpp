@@ -272,6 +272,7 @@ double IndexedRansam::contact_share(const Points& points, const Pose2& map_from_
 }
 
 double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_local) const {
+  if (params_.unknown_weight == 0.0) return 0.0;
   const Transform transform(map_from_local);
   std::size_t unknown = 0;
   for (std::size_t i = 0; i < sample.size(); ++i) {
