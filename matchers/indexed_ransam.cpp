@@ -107,10 +107,9 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("contact_points", p.contact_points,
           {.doc = "Points looked at for that.", .min = 16, .max = 100000});
   v.field("modes", p.modes, {.doc = "Distinct poses that are refined and judged.", .min = 1, .max = 10000});
-  v.field("best", p.best,
-          {.doc = "Of these, the best that become hypotheses and go on to the next step.",
-           .min = 1,
-           .max = 10000});
+  v.field("best", p.best, {.doc = "Of these, the best that become hypotheses.", .min = 1, .max = 10000});
+  v.field("carried", p.carried,
+          {.doc = "Of those, the best that go on to the next step.", .min = 0, .max = 10000});
   v.field("mode_distance", p.mode_distance,
           {.doc = "Robot poses nearer to each other are one mode.", .unit = "m", .above = 0.0});
   v.field("mode_rotation", p.mode_rotation,
@@ -194,9 +193,10 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
     mode.quality = contact_share(sample, mode.map_from_local);
   }
   modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
-  carried_ = judged(modes, local, sample);
+  const std::vector<Mode> best = judged(modes, local, sample);
+  carried_ = {best.begin(), best.begin() + std::min(std::ssize(best), std::ptrdiff_t{params_.carried})};
   result.checks += modes.size() * local.points.size();
-  for (const Mode& mode : carried_) {
+  for (const Mode& mode : best) {
     if (mode.quality < omega_max) break;
     result.hypotheses.push_back(
         {mode.map_from_local, mode.map_from_local * local.local_from_robot, std::min(mode.quality, 1.0)});

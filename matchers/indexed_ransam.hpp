@@ -34,13 +34,14 @@ class IndexedRansam final : public Matcher {
     int contact_points = 128;
     int modes = 50;
     int best = 10;
+    int carried = 10;
     double mode_distance = 0.4;
     double mode_rotation = 0.2;
     int refinement_points = 100;
     PoseRefinement refinement = {};
     double field_cell = 0.05;
     double blocked_weight = 1.0;
-    double unknown_weight = 0.0;
+    double unknown_weight = 0.1;
     int beam_scans = 5;
     int beams = 40;
     double beam_margin = 0.3;

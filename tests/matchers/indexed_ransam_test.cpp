@@ -58,7 +58,7 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
 TEST(IndexedRansam, QualityIsContactWhereNothingSpeaksAgainstAPose) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
   const auto contact = contact_index(*testing::small_world(), "bitset", 0.1);
-  for (const Hypothesis& h : match({}, local).hypotheses) {
+  for (const Hypothesis& h : match({.unknown_weight = 0.0}, local).hypotheses) {
     const std::size_t n = local.points.size();
     const auto in_contact =
         static_cast<double>(contact->count(local.points, 0, n, Transform(h.map_from_local)));
