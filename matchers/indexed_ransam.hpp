@@ -32,12 +32,12 @@ class IndexedRansam final : public Matcher {
     double contact_epsilon = 0.10;
     double min_contact = 0.2;
     int contact_points = 128;
-    int modes = 50;
+    int modes = 40;
     int best = 10;
     int carried = 10;
     double mode_distance = 0.4;
     double mode_rotation = 0.2;
-    int refinement_points = 100;
+    int refinement_points = 50;
     PoseRefinement refinement = {};
     double field_cell = 0.05;
     double blocked_weight = 1.0;

@@ -46,6 +46,9 @@ std::optional<std::string> why_no_shared_object(const std::filesystem::path& fil
   const std::uint64_t table_size = std::uint64_t{header.e_phnum} * sizeof(Elf64_Phdr);
   if (header.e_phentsize != sizeof(Elf64_Phdr) || !lies_within(header.e_phoff, table_size, size))
     return truncated;
+  // The table of sections is the last thing in the file: nothing is missing if it is whole.
+  if (!lies_within(header.e_shoff, std::uint64_t{header.e_shnum} * header.e_shentsize, size))
+    return truncated;
   std::vector<Elf64_Phdr> segments(header.e_phnum);
   in.seekg(static_cast<std::streamoff>(header.e_phoff));
   in.read(reinterpret_cast<char*>(segments.data()), static_cast<std::streamsize>(table_size));
