@@ -174,6 +174,7 @@ class DocsExamples : public CommandLine {
 
   /// A command that would take long, as one that only checks the same experiments and overrides.
   static std::string quick(const std::string& command) {
+    if (command.starts_with("explain ")) return "explain --help";  // nothing was run that it could explain
     if (!command.starts_with("run ") && !command.starts_with("mapping ")) return command;
     std::string check = "check";
     for (const std::smatch& match : matches(command, R"((--(set|seed|threads) \S+|\S+\.yaml)(?=\s|$))")) {
