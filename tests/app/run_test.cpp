@@ -179,5 +179,33 @@ TEST_F(RunCommand, AnInterruptKeepsFinishedTrials) {
   EXPECT_GE(summary["trials"]["count"], 1);
 }
 
+// Turned by 180 degrees about (6, 3) this world is the same, and nothing the robot sees can tell.
+TEST_F(RunCommand, APerfectlySymmetricWorldIsNeverDeclared) {
+  std::ofstream(file("world.yaml")) << "size: [12, 6]\n"
+                                       "walls:\n"
+                                       "  - {points: [[0, 0], [12, 0], [12, 6], [0, 6]], closed: true}\n"
+                                       "  - {points: [[4, 0], [4, 2]]}\n"
+                                       "  - {points: [[8, 6], [8, 4]]}\n"
+                                       "free_from: [[1, 1]]\n"
+                                       "way_points: [[2, 3], [10, 3], [10, 1.5]]\n";
+  std::ofstream(file("room.yaml")) << "schema: 1\n"
+                                      "name: room\n"
+                                      "map: {simulation: {world: world.yaml}}\n"
+                                      "observations: {simulation: {world: world.yaml}}\n"
+                                      "trials: {whole: true}\n"
+                                      "localizer: {matcher: indexed_ransam, threshold_policy: fixed, "
+                                      "verdict_rule: staged_margin}\n";
+  const Answer answer = run_room("symmetric");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  std::ifstream in(file("symmetric/steps.jsonl"));
+  int steps = 0;
+  for (std::string line; std::getline(in, line); ++steps) {
+    const Json step = Json::parse(line);
+    EXPECT_EQ(step["verdict"], "ambiguous") << steps;
+    EXPECT_THAT(step["why"].get<std::string>(), HasSubstr("2 poses")) << steps;
+  }
+  EXPECT_GT(steps, 15);
+}
+
 }  // namespace
 }  // namespace glocal::test
