@@ -37,7 +37,7 @@ Verdict ConsecutiveRating::judge(const StepResult& step) {
   const double rating = step.ratings.front().r_normalised;
   if (rating > params_.min_rating) {
     const int count = last_ && continues(*last_, step) ? last_->count + 1 : 1;
-    last_ = Leader{pose, step.local_from_robot, step.local_map_generation, count};
+    last_ = Leader{FollowedPose::of(step, pose), count};
     if (count >= params_.consecutive) {
       return {VerdictKind::localized,
               pose,
@@ -65,14 +65,12 @@ Verdict ConsecutiveRating::judge(const StepResult& step) {
 }
 
 bool ConsecutiveRating::same(const Pose2& a, const Pose2& b) const {
-  return distance(a, b) < params_.same_distance &&
-         rotation_between(a, b) < radians(params_.same_rotation_deg);
+  return are_same(a, b, params_.same_distance, params_.same_rotation_deg);
 }
 
 bool ConsecutiveRating::continues(const Leader& last, const StepResult& step) const {
-  if (last.generation != step.local_map_generation) return false;
-  const Pose2 motion = inverse(last.local_from_robot) * step.local_from_robot;
-  return same(step.clusters.front().map_from_robot, last.map_from_robot * motion);
+  const auto expected = last.pose.expected_in(step);
+  return expected && same(step.clusters.front().map_from_robot, *expected);
 }
 
 /// Robot poses of the highly rated clusters, leaving out those that only repeat a better one.

@@ -4,6 +4,7 @@
 
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
+#include "raters/followed_pose.hpp"
 
 namespace glocal {
 
@@ -27,9 +28,7 @@ class ConsecutiveRating final : public VerdictRule {
 
  private:
   struct Leader {
-    Pose2 map_from_robot;
-    Pose2 local_from_robot;
-    int generation = 0;
+    FollowedPose pose;
     int count = 0;
   };
   [[nodiscard]] bool same(const Pose2& a, const Pose2& b) const;

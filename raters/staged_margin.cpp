@@ -51,7 +51,7 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const double driven = best_ ? distance(best_->local_from_robot, step.local_from_robot) : 0.0;
   if (!continues(step)) reset();
   const Pose2& pose = step.hypotheses.front().map_from_robot;
-  best_ = Best{pose, step.local_from_robot, step.local_map_generation};
+  best_ = FollowedPose::of(step, pose);
 
   const double lead_now = margin(step);
   for (std::size_t i = 0; i < params_.stages.size(); ++i) {
@@ -97,11 +97,9 @@ double StagedMargin::margin(const StepResult& step) const {
 }
 
 bool StagedMargin::continues(const StepResult& step) const {
-  if (!best_ || best_->generation != step.local_map_generation) return false;
-  const Pose2 expected = best_->map_from_robot * (inverse(best_->local_from_robot) * step.local_from_robot);
-  const Pose2& pose = step.hypotheses.front().map_from_robot;
-  return distance(pose, expected) < params_.same_distance &&
-         rotation_between(pose, expected) < radians(params_.same_rotation_deg);
+  const auto expected = best_ ? best_->expected_in(step) : std::nullopt;
+  return expected && are_same(step.hypotheses.front().map_from_robot, *expected, params_.same_distance,
+                              params_.same_rotation_deg);
 }
 
 /// The best pose and its rivals of about the same quality, each a rival of the others.

@@ -6,6 +6,7 @@
 
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
+#include "raters/followed_pose.hpp"
 
 namespace glocal {
 
@@ -40,11 +41,6 @@ class StagedMargin final : public VerdictRule {
     int steps = 0;
     double distance = 0.0;
   };
-  struct Best {
-    Pose2 map_from_robot;
-    Pose2 local_from_robot;
-    int generation = 0;
-  };
   [[nodiscard]] double margin(const StepResult& step) const;
   [[nodiscard]] bool continues(const StepResult& step) const;
   [[nodiscard]] std::vector<Pose2> candidates(const StepResult& step) const;
@@ -52,7 +48,7 @@ class StagedMargin final : public VerdictRule {
 
   Params params_;
   std::vector<Lead> leads_;  ///< One for each stage.
-  std::optional<Best> best_;
+  std::optional<FollowedPose> best_;
 };
 void describe(ParamVisitor& v, StagedMargin::Stage& p);
 void describe(ParamVisitor& v, StagedMargin::Params& p);

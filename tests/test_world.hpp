@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "glocal/global_map.hpp"
+#include "glocal/local_map.hpp"
 #include "glocal/points.hpp"
 
 namespace glocal::testing {
@@ -57,6 +58,14 @@ inline Points seen_from(const Points& world, const Pose2& map_from_robot, double
     if (std::hypot(local.x[i], local.y[i]) <= reach) result.push_back(local[i]);
   }
   return result;
+}
+
+/// The local map of a robot that stands in the small world and sees so far; it begins where the robot is.
+inline LocalMap local_map_at(const Pose2& map_from_robot, double reach) {
+  LocalMap local;
+  local.points = seen_from(small_world_points(), map_from_robot, reach);
+  local.ends = {local.points.size()};
+  return local;
 }
 
 }  // namespace glocal::testing

@@ -10,13 +10,7 @@
 namespace glocal {
 namespace {
 
-/// A local map that begins at a robot pose, with the normals a mapper would have found.
-LocalMap local_map_at(const Pose2& map_from_robot, double reach) {
-  LocalMap local;
-  local.points = testing::seen_from(testing::small_world_points(), map_from_robot, reach);
-  local.ends = {local.points.size()};
-  return local;
-}
+using testing::local_map_at;
 
 MatchResult match(const IndexedRansam::Params& params, const LocalMap& local, std::uint64_t seed = 1) {
   IndexedRansam matcher(params, {testing::small_world(), 1});

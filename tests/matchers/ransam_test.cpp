@@ -11,12 +11,7 @@
 namespace glocal {
 namespace {
 
-LocalMap local_map_at(const Pose2& map_from_robot, double reach) {
-  LocalMap local;
-  local.points = testing::seen_from(testing::small_world_points(), map_from_robot, reach);
-  local.ends = {local.points.size()};
-  return local;
-}
+using testing::local_map_at;
 
 MatchResult match(const Ransam::Params& params, const LocalMap& local, double omega_max, int threads = 1,
                   std::uint64_t seed = 1) {

@@ -31,10 +31,7 @@ class Pcl : public ::testing::Test {
 };
 
 LocalMap local_map_at(const Pose2& map_from_robot) {
-  LocalMap local;
-  local.points = glocal::testing::seen_from(glocal::testing::small_world_points(), map_from_robot, 3.5);
-  local.ends = {local.points.size()};
-  return local;
+  return glocal::testing::local_map_at(map_from_robot, 3.5);
 }
 
 TEST_F(Pcl, BothMatchersFindThePose) {
