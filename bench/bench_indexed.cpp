@@ -15,9 +15,6 @@
 namespace glocal::bench {
 namespace {
 
-constexpr double field_cell = 0.05;
-constexpr double field_reach = 0.5;
-
 void surfaces(benchmark::State& state, const Scene& s) {
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(surfaces_of(*s.prepared.map, SurfaceRule{}));
 }
@@ -37,7 +34,7 @@ void dipoles(benchmark::State& state, const Scene& s) {
 
 void distances(benchmark::State& state, const Scene& s) {
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(DistanceField(s.map(), field_cell, field_reach));
+    benchmark::DoNotOptimize(DistanceField(s.map()));
   }
 }
 
@@ -64,7 +61,7 @@ void first_match(benchmark::State& state, const Scene& s) {
 
 /// From a pose a little off, with a hundred points.
 void refinement(benchmark::State& state, const Scene& s) {
-  const DistanceField field(s.map(), field_cell, field_reach);
+  const DistanceField field(s.map());
   const std::size_t start = s.prepared.starts.front();
   const LocalMap local = local_map_at(s, start, 10);
   Points points;

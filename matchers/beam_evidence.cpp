@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace glocal {
+
 ClearanceGrid::ClearanceGrid(const OccupancyGrid& grid)
     : grid_from_map_(inverse(grid.map_from_grid)),
       resolution_(static_cast<float>(grid.resolution)),

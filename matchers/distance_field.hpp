@@ -14,7 +14,7 @@ namespace glocal {
 class DistanceField {
  public:
   /// Throws ConfigError if it would need more than 1 GiB.
-  DistanceField(const Points& points, double resolution, double reach);
+  explicit DistanceField(const Points& points, double resolution = 0.05, double reach = 0.5);
 
   struct Value {
     float distance = 0.0F;  ///< m

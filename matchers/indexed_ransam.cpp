@@ -153,12 +153,9 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       index_(setup.map->index<DipoleIndex>(
           index_key(params),
           [&] { return DipoleIndex(surfaces_of(*setup.map, surface_rule(params)), dipole_rule(params)); })),
-      field_(setup.map->index<DistanceField>(fmt::format("{}", params.field_cell),
-                                             [&] {
-                                               constexpr double reach = 0.5;
-                                               return DistanceField(setup.map->points(), params.field_cell,
-                                                                    reach);
-                                             })),
+      field_(setup.map->index<DistanceField>(
+          fmt::format("{}", params.field_cell),
+          [&] { return DistanceField(setup.map->points(), params.field_cell); })),
       clearance_(setup.map->index<ClearanceGrid>("", [&] { return ClearanceGrid(setup.map->grid()); })),
       beams_({.scans = params.beam_scans, .beams = params.beams, .margin = params.beam_margin}) {}
 
@@ -180,7 +177,7 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   const Points sample = sample_of(local.points, static_cast<std::size_t>(params_.contact_points), rng);
   std::vector<Mode> modes;
   for (const Mode& mode : carried_) {
-    modes.push_back({mode.map_from_local, contact_share(sample, mode.map_from_local)});
+    modes.push_back({mode.map_from_local, contact_->share(sample, Transform(mode.map_from_local))});
   }
   const int draws = steps_++ < params_.first_steps ? params_.first_iterations : params_.iterations;
   draw(surfaces_of(local, surface_rule(params_)), sample, static_cast<std::size_t>(draws), rng, modes,
@@ -190,7 +187,7 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
   for (Mode& mode : modes) {
     mode.map_from_local = refined_pose(*field_, anchors, mode.map_from_local, params_.refinement);
-    mode.quality = contact_share(sample, mode.map_from_local);
+    mode.quality = contact_->share(sample, Transform(mode.map_from_local));
   }
   modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
   const std::vector<Mode> best = judged(modes, local, sample);
@@ -238,8 +235,7 @@ void IndexedRansam::test(const MotionBatch& motions, std::size_t size, const Poi
       continue;
     }
     result.checks += sample.size();
-    const std::size_t in_contact = contact_->count(sample, 0, sample.size(), motions[i]);
-    const double share = static_cast<double>(in_contact) / static_cast<double>(sample.size());
+    const double share = contact_->share(sample, motions[i]);
     if (share >= params_.min_contact) modes.push_back({motions[i].pose(), share});
   }
 }
@@ -265,12 +261,6 @@ std::vector<IndexedRansam::Mode> IndexedRansam::distinct(std::vector<Mode> modes
   return kept;
 }
 
-double IndexedRansam::contact_share(const Points& points, const Pose2& map_from_local) const {
-  const std::size_t n = points.size();
-  return static_cast<double>(contact_->count(points, 0, n, Transform(map_from_local))) /
-         static_cast<double>(n);
-}
-
 double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_local) const {
   if (params_.unknown_weight == 0.0) return 0.0;
   const Transform transform(map_from_local);
@@ -290,7 +280,7 @@ std::vector<IndexedRansam::Mode> IndexedRansam::judged(const std::vector<Mode>& 
   std::vector<Mode> at_most;
   for (const Mode& mode : modes) {
     at_most.push_back(
-        {mode.map_from_local, contact_share(local.points, mode.map_from_local) +
+        {mode.map_from_local, contact_->share(local.points, Transform(mode.map_from_local)) +
                                   params_.unknown_weight * unknown_share(sample, mode.map_from_local)});
   }
   std::stable_sort(at_most.begin(), at_most.end(), better);

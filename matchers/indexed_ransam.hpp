@@ -72,7 +72,6 @@ class IndexedRansam final : public Matcher {
   void test(const MotionBatch& motions, std::size_t size, const Points& sample, std::vector<Mode>& modes,
             MatchResult& result) const;
   [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
-  [[nodiscard]] double contact_share(const Points& points, const Pose2& map_from_local) const;
   [[nodiscard]] double unknown_share(const Points& sample, const Pose2& map_from_local) const;
   [[nodiscard]] std::vector<Mode> judged(const std::vector<Mode>& modes, const LocalMap& local,
                                          const Points& sample) const;

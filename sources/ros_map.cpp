@@ -5,7 +5,6 @@
 
 #include "glocal/error.hpp"
 #include "glocal/yaml.hpp"
-#include "sources/grid_points.hpp"
 #include "sources/image.hpp"
 
 namespace glocal {

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "glocal/error.hpp"
-#include "sources/grid_points.hpp"
 #include "sources/simulation.hpp"
 
 namespace glocal {

@@ -61,10 +61,7 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
 
 /// Contact of the local map at a robot pose, in [0, 1].
 double contact_at(const Replayed& step, const ContactIndex& contact, const Pose2& map_from_robot) {
-  const std::size_t n = step.local.points.size();
-  if (n == 0) return 0.0;
-  const Transform map_from_local(map_from_robot * inverse(step.local.local_from_robot));
-  return static_cast<double>(contact.count(step.local.points, 0, n, map_from_local)) / static_cast<double>(n);
+  return contact.share(step.local.points, Transform(map_from_robot * inverse(step.local.local_from_robot)));
 }
 
 bool agree(const Pose2& a, const Pose2& b, const EvaluationConfig& limits) {
@@ -110,9 +107,7 @@ void explain(const ExplainOptions& options, Context& context) {
 
   const auto contact =
       contact_index(*prepared.map, "bitset", experiment.localizer.unknown_place.contact_epsilon);
-  constexpr double field_cell = 0.05;
-  constexpr double field_reach = 0.5;
-  const DistanceField field(prepared.map->points(), field_cell, field_reach);
+  const DistanceField field(prepared.map->points());
   const Pose2 map_from_local = truth * inverse(step.local.local_from_robot);
   const Pose2 fitted = refined_pose(field, step.local.points, map_from_local, {.iterations = 30}) *
                        step.local.local_from_robot;

@@ -15,7 +15,7 @@ struct Alignment {
   double in_contact;  ///< Share of the other map's points.
 };
 
-/// Random sample matching of whole maps, then climbing to the best fit near by. None if no pose brings a
+/// Random sample matching of whole maps, then Gauss-Newton on the distance field. None if no pose brings a
 /// quarter of the points into contact.
 [[nodiscard]] std::optional<Alignment> align_maps(const std::shared_ptr<const GlobalMap>& map,
                                                   const Points& other, const Ransam::Params& params,

@@ -124,15 +124,10 @@ MapData OctomapMap::load() {
     map.points.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y),
                           static_cast<float>(tree->keyToCoord(static_cast<octomap::key_type>(v.z)))});
   });
-  for (int row = 0; row < grid.height; ++row) {
-    for (int column = 0; column < grid.width; ++column) {
-      if (occupied_voxels[grid.index(column, row)] < params_.min_voxels) continue;
-      grid.cell(column, row) = Cell::occupied;
-      if (params_.points != "plan") continue;
-      const Pose2 centre = grid.centre(column, row);
-      map.points.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y), 0.0F});
-    }
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    if (occupied_voxels[cell] >= params_.min_voxels) grid.cells[cell] = Cell::occupied;
   }
+  if (params_.points == "plan") map.points = occupied_centres(grid);
   if (map.points.empty()) refuse("has nothing occupied between min_height and max_height; take a wider band");
   return map;
 }

@@ -84,13 +84,11 @@ std::vector<Pose2> IcpAligner::align(const Points& points, const std::vector<Pos
 }
 
 std::vector<Hypothesis> rated(const std::vector<Pose2>& poses, const LocalMap& local,
-                              const ContactIndex& contact) {
-  const std::size_t n = local.points.size();
+                              const ContactIndex& contact, double omega_max) {
   std::vector<Hypothesis> hypotheses;
   for (const Pose2& pose : poses) {
-    const std::size_t in_contact = contact.count(local.points, 0, n, Transform(pose));
-    hypotheses.push_back(
-        {pose, pose * local.local_from_robot, static_cast<double>(in_contact) / static_cast<double>(n)});
+    const double omega = contact.share(local.points, Transform(pose));
+    if (omega >= omega_max) hypotheses.push_back({pose, pose * local.local_from_robot, omega});
   }
   std::stable_sort(hypotheses.begin(), hypotheses.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
@@ -119,15 +117,14 @@ MatchResult PclIcp::match(const LocalMap& local, const Observation& /*latest*/, 
     starts.push_back(map_from_robot * robot_from_local);
 
   std::vector<Hypothesis> coarse =
-      rated(aligner_.align(local.points, starts, params_.coarse, threads_), local, *contact_);
+      rated(aligner_.align(local.points, starts, params_.coarse, threads_), local, *contact_, 0.0);
   coarse.resize(std::min(coarse.size(), static_cast<std::size_t>(params_.keep)));
   std::vector<Pose2> promising;
   for (const Hypothesis& h : coarse) promising.push_back(h.map_from_local);
 
   MatchResult result;
   result.hypotheses =
-      rated(aligner_.align(local.points, promising, params_.fine, threads_), local, *contact_);
-  std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return h.quality < omega_max; });
+      rated(aligner_.align(local.points, promising, params_.fine, threads_), local, *contact_, omega_max);
   result.collisions = starts.size();
   result.checks = (starts.size() + promising.size()) * local.points.size();
   return result;

@@ -39,9 +39,9 @@ class IcpAligner {
   Tree::Ptr tree_;
 };
 
-/// Poses (map_from_local) with their quality, which falls; equal ones keep their order.
+/// Those of the poses (map_from_local) that reach a quality, by falling quality; equal ones keep their order.
 [[nodiscard]] std::vector<Hypothesis> rated(const std::vector<Pose2>& poses, const LocalMap& local,
-                                            const ContactIndex& contact);
+                                            const ContactIndex& contact, double omega_max);
 
 /// Multi-start ICP: starts with the robot on a grid of free places, in several headings; a few coarse
 /// iterations with few points from all of them, then fine ones from those with the most contact.

@@ -11,7 +11,7 @@ GLOCAL_PLUGIN("glocal_pcl", "0.1.0", catalog) {
   // What goes wrong in PCL shows in the hypotheses; a step has nothing to say on the terminal.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   catalog.contact_indexes.add<PclKdTreeContact>("pcl_kd_tree",
-                                                "PCL's kd-tree: exact, and a hundred times slower.");
+                                                "PCL's kd-tree: exact, and many times slower.");
   catalog.matchers.add<PclIcp>("pcl_icp", "PCL's ICP from starts all over the map, coarse to fine.");
   catalog.matchers.add<PclPrerejective>(
       "pcl_prerejective", "PCL's SampleConsensusPrerejective: triples of points with like FPFH features.");

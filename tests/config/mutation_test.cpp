@@ -25,7 +25,7 @@ class Mutation : public testing::Test {
   /// Whether the text is an experiment. What is none must have a fault, which must have a place in the text.
   bool check(const std::string& text) {
     std::vector<Fault> faults;
-    Experiment experiment = default_experiment(catalog_);
+    Experiment experiment = default_experiment();
     ExperimentParams params(experiment, catalog_);
     auto tree = parse_yaml(text, origin_of(folder_.path() / "e.yaml"), faults);
     if (tree) {

@@ -30,14 +30,12 @@ class Pcl : public ::testing::Test {
   Catalog catalog_;
 };
 
-LocalMap local_map_at(const Pose2& map_from_robot) {
-  return glocal::testing::local_map_at(map_from_robot, 3.5);
-}
+constexpr double reach = 3.5;
 
 TEST_F(Pcl, BothMatchersFindThePose) {
   const Pose2 truth{5.5, 2.5, 0.7};
   for (const char* name : {"pcl_icp", "pcl_prerejective"}) {
-    const MatchResult result = match(name, local_map_at(truth));
+    const MatchResult result = match(name, glocal::testing::local_map_at(truth, reach));
     ASSERT_FALSE(result.hypotheses.empty()) << name;
     const Pose2& best = result.hypotheses.front().map_from_robot;
     EXPECT_LT(distance(best, truth), 0.03) << name;
@@ -49,7 +47,7 @@ TEST_F(Pcl, BothMatchersFindThePose) {
 TEST_F(Pcl, AnotherOriginOfTheLocalMapChangesNothing) {
   const Pose2 truth{2.0, 6.0, -1.0};
   const Pose2 local_from_robot{3.0, -1.0, 0.5};
-  LocalMap local = local_map_at(truth);
+  LocalMap local = glocal::testing::local_map_at(truth, reach);
   local.points = glocal::testing::moved(local.points, local_from_robot);
   local.local_from_robot = local_from_robot;
   const MatchResult result = match("pcl_icp", local);
@@ -84,7 +82,7 @@ TEST_F(Pcl, RansamTakesPclsKdTree) {
   const auto matcher = catalog_.matchers.make(choice, {glocal::testing::small_world(), 1});
   const Pose2 truth{5.5, 2.5, 0.7};
   Rng rng(1);
-  const MatchResult result = matcher->match(local_map_at(truth), {}, 0.8, rng);
+  const MatchResult result = matcher->match(glocal::testing::local_map_at(truth, reach), {}, 0.8, rng);
   ASSERT_FALSE(result.hypotheses.empty());
   EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.1);
 }

@@ -56,7 +56,7 @@ void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog);
 
 /// An experiment with every stage at its default (the paper's method); map, observations and trials are left
 /// open.
-[[nodiscard]] Experiment default_experiment(const Catalog& catalog);
+[[nodiscard]] Experiment default_experiment();
 
 /// `path=value` as given with --set, for example {"localizer.matcher.ransam.iterations", "50000"}; the value
 /// is YAML.

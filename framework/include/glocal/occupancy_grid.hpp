@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "glocal/points.hpp"
 #include "glocal/pose2.hpp"
 
 namespace glocal {
@@ -32,5 +33,8 @@ struct OccupancyGrid {
     return map_from_grid * Pose2{(column + 0.5) * resolution, (row + 0.5) * resolution, 0.0};
   }
 };
+
+/// The centres of all occupied cells, row by row, m, in the map's frame.
+[[nodiscard]] Points occupied_centres(const OccupancyGrid& grid);
 
 }  // namespace glocal

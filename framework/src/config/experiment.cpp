@@ -58,11 +58,6 @@ bool is_folder_name(std::string_view name) {
          std::all_of(name.begin(), name.end(), [&](char c) { return is_word(c) || c == '-' || c == '.'; });
 }
 
-/// The named strategy with its defaults, or its bare name if it is not registered.
-StrategyChoice choose_if_there(const RegistryBase& registry, const char* name) {
-  return registry.find(name) != nullptr ? registry.choose(name) : StrategyChoice{name};
-}
-
 }  // namespace
 
 void describe(ParamVisitor& v, TrialsConfig& p) {
@@ -137,21 +132,22 @@ void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog) {
   v.field("output", e.output, {.doc = "What to write besides the summary."});
 }
 
-Experiment default_experiment(const Catalog& catalog) {
+Experiment default_experiment() {
   Experiment e;
-  e.localizer.local_mapper = choose_if_there(catalog.local_mappers, "scan_matching");
-  e.localizer.matcher = choose_if_there(catalog.matchers, "ransam");
-  e.localizer.clusterer = choose_if_there(catalog.clusterers, "hierarchical_kmeans");
-  e.localizer.rater = choose_if_there(catalog.raters, "cluster_rating");
-  e.localizer.threshold_policy = choose_if_there(catalog.threshold_policies, "sliding_window");
-  e.localizer.verdict_rule = choose_if_there(catalog.verdict_rules, "consecutive_rating");
+  e.localizer = {.local_mapper = {"scan_matching"},
+                 .matcher = {"ransam"},
+                 .clusterer = {"hierarchical_kmeans"},
+                 .rater = {"cluster_rating"},
+                 .threshold_policy = {"sliding_window"},
+                 .verdict_rule = {"consecutive_rating"},
+                 .unknown_place = {}};
   return e;
 }
 
 Experiment read_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides,
                            const Catalog& catalog) {
   std::vector<Fault> faults;
-  Experiment experiment = default_experiment(catalog);
+  Experiment experiment = default_experiment();
   ExperimentParams params(experiment, catalog);
   if (auto tree = parse_yaml(read_text_file(file), origin_of(file), faults)) {
     apply_overrides(*tree, overrides, params, faults);

@@ -146,7 +146,7 @@ Json registry_schema(const RegistryBase& registry) {
 }  // namespace
 
 Json experiment_schema(const Catalog& catalog) {
-  Experiment experiment = default_experiment(catalog);
+  Experiment experiment = default_experiment();
   ExperimentParams params(experiment, catalog);
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "glocal experiment"}};
   schema.update(struct_schema(document(params)));
