@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -45,35 +46,70 @@ DistanceField::DistanceField(const Points& points, double resolution, double rea
   }
 }
 
+namespace {
+
+/// Of the sum of weighted squared distances, about a pose that is turned around `about`.
+struct NormalEquations {
+  Eigen::Matrix3f h = Eigen::Matrix3f::Zero();
+  Eigen::Vector3f g = Eigen::Vector3f::Zero();
+  float weights = 0.0F;
+  float squares = 0.0F;  ///< m^2
+};
+
+NormalEquations normal_equations(const DistanceField& field, const Points& points,
+                                 const Pose2& map_from_points, const Pose2& about, double kernel) {
+  const auto squared_kernel = static_cast<float>(kernel * kernel);
+  const auto x = static_cast<float>(about.x);
+  const auto y = static_cast<float>(about.y);
+  const Transform transform(map_from_points);
+  NormalEquations e;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point p = transform(points[i]);
+    const DistanceField::Value value = field.at(p.x, p.y);
+    if (value.dx == 0.0F && value.dy == 0.0F) continue;
+    const float share = squared_kernel / (squared_kernel + value.distance * value.distance);
+    const float weight = share * share;  // Geman-McClure
+    const Eigen::Vector3f j(value.dx, value.dy, value.dy * (p.x - x) - value.dx * (p.y - y));
+    e.h += weight * j * j.transpose();
+    e.g += weight * value.distance * j;
+    e.weights += weight;
+    e.squares += weight * value.distance * value.distance;
+  }
+  return e;
+}
+
+}  // namespace
+
 Pose2 refined_pose(const DistanceField& field, const Points& points, const Pose2& map_from_points,
                    const PoseRefinement& refinement) {
   constexpr double settled = 1e-3;  // m, rad; a hundredth of what counts as contact
-  const auto squared_kernel = static_cast<float>(refinement.kernel * refinement.kernel);
   Pose2 pose = map_from_points;
   for (int iteration = 0; iteration < refinement.iterations; ++iteration) {
-    const Transform transform(pose);
-    Eigen::Matrix3f h = Eigen::Matrix3f::Zero();
-    Eigen::Vector3f g = Eigen::Vector3f::Zero();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Point p = transform(points[i]);
-      const DistanceField::Value value = field.at(p.x, p.y);
-      if (value.dx == 0.0F && value.dy == 0.0F) continue;
-      const float share = squared_kernel / (squared_kernel + value.distance * value.distance);
-      const float weight = share * share;  // Geman-McClure
-      const Eigen::Vector3f j(value.dx, value.dy,
-                              value.dy * (p.x - transform.x()) - value.dx * (p.y - transform.y()));
-      h += weight * j * j.transpose();
-      g += weight * value.distance * j;
-    }
+    NormalEquations e = normal_equations(field, points, pose, pose, refinement.kernel);
     constexpr float damping = 1e-3F;
-    h.diagonal() *= 1.0F + damping;
-    const Eigen::LDLT<Eigen::Matrix3f> solver(h);
-    const Eigen::Vector3f step = solver.solve(-g);
+    e.h.diagonal() *= 1.0F + damping;
+    const Eigen::LDLT<Eigen::Matrix3f> solver(e.h);
+    const Eigen::Vector3f step = solver.solve(-e.g);
     if (!step.allFinite() || step.norm() > 1.0F) return map_from_points;
     pose = {pose.x + step.x(), pose.y + step.y(), wrap_angle(pose.theta + step.z())};
     if (std::abs(step.x()) < settled && std::abs(step.y()) < settled && std::abs(step.z()) < settled) break;
   }
   return pose;
+}
+
+PoseCovariance pose_covariance(const DistanceField& field, const Points& points, const Pose2& map_from_points,
+                               const Pose2& map_from_robot, double kernel,
+                               const PoseUncertainty& uncertainty) {
+  const NormalEquations e = normal_equations(field, points, map_from_points, map_from_robot, kernel);
+  const double least = uncertainty.point_deviation * uncertainty.point_deviation;
+  const double variance = e.weights > 0.0F ? std::max(least, double{e.squares / e.weights}) : least;
+  Eigen::Matrix3d information = e.h.cast<double>() / (variance * uncertainty.correlated_points);
+  information.diagonal() += Eigen::Vector3d(1.0, 1.0, 4.0);  // a metre and half a radian
+  Eigen::Matrix3d c = information.inverse();
+  const double drift = uncertainty.drift * uncertainty.drift;
+  const double turn = radians(uncertainty.drift_deg) * radians(uncertainty.drift_deg);
+  c.diagonal() += Eigen::Vector3d(drift, drift, turn);
+  return {.xx = c(0, 0), .xy = c(0, 1), .xt = c(0, 2), .yy = c(1, 1), .yt = c(1, 2), .tt = c(2, 2)};
 }
 
 }  // namespace glocal

@@ -90,6 +90,15 @@ void describe(ParamVisitor& v, PoseRefinement& p) {
            .above = 0.0});
 }
 
+void describe(ParamVisitor& v, PoseUncertainty& p) {
+  v.field("point_deviation", p.point_deviation,
+          {.doc = "Deviation of a point from the map, at least.", .unit = "m", .above = 0.0});
+  v.field("correlated_points", p.correlated_points,
+          {.doc = "So many points err alike, and count as one.", .min = 1.0});
+  v.field("drift", p.drift, {.doc = "Deviation of the robot in its local map.", .unit = "m", .min = 0.0});
+  v.field("drift_deg", p.drift_deg, {.doc = "The same of its heading.", .unit = "deg", .min = 0.0});
+}
+
 void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("iterations", p.iterations,
           {.doc = "Dipoles drawn from the local map in a step.", .min = 0, .max = 10e6});
@@ -116,6 +125,7 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
           {.doc = "… if they are turned by less.", .unit = "rad", .above = 0.0});
   v.field("refinement_points", p.refinement_points, {.doc = "Points used to refine a pose.", .min = 3});
   v.field("refinement", p.refinement, {.doc = "How poses are refined on the distance field."});
+  v.field("uncertainty", p.uncertainty, {.doc = "What the covariance of a hypothesis is made from."});
   v.field("field_cell", p.field_cell,
           {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
   v.field("blocked_weight", p.blocked_weight,
@@ -195,10 +205,19 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   result.checks += modes.size() * local.points.size();
   for (const Mode& mode : best) {
     if (mode.quality < omega_max) break;
-    result.hypotheses.push_back(
-        {mode.map_from_local, mode.map_from_local * local.local_from_robot, std::min(mode.quality, 1.0)});
+    result.hypotheses.push_back(hypothesis(mode, local, sample));
   }
   return result;
+}
+
+Hypothesis IndexedRansam::hypothesis(const Mode& mode, const LocalMap& local, const Points& sample) const {
+  const Pose2 map_from_robot = mode.map_from_local * local.local_from_robot;
+  return {.map_from_local = mode.map_from_local,
+          .map_from_robot = map_from_robot,
+          .quality = std::min(mode.quality, 1.0),
+          .covariance = pose_covariance(*field_, sample, mode.map_from_local, map_from_robot,
+                                        params_.refinement.kernel, params_.uncertainty),
+          .conflict = conflict_share(sample, mode.map_from_local)};
 }
 
 void IndexedRansam::draw(const Surfaces& surfaces, const Points& sample, std::size_t draws, Rng& rng,
@@ -259,6 +278,17 @@ std::vector<IndexedRansam::Mode> IndexedRansam::distinct(std::vector<Mode> modes
     if (kept.size() == static_cast<std::size_t>(params_.modes)) break;
   }
   return kept;
+}
+
+double IndexedRansam::conflict_share(const Points& sample, const Pose2& map_from_local) const {
+  const Transform transform(map_from_local);
+  std::size_t conflicts = 0;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const Point p = transform(sample[i]);
+    if (map_->grid().at(p.x, p.y) == Cell::free && field_->at(p.x, p.y).distance > params_.contact_epsilon)
+      ++conflicts;
+  }
+  return static_cast<double>(conflicts) / static_cast<double>(sample.size());
 }
 
 double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_local) const {

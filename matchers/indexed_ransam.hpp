@@ -39,6 +39,7 @@ class IndexedRansam final : public Matcher {
     double mode_rotation = 0.2;
     int refinement_points = 50;
     PoseRefinement refinement = {};
+    PoseUncertainty uncertainty = {};
     double field_cell = 0.05;
     double blocked_weight = 1.0;
     double unknown_weight = 0.1;
@@ -72,6 +73,8 @@ class IndexedRansam final : public Matcher {
   void test(const MotionBatch& motions, std::size_t size, const Points& sample, std::vector<Mode>& modes,
             MatchResult& result) const;
   [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
+  [[nodiscard]] Hypothesis hypothesis(const Mode& mode, const LocalMap& local, const Points& sample) const;
+  [[nodiscard]] double conflict_share(const Points& sample, const Pose2& map_from_local) const;
   [[nodiscard]] double unknown_share(const Points& sample, const Pose2& map_from_local) const;
   [[nodiscard]] std::vector<Mode> judged(const std::vector<Mode>& modes, const LocalMap& local,
                                          const Points& sample) const;
@@ -88,6 +91,7 @@ class IndexedRansam final : public Matcher {
   int steps_ = 0;       ///< In that frame.
 };
 void describe(ParamVisitor& v, PoseRefinement& p);
+void describe(ParamVisitor& v, PoseUncertainty& p);
 void describe(ParamVisitor& v, IndexedRansam::Params& p);
 
 }  // namespace glocal

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace glocal {
 
@@ -13,6 +14,15 @@ void describe(ParamVisitor& v, StagedMargin::Stage& p) {
            .max = 1.0});
   v.field("steps", p.steps, {.doc = "In so many consecutive steps.", .min = 1});
   v.field("distance", p.distance, {.doc = "And over this way.", .unit = "m", .min = 0.0});
+}
+
+void describe(ParamVisitor& v, StagedMargin::Confidence& p) {
+  v.field("bias", p.bias, {.doc = "Log odds that the best pose is right when it has no lead at all."});
+  v.field("margin", p.margin, {.doc = "What a lead adds to them, times the lead."});
+  v.field(
+      "steps", p.steps,
+      {.doc = "What time adds to them, times the logarithm of the number of steps in which the best pose has "
+              "been the same."});
 }
 
 void describe(ParamVisitor& v, StagedMargin::Params& p) {
@@ -31,6 +41,25 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
            .above = 0.0});
   v.field("same_rotation_deg", p.same_rotation_deg,
           {.doc = "… and turned by less.", .unit = "deg", .max = 180.0, .above = 0.0});
+  v.field(
+      "max_turn_rate_deg", p.max_turn_rate_deg,
+      {.doc = "Nothing is declared while the robot turns faster: scans are smeared then, and stamps are not "
+              "exact enough for the heading.",
+       .unit = "deg/s",
+       .above = 0.0});
+  v.field("steady_steps", p.steady_steps, {.doc = "Steps it must not have turned faster in.", .min = 1});
+  v.field(
+      "max_conflict", p.max_conflict,
+      {.doc = "Nothing is declared where more of the points lie in space known to be free; where the matcher "
+              "tells.",
+       .min = 0.0,
+       .max = 1.0});
+  v.field("confidence", p.confidence, {.doc = "How the lead becomes a probability (logistic)."});
+  v.field(
+      "spread_margin", p.spread_margin,
+      {.doc =
+           "A hypothesis near the best one, of a quality lower by this, counts 1/e of it in the covariance.",
+       .above = 0.0});
   v.field("candidate_margin", p.candidate_margin,
           {.doc = "The verdict is ambiguous if rivals are so near in quality to the best hypothesis.",
            .min = 0.0,
@@ -39,23 +68,63 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
 }
 
 void StagedMargin::reset() {
-  leads_.assign(params_.stages.size(), {});
+  begin_anew();
   best_.reset();
+  since_turn_.reset();
+}
+
+void StagedMargin::begin_anew() {
+  leads_.assign(params_.stages.size(), {});
+  steps_ = 0;
+  distance_ = 0.0;
+  is_declared_ = false;
 }
 
 Verdict StagedMargin::judge(const StepResult& step) {
   if (step.hypotheses.empty()) {
-    reset();
+    begin_anew();
+    best_.reset();
     return {VerdictKind::searching, std::nullopt, {}, "no pose fits the local map well enough in this step"};
   }
-  const double driven = best_ ? distance(best_->local_from_robot, step.local_from_robot) : 0.0;
-  if (!continues(step)) reset();
+  const double turn_rate_deg = best_ ? degrees(best_->turn_rate_to(step)) : 0.0;
+  const bool goes_on = continues(step);
+  const double driven = goes_on ? distance(best_->local_from_robot, step.local_from_robot) : 0.0;
+  if (!goes_on) begin_anew();
   const Pose2& pose = step.hypotheses.front().map_from_robot;
   best_ = FollowedPose::of(step, pose);
+  ++steps_;
+  distance_ += driven;
 
-  const double lead_now = margin(step);
+  const double lead = margin(step);
+  const bool is_clear = reaches_a_stage(lead, driven);
+  const std::optional<double>& conflict = step.hypotheses.front().conflict;
+  const bool is_consistent = !conflict || *conflict <= params_.max_conflict;
+  if (is_steady(turn_rate_deg) && is_clear && is_consistent) is_declared_ = true;
+  Verdict verdict = is_declared_ ? localized(step, lead) : undecided(step, lead);
+  verdict.belief = {pose, confidence(lead), covariance(step.hypotheses)};
+  verdict.evidence = {{"margin", lead},
+                      {"steps", static_cast<double>(steps_)},
+                      {"distance_m", distance_},
+                      {"turn_rate_deg", turn_rate_deg}};
+  if (conflict) verdict.evidence.push_back({"conflict", *conflict});
+  return verdict;
+}
+
+/// Takes in how fast the robot has turned since the last step.
+bool StagedMargin::is_steady(double turn_rate_deg) {
+  if (turn_rate_deg > params_.max_turn_rate_deg) {
+    since_turn_ = 0;
+  } else if (since_turn_) {
+    ++*since_turn_;
+  }
+  return !since_turn_ || *since_turn_ >= params_.steady_steps;
+}
+
+/// Counts a step for each stage, and says whether one is reached.
+bool StagedMargin::reaches_a_stage(double lead_now, double driven) {
+  bool reached = false;
   for (std::size_t i = 0; i < params_.stages.size(); ++i) {
-    const StagedMargin::Stage& stage = params_.stages[i];
+    const Stage& stage = params_.stages[i];
     Lead& lead = leads_[i];
     if (lead_now < stage.margin) {
       lead = {};
@@ -63,13 +132,20 @@ Verdict StagedMargin::judge(const StepResult& step) {
     }
     lead.distance += lead.steps > 0 ? driven : 0.0;
     ++lead.steps;
-    if (lead.steps < stage.steps || lead.distance < stage.distance) continue;
-    return {VerdictKind::localized,
-            pose,
-            {},
-            fmt::format("better by {:.2f} than any other pose, and by {:.2f} in {} steps over {:.1f} m",
-                        lead_now, stage.margin, lead.steps, lead.distance)};
+    reached = reached || (lead.steps >= stage.steps && lead.distance >= stage.distance);
   }
+  return reached;
+}
+
+Verdict StagedMargin::localized(const StepResult& step, double lead) const {
+  return {VerdictKind::localized,
+          step.hypotheses.front().map_from_robot,
+          {},
+          fmt::format("better by {:.2f} than any other pose, and the best in {} steps over {:.1f} m", lead,
+                      steps_, distance_)};
+}
+
+Verdict StagedMargin::undecided(const StepResult& step, double lead) const {
   std::vector<Pose2> poses = candidates(step);
   const std::size_t n = poses.size();
   if (n >= 2 && n <= static_cast<std::size_t>(params_.max_candidates)) {
@@ -79,7 +155,43 @@ Verdict StagedMargin::judge(const StepResult& step) {
   return {VerdictKind::searching,
           std::nullopt,
           {},
-          fmt::format("the best pose is better by {:.2f} only", lead_now)};
+          fmt::format("the best pose is better by {:.2f} only, and the best in {} steps", lead, steps_)};
+}
+
+/// A logistic model of the lead and of how long the best pose has been the same.
+double StagedMargin::confidence(double lead) const {
+  const Confidence& c = params_.confidence;
+  return 1.0 / (1.0 + std::exp(-(c.bias + c.margin * lead + c.steps * std::log(steps_))));
+}
+
+/// The best hypothesis' own, and the spread of those near it that are about as good.
+std::optional<PoseCovariance> StagedMargin::covariance(const std::vector<Hypothesis>& hypotheses) const {
+  const Hypothesis& best = hypotheses.front();
+  if (!best.covariance) return std::nullopt;
+  PoseCovariance spread;
+  double weights = 0.0;
+  for (const Hypothesis& h : hypotheses) {
+    if (are_rivals(h.map_from_robot, best.map_from_robot)) continue;
+    const double weight = std::exp((h.quality - best.quality) / params_.spread_margin);
+    const double x = h.map_from_robot.x - best.map_from_robot.x;
+    const double y = h.map_from_robot.y - best.map_from_robot.y;
+    const double t = wrap_angle(h.map_from_robot.theta - best.map_from_robot.theta);
+    weights += weight;
+    spread.xx += weight * x * x;
+    spread.xy += weight * x * y;
+    spread.xt += weight * x * t;
+    spread.yy += weight * y * y;
+    spread.yt += weight * y * t;
+    spread.tt += weight * t * t;
+  }
+  PoseCovariance c = *best.covariance;
+  c.xx += spread.xx / weights;
+  c.xy += spread.xy / weights;
+  c.xt += spread.xt / weights;
+  c.yy += spread.yy / weights;
+  c.yt += spread.yt / weights;
+  c.tt += spread.tt / weights;
+  return c;
 }
 
 bool StagedMargin::are_rivals(const Pose2& a, const Pose2& b) const {

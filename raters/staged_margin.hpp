@@ -12,7 +12,11 @@ namespace glocal {
 
 /// Localized once the best hypothesis has been clearly better than every rival, a pose far from it, for long
 /// enough: the clearer, the sooner. The best hypothesis must stay the same, moved by the local motion;
-/// another best one, or a step without any, begins anew.
+/// another best one, a step without any, or another local map (a kidnapping) begins anew and takes the
+/// verdict back.
+///
+/// Believes in the best hypothesis, with a confidence by a logistic model and the covariance of the matcher,
+/// widened by hypotheses near it that are about as good.
 class StagedMargin final : public VerdictRule {
  public:
   /// A lead in quality of at least `margin`, kept for so many steps and so far.
@@ -21,12 +25,24 @@ class StagedMargin final : public VerdictRule {
     int steps = 3;
     double distance = 0.0;
   };
+  /// The logistic model of the confidence.
+  struct Confidence {
+    double bias = -2.0;
+    double margin = 15.0;
+    double steps = 1.0;
+  };
   struct Params {
-    std::vector<Stage> stages = {{0.30, 3, 0.0}, {0.20, 5, 2.0}, {0.10, 5, 5.0}};
+    std::vector<Stage> stages = {
+        {0.30, 3, 0.0}, {0.25, 4, 1.0}, {0.20, 5, 2.0}, {0.10, 8, 3.0}, {0.05, 15, 4.0}};
     double rival_distance = 1.0;
     double rival_rotation_deg = 30.0;
     double same_distance = 0.5;
     double same_rotation_deg = 15.0;
+    double max_turn_rate_deg = 60.0;
+    int steady_steps = 3;
+    double max_conflict = 0.4;
+    double spread_margin = 0.05;
+    Confidence confidence = {};
     double candidate_margin = 0.05;
     int max_candidates = 10;
   };
@@ -41,7 +57,14 @@ class StagedMargin final : public VerdictRule {
     int steps = 0;
     double distance = 0.0;
   };
+  void begin_anew();
   [[nodiscard]] double margin(const StepResult& step) const;
+  [[nodiscard]] bool reaches_a_stage(double lead_now, double driven);
+  [[nodiscard]] bool is_steady(double turn_rate_deg);
+  [[nodiscard]] Verdict localized(const StepResult& step, double lead) const;
+  [[nodiscard]] Verdict undecided(const StepResult& step, double lead) const;
+  [[nodiscard]] double confidence(double lead) const;
+  [[nodiscard]] std::optional<PoseCovariance> covariance(const std::vector<Hypothesis>& hypotheses) const;
   [[nodiscard]] bool continues(const StepResult& step) const;
   [[nodiscard]] std::vector<Pose2> candidates(const StepResult& step) const;
   [[nodiscard]] bool are_rivals(const Pose2& a, const Pose2& b) const;
@@ -49,8 +72,14 @@ class StagedMargin final : public VerdictRule {
   Params params_;
   std::vector<Lead> leads_;  ///< One for each stage.
   std::optional<FollowedPose> best_;
+  int steps_ = 0;             ///< In which the best pose has been the same.
+  double distance_ = 0.0;     ///< m; driven in these.
+  bool is_declared_ = false;  ///< In one of them.
+  /// Steps since the robot last turned fast; none while it has not.
+  std::optional<int> since_turn_;
 };
 void describe(ParamVisitor& v, StagedMargin::Stage& p);
+void describe(ParamVisitor& v, StagedMargin::Confidence& p);
 void describe(ParamVisitor& v, StagedMargin::Params& p);
 
 }  // namespace glocal

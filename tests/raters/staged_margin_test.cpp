@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace glocal {
 namespace {
 
@@ -83,6 +86,7 @@ TEST(StagedMargin, PosesNearTheBestAreNoRivals) {
   for (int i = 0; i < 2; ++i) (void)rule.judge(near);
   EXPECT_EQ(rule.judge(near).kind, VerdictKind::localized);
   // Turned by more than 30 degrees, it is one.
+  rule.reset();
   near.hypotheses[1].map_from_robot = here * Pose2{0.5, 0.0, radians(40.0)};
   EXPECT_EQ(rule.judge(near).kind, VerdictKind::ambiguous);
 }
@@ -95,6 +99,70 @@ TEST(StagedMargin, RivalsOfTheSameQualityAreCandidates) {
   EXPECT_EQ(verdict.candidates[0], here);
   EXPECT_EQ(verdict.candidates[1], there);
   EXPECT_EQ(rule.judge(step(0.9, 0.80)).kind, VerdictKind::searching);
+}
+
+TEST(StagedMargin, StaysDeclaredWhileThePoseStaysTheBest) {
+  StagedMargin rule({});
+  for (int i = 0; i < 3; ++i) (void)rule.judge(step(0.9, 0.5));
+  EXPECT_EQ(rule.judge(step(0.9, 0.88)).kind, VerdictKind::localized);
+}
+
+TEST(StagedMargin, ARobotThatTurnsFastIsNotDeclaredUntilSomeStepsLater) {
+  StagedMargin rule({});
+  std::vector<VerdictKind> kinds;
+  // 70 degrees a second up to step 3; then it stands.
+  for (int i = 0; i < 7; ++i) {
+    StepResult turning = step(0.9, 0.5);
+    const Pose2 turned{0.0, 0.0, radians(70.0 * std::min(i, 3))};
+    turning.stamp = i;
+    turning.local_from_robot = turned;
+    turning.hypotheses[0].map_from_robot = here * turned;
+    turning.hypotheses[1].map_from_robot = there * turned;
+    kinds.push_back(rule.judge(turning).kind);
+  }
+  const auto searching = VerdictKind::searching;
+  const auto localized = VerdictKind::localized;
+  EXPECT_EQ(kinds,
+            (std::vector{searching, searching, searching, searching, searching, searching, localized}));
+}
+
+TEST(StagedMargin, AConflictWithFreeSpaceForbidsADeclaration) {
+  StagedMargin rule({.max_conflict = 0.4});
+  StepResult conflicting = step(0.9, 0.5);
+  conflicting.hypotheses.front().conflict = 0.41;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(rule.judge(conflicting).kind, VerdictKind::searching) << i;
+  conflicting.hypotheses.front().conflict = 0.39;
+  EXPECT_EQ(rule.judge(conflicting).kind, VerdictKind::localized);
+}
+
+TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
+  StagedMargin rule({.confidence = {.bias = -1.0, .margin = 10.0, .steps = 2.0}});
+  Verdict verdict = rule.judge(step(0.9, 0.7));
+  ASSERT_TRUE(verdict.belief);
+  EXPECT_EQ(verdict.belief->map_from_robot, here);
+  // Log odds -1 + 10 * 0.2 = 1, then 1 + 2 ln 2.
+  EXPECT_NEAR(verdict.belief->confidence, 0.731059, 1e-6);
+  verdict = rule.judge(step(0.9, 0.7));
+  EXPECT_NEAR(verdict.belief->confidence, 0.915776, 1e-6);
+  EXPECT_EQ(rule.judge({}).belief, std::nullopt);
+}
+
+TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
+  const PoseCovariance own{.xx = 0.01, .yy = 0.04, .tt = 0.001};
+  StagedMargin rule({.spread_margin = 0.05});
+  StepResult one = step(0.9, 0.2);
+  one.hypotheses[0].covariance = own;
+  EXPECT_EQ(rule.judge(one).belief->covariance, own);
+  // A second one of the same quality, 0.2 m to the left in the map's y and turned by 0.1: half the weight.
+  one.hypotheses.insert(one.hypotheses.begin() + 1, one.hypotheses[0]);
+  one.hypotheses[1].map_from_robot.y += 0.2;
+  one.hypotheses[1].map_from_robot.theta += 0.1;
+  const auto wide = rule.judge(one).belief->covariance;
+  ASSERT_TRUE(wide);
+  EXPECT_NEAR(wide->xx, 0.01, 1e-12);
+  EXPECT_NEAR(wide->yy, 0.04 + 0.5 * 0.04, 1e-12);
+  EXPECT_NEAR(wide->yt, 0.5 * 0.02, 1e-12);
+  EXPECT_NEAR(wide->tt, 0.001 + 0.5 * 0.01, 1e-12);
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "glocal/pose2.hpp"
+#include "glocal/pose_covariance.hpp"
 
 namespace glocal {
 
@@ -16,6 +18,11 @@ struct Hypothesis {
   /// How many proposals it stands for, where a matcher merged those that mean nearly the same pose. Counts as
   /// a weight wherever hypotheses are counted or averaged.
   std::size_t support = 1;
+  /// Of map_from_robot, where the matcher knows it.
+  std::optional<PoseCovariance> covariance = {};
+  /// Share of the points that lie where the map is known to be free, away from anything; where the matcher
+  /// knows it.
+  std::optional<double> conflict = {};
 };
 
 /// Hypotheses that mean the same robot pose.

@@ -21,11 +21,26 @@ enum class VerdictKind {
 /// The name used in YAML, JSON and messages.
 [[nodiscard]] const char* to_string(VerdictKind kind);
 
+/// The pose a verdict rule holds most likely, declared or not.
+struct Belief {
+  Pose2 map_from_robot;
+  double confidence = 0.0;  ///< Probability that it is right, in [0, 1].
+  std::optional<PoseCovariance> covariance = {};
+};
+
+/// A number that a verdict rests on.
+struct Evidence {
+  std::string name;  ///< With its unit: "distance_m".
+  double value = 0.0;
+};
+
 struct Verdict {
   VerdictKind kind = VerdictKind::searching;
   std::optional<Pose2> map_from_robot;  ///< Set when localized.
   std::vector<Pose2> candidates;        ///< Robot poses, best first; set when ambiguous.
   std::string why;                      ///< One sentence for a person.
+  std::optional<Belief> belief = {};    ///< None where the rule has none.
+  std::vector<Evidence> evidence = {};  ///< For whoever studies the rule.
 };
 
 /// Wall-clock time of each stage, ms.
@@ -57,8 +72,9 @@ struct StepResult {
   Verdict verdict;
   StageTimes stage_ms;
 
-  /// Robot pose of the best-rated cluster, declared or not.
+  /// Robot pose the verdict rule believes in, else that of the best-rated cluster; declared or not.
   [[nodiscard]] std::optional<Pose2> estimate() const {
+    if (verdict.belief) return verdict.belief->map_from_robot;
     return clusters.empty() ? std::nullopt : std::optional(clusters.front().map_from_robot);
   }
 };

@@ -19,6 +19,9 @@ StepRecord make_record(StepResult result, const Sample& sample, const GlobalMap&
     record.on_map = map.grid().at(record.reference->x, record.reference->y) != Cell::unknown;
     if (const auto estimate = record.result.estimate())
       record.error = pose_error(*estimate, *record.reference);
+    const auto& belief = record.result.verdict.belief;
+    if (belief && belief->covariance)
+      record.nees = normalised_error_squared(belief->map_from_robot, *record.reference, *belief->covariance);
   }
   return record;
 }
@@ -35,6 +38,8 @@ void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfi
   trial.pose = record.result.verdict.map_from_robot;
   if (record.reference) trial.error = pose_error(*trial.pose, *record.reference);
   trial.outcome = judge(trial.error, limits);
+  trial.belief = record.result.verdict.belief;
+  trial.nees = record.nees;
 }
 
 /// A step's result; none if a strategy threw an exception, with which the trial has failed.

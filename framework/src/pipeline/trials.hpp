@@ -26,6 +26,7 @@ struct StepRecord {
   std::size_t hypotheses = 0;
   std::optional<Pose2> reference;
   std::optional<PoseError> error;  ///< Of the estimate, declared or not.
+  std::optional<double> nees;      ///< Normalised error squared of what the verdict rule believes.
   bool on_map = false;             ///< The reference lies where the map's grid is not unknown.
 };
 
@@ -49,6 +50,8 @@ struct TrialRecord {
   double distance_m = 0.0;         ///< Driven in these steps.
   std::optional<Pose2> pose;       ///< Declared robot pose.
   std::optional<PoseError> error;  ///< Of the declared pose.
+  std::optional<Belief> belief;    ///< Of the rule that declared it, where it has one.
+  std::optional<double> nees;      ///< Normalised error squared of that, where it has a covariance.
   std::string why;                 ///< Of the declaration, or else of the last step.
   std::vector<StepRecord>
       records;  ///< Every step, also those after the declaration. Local maps are not kept.

@@ -34,6 +34,17 @@ void add_error(Json& json, const PoseError& error) {
   json["rotation_error_deg"] = degrees(error.rotation_rad);
 }
 
+/// Upper triangle, row by row: xx, xy, xt, yy, yt, tt.
+Json to_json(const PoseCovariance& c) {
+  return {c.xx, c.xy, c.xt, c.yy, c.yt, c.tt};
+}
+
+void add_belief(Json& json, const Belief& belief, const std::optional<double>& nees) {
+  json["confidence"] = belief.confidence;
+  if (belief.covariance) json["covariance"] = to_json(*belief.covariance);
+  if (nees) json["nees"] = *nees;
+}
+
 std::string tum_line(double stamp, const Pose2& pose) {
   return fmt::format("{:.6f} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", stamp, pose.x, pose.y,
                      std::sin(pose.theta / 2.0), std::cos(pose.theta / 2.0));
@@ -71,6 +82,7 @@ std::string step_line(std::size_t trial, const StepRecord& record) {
     for (const Pose2& pose : step.verdict.candidates) candidates.push_back(to_json(pose));
     json["candidates"] = std::move(candidates);
   }
+  for (const Evidence& e : step.verdict.evidence) json["evidence"][e.name] = e.value;
   json["local_from_robot"] = to_json(step.local_from_robot);
   if (const auto estimate = step.estimate()) json["estimate"] = to_json(*estimate);
   if (record.reference) {
@@ -78,6 +90,7 @@ std::string step_line(std::size_t trial, const StepRecord& record) {
     json["on_map"] = record.on_map;
   }
   if (record.error) add_error(json, *record.error);
+  if (step.verdict.belief) add_belief(json, *step.verdict.belief, record.nees);
   return json.dump() + "\n";
 }
 
@@ -91,6 +104,7 @@ std::string trial_line(const TrialRecord& trial) {
                {"distance_m", trial.distance_m}};
   if (trial.pose) json["pose"] = to_json(*trial.pose);
   if (trial.error) add_error(json, *trial.error);
+  if (trial.belief) add_belief(json, *trial.belief, trial.nees);
   json["why"] = trial.why;
   return json.dump() + "\n";
 }

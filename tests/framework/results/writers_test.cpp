@@ -57,6 +57,19 @@ TEST(StepLine, HasTheKeysOfTheContract) {
   EXPECT_DOUBLE_EQ(json["rotation_error_deg"].get<double>(), 2.0);
 }
 
+TEST(StepLine, TellsWhatTheVerdictRestsOn) {
+  StepRecord record = step_record(3, {1.5, -2.0, 0.25});
+  record.result.verdict.belief = Belief{{1.0, 2.0, 0.5}, 0.875, PoseCovariance{1, 2, 3, 4, 5, 6}};
+  record.result.verdict.evidence = {{"margin", 0.25}, {"distance_m", 3.0}};
+  record.nees = 2.5;
+  const Json json = parse_line(step_line(7, record));
+  EXPECT_EQ(json["confidence"], 0.875);
+  EXPECT_EQ(json["covariance"], Json::parse("[1, 2, 3, 4, 5, 6]"));
+  EXPECT_EQ(json["nees"], 2.5);
+  EXPECT_EQ(json["evidence"], Json::parse(R"({"margin": 0.25, "distance_m": 3.0})"));
+  EXPECT_EQ(json["estimate"], Json::parse(R"({"x": 1.0, "y": 2.0, "theta": 0.5})"));  // what is believed
+}
+
 TEST(StepLine, LeavesOutWhatIsNotKnown) {
   StepRecord record = step_record(0, {});
   record.result.clusters.clear();
