@@ -5,6 +5,15 @@
 
 namespace glocal {
 
+void describe(ParamVisitor& v, BeamRule& p) {
+  v.field("blocked_weight", p.weight,
+          {.doc = "What the share of beams through occupied cells takes off the quality.", .min = 0.0});
+  v.field("beam_scans", p.scans, {.doc = "Latest scans whose beams are looked at.", .min = 1, .max = 1000});
+  v.field("beams", p.beams, {.doc = "Beams of each.", .min = 1, .max = 10000});
+  v.field("beam_margin", p.margin,
+          {.doc = "Before its hit a beam may touch occupied cells for this far.", .unit = "m", .min = 0.0});
+}
+
 ClearanceGrid::ClearanceGrid(const OccupancyGrid& grid)
     : grid_from_map_(inverse(grid.map_from_grid)),
       resolution_(static_cast<float>(grid.resolution)),
@@ -43,7 +52,7 @@ bool ClearanceGrid::is_blocked(const Point& from, const Point& to, double margin
   const float dx = b.x - a.x;
   const float dy = b.y - a.y;
   const float length = std::sqrt(dx * dx + dy * dy);
-  if (!(length > 0.0F)) return false;
+  if (clearance_.empty() || !(length > 0.0F)) return false;
   const float scale = 1.0F / resolution_;
   const float end = (length - static_cast<float>(margin)) * scale;
   for (float t = 0.5F; t <= end;) {
@@ -74,18 +83,21 @@ void BeamEvidence::add(const LocalMap& local, const Scan& scan) {
   if (scans_.size() > static_cast<std::size_t>(rule_.scans)) scans_.pop_front();
 }
 
-double BeamEvidence::blocked_share(const ClearanceGrid& grid, const Pose2& map_from_local) const {
+double BeamEvidence::blocked_share(const ClearanceGrid& grid, const Pose2& map_from_local,
+                                   double most) const {
   const Transform transform(map_from_local);
-  std::size_t all = 0;
-  std::size_t blocked = 0;
+  double all = 0.0;
+  for (const Beams& beams : scans_) all += static_cast<double>(beams.ends.size());
+  double blocked = 0.0;
   for (const Beams& beams : scans_) {
     const Point from = transform(beams.origin);
     for (std::size_t i = 0; i < beams.ends.size(); ++i) {
-      if (grid.is_blocked(from, transform(beams.ends[i]), rule_.margin)) ++blocked;
+      if (grid.is_blocked(from, transform(beams.ends[i]), rule_.margin)) blocked += 1.0;
+      // One beam more, so that no rounding brings the answer back to `most`.
+      if (blocked > most * all + 1.0) return blocked / all;
     }
-    all += beams.ends.size();
   }
-  return all == 0 ? 0.0 : static_cast<double>(blocked) / static_cast<double>(all);
+  return all == 0.0 ? 0.0 : blocked / all;
 }
 
 }  // namespace glocal

@@ -9,14 +9,18 @@
 #include "glocal/local_map.hpp"
 #include "glocal/observation.hpp"
 #include "glocal/occupancy_grid.hpp"
+#include "glocal/params.hpp"
 
 namespace glocal {
 
+/// Parameters of any matcher that asks beams, among its own.
 struct BeamRule {
+  double weight = 0.0;  ///< What the share of blocked beams takes off a pose's quality.
   int scans = 5;        ///< The latest ones count.
   int beams = 40;       ///< Of each, spread evenly.
   double margin = 0.3;  ///< m; the last part of a beam before its hit, where a wall may well be.
 };
+void describe(ParamVisitor& v, BeamRule& p);
 
 /// For each cell of a grid, how many rows or columns away the nearest occupied one is (0: it is occupied
 /// itself), up to 255: so far a ray may go without looking.
@@ -25,7 +29,8 @@ class ClearanceGrid {
   explicit ClearanceGrid(const OccupancyGrid& grid);
 
   /// Whether the way between two points (m, in the map's frame) meets an occupied cell before its last
-  /// `margin` (m). It is looked at every half cell. What lies beyond the grid is not occupied.
+  /// `margin` (m). It is looked at every half cell. What lies beyond the grid is not occupied: a map without
+  /// a grid blocks nothing.
   [[nodiscard]] bool is_blocked(const Point& from, const Point& to, double margin) const;
 
  private:
@@ -50,8 +55,10 @@ class BeamEvidence {
   void add(const LocalMap& local, const Scan& scan);
   void clear() { scans_.clear(); }
 
-  /// Share of the beams that would have passed through occupied cells; 0 without any beam.
-  [[nodiscard]] double blocked_share(const ClearanceGrid& grid, const Pose2& map_from_local) const;
+  /// Share of the beams that would have passed through occupied cells; 0 without any beam. Where it is more
+  /// than `most`, beams need not all be looked at: the answer is then above `most` too.
+  [[nodiscard]] double blocked_share(const ClearanceGrid& grid, const Pose2& map_from_local,
+                                     double most = 1.0) const;
 
  private:
   struct Beams {

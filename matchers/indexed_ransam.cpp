@@ -128,15 +128,9 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("uncertainty", p.uncertainty, {.doc = "What the covariance of a hypothesis is made from."});
   v.field("field_cell", p.field_cell,
           {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
-  v.field("blocked_weight", p.blocked_weight,
-          {.doc = "What the share of beams through occupied cells takes off the quality.", .min = 0.0});
+  describe(v, p.beams);
   v.field("unknown_weight", p.unknown_weight,
-          {.doc = "What the share of points in unknown cells adds to it.", .min = 0.0, .max = 1.0});
-  v.field("beam_scans", p.beam_scans,
-          {.doc = "Latest scans whose beams are looked at.", .min = 1, .max = 1000});
-  v.field("beams", p.beams, {.doc = "Beams of each.", .min = 1, .max = 10000});
-  v.field("beam_margin", p.beam_margin,
-          {.doc = "Before its hit a beam may touch occupied cells for this far.", .unit = "m", .min = 0.0});
+          {.doc = "What the share of points in unknown cells adds to the quality.", .min = 0.0, .max = 1.0});
   v.field("min_length", p.min_length, {.doc = "Shortest dipole.", .unit = "m", .above = 0.0});
   v.field("max_length", p.max_length, {.doc = "Longest dipole.", .unit = "m", .max = 100.0, .above = 0.0});
   v.require(p.max_length > p.min_length, "max_length", "must be above min_length");
@@ -167,7 +161,7 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
           fmt::format("{}", params.field_cell),
           [&] { return DistanceField(setup.map->points(), params.field_cell); })),
       clearance_(setup.map->index<ClearanceGrid>("", [&] { return ClearanceGrid(setup.map->grid()); })),
-      beams_({.scans = params.beam_scans, .beams = params.beams, .margin = params.beam_margin}) {}
+      beams_(params.beams) {}
 
 void IndexedRansam::reset() {
   beams_.clear();
@@ -319,7 +313,7 @@ std::vector<IndexedRansam::Mode> IndexedRansam::judged(const std::vector<Mode>& 
   for (const Mode& mode : at_most) {
     if (best.size() == most && best.back().quality >= mode.quality) break;
     const double blocked = beams_.blocked_share(*clearance_, mode.map_from_local);
-    const Mode now{mode.map_from_local, mode.quality - params_.blocked_weight * blocked};
+    const Mode now{mode.map_from_local, mode.quality - params_.beams.weight * blocked};
     best.insert(std::upper_bound(best.begin(), best.end(), now, better), now);
     if (best.size() > most) best.pop_back();
   }

@@ -41,11 +41,8 @@ class IndexedRansam final : public Matcher {
     PoseRefinement refinement = {};
     PoseUncertainty uncertainty = {};
     double field_cell = 0.05;
-    double blocked_weight = 1.0;
+    BeamRule beams = {.weight = 1.0};
     double unknown_weight = 0.1;
-    int beam_scans = 5;
-    int beams = 40;
-    double beam_margin = 0.3;
     double min_length = 0.5;
     double max_length = 6.0;
     double length_cell = 0.1;

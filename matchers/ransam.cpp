@@ -113,6 +113,7 @@ void describe(ParamVisitor& v, Ransam::Params& p) {
           {.doc = "The hash table has 2^this slots of 8 bytes; 0 chooses two to four slots a draw.",
            .min = 0,
            .max = 30});
+  describe(v, p.beams);
 }
 
 Ransam::Ransam(const Params& params, const StageSetup& setup)
@@ -120,10 +121,15 @@ Ransam::Ransam(const Params& params, const StageSetup& setup)
       setup_(setup),
       contact_(contact_index(*setup.map, params.contact, params.contact_epsilon)),
       sampler_(setup.map->points(), params.local_radius),
-      table_(table_bits(params)) {}
+      table_(table_bits(params)),
+      beams_(params.beams) {
+  if (params.beams.weight > 0.0)
+    clearance_ = setup.map->index<ClearanceGrid>("", [&] { return ClearanceGrid(setup.map->grid()); });
+}
 
-MatchResult Ransam::match(const LocalMap& local, const Observation& /*latest*/, double omega_max, Rng& rng) {
+MatchResult Ransam::match(const LocalMap& local, const Observation& latest, double omega_max, Rng& rng) {
   if (local.points.empty()) return {};
+  if (clearance_) beams_.add(local, latest.scan);
   const Draws draws{rng.next(), rng.next()};
   const QualityTest quality(local.points, contact_, extrapolation_rule(params_), omega_max, rng);
   const TripleSampler local_sampler(local.points, params_.local_radius);
@@ -138,6 +144,7 @@ MatchResult Ransam::match(const LocalMap& local, const Observation& /*latest*/, 
   std::vector<Chunk> chunks(chunk_count());
   parallel_for(setup_.threads, chunks.size(), [&](std::size_t i) {
     chunks[i] = match_local_triples(local, local_sampler, quality, rule, draws, i);
+    if (clearance_) ask_beams(chunks[i].hypotheses, omega_max);
   });
 
   MatchResult result;
@@ -232,6 +239,15 @@ void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_s
     const Pose2 pose = motions[i].pose();
     found.hypotheses.push_back({pose, pose * local.local_from_robot, omega});
   }
+}
+
+void Ransam::ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) const {
+  const double weight = params_.beams.weight;
+  for (Hypothesis& h : hypotheses) {
+    const double most = (h.quality - omega_max) / weight;
+    h.quality -= weight * beams_.blocked_share(*clearance_, h.map_from_local, most);
+  }
+  std::erase_if(hypotheses, [&](const Hypothesis& h) { return h.quality < omega_max; });
 }
 
 }  // namespace glocal

@@ -8,6 +8,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
+#include "matchers/beam_evidence.hpp"
 #include "matchers/quality.hpp"
 #include "matchers/relation_table.hpp"
 #include "matchers/triangle.hpp"
@@ -23,6 +24,10 @@ namespace glocal {
 /// are drawn and hashed first, then those of the local map are drawn and looked up. Pairs are
 /// found whichever of the two was drawn first, as when drawing in turns, and both halves split over threads
 /// without changing the answer.
+///
+/// Beyond the paper, `blocked_weight` times the share of beams that would have passed through walls may be
+/// taken off the quality of what reached Omega_max; what falls below it is dropped. Contact alone cannot tell
+/// two places apart that differ by a wall in one of them.
 class Ransam final : public Matcher {
  public:
   struct Params {
@@ -41,6 +46,7 @@ class Ransam final : public Matcher {
     bool neighbour_cells = false;
     int max_hypotheses = 10000;
     int table_bits = 0;
+    BeamRule beams = {};
   };
 
   /// Throws ConfigError where the map is too large for a contact grid.
@@ -48,7 +54,7 @@ class Ransam final : public Matcher {
 
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
-  void reset() override {}
+  void reset() override { beams_.clear(); }
 
  private:
   /// Seeds of a step's draws: draw number n of a seed is always the same triple.
@@ -71,6 +77,7 @@ class Ransam final : public Matcher {
   void test_hypotheses(const LocalMap& local, const TripleSampler& local_sampler, const QualityTest& quality,
                        const Draws& draws, TripleBatch& local_triples, TripleBatch& map_triples,
                        Chunk& found) const;
+  void ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) const;
 
   Params params_;
   StageSetup setup_;
@@ -78,6 +85,8 @@ class Ransam final : public Matcher {
   TripleSampler sampler_;  ///< Of the global map.
   RelationTable table_;
   std::vector<RelationBatch> drawn_;  ///< Relations of the map, where several threads find them.
+  BeamEvidence beams_;
+  std::shared_ptr<const ClearanceGrid> clearance_;  ///< Null where beams are not asked.
 };
 void describe(ParamVisitor& v, Ransam::Params& p);
 

@@ -72,6 +72,10 @@ TEST(ClearanceGrid, BlocksWhatLookingAtEveryHalfCellWouldBlock) {
   EXPECT_LT(differ, 60);
 }
 
+TEST(ClearanceGrid, AMapWithoutAGridBlocksNothing) {
+  EXPECT_FALSE(ClearanceGrid(OccupancyGrid{}).is_blocked({}, {5.0F, 0.0F, 0.0F}, 0.3));
+}
+
 TEST(BeamEvidence, FreeRaysCountToo) {
   Scan scan;
   scan.free_ends.push_back({1.8F, 0.0F, 0.0F});
@@ -112,6 +116,23 @@ TEST(BeamEvidence, ManyBeamsAreThinnedEvenly) {
   std::vector<float> ranges(1000, 0.5F);
   std::fill(ranges.begin(), ranges.begin() + 500, 1.8F);
   EXPECT_NEAR(blocked(beams_along_x(ranges), {1.0, 1.0, 0.0}, {.beams = 40}), 0.5, 1e-9);
+}
+
+TEST(BeamEvidence, StopsEarlyOnlyAboveWhatIsAskedFor) {
+  BeamEvidence evidence(BeamRule{});
+  LocalMap local;
+  std::vector<float> ranges(20, 0.5F);  // no wall before the margin …
+  std::fill(ranges.begin(), ranges.begin() + 10, 1.8F);
+  evidence.add(local, beams_along_x(ranges));
+  evidence.add(local, beams_along_x(ranges));
+  const auto share = [&](double most) {
+    return evidence.blocked_share(grid_with_a_wall(), {1.0, 1.0, 0.0}, most);
+  };
+  for (const double most : {0.5, 0.6, 1.0}) EXPECT_EQ(share(most), 0.5);  // … for one half
+  for (const double most : {-0.2, 0.0, 0.1, 0.4}) {
+    EXPECT_GT(share(most), most);
+    EXPECT_LT(share(most), 0.5);
+  }
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(IndexedRansam, BlockedBeamsTakeQualityOff) {
   }
   const auto map = std::make_shared<const GlobalMap>(std::move(data));
   const auto best = [&](const Observation& latest) {
-    IndexedRansam matcher({.blocked_weight = 0.25}, {map, 1});
+    IndexedRansam matcher({.beams = {.weight = 0.25}}, {map, 1});
     Rng rng(1);
     return matcher.match(local, latest, 0.1, rng).hypotheses.front();
   };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "test_world.hpp"
@@ -214,6 +215,116 @@ TEST(Ransam, AFloodIsMergedWithoutLosingItsPoses) {
              rotation_between(h.map_from_robot, m.map_from_robot) < 0.3;
     }));
   }
+}
+
+/// Three times the small world, 20 m apart. A wall that no scan of ours has seen stands across the second, at
+/// x = 6.5 m of it; where the third may have one, cells are unknown.
+std::shared_ptr<const GlobalMap> three_rooms() {
+  MapData data;
+  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 520, 110, std::vector<Cell>(std::size_t{520} * 110, Cell::free)};
+  for (const double room : {0.0, 20.0, 40.0}) {
+    const Points walls = testing::moved(testing::small_world_points(), {room, 0.0, 0.0});
+    for (std::size_t i = 0; i < walls.size(); ++i) data.points.push_back(walls[i]);
+  }
+  for (int row = 10; row < 60; ++row) {
+    data.grid.cell(275, row) = Cell::occupied;
+    data.grid.cell(475, row) = Cell::unknown;
+  }
+  return std::make_shared<const GlobalMap>(std::move(data));
+}
+
+/// Seen at x = 5.5 m of a room: three beams of four would pass through the wall.
+Observation three_beams_of_four() {
+  Observation latest;
+  for (const Point& end : {Point{1.9F, 0.0F}, {2.0F, 0.1F}, {2.0F, -0.1F}, {-2.0F, 0.0F}})
+    latest.scan.free_ends.push_back(end);
+  return latest;
+}
+
+const Pose2 in_first_room{5.5, 2.5, 0.0};
+
+MatchResult match_in_three_rooms(double blocked_weight, const Observation& latest, int threads = 1) {
+  Ransam ransam({.iterations = 100000, .beams = {.weight = blocked_weight}}, {three_rooms(), threads});
+  Rng rng(1);
+  return ransam.match(local_map_at(in_first_room, 3.0), latest, 0.8, rng);
+}
+
+/// How many hypotheses lie at the robot's place in a room, 0 to 2.
+std::ptrdiff_t in_room(int room, const MatchResult& result) {
+  const Pose2 there{in_first_room.x + 20.0 * room, in_first_room.y, in_first_room.theta};
+  return std::count_if(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
+    return distance(h.map_from_robot, there) < 0.3 && rotation_between(h.map_from_robot, there) < 0.1;
+  });
+}
+
+TEST(Ransam, BeamsThroughAWallTakeQualityOff) {
+  // Without them, three rooms are as good as each other.
+  const MatchResult contact = match_in_three_rooms(0.0, three_beams_of_four());
+  for (const int room : {0, 1, 2}) ASSERT_GT(in_room(room, contact), 5);
+
+  // 0.2 times three in four, in the second room only: unknown cells stop no beam.
+  const MatchResult weighed = match_in_three_rooms(0.2, three_beams_of_four());
+  EXPECT_EQ(weighed.collisions, contact.collisions);
+  EXPECT_EQ(in_room(0, weighed), in_room(0, contact));
+  EXPECT_EQ(in_room(2, weighed), in_room(2, contact));
+  double last = 1.0;
+  std::ptrdiff_t less = 0;
+  for (const Hypothesis& h : weighed.hypotheses) {
+    EXPECT_GE(h.quality, 0.8);
+    EXPECT_LE(h.quality, last);
+    last = h.quality;
+    const auto same =
+        std::find_if(contact.hypotheses.begin(), contact.hypotheses.end(),
+                     [&](const Hypothesis& other) { return other.map_from_local == h.map_from_local; });
+    ASSERT_NE(same, contact.hypotheses.end());
+    const bool through_the_wall = h.map_from_robot.x > 20.0 && h.map_from_robot.x < 30.0;
+    EXPECT_NEAR(same->quality - h.quality, through_the_wall ? 0.15 : 0.0, 1e-12);
+    less += through_the_wall ? 1 : 0;
+  }
+  // Those that still reach the threshold are left, and no other.
+  const auto enough =
+      std::count_if(contact.hypotheses.begin(), contact.hypotheses.end(), [](const Hypothesis& h) {
+        return h.map_from_robot.x > 20.0 && h.map_from_robot.x < 30.0 && h.quality - 0.15 >= 0.8;
+      });
+  EXPECT_EQ(less, enough);
+  EXPECT_GT(enough, 0);
+  EXPECT_LT(enough, in_room(1, contact));
+
+  EXPECT_EQ(in_room(1, match_in_three_rooms(1.0, three_beams_of_four())), 0);
+}
+
+void expect_same(const MatchResult& a, const MatchResult& b) {
+  EXPECT_EQ(a.checks, b.checks);
+  ASSERT_EQ(a.hypotheses.size(), b.hypotheses.size());
+  for (std::size_t i = 0; i < a.hypotheses.size(); ++i) {
+    EXPECT_EQ(a.hypotheses[i].map_from_local, b.hypotheses[i].map_from_local);
+    EXPECT_EQ(a.hypotheses[i].quality, b.hypotheses[i].quality);
+  }
+}
+
+TEST(Ransam, BeamsCountOnlyWhereTheyAreAskedFor) {
+  const MatchResult contact = match_in_three_rooms(0.0, {});
+  expect_same(match_in_three_rooms(0.0, three_beams_of_four()), contact);
+  expect_same(match_in_three_rooms(1.0, {}), contact);  // and there are none
+  expect_same(match_in_three_rooms(0.2, three_beams_of_four(), 3),
+              match_in_three_rooms(0.2, three_beams_of_four(), 1));
+}
+
+TEST(Ransam, BeamsOfEarlierStepsCountUntilTheLocalFrameChanges) {
+  Ransam ransam({.iterations = 100000, .beams = {.weight = 1.0}}, {three_rooms(), 1});
+  LocalMap local = local_map_at(in_first_room, 3.0);
+  const auto wrong_room = [&](const Observation& latest) {
+    Rng rng(1);
+    return in_room(1, ransam.match(local, latest, 0.8, rng));
+  };
+  EXPECT_GT(wrong_room({}), 0);
+  EXPECT_EQ(wrong_room(three_beams_of_four()), 0);
+  EXPECT_EQ(wrong_room({}), 0);
+  local.generation = 1;
+  EXPECT_GT(wrong_room({}), 0);
+  EXPECT_EQ(wrong_room(three_beams_of_four()), 0);
+  ransam.reset();
+  EXPECT_GT(wrong_room({}), 0);
 }
 
 TEST(Ransam, TooFewPointsGiveNoHypothesis) {
