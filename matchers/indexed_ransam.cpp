@@ -99,12 +99,24 @@ void describe(ParamVisitor& v, PoseUncertainty& p) {
   v.field("drift_deg", p.drift_deg, {.doc = "The same of its heading.", .unit = "deg", .min = 0.0});
 }
 
+void describe(ParamVisitor& v, AdaptiveBudget& p) {
+  v.field("limit", p.limit,
+          {.doc = "Dipoles drawn in a step at most; 0 draws as many as iterations and first_iterations say.",
+           .min = 0,
+           .max = 10e6});
+  v.field("chunk", p.chunk,
+          {.doc = "Dipoles drawn between looks at the best distinct poses.", .min = 1, .max = 10e6});
+  v.field("stable_modes", p.stable_modes, {.doc = "So many of the best must stay the same …", .min = 1});
+  v.field("stable_chunks", p.stable_chunks, {.doc = "… over so many chunks in a row.", .min = 1});
+}
+
 void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("iterations", p.iterations,
           {.doc = "Dipoles drawn from the local map in a step.", .min = 0, .max = 10e6});
   v.field("first_iterations", p.first_iterations,
           {.doc = "The same in the first steps, when nothing is carried yet.", .min = 0, .max = 10e6});
   v.field("first_steps", p.first_steps, {.doc = "How many steps those are.", .min = 0});
+  v.field("adaptive", p.adaptive, {.doc = "Draw until the best poses stay the same."});
   v.field("contact_epsilon", p.contact_epsilon,
           {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
            .unit = "m",
@@ -183,9 +195,13 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   for (const Mode& mode : carried_) {
     modes.push_back({mode.map_from_local, contact_->share(sample, Transform(mode.map_from_local))});
   }
-  const int draws = steps_++ < params_.first_steps ? params_.first_iterations : params_.iterations;
-  draw(surfaces_of(local, surface_rule(params_)), sample, static_cast<std::size_t>(draws), rng, modes,
-       result);
+  const Surfaces surfaces = surfaces_of(local, surface_rule(params_));
+  if (params_.adaptive.limit > 0) {
+    draw_until_stable(surfaces, sample, local.local_from_robot, rng, modes, result);
+  } else {
+    const int draws = steps_++ < params_.first_steps ? params_.first_iterations : params_.iterations;
+    draw(surfaces, sample, static_cast<std::size_t>(draws), rng, modes, result);
+  }
 
   modes = distinct(std::move(modes), local.local_from_robot);
   const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
@@ -233,6 +249,36 @@ void IndexedRansam::draw(const Surfaces& surfaces, const Points& sample, std::si
   test(motions, size, sample, modes, result);
 }
 
+/// A mode that fresh draws make better stays the same one; another one among the best begins the count anew.
+void IndexedRansam::draw_until_stable(const Surfaces& surfaces, const Points& sample,
+                                      const Pose2& local_from_robot, Rng& rng, std::vector<Mode>& modes,
+                                      MatchResult& result) const {
+  const AdaptiveBudget& budget = params_.adaptive;
+  const auto best_of = [&] {
+    std::vector<Pose2> robots;
+    for (std::size_t i = 0; i < std::min(modes.size(), static_cast<std::size_t>(budget.stable_modes)); ++i)
+      robots.push_back(modes[i].map_from_local * local_from_robot);
+    return robots;
+  };
+  modes = distinct(std::move(modes), local_from_robot);
+  std::vector<Pose2> before = best_of();
+  for (int drawn = 0, stable = 0; drawn < budget.limit && stable < budget.stable_chunks;) {
+    const int draws = std::min(budget.chunk, budget.limit - drawn);
+    draw(surfaces, sample, static_cast<std::size_t>(draws), rng, modes, result);
+    drawn += draws;
+    modes = distinct(std::move(modes), local_from_robot);
+    const std::vector<Pose2> best = best_of();
+    const auto was_there = [&](const Pose2& robot) {
+      return std::any_of(before.begin(), before.end(),
+                         [&](const Pose2& other) { return is_same_mode(robot, other); });
+    };
+    const bool same =
+        !best.empty() && best.size() == before.size() && std::all_of(best.begin(), best.end(), was_there);
+    stable = same ? stable + 1 : 0;
+    before = best;
+  }
+}
+
 void IndexedRansam::test(const MotionBatch& motions, std::size_t size, const Points& sample,
                          std::vector<Mode>& modes, MatchResult& result) const {
   constexpr std::size_t first_look = 16;
@@ -262,10 +308,8 @@ std::vector<IndexedRansam::Mode> IndexedRansam::distinct(std::vector<Mode> modes
   std::vector<Pose2> robots;
   for (const Mode& mode : modes) {
     const Pose2 robot = mode.map_from_local * local_from_robot;
-    const bool repeats = std::any_of(robots.begin(), robots.end(), [&](const Pose2& other) {
-      return distance(robot, other) < params_.mode_distance &&
-             rotation_between(robot, other) < params_.mode_rotation;
-    });
+    const bool repeats = std::any_of(robots.begin(), robots.end(),
+                                     [&](const Pose2& other) { return is_same_mode(robot, other); });
     if (repeats) continue;
     kept.push_back(mode);
     robots.push_back(robot);

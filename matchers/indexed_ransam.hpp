@@ -15,6 +15,15 @@
 
 namespace glocal {
 
+/// When a step's draws end: once the best distinct poses have stayed the same over some chunks of draws, be
+/// it because all worth finding are found or because what was carried on is still best.
+struct AdaptiveBudget {
+  int limit = 0;  ///< Draws at most; 0: a fixed number instead.
+  int chunk = 100;
+  int stable_modes = 5;
+  int stable_chunks = 3;
+};
+
 /// Random sample matching against an index: the map's dipoles (two points with their normals) are sorted
 /// once, so every draw from the local map meets partners. The best distinct poses are refined before they are
 /// judged, carried to the next step beside fresh ones, and judged by contact, by beams through walls, and by
@@ -29,6 +38,7 @@ class IndexedRansam final : public Matcher {
     int iterations = 600;
     int first_iterations = 1500;
     int first_steps = 4;
+    AdaptiveBudget adaptive = {};
     double contact_epsilon = 0.10;
     double min_contact = 0.2;
     int contact_points = 128;
@@ -67,8 +77,14 @@ class IndexedRansam final : public Matcher {
   };
   void draw(const Surfaces& surfaces, const Points& sample, std::size_t draws, Rng& rng,
             std::vector<Mode>& modes, MatchResult& result) const;
+  void draw_until_stable(const Surfaces& surfaces, const Points& sample, const Pose2& local_from_robot,
+                         Rng& rng, std::vector<Mode>& modes, MatchResult& result) const;
   void test(const MotionBatch& motions, std::size_t size, const Points& sample, std::vector<Mode>& modes,
             MatchResult& result) const;
+  [[nodiscard]] bool is_same_mode(const Pose2& map_from_robot, const Pose2& other) const {
+    return distance(map_from_robot, other) < params_.mode_distance &&
+           rotation_between(map_from_robot, other) < params_.mode_rotation;
+  }
   [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
   [[nodiscard]] Hypothesis hypothesis(const Mode& mode, const LocalMap& local, const Points& sample) const;
   [[nodiscard]] double conflict_share(const Points& sample, const Pose2& map_from_local) const;
@@ -89,6 +105,7 @@ class IndexedRansam final : public Matcher {
 };
 void describe(ParamVisitor& v, PoseRefinement& p);
 void describe(ParamVisitor& v, PoseUncertainty& p);
+void describe(ParamVisitor& v, AdaptiveBudget& p);
 void describe(ParamVisitor& v, IndexedRansam::Params& p);
 
 }  // namespace glocal
