@@ -14,6 +14,7 @@
 #include "glocal/error.hpp"
 #include "matchers/distance_field.hpp"
 #include "pipeline/run.hpp"
+#include "raters/fixed_threshold.hpp"
 
 namespace glocal::app {
 namespace {
@@ -36,8 +37,8 @@ struct Replayed {
   double driven_m = 0.0;
 };
 
-Replayed replay(const ExplainOptions& options, const Experiment& experiment, const Prepared& prepared,
-                Localizer& localizer) {
+Replayed replay(const ExplainOptions& options, const Experiment& experiment, const Catalog& catalog,
+                const Prepared& prepared) {
   if (options.trial >= prepared.starts.size()) {
     refuse(options.folder, fmt::format("there is no trial {}: the last one is {}", options.trial,
                                        prepared.starts.size() - 1));
@@ -52,11 +53,28 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
   if (!samples[index].map_from_robot)
     refuse(options.folder, "the observations have no reference pose to compare with");
 
+  Localizer localizer = make_localizer(experiment, catalog, prepared);
   localizer.reset(options.trial);
   StepResult result;
-  for (std::size_t i = start; i <= index; ++i) result = localizer.step(samples[i].observation);
+  for (std::size_t i = start; i <= index; ++i) {
+    if (result.verdict.kind == VerdictKind::localized && !experiment.trials.whole) {
+      refuse(options.folder, fmt::format("trial {} has no step {}: it ended with a declaration in step {}",
+                                         options.trial, options.step, result.step));
+    }
+    result = localizer.step(samples[i].observation);
+  }
   return {std::move(result), localizer.local_map(), *samples[index].map_from_robot,
           prepared.drive.path_m[index] - prepared.drive.path_m[start]};
+}
+
+/// The experiment in which every pose that is drawn passes. Its steps have the same local maps and random
+/// numbers, so a matcher whose draws do not depend on the threshold draws the same.
+Experiment without_threshold(Experiment experiment) {
+  auto params = std::make_unique<ParamsOf<FixedThreshold::Params>>();
+  params->value.omega_max = 0.0;
+  experiment.localizer.threshold_policy = {"fixed", OwnedParams(std::move(params))};
+  experiment.trials.whole = true;  // it may declare earlier
+  return experiment;
 }
 
 /// Contact of the local map at a robot pose, in [0, 1].
@@ -91,6 +109,30 @@ std::ptrdiff_t first_right(const Items& items, const Pose2& truth, const Evaluat
   return found - items.begin();
 }
 
+/// Why no hypothesis is near the truth, told by the best of all poses drawn near it.
+std::string lost_by_matcher(const std::vector<Hypothesis>& drawn, const Replayed& step,
+                            const EvaluationConfig& limits) {
+  const std::ptrdiff_t near = first_right(drawn, step.map_from_robot, limits);
+  if (near == std::ssize(drawn))
+    return "never drawn: no pose near the reference is proposed, even without a threshold";
+  const double quality = drawn[static_cast<std::size_t>(near)].quality;
+  return fmt::format("rejected: the best pose drawn near the reference has quality {:.2f}, {}", quality,
+                     quality < step.result.omega_max ? "less than the threshold"
+                                                     : "but was given up before all points were looked at");
+}
+
+/// What became of the hypotheses near the truth.
+std::string lost_after_matcher(const StepResult& result, std::ptrdiff_t cluster) {
+  if (cluster == std::ssize(result.clusters))
+    return "clustered away: its hypotheses lie in clusters with another mean";
+  if (cluster > 0) {
+    return fmt::format("out-rated: its cluster is rated {:.2f}, another one {:.2f}",
+                       result.ratings[static_cast<std::size_t>(cluster)].r, result.ratings.front().r);
+  }
+  return fmt::format("not declared: its cluster is rated highest, but the verdict is {}",
+                     to_string(result.verdict.kind));
+}
+
 void explain(const ExplainOptions& options, Context& context) {
   const std::string file = (std::filesystem::path(options.folder) / "effective.yaml").string();
   if (!std::filesystem::exists(file)) {
@@ -98,10 +140,10 @@ void explain(const ExplainOptions& options, Context& context) {
            "holds no results: there is no effective.yaml; name a folder that glocal run has left");
   }
   const Experiment experiment = ExperimentOptions{}.read(file, context);
+  const EvaluationConfig& limits = experiment.evaluation;
   const Prepared prepared =
       prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
-  Localizer localizer = make_localizer(experiment, context.catalog, prepared);
-  const Replayed step = replay(options, experiment, prepared, localizer);
+  const Replayed step = replay(options, experiment, context.catalog, prepared);
   const StepResult& result = step.result;
   const Pose2& truth = step.map_from_robot;
 
@@ -114,25 +156,17 @@ void explain(const ExplainOptions& options, Context& context) {
   const double at_truth = contact_at(step, *contact, truth);
   const double near_truth = std::max(at_truth, contact_at(step, *contact, fitted));
 
-  const std::ptrdiff_t hypothesis = first_right(result.hypotheses, truth, experiment.evaluation);
-  const std::ptrdiff_t cluster = first_right(result.clusters, truth, experiment.evaluation);
+  const std::ptrdiff_t hypothesis = first_right(result.hypotheses, truth, limits);
+  const std::ptrdiff_t cluster = first_right(result.clusters, truth, limits);
   const auto lost = [&]() -> std::string {
     const bool declared = result.verdict.kind == VerdictKind::localized;
-    if (declared && agree(*result.verdict.map_from_robot, truth, experiment.evaluation))
+    if (declared && agree(*result.verdict.map_from_robot, truth, limits))
       return "nowhere: declared, and right";
-    if (!agree(fitted, truth, experiment.evaluation)) {
+    if (hypothesis < std::ssize(result.hypotheses)) return lost_after_matcher(result, cluster);
+    if (!agree(fitted, truth, limits))
       return "unclear: the local map does not fit where the reference says it was";
-    }
-    if (hypothesis == std::ssize(result.hypotheses)) {
-      return near_truth < result.omega_max
-                 ? "rejected: even the best pose near the reference has less contact than the threshold asks "
-                   "for"
-                 : "never drawn: poses near the reference have enough contact, but none was proposed";
-    }
-    if (cluster == std::ssize(result.clusters))
-      return "clustered away: its hypotheses lie in clusters with another mean";
-    if (cluster > 0) return "out-rated: another cluster is rated higher";
-    return "not declared: it is rated highest, but the verdict rule is not yet sure";
+    const Replayed open = replay(options, without_threshold(experiment), context.catalog, prepared);
+    return lost_by_matcher(open.result.hypotheses, step, limits);
   };
 
   fmt::print("{}, trial {}, step {}, after {:.1f} m\n", experiment.name, options.trial, options.step,

@@ -1,12 +1,36 @@
 // glocal explain.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
 
 #include "app/program.hpp"
 
 namespace glocal::test {
 namespace {
 
+using nlohmann::json;
 using testing::HasSubstr;
+
+/// Index of the first cluster a step's record shows within 0.5 m and 10 degrees of the reference; their
+/// number where none is.
+std::size_t first_right_cluster(const json& step) {
+  const json& clusters = step["best"];
+  const json& reference = step["reference"];
+  const auto right = std::find_if(clusters.begin(), clusters.end(), [&](const json& cluster) {
+    const json& pose = cluster["pose"];
+    const double dx = pose["x"].get<double>() - reference["x"].get<double>();
+    const double dy = pose["y"].get<double>() - reference["y"].get<double>();
+    const double turn = pose["theta"].get<double>() - reference["theta"].get<double>();
+    const double turned = std::remainder(turn, 2.0 * std::numbers::pi);
+    return std::hypot(dx, dy) <= 0.5 && std::abs(turned) <= std::numbers::pi / 18.0;
+  });
+  return static_cast<std::size_t>(right - clusters.begin());
+}
 
 class ExplainCommand : public CommandLine {
  protected:
@@ -20,10 +44,28 @@ class ExplainCommand : public CommandLine {
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
   }
 
-  [[nodiscard]] std::string lost(int step) const {
+  void run_lab_again(const std::string& options) const {
+    std::filesystem::remove_all(folder());
+    run_lab(options);
+  }
+
+  /// What the run itself has noted of a step.
+  [[nodiscard]] json recorded(int step) const {
+    std::istringstream lines(content(folder() + "/steps.jsonl"));
+    std::string line;
+    for (int i = 0; i <= step; ++i) std::getline(lines, line);
+    return json::parse(line);
+  }
+
+  [[nodiscard]] std::string explained(int step) const {
     const Answer answer = run("explain " + folder() + " --trial 0 --step " + std::to_string(step));
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
-    return answer.out.substr(answer.out.find("lost"));
+    return answer.out;
+  }
+
+  [[nodiscard]] std::string lost(int step) const {
+    const std::string text = explained(step);
+    return text.substr(text.find("lost"));
   }
 };
 
@@ -36,15 +78,100 @@ TEST_F(ExplainCommand, MakesTheStepAgain) {
   const std::size_t why_at = trial.find("\"why\":\"") + 7;
   EXPECT_THAT(answer.out, HasSubstr("localized: " + trial.substr(why_at, trial.find('"', why_at) - why_at)));
   EXPECT_THAT(lost(last), HasSubstr("nowhere: declared, and right"));
-  EXPECT_THAT(lost(0), HasSubstr("not declared"));
 }
 
-TEST_F(ExplainCommand, TellsWhatWasNeverDrawnFromWhatWasRejected) {
+TEST_F(ExplainCommand, NeverDrawn) {
   run_lab("--set localizer.matcher.ransam.iterations=1");
+  EXPECT_EQ(recorded(0)["collisions"], 0);
+  EXPECT_THAT(explained(0), HasSubstr("hypothesis  none of 0"));
   EXPECT_THAT(lost(0), HasSubstr("never drawn"));
-  std::filesystem::remove_all(folder());
-  run_lab("--set localizer.threshold_policy.fixed.omega_max=1.0");
-  EXPECT_THAT(lost(0), HasSubstr("rejected"));
+}
+
+TEST_F(ExplainCommand, DrawnButRejected) {
+  run_lab("--set localizer.threshold_policy.fixed.omega_max=0.3");
+  const auto best = recorded(0)["omega_best"].get<double>();
+  ASSERT_EQ(first_right_cluster(recorded(0)), 0U);
+  // The same draws, but more is asked for than the best of them has.
+  run_lab_again("--set localizer.threshold_policy.fixed.omega_max=1.0");
+  EXPECT_EQ(recorded(0)["hypotheses"], 0);
+  EXPECT_THAT(lost(0), HasSubstr(fmt::format("rejected: the best pose drawn near the reference has quality "
+                                             "{:.2f}, less than the threshold",
+                                             best)));
+}
+
+TEST_F(ExplainCommand, DrawnButGivenUpEarly) {
+  const std::string few =
+      "--set localizer.matcher.ransam.iterations=60000 --set "
+      "localizer.matcher.ransam.extrapolation_batch=1 --set "
+      "localizer.threshold_policy.fixed.omega_max=0.8";
+  run_lab(few);
+  const auto best = recorded(0)["omega_best"].get<double>();
+  ASSERT_GE(best, 0.8);
+  // Without a margin eq. 5 gives up whatever misses the threshold after a single point.
+  run_lab_again(few + " --set localizer.matcher.ransam.extrapolation_z=0");
+  EXPECT_EQ(recorded(0)["hypotheses"], 0);
+  EXPECT_THAT(lost(0), HasSubstr(fmt::format("has quality {:.2f}, but was given up", best)));
+}
+
+TEST_F(ExplainCommand, ClusteredAway) {
+  // One cluster of all that is a little like the place, all over the map.
+  run_lab(
+      "--set localizer.threshold_policy.fixed.omega_max=0.3 --set "
+      "'localizer.clusterer.hierarchical_kmeans={max_variance_translation: 1e6, "
+      "max_variance_rotation_deg2: 1e6}'");
+  const json step = recorded(0);
+  ASSERT_EQ(step["clusters"], 1);
+  ASSERT_EQ(first_right_cluster(step), 1U);
+  const std::string text = explained(0);
+  EXPECT_THAT(text, HasSubstr(fmt::format("hypothesis  no 1 of {}", step["hypotheses"].get<int>())));
+  EXPECT_THAT(text, HasSubstr("cluster     none of 1"));
+  EXPECT_THAT(text, HasSubstr("lost        clustered away"));
+}
+
+TEST_F(ExplainCommand, OutRated) {
+  // Only narrowness counts, and nothing is as narrow as a cluster of one.
+  run_lab(
+      "--set localizer.threshold_policy.fixed.omega_max=0.3 --set "
+      "'localizer.rater.cluster_rating.weights=[0, 0.5, 0.5, 0]'");
+  const json step = recorded(0);
+  const std::size_t right = first_right_cluster(step);
+  ASSERT_GT(right, 0U);
+  ASSERT_LT(right, step["best"].size());
+  const std::string text = explained(0);
+  EXPECT_THAT(text,
+              HasSubstr(fmt::format("cluster     no {} of {}", right + 1, step["clusters"].get<int>())));
+  EXPECT_THAT(text, HasSubstr(fmt::format(
+                        "lost        out-rated: its cluster is rated {:.2f}, another one {:.2f}",
+                        step["best"][right]["r"].get<double>(), step["best"][0]["r"].get<double>())));
+}
+
+TEST_F(ExplainCommand, NotDeclared) {
+  run_lab();
+  ASSERT_EQ(first_right_cluster(recorded(0)), 0U);
+  EXPECT_EQ(recorded(0)["verdict"], "searching");
+  EXPECT_THAT(lost(0), HasSubstr("not declared: its cluster is rated highest, but the verdict is searching"));
+  run_lab_again("--set localizer.unknown_place.max_contact=1.0");
+  EXPECT_EQ(recorded(5)["verdict"], "unknown_place");
+  EXPECT_THAT(lost(5),
+              HasSubstr("not declared: its cluster is rated highest, but the verdict is unknown_place"));
+}
+
+TEST_F(ExplainCommand, NumbersAreThoseOfTheRun) {
+  run_lab("--set localizer.verdict_rule.consecutive_rating.consecutive=6");
+  for (const int i : {0, 4}) {
+    const json step = recorded(i);
+    const json& reference = step["reference"];
+    const std::string text = explained(i);
+    EXPECT_THAT(text,
+                HasSubstr(fmt::format("threshold   {:.2f}; best quality {:.2f}",
+                                      step["omega_max"].get<double>(), step["omega_best"].get<double>())));
+    EXPECT_THAT(text, HasSubstr(fmt::format("reference   x {:.2f} m, y {:.2f} m",
+                                            reference["x"].get<double>(), reference["y"].get<double>())));
+    EXPECT_THAT(text, HasSubstr(fmt::format("verdict     {}: {}", step["verdict"].get<std::string>(),
+                                            step["why"].get<std::string>())));
+    EXPECT_THAT(text, HasSubstr(fmt::format("cluster     no 1 of {}, {:.2f} m", step["clusters"].get<int>(),
+                                            step["translation_error_m"].get<double>())));
+  }
 }
 
 TEST_F(ExplainCommand, ReportsFaults) {
@@ -56,6 +183,11 @@ TEST_F(ExplainCommand, ReportsFaults) {
   answer = run("explain " + folder() + " --trial 0 --step 6");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("trial 0 has no step 6"));
+  const auto steps = json::parse(content(folder() + "/trials.jsonl"))["steps"].get<int>();
+  ASSERT_LT(steps, 6);
+  answer = run("explain " + folder() + " --trial 0 --step " + std::to_string(steps));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr(fmt::format("it ended with a declaration in step {}", steps - 1)));
 }
 
 }  // namespace
