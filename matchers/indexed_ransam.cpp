@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -24,8 +25,22 @@ DipoleRule dipole_rule(const IndexedRansam::Params& p) {
 
 /// What the index depends on, besides the map.
 std::string index_key(const IndexedRansam::Params& p) {
-  return fmt::format("{} {} {} {} {} {} {}", p.min_length, p.max_length, p.length_cell, p.angle_cells,
-                     p.max_entries, p.thinning, p.normal_radius);
+  return fmt::format(
+      "min_length {}, max_length {}, length_cell {}, angle_cells {}, max_entries {}, thinning {}, "
+      "normal_radius {}",
+      p.min_length, p.max_length, p.length_cell, p.angle_cells, p.max_entries, p.thinning, p.normal_radius);
+}
+
+IndexOrigin index_origin(const IndexedRansam::Params& p, const GlobalMap& map) {
+  return {digest_of(map), index_key(p)};
+}
+
+DipoleIndex make_index(const IndexedRansam::Params& p, const StageSetup& setup) {
+  const GlobalMap& map = *setup.map;
+  if (!p.index_file.text.empty()) {
+    return {SavedIndex(p.index_file.resolved, index_origin(p, map)), dipole_rule(p)};
+  }
+  return {surfaces_of(map, surface_rule(p)), dipole_rule(p), setup.threads};
 }
 
 /// At most n of the points, picked at random, in random order.
@@ -134,6 +149,10 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
           {.doc = "Dipoles in a bin differ in length by less.", .unit = "m", .min = 0.01});
   v.field("angle_cells", p.angle_cells,
           {.doc = "Bins of each of a dipole's two angles in a full turn.", .min = 4, .max = 360});
+  constexpr double most_bins = 16e6;
+  v.require((p.max_length - p.min_length) / p.length_cell * p.angle_cells * p.angle_cells <= most_bins,
+            "length_cell",
+            "must be larger, or angle_cells smaller: there would be more than 16 million bins");
   v.field("max_entries", p.max_entries,
           {.doc = "Of more dipoles an even share is kept; each takes 8 bytes.", .min = 1000, .max = 100e6});
   v.field(
@@ -144,20 +163,31 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .unit = "m",
            .above = 0.0});
   v.require(p.normal_radius <= 2.0 * p.thinning, "normal_radius", "must be at most twice the thinning");
+  v.field("index_file", p.index_file,
+          {.doc = "Index of the map as glocal map index saves it, to be read instead of built.",
+           .may_be_missing = true});
 }
 
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
     : params_(params),
       map_(setup.map),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
-      index_(setup.map->index<DipoleIndex>(
-          index_key(params),
-          [&] { return DipoleIndex(surfaces_of(*setup.map, surface_rule(params)), dipole_rule(params)); })),
       field_(setup.map->index<DistanceField>(
           fmt::format("{}", params.field_cell),
           [&] { return DistanceField(setup.map->points(), params.field_cell); })),
       clearance_(setup.map->index<ClearanceGrid>("", [&] { return ClearanceGrid(setup.map->grid()); })),
-      beams_({.scans = params.beam_scans, .beams = params.beams, .margin = params.beam_margin}) {}
+      beams_({.scans = params.beam_scans, .beams = params.beams, .margin = params.beam_margin}) {
+  const auto start = std::chrono::steady_clock::now();
+  index_ = setup.map->index<DipoleIndex>(params.index_file.resolved.string() + ": " + index_key(params),
+                                         [&] { return make_index(params, setup); });
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  map_index_ = {index_->size(), index_->memory_bytes(), time.count()};
+  if (!params.index_file.text.empty()) setup.note_input(params.index_file.resolved);
+}
+
+std::string IndexedRansam::saved_index() const {
+  return index_->saved(index_origin(params_, *map_));
+}
 
 void IndexedRansam::reset() {
   beams_.clear();

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "glocal/catalog.hpp"
@@ -52,14 +54,20 @@ class IndexedRansam final : public Matcher {
     int max_entries = 1000000;
     double thinning = 0.1;
     double normal_radius = 0.2;
+    FilePath index_file = {};
   };
 
-  /// Throws ConfigError where the map is too large for a contact grid or a distance field.
+  /// Throws ConfigError where the map is too large for a contact grid or a distance field, or index_file is
+  /// not the index of this map and these parameters.
   IndexedRansam(const Params& params, const StageSetup& setup);
 
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
   void reset() override;
+  [[nodiscard]] std::optional<MapIndexInfo> map_index() const override { return map_index_; }
+
+  /// The content of an index_file for these parameters and this map.
+  [[nodiscard]] std::string saved_index() const;
 
  private:
   /// A pose of the local map, and how good it looks so far.
@@ -80,6 +88,7 @@ class IndexedRansam final : public Matcher {
   std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const DipoleIndex> index_;
+  MapIndexInfo map_index_;
   std::shared_ptr<const DistanceField> field_;
   std::shared_ptr<const ClearanceGrid> clearance_;
   BeamEvidence beams_;

@@ -98,7 +98,7 @@ void explain(const ExplainOptions& options, Context& context) {
            "holds no results: there is no effective.yaml; name a folder that glocal run has left");
   }
   const Experiment experiment = ExperimentOptions{}.read(file, context);
-  const Prepared prepared =
+  Prepared prepared =
       prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
   Localizer localizer = make_localizer(experiment, context.catalog, prepared);
   const Replayed step = replay(options, experiment, prepared, localizer);
