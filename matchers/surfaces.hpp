@@ -30,8 +30,9 @@ struct SurfaceRule {
   double max_roughness = 0.4;
 };
 
-/// The map's: normals by principal components, turned to the free cells; a wall that is free on both sides
-/// gives two points, one that is free on neither as well.
+/// The map's: normals by principal components of what lies on one line with a point, turned to the free
+/// cells; a wall that is free on both sides gives two points, one that is free on neither as well. Where a
+/// wall's two sides are on the map, 0.15 m apart or more, each has its own normal.
 [[nodiscard]] Surfaces surfaces_of(const GlobalMap& map, const SurfaceRule& rule);
 
 /// The local map's: where it has normals, those; they point to where the sensor was. Else by principal
