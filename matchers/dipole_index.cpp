@@ -9,48 +9,10 @@
 
 #include "glocal/parallel.hpp"
 #include "glocal/rng.hpp"
+#include "matchers/squares.hpp"
 
 namespace glocal {
 namespace {
-
-/// Numbers of points sorted into squares as wide as the longest dipole, so that partners are in nine of them.
-class Squares {
- public:
-  Squares(const Surfaces& s, double side) : side_(side) {
-    if (s.size() == 0) return;
-    const auto [min_x, max_x] = std::minmax_element(s.x.begin(), s.x.end());
-    const auto [min_y, max_y] = std::minmax_element(s.y.begin(), s.y.end());
-    min_x_ = *min_x;
-    min_y_ = *min_y;
-    columns_ = static_cast<int>((*max_x - *min_x) / side) + 1;
-    rows_ = static_cast<int>((*max_y - *min_y) / side) + 1;
-    members_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-    for (std::size_t i = 0; i < s.size(); ++i) {
-      members_[index(column(s.x[i]), row(s.y[i]))].push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-
-  template <class Visit>
-  void near(float x, float y, Visit visit) const {
-    for (int r = std::max(0, row(y) - 1); r <= std::min(rows_ - 1, row(y) + 1); ++r) {
-      for (int c = std::max(0, column(x) - 1); c <= std::min(columns_ - 1, column(x) + 1); ++c) {
-        for (const std::uint32_t i : members_[index(c, r)]) visit(i);
-      }
-    }
-  }
-
- private:
-  [[nodiscard]] int column(float x) const { return static_cast<int>((x - min_x_) / side_); }
-  [[nodiscard]] int row(float y) const { return static_cast<int>((y - min_y_) / side_); }
-  [[nodiscard]] std::size_t index(int c, int r) const {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
-  }
-
-  double side_;
-  float min_x_ = 0.0F, min_y_ = 0.0F;
-  int columns_ = 0, rows_ = 0;
-  std::vector<std::vector<std::uint32_t>> members_;
-};
 
 /// Points whose dipoles one thread finds at a time. Fixed, so that their order does not depend on the
 /// threads.
@@ -84,7 +46,7 @@ bool is_taken(const DipoleIndex::Dipole& dipole, double share) {
 
 DipoleIndex::DipoleIndex(Surfaces surfaces, const DipoleRule& rule, int threads)
     : surfaces_(std::move(surfaces)), rule_(rule) {
-  const Squares squares(surfaces_, rule_.max_length);
+  const Squares squares(surfaces_.x, surfaces_.y, rule_.max_length);
   const std::size_t chunks = (surfaces_.size() + points_per_chunk - 1) / points_per_chunk;
   std::vector<std::size_t> counts(chunks, 0);
   parallel_for(threads, chunks, [&](std::size_t c) {
@@ -118,11 +80,9 @@ DipoleIndex::DipoleIndex(Surfaces surfaces, const DipoleRule& rule, int threads)
 }
 
 DipoleIndex::DipoleIndex(const SavedIndex& saved, const DipoleRule& rule) : rule_(rule) {
-  const auto copy = [&](std::size_t i) {
-    const SharedArray<float> values = saved.section<float>(i);
-    return std::vector<float>(values.span().begin(), values.span().end());
-  };
-  surfaces_ = {copy(0), copy(1), copy(2)};
+  saved.expect(kind);
+  surfaces_ = {saved.section<float>(0).copy(), saved.section<float>(1).copy(),
+               saved.section<float>(2).copy()};
   begins_ = saved.section<std::uint32_t>(3);
   dipoles_ = saved.section<Dipole>(4);
 
@@ -130,22 +90,15 @@ DipoleIndex::DipoleIndex(const SavedIndex& saved, const DipoleRule& rule) : rule
   if (surfaces_.y.size() != points || surfaces_.angle.size() != points || begins_.size() != bins() + 1) {
     saved.fail("the index is damaged: its parts do not fit together");
   }
-  const auto begins = begins_.span();
-  if (begins.front() != 0 || begins.back() != dipoles_.size() ||
-      !std::is_sorted(begins.begin(), begins.end())) {
-    saved.fail("the index is damaged: its bins overlap");
-  }
-  std::uint32_t last = 0;
-  for (const Dipole& dipole : dipoles_.span()) last = std::max({last, dipole.first, dipole.second});
-  if (dipoles_.size() > 0 && last >= points) {
-    saved.fail("the index is damaged: it names points that it does not have");
-  }
+  saved.expect_bins(begins_.span(), dipoles_.size());
+  saved.expect_below(points, dipoles_.span());
 }
 
 std::string DipoleIndex::saved(const IndexOrigin& origin) const {
-  return saved_index(origin, {std::as_bytes(std::span(surfaces_.x)), std::as_bytes(std::span(surfaces_.y)),
-                              std::as_bytes(std::span(surfaces_.angle)), std::as_bytes(begins_.span()),
-                              std::as_bytes(dipoles_.span())});
+  return saved_index(kind, origin,
+                     {std::as_bytes(std::span(surfaces_.x)), std::as_bytes(std::span(surfaces_.y)),
+                      std::as_bytes(std::span(surfaces_.angle)), std::as_bytes(begins_.span()),
+                      std::as_bytes(dipoles_.span())});
 }
 
 std::size_t DipoleIndex::bins() const {

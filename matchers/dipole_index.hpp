@@ -26,6 +26,8 @@ struct DipoleRule {
 /// by all; if there are more pairs than max_entries, an even share of them.
 class DipoleIndex {
  public:
+  static constexpr const char* kind = "dipoles";
+
   struct Dipole {
     std::uint32_t first;
     std::uint32_t second;

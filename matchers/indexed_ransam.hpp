@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "glocal/catalog.hpp"
@@ -14,13 +15,16 @@
 #include "matchers/beam_evidence.hpp"
 #include "matchers/dipole_index.hpp"
 #include "matchers/distance_field.hpp"
+#include "matchers/triangle_index.hpp"
 
 namespace glocal {
 
+using RelationIndex = std::variant<DipoleIndex, TriangleIndex>;
+
 /// Random sample matching against an index: the map's dipoles (two points with their normals) are sorted
-/// once, so every draw from the local map meets partners. The best distinct poses are refined before they are
-/// judged, carried to the next step beside fresh ones, and judged by contact, by beams through walls, and by
-/// what the map does not show.
+/// once, or its triangles where few points have a normal, so every draw from the local map meets partners.
+/// The best distinct poses are refined before they are judged, carried to the next step beside fresh ones,
+/// and judged by contact, by beams through walls, and by what the map does not show.
 ///
 /// Hypotheses are the best distinct poses (modes); their quality is contact (Omega, eq. 4) less
 /// `blocked_weight` times the share of blocked beams, plus `unknown_weight` times the share of points in
@@ -51,6 +55,9 @@ class IndexedRansam final : public Matcher {
     double max_length = 6.0;
     double length_cell = 0.1;
     int angle_cells = 24;
+    std::string relation = "auto";
+    double min_surfaces = 0.3;
+    double min_height = 0.3;
     int max_entries = 1000000;
     double thinning = 0.1;
     double normal_radius = 0.2;
@@ -75,8 +82,12 @@ class IndexedRansam final : public Matcher {
     Pose2 map_from_local;
     double quality = 0.0;
   };
-  void draw(const Surfaces& surfaces, const Points& sample, std::size_t draws, Rng& rng,
+  void draw(const LocalMap& local, const Points& sample, std::size_t draws, Rng& rng,
             std::vector<Mode>& modes, MatchResult& result) const;
+  void draw_dipoles(const DipoleIndex& index, const Surfaces& surfaces, const Points& sample,
+                    std::size_t draws, Rng& rng, std::vector<Mode>& modes, MatchResult& result) const;
+  void draw_triangles(const TriangleIndex& index, const Points& points, const Points& sample,
+                      std::size_t draws, Rng& rng, std::vector<Mode>& modes, MatchResult& result) const;
   void test(const MotionBatch& motions, std::size_t size, const Points& sample, std::vector<Mode>& modes,
             MatchResult& result) const;
   [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
@@ -87,7 +98,7 @@ class IndexedRansam final : public Matcher {
   Params params_;
   std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
-  std::shared_ptr<const DipoleIndex> index_;
+  std::shared_ptr<const RelationIndex> index_;
   MapIndexInfo map_index_;
   std::shared_ptr<const DistanceField> field_;
   std::shared_ptr<const ClearanceGrid> clearance_;

@@ -25,7 +25,8 @@ constexpr std::uint32_t other_byte_order = 0x04030201;
 constexpr std::uint32_t version = 1;
 constexpr std::size_t alignment = 64;
 
-/// The file begins with this; then come the places of all sections, and the sections: first the rule's text.
+/// The file begins with this; then come the places of all sections, and the sections: first the texts of rule
+/// and kind.
 struct Header {
   std::array<char, 8> magic = {};
   std::uint32_t byte_order = 0;
@@ -118,9 +119,10 @@ std::uint64_t digest_of(const GlobalMap& map) {
   return digest(grid.cells, all);
 }
 
-std::string saved_index(const IndexOrigin& origin,
+std::string saved_index(const std::string& kind, const IndexOrigin& origin,
                         std::initializer_list<std::span<const std::byte>> sections) {
-  std::vector<std::span<const std::byte>> all = {std::as_bytes(std::span(origin.rule))};
+  std::vector<std::span<const std::byte>> all = {std::as_bytes(std::span(origin.rule)),
+                                                 std::as_bytes(std::span(kind))};
   all.insert(all.end(), sections);
   std::vector<Place> places;
   std::size_t end = sizeof(Header) + all.size() * sizeof(Place);
@@ -167,11 +169,33 @@ void SavedIndex::check(const IndexOrigin& origin) const {
     fail("the index is damaged: its content does not add up to its checksum");
   }
   if (header.map != origin.map) fail("the index belongs to another map");
-  const auto text = section_bytes(0, 1);
-  const std::string rule(reinterpret_cast<const char*>(text.data()), text.size());
+  const std::string rule = text(0);
   if (rule != origin.rule) {
     fail("the index was built with other parameters: " + difference(rule, origin.rule));
   }
+}
+
+void SavedIndex::expect(const std::string& wanted) const {
+  if (kind() != wanted) fail(fmt::format("the index is one of {} instead of {}", kind(), wanted));
+}
+
+void SavedIndex::expect_bins(std::span<const std::uint32_t> begins, std::size_t items) const {
+  if (begins.empty() || begins.front() != 0 || begins.back() != items ||
+      !std::is_sorted(begins.begin(), begins.end())) {
+    fail("the index is damaged: its bins overlap");
+  }
+}
+
+void SavedIndex::expect_numbers_below(std::size_t points, std::span<const std::uint32_t> numbers) const {
+  const auto largest = std::max_element(numbers.begin(), numbers.end());
+  if (largest != numbers.end() && *largest >= points) {
+    fail("the index is damaged: it names points that it does not have");
+  }
+}
+
+std::string SavedIndex::text(std::size_t section) const {
+  const auto bytes = section_bytes(section, 1);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::span<const std::byte> SavedIndex::section_bytes(std::size_t i, std::size_t item) const {

@@ -31,6 +31,7 @@ class SharedArray {
       : values_(values), owner_(std::move(owner)) {}
 
   [[nodiscard]] std::span<const T> span() const { return values_; }
+  [[nodiscard]] std::vector<T> copy() const { return {values_.begin(), values_.end()}; }
   [[nodiscard]] std::size_t size() const { return values_.size(); }
   [[nodiscard]] const T& operator[](std::size_t i) const { return values_[i]; }
 
@@ -48,8 +49,8 @@ struct IndexOrigin {
 /// Of a map's points and cells.
 [[nodiscard]] std::uint64_t digest_of(const GlobalMap& map);
 
-/// The content of a file with these sections.
-[[nodiscard]] std::string saved_index(const IndexOrigin& origin,
+/// The content of a file with an index of this kind in these sections.
+[[nodiscard]] std::string saved_index(const std::string& kind, const IndexOrigin& origin,
                                       std::initializer_list<std::span<const std::byte>> sections);
 
 /// Such a file, mapped read-only: processes that use the same one share its memory. It is whole and belongs
@@ -61,13 +62,28 @@ class SavedIndex {
   /// another version or byte order, or of another origin.
   SavedIndex(std::filesystem::path file, const IndexOrigin& origin);
 
+  /// What is in it: "dipoles".
+  [[nodiscard]] std::string kind() const { return text(1); }
+
   /// Throws ConfigError if there is no such section.
   template <class T>
   [[nodiscard]] SharedArray<T> section(std::size_t i) const {
     static_assert(std::is_trivially_copyable_v<T>);
-    const std::span<const std::byte> bytes = section_bytes(i + 1, sizeof(T));  // after the rule
+    const std::span<const std::byte> bytes = section_bytes(i + 2, sizeof(T));  // after rule and kind
     // Sections begin at multiples of 64 bytes.
     return {{reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)}, bytes_};
+  }
+
+  /// What an index has to check of its sections. Throw ConfigError.
+  void expect(const std::string& kind) const;
+  /// Where bins begin, and where the last one ends: rising from 0 to the number of items.
+  void expect_bins(std::span<const std::uint32_t> begins, std::size_t items) const;
+  /// Items that consist of the numbers of points.
+  template <class T>
+  void expect_below(std::size_t points, std::span<const T> items) const {
+    static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % sizeof(std::uint32_t) == 0);
+    expect_numbers_below(points, {reinterpret_cast<const std::uint32_t*>(items.data()),
+                                  items.size() * sizeof(T) / sizeof(std::uint32_t)});
   }
 
   /// Throws ConfigError: the file is at fault, and this is what is wrong with it.
@@ -75,6 +91,8 @@ class SavedIndex {
 
  private:
   void check(const IndexOrigin& origin) const;
+  void expect_numbers_below(std::size_t points, std::span<const std::uint32_t> numbers) const;
+  [[nodiscard]] std::string text(std::size_t section) const;
   [[nodiscard]] std::span<const std::byte> section_bytes(std::size_t i, std::size_t item) const;
 
   std::filesystem::path file_;

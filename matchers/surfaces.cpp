@@ -147,21 +147,26 @@ float wrapped(float angle) {
   return angle > pi ? angle - 2.0F * pi : angle <= -pi ? angle + 2.0F * pi : angle;
 }
 
-/// One point for each cell: the mean of its points, with the normal found there.
+/// The mean of a cell's points.
+Point middle_of(const Points& points, const std::vector<std::uint32_t>& members) {
+  float x = 0.0F;
+  float y = 0.0F;
+  for (const std::uint32_t i : members) {
+    x += points.x[i];
+    y += points.y[i];
+  }
+  return {x / static_cast<float>(members.size()), y / static_cast<float>(members.size()), 0.0F};
+}
+
+/// Calls add(x, y, angle) for the middle of each cell where there is a normal; how many cells there are.
 template <class Add>
-void for_each_thinned(const Points& points, const SurfaceRule& rule, Add add) {
+std::size_t for_each_thinned(const Points& points, const SurfaceRule& rule, Add add) {
   const Cells cells(points, rule.thinning);
   for (const auto& members : cells.all()) {
-    float x = 0.0F;
-    float y = 0.0F;
-    for (const std::uint32_t i : members) {
-      x += points.x[i];
-      y += points.y[i];
-    }
-    x /= static_cast<float>(members.size());
-    y /= static_cast<float>(members.size());
-    if (const auto angle = normal_angle(cells, x, y, rule)) add(x, y, *angle);
+    const Point p = middle_of(points, members);
+    if (const auto angle = normal_angle(cells, p.x, p.y, rule)) add(p.x, p.y, *angle);
   }
+  return cells.all().size();
 }
 
 /// Whether there is a free cell a little way off in this direction, and not beyond another surface: the other
@@ -204,6 +209,20 @@ Surfaces surfaces_of(const LocalMap& local, const SurfaceRule& rule) {
     result.add(x, y, wrapped(angle));
     result.add(x, y, wrapped(angle + pi));
   });
+  return result;
+}
+
+double share_of_surfaces(const GlobalMap& map, const SurfaceRule& rule) {
+  std::size_t with_normal = 0;
+  const std::size_t all =
+      for_each_thinned(map.points(), rule, [&](float /*x*/, float /*y*/, float /*angle*/) { ++with_normal; });
+  return static_cast<double>(with_normal) / static_cast<double>(all);
+}
+
+Points thinned(const Points& points, double side) {
+  const Cells cells(points, side);
+  Points result;
+  for (const auto& members : cells.all()) result.push_back(middle_of(points, members));
   return result;
 }
 

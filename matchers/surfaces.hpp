@@ -39,4 +39,10 @@ struct SurfaceRule {
 /// components, in both directions.
 [[nodiscard]] Surfaces surfaces_of(const LocalMap& local, const SurfaceRule& rule);
 
+/// The share of a map's thinned points that have a normal, in [0, 1].
+[[nodiscard]] double share_of_surfaces(const GlobalMap& map, const SurfaceRule& rule);
+
+/// The middle of the points in each square of this side (m); z is 0.
+[[nodiscard]] Points thinned(const Points& points, double side);
+
 }  // namespace glocal

@@ -35,7 +35,8 @@ class SavedIndexFile : public ::testing::Test {
 std::string two_sections() {
   const std::vector<std::uint32_t> numbers = {1, 2, 3};
   const std::vector<float> values = {0.5F, -1.25F};
-  return saved_index(origin, {std::as_bytes(std::span(numbers)), std::as_bytes(std::span(values))});
+  return saved_index("numbers", origin,
+                     {std::as_bytes(std::span(numbers)), std::as_bytes(std::span(values))});
 }
 
 TEST_F(SavedIndexFile, GivesItsSectionsBackAsLongAsSomebodyHoldsThem) {
@@ -142,9 +143,10 @@ class SavedDipoles : public ::testing::Test {
                                      std::size_t angles = 100) const {
     const Surfaces s = surfaces();
     const std::string bytes =
-        saved_index(origin, {std::as_bytes(std::span(s.x)), std::as_bytes(std::span(s.y)),
-                             std::as_bytes(std::span(s.angle).first(angles)),
-                             std::as_bytes(std::span(begins)), std::as_bytes(std::span(dipoles))});
+        saved_index(DipoleIndex::kind, origin,
+                    {std::as_bytes(std::span(s.x)), std::as_bytes(std::span(s.y)),
+                     std::as_bytes(std::span(s.angle).first(angles)), std::as_bytes(std::span(begins)),
+                     std::as_bytes(std::span(dipoles))});
     return config_error("", [&] { (void)read(bytes); });
   }
 

@@ -165,6 +165,19 @@ TEST(Surfaces, WhatIsNoLineHasNoNormal) {
   }
 }
 
+TEST(Surfaces, TheirShareIsThatOfThePlacesWithANormal) {
+  MapData data;
+  testing::add_wall(data.points, {{0.025, 0.025}, {3.025, 0.025}});  // 30 squares of 0.1 m
+  for (int i = 0; i < 10; ++i) data.points.push_back({0.05F, 2.0F + static_cast<float>(i), 0.0F});  // alone
+  data.grid = {{}, 0.1, 1, 1, {Cell::unknown}};
+  const GlobalMap map(std::move(data));
+  EXPECT_NEAR(share_of_surfaces(map, {}), 0.75, 1e-9);
+  const Points places = thinned(map.points(), 0.1);
+  ASSERT_EQ(places.size(), 40U);
+  EXPECT_NEAR(places.x[0], 0.05, 1e-6);  // of 0.025 and 0.075
+  EXPECT_NEAR(places.y[0], 0.025, 1e-6);
+}
+
 TEST(Surfaces, ALocalMapsOwnNormalsAreTakenAndZeroOnesLeftOut) {
   LocalMap local;
   local.points.push_back({1.0F, 2.0F, 0.0F});
