@@ -1,16 +1,22 @@
 // Matching against an index of the map: what building it costs, and a step with it.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "bench/scenes.hpp"
+#include "glocal/contact.hpp"
 #include "matchers/beam_evidence.hpp"
 #include "matchers/dipole_index.hpp"
 #include "matchers/distance_field.hpp"
 #include "matchers/indexed_ransam.hpp"
+#include "matchers/saved_index.hpp"
 #include "matchers/surfaces.hpp"
+#include "matchers/triangle_index.hpp"
 
 namespace glocal::bench {
 namespace {
@@ -19,17 +25,107 @@ void surfaces(benchmark::State& state, const Scene& s) {
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(surfaces_of(*s.prepared.map, SurfaceRule{}));
 }
 
+/// With so many threads.
 void dipoles(benchmark::State& state, const Scene& s) {
   const Surfaces found = surfaces_of(*s.prepared.map, {});
   std::size_t bytes = 0;
   std::size_t n = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const DipoleIndex index(found, {});
+    const DipoleIndex index(found, {}, static_cast<int>(state.range(0)));
     bytes = index.memory_bytes();
     n = index.size();
   }
   state.counters["dipoles"] = static_cast<double>(n);
   state.counters["MB"] = static_cast<double>(bytes) / 1e6;
+}
+
+void triangles(benchmark::State& state, const Scene& s) {
+  const Points found = thinned(s.map(), 0.1);
+  std::size_t bytes = 0;
+  std::size_t n = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const TriangleIndex index(found, {.min_side = 0.5, .min_height = 0.3, .max_side = 6.0}, 1'000'000,
+                              static_cast<int>(state.range(0)));
+    bytes = index.memory_bytes();
+    n = index.size();
+  }
+  state.counters["triangles"] = static_cast<double>(n);
+  state.counters["MB"] = static_cast<double>(bytes) / 1e6;
+}
+
+/// Reading the dipoles from a file instead.
+void saved_dipoles(benchmark::State& state, const Scene& s) {
+  const IndexOrigin origin{digest_of(*s.prepared.map), "all defaults"};
+  const auto file = std::filesystem::temp_directory_path() / "glocal_bench_indexed.index";
+  std::ofstream(file, std::ios::binary) << DipoleIndex(surfaces_of(*s.prepared.map, {}), {}).saved(origin);
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(DipoleIndex(SavedIndex(file, {digest_of(*s.prepared.map), "all defaults"}), {}));
+  }
+  std::filesystem::remove(file);
+}
+
+/// Motions that dipoles of a local map propose, as IndexedRansam draws them.
+std::vector<MotionBatch> proposals(const Scene& s, const LocalMap& local, std::size_t batches) {
+  const DipoleIndex index(surfaces_of(*s.prepared.map, {}), {});
+  const Surfaces surfaces = surfaces_of(local, SurfaceRule{});
+  const auto n = static_cast<std::uint32_t>(surfaces.size());
+  const auto pose_of = [](const Surfaces& from, const DipoleIndex::Dipole& d) {
+    return Pose2{0.5 * (from.x[d.first] + from.x[d.second]), 0.5 * (from.y[d.first] + from.y[d.second]),
+                 std::atan2(from.y[d.second] - from.y[d.first], from.x[d.second] - from.x[d.first])};
+  };
+  Rng rng(1);
+  std::vector<MotionBatch> result(batches);
+  for (MotionBatch& motions : result) {
+    for (std::size_t i = 0; i < MotionBatch::capacity;) {
+      const DipoleIndex::Dipole dipole{rng.below(n), rng.below(n)};
+      const auto partners = index.find(surfaces, dipole);
+      if (partners.empty()) continue;
+      const auto& partner = partners[rng.below(static_cast<std::uint32_t>(partners.size()))];
+      const Transform t(pose_of(index.surfaces(), partner) * inverse(pose_of(surfaces, dipole)));
+      motions.cosine[i] = t.cosine();
+      motions.sine[i] = t.sine();
+      motions.x[i] = t.x();
+      motions.y[i] = t.y();
+      ++i;
+    }
+  }
+  return result;
+}
+
+/// What spares most proposed poses a look at 128 points. `coarse`: 16 points against the coarse bits, as
+/// IndexedRansam does. `third_point`: another point of the local map must be in contact (Winkelbach et al.
+/// 2006). Or both. `kept` is the share of poses with a contact of 0.2 or more that are not lost.
+void looks(benchmark::State& state, const Scene& s, bool third_point, bool coarse) {
+  const LocalMap local = local_map_at(s, s.prepared.starts.front(), static_cast<std::size_t>(state.range(0)));
+  Points sample;
+  for (std::size_t i = 0; i < 128; ++i) sample.push_back(local.points[(i * 7919) % local.points.size()]);
+  const std::vector<MotionBatch> all = proposals(s, local, 6);
+  const auto contact = contact_index(*s.prepared.map, "bitset", 0.1);
+  std::size_t passed = 0;
+  const auto look = [&] {
+    passed = 0;
+    for (const MotionBatch& motions : all) {
+      ContactIndex::BatchColumn begins{};
+      ContactIndex::BatchColumn at_most{};
+      at_most.fill(16);
+      if (coarse) contact->count_at_most(sample, 16, motions, MotionBatch::capacity, begins, at_most);
+      for (std::size_t i = 0; i < MotionBatch::capacity; ++i) {
+        if (third_point && contact->count(sample, (i * 31) % 128, 1, motions[i]) == 0) continue;
+        if (at_most[i] < 4) continue;  // less than 0.2 of 16
+        if (contact->share(sample, motions[i]) >= 0.2) ++passed;
+      }
+    }
+    return passed;
+  };
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(look());
+  std::size_t good = 0;
+  for (const MotionBatch& motions : all) {
+    for (std::size_t i = 0; i < MotionBatch::capacity; ++i) {
+      good += contact->share(sample, motions[i]) >= 0.2 ? 1U : 0U;
+    }
+  }
+  state.counters["kept"] = static_cast<double>(passed) / static_cast<double>(good);
+  state.counters["per_pose"] = time_per_item(static_cast<double>(all.size() * MotionBatch::capacity));
 }
 
 void distances(benchmark::State& state, const Scene& s) {
@@ -80,7 +176,19 @@ void register_all() {
         ->Unit(benchmark::kMillisecond);
   };
   add("build/surfaces", surfaces);
-  add("build/dipoles", dipoles);
+  add("build/dipoles", dipoles)->Arg(1)->Arg(2);
+  add("build/triangles", triangles)->Arg(1)->Arg(2);
+  add("load/dipoles", saved_dipoles);
+  add("look/none", [](auto& state, const Scene& scene) { looks(state, scene, false, false); })
+      ->Arg(0)
+      ->Arg(20);
+  add("look/coarse", [](auto& state, const Scene& scene) { looks(state, scene, false, true); })
+      ->Arg(0)
+      ->Arg(20);
+  add("look/third_point", [](auto& state, const Scene& scene) { looks(state, scene, true, false); })
+      ->Arg(0)
+      ->Arg(20);
+  add("look/both", [](auto& state, const Scene& scene) { looks(state, scene, true, true); })->Arg(0)->Arg(20);
   add("build/distance_field", distances);
   add("build/clearance_grid", clearances);
   add("first_match", first_match)->Arg(0)->Arg(20);

@@ -5,58 +5,28 @@
 #include <numbers>
 #include <numeric>
 #include <utility>
+#include <vector>
 
+#include "glocal/parallel.hpp"
 #include "glocal/rng.hpp"
+#include "matchers/squares.hpp"
 
 namespace glocal {
 namespace {
 
-/// Numbers of points sorted into squares as wide as the longest dipole, so that partners are in nine of them.
-class Squares {
- public:
-  Squares(const Surfaces& s, double side) : side_(side) {
-    if (s.size() == 0) return;
-    const auto [min_x, max_x] = std::minmax_element(s.x.begin(), s.x.end());
-    const auto [min_y, max_y] = std::minmax_element(s.y.begin(), s.y.end());
-    min_x_ = *min_x;
-    min_y_ = *min_y;
-    columns_ = static_cast<int>((*max_x - *min_x) / side) + 1;
-    rows_ = static_cast<int>((*max_y - *min_y) / side) + 1;
-    members_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-    for (std::size_t i = 0; i < s.size(); ++i) {
-      members_[index(column(s.x[i]), row(s.y[i]))].push_back(static_cast<std::uint32_t>(i));
-    }
-  }
+/// Points whose dipoles one thread finds at a time. Fixed, so that their order does not depend on the
+/// threads.
+constexpr std::size_t points_per_chunk = 64;
 
-  template <class Visit>
-  void near(float x, float y, Visit visit) const {
-    for (int r = std::max(0, row(y) - 1); r <= std::min(rows_ - 1, row(y) + 1); ++r) {
-      for (int c = std::max(0, column(x) - 1); c <= std::min(columns_ - 1, column(x) + 1); ++c) {
-        for (const std::uint32_t i : members_[index(c, r)]) visit(i);
-      }
-    }
-  }
-
- private:
-  [[nodiscard]] int column(float x) const { return static_cast<int>((x - min_x_) / side_); }
-  [[nodiscard]] int row(float y) const { return static_cast<int>((y - min_y_) / side_); }
-  [[nodiscard]] std::size_t index(int c, int r) const {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
-  }
-
-  double side_;
-  float min_x_ = 0.0F, min_y_ = 0.0F;
-  int columns_ = 0, rows_ = 0;
-  std::vector<std::vector<std::uint32_t>> members_;
-};
-
-/// Calls visit(dipole) for each ordered pair of different points at an allowed distance.
+/// Calls visit(dipole) for each ordered pair of different points at an allowed distance whose first point is
+/// in the chunk.
 template <class Visit>
-void for_each_dipole(const Surfaces& s, const DipoleRule& rule, Visit visit) {
-  const Squares squares(s, rule.max_length);
+void for_each_dipole(const Surfaces& s, const DipoleRule& rule, const Squares& squares, std::size_t chunk,
+                     Visit visit) {
   const double shortest = rule.min_length * rule.min_length;
   const double longest = rule.max_length * rule.max_length;
-  for (std::uint32_t i = 0; i < s.size(); ++i) {
+  const auto end = static_cast<std::uint32_t>(std::min((chunk + 1) * points_per_chunk, s.size()));
+  for (auto i = static_cast<std::uint32_t>(chunk * points_per_chunk); i < end; ++i) {
     squares.near(s.x[i], s.y[i], [&](std::uint32_t k) {
       const double dx = s.x[k] - s.x[i];
       const double dy = s.y[k] - s.y[i];
@@ -74,27 +44,68 @@ bool is_taken(const DipoleIndex::Dipole& dipole, double share) {
 
 }  // namespace
 
-DipoleIndex::DipoleIndex(Surfaces surfaces, const DipoleRule& rule)
+DipoleIndex::DipoleIndex(Surfaces surfaces, const DipoleRule& rule, int threads)
     : surfaces_(std::move(surfaces)), rule_(rule) {
-  std::size_t all = 0;
-  for_each_dipole(surfaces_, rule_, [&](const Dipole& /*dipole*/) { ++all; });
+  const Squares squares(surfaces_.x, surfaces_.y, rule_.max_length);
+  const std::size_t chunks = (surfaces_.size() + points_per_chunk - 1) / points_per_chunk;
+  std::vector<std::size_t> counts(chunks, 0);
+  parallel_for(threads, chunks, [&](std::size_t c) {
+    std::size_t count = 0;
+    for_each_dipole(surfaces_, rule_, squares, c, [&](const Dipole& /*dipole*/) { ++count; });
+    counts[c] = count;
+  });
+  const std::size_t all = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   const double share =
       static_cast<double>(rule_.max_entries) / static_cast<double>(std::max<std::size_t>(all, 1));
 
-  std::vector<std::pair<std::uint32_t, Dipole>> taken;
-  for_each_dipole(surfaces_, rule_, [&](const Dipole& dipole) {
-    if (share < 1.0 && !is_taken(dipole, share)) return;
-    if (const auto b = bin(surfaces_, dipole)) taken.emplace_back(*b, dipole);
+  std::vector<std::vector<std::pair<std::uint32_t, Dipole>>> taken(chunks);
+  parallel_for(threads, chunks, [&](std::size_t c) {
+    for_each_dipole(surfaces_, rule_, squares, c, [&](const Dipole& dipole) {
+      if (share < 1.0 && !is_taken(dipole, share)) return;
+      if (const auto b = bin(surfaces_, dipole)) taken[c].emplace_back(*b, dipole);
+    });
   });
+  std::vector<std::uint32_t> begins(bins() + 1, 0);
+  for (const auto& chunk : taken) {
+    for (const auto& [b, dipole] : chunk) ++begins[b + 1];
+  }
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+  std::vector<Dipole> dipoles(begins.back());
+  for (const auto& chunk : taken) {
+    for (const auto& [b, dipole] : chunk) dipoles[next[b]++] = dipole;
+  }
+  begins_ = SharedArray(std::move(begins));
+  dipoles_ = SharedArray(std::move(dipoles));
+}
+
+DipoleIndex::DipoleIndex(const SavedIndex& saved, const DipoleRule& rule) : rule_(rule) {
+  saved.expect(kind);
+  surfaces_ = {saved.section<float>(0).copy(), saved.section<float>(1).copy(),
+               saved.section<float>(2).copy()};
+  begins_ = saved.section<std::uint32_t>(3);
+  dipoles_ = saved.section<Dipole>(4);
+
+  const std::size_t points = surfaces_.size();
+  if (surfaces_.y.size() != points || surfaces_.angle.size() != points || begins_.size() != bins() + 1) {
+    saved.fail("the index is damaged: its parts do not fit together");
+  }
+  saved.expect_bins(begins_.span(), dipoles_.size());
+  saved.expect_below(points, dipoles_.span());
+}
+
+std::string DipoleIndex::saved(const IndexOrigin& origin) const {
+  return saved_index(kind, origin,
+                     {std::as_bytes(std::span(surfaces_.x)), std::as_bytes(std::span(surfaces_.y)),
+                      std::as_bytes(std::span(surfaces_.angle)), std::as_bytes(begins_.span()),
+                      std::as_bytes(dipoles_.span())});
+}
+
+std::size_t DipoleIndex::bins() const {
   const auto lengths =
       static_cast<std::size_t>(std::ceil((rule_.max_length - rule_.min_length) / rule_.length_cell));
   const auto angles = static_cast<std::size_t>(rule_.angle_cells);
-  begins_.assign(lengths * angles * angles + 1, 0);
-  for (const auto& [b, dipole] : taken) ++begins_[b + 1];
-  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
-  std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
-  dipoles_.resize(taken.size());
-  for (const auto& [b, dipole] : taken) dipoles_[next[b]++] = dipole;
+  return lengths * angles * angles;
 }
 
 std::size_t DipoleIndex::memory_bytes() const {
@@ -105,7 +116,7 @@ std::size_t DipoleIndex::memory_bytes() const {
 std::span<const DipoleIndex::Dipole> DipoleIndex::find(const Surfaces& surfaces, const Dipole& dipole) const {
   const auto b = bin(surfaces, dipole);
   if (!b) return {};
-  return std::span(dipoles_).subspan(begins_[*b], begins_[*b + 1] - begins_[*b]);
+  return dipoles_.span().subspan(begins_[*b], begins_[*b + 1] - begins_[*b]);
 }
 
 std::optional<std::uint32_t> DipoleIndex::bin(const Surfaces& s, const Dipole& dipole) const {

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
+#include <string>
 
+#include "matchers/saved_index.hpp"
 #include "matchers/surfaces.hpp"
 
 namespace glocal {
@@ -25,12 +26,20 @@ struct DipoleRule {
 /// by all; if there are more pairs than max_entries, an even share of them.
 class DipoleIndex {
  public:
+  static constexpr const char* kind = "dipoles";
+
   struct Dipole {
     std::uint32_t first;
     std::uint32_t second;
   };
 
-  DipoleIndex(Surfaces surfaces, const DipoleRule& rule);
+  /// The same for any number of threads.
+  DipoleIndex(Surfaces surfaces, const DipoleRule& rule, int threads = 1);
+  /// Reads what saved() left. Throws ConfigError where it is no index for this rule.
+  DipoleIndex(const SavedIndex& saved, const DipoleRule& rule);
+
+  /// The content of a file that holds the index.
+  [[nodiscard]] std::string saved(const IndexOrigin& origin) const;
 
   [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
   [[nodiscard]] std::size_t size() const { return dipoles_.size(); }
@@ -40,12 +49,13 @@ class DipoleIndex {
   [[nodiscard]] std::span<const Dipole> find(const Surfaces& surfaces, const Dipole& dipole) const;
 
  private:
+  [[nodiscard]] std::size_t bins() const;
   [[nodiscard]] std::optional<std::uint32_t> bin(const Surfaces& surfaces, const Dipole& dipole) const;
 
   Surfaces surfaces_;
   DipoleRule rule_;
-  std::vector<std::uint32_t> begins_;  ///< Of each bin in dipoles_, and the end of the last.
-  std::vector<Dipole> dipoles_;
+  SharedArray<std::uint32_t> begins_;  ///< Of each bin in dipoles_, and the end of the last.
+  SharedArray<Dipole> dipoles_;
 };
 
 }  // namespace glocal

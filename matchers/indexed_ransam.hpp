@@ -3,6 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "glocal/catalog.hpp"
@@ -12,8 +15,11 @@
 #include "matchers/beam_evidence.hpp"
 #include "matchers/dipole_index.hpp"
 #include "matchers/distance_field.hpp"
+#include "matchers/triangle_index.hpp"
 
 namespace glocal {
+
+using RelationIndex = std::variant<DipoleIndex, TriangleIndex>;
 
 /// When a step's draws end: once the best distinct poses have stayed the same over some chunks of draws, be
 /// it because all worth finding are found or because what was carried on is still best.
@@ -25,9 +31,9 @@ struct AdaptiveBudget {
 };
 
 /// Random sample matching against an index: the map's dipoles (two points with their normals) are sorted
-/// once, so every draw from the local map meets partners. The best distinct poses are refined before they are
-/// judged, carried to the next step beside fresh ones, and judged by contact, by beams through walls, and by
-/// what the map does not show.
+/// once, or its triangles where few points have a normal, so every draw from the local map meets partners.
+/// The best distinct poses are refined before they are judged, carried to the next step beside fresh ones,
+/// and judged by contact, by beams through walls, and by what the map does not show.
 ///
 /// Hypotheses are the best distinct poses (modes); their quality is contact (Omega, eq. 4) less
 /// `blocked_weight` times the share of blocked beams, plus `unknown_weight` times the share of points in
@@ -57,17 +63,26 @@ class IndexedRansam final : public Matcher {
     double max_length = 6.0;
     double length_cell = 0.1;
     int angle_cells = 24;
+    std::string relation = "auto";
+    double min_surfaces = 0.3;
+    double min_height = 0.3;
     int max_entries = 1000000;
     double thinning = 0.1;
     double normal_radius = 0.2;
+    FilePath index_file = {};
   };
 
-  /// Throws ConfigError where the map is too large for a contact grid or a distance field.
+  /// Throws ConfigError where the map is too large for a contact grid or a distance field, or index_file is
+  /// not the index of this map and these parameters.
   IndexedRansam(const Params& params, const StageSetup& setup);
 
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
   void reset() override;
+  [[nodiscard]] std::optional<MapIndexInfo> map_index() const override { return map_index_; }
+
+  /// The content of an index_file for these parameters and this map.
+  [[nodiscard]] std::string saved_index() const;
 
  private:
   /// A pose of the local map, and how good it looks so far.
@@ -75,10 +90,16 @@ class IndexedRansam final : public Matcher {
     Pose2 map_from_local;
     double quality = 0.0;
   };
-  void draw(const Surfaces& surfaces, const Points& sample, std::size_t draws, Rng& rng,
+  using LocalPoints = std::variant<Surfaces, Points>;
+  [[nodiscard]] LocalPoints points_to_draw(const LocalMap& local) const;
+  void draw(const LocalPoints& points, const Points& sample, std::size_t draws, Rng& rng,
             std::vector<Mode>& modes, MatchResult& result) const;
-  void draw_until_stable(const Surfaces& surfaces, const Points& sample, const Pose2& local_from_robot,
+  void draw_until_stable(const LocalPoints& points, const Points& sample, const Pose2& local_from_robot,
                          Rng& rng, std::vector<Mode>& modes, MatchResult& result) const;
+  void draw_dipoles(const DipoleIndex& index, const Surfaces& surfaces, const Points& sample,
+                    std::size_t draws, Rng& rng, std::vector<Mode>& modes, MatchResult& result) const;
+  void draw_triangles(const TriangleIndex& index, const Points& points, const Points& sample,
+                      std::size_t draws, Rng& rng, std::vector<Mode>& modes, MatchResult& result) const;
   void test(const MotionBatch& motions, std::size_t size, const Points& sample, std::vector<Mode>& modes,
             MatchResult& result) const;
   [[nodiscard]] bool is_same_mode(const Pose2& map_from_robot, const Pose2& other) const {
@@ -95,7 +116,8 @@ class IndexedRansam final : public Matcher {
   Params params_;
   std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
-  std::shared_ptr<const DipoleIndex> index_;
+  std::shared_ptr<const RelationIndex> index_;
+  MapIndexInfo map_index_;
   std::shared_ptr<const DistanceField> field_;
   std::shared_ptr<const ClearanceGrid> clearance_;
   BeamEvidence beams_;

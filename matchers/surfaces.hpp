@@ -30,12 +30,19 @@ struct SurfaceRule {
   double max_roughness = 0.4;
 };
 
-/// The map's: normals by principal components, turned to the free cells; a wall that is free on both sides
-/// gives two points, one that is free on neither as well.
+/// The map's: normals by principal components of what lies on one line with a point, turned to the free
+/// cells; a wall that is free on both sides gives two points, one that is free on neither as well. Where a
+/// wall's two sides are on the map, 0.15 m apart or more, each has its own normal.
 [[nodiscard]] Surfaces surfaces_of(const GlobalMap& map, const SurfaceRule& rule);
 
 /// The local map's: where it has normals, those; they point to where the sensor was. Else by principal
 /// components, in both directions.
 [[nodiscard]] Surfaces surfaces_of(const LocalMap& local, const SurfaceRule& rule);
+
+/// The share of a map's thinned points that have a normal, in [0, 1].
+[[nodiscard]] double share_of_surfaces(const GlobalMap& map, const SurfaceRule& rule);
+
+/// The middle of the points in each square of this side (m); z is 0.
+[[nodiscard]] Points thinned(const Points& points, double side);
 
 }  // namespace glocal

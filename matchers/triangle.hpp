@@ -28,6 +28,13 @@ struct TripleBatch {
   void clear() { size = 0; }
   [[nodiscard]] bool full() const { return size == capacity; }
   void add_number(std::uint32_t number) { numbers[size++] = number; }
+  /// A triple that is known, with its place in the batch as number.
+  void add(const Triple& triple) {
+    first[size] = triple[0];
+    second[size] = triple[1];
+    third[size] = triple[2];
+    add_number(static_cast<std::uint32_t>(size));
+  }
 };
 
 /// The quantised side lengths of a triangle, longest first, then counter-clockwise: 10 bits each in units of

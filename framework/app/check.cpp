@@ -21,7 +21,7 @@ struct CheckOptions {
 
 void check(const std::string& file, const ExperimentOptions& options, Context& context) {
   const Experiment experiment = options.read(file, context);
-  const Prepared prepared =
+  Prepared prepared =
       prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
   static_cast<void>(make_localizer(experiment, context.catalog, prepared));
   fmt::print("{}: ok, {} map points, {} observations, {} trials\n", file, prepared.map->points().size(),

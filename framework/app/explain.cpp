@@ -38,7 +38,7 @@ struct Replayed {
 };
 
 Replayed replay(const ExplainOptions& options, const Experiment& experiment, const Catalog& catalog,
-                const Prepared& prepared) {
+                Prepared& prepared) {
   if (options.trial >= prepared.starts.size()) {
     refuse(options.folder, fmt::format("there is no trial {}: the last one is {}", options.trial,
                                        prepared.starts.size() - 1));
@@ -141,7 +141,7 @@ void explain(const ExplainOptions& options, Context& context) {
   }
   const Experiment experiment = ExperimentOptions{}.read(file, context);
   const EvaluationConfig& limits = experiment.evaluation;
-  const Prepared prepared =
+  Prepared prepared =
       prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
   const Replayed step = replay(options, experiment, context.catalog, prepared);
   const StepResult& result = step.result;

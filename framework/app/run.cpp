@@ -183,8 +183,9 @@ void run(const RunOptions& options, Context& context) {
         ++trial;
       });
 
-  const auto json = summary.to_json(
-      {experiment.name, experiment.seed, complete, prepared.map->points().size(), prepared.map_build_ms});
+  const auto json =
+      summary.to_json({experiment.name, experiment.seed, complete, prepared.map->points().size(),
+                       prepared.map_build_ms, localizer.map_index()});
   folder.append("summary.json", json.dump(2) + "\n");
   folder.commit();
   if (!options.quiet) print_summary(json, folder.path());

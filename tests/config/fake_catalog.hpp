@@ -45,6 +45,7 @@ struct FakeDrive final : ObservationSource {
     std::vector<std::string> tags = {"a"};
     std::vector<FilePath> extras;
     FilePath optional_file;
+    FilePath made_later;
     Noise noise;
   };
   explicit FakeDrive(const Params& params);

@@ -117,6 +117,7 @@ observations:
     tags: [a]
     extras: []
     optional_file: ""
+    made_later: ""
     noise:
       range: 0.01
       beams: 8

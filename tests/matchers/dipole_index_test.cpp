@@ -124,6 +124,15 @@ TEST(DipoleIndex, OfTooManyAnEvenShareIsKeptTheSameEachTime) {
   EXPECT_NEAR(static_cast<double>(from_first_half) / static_cast<double>(one.size()), 0.5, 0.05);
 }
 
+TEST(DipoleIndex, IsTheSameForAnyNumberOfThreads) {
+  const Surfaces surfaces = scattered(500, 15.0);
+  const DipoleRule rule{.max_entries = 20'000};
+  const std::string one = DipoleIndex(surfaces, rule, 1).saved({});
+  EXPECT_GT(one.size(), 8 * std::size_t{19'000});
+  EXPECT_EQ(one, DipoleIndex(surfaces, rule, 2).saved({}));
+  EXPECT_EQ(one, DipoleIndex(surfaces, rule, 5).saved({}));
+}
+
 TEST(DipoleIndex, ShortAndLongOnesHaveNoPartnersAndNothingIsAnAnswer) {
   Surfaces two;
   two.add(0.0F, 0.0F, 0.0F);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "test_world.hpp"
 
@@ -158,6 +159,59 @@ TEST(IndexedRansam, StableDrawsFindWhatManyDrawsFind) {
     drawn += stable.collisions;
   }
   EXPECT_LT(drawn, 10U * 5000U);
+}
+
+/// Round pillars 10 cm thick, too thin to have a normal, some 2 m apart from each other in 16 m x 16 m.
+Points pillars() {
+  Rng rng(3);
+  Points points;
+  std::vector<Point> middles;
+  while (middles.size() < 45) {
+    const Point middle{static_cast<float>(rng.uniform(0.0, 16.0)), static_cast<float>(rng.uniform(0.0, 16.0)),
+                       0.0F};
+    const bool is_near = std::any_of(middles.begin(), middles.end(), [&](const Point& other) {
+      return std::hypot(other.x - middle.x, other.y - middle.y) < 1.0F;
+    });
+    if (is_near) continue;
+    middles.push_back(middle);
+    for (int i = 0; i < 8; ++i) {
+      const float angle = 0.7854F * static_cast<float>(i);
+      points.push_back({middle.x + 0.05F * std::cos(angle), middle.y + 0.05F * std::sin(angle), 0.0F});
+    }
+  }
+  return points;
+}
+
+TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWhereDipolesCannot) {
+  MapData data;
+  data.points = pillars();
+  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 180, 180, std::vector<Cell>(std::size_t{180} * 180, Cell::free)};
+  const auto map = std::make_shared<const GlobalMap>(std::move(data));
+  Rng rng(9);
+  for (int place = 0; place < 10; ++place) {
+    const Pose2 truth{rng.uniform(5.0, 11.0), rng.uniform(5.0, 11.0), rng.uniform(-3.14, 3.14)};
+    LocalMap local;
+    local.points = testing::seen_from(map->points(), truth, 5.0);
+    local.ends = {local.points.size()};
+    const auto answer = [&](const char* relation, int threads) {
+      IndexedRansam matcher({.relation = relation}, {map, threads});
+      Rng draws(static_cast<std::uint64_t>(place));
+      return matcher.match(local, {}, 0.5, draws).hypotheses;
+    };
+    for (const char* relation : {"triangle", "auto"}) {
+      const std::vector<Hypothesis> found = answer(relation, 1);
+      ASSERT_FALSE(found.empty()) << relation;
+      EXPECT_LT(distance(found.front().map_from_robot, truth), 0.05) << relation;
+      EXPECT_LT(rotation_between(found.front().map_from_robot, truth), radians(1.0)) << relation;
+      const std::vector<Hypothesis> parallel = answer(relation, 2);
+      ASSERT_EQ(found.size(), parallel.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].map_from_robot, parallel[i].map_from_robot);
+        EXPECT_EQ(found[i].quality, parallel[i].quality);
+      }
+    }
+    EXPECT_TRUE(answer("dipole", 1).empty());
+  }
 }
 
 }  // namespace

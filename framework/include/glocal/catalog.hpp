@@ -29,6 +29,8 @@ struct SourceSetup {
 struct StageSetup {
   std::shared_ptr<const GlobalMap> map;
   int threads = 1;
+  /// To be called with every file read while the stage is made, for the record of a run's inputs.
+  std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
 };
 
 struct Catalog {

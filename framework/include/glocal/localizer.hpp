@@ -37,6 +37,8 @@ class Localizer {
   /// The local map after the last step.
   [[nodiscard]] const LocalMap& local_map() const { return local_mapper_->map(); }
   [[nodiscard]] std::vector<MapFile> local_map_files() const { return local_mapper_->files(); }
+  /// What the matcher has made of the map.
+  [[nodiscard]] std::optional<MapIndexInfo> map_index() const { return matcher_->map_index(); }
 
  private:
   std::unique_ptr<LocalMapper> local_mapper_;

@@ -33,7 +33,8 @@ struct FieldInfo {
   std::vector<std::string> choices = {};                    ///< For strings: the allowed values.
   std::size_t min_items = 0;                                ///< For lists; bounds hold for each number in it.
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
-  bool required = false;  ///< The file must give it.
+  bool required = false;        ///< The file must give it.
+  bool may_be_missing = false;  ///< For paths: whoever reads the file says what to do where there is none.
 };
 
 /// A path from a file: relative to that file, or below the datasets folder with the prefix `data:`.

@@ -61,6 +61,13 @@ struct MatchResult {
   std::size_t checks = 0;              ///< Single points tested for contact.
 };
 
+/// What a matcher looks things up in, made once from the map.
+struct MapIndexInfo {
+  std::size_t entries = 0;
+  std::size_t bytes = 0;
+  double build_ms = 0.0;  ///< To build it, or to load it.
+};
+
 /// Proposes poses of a local map in the global map.
 /// Contract: the answer does not depend on the number of threads; every hypothesis has quality >= omega_max;
 /// falling quality; no hypothesis is a valid answer (always so for an empty local map).
@@ -70,6 +77,8 @@ class Matcher {
   [[nodiscard]] virtual MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                           Rng& rng) = 0;
   virtual void reset() = 0;
+  /// For the record of a run; none if there is no index worth a word.
+  [[nodiscard]] virtual std::optional<MapIndexInfo> map_index() const { return std::nullopt; }
 };
 
 /// Groups hypotheses that mean the same robot pose.

@@ -238,7 +238,9 @@ Refusal take_value(const YamlNode& node, const FieldInfo& info, FilePath& value)
   }
   FilePath path{node.text, {}};
   if (auto refusal = resolve(node.text, node.place.origin->folder, path.resolved)) return refusal;
-  if (auto refusal = why_unreadable(path.resolved)) return refusal;
+  if (!info.may_be_missing) {
+    if (auto refusal = why_unreadable(path.resolved)) return refusal;
+  }
   value = std::move(path);
   return std::nullopt;
 }

@@ -20,8 +20,12 @@ Prepared prepare(const Experiment& experiment, const Catalog& catalog, const War
   return prepared;
 }
 
-Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, const Prepared& prepared) {
-  return {experiment.localizer, catalog, {prepared.map, experiment.threads}, experiment.seed};
+Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, Prepared& prepared) {
+  const StageSetup setup{
+      .map = prepared.map,
+      .threads = experiment.threads,
+      .note_input = [&](const std::filesystem::path& file) { prepared.inputs.insert(file); }};
+  return {experiment.localizer, catalog, setup, experiment.seed};
 }
 
 bool run_trials(Localizer& localizer, const Experiment& experiment, const Prepared& prepared,

@@ -26,9 +26,10 @@ struct Prepared {
 /// Loads map and drive and finds the starts. Throws ConfigError.
 [[nodiscard]] Prepared prepare(const Experiment& experiment, const Catalog& catalog, const Warn& warn);
 
-/// The localizer of an experiment on its map. Throws ConfigError.
+/// The localizer of an experiment on its map; files that its stages read are added to the inputs. Throws
+/// ConfigError.
 [[nodiscard]] Localizer make_localizer(const Experiment& experiment, const Catalog& catalog,
-                                       const Prepared& prepared);
+                                       Prepared& prepared);
 
 /// Runs all trials in order, handing each finished one to `done`; false if stopped before the last.
 bool run_trials(Localizer& localizer, const Experiment& experiment, const Prepared& prepared,

@@ -62,6 +62,12 @@ Json Summary::to_json(const Run& run) const {
   Json trials = {{"count", count_}, {"right", right_}, {"wrong", wrong_}, {"undecided", undecided_}};
   if (declared_ > 0) trials["declared_without_reference"] = declared_;
   if (failed_ > 0) trials["failed"] = failed_;
+  Json map = {{"points", run.map_points}, {"build_ms", run.map_build_ms}};
+  if (run.map_index) {
+    map["index"] = {{"entries", run.map_index->entries},
+                    {"bytes", run.map_index->bytes},
+                    {"build_ms", run.map_index->build_ms}};
+  }
   return {{"name", run.name},
           {"seed", run.seed},
           {"complete", run.complete},
@@ -82,7 +88,7 @@ Json Summary::to_json(const Run& run) const {
             {"match", spread(ms_.match)},
             {"cluster", spread(ms_.cluster)},
             {"rate", spread(ms_.rate)}}},
-          {"map", {{"points", run.map_points}, {"build_ms", run.map_build_ms}}},
+          {"map", std::move(map)},
           {"peak_rss_mb", peak_rss_mb()}};
 }
 

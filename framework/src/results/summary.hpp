@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "glocal/strategies.hpp"
 #include "pipeline/trials.hpp"
 
 namespace glocal {
@@ -21,6 +23,7 @@ class Summary {
     bool complete = true;  ///< False if the run was interrupted: later trials are missing.
     std::size_t map_points = 0;
     double map_build_ms = 0.0;
+    std::optional<MapIndexInfo> map_index = {};
   };
   [[nodiscard]] nlohmann::ordered_json to_json(const Run& run) const;
 

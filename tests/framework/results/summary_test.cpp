@@ -61,6 +61,14 @@ TEST(Summary, CountsOutcomesAndSpreadsOfTheRightOnes) {
   EXPECT_GT(json["peak_rss_mb"].get<double>(), 1.0);
 }
 
+TEST(Summary, TellsOfTheMapsIndexWhereThereIsOne) {
+  EXPECT_FALSE(sum_up({})["map"].contains("index"));
+  const Json json =
+      Summary().to_json({"a name", 42, true, 1000, 12.5, MapIndexInfo{1'000'260, 8'185'540, 160.5}});
+  EXPECT_EQ(json["map"]["index"],
+            Json::parse(R"({"entries": 1000260, "bytes": 8185540, "build_ms": 160.5})"));
+}
+
 TEST(Summary, TimesAreOfAllStepsOfAllTrials) {
   TrialRecord first = trial(Outcome::undecided, 2, 1.0, {});
   first.records = {step_record(0, {}), step_record(1, {})};

@@ -1,0 +1,53 @@
+// Points of the plane sorted into squares, to find those that are near.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace glocal {
+
+/// Numbers of points in squares as wide as the farthest distance asked for, so that all that are nearer lie
+/// in nine of them.
+class Squares {
+ public:
+  /// x and y (m) have the same length.
+  Squares(const std::vector<float>& x, const std::vector<float>& y, double side) : side_(side) {
+    if (x.empty()) return;
+    const auto [min_x, max_x] = std::minmax_element(x.begin(), x.end());
+    const auto [min_y, max_y] = std::minmax_element(y.begin(), y.end());
+    min_x_ = *min_x;
+    min_y_ = *min_y;
+    columns_ = static_cast<int>((*max_x - *min_x) / side) + 1;
+    rows_ = static_cast<int>((*max_y - *min_y) / side) + 1;
+    members_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      members_[index(column(x[i]), row(y[i]))].push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  /// Calls visit(number) for all points within the distance of one of them, and some farther ones.
+  template <class Visit>
+  void near(float x, float y, Visit visit) const {
+    for (int r = std::max(0, row(y) - 1); r <= std::min(rows_ - 1, row(y) + 1); ++r) {
+      for (int c = std::max(0, column(x) - 1); c <= std::min(columns_ - 1, column(x) + 1); ++c) {
+        for (const std::uint32_t i : members_[index(c, r)]) visit(i);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] int column(float x) const { return static_cast<int>((x - min_x_) / side_); }
+  [[nodiscard]] int row(float y) const { return static_cast<int>((y - min_y_) / side_); }
+  [[nodiscard]] std::size_t index(int c, int r) const {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
+  }
+
+  double side_;
+  float min_x_ = 0.0F, min_y_ = 0.0F;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::vector<std::uint32_t>> members_;
+};
+
+}  // namespace glocal
