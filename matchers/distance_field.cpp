@@ -76,4 +76,12 @@ Pose2 refined_pose(const DistanceField& field, const Points& points, const Pose2
   return pose;
 }
 
+void describe(ParamVisitor& v, PoseRefinement& p) {
+  v.field("iterations", p.iterations, {.doc = "Gauss-Newton iterations at most.", .min = 0, .max = 1000});
+  v.field("kernel", p.kernel,
+          {.doc = "Points at this distance from the map count a quarter (Geman-McClure).",
+           .unit = "m",
+           .above = 0.0});
+}
+
 }  // namespace glocal

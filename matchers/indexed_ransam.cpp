@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace glocal {
@@ -26,24 +25,6 @@ DipoleRule dipole_rule(const IndexedRansam::Params& p) {
 std::string index_key(const IndexedRansam::Params& p) {
   return fmt::format("{} {} {} {} {} {} {}", p.min_length, p.max_length, p.length_cell, p.angle_cells,
                      p.max_entries, p.thinning, p.normal_radius);
-}
-
-/// At most n of the points, picked at random, in random order.
-Points sample_of(const Points& points, std::size_t n, Rng& rng) {
-  std::vector<std::uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0U);
-  Points sample;
-  for (std::size_t i = 0; i < std::min(n, order.size()); ++i) {
-    std::swap(order[i], order[i + rng.below(static_cast<std::uint32_t>(order.size() - i))]);
-    sample.push_back(points[order[i]]);
-  }
-  return sample;
-}
-
-Points first_of(const Points& points, std::size_t n) {
-  Points first;
-  for (std::size_t i = 0; i < std::min(n, points.size()); ++i) first.push_back(points[i]);
-  return first;
 }
 
 /// Two points drawn until their distance is in range: in a large local map most pairs are too far apart.
@@ -81,14 +62,6 @@ void lay(const Surfaces& local, const DipoleIndex::Dipole& from, const Surfaces&
 }
 
 }  // namespace
-
-void describe(ParamVisitor& v, PoseRefinement& p) {
-  v.field("iterations", p.iterations, {.doc = "Gauss-Newton iterations at most.", .min = 0, .max = 1000});
-  v.field("kernel", p.kernel,
-          {.doc = "Points at this distance from the map count a quarter (Geman-McClure).",
-           .unit = "m",
-           .above = 0.0});
-}
 
 void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("iterations", p.iterations,
@@ -240,25 +213,9 @@ void IndexedRansam::test(const MotionBatch& motions, std::size_t size, const Poi
   }
 }
 
-/// The best modes, leaving out those that only repeat a better one: the same robot pose.
-std::vector<IndexedRansam::Mode> IndexedRansam::distinct(std::vector<Mode> modes,
-                                                         const Pose2& local_from_robot) const {
-  std::stable_sort(modes.begin(), modes.end(),
-                   [](const Mode& a, const Mode& b) { return a.quality > b.quality; });
-  std::vector<Mode> kept;
-  std::vector<Pose2> robots;
-  for (const Mode& mode : modes) {
-    const Pose2 robot = mode.map_from_local * local_from_robot;
-    const bool repeats = std::any_of(robots.begin(), robots.end(), [&](const Pose2& other) {
-      return distance(robot, other) < params_.mode_distance &&
-             rotation_between(robot, other) < params_.mode_rotation;
-    });
-    if (repeats) continue;
-    kept.push_back(mode);
-    robots.push_back(robot);
-    if (kept.size() == static_cast<std::size_t>(params_.modes)) break;
-  }
-  return kept;
+std::vector<Mode> IndexedRansam::distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const {
+  return distinct_modes(std::move(modes), local_from_robot, {params_.mode_distance, params_.mode_rotation},
+                        static_cast<std::size_t>(params_.modes));
 }
 
 double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_local) const {
@@ -274,8 +231,8 @@ double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_
 
 /// The best modes by their quality, which falls. Beams take most of the time, and only take quality off:
 /// modes are looked at in the order of what they could reach, until no other one can be among the best.
-std::vector<IndexedRansam::Mode> IndexedRansam::judged(const std::vector<Mode>& modes, const LocalMap& local,
-                                                       const Points& sample) const {
+std::vector<Mode> IndexedRansam::judged(const std::vector<Mode>& modes, const LocalMap& local,
+                                        const Points& sample) const {
   const auto better = [](const Mode& a, const Mode& b) { return a.quality > b.quality; };
   std::vector<Mode> at_most;
   for (const Mode& mode : modes) {

@@ -12,6 +12,7 @@
 #include "matchers/beam_evidence.hpp"
 #include "matchers/dipole_index.hpp"
 #include "matchers/distance_field.hpp"
+#include "matchers/modes.hpp"
 
 namespace glocal {
 
@@ -62,11 +63,6 @@ class IndexedRansam final : public Matcher {
   void reset() override;
 
  private:
-  /// A pose of the local map, and how good it looks so far.
-  struct Mode {
-    Pose2 map_from_local;
-    double quality = 0.0;
-  };
   void draw(const Surfaces& surfaces, const Points& sample, std::size_t draws, Rng& rng,
             std::vector<Mode>& modes, MatchResult& result) const;
   void test(const MotionBatch& motions, std::size_t size, const Points& sample, std::vector<Mode>& modes,
@@ -87,7 +83,6 @@ class IndexedRansam final : public Matcher {
   int generation_ = 0;  ///< Of the local map in whose frame the carried ones are.
   int steps_ = 0;       ///< In that frame.
 };
-void describe(ParamVisitor& v, PoseRefinement& p);
 void describe(ParamVisitor& v, IndexedRansam::Params& p);
 
 }  // namespace glocal
