@@ -1,0 +1,95 @@
+// How many points of a local map can be in contact, at most, over whole blocks of translations.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "glocal/points.hpp"
+
+namespace glocal {
+
+/// The cells that rotated points lie in, relative to a translation yet to be found.
+struct CellPoints {
+  std::vector<std::int32_t> column;
+  std::vector<std::int32_t> row;
+
+  [[nodiscard]] std::size_t size() const { return column.size(); }
+};
+
+/// Where in a level's bits a point finds those of a tile.
+struct TileLook {
+  std::uint32_t word;
+  std::uint32_t shift;
+};
+
+/// A count for each node of a tile of 64 x 8 neighbours. Bit k of the count of node (column, row) is bit
+/// `column` of planes[k][row], so that a few logical operations count for all nodes of a tile at once.
+class TileCounts {
+ public:
+  static constexpr int columns = 64;
+  static constexpr int rows = 8;
+  static constexpr std::size_t most_points = (std::size_t{1} << 20U) - 1;
+  /// One bit for each node.
+  using Mask = std::array<std::uint64_t, rows>;
+
+  [[nodiscard]] std::size_t at(int column, int row) const;
+  [[nodiscard]] std::size_t largest() const;
+  [[nodiscard]] Mask at_least(std::size_t count) const;
+
+ private:
+  friend class ContactPyramid;
+  std::vector<Mask> planes_;
+  std::vector<TileLook> looks_;  ///< Of the last tile; kept for its memory.
+};
+
+/// Which cells of a map are in contact, and for each level l the sliding-window maximum of that: whether any
+/// cell of the 2^l x 2^l cells from a cell on is. A node of level l stands for 2^l x 2^l translations; each
+/// point meets their cells in one such window, wherever the window begins, so the number of windows in
+/// contact bounds what any of the translations reaches (Olson 2015; Hess et al. 2016). A maximum over aligned
+/// blocks would be no bound: a window lies across up to four of them.
+///
+/// Bits of a level are sorted by where a window begins within 2^l cells, so that the nodes of a tile, 2^l
+/// cells apart, are neighbouring bits: one word for each row of a tile.
+class ContactPyramid {
+ public:
+  /// Nodes of the top level are 0.8 m wide where cells are 0.05 m: larger ones bound nothing indoors.
+  static constexpr int default_top_level = 4;
+
+  /// A cell (of side `cell`, m) is in contact if its centre is within `epsilon` (m) of a point in the plane.
+  /// Throws ConfigError if it would need more than 1 GiB.
+  ContactPyramid(const Points& map_points, double cell, double epsilon, int top_level = default_top_level);
+
+  [[nodiscard]] double cell() const { return cell_; }
+  [[nodiscard]] int top_level() const { return static_cast<int>(levels_.size()) - 1; }
+  [[nodiscard]] int columns() const { return columns_; }
+  [[nodiscard]] int rows() const { return rows_; }
+  /// Outer corner of cell (0, 0) in the map's frame, m. All cells in contact lie in [0, columns) x [0, rows).
+  [[nodiscard]] double min_x() const { return min_x_; }
+  [[nodiscard]] double min_y() const { return min_y_; }
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  /// For each node of a tile of level l, how many of the points are in contact after any of the node's
+  /// translations at most, and exactly how many on level 0. Node (i, k) of the tile stands for the
+  /// translations by [column + i * 2^l, column + (i + 1) * 2^l) cells and rows likewise. Stops early where no
+  /// node can reach `least`; the counts are then too small, but all below `least`. Returns how many points
+  /// were looked at. At most TileCounts::most_points.
+  std::size_t count(int level, const CellPoints& points, int column, int row, std::size_t least,
+                    TileCounts& counts) const;
+
+ private:
+  struct Level {
+    std::uint32_t words = 0;  ///< In a row of windows that begin at the same place within 2^l cells.
+    std::uint32_t rows = 0;   ///< Of such windows; words of one column of words are neighbours.
+    std::uint32_t last_column = 0, last_row = 0;  ///< Of tiles that meet windows in contact.
+    std::vector<std::uint64_t> bits;
+  };
+  void add_level(int level, const std::vector<std::uint8_t>& windows, int border);
+
+  double cell_, min_x_, min_y_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<Level> levels_;
+};
+
+}  // namespace glocal
