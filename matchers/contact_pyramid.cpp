@@ -53,15 +53,15 @@ HWY_INLINE void add_eight(const Bits& bits, std::uint64_t* planes, std::size_t p
   }
 }
 
-/// Adds the bits found by `n` looks, a multiple of eight.
-void add_looks_in_vectors(const std::uint64_t* level, std::size_t rows, const TileLook* looks, std::size_t n,
-                          std::uint64_t* planes, std::size_t planes_size) {
+/// Adds the bits found by looks [begin, begin + n), n a multiple of eight.
+void add_looks_in_vectors(const std::uint64_t* level, std::size_t rows, const TileLooks& looks,
+                          std::size_t begin, std::size_t n, std::uint64_t* planes, std::size_t planes_size) {
   const Words d;
   for (std::size_t row = 0; row < TileCounts::rows; row += hn::Lanes(d)) {
-    for (std::size_t i = 0; i < n; i += 8) {
+    for (std::size_t i = begin; i < begin + n; i += 8) {
       const auto bits = [&](std::size_t k) HWY_ATTR {
-        const std::uint64_t* words = level + looks[i + k].word + row;
-        const int shift = static_cast<int>(looks[i + k].shift);
+        const std::uint64_t* words = level + looks.words[i + k] + row;
+        const int shift = static_cast<int>(looks.shifts[i + k]);
         const V low = hn::ShiftRightSame(hn::LoadU(d, words), shift);
         const V high = hn::ShiftLeftSame(hn::ShiftLeft<1>(hn::LoadU(d, words + rows)), 63 - shift);
         return hn::Or(low, high);
@@ -69,6 +69,34 @@ void add_looks_in_vectors(const std::uint64_t* level, std::size_t rows, const Ti
       add_eight(bits, planes + row, planes_size);
     }
   }
+}
+
+/// The looks of those of n points that meet a tile; n is a multiple of every vector's length. Writes whole
+/// vectors. Returns how many they are.
+std::size_t find_looks_in_vectors(const TileLayout& tile, const std::int32_t* columns,
+                                  const std::int32_t* rows, std::size_t n, TileLooks& looks) {
+  const hn::CappedTag<std::int32_t, 16> d;
+  const hn::Rebind<std::uint32_t, decltype(d)> words;
+  const auto low_bits = hn::Set(d, (1 << tile.level) - 1);
+  const auto within = [&](auto value, std::int32_t last) HWY_ATTR {
+    return hn::And(hn::Gt(value, hn::Set(d, -1)), hn::Lt(value, hn::Set(d, last + 1)));
+  };
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const auto x = hn::Add(hn::LoadU(d, columns + i), hn::Set(d, tile.column));
+    const auto y = hn::Add(hn::LoadU(d, rows + i), hn::Set(d, tile.row));
+    const auto first = hn::Add(hn::ShiftRightSame(x, tile.level), hn::Set(d, TileCounts::columns));
+    const auto line = hn::Add(hn::ShiftRightSame(y, tile.level), hn::Set(d, TileCounts::rows));
+    const auto phase = hn::Or(hn::ShiftLeftSame(hn::And(y, low_bits), tile.level), hn::And(x, low_bits));
+    const auto column = hn::Add(hn::Mul(phase, hn::Set(d, tile.words)), hn::ShiftRight<6>(first));
+    const auto word = hn::Add(hn::Mul(column, hn::Set(d, tile.rows)), line);
+    const auto meets = hn::And(within(first, tile.last_column), within(line, tile.last_row));
+    hn::CompressStore(hn::BitCast(words, hn::And(first, hn::Set(d, 63))), hn::RebindMask(words, meets), words,
+                      looks.shifts.data() + size);
+    size += hn::CompressStore(hn::BitCast(words, word), hn::RebindMask(words, meets), words,
+                              looks.words.data() + size);
+  }
+  return size;
 }
 
 }  // namespace
@@ -79,16 +107,30 @@ HWY_AFTER_NAMESPACE();
 namespace glocal {
 
 HWY_EXPORT(add_looks_in_vectors);
+HWY_EXPORT(find_looks_in_vectors);
 
 namespace {
 
 constexpr int word_bits = 64;
+/// Points and looks come in multiples of this: a vector of the widest instruction set.
+constexpr std::size_t lanes = 16;
 
 int low_bits(int value, int n) {
   return value & ((1 << n) - 1);
 }
 
 }  // namespace
+
+void CellPoints::push_back(std::int32_t column, std::int32_t row) {
+  constexpr std::int32_t far_away = -(1 << 29);
+  if (size_ == columns_.size()) {
+    columns_.resize(size_ + lanes, far_away);
+    rows_.resize(size_ + lanes, far_away);
+  }
+  columns_[size_] = column;
+  rows_[size_] = row;
+  ++size_;
+}
 
 std::size_t TileCounts::at(int column, int row) const {
   std::size_t count = 0;
@@ -98,19 +140,18 @@ std::size_t TileCounts::at(int column, int row) const {
   return count;
 }
 
-std::size_t TileCounts::largest() const {
+void TileCounts::find_largest() {
   Mask nodes;
   nodes.fill(~std::uint64_t{0});
-  std::size_t count = 0;
+  largest_ = 0;
   for (std::size_t k = planes_.size(); k-- > 0;) {
     Mask with_bit;
     std::uint64_t any = 0;
     for (std::size_t row = 0; row < rows; ++row) any |= with_bit[row] = nodes[row] & planes_[k][row];
     if (any == 0) continue;
     nodes = with_bit;
-    count |= std::size_t{1} << k;
+    largest_ |= std::size_t{1} << k;
   }
-  return count;
 }
 
 TileCounts::Mask TileCounts::at_least(std::size_t count) const {
@@ -181,14 +222,14 @@ ContactPyramid::ContactPyramid(const Points& map_points, double cell, double eps
 }
 
 void ContactPyramid::add_level(int level, const std::vector<std::uint8_t>& windows, int border) {
-  const auto nodes = [&](int cells) { return static_cast<std::uint32_t>(((cells - 1) >> level) + 1); };
+  const auto nodes = [&](int cells) { return ((cells - 1) >> level) + 1; };
   Level l;
   // A tile may begin a whole tile before the first windows and end as far behind the last.
   l.last_column = nodes(columns_) + TileCounts::columns - 1;
   l.last_row = nodes(rows_) + TileCounts::rows - 1;
   l.words = l.last_column / word_bits + 2;
   l.rows = l.last_row + TileCounts::rows;
-  l.bits.assign((std::size_t{l.words} * l.rows) << (2 * level), 0);
+  l.bits.assign(static_cast<std::size_t>(l.words) * static_cast<std::size_t>(l.rows) << (2 * level), 0);
   const int width = columns_ + border;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     if (windows[i] == 0) continue;
@@ -197,7 +238,9 @@ void ContactPyramid::add_level(int level, const std::vector<std::uint8_t>& windo
     const auto phase = static_cast<std::size_t>(low_bits(row, level) << level | low_bits(column, level));
     const auto bit = static_cast<std::size_t>((column >> level) + TileCounts::columns);
     const auto line = static_cast<std::size_t>((row >> level) + TileCounts::rows);
-    l.bits[(phase * l.words + bit / word_bits) * l.rows + line] |= std::uint64_t{1} << (bit % word_bits);
+    const std::size_t column_of_words = phase * static_cast<std::size_t>(l.words) + bit / word_bits;
+    l.bits[column_of_words * static_cast<std::size_t>(l.rows) + line] |= std::uint64_t{1}
+                                                                         << (bit % word_bits);
   }
   levels_.push_back(std::move(l));
 }
@@ -211,31 +254,27 @@ std::size_t ContactPyramid::memory_bytes() const {
 std::size_t ContactPyramid::count(int level, const CellPoints& points, int column, int row, std::size_t least,
                                   TileCounts& counts) const {
   const Level& l = levels_[static_cast<std::size_t>(level)];
-  auto& looks = counts.looks_;
-  constexpr std::size_t group = 8;
-  looks.resize(points.size() + group);
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const int x = points.column[i] + column;
-    const int y = points.row[i] + row;
-    const auto first = static_cast<std::uint32_t>((x >> level) + TileCounts::columns);
-    const auto line = static_cast<std::uint32_t>((y >> level) + TileCounts::rows);
-    const auto phase = static_cast<std::uint32_t>(low_bits(y, level) << level | low_bits(x, level));
-    looks[n] = {(phase * l.words + first / word_bits) * l.rows + line, first % word_bits};
-    n += static_cast<std::size_t>(first <= l.last_column && line <= l.last_row);
-  }
-  counts.planes_.assign(std::max<std::size_t>(3, static_cast<std::size_t>(std::bit_width(n))), {});
+  TileLooks& looks = counts.looks_;
+  looks.words.resize(points.columns_.size() + lanes);
+  looks.shifts.resize(points.columns_.size() + lanes);
+  const TileLayout tile{level, column, row, l.words, l.rows, l.last_column, l.last_row};
+  const std::size_t n = HWY_DYNAMIC_DISPATCH(find_looks_in_vectors)(
+      tile, points.columns_.data(), points.rows_.data(), points.columns_.size(), looks);
   // The first words are empty: nothing is in contact so far before the first cell.
-  std::fill(looks.begin() + static_cast<std::ptrdiff_t>(n),
-            looks.begin() + static_cast<std::ptrdiff_t>(n + group), TileLook{0, 0});
+  constexpr std::ptrdiff_t group = 8;
+  std::fill_n(looks.words.begin() + static_cast<std::ptrdiff_t>(n), group, 0);
+  std::fill_n(looks.shifts.begin() + static_cast<std::ptrdiff_t>(n), group, 0);
+
+  counts.planes_.assign(std::max<std::size_t>(3, static_cast<std::size_t>(std::bit_width(n))), {});
+  counts.largest_ = 0;
   constexpr std::size_t stretch = 64;
   std::size_t looked_at = 0;
-  while (looked_at < n) {
-    if (counts.largest() + (n - looked_at) < least) break;
+  while (looked_at < n && counts.largest() + (n - looked_at) >= least) {
     const std::size_t now = std::min(stretch, n - looked_at);
     HWY_DYNAMIC_DISPATCH(add_looks_in_vectors)
-    (l.bits.data(), l.rows, &looks[looked_at], (now + group - 1) / group * group,
+    (l.bits.data(), static_cast<std::size_t>(l.rows), looks, looked_at, (now + group - 1) / group * group,
      counts.planes_.front().data(), counts.planes_.size());
+    counts.find_largest();
     looked_at += now;
   }
   return looked_at;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "glocal/points.hpp"
@@ -11,17 +12,33 @@
 namespace glocal {
 
 /// The cells that rotated points lie in, relative to a translation yet to be found.
-struct CellPoints {
-  std::vector<std::int32_t> column;
-  std::vector<std::int32_t> row;
+class CellPoints {
+ public:
+  void push_back(std::int32_t column, std::int32_t row);
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::span<const std::int32_t> columns() const { return {columns_.data(), size_}; }
+  [[nodiscard]] std::span<const std::int32_t> rows() const { return {rows_.data(), size_}; }
 
-  [[nodiscard]] std::size_t size() const { return column.size(); }
+ private:
+  friend class ContactPyramid;
+  /// A multiple of every vector's length of them; beyond the last, so far away that nothing is there.
+  std::vector<std::int32_t> columns_, rows_;
+  std::size_t size_ = 0;
 };
 
-/// Where in a level's bits a point finds those of a tile.
-struct TileLook {
-  std::uint32_t word;
-  std::uint32_t shift;
+/// Where in a level's bits the points that meet a tile find those of its nodes.
+struct TileLooks {
+  std::vector<std::uint32_t> words;   ///< The word of the tile's first row and column.
+  std::vector<std::uint32_t> shifts;  ///< The bit in it.
+  std::size_t size = 0;
+};
+
+/// What finding them takes.
+struct TileLayout {
+  int level;
+  int column, row;           ///< Of the tile's first node, in cells.
+  std::int32_t words, rows;  ///< See ContactPyramid::Level.
+  std::int32_t last_column, last_row;
 };
 
 /// A count for each node of a tile of 64 x 8 neighbours. Bit k of the count of node (column, row) is bit
@@ -35,13 +52,16 @@ class TileCounts {
   using Mask = std::array<std::uint64_t, rows>;
 
   [[nodiscard]] std::size_t at(int column, int row) const;
-  [[nodiscard]] std::size_t largest() const;
+  [[nodiscard]] std::size_t largest() const { return largest_; }
   [[nodiscard]] Mask at_least(std::size_t count) const;
 
  private:
   friend class ContactPyramid;
+  void find_largest();
+
   std::vector<Mask> planes_;
-  std::vector<TileLook> looks_;  ///< Of the last tile; kept for its memory.
+  std::size_t largest_ = 0;
+  TileLooks looks_;  ///< Of the last tile; kept for their memory.
 };
 
 /// Which cells of a map are in contact, and for each level l the sliding-window maximum of that: whether any
@@ -80,9 +100,9 @@ class ContactPyramid {
 
  private:
   struct Level {
-    std::uint32_t words = 0;  ///< In a row of windows that begin at the same place within 2^l cells.
-    std::uint32_t rows = 0;   ///< Of such windows; words of one column of words are neighbours.
-    std::uint32_t last_column = 0, last_row = 0;  ///< Of tiles that meet windows in contact.
+    std::int32_t words = 0;  ///< In a row of windows that begin at the same place within 2^l cells.
+    std::int32_t rows = 0;   ///< Of such windows; words of one column of words are neighbours.
+    std::int32_t last_column = 0, last_row = 0;  ///< Of tiles that meet windows in contact.
     std::vector<std::uint64_t> bits;
   };
   void add_level(int level, const std::vector<std::uint8_t>& windows, int border);

@@ -106,8 +106,10 @@ class RotationSearch {
   /// Together they hold all translations that bring a point among the map's cells.
   template <class Visit>
   void for_each_top_tile(Visit visit) const {
-    const auto [left, right] = std::minmax_element(points_.column.begin(), points_.column.end());
-    const auto [low, high] = std::minmax_element(points_.row.begin(), points_.row.end());
+    const auto columns = points_.columns();
+    const auto rows = points_.rows();
+    const auto [left, right] = std::minmax_element(columns.begin(), columns.end());
+    const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
     const int top = pyramid_.top_level();
     for (int y = -*high; y < pyramid_.rows() - *low; y += TileCounts::rows << top) {
       for (int x = -*right; x < pyramid_.columns() - *left; x += TileCounts::columns << top) visit(x, y);

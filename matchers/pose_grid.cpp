@@ -36,13 +36,10 @@ CellPoints PoseGrid::cells(std::size_t rotation) const {
     return static_cast<std::int32_t>(std::floor(coordinate / cell_));
   };
   CellPoints cells;
-  cells.column.reserve(points_.size());
-  cells.row.reserve(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double x = points_.x[i] - middle_x_;
     const double y = points_.y[i] - middle_y_;
-    cells.column.push_back(cell_of(c * x - s * y));
-    cells.row.push_back(cell_of(s * x + c * y));
+    cells.push_back(cell_of(c * x - s * y), cell_of(s * x + c * y));
   }
   return cells;
 }

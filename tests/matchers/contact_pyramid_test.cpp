@@ -28,10 +28,15 @@ Points random_map(Rng& rng, std::size_t n) {
 CellPoints random_points(Rng& rng, std::size_t n) {
   CellPoints points;
   for (std::size_t i = 0; i < n; ++i) {
-    points.column.push_back(static_cast<int>(rng.below(81)) - 40);
-    points.row.push_back(static_cast<int>(rng.below(81)) - 40);
+    points.push_back(static_cast<int>(rng.below(81)) - 40, static_cast<int>(rng.below(81)) - 40);
   }
   return points;
+}
+
+CellPoints at(int column, int row) {
+  CellPoints point;
+  point.push_back(column, row);
+  return point;
 }
 
 /// Which cells are in contact, by the distances from their centres to all points.
@@ -69,7 +74,7 @@ class ContactCells {
   [[nodiscard]] std::size_t windows(const CellPoints& points, int column, int row, int size) const {
     std::size_t n = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (any_from(points.column[i] + column, points.row[i] + row, size)) ++n;
+      if (any_from(points.columns()[i] + column, points.rows()[i] + row, size)) ++n;
     }
     return n;
   }
@@ -125,7 +130,7 @@ TEST(ContactPyramid, WindowsBeginAnywhere) {
   std::size_t cells = 0;
   for (int row = 0; row < pyramid.rows(); ++row) {
     for (int column = 0; column < pyramid.columns(); ++column) {
-      pyramid.count(0, {.column = {column}, .row = {row}}, 0, 0, 0, counts);
+      pyramid.count(0, at(column, row), 0, 0, 0, counts);
       cells += counts.at(0, 0);
       if (counts.at(0, 0) == 1) in_contact = {column, row};
     }
@@ -138,8 +143,7 @@ TEST(ContactPyramid, WindowsBeginAnywhere) {
       for (int before_row = -1; before_row <= size; ++before_row) {
         const bool reached =
             before_column >= 0 && before_column < size && before_row >= 0 && before_row < size;
-        const CellPoints point{.column = {in_contact.first - before_column},
-                               .row = {in_contact.second - before_row}};
+        const CellPoints point = at(in_contact.first - before_column, in_contact.second - before_row);
         pyramid.count(level, point, 0, 0, 0, counts);
         EXPECT_EQ(counts.at(0, 0), reached ? 1U : 0U) << level << " " << before_column << " " << before_row;
       }

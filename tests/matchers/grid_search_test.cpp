@@ -54,8 +54,8 @@ std::vector<GridPose> brute_force(const Problem& problem, const ContactPyramid& 
       for (int column = -60; column < pyramid.columns() + 60; ++column) {
         std::size_t in_contact = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
-          const int c = points.column[i] + column;
-          const int r = points.row[i] + row;
+          const int c = points.columns()[i] + column;
+          const int r = points.rows()[i] + row;
           if (c < 0 || r < 0 || c >= pyramid.columns() || r >= pyramid.rows()) continue;
           in_contact += contact[static_cast<std::size_t>(r * pyramid.columns() + c)];
         }

@@ -30,8 +30,8 @@ TEST(PoseGrid, APoseBringsEachPointIntoItsCell) {
     ASSERT_EQ(cells.size(), points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Pose2 at = pose * Pose2{points.x[i], points.y[i], 0.0};
-      EXPECT_NEAR((at.x - 40.0) / 0.1, cells.column[i] + 17 + 0.5, 0.5 + 1e-6);
-      EXPECT_NEAR((at.y + 8.0) / 0.1, cells.row[i] - 5 + 0.5, 0.5 + 1e-6);
+      EXPECT_NEAR((at.x - 40.0) / 0.1, cells.columns()[i] + 17 + 0.5, 0.5 + 1e-6);
+      EXPECT_NEAR((at.y + 8.0) / 0.1, cells.rows()[i] - 5 + 0.5, 0.5 + 1e-6);
     }
   }
 }
