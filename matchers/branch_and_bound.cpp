@@ -48,9 +48,7 @@ void describe(ParamVisitor& v, BranchAndBound::Params& p) {
 BranchAndBound::BranchAndBound(const Params& params, const StageSetup& setup)
     : params_(params),
       threads_(setup.threads),
-      pyramid_(setup.map->index<ContactPyramid>(
-          fmt::format("{} {}", params.cell, params.contact_epsilon),
-          [&] { return ContactPyramid(setup.map->points(), params.cell, params.contact_epsilon); })),
+      pyramid_(contact_pyramid(*setup.map, params.cell, params.contact_epsilon)),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
       field_(setup.map->index<DistanceField>(fmt::format("{}", params.field_cell), [&] {
         return DistanceField(setup.map->points(), params.field_cell);

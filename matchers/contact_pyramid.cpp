@@ -280,5 +280,10 @@ std::size_t ContactPyramid::count(int level, const CellPoints& points, int colum
   return looked_at;
 }
 
+std::shared_ptr<const ContactPyramid> contact_pyramid(const GlobalMap& map, double cell, double epsilon) {
+  return map.index<ContactPyramid>(fmt::format("{} {}", cell, epsilon),
+                                   [&] { return ContactPyramid(map.points(), cell, epsilon); });
+}
+
 }  // namespace glocal
 #endif

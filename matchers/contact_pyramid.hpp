@@ -4,9 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "glocal/global_map.hpp"
 #include "glocal/points.hpp"
 
 namespace glocal {
@@ -111,5 +113,9 @@ class ContactPyramid {
   int columns_ = 0, rows_ = 0;
   std::vector<Level> levels_;
 };
+
+/// The pyramid over a map, built once per map.
+[[nodiscard]] std::shared_ptr<const ContactPyramid> contact_pyramid(const GlobalMap& map, double cell,
+                                                                    double epsilon);
 
 }  // namespace glocal

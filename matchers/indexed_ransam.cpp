@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "matchers/grid_search.hpp"
+
 namespace glocal {
 namespace {
 
@@ -63,6 +65,24 @@ void lay(const Surfaces& local, const DipoleIndex::Dipole& from, const Surfaces&
 
 }  // namespace
 
+void describe(ParamVisitor& v, IndexedRansam::ExactSearch& p) {
+  v.field("after_steps", p.after_steps,
+          {.doc = "After so many steps in a row without a clear best pose; 0 never searches.", .min = 0});
+  v.field("margin", p.margin,
+          {.doc = "A best pose is clear if no other is within this of its quality.", .min = 0.0, .max = 1.0});
+  v.field("cell", p.cell,
+          {.doc = "Translations are multiples of this; at most contact_epsilon.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0});
+  v.field("min_rotation_step", p.min_rotation_step,
+          {.doc = "Rotations differ by what moves the farthest point by one cell, but by this at least.",
+           .unit = "rad",
+           .min = 0.0001,
+           .max = 0.1});
+  v.field("max_poses", p.max_poses, {.doc = "Poses it adds at most.", .min = 1, .max = 10000});
+}
+
 void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("iterations", p.iterations,
           {.doc = "Dipoles drawn from the local map in a step.", .min = 0, .max = 10e6});
@@ -117,10 +137,15 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .unit = "m",
            .above = 0.0});
   v.require(p.normal_radius <= 2.0 * p.thinning, "normal_radius", "must be at most twice the thinning");
+  v.field("exact_search", p.exact_search,
+          {.doc = "When an exact search of the whole map, as branch_and_bound makes it, adds its poses."});
+  v.require(p.exact_search.after_steps == 0 || p.exact_search.cell <= p.contact_epsilon, "exact_search",
+            "cell must be at most contact_epsilon");
 }
 
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
     : params_(params),
+      threads_(setup.threads),
       map_(setup.map),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
       index_(setup.map->index<DipoleIndex>(
@@ -130,6 +155,9 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
           fmt::format("{}", params.field_cell),
           [&] { return DistanceField(setup.map->points(), params.field_cell); })),
       clearance_(setup.map->index<ClearanceGrid>("", [&] { return ClearanceGrid(setup.map->grid()); })),
+      pyramid_(params.exact_search.after_steps > 0
+                   ? contact_pyramid(*setup.map, params.exact_search.cell, params.contact_epsilon)
+                   : nullptr),
       beams_({.scans = params.beam_scans, .beams = params.beams, .margin = params.beam_margin}) {}
 
 void IndexedRansam::reset() {
@@ -137,6 +165,7 @@ void IndexedRansam::reset() {
   carried_.clear();
   generation_ = 0;
   steps_ = 0;
+  undecided_ = 0;
 }
 
 MatchResult IndexedRansam::match(const LocalMap& local, const Observation& latest, double omega_max,
@@ -155,6 +184,10 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   const int draws = steps_++ < params_.first_steps ? params_.first_iterations : params_.iterations;
   draw(surfaces_of(local, surface_rule(params_)), sample, static_cast<std::size_t>(draws), rng, modes,
        result);
+  if (pyramid_ && undecided_ >= params_.exact_search.after_steps) {
+    search_exactly(sample, local.local_from_robot, modes, result);
+    undecided_ = 0;
+  }
 
   modes = distinct(std::move(modes), local.local_from_robot);
   const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
@@ -164,6 +197,9 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   }
   modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
   const std::vector<Mode> best = judged(modes, local, sample);
+  const bool clear =
+      !best.empty() && (best.size() == 1 || best[0].quality - best[1].quality >= params_.exact_search.margin);
+  undecided_ = clear ? 0 : undecided_ + 1;
   carried_ = {best.begin(), best.begin() + std::min(std::ssize(best), std::ptrdiff_t{params_.carried})};
   result.checks += modes.size() * local.points.size();
   for (const Mode& mode : best) {
@@ -211,6 +247,24 @@ void IndexedRansam::test(const MotionBatch& motions, std::size_t size, const Poi
     const double share = contact_->share(sample, motions[i]);
     if (share >= params_.min_contact) modes.push_back({motions[i].pose(), share});
   }
+}
+
+/// Adds the best poses of the whole map, where draws did not settle the matter.
+void IndexedRansam::search_exactly(const Points& sample, const Pose2& local_from_robot,
+                                   std::vector<Mode>& modes, MatchResult& result) const {
+  const GridSearchResult found =
+      search_grid(*pyramid_, sample, local_from_robot,
+                  {.min_quality = params_.min_contact,
+                   .min_rotation_step = params_.exact_search.min_rotation_step,
+                   .distance = params_.mode_distance,
+                   .rotation = params_.mode_rotation,
+                   .max_poses = static_cast<std::size_t>(params_.exact_search.max_poses)},
+                  threads_);
+  for (const GridSearchResult::Pose& pose : found.poses) {
+    modes.push_back({pose.map_from_local, contact_->share(sample, Transform(pose.map_from_local))});
+  }
+  result.collisions += found.tested;
+  result.checks += found.checks;
 }
 
 std::vector<Mode> IndexedRansam::distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const {

@@ -10,6 +10,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "matchers/beam_evidence.hpp"
+#include "matchers/contact_pyramid.hpp"
 #include "matchers/dipole_index.hpp"
 #include "matchers/distance_field.hpp"
 #include "matchers/modes.hpp"
@@ -26,6 +27,14 @@ namespace glocal {
 /// unknown cells.
 class IndexedRansam final : public Matcher {
  public:
+  /// When an exact search (search_grid) adds its poses to the modes.
+  struct ExactSearch {
+    int after_steps = 0;
+    double margin = 0.1;
+    double cell = 0.05;
+    double min_rotation_step = 0.005;
+    int max_poses = 50;
+  };
   struct Params {
     int iterations = 600;
     int first_iterations = 1500;
@@ -53,9 +62,10 @@ class IndexedRansam final : public Matcher {
     int max_entries = 1000000;
     double thinning = 0.1;
     double normal_radius = 0.2;
+    ExactSearch exact_search = {};
   };
 
-  /// Throws ConfigError where the map is too large for a contact grid or a distance field.
+  /// Throws ConfigError where the map is too large for a contact grid, a distance field or a pyramid.
   IndexedRansam(const Params& params, const StageSetup& setup);
 
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
@@ -67,22 +77,28 @@ class IndexedRansam final : public Matcher {
             std::vector<Mode>& modes, MatchResult& result) const;
   void test(const MotionBatch& motions, std::size_t size, const Points& sample, std::vector<Mode>& modes,
             MatchResult& result) const;
+  void search_exactly(const Points& sample, const Pose2& local_from_robot, std::vector<Mode>& modes,
+                      MatchResult& result) const;
   [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
   [[nodiscard]] double unknown_share(const Points& sample, const Pose2& map_from_local) const;
   [[nodiscard]] std::vector<Mode> judged(const std::vector<Mode>& modes, const LocalMap& local,
                                          const Points& sample) const;
 
   Params params_;
+  int threads_;
   std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const DipoleIndex> index_;
   std::shared_ptr<const DistanceField> field_;
   std::shared_ptr<const ClearanceGrid> clearance_;
+  std::shared_ptr<const ContactPyramid> pyramid_;  ///< Null without exact search.
   BeamEvidence beams_;
   std::vector<Mode> carried_;
   int generation_ = 0;  ///< Of the local map in whose frame the carried ones are.
   int steps_ = 0;       ///< In that frame.
+  int undecided_ = 0;   ///< Steps without a clear best mode, since the last exact search.
 };
+void describe(ParamVisitor& v, IndexedRansam::ExactSearch& p);
 void describe(ParamVisitor& v, IndexedRansam::Params& p);
 
 }  // namespace glocal
