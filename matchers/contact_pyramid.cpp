@@ -187,8 +187,8 @@ ContactPyramid::ContactPyramid(const Points& map_points, double cell, double eps
 
   // Windows may begin before the first cell.
   const int border = (1 << top_level) - 1;
-  const auto width = static_cast<std::size_t>(columns_ + border);
-  const auto height = static_cast<std::size_t>(rows_ + border);
+  const auto width = static_cast<std::size_t>(columns_) + static_cast<std::size_t>(border);
+  const auto height = static_cast<std::size_t>(rows_) + static_cast<std::size_t>(border);
   std::vector<std::uint8_t> windows(width * height, 0);
   const auto window = [&](int column, int row) -> std::uint8_t& {
     return windows[static_cast<std::size_t>(row + border) * width +
@@ -236,11 +236,12 @@ void ContactPyramid::add_level(int level, const std::vector<std::uint8_t>& windo
     const int column = static_cast<int>(i % static_cast<std::size_t>(width)) - border;
     const int row = static_cast<int>(i / static_cast<std::size_t>(width)) - border;
     const auto phase = static_cast<std::size_t>(low_bits(row, level) << level | low_bits(column, level));
-    const auto bit = static_cast<std::size_t>((column >> level) + TileCounts::columns);
-    const auto line = static_cast<std::size_t>((row >> level) + TileCounts::rows);
-    const std::size_t column_of_words = phase * static_cast<std::size_t>(l.words) + bit / word_bits;
-    l.bits[column_of_words * static_cast<std::size_t>(l.rows) + line] |= std::uint64_t{1}
-                                                                         << (bit % word_bits);
+    const int bit = (column >> level) + TileCounts::columns;
+    const int line = (row >> level) + TileCounts::rows;
+    const std::size_t column_of_words =
+        phase * static_cast<std::size_t>(l.words) + static_cast<std::size_t>(bit / word_bits);
+    l.bits[column_of_words * static_cast<std::size_t>(l.rows) + static_cast<std::size_t>(line)] |=
+        std::uint64_t{1} << (bit % word_bits);
   }
   levels_.push_back(std::move(l));
 }
