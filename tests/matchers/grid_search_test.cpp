@@ -34,14 +34,18 @@ struct GridPose {
 
 /// All poses of the grid with a point in contact, counted one point at a time.
 std::vector<GridPose> brute_force(const Problem& problem, const ContactPyramid& pyramid, std::size_t least) {
-  std::vector<std::uint8_t> contact(static_cast<std::size_t>(pyramid.columns() * pyramid.rows()), 0);
+  const auto index = [&](int column, int row) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(pyramid.columns()) +
+           static_cast<std::size_t>(column);
+  };
+  std::vector<std::uint8_t> contact(index(0, pyramid.rows()), 0);
   for (int row = 0; row < pyramid.rows(); ++row) {
     for (int column = 0; column < pyramid.columns(); ++column) {
       const double x = pyramid.min_x() + (column + 0.5) * cell;
       const double y = pyramid.min_y() + (row + 0.5) * cell;
       for (std::size_t i = 0; i < problem.map.size(); ++i) {
         if (std::hypot(problem.map.x[i] - x, problem.map.y[i] - y) <= epsilon) {
-          contact[static_cast<std::size_t>(row * pyramid.columns() + column)] = 1;
+          contact[index(column, row)] = 1;
         }
       }
     }
@@ -57,7 +61,7 @@ std::vector<GridPose> brute_force(const Problem& problem, const ContactPyramid& 
           const int c = points.columns()[i] + column;
           const int r = points.rows()[i] + row;
           if (c < 0 || r < 0 || c >= pyramid.columns() || r >= pyramid.rows()) continue;
-          in_contact += contact[static_cast<std::size_t>(r * pyramid.columns() + c)];
+          in_contact += contact[index(c, r)];
         }
         if (in_contact < std::max<std::size_t>(1, least)) continue;
         poses.push_back({grid.pose(rotation, column, row, pyramid.min_x(), pyramid.min_y()), in_contact});
