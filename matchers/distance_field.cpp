@@ -112,4 +112,12 @@ PoseCovariance pose_covariance(const DistanceField& field, const Points& points,
   return {.xx = c(0, 0), .xy = c(0, 1), .xt = c(0, 2), .yy = c(1, 1), .yt = c(1, 2), .tt = c(2, 2)};
 }
 
+void describe(ParamVisitor& v, PoseRefinement& p) {
+  v.field("iterations", p.iterations, {.doc = "Gauss-Newton iterations at most.", .min = 0, .max = 1000});
+  v.field("kernel", p.kernel,
+          {.doc = "Points at this distance from the map count a quarter (Geman-McClure).",
+           .unit = "m",
+           .above = 0.0});
+}
+
 }  // namespace glocal

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "glocal/params.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose2.hpp"
 #include "glocal/pose_covariance.hpp"
@@ -61,6 +62,7 @@ struct PoseRefinement {
   int iterations = 12;
   double kernel = 0.15;  ///< m; points at this distance count a quarter (Geman-McClure).
 };
+void describe(ParamVisitor& v, PoseRefinement& p);
 
 /// Moves a pose to where the points lie nearest to the field's, by Gauss-Newton with a robust kernel. Gives
 /// up, and returns the pose it came with, where the points say nothing.

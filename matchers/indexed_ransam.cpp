@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "matchers/grid_search.hpp"
 #include "matchers/triple_sampler.hpp"
 
 namespace glocal {
@@ -64,22 +64,8 @@ RelationIndex build_index(const IndexedRansam::Params& p, const GlobalMap& map, 
   return DipoleIndex(surfaces_of(map, surface_rule(p)), dipole_rule(p), threads);
 }
 
-/// At most n of the points, picked at random, in random order.
-Points sample_of(const Points& points, std::size_t n, Rng& rng) {
-  std::vector<std::uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0U);
-  Points sample;
-  for (std::size_t i = 0; i < std::min(n, order.size()); ++i) {
-    std::swap(order[i], order[i + rng.below(static_cast<std::uint32_t>(order.size() - i))]);
-    sample.push_back(points[order[i]]);
-  }
-  return sample;
-}
-
-Points first_of(const Points& points, std::size_t n) {
-  Points first;
-  for (std::size_t i = 0; i < std::min(n, points.size()); ++i) first.push_back(points[i]);
-  return first;
+ModeRule mode_rule(const IndexedRansam::Params& p) {
+  return {p.mode_distance, p.mode_rotation};
 }
 
 /// Two points drawn until their distance is in range: in a large local map most pairs are too far apart.
@@ -118,12 +104,22 @@ void lay(const Surfaces& local, const DipoleIndex::Dipole& from, const Surfaces&
 
 }  // namespace
 
-void describe(ParamVisitor& v, PoseRefinement& p) {
-  v.field("iterations", p.iterations, {.doc = "Gauss-Newton iterations at most.", .min = 0, .max = 1000});
-  v.field("kernel", p.kernel,
-          {.doc = "Points at this distance from the map count a quarter (Geman-McClure).",
+void describe(ParamVisitor& v, IndexedRansam::ExactSearch& p) {
+  v.field("after_steps", p.after_steps,
+          {.doc = "After so many steps in a row without a clear best pose; 0 never searches.", .min = 0});
+  v.field("margin", p.margin,
+          {.doc = "A best pose is clear if no other is within this of its quality.", .min = 0.0, .max = 1.0});
+  v.field("cell", p.cell,
+          {.doc = "Translations are multiples of this; at most contact_epsilon.",
            .unit = "m",
-           .above = 0.0});
+           .min = 0.01,
+           .max = 1.0});
+  v.field("min_rotation_step", p.min_rotation_step,
+          {.doc = "Rotations differ by what moves the farthest point by one cell, but by this at least.",
+           .unit = "rad",
+           .min = 0.0001,
+           .max = 0.1});
+  v.field("max_poses", p.max_poses, {.doc = "Poses it adds at most.", .min = 1, .max = 10000});
 }
 
 void describe(ParamVisitor& v, PoseUncertainty& p) {
@@ -221,16 +217,24 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("index_file", p.index_file,
           {.doc = "Index of the map as glocal map index saves it, to be read instead of built.",
            .may_be_missing = true});
+  v.field("exact_search", p.exact_search,
+          {.doc = "When an exact search of the whole map, as branch_and_bound makes it, adds its poses."});
+  v.require(p.exact_search.after_steps == 0 || p.exact_search.cell <= p.contact_epsilon, "exact_search",
+            "cell must be at most contact_epsilon");
 }
 
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
     : params_(params),
+      threads_(setup.threads),
       map_(setup.map),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
       field_(setup.map->index<DistanceField>(
           fmt::format("{}", params.field_cell),
           [&] { return DistanceField(setup.map->points(), params.field_cell); })),
       clearance_(setup.map->index<ClearanceGrid>("", [&] { return ClearanceGrid(setup.map->grid()); })),
+      pyramid_(params.exact_search.after_steps > 0
+                   ? contact_pyramid(*setup.map, params.exact_search.cell, params.contact_epsilon)
+                   : nullptr),
       beams_(params.beams) {
   const auto start = std::chrono::steady_clock::now();
   const bool is_saved = !params.index_file.text.empty();
@@ -256,6 +260,7 @@ void IndexedRansam::reset() {
   carried_.clear();
   generation_ = 0;
   steps_ = 0;
+  undecided_ = 0;
 }
 
 MatchResult IndexedRansam::match(const LocalMap& local, const Observation& latest, double omega_max,
@@ -278,6 +283,10 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
     const int draws = steps_++ < params_.first_steps ? params_.first_iterations : params_.iterations;
     draw(points, sample, static_cast<std::size_t>(draws), rng, modes, result);
   }
+  if (pyramid_ && undecided_ >= params_.exact_search.after_steps) {
+    search_exactly(sample, local.local_from_robot, modes, result);
+    undecided_ = 0;
+  }
 
   modes = distinct(std::move(modes), local.local_from_robot);
   const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
@@ -287,6 +296,9 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   }
   modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
   const std::vector<Mode> best = judged(modes, local, sample);
+  const bool clear =
+      !best.empty() && (best.size() == 1 || best[0].quality - best[1].quality >= params_.exact_search.margin);
+  undecided_ = clear ? 0 : undecided_ + 1;
   carried_ = {best.begin(), best.begin() + std::min(std::ssize(best), std::ptrdiff_t{params_.carried})};
   result.checks += modes.size() * local.points.size();
   for (const Mode& mode : best) {
@@ -363,7 +375,7 @@ void IndexedRansam::draw_until_stable(const LocalPoints& points, const Points& s
     const std::vector<Pose2> best = best_of();
     const auto was_there = [&](const Pose2& robot) {
       return std::any_of(before.begin(), before.end(),
-                         [&](const Pose2& other) { return is_same_mode(robot, other); });
+                         [&](const Pose2& other) { return is_same_mode(robot, other, mode_rule(params_)); });
     };
     const bool same =
         !best.empty() && best.size() == before.size() && std::all_of(best.begin(), best.end(), was_there);
@@ -429,23 +441,27 @@ void IndexedRansam::test(const MotionBatch& motions, std::size_t size, const Poi
   }
 }
 
-/// The best modes, leaving out those that only repeat a better one: the same robot pose.
-std::vector<IndexedRansam::Mode> IndexedRansam::distinct(std::vector<Mode> modes,
-                                                         const Pose2& local_from_robot) const {
-  std::stable_sort(modes.begin(), modes.end(),
-                   [](const Mode& a, const Mode& b) { return a.quality > b.quality; });
-  std::vector<Mode> kept;
-  std::vector<Pose2> robots;
-  for (const Mode& mode : modes) {
-    const Pose2 robot = mode.map_from_local * local_from_robot;
-    const bool repeats = std::any_of(robots.begin(), robots.end(),
-                                     [&](const Pose2& other) { return is_same_mode(robot, other); });
-    if (repeats) continue;
-    kept.push_back(mode);
-    robots.push_back(robot);
-    if (kept.size() == static_cast<std::size_t>(params_.modes)) break;
+/// Adds the best poses of the whole map, where draws did not settle the matter.
+void IndexedRansam::search_exactly(const Points& sample, const Pose2& local_from_robot,
+                                   std::vector<Mode>& modes, MatchResult& result) const {
+  const GridSearchResult found =
+      search_grid(*pyramid_, sample, local_from_robot,
+                  {.min_quality = params_.min_contact,
+                   .min_rotation_step = params_.exact_search.min_rotation_step,
+                   .distance = params_.mode_distance,
+                   .rotation = params_.mode_rotation,
+                   .max_poses = static_cast<std::size_t>(params_.exact_search.max_poses)},
+                  threads_);
+  for (const GridSearchResult::Pose& pose : found.poses) {
+    modes.push_back({pose.map_from_local, contact_->share(sample, Transform(pose.map_from_local))});
   }
-  return kept;
+  result.collisions += found.tested;
+  result.checks += found.checks;
+}
+
+std::vector<Mode> IndexedRansam::distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const {
+  return distinct_modes(std::move(modes), local_from_robot, mode_rule(params_),
+                        static_cast<std::size_t>(params_.modes));
 }
 
 double IndexedRansam::conflict_share(const Points& sample, const Pose2& map_from_local) const {
@@ -472,8 +488,8 @@ double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_
 
 /// The best modes by their quality, which falls. Beams take most of the time, and only take quality off:
 /// modes are looked at in the order of what they could reach, until no other one can be among the best.
-std::vector<IndexedRansam::Mode> IndexedRansam::judged(const std::vector<Mode>& modes, const LocalMap& local,
-                                                       const Points& sample) const {
+std::vector<Mode> IndexedRansam::judged(const std::vector<Mode>& modes, const LocalMap& local,
+                                        const Points& sample) const {
   const auto better = [](const Mode& a, const Mode& b) { return a.quality > b.quality; };
   std::vector<Mode> at_most;
   for (const Mode& mode : modes) {

@@ -13,8 +13,10 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "matchers/beam_evidence.hpp"
+#include "matchers/contact_pyramid.hpp"
 #include "matchers/dipole_index.hpp"
 #include "matchers/distance_field.hpp"
+#include "matchers/modes.hpp"
 #include "matchers/triangle_index.hpp"
 
 namespace glocal {
@@ -40,6 +42,14 @@ struct AdaptiveBudget {
 /// unknown cells.
 class IndexedRansam final : public Matcher {
  public:
+  /// When an exact search (search_grid) adds its poses to the modes.
+  struct ExactSearch {
+    int after_steps = 0;
+    double margin = 0.1;
+    double cell = 0.05;
+    double min_rotation_step = 0.005;
+    int max_poses = 50;
+  };
   struct Params {
     int iterations = 600;
     int first_iterations = 1500;
@@ -70,10 +80,11 @@ class IndexedRansam final : public Matcher {
     double thinning = 0.1;
     double normal_radius = 0.2;
     FilePath index_file = {};
+    ExactSearch exact_search = {};
   };
 
-  /// Throws ConfigError where the map is too large for a contact grid or a distance field, or index_file is
-  /// not the index of this map and these parameters.
+  /// Throws ConfigError where the map is too large for a contact grid, a distance field or a pyramid, or
+  /// index_file is not the index of this map and these parameters.
   IndexedRansam(const Params& params, const StageSetup& setup);
 
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
@@ -85,11 +96,6 @@ class IndexedRansam final : public Matcher {
   [[nodiscard]] std::string saved_index() const;
 
  private:
-  /// A pose of the local map, and how good it looks so far.
-  struct Mode {
-    Pose2 map_from_local;
-    double quality = 0.0;
-  };
   using LocalPoints = std::variant<Surfaces, Points>;
   [[nodiscard]] LocalPoints points_to_draw(const LocalMap& local) const;
   void draw(const LocalPoints& points, const Points& sample, std::size_t draws, Rng& rng,
@@ -102,10 +108,8 @@ class IndexedRansam final : public Matcher {
                       std::size_t draws, Rng& rng, std::vector<Mode>& modes, MatchResult& result) const;
   void test(const MotionBatch& motions, std::size_t size, const Points& sample, std::vector<Mode>& modes,
             MatchResult& result) const;
-  [[nodiscard]] bool is_same_mode(const Pose2& map_from_robot, const Pose2& other) const {
-    return distance(map_from_robot, other) < params_.mode_distance &&
-           rotation_between(map_from_robot, other) < params_.mode_rotation;
-  }
+  void search_exactly(const Points& sample, const Pose2& local_from_robot, std::vector<Mode>& modes,
+                      MatchResult& result) const;
   [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
   [[nodiscard]] Hypothesis hypothesis(const Mode& mode, const LocalMap& local, const Points& sample) const;
   [[nodiscard]] double conflict_share(const Points& sample, const Pose2& map_from_local) const;
@@ -114,20 +118,23 @@ class IndexedRansam final : public Matcher {
                                          const Points& sample) const;
 
   Params params_;
+  int threads_;
   std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const RelationIndex> index_;
   MapIndexInfo map_index_;
   std::shared_ptr<const DistanceField> field_;
   std::shared_ptr<const ClearanceGrid> clearance_;
+  std::shared_ptr<const ContactPyramid> pyramid_;  ///< Null without exact search.
   BeamEvidence beams_;
   std::vector<Mode> carried_;
   int generation_ = 0;  ///< Of the local map in whose frame the carried ones are.
   int steps_ = 0;       ///< In that frame.
+  int undecided_ = 0;   ///< Steps without a clear best mode, since the last exact search.
 };
-void describe(ParamVisitor& v, PoseRefinement& p);
 void describe(ParamVisitor& v, PoseUncertainty& p);
 void describe(ParamVisitor& v, AdaptiveBudget& p);
+void describe(ParamVisitor& v, IndexedRansam::ExactSearch& p);
 void describe(ParamVisitor& v, IndexedRansam::Params& p);
 
 }  // namespace glocal

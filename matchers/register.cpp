@@ -1,11 +1,14 @@
 #include "matchers/register.hpp"
 
+#include "matchers/branch_and_bound.hpp"
 #include "matchers/indexed_ransam.hpp"
 #include "matchers/ransam.hpp"
 
 namespace glocal {
 
 void register_matchers(Catalog& catalog) {
+  catalog.matchers.add<BranchAndBound>(
+      "branch_and_bound", "Exact search of a grid of poses, by upper bounds for whole blocks of them.");
   catalog.matchers.add<IndexedRansam>(
       "indexed_ransam",
       "Random sample matching of dipoles over an index of the map; refined, carried on, checked by beams.");

@@ -214,5 +214,42 @@ TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWhereDipolesCannot) {
   }
 }
 
+TEST(IndexedRansam, AnExactSearchFindsWhatDrawsDoNot) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const LocalMap local = local_map_at(truth, 3.0);
+  // No pose is ever clear, and nothing is ever drawn.
+  IndexedRansam::Params params{.iterations = 0, .first_iterations = 0};
+  params.exact_search = {.after_steps = 2, .margin = 1.0};
+  const auto hypotheses_of_steps = [&](const LocalMap& first, IndexedRansam& matcher) {
+    std::vector<std::size_t> n;
+    Rng rng(1);
+    for (int i = 0; i < 2; ++i) n.push_back(matcher.match(first, {}, 0.1, rng).hypotheses.size());
+    return n;
+  };
+  IndexedRansam matcher(params, {testing::small_world(), 1});
+  EXPECT_EQ(hypotheses_of_steps(local, matcher), (std::vector<std::size_t>{0, 0}));
+  Rng rng(1);
+  const auto found = matcher.match(local, {}, 0.1, rng).hypotheses;
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(distance(found.front().map_from_robot, truth), 0.05);
+  // A reset, or another local frame, begins the count anew.
+  matcher.reset();
+  EXPECT_EQ(hypotheses_of_steps(local, matcher), (std::vector<std::size_t>{0, 0}));
+  LocalMap restarted = local;
+  restarted.generation = 1;
+  EXPECT_TRUE(matcher.match(restarted, {}, 0.1, rng).hypotheses.empty());
+}
+
+TEST(IndexedRansam, AClearBestPoseNeedsNoExactSearch) {
+  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
+  IndexedRansam::Params params{.iterations = 0};
+  params.exact_search = {.after_steps = 1, .margin = 0.0};
+  IndexedRansam matcher(params, {testing::small_world(), 1});
+  Rng rng(1);
+  for (int i = 0; i < 3; ++i) (void)matcher.match(local, {}, 0.1, rng);
+  (void)matcher.match(local, {}, 0.1, rng);
+  EXPECT_EQ(matcher.match(local, {}, 0.1, rng).collisions, 0U);
+}
+
 }  // namespace
 }  // namespace glocal

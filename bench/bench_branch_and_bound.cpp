@@ -1,0 +1,78 @@
+// Exact matching on a grid of poses: building the pyramid, and a match of the first and of later local maps.
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bench/scenes.hpp"
+#include "matchers/branch_and_bound.hpp"
+#include "matchers/contact_pyramid.hpp"
+
+namespace glocal::bench {
+namespace {
+
+void pyramid(benchmark::State& state, const Scene& s) {
+  std::size_t bytes = 0;
+  for ([[maybe_unused]] auto _ : state) bytes = ContactPyramid(s.map(), 0.05, 0.1).memory_bytes();
+  state.counters["MB"] = static_cast<double>(bytes) / 1e6;
+}
+
+/// Tiles of the lowest level all over the map: what a look at a point costs.
+void tiles(benchmark::State& state, const Scene& s) {
+  const ContactPyramid pyramid(s.map(), 0.05, 0.1);
+  CellPoints points;
+  Rng rng(1);
+  for (int i = 0; i < 200; ++i) {
+    points.push_back(static_cast<int>(rng.below(201)) - 100, static_cast<int>(rng.below(201)) - 100);
+  }
+  TileCounts counts;
+  std::size_t checks = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    checks = 0;
+    for (int row = 0; row < pyramid.rows(); row += TileCounts::rows) {
+      for (int column = 0; column < pyramid.columns(); column += TileCounts::columns) {
+        checks += pyramid.count(0, points, column, row, 0, counts);
+      }
+    }
+  }
+  state.counters["per_look"] = time_per_item(static_cast<double>(checks));
+}
+
+/// Local maps of so many key frames; so many poses searched for.
+void match(benchmark::State& state, const Scene& s) {
+  BranchAndBound matcher({.max_poses = static_cast<int>(state.range(1))}, {s.prepared.map, 1});
+  const auto step = static_cast<std::size_t>(state.range(0));
+  std::vector<LocalMap> locals;
+  for (std::size_t i = 0; i < s.prepared.starts.size(); i += 5) {
+    const std::size_t start = s.prepared.starts[i];
+    if (start + step < s.prepared.drive.samples.size()) locals.push_back(local_map_at(s, start, step));
+  }
+  Rng rng(1);
+  for ([[maybe_unused]] auto _ : state) {
+    for (const LocalMap& local : locals) benchmark::DoNotOptimize(matcher.match(local, {}, 0.1, rng));
+  }
+  state.counters["per_match"] = time_per_item(static_cast<double>(locals.size()));
+}
+
+void register_all() {
+  if (!has_datasets()) return;
+  const auto add = [](const std::string& log, const std::string& name, auto run) {
+    return benchmark::RegisterBenchmark(
+               (name + "/" + log).c_str(),
+               [run, log](benchmark::State& state) { run(state, scene(log + "_indexed")); })
+        ->Unit(benchmark::kMillisecond);
+  };
+  for (const char* log : {"intel", "fhw"}) {
+    add(log, "build/pyramid", pyramid);
+    add(log, "tiles", tiles);
+    add(log, "match", match)->ArgsProduct({{0, 20}, {1, 50}})->ArgNames({"step", "poses"});
+  }
+}
+
+}  // namespace
+}  // namespace glocal::bench
+
+int main(int argc, char** argv) {
+  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
+}

@@ -1,0 +1,39 @@
+// Distinct poses among many that mean nearly the same.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "glocal/points.hpp"
+#include "glocal/pose2.hpp"
+#include "glocal/rng.hpp"
+
+namespace glocal {
+
+/// A pose of the local map, and how good it looks so far.
+struct Mode {
+  Pose2 map_from_local;
+  double quality = 0.0;
+};
+
+/// When two robot poses are one mode: both nearer and turned by less.
+struct ModeRule {
+  double distance = 0.4;  ///< m
+  double rotation = 0.2;  ///< rad
+};
+
+[[nodiscard]] inline bool is_same_mode(const Pose2& a, const Pose2& b, const ModeRule& rule) {
+  return distance(a, b) < rule.distance && rotation_between(a, b) < rule.rotation;
+}
+
+/// At most `most` modes, the best first, leaving out those that only repeat a better one: the same robot
+/// pose.
+[[nodiscard]] std::vector<Mode> distinct_modes(std::vector<Mode> modes, const Pose2& local_from_robot,
+                                               const ModeRule& rule, std::size_t most);
+
+/// At most n of the points, picked at random, in random order.
+[[nodiscard]] Points sample_of(const Points& points, std::size_t n, Rng& rng);
+
+[[nodiscard]] Points first_of(const Points& points, std::size_t n);
+
+}  // namespace glocal
