@@ -27,26 +27,6 @@ double heading(const Position& from, const Position& to) {
 
 }  // namespace
 
-void describe(ParamVisitor& v, LaserParams& p) {
-  v.field("fov_deg", p.fov_deg,
-          {.doc = "Angle between the first ray and the last.", .unit = "deg", .max = 360.0, .above = 0.0});
-  v.field("step_deg", p.step_deg,
-          {.doc = "Angle from ray to ray.", .unit = "deg", .min = 0.01, .max = 360.0});
-  v.field("max_range", p.max_range, {.doc = "What is farther away is not seen.", .unit = "m", .above = 0.0});
-  v.field("noise", p.noise, {.doc = "Standard deviation of a reading.", .unit = "m", .min = 0.0});
-  v.field("outliers", p.outliers,
-          {.doc = "Share of readings that are anything between 0 and max_range.", .min = 0.0, .max = 1.0});
-  v.field(
-      "x", p.x,
-      {.doc = "Where the laser is in the robot's frame, forwards.", .unit = "m", .min = -5.0, .max = 5.0});
-  v.field(
-      "y", p.y,
-      {.doc = "Where the laser is in the robot's frame, to the left.", .unit = "m", .min = -5.0, .max = 5.0});
-  v.field("yaw_deg", p.yaw_deg,
-          {.doc = "Where the laser looks in the robot's frame.", .unit = "deg", .min = -360.0, .max = 360.0});
-  v.require(p.step_deg <= p.fov_deg, "step_deg", "must not be above fov_deg");
-}
-
 void describe(ParamVisitor& v, OdometryParams& p) {
   v.field("distance_bias", p.distance_bias,
           {.doc = "Constant error of a distance, as a share of it.", .min = -0.5, .max = 0.5});
@@ -98,37 +78,23 @@ std::optional<CarmenScan> DriveSimulator::next() {
   if (step_ == poses_.size()) return std::nullopt;
   const Pose2& map_from_robot = poses_[step_];
   if (step_ > 0) odom_from_robot_ = odom_from_robot_ * measured_motion(poses_[step_ - 1], map_from_robot);
-  CarmenScan scan;
-  scan.laser = CarmenLaser::robotlaser1;
-  scan.start_angle = -radians(params_.laser.fov_deg) / 2.0;
-  scan.angle_step = radians(params_.laser.step_deg);
-  scan.max_range = params_.laser.max_range;
-  scan.stamp = static_cast<double>(step_) * params_.step_seconds;
+  const double stamp = static_cast<double>(step_) * params_.step_seconds;
+  CarmenScan scan = measure(map_from_robot, stamp);
+  scan.stamp = stamp;
   scan.odom_from_robot = odom_from_robot_;
-  scan.robot_from_laser = {params_.laser.x, params_.laser.y, wrap_angle(radians(params_.laser.yaw_deg))};
-  scan.map_from_robot = map_from_robot;
-  scan.ranges = measure(map_from_robot * scan.robot_from_laser, scan.stamp);
   ++step_;
   return scan;
 }
 
-std::vector<float> DriveSimulator::measure(const Pose2& map_from_laser, double time) const {
-  const LaserParams& laser = params_.laser;
+CarmenScan DriveSimulator::measure(const Pose2& map_from_robot, double time) const {
   Shapes shapes = reality_;
   const std::vector<Circle> people = people_at(world_, time);
   shapes.circles.insert(shapes.circles.end(), people.begin(), people.end());
-  Rng rng = rng_.stream({laser_stream, step_});
-  std::vector<float> ranges(static_cast<std::size_t>(std::floor(laser.fov_deg / laser.step_deg + 1e-9)) + 1);
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const double angle =
-        map_from_laser.theta + radians(static_cast<double>(i) * laser.step_deg - laser.fov_deg / 2.0);
-    double range =
-        ray_distance(shapes, {map_from_laser.x, map_from_laser.y}, {std::cos(angle), std::sin(angle)});
-    range += rng.normal(laser.noise);
-    if (rng.uniform() < laser.outliers) range = rng.uniform(0.0, laser.max_range);
-    ranges[i] = static_cast<float>(std::clamp(range, 0.0, laser.max_range));
-  }
-  return ranges;
+  const auto distance_to_shapes = [&](const Position& origin, const Position& direction) {
+    return ray_distance(shapes, origin, direction);
+  };
+  return simulated_scan(params_.laser, map_from_robot, distance_to_shapes,
+                        rng_.stream({laser_stream, step_}));
 }
 
 Pose2 DriveSimulator::measured_motion(const Pose2& from, const Pose2& to) const {

@@ -8,22 +8,10 @@
 
 #include "glocal/rng.hpp"
 #include "sources/carmen_parser.hpp"
+#include "sources/laser.hpp"
 #include "sources/world.hpp"
 
 namespace glocal {
-
-/// The defaults are a Sick LMS 200 in its 8 m mode.
-struct LaserParams {
-  double fov_deg = 180.0;
-  double step_deg = 0.5;
-  double max_range = 8.0;
-  double noise = 0.01;
-  double outliers = 0.0;
-  double x = 0.0;
-  double y = 0.0;
-  double yaw_deg = 0.0;
-};
-void describe(ParamVisitor& v, LaserParams& p);
 
 /// Each step's motion is measured with an error that always is the same and one that is drawn anew.
 struct OdometryParams {
@@ -61,7 +49,7 @@ class DriveSimulator {
   [[nodiscard]] std::optional<CarmenScan> next();
 
  private:
-  [[nodiscard]] std::vector<float> measure(const Pose2& map_from_laser, double time) const;
+  [[nodiscard]] CarmenScan measure(const Pose2& map_from_robot, double time) const;
   [[nodiscard]] Pose2 measured_motion(const Pose2& from, const Pose2& to) const;
 
   DriveParams params_;

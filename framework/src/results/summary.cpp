@@ -62,28 +62,29 @@ Json Summary::to_json(const Run& run) const {
   Json trials = {{"count", count_}, {"right", right_}, {"wrong", wrong_}, {"undecided", undecided_}};
   if (declared_ > 0) trials["declared_without_reference"] = declared_;
   if (failed_ > 0) trials["failed"] = failed_;
-  return {{"name", run.name},
-          {"seed", run.seed},
-          {"complete", run.complete},
-          {"trials", std::move(trials)},
-          {"success_rate", glocal::to_json(wilson(right_, count_))},
-          {"false_rate", glocal::to_json(wilson(wrong_, count_))},
-          {"steps_to_localize", median_and_p90(steps_)},
-          {"distance_to_localize_m", median_and_p90(distances_m_)},
-          {"translation_error_m", spread(translations_m_)},
-          {"rotation_error_deg", spread(rotations_deg_)},
-          {"after_declaration",
-           {{"steps", later_translations_m_.size()},
-            {"translation_error_m", spread(later_translations_m_)},
-            {"rotation_error_deg", spread(later_rotations_deg_)}}},
-          {"step_ms", spread(ms_.total)},
-          {"stage_ms",
-           {{"local_map", spread(ms_.local_map)},
-            {"match", spread(ms_.match)},
-            {"cluster", spread(ms_.cluster)},
-            {"rate", spread(ms_.rate)}}},
-          {"map", {{"points", run.map_points}, {"build_ms", run.map_build_ms}}},
-          {"peak_rss_mb", peak_rss_mb()}};
+  return {
+      {"name", run.name},
+      {"seed", run.seed},
+      {"complete", run.complete},
+      {"trials", std::move(trials)},
+      {"success_rate", glocal::to_json(wilson(right_, count_))},
+      {"false_rate", glocal::to_json(wilson(wrong_, count_))},
+      {"steps_to_localize", median_and_p90(steps_)},
+      {"distance_to_localize_m", median_and_p90(distances_m_)},
+      {"translation_error_m", spread(translations_m_)},
+      {"rotation_error_deg", spread(rotations_deg_)},
+      {"after_declaration",
+       {{"steps", later_translations_m_.size()},
+        {"translation_error_m", spread(later_translations_m_)},
+        {"rotation_error_deg", spread(later_rotations_deg_)}}},
+      {"step_ms", spread(ms_.total)},
+      {"stage_ms",
+       {{"local_map", spread(ms_.local_map)},
+        {"match", spread(ms_.match)},
+        {"cluster", spread(ms_.cluster)},
+        {"rate", spread(ms_.rate)}}},
+      {"map", {{"points", run.map_points}, {"build_ms", run.map_build_ms}, {"index_ms", run.map_index_ms}}},
+      {"peak_rss_mb", peak_rss_mb()}};
 }
 
 }  // namespace glocal
