@@ -110,9 +110,10 @@ RandomScans::RandomScans(const Params& params, const SourceSetup& setup)
 Pose2 RandomScans::draw_pose() const {
   Rng rng = rng_.stream({pose_stream, next_});
   const std::size_t cell = clear_cells_[rng.below(static_cast<std::uint32_t>(clear_cells_.size()))];
-  const auto width = static_cast<std::size_t>(grid_.width);
-  const double x = (static_cast<double>(cell % width) + rng.uniform()) * grid_.resolution;
-  const double y = (static_cast<double>(cell / width) + rng.uniform()) * grid_.resolution;
+  const std::size_t column = cell % static_cast<std::size_t>(grid_.width);
+  const std::size_t row = cell / static_cast<std::size_t>(grid_.width);
+  const double x = (static_cast<double>(column) + rng.uniform()) * grid_.resolution;
+  const double y = (static_cast<double>(row) + rng.uniform()) * grid_.resolution;
   return grid_.map_from_grid * Pose2{x, y, rng.uniform(-std::numbers::pi, std::numbers::pi)};
 }
 
