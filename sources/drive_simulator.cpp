@@ -1,12 +1,19 @@
 #include "sources/drive_simulator.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/itinerary.hpp"
 
 namespace glocal {
 namespace {
 
-enum Stream : std::uint64_t { laser_stream, odometry_stream };
+enum Stream : std::uint64_t { laser_stream, odometry_stream, tour_stream };
 
 /// Adds equal steps from the last pose to `target`, none larger than allowed by `size` of the largest.
 void add_steps(std::vector<Pose2>& poses, const Pose2& target, double size) {
@@ -25,27 +32,48 @@ double heading(const Position& from, const Position& to) {
   return std::atan2(to[1] - from[1], to[0] - from[0]);
 }
 
-}  // namespace
-
-void describe(ParamVisitor& v, LaserParams& p) {
-  v.field("fov_deg", p.fov_deg,
-          {.doc = "Angle between the first ray and the last.", .unit = "deg", .max = 360.0, .above = 0.0});
-  v.field("step_deg", p.step_deg,
-          {.doc = "Angle from ray to ray.", .unit = "deg", .min = 0.01, .max = 360.0});
-  v.field("max_range", p.max_range, {.doc = "What is farther away is not seen.", .unit = "m", .above = 0.0});
-  v.field("noise", p.noise, {.doc = "Standard deviation of a reading.", .unit = "m", .min = 0.0});
-  v.field("outliers", p.outliers,
-          {.doc = "Share of readings that are anything between 0 and max_range.", .min = 0.0, .max = 1.0});
-  v.field(
-      "x", p.x,
-      {.doc = "Where the laser is in the robot's frame, forwards.", .unit = "m", .min = -5.0, .max = 5.0});
-  v.field(
-      "y", p.y,
-      {.doc = "Where the laser is in the robot's frame, to the left.", .unit = "m", .min = -5.0, .max = 5.0});
-  v.field("yaw_deg", p.yaw_deg,
-          {.doc = "Where the laser looks in the robot's frame.", .unit = "deg", .min = -360.0, .max = 360.0});
-  v.require(p.step_deg <= p.fov_deg, "step_deg", "must not be above fov_deg");
+/// Turns towards a place, then drives there; no step is longer or turns more than the parameters allow.
+void drive_to(const Position& place, const DriveParams& params, std::vector<Pose2>& poses) {
+  const Pose2 from = poses.back();
+  const double theta = heading({from.x, from.y}, place);
+  const Pose2 turned{from.x, from.y, theta};
+  add_steps(poses, turned, rotation_between(from, turned) / radians(params.step_turn_deg));
+  const Pose2 target{place[0], place[1], theta};
+  add_steps(poses, target, distance(from, target) / params.step_length);
 }
+
+Pose2 pose_after(const Kidnapping& kidnapping) {
+  return {kidnapping.to[0], kidnapping.to[1], wrap_angle(radians(kidnapping.heading_deg))};
+}
+
+/// A robot cannot drive on through walls, nor be carried away from a drive that is over.
+void check_kidnappings(const World& world, const DriveParams& params, const Route& route, double driven) {
+  const Shapes reality = shapes_in_reality(world);
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < params.kidnappings.size(); ++i) {
+    const Kidnapping& kidnapping = params.kidnappings[i];
+    const auto refuse = [&](const std::string& why) {
+      faults.push_back({params.world.resolved.string(), 0, 0, fmt::format("kidnappings[{}]: {}", i, why)});
+    };
+    if (i >= route.carried.size()) {
+      refuse(fmt::format("the drive is over after {:.1f} m; lower after_m from {} m, or drive farther",
+                         driven, kidnapping.after_m));
+      continue;
+    }
+    const Position to{kidnapping.to[0], kidnapping.to[1]};
+    Itinerary itinerary(world.way_points, 0, Rng(0));
+    itinerary.go_on_near(to);
+    const Position next = *itinerary.next();
+    if (is_free_way(reality, to, next)) continue;
+    refuse(
+        fmt::format("the way from [{}, {}] to the nearest way point [{}, {}] meets a wall or thing, or has "
+                    "no length; put the robot down elsewhere",
+                    to[0], to[1], next[0], next[1]));
+  }
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+}
+
+}  // namespace
 
 void describe(ParamVisitor& v, OdometryParams& p) {
   v.field("distance_bias", p.distance_bias,
@@ -63,8 +91,28 @@ void describe(ParamVisitor& v, OdometryParams& p) {
            .min = 0.0});
 }
 
+void describe(ParamVisitor& v, Kidnapping& p) {
+  v.field("after_m", p.after_m, {.doc = "Way driven until then.", .unit = "m", .min = 0.0, .required = true});
+  v.field("to", p.to,
+          {.doc = "Where the robot is put down, [x, y]; from there it drives to the nearest way point.",
+           .unit = "m",
+           .min_items = 2,
+           .max_items = 2,
+           .required = true});
+  v.field("heading_deg", p.heading_deg,
+          {.doc = "Where it looks then.", .unit = "deg", .min = -360.0, .max = 360.0});
+}
+
 void describe(ParamVisitor& v, DriveParams& p) {
   v.field("world", p.world, {.doc = "File that describes the world and the drive.", .required = true});
+  v.field("tour_legs", p.tour_legs,
+          {.doc = "The drive takes so many ways from way point to way point at random: each pair of "
+                  "consecutive way points is a way, both ways, and ways meet where way points are equal. 0: "
+                  "the way points as they are listed.",
+           .min = 0,
+           .max = 100000});
+  v.field("kidnappings", p.kidnappings,
+          {.doc = "Where the robot is carried away, between two observations and unnoticed by odometry."});
   v.field("step_length", p.step_length,
           {.doc = "Largest way from observation to observation.", .unit = "m", .min = 0.001});
   v.field("step_turn_deg", p.step_turn_deg,
@@ -73,62 +121,64 @@ void describe(ParamVisitor& v, DriveParams& p) {
           {.doc = "Time from observation to observation, in which people walk on.", .unit = "s", .min = 0.0});
   v.field("laser", p.laser, {.doc = "The range finder."});
   v.field("odometry", p.odometry, {.doc = "How badly the robot's own motion is measured."});
+  v.require(std::is_sorted(p.kidnappings.begin(), p.kidnappings.end(),
+                           [](const Kidnapping& a, const Kidnapping& b) { return a.after_m < b.after_m; }),
+            "kidnappings", "must be in rising order of after_m");
 }
 
-std::vector<Pose2> drive_poses(const std::vector<Position>& way_points, double length, double turn) {
-  std::vector<Pose2> poses{{way_points[0][0], way_points[0][1], heading(way_points[0], way_points[1])}};
-  for (std::size_t i = 1; i < way_points.size(); ++i) {
-    const double theta = heading(way_points[i - 1], way_points[i]);
-    const Pose2 turned{poses.back().x, poses.back().y, theta};
-    add_steps(poses, turned, rotation_between(poses.back(), turned) / turn);
-    const Pose2 target{way_points[i][0], way_points[i][1], theta};
-    add_steps(poses, target, distance(poses.back(), target) / length);
+Route route_of(const World& world, const DriveParams& params, Rng rng) {
+  const std::vector<Position>& places = world.way_points;
+  Itinerary itinerary(places, params.tour_legs, rng);
+  Route route{{{places[0][0], places[0][1], heading(places[0], places[1])}}, {}};
+  double driven = 0.0;
+  auto kidnapping = params.kidnappings.begin();
+  while (const std::optional<Position> place = itinerary.next()) {
+    const std::size_t first_new = route.poses.size();
+    drive_to(*place, params, route.poses);
+    for (std::size_t i = first_new; i < route.poses.size(); ++i) {
+      driven += distance(route.poses[i - 1], route.poses[i]);
+      if (kidnapping == params.kidnappings.end() || driven < kidnapping->after_m) continue;
+      route.poses.resize(i + 1);
+      route.carried.push_back(i + 1);
+      route.poses.push_back(pose_after(*kidnapping++));
+      itinerary.go_on_near({route.poses.back().x, route.poses.back().y});
+      break;
+    }
   }
-  return poses;
+  check_kidnappings(world, params, route, driven);
+  return route;
 }
 
 DriveSimulator::DriveSimulator(const DriveParams& params, std::uint64_t seed)
     : params_(params),
       world_(read_world(params.world.resolved)),
       reality_(shapes_in_reality(world_)),
-      poses_(drive_poses(world_.way_points, params.step_length, radians(params.step_turn_deg))),
-      rng_(seed) {}
+      rng_(seed),
+      route_(route_of(world_, params, rng_.stream({tour_stream}))) {}
 
 std::optional<CarmenScan> DriveSimulator::next() {
-  if (step_ == poses_.size()) return std::nullopt;
-  const Pose2& map_from_robot = poses_[step_];
-  if (step_ > 0) odom_from_robot_ = odom_from_robot_ * measured_motion(poses_[step_ - 1], map_from_robot);
-  CarmenScan scan;
-  scan.laser = CarmenLaser::robotlaser1;
-  scan.start_angle = -radians(params_.laser.fov_deg) / 2.0;
-  scan.angle_step = radians(params_.laser.step_deg);
-  scan.max_range = params_.laser.max_range;
-  scan.stamp = static_cast<double>(step_) * params_.step_seconds;
+  if (step_ == route_.poses.size()) return std::nullopt;
+  const Pose2& map_from_robot = route_.poses[step_];
+  const bool is_carried = std::binary_search(route_.carried.begin(), route_.carried.end(), step_);
+  if (step_ > 0 && !is_carried)
+    odom_from_robot_ = odom_from_robot_ * measured_motion(route_.poses[step_ - 1], map_from_robot);
+  const double stamp = static_cast<double>(step_) * params_.step_seconds;
+  CarmenScan scan = measure(map_from_robot, stamp);
+  scan.stamp = stamp;
   scan.odom_from_robot = odom_from_robot_;
-  scan.robot_from_laser = {params_.laser.x, params_.laser.y, wrap_angle(radians(params_.laser.yaw_deg))};
-  scan.map_from_robot = map_from_robot;
-  scan.ranges = measure(map_from_robot * scan.robot_from_laser, scan.stamp);
   ++step_;
   return scan;
 }
 
-std::vector<float> DriveSimulator::measure(const Pose2& map_from_laser, double time) const {
-  const LaserParams& laser = params_.laser;
+CarmenScan DriveSimulator::measure(const Pose2& map_from_robot, double time) const {
   Shapes shapes = reality_;
   const std::vector<Circle> people = people_at(world_, time);
   shapes.circles.insert(shapes.circles.end(), people.begin(), people.end());
-  Rng rng = rng_.stream({laser_stream, step_});
-  std::vector<float> ranges(static_cast<std::size_t>(std::floor(laser.fov_deg / laser.step_deg + 1e-9)) + 1);
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const double angle =
-        map_from_laser.theta + radians(static_cast<double>(i) * laser.step_deg - laser.fov_deg / 2.0);
-    double range =
-        ray_distance(shapes, {map_from_laser.x, map_from_laser.y}, {std::cos(angle), std::sin(angle)});
-    range += rng.normal(laser.noise);
-    if (rng.uniform() < laser.outliers) range = rng.uniform(0.0, laser.max_range);
-    ranges[i] = static_cast<float>(std::clamp(range, 0.0, laser.max_range));
-  }
-  return ranges;
+  const auto distance_to_shapes = [&](const Position& origin, const Position& direction) {
+    return ray_distance(shapes, origin, direction);
+  };
+  return simulated_scan(params_.laser, map_from_robot, distance_to_shapes,
+                        rng_.stream({laser_stream, step_}));
 }
 
 Pose2 DriveSimulator::measured_motion(const Pose2& from, const Pose2& to) const {

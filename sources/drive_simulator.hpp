@@ -8,22 +8,10 @@
 
 #include "glocal/rng.hpp"
 #include "sources/carmen_parser.hpp"
+#include "sources/laser.hpp"
 #include "sources/world.hpp"
 
 namespace glocal {
-
-/// The defaults are a Sick LMS 200 in its 8 m mode.
-struct LaserParams {
-  double fov_deg = 180.0;
-  double step_deg = 0.5;
-  double max_range = 8.0;
-  double noise = 0.01;
-  double outliers = 0.0;
-  double x = 0.0;
-  double y = 0.0;
-  double yaw_deg = 0.0;
-};
-void describe(ParamVisitor& v, LaserParams& p);
 
 /// Each step's motion is measured with an error that always is the same and one that is drawn anew.
 struct OdometryParams {
@@ -36,8 +24,18 @@ struct OdometryParams {
 };
 void describe(ParamVisitor& v, OdometryParams& p);
 
+/// Somebody carries the robot away, and its wheels do not notice.
+struct Kidnapping {
+  double after_m = 0.0;
+  std::vector<double> to;
+  double heading_deg = 0.0;
+};
+void describe(ParamVisitor& v, Kidnapping& p);
+
 struct DriveParams {
   FilePath world;
+  int tour_legs = 0;
+  std::vector<Kidnapping> kidnappings;
   double step_length = 0.6;
   double step_turn_deg = 45.0;
   double step_seconds = 1.0;
@@ -46,14 +44,19 @@ struct DriveParams {
 };
 void describe(ParamVisitor& v, DriveParams& p);
 
-/// Robot poses along straight ways between places, with turns on the spot; no step is longer than `length`
-/// (m) or turns by more than `turn` (rad).
-[[nodiscard]] std::vector<Pose2> drive_poses(const std::vector<Position>& way_points, double length,
-                                             double turn);
+/// The robot's poses, one for each observation.
+struct Route {
+  std::vector<Pose2> poses;
+  std::vector<std::size_t> carried;  ///< Those the robot was carried to, by their indexes.
+};
+
+/// Straight ways between places, with turns on the spot. Throws ConfigError for a kidnapping to where the
+/// drive cannot go on, or after its end.
+[[nodiscard]] Route route_of(const World& world, const DriveParams& params, Rng rng);
 
 class DriveSimulator {
  public:
-  /// Throws ConfigError where read_world() does.
+  /// Throws ConfigError where read_world() and route_of() do.
   DriveSimulator(const DriveParams& params, std::uint64_t seed);
 
   /// The scan of the next step, with its reference pose; none at the end of the drive. Rays that meet nothing
@@ -61,14 +64,14 @@ class DriveSimulator {
   [[nodiscard]] std::optional<CarmenScan> next();
 
  private:
-  [[nodiscard]] std::vector<float> measure(const Pose2& map_from_laser, double time) const;
+  [[nodiscard]] CarmenScan measure(const Pose2& map_from_robot, double time) const;
   [[nodiscard]] Pose2 measured_motion(const Pose2& from, const Pose2& to) const;
 
   DriveParams params_;
   World world_;
   Shapes reality_;
-  std::vector<Pose2> poses_;
   Rng rng_;
+  Route route_;
   std::size_t step_ = 0;
   Pose2 odom_from_robot_;
 };

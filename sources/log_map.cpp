@@ -113,7 +113,10 @@ class Counter {
 
   void pass(const Point& from, const Point& to) {
     visit_cells_before_end(column(from.x), row(from.y), column(to.x), row(to.y),
-                           [this](int c, int r) { ++at(c, r).passes; });
+                           [this](int c, int r, double /*share*/) {
+                             ++at(c, r).passes;
+                             return true;
+                           });
   }
 
   void count_hit(const Point& hit) {

@@ -20,6 +20,7 @@ class Simulation final : public ObservationSource {
   [[nodiscard]] std::optional<Sample> next() override;
 
  private:
+  LogParams trust_;
   DriveSimulator simulator_;
 };
 

@@ -88,10 +88,7 @@ std::vector<Fault> check_drive(const World& world, const std::string& file) {
   for (std::size_t i = 1; i < world.way_points.size(); ++i) {
     const Position& a = world.way_points[i - 1];
     const Position& b = world.way_points[i];
-    const double leg = distance(a, b);
-    const Position direction{(b[0] - a[0]) / leg, (b[1] - a[1]) / leg};
-    if (leg > 0.0 && ray_distance(reality, a, direction) > leg && clearance(reality, b) >= least_clearance)
-      continue;
+    if (is_free_way(reality, a, b)) continue;
     faults.push_back(
         {file, 0, 0,
          fmt::format("way_points[{}]: the way from [{}, {}] to [{}, {}] meets a wall or thing, or has no "
@@ -183,6 +180,13 @@ World read_world(const std::filesystem::path& file) {
   std::vector<Fault> faults = check_drive(world.value, file.string());
   if (!faults.empty()) throw ConfigError(std::move(faults));
   return std::move(world.value);
+}
+
+bool is_free_way(const Shapes& reality, const Position& from, const Position& to) {
+  const double length = distance(from, to);
+  const Position direction{(to[0] - from[0]) / length, (to[1] - from[1]) / length};
+  return length > 0.0 && ray_distance(reality, from, direction) > length &&
+         std::min(clearance(reality, from), clearance(reality, to)) >= least_clearance;
 }
 
 Shapes shapes_on_map(const World& world) {

@@ -72,6 +72,10 @@ void describe(ParamVisitor& v, World& p);
 /// through a wall.
 [[nodiscard]] World read_world(const std::filesystem::path& file);
 
+/// Whether a robot can drive straight from place to place: nothing is in its way or too near to where it
+/// turns, and the way has a length.
+[[nodiscard]] bool is_free_way(const Shapes& reality, const Position& from, const Position& to);
+
 /// What the map shows.
 [[nodiscard]] Shapes shapes_on_map(const World& world);
 

@@ -137,6 +137,8 @@ void print_summary(const nlohmann::ordered_json& s, const std::filesystem::path&
   fmt::print("  time for a step     {:.1f} ms (median), {:.1f} ms (95 %); matching {:.1f} ms (median)\n",
              s["step_ms"]["median"].get<double>(), s["step_ms"]["p95"].get<double>(),
              s["stage_ms"]["match"]["median"].get<double>());
+  fmt::print("  time for the map    {:.0f} ms to load, {:.0f} ms to index\n",
+             s["map"]["build_ms"].get<double>(), s["map"]["index_ms"].get<double>());
   fmt::print("  results             {}\n", folder.string());
 }
 
@@ -151,7 +153,10 @@ void run(const RunOptions& options, Context& context) {
       prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
   prepared.inputs.insert(std::filesystem::absolute(options.experiment.file));
   prepared.inputs.insert(context.plugins.loaded().begin(), context.plugins.loaded().end());
+  const auto start = std::chrono::steady_clock::now();
   Localizer localizer = make_localizer(experiment, context.catalog, prepared);
+  const double map_index_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
   // Nothing is written before everything is known to be in order.
   OutputFolder folder(out, options.force);
@@ -185,7 +190,7 @@ void run(const RunOptions& options, Context& context) {
 
   const auto json =
       summary.to_json({experiment.name, experiment.seed, complete, prepared.map->points().size(),
-                       prepared.map_build_ms, localizer.map_index()});
+                       prepared.map_build_ms, map_index_ms, localizer.map_index()});
   folder.append("summary.json", json.dump(2) + "\n");
   folder.commit();
   if (!options.quiet) print_summary(json, folder.path());

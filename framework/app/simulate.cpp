@@ -47,16 +47,10 @@ StrategyChoice recorded_map() {
   return {"ros_map", std::move(params)};
 }
 
-/// Every scan is used, and trusted as the simulated laser is.
 StrategyChoice recorded_drive(const LaserParams& laser) {
   auto params = std::make_unique<ParamsOf<LogParams>>();
-  LogParams& log = params->value;
-  log.path = beside("drive.log");
-  log.keyframe_distance = 0.0;
-  log.keyframe_angle = 0.0;
-  log.min_range = 0.0;
-  log.max_range = laser.max_range;
-  log.free_range = laser.max_range;
+  params->value = trust_in(laser);
+  params->value.path = beside("drive.log");
   return {"carmen_log", std::move(params)};
 }
 

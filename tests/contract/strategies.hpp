@@ -15,6 +15,7 @@
 #include "sources/carmen_log.hpp"
 #include "sources/files.hpp"
 #include "sources/log_map.hpp"
+#include "sources/random_scans.hpp"
 #include "sources/ros_map.hpp"
 #include "sources/simulation.hpp"
 #include "test_world.hpp"
@@ -44,6 +45,11 @@ class Contract : public ::testing::Test {
                                        "occupied_thresh: 0.65\nfree_thresh: 0.196\n"));
     fill<Simulation::Params>("observation_source/simulation", [&](auto& p) { p.world = world_; });
     fill<LogParams>("observation_source/carmen_log", [&](auto& p) { p.path = log_; });
+    fill<RandomScans::Params>("observation_source/random_scans", [&](auto& p) {
+      p.map.path = ros_map_;
+      p.count = 3;
+      p.clearance = 0.0;
+    });
     fill<SimulatedMap::Params>("map_source/simulation", [&](auto& p) { p.world = world_; });
     fill<RosMap::Params>("map_source/ros_map", [&](auto& p) { p.path = ros_map_; });
     fill<LogMap::Params>("map_source/log_map", [&](auto& p) {

@@ -48,10 +48,8 @@ TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
   std::string lines;
   while (const auto scan = simulator.next()) lines += carmen_lines(*scan);
 
-  LogParams log;
+  LogParams log = trust_in(params.laser);
   log.path = test::file_path(folder.write("drive.log", lines));
-  log.keyframe_distance = 0.0;
-  log.min_range = 0.0;
   CarmenLog recorded(log, setup);
   Simulation simulated(params, setup);
   const auto a = read_all(simulated);

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "sources/files.hpp"
-#include "sources/grid_ray.hpp"
 
 namespace glocal {
 namespace {
@@ -25,19 +24,6 @@ LogMap::Params params_for(const std::filesystem::path& file) {
 
 std::size_t count(const OccupancyGrid& grid, Cell kind) {
   return static_cast<std::size_t>(std::count(grid.cells.begin(), grid.cells.end(), kind));
-}
-
-TEST(GridRay, VisitsTheCellsOfALineInOrder) {
-  std::vector<std::pair<int, int>> cells;
-  visit_cells_before_end(0.5, 0.5, 3.5, 1.6, [&](int column, int row) { cells.emplace_back(column, row); });
-  // The line reaches y = 1 at x = 0.5 + 3 * 0.5 / 1.1 = 1.86.
-  EXPECT_EQ(cells, (std::vector<std::pair<int, int>>{{0, 0}, {1, 0}, {1, 1}, {2, 1}}));
-  cells.clear();
-  visit_cells_before_end(1.5, 2.5, 1.5, -0.5, [&](int column, int row) { cells.emplace_back(column, row); });
-  EXPECT_EQ(cells, (std::vector<std::pair<int, int>>{{1, 2}, {1, 1}, {1, 0}}));
-  cells.clear();
-  visit_cells_before_end(1.2, 1.2, 1.8, 1.8, [&](int column, int row) { cells.emplace_back(column, row); });
-  EXPECT_TRUE(cells.empty());
 }
 
 TEST(LogMap, CountsHitsAndFreesTheWay) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "sources/files.hpp"
 
@@ -45,8 +47,11 @@ void expect_near(const Pose2& a, const Pose2& b) {
   EXPECT_NEAR(wrap_angle(a.theta - b.theta), 0.0, 1e-9);
 }
 
-TEST(DrivePoses, TakeStepsAndTurnOnTheSpot) {
-  const auto poses = drive_poses({{1, 1}, {2.5, 1}, {2.5, 2}}, 0.6, pi / 4);
+TEST(Route, TakesStepsAndTurnsOnTheSpot) {
+  const test::TempFolder folder;
+  DriveParams params;
+  params.world = test::file_path(folder.write("world.yaml", room));
+  const auto poses = route_of(read_world(params.world.resolved), params, Rng(1)).poses;
   ASSERT_EQ(poses.size(), 8U);  // The start, 3 steps of 0.5 m, 2 turns of 45 degrees, 2 steps of 0.5 m.
   expect_near(poses[0], {1, 1, 0});
   expect_near(poses[1], {1.5, 1, 0});
@@ -54,6 +59,91 @@ TEST(DrivePoses, TakeStepsAndTurnOnTheSpot) {
   expect_near(poses[4], {2.5, 1, pi / 4});
   expect_near(poses[5], {2.5, 1, pi / 2});
   expect_near(poses[7], {2.5, 2, pi / 2});
+}
+
+/// A room of 8 m x 6 m whose ways form a triangle with a tail.
+constexpr const char* triangle =
+    "size: [8, 6]\n"
+    "walls:\n"
+    "  - {points: [[0, 0], [8, 0], [8, 6], [0, 6]], closed: true}\n"
+    "free_from: [[1, 1]]\n"
+    "way_points: [[1, 1], [4, 1], [4, 5], [1, 1], [1, 3]]\n";
+
+/// Places where the robot turns or ends; equal ones that follow one another are one.
+std::vector<Position> corners_of(const std::vector<Pose2>& poses) {
+  const std::vector<Position> places{{1, 1}, {4, 1}, {4, 5}, {1, 3}};
+  std::vector<Position> corners;
+  for (const Pose2& pose : poses) {
+    for (const Position& place : places) {
+      const bool is_there = std::hypot(pose.x - place[0], pose.y - place[1]) < 1e-9;
+      if (is_there && (corners.empty() || corners.back() != place)) corners.push_back(place);
+    }
+  }
+  return corners;
+}
+
+TEST(Route, OfATourKeepsToTheWaysAndTurnsBackAtDeadEndsOnly) {
+  const test::TempFolder folder;
+  DriveParams params;
+  params.world = test::file_path(folder.write("world.yaml", triangle));
+  params.tour_legs = 200;
+  const World world = read_world(params.world.resolved);
+  const auto corners = corners_of(route_of(world, params, Rng(3)).poses);
+  ASSERT_EQ(corners.size(), 201U);
+  const std::set<std::pair<Position, Position>> ways{
+      {{1, 1}, {4, 1}}, {{4, 1}, {4, 5}}, {{1, 1}, {4, 5}}, {{1, 1}, {1, 3}}};
+  std::set<std::pair<Position, Position>> driven;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    driven.insert(std::minmax(corners[i - 1], corners[i]));
+    if (i < 2 || corners[i] != corners[i - 2]) continue;
+    EXPECT_EQ(corners[i - 1], (Position{1, 3})) << "the dead end";
+  }
+  EXPECT_EQ(driven, ways);
+  EXPECT_EQ(route_of(world, params, Rng(3)).poses, route_of(world, params, Rng(3)).poses);
+  EXPECT_NE(route_of(world, params, Rng(3)).poses, route_of(world, params, Rng(4)).poses);
+}
+
+TEST(Route, GoesOnWhereTheRobotIsCarriedTo) {
+  const test::TempFolder folder;
+  DriveParams params = exact(folder.write("world.yaml", triangle));
+  params.step_length = 0.5;
+  params.step_turn_deg = 180.0;
+  params.kidnappings = {{.after_m = 2.1, .to = {4, 4}, .heading_deg = 180.0}};
+  const Route route = route_of(read_world(params.world.resolved), params, Rng(1));
+  // 2.5 m along x, to (4, 4); a turn, 1 m to the nearest way point (4, 5), a turn, 5 m to (1, 1), a turn, 2
+  // m.
+  ASSERT_EQ(route.carried, (std::vector<std::size_t>{6}));
+  ASSERT_EQ(route.poses.size(), 1U + 5U + 1U + 1U + 2U + 1U + 10U + 1U + 4U);
+  expect_near(route.poses[5], {3.5, 1, 0});
+  expect_near(route.poses[6], {4, 4, pi});
+  expect_near(route.poses[7], {4, 4, pi / 2});
+  expect_near(route.poses[9], {4, 5, pi / 2});
+  expect_near(route.poses.back(), {1, 3, pi / 2});
+
+  const auto samples = read_all(params);
+  expect_near(samples[6].observation.odom_from_robot, samples[5].observation.odom_from_robot);
+  expect_near(samples[9].observation.odom_from_robot, {2.5, -1, -pi / 2});
+  EXPECT_EQ(samples[6].segment, samples[5].segment) << "nobody tells the robot";
+}
+
+TEST(Route, SaysWhyARobotCannotBeCarriedThere) {
+  const test::TempFolder folder;
+  DriveParams params;
+  params.world = test::file_path(
+      folder.write("world.yaml", std::string(triangle) + "rectangles: [{centre: [6, 3], size: [1, 4]}]\n"));
+  const auto fault = [&](const Kidnapping& kidnapping) {
+    params.kidnappings = {kidnapping};
+    return test::config_error(params.world.resolved.parent_path(), [&] { DriveSimulator(params, 1); });
+  };
+  EXPECT_EQ(
+      fault({.after_m = 2.0, .to = {7.5, 3}}),
+      "world.yaml: error: kidnappings[0]: the way from [7.5, 3] to the nearest way point [4, 1] meets a "
+      "wall or thing, or has no length; put the robot down elsewhere");
+  EXPECT_NE(fault({.after_m = 2.0, .to = {4, 1}}), "");
+  EXPECT_EQ(fault({.after_m = 50.0, .to = {3, 3}}),
+            "world.yaml: error: kidnappings[0]: the drive is over after 14.0 m; lower after_m from 50 m, or "
+            "drive farther");
+  EXPECT_EQ(fault({.after_m = 2.0, .to = {3, 3}}), "");
 }
 
 TEST(Simulation, MeasuresDistancesExactlyWithoutNoise) {

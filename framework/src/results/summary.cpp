@@ -62,7 +62,7 @@ Json Summary::to_json(const Run& run) const {
   Json trials = {{"count", count_}, {"right", right_}, {"wrong", wrong_}, {"undecided", undecided_}};
   if (declared_ > 0) trials["declared_without_reference"] = declared_;
   if (failed_ > 0) trials["failed"] = failed_;
-  Json map = {{"points", run.map_points}, {"build_ms", run.map_build_ms}};
+  Json map = {{"points", run.map_points}, {"build_ms", run.map_build_ms}, {"index_ms", run.map_index_ms}};
   if (run.map_index) {
     map["index"] = {{"entries", run.map_index->entries},
                     {"bytes", run.map_index->bytes},

@@ -23,6 +23,7 @@ class Summary {
     bool complete = true;  ///< False if the run was interrupted: later trials are missing.
     std::size_t map_points = 0;
     double map_build_ms = 0.0;
+    double map_index_ms = 0.0;  ///< To make all stages, which build what they look up in the map.
     std::optional<MapIndexInfo> map_index = {};
   };
   [[nodiscard]] nlohmann::ordered_json to_json(const Run& run) const;

@@ -1,0 +1,203 @@
+#include "sources/random_scans.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "sources/files.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A ROS map of rows of cells, the highest y first: # occupied, . free, ? unknown.
+class Plan {
+ public:
+  explicit Plan(const std::vector<std::string>& rows, const std::string& origin = "[0, 0, 0]") {
+    std::string image = "P5 " + std::to_string(rows[0].size()) + " " + std::to_string(rows.size()) + " 255\n";
+    for (const std::string& row : rows) {
+      for (const char cell : row) image += static_cast<char>(cell == '#' ? 0 : cell == '.' ? 254 : 205);
+    }
+    folder_.write("map.pgm", image);
+    file_ = folder_.write("map.yaml", "image: map.pgm\nresolution: 0.5\norigin: " + origin + "\n");
+  }
+
+  [[nodiscard]] RandomScans::Params params() const {
+    RandomScans::Params params;
+    params.map.path = test::file_path(file_);
+    return params;
+  }
+  [[nodiscard]] OccupancyGrid grid() const { return RosMap(params().map, {}).load().grid; }
+  [[nodiscard]] std::string fault_of(const RandomScans::Params& params) const {
+    return test::config_error(file_.parent_path(), [&] { RandomScans(params, {}); });
+  }
+
+ private:
+  test::TempFolder folder_;
+  std::filesystem::path file_;
+};
+
+const std::vector<std::string> room{
+    "?##########?",  //
+    "#..........#",  //
+    "#..........#",  //
+    "#....#.....#",  //
+    "#..........#",  //
+    "#..........?",  //
+    "?##########?",
+};
+
+std::vector<Sample> read_all(const RandomScans::Params& params, std::uint64_t seed = 1) {
+  RandomScans source(params, {.seed = seed});
+  std::vector<Sample> samples;
+  while (auto sample = source.next()) samples.push_back(*std::move(sample));
+  return samples;
+}
+
+TEST(RayDistance, IsThatToTheCellsBorder) {
+  const OccupancyGrid grid = Plan(room).grid();
+  const Position place{1.25,
+                       1.75};  // Free space is x 0.5 to 5.5 m, y 0.5 to 3 m, the pillar x 2.5, y 1.5 on.
+  EXPECT_NEAR(ray_distance(grid, place, {1, 0}, 10.0, 0.0), 1.25, 1e-12) << "the pillar";
+  EXPECT_NEAR(ray_distance(grid, place, {-1, 0}, 10.0, 0.0), 0.75, 1e-12);
+  EXPECT_NEAR(ray_distance(grid, place, {0, 1}, 10.0, 0.0), 1.25, 1e-12);
+  EXPECT_NEAR(ray_distance(grid, place, {0, -1}, 10.0, 0.0), 1.25, 1e-12);
+  EXPECT_NEAR(ray_distance(grid, place, {0.6, 0.8}, 10.0, 0.0), 1.25 / 0.8, 1e-12) << "the upper wall";
+  EXPECT_NEAR(ray_distance(grid, place, {-0.6, -0.8}, 10.0, 0.0), 0.75 / 0.6, 1e-12) << "the left wall";
+}
+
+TEST(RayDistance, IsInfiniteBeyondReachAndUnknownBehindTheMap) {
+  const OccupancyGrid grid = Plan(room).grid();
+  EXPECT_EQ(ray_distance(grid, {1.25, 1.25}, {1, 0}, 4.0, 0.0), std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(ray_distance(grid, {1.25, 1.25}, {1, 0}, 10.0, 0.0), 4.25, 1e-12);
+  EXPECT_TRUE(std::isnan(ray_distance(grid, {1.25, 0.75}, {1, 0}, 10.0, 0.0))) << "the hole in the wall";
+  EXPECT_TRUE(std::isnan(ray_distance(Plan({"..#"}).grid(), {0.25, 0.25}, {0, 1}, 10.0, 0.0))) << "the rim";
+}
+
+TEST(RayDistance, PassesBlurredRimsOfWalls) {
+  // The rim is 1 m thick from x = 1 on, then from x = 3 on 1.5 m.
+  const OccupancyGrid grid = Plan({"..??#???#"}).grid();
+  EXPECT_NEAR(ray_distance(grid, {0.25, 0.25}, {1, 0}, 10.0, 1.1), 1.75, 1e-12);
+  EXPECT_TRUE(std::isnan(ray_distance(grid, {0.25, 0.25}, {1, 0}, 10.0, 0.4)));
+  EXPECT_TRUE(std::isnan(ray_distance(grid, {0.25, 0.25}, {-1, 0}, 10.0, 1.1))) << "off the grid";
+}
+
+TEST(RayDistance, FollowsATurnedMap) {
+  // Turned by 90 degrees about the origin: what was x is y, what was y is -x.
+  const OccupancyGrid grid = Plan(room, "[0, 0, 1.5707963267948966]").grid();
+  EXPECT_NEAR(ray_distance(grid, {-1.75, 1.25}, {0, 1}, 10.0, 0.0), 1.25, 1e-9) << "the pillar";
+  EXPECT_NEAR(ray_distance(grid, {-1.75, 1.25}, {1, 0}, 10.0, 0.0), 1.25, 1e-9);
+}
+
+TEST(RandomScans, LieInFreeCellsFarEnoughFromOthers) {
+  const Plan plan(room);
+  const OccupancyGrid grid = plan.grid();
+  RandomScans::Params params = plan.params();
+  params.count = 200;
+  params.clearance = 0.4;
+  const auto samples = read_all(params);
+  ASSERT_EQ(samples.size(), 200U);
+  std::set<std::pair<int, int>> cells;
+  for (const Sample& sample : samples) {
+    const Pose2& pose = *sample.map_from_robot;
+    EXPECT_EQ(grid.at(pose.x, pose.y), Cell::free);
+    for (int i = 0; i < 64; ++i) {
+      const double angle = 2.0 * pi * i / 64;
+      EXPECT_EQ(grid.at(pose.x + 0.4 * std::cos(angle), pose.y + 0.4 * std::sin(angle)), Cell::free);
+    }
+    cells.emplace(static_cast<int>(pose.x / 0.5), static_cast<int>(pose.y / 0.5));
+  }
+  // All there are: one cell away from the walls, and from the pillar in column 5.
+  std::set<std::pair<int, int>> expected;
+  for (const int column : {2, 3, 7, 8, 9}) {
+    for (const int row : {2, 3, 4}) expected.emplace(column, row);
+  }
+  EXPECT_EQ(cells, expected);
+}
+
+TEST(RandomScans, LookInAllDirections) {
+  const Plan plan(room);
+  RandomScans::Params params = plan.params();
+  params.count = 400;
+  std::array<int, 4> quadrants{};
+  for (const Sample& sample : read_all(params)) {
+    ++quadrants[static_cast<std::size_t>(std::floor((sample.map_from_robot->theta + pi) / (pi / 2))) % 4];
+  }
+  // 100 each; 5 standard deviations are 43.
+  for (const int n : quadrants) EXPECT_NEAR(n, 100, 43);
+}
+
+TEST(RandomScans, SeeTheCellsAroundThem) {
+  const Plan plan(room);
+  RandomScans::Params params = plan.params();
+  params.count = 50;
+  params.laser.noise = 0.0;
+  params.laser.max_range = 2.0;
+  params.max_unknown = 0.0;
+  const auto samples = read_all(params);
+  const OccupancyGrid grid = plan.grid();
+  for (const Sample& sample : samples) {
+    const Transform map_from_robot(*sample.map_from_robot);
+    const Scan& scan = sample.observation.scan;
+    EXPECT_GT(scan.hits.size(), 0U);
+    EXPECT_LE(scan.hits.size() + scan.free_ends.size(), 361U);
+    for (std::size_t i = 0; i < scan.hits.size(); ++i) {
+      const Point& hit = scan.hits[i];
+      const Point p = map_from_robot(hit);
+      // A ray ends on the border between a free cell and an occupied one; it may graze a corner.
+      const auto borders_on = [&](Cell kind) {
+        constexpr double step = 5e-4;
+        return grid.at(p.x + step, p.y) == kind || grid.at(p.x - step, p.y) == kind ||
+               grid.at(p.x, p.y + step) == kind || grid.at(p.x, p.y - step) == kind;
+      };
+      EXPECT_TRUE(borders_on(Cell::occupied));
+      EXPECT_TRUE(borders_on(Cell::free));
+      EXPECT_LT(std::hypot(hit.x, hit.y), 2.0);
+    }
+    for (std::size_t i = 0; i < scan.free_ends.size(); ++i) {
+      const Point& end = scan.free_ends[i];
+      EXPECT_NEAR(std::hypot(end.x, end.y), 2.0, 1e-5);
+      EXPECT_EQ(grid.at(map_from_robot(end).x, map_from_robot(end).y), Cell::free);
+    }
+  }
+}
+
+TEST(RandomScans, AreSegmentsOfTheirOwn) {
+  const Plan plan(room);
+  const auto samples = read_all(plan.params());
+  ASSERT_EQ(samples.size(), 100U);
+  for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(samples[i].segment, static_cast<int>(i));
+}
+
+TEST(RandomScans, DependOnTheirSeedOnly) {
+  const Plan plan(room);
+  const auto a = read_all(plan.params(), 7);
+  const auto b = read_all(plan.params(), 7);
+  const auto c = read_all(plan.params(), 8);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(*a[i].map_from_robot, *b[i].map_from_robot);
+    EXPECT_EQ(a[i].observation.scan.hits, b[i].observation.scan.hits);
+    EXPECT_NE(*a[i].map_from_robot, *c[i].map_from_robot);
+    EXPECT_NE(a[i].observation.scan.hits, c[i].observation.scan.hits);
+  }
+}
+
+TEST(RandomScans, SayWhyThereAreNone) {
+  const Plan plan(room);
+  RandomScans::Params params = plan.params();
+  params.clearance = 2.0;
+  EXPECT_EQ(plan.fault_of(params),
+            "map.yaml: error: has no free cell 2 m away from all that is not free; lower clearance, or take "
+            "another map");
+  params.map.path = test::file_path("missing.yaml");
+  EXPECT_NE(plan.fault_of(params).find("missing.yaml"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace glocal
