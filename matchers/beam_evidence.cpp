@@ -8,6 +8,13 @@ namespace glocal {
 void describe(ParamVisitor& v, BeamRule& p) {
   v.field("blocked_weight", p.weight,
           {.doc = "What the share of beams through occupied cells takes off the quality.", .min = 0.0});
+  v.field(
+      "blocked_cap", p.cap,
+      {.doc =
+           "A larger share counts as this one: a door that was open, or a shelf that has gone, blocks many "
+           "beams at once.",
+       .min = 0.0,
+       .max = 1.0});
   v.field("beam_scans", p.scans, {.doc = "Latest scans whose beams are looked at.", .min = 1, .max = 1000});
   v.field("beams", p.beams, {.doc = "Beams of each.", .min = 1, .max = 10000});
   v.field("beam_margin", p.margin,

@@ -1,9 +1,11 @@
 // What beams say against a pose: a beam cannot have passed through a wall.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <vector>
 
 #include "glocal/local_map.hpp"
@@ -16,6 +18,7 @@ namespace glocal {
 /// Parameters of any matcher that asks beams, among its own.
 struct BeamRule {
   double weight = 0.0;  ///< What the share of blocked beams takes off a pose's quality.
+  double cap = 1.0;     ///< A larger share counts as this one.
   int scans = 5;        ///< The latest ones count.
   int beams = 40;       ///< Of each, spread evenly.
   double margin = 0.3;  ///< m; the last part of a beam before its hit, where a wall may well be.
@@ -54,6 +57,13 @@ class BeamEvidence {
   /// Takes in a scan, made where the robot is now.
   void add(const LocalMap& local, const Scan& scan);
   void clear() { scans_.clear(); }
+
+  /// What blocked beams take off the quality of a pose. Where that is more than `most`, beams need not all be
+  /// looked at: the answer is then above `most` too.
+  [[nodiscard]] double penalty(const ClearanceGrid& grid, const Pose2& map_from_local,
+                               double most = std::numeric_limits<double>::infinity()) const {
+    return rule_.weight * std::min(rule_.cap, blocked_share(grid, map_from_local, most / rule_.weight));
+  }
 
   /// Share of the beams that would have passed through occupied cells; 0 without any beam. Where it is more
   /// than `most`, beams need not all be looked at: the answer is then above `most` too.

@@ -502,8 +502,7 @@ std::vector<Mode> IndexedRansam::judged(const std::vector<Mode>& modes, const Lo
   std::vector<Mode> best;
   for (const Mode& mode : at_most) {
     if (best.size() == most && best.back().quality >= mode.quality) break;
-    const double blocked = beams_.blocked_share(*clearance_, mode.map_from_local);
-    const Mode now{mode.map_from_local, mode.quality - params_.beams.weight * blocked};
+    const Mode now{mode.map_from_local, mode.quality - beams_.penalty(*clearance_, mode.map_from_local)};
     best.insert(std::upper_bound(best.begin(), best.end(), now, better), now);
     if (best.size() > most) best.pop_back();
   }

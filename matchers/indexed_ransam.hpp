@@ -67,7 +67,7 @@ class IndexedRansam final : public Matcher {
     PoseRefinement refinement = {};
     PoseUncertainty uncertainty = {};
     double field_cell = 0.05;
-    BeamRule beams = {.weight = 1.0};
+    BeamRule beams = {.weight = 1.0, .cap = 0.3};
     double unknown_weight = 0.1;
     double min_length = 0.5;
     double max_length = 6.0;

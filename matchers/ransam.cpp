@@ -242,11 +242,8 @@ void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_s
 }
 
 void Ransam::ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) const {
-  const double weight = params_.beams.weight;
-  for (Hypothesis& h : hypotheses) {
-    const double most = (h.quality - omega_max) / weight;
-    h.quality -= weight * beams_.blocked_share(*clearance_, h.map_from_local, most);
-  }
+  for (Hypothesis& h : hypotheses)
+    h.quality -= beams_.penalty(*clearance_, h.map_from_local, h.quality - omega_max);
   std::erase_if(hypotheses, [&](const Hypothesis& h) { return h.quality < omega_max; });
 }
 

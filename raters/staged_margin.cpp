@@ -23,6 +23,11 @@ void describe(ParamVisitor& v, StagedMargin::Confidence& p) {
       "steps", p.steps,
       {.doc = "What time adds to them, times the logarithm of the number of steps in which the best pose has "
               "been the same."});
+  v.field("most", p.most,
+          {.doc = "However clear the lead is, the confidence stays below this: what lies off the map has no "
+                  "hypothesis.",
+           .max = 1.0,
+           .above = 0.0});
 }
 
 void describe(ParamVisitor& v, StagedMargin::Params& p) {
@@ -161,7 +166,7 @@ Verdict StagedMargin::undecided(const StepResult& step, double lead) const {
 /// A logistic model of the lead and of how long the best pose has been the same.
 double StagedMargin::confidence(double lead) const {
   const Confidence& c = params_.confidence;
-  return 1.0 / (1.0 + std::exp(-(c.bias + c.margin * lead + c.steps * std::log(steps_))));
+  return c.most / (1.0 + std::exp(-(c.bias + c.margin * lead + c.steps * std::log(steps_))));
 }
 
 /// The best hypothesis' own, and the spread of those near it that are about as good.

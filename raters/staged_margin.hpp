@@ -27,13 +27,13 @@ class StagedMargin final : public VerdictRule {
   };
   /// The logistic model of the confidence.
   struct Confidence {
-    double bias = -2.0;
-    double margin = 15.0;
-    double steps = 1.0;
+    double bias = -1.4;
+    double margin = 23.0;
+    double steps = 0.5;
+    double most = 0.998;
   };
   struct Params {
-    std::vector<Stage> stages = {
-        {0.30, 3, 0.0}, {0.25, 4, 1.0}, {0.20, 5, 2.0}, {0.10, 8, 3.0}, {0.05, 15, 4.0}};
+    std::vector<Stage> stages = {{0.30, 3, 0.0}, {0.25, 4, 1.0}, {0.20, 5, 2.0}, {0.10, 8, 3.0}};
     double rival_distance = 1.0;
     double rival_rotation_deg = 30.0;
     double same_distance = 0.5;

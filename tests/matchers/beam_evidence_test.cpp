@@ -135,5 +135,17 @@ TEST(BeamEvidence, StopsEarlyOnlyAboveWhatIsAskedFor) {
   }
 }
 
+TEST(BeamEvidence, ThePenaltyIsTheWeightedShareUpToTheCap) {
+  const auto penalty = [](const BeamRule& rule) {
+    BeamEvidence evidence(rule);
+    evidence.add({}, beams_along_x({1.8F, 0.5F}));  // one of two goes through the wall
+    return evidence.penalty(grid_with_a_wall(), {1.0, 1.0, 0.0});
+  };
+  EXPECT_DOUBLE_EQ(penalty({.weight = 0.8}), 0.4);
+  EXPECT_DOUBLE_EQ(penalty({.weight = 0.8, .cap = 0.5}), 0.4);
+  EXPECT_DOUBLE_EQ(penalty({.weight = 0.8, .cap = 0.25}), 0.2);
+  EXPECT_EQ(penalty({.weight = 0.0}), 0.0);
+}
+
 }  // namespace
 }  // namespace glocal

@@ -136,14 +136,14 @@ TEST(StagedMargin, AConflictWithFreeSpaceForbidsADeclaration) {
 }
 
 TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
-  StagedMargin rule({.confidence = {.bias = -1.0, .margin = 10.0, .steps = 2.0}});
+  StagedMargin rule({.confidence = {.bias = -1.0, .margin = 10.0, .steps = 2.0, .most = 0.9}});
   Verdict verdict = rule.judge(step(0.9, 0.7));
   ASSERT_TRUE(verdict.belief);
   EXPECT_EQ(verdict.belief->map_from_robot, here);
   // Log odds -1 + 10 * 0.2 = 1, then 1 + 2 ln 2.
-  EXPECT_NEAR(verdict.belief->confidence, 0.731059, 1e-6);
+  EXPECT_NEAR(verdict.belief->confidence, 0.9 * 0.731059, 1e-6);
   verdict = rule.judge(step(0.9, 0.7));
-  EXPECT_NEAR(verdict.belief->confidence, 0.915776, 1e-6);
+  EXPECT_NEAR(verdict.belief->confidence, 0.9 * 0.915776, 1e-6);
   EXPECT_EQ(rule.judge({}).belief, std::nullopt);
 }
 
