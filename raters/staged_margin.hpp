@@ -12,8 +12,8 @@ namespace glocal {
 
 /// Localized once the best hypothesis has been clearly better than every rival, a pose far from it, for long
 /// enough: the clearer, the sooner. The best hypothesis must stay the same, moved by the local motion;
-/// another best one, a step without any, or another local map (a kidnapping) begins anew and takes the
-/// verdict back.
+/// another best one, a step without any, or another local map begins anew. That, or a lead below every
+/// stage's, takes the verdict back.
 ///
 /// Believes in the best hypothesis, with a confidence by a logistic model and the covariance of the matcher,
 /// widened by hypotheses near it that are about as good.
@@ -27,9 +27,9 @@ class StagedMargin final : public VerdictRule {
   };
   /// The logistic model of the confidence.
   struct Confidence {
-    double bias = -1.4;
-    double margin = 23.0;
-    double steps = 0.5;
+    double bias = -1.5;
+    double margin = 28.5;
+    double steps = 0.45;
     double most = 0.998;
   };
   struct Params {

@@ -101,10 +101,12 @@ TEST(StagedMargin, RivalsOfTheSameQualityAreCandidates) {
   EXPECT_EQ(rule.judge(step(0.9, 0.80)).kind, VerdictKind::searching);
 }
 
-TEST(StagedMargin, StaysDeclaredWhileThePoseStaysTheBest) {
+TEST(StagedMargin, StaysDeclaredUntilTheLeadIsBelowEveryStages) {
   StagedMargin rule({});
   for (int i = 0; i < 3; ++i) (void)rule.judge(step(0.9, 0.5));
-  EXPECT_EQ(rule.judge(step(0.9, 0.88)).kind, VerdictKind::localized);
+  EXPECT_EQ(rule.judge(step(0.9, 0.78)).kind, VerdictKind::localized);
+  EXPECT_EQ(rule.judge(step(0.9, 0.82)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step(0.9, 0.78)).kind, VerdictKind::searching);
 }
 
 TEST(StagedMargin, ARobotThatTurnsFastIsNotDeclaredUntilSomeStepsLater) {
