@@ -174,7 +174,9 @@ class DocsExamples : public CommandLine {
 
   /// A command that would take long, as one that only checks the same experiments and overrides.
   static std::string quick(const std::string& command) {
-    if (command.starts_with("explain ")) return "explain --help";  // nothing was run that it could explain
+    // Nothing was run that these could look at.
+    if (command.starts_with("explain ")) return "explain --help";
+    if (command.starts_with("reliability ")) return "reliability --help";
     if (!command.starts_with("run ") && !command.starts_with("mapping ")) return command;
     std::string check = "check";
     for (const std::smatch& match : matches(command, R"((--(set|seed|threads) \S+|\S+\.yaml)(?=\s|$))")) {
