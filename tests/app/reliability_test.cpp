@@ -20,7 +20,8 @@ class ReliabilityCommand : public CommandLine {
         run("run " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml --quiet --out " +
             folder() +
             " --set 'trials={starts_m: [0], max_steps: 4}' --set localizer.verdict_rule=staged_margin"
-            " --set localizer.matcher=indexed_ransam --set 'localizer.threshold_policy={fixed: {omega_max: 0.1}}'");
+            " --set localizer.matcher=indexed_ransam --set 'localizer.threshold_policy={fixed: {omega_max: "
+            "0.1}}'");
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
   }
 
@@ -47,11 +48,12 @@ TEST_F(ReliabilityCommand, CountsByConfidence) {
           "{\"outcome\": \"wrong\", \"confidence\": 0.95, \"nees\": 900.0}\n"
           "{\"outcome\": \"undecided\"}\n");
   // Of trial 0 the first step counts, of trial 1 the second.
-  replace("steps.jsonl",
-          "{\"trial\": 0, \"confidence\": 0.2, \"translation_error_m\": 0.1, \"rotation_error_deg\": 1.0}\n"
-          "{\"trial\": 0, \"confidence\": 0.8, \"translation_error_m\": 9.0, \"rotation_error_deg\": 1.0}\n"
-          "{\"trial\": 1, \"confidence\": 0.6, \"translation_error_m\": 9.0, \"rotation_error_deg\": 1.0}\n"
-          "{\"trial\": 1, \"confidence\": 0.25, \"translation_error_m\": 0.1, \"rotation_error_deg\": 11.0}\n");
+  replace(
+      "steps.jsonl",
+      "{\"trial\": 0, \"confidence\": 0.2, \"translation_error_m\": 0.1, \"rotation_error_deg\": 1.0}\n"
+      "{\"trial\": 0, \"confidence\": 0.8, \"translation_error_m\": 9.0, \"rotation_error_deg\": 1.0}\n"
+      "{\"trial\": 1, \"confidence\": 0.6, \"translation_error_m\": 9.0, \"rotation_error_deg\": 1.0}\n"
+      "{\"trial\": 1, \"confidence\": 0.25, \"translation_error_m\": 0.1, \"rotation_error_deg\": 11.0}\n");
   const Answer answer = run("reliability " + folder());
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("5 trials: 3 right, 1 wrong (20.00 %"));
