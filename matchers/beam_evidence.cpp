@@ -74,6 +74,10 @@ bool ClearanceGrid::is_blocked(const Point& from, const Point& to, double margin
   return false;
 }
 
+std::shared_ptr<const ClearanceGrid> clearance_grid(const GlobalMap& map) {
+  return map.index<ClearanceGrid>("", [&] { return ClearanceGrid(map.grid()); });
+}
+
 void BeamEvidence::add(const LocalMap& local, const Scan& scan) {
   if (local.generation != generation_) scans_.clear();
   generation_ = local.generation;

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <memory>
 #include <vector>
 
+#include "glocal/global_map.hpp"
 #include "glocal/local_map.hpp"
 #include "glocal/observation.hpp"
 #include "glocal/occupancy_grid.hpp"
@@ -48,6 +50,9 @@ class ClearanceGrid {
   std::vector<std::uint8_t> clearance_;
 };
 
+/// That of a map, shared by all who ask for it.
+[[nodiscard]] std::shared_ptr<const ClearanceGrid> clearance_grid(const GlobalMap& map);
+
 /// Beams of the latest scans in the local frame. Only cells known to be occupied stop a beam; unknown ones
 /// say nothing.
 class BeamEvidence {
@@ -62,6 +67,7 @@ class BeamEvidence {
   /// looked at: the answer is then above `most` too.
   [[nodiscard]] double penalty(const ClearanceGrid& grid, const Pose2& map_from_local,
                                double most = std::numeric_limits<double>::infinity()) const {
+    if (rule_.weight == 0.0) return 0.0;
     return rule_.weight * std::min(rule_.cap, blocked_share(grid, map_from_local, most / rule_.weight));
   }
 

@@ -1,7 +1,5 @@
 #include "matchers/branch_and_bound.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 #include <vector>
 
@@ -50,9 +48,7 @@ BranchAndBound::BranchAndBound(const Params& params, const StageSetup& setup)
       threads_(setup.threads),
       pyramid_(contact_pyramid(*setup.map, params.cell, params.contact_epsilon)),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
-      field_(setup.map->index<DistanceField>(fmt::format("{}", params.field_cell), [&] {
-        return DistanceField(setup.map->points(), params.field_cell);
-      })) {}
+      field_(distance_field(*setup.map, params.field_cell)) {}
 
 MatchResult BranchAndBound::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
                                   Rng& rng) {
@@ -78,8 +74,9 @@ MatchResult BranchAndBound::match(const LocalMap& local, const Observation& /*la
   modes = distinct(std::move(modes), local.local_from_robot);
   if (params_.refinement.iterations > 0) {
     result.checks += modes.size() * local.points.size();
-    modes =
-        distinct(refined(std::move(modes), local, sample), local.local_from_robot);  // some have become one
+    const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
+    refine(modes, *field_, anchors, params_.refinement, *contact_, local.points);
+    modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
   }
   for (const Mode& mode : modes) {
     if (mode.quality < omega_max) break;
@@ -87,16 +84,6 @@ MatchResult BranchAndBound::match(const LocalMap& local, const Observation& /*la
         {mode.map_from_local, mode.map_from_local * local.local_from_robot, mode.quality});
   }
   return result;
-}
-
-std::vector<Mode> BranchAndBound::refined(std::vector<Mode> modes, const LocalMap& local,
-                                          const Points& sample) const {
-  const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
-  for (Mode& mode : modes) {
-    mode.map_from_local = refined_pose(*field_, anchors, mode.map_from_local, params_.refinement);
-    mode.quality = contact_->share(local.points, Transform(mode.map_from_local));
-  }
-  return modes;
 }
 
 std::vector<Mode> BranchAndBound::distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const {

@@ -52,8 +52,6 @@ class BranchAndBound final : public Matcher {
   void reset() override {}
 
  private:
-  [[nodiscard]] std::vector<Mode> refined(std::vector<Mode> modes, const LocalMap& local,
-                                          const Points& sample) const;
   [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
 
   Params params_;

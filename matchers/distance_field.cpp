@@ -1,5 +1,7 @@
 #include "matchers/distance_field.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -44,6 +46,10 @@ DistanceField::DistanceField(const Points& points, double resolution, double rea
       }
     }
   }
+}
+
+std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell) {
+  return map.index<DistanceField>(fmt::format("{}", cell), [&] { return DistanceField(map.points(), cell); });
 }
 
 namespace {
@@ -118,6 +124,15 @@ void describe(ParamVisitor& v, PoseRefinement& p) {
           {.doc = "Points at this distance from the map count a quarter (Geman-McClure).",
            .unit = "m",
            .above = 0.0});
+}
+
+void describe(ParamVisitor& v, PoseUncertainty& p) {
+  v.field("point_deviation", p.point_deviation,
+          {.doc = "Deviation of a point from the map, at least.", .unit = "m", .above = 0.0});
+  v.field("correlated_points", p.correlated_points,
+          {.doc = "So many points err alike, and count as one.", .min = 1.0});
+  v.field("drift", p.drift, {.doc = "Deviation of the robot in its local map.", .unit = "m", .min = 0.0});
+  v.field("drift_deg", p.drift_deg, {.doc = "The same of its heading.", .unit = "deg", .min = 0.0});
 }
 
 }  // namespace glocal

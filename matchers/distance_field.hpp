@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
+#include "glocal/global_map.hpp"
 #include "glocal/params.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose2.hpp"
@@ -58,6 +60,9 @@ inline DistanceField::Value DistanceField::at(float x, float y) const {
   return {below + b * (above - below), dx * scale_, (above - below) * scale_};
 }
 
+/// That of a map, with cells of this side (m), shared by all who ask for it.
+[[nodiscard]] std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell);
+
 struct PoseRefinement {
   int iterations = 12;
   double kernel = 0.15;  ///< m; points at this distance count a quarter (Geman-McClure).
@@ -75,6 +80,7 @@ struct PoseUncertainty {
   double drift = 0.02;             ///< m; of the robot in its local map.
   double drift_deg = 0.5;          ///< deg; the same of its heading.
 };
+void describe(ParamVisitor& v, PoseUncertainty& p);
 
 /// Covariance of the robot's pose where a pose of the points is the refined one: the Gauss-Newton inverse
 /// Hessian there, times the points' variance, plus the local map's drift. What the points leave open is

@@ -102,6 +102,15 @@ void lay(const Surfaces& local, const DipoleIndex::Dipole& from, const Surfaces&
   motions.y[i] = 0.5F * (map.y[to.first] + map.y[to.second]) - (s * mx + c * my);
 }
 
+/// Share of the points for which a condition holds where a pose puts them.
+template <class Condition>
+double share_where(const Points& points, const Pose2& map_from_points, Condition condition) {
+  const Transform transform(map_from_points);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) count += condition(transform(points[i])) ? 1 : 0;
+  return static_cast<double>(count) / static_cast<double>(points.size());
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, IndexedRansam::ExactSearch& p) {
@@ -120,15 +129,6 @@ void describe(ParamVisitor& v, IndexedRansam::ExactSearch& p) {
            .min = 0.0001,
            .max = 0.1});
   v.field("max_poses", p.max_poses, {.doc = "Poses it adds at most.", .min = 1, .max = 10000});
-}
-
-void describe(ParamVisitor& v, PoseUncertainty& p) {
-  v.field("point_deviation", p.point_deviation,
-          {.doc = "Deviation of a point from the map, at least.", .unit = "m", .above = 0.0});
-  v.field("correlated_points", p.correlated_points,
-          {.doc = "So many points err alike, and count as one.", .min = 1.0});
-  v.field("drift", p.drift, {.doc = "Deviation of the robot in its local map.", .unit = "m", .min = 0.0});
-  v.field("drift_deg", p.drift_deg, {.doc = "The same of its heading.", .unit = "deg", .min = 0.0});
 }
 
 void describe(ParamVisitor& v, AdaptiveBudget& p) {
@@ -228,10 +228,8 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       threads_(setup.threads),
       map_(setup.map),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
-      field_(setup.map->index<DistanceField>(
-          fmt::format("{}", params.field_cell),
-          [&] { return DistanceField(setup.map->points(), params.field_cell); })),
-      clearance_(setup.map->index<ClearanceGrid>("", [&] { return ClearanceGrid(setup.map->grid()); })),
+      field_(distance_field(*setup.map, params.field_cell)),
+      clearance_(clearance_grid(*setup.map)),
       pyramid_(params.exact_search.after_steps > 0
                    ? contact_pyramid(*setup.map, params.exact_search.cell, params.contact_epsilon)
                    : nullptr),
@@ -290,10 +288,7 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
 
   modes = distinct(std::move(modes), local.local_from_robot);
   const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
-  for (Mode& mode : modes) {
-    mode.map_from_local = refined_pose(*field_, anchors, mode.map_from_local, params_.refinement);
-    mode.quality = contact_->share(sample, Transform(mode.map_from_local));
-  }
+  refine(modes, *field_, anchors, params_.refinement, *contact_, sample);
   modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
   const std::vector<Mode> best = judged(modes, local, sample);
   const bool clear =
@@ -465,25 +460,15 @@ std::vector<Mode> IndexedRansam::distinct(std::vector<Mode> modes, const Pose2& 
 }
 
 double IndexedRansam::conflict_share(const Points& sample, const Pose2& map_from_local) const {
-  const Transform transform(map_from_local);
-  std::size_t conflicts = 0;
-  for (std::size_t i = 0; i < sample.size(); ++i) {
-    const Point p = transform(sample[i]);
-    if (map_->grid().at(p.x, p.y) == Cell::free && field_->at(p.x, p.y).distance > params_.contact_epsilon)
-      ++conflicts;
-  }
-  return static_cast<double>(conflicts) / static_cast<double>(sample.size());
+  return share_where(sample, map_from_local, [&](const Point& p) {
+    return map_->grid().at(p.x, p.y) == Cell::free && field_->at(p.x, p.y).distance > params_.contact_epsilon;
+  });
 }
 
 double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_local) const {
   if (params_.unknown_weight == 0.0) return 0.0;
-  const Transform transform(map_from_local);
-  std::size_t unknown = 0;
-  for (std::size_t i = 0; i < sample.size(); ++i) {
-    const Point p = transform(sample[i]);
-    if (map_->grid().at(p.x, p.y) == Cell::unknown) ++unknown;
-  }
-  return static_cast<double>(unknown) / static_cast<double>(sample.size());
+  return share_where(sample, map_from_local,
+                     [&](const Point& p) { return map_->grid().at(p.x, p.y) == Cell::unknown; });
 }
 
 /// The best modes by their quality, which falls. Beams take most of the time, and only take quality off:

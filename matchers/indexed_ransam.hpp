@@ -132,7 +132,6 @@ class IndexedRansam final : public Matcher {
   int steps_ = 0;       ///< In that frame.
   int undecided_ = 0;   ///< Steps without a clear best mode, since the last exact search.
 };
-void describe(ParamVisitor& v, PoseUncertainty& p);
 void describe(ParamVisitor& v, AdaptiveBudget& p);
 void describe(ParamVisitor& v, IndexedRansam::ExactSearch& p);
 void describe(ParamVisitor& v, IndexedRansam::Params& p);

@@ -25,6 +25,14 @@ std::vector<Mode> distinct_modes(std::vector<Mode> modes, const Pose2& local_fro
   return kept;
 }
 
+void refine(std::vector<Mode>& modes, const DistanceField& field, const Points& anchors,
+            const PoseRefinement& refinement, const ContactIndex& contact, const Points& points) {
+  for (Mode& mode : modes) {
+    mode.map_from_local = refined_pose(field, anchors, mode.map_from_local, refinement);
+    mode.quality = contact.share(points, Transform(mode.map_from_local));
+  }
+}
+
 Points sample_of(const Points& points, std::size_t n, Rng& rng) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0U);

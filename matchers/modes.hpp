@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "glocal/contact.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose2.hpp"
 #include "glocal/rng.hpp"
+#include "matchers/distance_field.hpp"
 
 namespace glocal {
 
@@ -30,6 +32,10 @@ struct ModeRule {
 /// pose.
 [[nodiscard]] std::vector<Mode> distinct_modes(std::vector<Mode> modes, const Pose2& local_from_robot,
                                                const ModeRule& rule, std::size_t most);
+
+/// Refines each by the anchors, and judges it anew by the contact of `points`.
+void refine(std::vector<Mode>& modes, const DistanceField& field, const Points& anchors,
+            const PoseRefinement& refinement, const ContactIndex& contact, const Points& points);
 
 /// At most n of the points, picked at random, in random order.
 [[nodiscard]] Points sample_of(const Points& points, std::size_t n, Rng& rng);

@@ -123,8 +123,7 @@ Ransam::Ransam(const Params& params, const StageSetup& setup)
       sampler_(setup.map->points(), params.local_radius),
       table_(table_bits(params)),
       beams_(params.beams) {
-  if (params.beams.weight > 0.0)
-    clearance_ = setup.map->index<ClearanceGrid>("", [&] { return ClearanceGrid(setup.map->grid()); });
+  if (params.beams.weight > 0.0) clearance_ = clearance_grid(*setup.map);
 }
 
 MatchResult Ransam::match(const LocalMap& local, const Observation& latest, double omega_max, Rng& rng) {

@@ -72,16 +72,6 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
   v.field("max_candidates", p.max_candidates, {.doc = "With more, nothing can be said yet.", .min = 2});
 }
 
-namespace {
-
-double smallest_margin(const std::vector<StagedMargin::Stage>& stages) {
-  return std::min_element(stages.begin(), stages.end(),
-                          [](const auto& a, const auto& b) { return a.margin < b.margin; })
-      ->margin;
-}
-
-}  // namespace
-
 void StagedMargin::reset() {
   begin_anew();
   best_.reset();
@@ -115,7 +105,9 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const std::optional<double>& conflict = step.hypotheses.front().conflict;
   const bool is_consistent = !conflict || *conflict <= params_.max_conflict;
   if (is_steady(turn_rate_deg) && is_clear && is_consistent) is_declared_ = true;
-  if (lead < smallest_margin(params_.stages)) is_declared_ = false;
+  const bool is_lead_lost =
+      std::all_of(leads_.begin(), leads_.end(), [](const Lead& kept) { return kept.steps == 0; });
+  if (is_lead_lost) is_declared_ = false;
   Verdict verdict = is_declared_ ? localized(step, lead) : undecided(step, lead);
   verdict.belief = {pose, confidence(lead), covariance(step.hypotheses)};
   verdict.evidence = {{"margin", lead},

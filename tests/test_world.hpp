@@ -10,6 +10,7 @@
 #include "glocal/global_map.hpp"
 #include "glocal/local_map.hpp"
 #include "glocal/points.hpp"
+#include "glocal/rng.hpp"
 
 namespace glocal::testing {
 
@@ -58,6 +59,14 @@ inline Points seen_from(const Points& world, const Pose2& map_from_robot, double
     if (std::hypot(local.x[i], local.y[i]) <= reach) result.push_back(local[i]);
   }
   return result;
+}
+
+/// Somewhere in one of the small world's two rooms: in the lower one for even numbers, in the upper one for
+/// odd ones.
+inline Pose2 somewhere_in_small_world(int number, Rng& rng) {
+  const bool lower = number % 2 == 0;
+  return {rng.uniform(1.0, lower ? 7.0 : 3.0), lower ? rng.uniform(1.0, 4.0) : rng.uniform(5.0, 8.0),
+          rng.uniform(-3.14, 3.14)};
 }
 
 /// The local map of a robot that stands in the small world and sees so far; it begins where the robot is.

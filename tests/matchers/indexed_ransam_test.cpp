@@ -24,9 +24,7 @@ TEST(IndexedRansam, FindsThePoseFromAnywhereWithFewDraws) {
   int first = 0;
   constexpr int places = 40;
   for (int i = 0; i < places; ++i) {
-    const bool lower = i % 2 == 0;
-    const Pose2 truth{rng.uniform(1.0, lower ? 7.0 : 3.0),
-                      lower ? rng.uniform(1.0, 4.0) : rng.uniform(5.0, 8.0), rng.uniform(-3.14, 3.14)};
+    const Pose2 truth = testing::somewhere_in_small_world(i, rng);
     const MatchResult result = match({}, local_map_at(truth, 4.0), static_cast<std::uint64_t>(i));
     ASSERT_FALSE(result.hypotheses.empty());
     const Pose2& best = result.hypotheses.front().map_from_robot;
