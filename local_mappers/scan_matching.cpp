@@ -76,6 +76,13 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
                   "robot by odometry and adds no points.",
            .min = 0.0,
            .max = 1.0});
+  v.field("max_seen_through", p.max_seen_through,
+          {.doc = "Nor does one fit of which more lies where the latest scans saw through, or which saw "
+                  "through more "
+                  "of what they met: the robot was carried away.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("sight", p.sight, {.doc = "How scans are compared for that."});
   v.field(
       "restart_after", p.restart_after,
       {.doc =
@@ -91,7 +98,8 @@ ScanMatching::ScanMatching(const Params& params)
     : params_(params),
       grid_(params.resolution,
             std::min(cells_in(params.refinement.gate, params.resolution), PointGrid::max_reach),
-            params.likelihood_sigma, tiles_in(params.memory_mb)) {}
+            params.likelihood_sigma, tiles_in(params.memory_mb)),
+      sights_(params.sight) {}
 
 void ScanMatching::reset() {
   start_over();
@@ -104,6 +112,7 @@ void ScanMatching::start_over() {
   hits_.clear();
   next_above_.clear();
   grid_.clear();
+  sights_.clear();
   misfits_ = 0;
 }
 
@@ -117,7 +126,10 @@ void ScanMatching::add(const Observation& observation) {
   const Pose2& pose = map_.local_from_robot;
   const bool outside = !grid_.contains(static_cast<float>(pose.x), static_cast<float>(pose.y));
   if (outside || misfits_ >= params_.restart_after) start_over();
-  if (misfits_ <= misfits_before) register_hits(hits, normals);
+  if (misfits_ <= misfits_before) {
+    register_hits(hits, normals);
+    sights_.add(observation.scan, map_.local_from_robot);
+  }
   map_.ends.push_back(map_.points.size());
 }
 
@@ -130,14 +142,18 @@ Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& 
   if (map_.points.empty() || scan.hits.size() < static_cast<std::size_t>(params_.min_matches))
     return predicted;
   const SearchResult found = search(scan.hits, predicted);
-  misfits_ = found.likelihood < params_.min_fit ? misfits_ + 1 : 0;
-  if (misfits_ > 0) return predicted;
-  const Registration refined =
-      register_scan(grid_, map_, scan.hits, normals, found.local_from_robot, params_.refinement);
-  const bool sound =
-      refined.matches >= params_.min_matches &&
-      distance(refined.local_from_robot, found.local_from_robot) <= params_.max_correction &&
-      rotation_between(refined.local_from_robot, found.local_from_robot) <= params_.max_correction_angle;
+  const bool fits = found.likelihood >= params_.min_fit;
+  const Pose2 refined = fits ? refine(scan, normals, found.local_from_robot, predicted) : predicted;
+  misfits_ = fits && sights_.seen_through(scan, refined) <= params_.max_seen_through ? 0 : misfits_ + 1;
+  return misfits_ > 0 ? predicted : refined;
+}
+
+Pose2 ScanMatching::refine(const Scan& scan, const Points& normals, const Pose2& found,
+                           const Pose2& predicted) const {
+  const Registration refined = register_scan(grid_, map_, scan.hits, normals, found, params_.refinement);
+  const bool sound = refined.matches >= params_.min_matches &&
+                     distance(refined.local_from_robot, found) <= params_.max_correction &&
+                     rotation_between(refined.local_from_robot, found) <= params_.max_correction_angle;
   return sound ? refined.local_from_robot : predicted;
 }
 

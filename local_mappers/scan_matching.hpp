@@ -12,6 +12,7 @@
 #include "local_mappers/line_registration.hpp"
 #include "local_mappers/point_grid.hpp"
 #include "local_mappers/scan_normals.hpp"
+#include "local_mappers/sight.hpp"
 
 namespace glocal {
 
@@ -40,6 +41,8 @@ class ScanMatching final : public LocalMapper {
     double max_correction = 0.6;
     double max_correction_angle = 0.6;
     double min_fit = 0.15;
+    double max_seen_through = 0.15;
+    SightParams sight;
     int restart_after = 2;
     int memory_mb = 256;
   };
@@ -58,6 +61,8 @@ class ScanMatching final : public LocalMapper {
   [[nodiscard]] Pose2 predict(const Pose2& odom_from_robot) const;
   /// Where the scan fits best, or `predicted` where it says too little. Counts misfits.
   [[nodiscard]] Pose2 match(const Scan& scan, const Points& normals, const Pose2& predicted);
+  [[nodiscard]] Pose2 refine(const Scan& scan, const Points& normals, const Pose2& found,
+                             const Pose2& predicted) const;
   [[nodiscard]] SearchResult search(const Points& hits, const Pose2& predicted) const;
   void start_over();
   void register_hits(const Points& hits, const Points& normals);
@@ -72,6 +77,7 @@ class ScanMatching final : public LocalMapper {
   LocalMap map_;
   std::vector<std::uint8_t> hits_;        ///< Hits averaged in each point so far.
   std::vector<std::int32_t> next_above_;  ///< Next point in the same column of the plane, or none.
+  LatestSights sights_;
   std::optional<Pose2> last_odom_from_robot_;
   int misfits_ = 0;  ///< Observations in a row that did not fit.
 };

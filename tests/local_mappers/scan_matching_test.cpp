@@ -242,6 +242,41 @@ TEST(ScanMatching, StartsANewMapWhenObservationsStopFitting) {
   EXPECT_EQ(mapper.map().generation, 0);
 }
 
+/// Two corridors with the same walls and other boxes along them.
+std::vector<testing::Wall> corridor_with_boxes(const std::vector<double>& places, double side) {
+  std::vector<testing::Wall> walls = testing::bare_corridor();
+  for (const double x : places) {
+    walls.push_back({x, side, x, 0.3 * side});
+    walls.push_back({x, 0.3 * side, x + 0.8, 0.3 * side});
+    walls.push_back({x + 0.8, 0.3 * side, x + 0.8, side});
+    side = -side;
+  }
+  return walls;
+}
+
+TEST(ScanMatching, StartsANewMapWhereBeamsPassThroughWhatWasThere) {
+  std::vector<Pose2> way;
+  for (int i = 0; i < 10; ++i) way.push_back({0.2 * i, 0.0, 0.0});
+  Drive kidnapped = drive(corridor_with_boxes({2.6, 4.2, 7.0}, 1.0), way, {}, {});
+  const Drive other = drive(corridor_with_boxes({3.0, 5.4}, -1.0), way, {}, {});
+  kidnapped.observations.insert(kidnapped.observations.end(), other.observations.begin() + 9,
+                                other.observations.end());
+  kidnapped.observations.push_back(other.observations.back());
+
+  ScanMatching mapper({});
+  ScanMatching::Params anything;
+  anything.max_seen_through = 1.0;
+  ScanMatching credulous(anything);
+  for (const Observation& observation : kidnapped.observations) {
+    EXPECT_EQ(mapper.map().generation, 0);
+    mapper.add(observation);
+    credulous.add(observation);
+  }
+  EXPECT_EQ(mapper.map().generation, 1);
+  EXPECT_EQ(mapper.map().ends.size(), 1U);
+  EXPECT_EQ(credulous.map().generation, 0);  // the walls fit
+}
+
 TEST(ScanMatching, ASingleMisfitIsForgiven) {
   Drive drive = kidnapping();
   drive.observations.resize(11);

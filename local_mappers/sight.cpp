@@ -1,0 +1,94 @@
+#include "local_mappers/sight.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace glocal {
+
+namespace {
+
+/// Directions around a sensor, a degree each, as the beams of common lasers.
+constexpr std::size_t directions = 360;
+
+std::size_t direction(float x, float y) {
+  constexpr auto per_radian = static_cast<float>(directions / (2.0 * std::numbers::pi));
+  return static_cast<std::size_t>(std::atan2(y, x) * per_radian + static_cast<float>(directions)) %
+         directions;
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, SightParams& p) {
+  v.field("scans", p.scans, {.doc = "Latest scans that a new one is compared with.", .min = 1, .max = 100});
+  v.field("margin", p.margin,
+          {.doc = "A beam that went on for less than this behind a hit may have met the same thing.",
+           .unit = "m",
+           .min = 0.0});
+  v.field("min_hits", p.min_hits, {.doc = "With fewer hits in sight nothing is said.", .min = 1});
+}
+
+RangeProfile::RangeProfile(const Scan& scan) : origin_(scan.origin), ranges_(directions, 0.0F) {
+  for (const Points* ends : {&scan.hits, &scan.free_ends}) {
+    for (std::size_t i = 0; i < ends->size(); ++i) {
+      const float x = ends->x[i] - origin_.x;
+      const float y = ends->y[i] - origin_.y;
+      const float range = std::hypot(x, y);
+      float& nearest = ranges_[direction(x, y)];
+      nearest = nearest == 0.0F ? range : std::min(nearest, range);
+    }
+  }
+  // Beams a degree apart may leave a direction empty by rounding.
+  const std::vector<float> given = ranges_;
+  for (std::size_t d = 0; d < directions; ++d) {
+    const float before = given[(d + directions - 1) % directions];
+    const float after = given[(d + 1) % directions];
+    if (given[d] == 0.0F) ranges_[d] = std::min(before, after);
+  }
+}
+
+RangeProfile::Sight RangeProfile::look_at(const Points& hits, const Pose2& here_from_hits,
+                                          double margin) const {
+  const Transform transform(here_from_hits);
+  const auto tolerance = static_cast<float>(margin);
+  Sight sight;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Point p = transform(hits[i]);
+    const float x = p.x - origin_.x;
+    const float y = p.y - origin_.y;
+    const std::size_t d = direction(x, y);
+    // Neighbours have their say, too: at the edge of a thing the beam may go past it, or not.
+    const std::array around{ranges_[(d + directions - 1) % directions], ranges_[d],
+                            ranges_[(d + 1) % directions]};
+    const auto [nearest, farthest] = std::minmax_element(around.begin(), around.end());
+    const float range = std::hypot(x, y);
+    if (*nearest == 0.0F || range > *farthest + tolerance) continue;
+    ++(range < *nearest - tolerance ? sight.seen_through : sight.met);
+  }
+  return sight;
+}
+
+double LatestSights::seen_through(const Scan& scan, const Pose2& local_from_robot) const {
+  const RangeProfile now(scan);
+  std::size_t through = 0;
+  std::size_t all = 0;
+  const auto count = [&](const RangeProfile::Sight& sight) {
+    through += sight.seen_through;
+    all += sight.seen_through + sight.met;
+  };
+  for (const PlacedScan& before : scans_) {
+    const Pose2 before_from_now = inverse(before.local_from_robot) * local_from_robot;
+    count(before.profile.look_at(scan.hits, before_from_now, params_.margin));
+    count(now.look_at(before.hits, inverse(before_from_now), params_.margin));
+  }
+  if (all < static_cast<std::size_t>(params_.min_hits)) return 0.0;
+  return static_cast<double>(through) / static_cast<double>(all);
+}
+
+void LatestSights::add(const Scan& scan, const Pose2& local_from_robot) {
+  scans_.push_back({local_from_robot, scan.hits, RangeProfile(scan)});
+  if (scans_.size() > static_cast<std::size_t>(params_.scans)) scans_.pop_front();
+}
+
+}  // namespace glocal

@@ -1,0 +1,60 @@
+// A robot that is carried away in mid-drive: the whole pipeline notices, and finds it again.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+
+namespace glocal::test {
+namespace {
+
+class Kidnapping : public CommandLine {};
+
+TEST_F(Kidnapping, TakesTheVerdictBackAndFindsTheRobotAgain) {
+  const Answer answer =
+      run("run " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/sim_kidnapped.yaml --quiet --out " +
+          (folder_.path() / "results").string() +
+          " --set output.maps=none --set observations.simulation.tour_legs=22"
+          " --set 'observations.simulation.kidnappings=[{after_m: 40, to: [25.6, 4.0], heading_deg: -60}]'");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+
+  std::istringstream steps(content(folder_.path() / "results" / "steps.jsonl"));
+  nlohmann::json before;
+  bool is_carried_away = false;
+  bool was_localized = false;
+  int wrong = 0;
+  int since = 0;
+  int found_after = -1;
+  for (std::string line; std::getline(steps, line);) {
+    const auto step = nlohmann::json::parse(line);
+    const auto& reference = step["reference"];
+    if (!before.is_null()) {
+      const auto& last = before["reference"];
+      const double moved = std::hypot(reference["x"].get<double>() - last["x"].get<double>(),
+                                      reference["y"].get<double>() - last["y"].get<double>());
+      if (moved > 1.0) is_carried_away = true;
+    }
+    before = step;
+    const bool is_localized = step["verdict"] == "localized";
+    if (!is_carried_away) {
+      was_localized = was_localized || is_localized;
+      continue;
+    }
+    ++since;
+    if (!is_localized) continue;
+    if (step["translation_error_m"].get<double>() > 0.5) {
+      ++wrong;
+    } else if (found_after < 0) {
+      found_after = since;
+    }
+  }
+  EXPECT_TRUE(was_localized);
+  ASSERT_TRUE(is_carried_away);
+  EXPECT_LE(wrong, 2);  // A single observation may be a person in the way.
+  EXPECT_GT(found_after, 2);
+  EXPECT_LT(found_after, 60);
+}
+
+}  // namespace
+}  // namespace glocal::test

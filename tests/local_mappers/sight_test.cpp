@@ -1,0 +1,115 @@
+#include "local_mappers/sight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "local_mappers/rooms.hpp"
+
+namespace glocal {
+namespace {
+
+/// Beams in every direction, half a degree apart, that all end after `range` m.
+Scan circle_around(const Point& origin, float range) {
+  Scan scan;
+  scan.origin = origin;
+  for (int i = 0; i < 720; ++i) {
+    const float angle = static_cast<float>((i + 0.25) * std::numbers::pi / 360.0);
+    scan.hits.push_back({origin.x + range * std::cos(angle), origin.y + range * std::sin(angle), 0.0F});
+  }
+  return scan;
+}
+
+TEST(RangeProfile, TellsWhatWasMetFromWhatWasSeenThroughAndWhatWasHidden) {
+  const RangeProfile profile(circle_around({1.0F, 0.0F, 0.0F}, 5.0F));
+  Points hits;
+  hits.push_back({4.0F, 0.0F, 0.0F});   // 3 m from the sensor: the beam went on
+  hits.push_back({1.0F, -4.6F, 0.0F});  // 4.6 m: that too
+  hits.push_back({-3.8F, 0.0F, 0.0F});  // 4.8 m: met, within the margin
+  hits.push_back({1.0F, 5.2F, 0.0F});   // 5.2 m: met as well
+  hits.push_back({7.0F, 0.0F, 0.0F});   // 6 m: behind what was met
+  const RangeProfile::Sight sight = profile.look_at(hits, {}, 0.3);
+  EXPECT_EQ(sight.seen_through, 2U);
+  EXPECT_EQ(sight.met, 2U);
+}
+
+TEST(RangeProfile, LooksAtHitsWhereTheirRobotWas) {
+  const RangeProfile profile(circle_around({}, 5.0F));
+  Points hits;
+  hits.push_back({1.0F, 0.0F, 0.0F});
+  // The other robot stood at (0, 4) and looked along y: its hit is at (0, 5).
+  EXPECT_EQ(profile.look_at(hits, {0.0, 4.0, radians(90)}, 0.3).met, 1U);
+  EXPECT_EQ(profile.look_at(hits, {0.0, 2.0, radians(90)}, 0.3).seen_through, 1U);
+}
+
+TEST(RangeProfile, SaysNothingOfDirectionsItDidNotLookIn) {
+  Scan ahead;
+  for (int i = -5; i <= 5; ++i) {
+    ahead.free_ends.push_back({20.0F * std::cos(0.01F * static_cast<float>(i)),
+                               20.0F * std::sin(0.01F * static_cast<float>(i)), 0.0F});
+  }
+  Points hits;
+  hits.push_back({3.0F, 0.0F, 0.0F});   // on the way of free beams
+  hits.push_back({0.0F, 3.0F, 0.0F});   // beside
+  hits.push_back({-3.0F, 0.0F, 0.0F});  // behind
+  const RangeProfile::Sight sight = RangeProfile(ahead).look_at(hits, {}, 0.3);
+  EXPECT_EQ(sight.seen_through, 1U);
+  EXPECT_EQ(sight.met, 0U);
+}
+
+struct Sights {
+  Rng rng{7};
+  std::vector<testing::Wall> walls = testing::furnished_room();
+  LatestSights latest{SightParams{}};
+
+  [[nodiscard]] Scan scan_at(const Pose2& pose) {
+    return testing::scan_from(walls, pose, {.noise = 0.02}, rng);
+  }
+};
+
+TEST(LatestSights, ADriveThroughARoomIsInAccordWithItself) {
+  Sights sights;
+  for (int i = 0; i < 30; ++i) {
+    const Pose2 pose{1.0 + 0.2 * i, 1.5, 0.05 * i};
+    const Scan scan = sights.scan_at(pose);
+    EXPECT_LT(sights.latest.seen_through(scan, pose), 0.05) << i;
+    sights.latest.add(scan, pose);
+  }
+}
+
+TEST(LatestSights, AScanFromElsewhereIsNot) {
+  Sights sights;
+  const Pose2 before{2.0, 1.5, 0.0};
+  sights.latest.add(sights.scan_at(before), before);
+  for (const Pose2& truth : {Pose2{10.5, 7.0, 3.0}, Pose2{6.5, 8.5, -1.57}, Pose2{2.0, 6.5, 1.57}}) {
+    EXPECT_GT(sights.latest.seen_through(sights.scan_at(truth), before), 0.3) << truth.x;
+  }
+}
+
+TEST(LatestSights, SaysNothingFromTooFewHits) {
+  LatestSights latest({.min_hits = 3});
+  latest.add(circle_around({}, 5.0F), {});
+  Scan scan;
+  scan.origin = {0.0F, 0.0F, 0.0F};
+  scan.hits.push_back({1.0F, 0.0F, 0.0F});
+  // One hit of this scan is seen through, and it could have seen one or two of the other's, behind its own.
+  EXPECT_EQ(latest.seen_through(scan, {}), 0.0);
+  scan.hits.push_back({0.0F, 1.0F, 0.0F});
+  scan.hits.push_back({-1.0F, 0.0F, 0.0F});
+  EXPECT_EQ(latest.seen_through(scan, {}), 1.0);
+}
+
+TEST(LatestSights, ForgetsOldScans) {
+  LatestSights latest({.scans = 1});
+  latest.add(circle_around({}, 5.0F), {});
+  EXPECT_EQ(latest.seen_through(circle_around({}, 2.0F), {}), 1.0);
+  latest.add(circle_around({}, 2.0F), {});
+  EXPECT_EQ(latest.seen_through(circle_around({}, 2.0F), {}), 0.0);
+  latest.clear();
+  EXPECT_EQ(latest.seen_through(circle_around({}, 5.0F), {}), 0.0);
+}
+
+}  // namespace
+}  // namespace glocal
