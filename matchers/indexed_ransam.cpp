@@ -115,7 +115,8 @@ double share_where(const Points& points, const Pose2& map_from_points, Condition
 
 void describe(ParamVisitor& v, IndexedRansam::ExactSearch& p) {
   v.field("after_steps", p.after_steps,
-          {.doc = "After so many steps in a row without a clear best pose; 0 never searches.", .min = 0});
+          {.doc = "In the last of so many steps in a row without a clear best pose; 0 never searches.",
+           .min = 0});
   v.field("margin", p.margin,
           {.doc = "A best pose is clear if no other is within this of its quality.", .min = 0.0, .max = 1.0});
   v.field("cell", p.cell,
@@ -281,26 +282,35 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
     const int draws = steps_++ < params_.first_steps ? params_.first_iterations : params_.iterations;
     draw(points, sample, static_cast<std::size_t>(draws), rng, modes, result);
   }
+  std::vector<Mode> best = settled(modes, local, sample, result);
+  undecided_ = is_clear(best) ? 0 : undecided_ + 1;
   if (pyramid_ && undecided_ >= params_.exact_search.after_steps) {
     search_exactly(sample, local.local_from_robot, modes, result);
+    best = settled(modes, local, sample, result);
     undecided_ = 0;
   }
-
-  modes = distinct(std::move(modes), local.local_from_robot);
-  const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
-  refine(modes, *field_, anchors, params_.refinement, *contact_, sample);
-  modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
-  const std::vector<Mode> best = judged(modes, local, sample);
-  const bool clear =
-      !best.empty() && (best.size() == 1 || best[0].quality - best[1].quality >= params_.exact_search.margin);
-  undecided_ = clear ? 0 : undecided_ + 1;
   carried_ = {best.begin(), best.begin() + std::min(std::ssize(best), std::ptrdiff_t{params_.carried})};
-  result.checks += modes.size() * local.points.size();
   for (const Mode& mode : best) {
     if (mode.quality < omega_max) break;
     result.hypotheses.push_back(hypothesis(mode, local, sample));
   }
   return result;
+}
+
+/// The best of the modes, refined; `modes` keeps the distinct ones.
+std::vector<Mode> IndexedRansam::settled(std::vector<Mode>& modes, const LocalMap& local,
+                                         const Points& sample, MatchResult& result) const {
+  modes = distinct(std::move(modes), local.local_from_robot);
+  const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
+  refine(modes, *field_, anchors, params_.refinement, *contact_, sample);
+  modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
+  result.checks += modes.size() * local.points.size();
+  return judged(modes, local, sample);
+}
+
+bool IndexedRansam::is_clear(const std::vector<Mode>& best) const {
+  if (best.empty()) return false;
+  return best.size() == 1 || best[0].quality - best[1].quality >= params_.exact_search.margin;
 }
 
 Hypothesis IndexedRansam::hypothesis(const Mode& mode, const LocalMap& local, const Points& sample) const {

@@ -110,6 +110,9 @@ class IndexedRansam final : public Matcher {
             MatchResult& result) const;
   void search_exactly(const Points& sample, const Pose2& local_from_robot, std::vector<Mode>& modes,
                       MatchResult& result) const;
+  [[nodiscard]] std::vector<Mode> settled(std::vector<Mode>& modes, const LocalMap& local,
+                                          const Points& sample, MatchResult& result) const;
+  [[nodiscard]] bool is_clear(const std::vector<Mode>& best) const;
   [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
   [[nodiscard]] Hypothesis hypothesis(const Mode& mode, const LocalMap& local, const Points& sample) const;
   [[nodiscard]] double conflict_share(const Points& sample, const Pose2& map_from_local) const;

@@ -43,7 +43,7 @@ class StagedMargin final : public VerdictRule {
     double max_conflict = 0.4;
     double spread_margin = 0.05;
     Confidence confidence = {};
-    double candidate_margin = 0.05;
+    double candidate_margin = 0.10;
     int max_candidates = 10;
   };
 

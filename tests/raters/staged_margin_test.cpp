@@ -98,14 +98,14 @@ TEST(StagedMargin, RivalsOfTheSameQualityAreCandidates) {
   ASSERT_EQ(verdict.candidates.size(), 2U);
   EXPECT_EQ(verdict.candidates[0], here);
   EXPECT_EQ(verdict.candidates[1], there);
-  EXPECT_EQ(rule.judge(step(0.9, 0.80)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step(0.9, 0.79)).kind, VerdictKind::searching);
 }
 
 TEST(StagedMargin, StaysDeclaredUntilTheLeadIsBelowEveryStages) {
   StagedMargin rule({});
   for (int i = 0; i < 3; ++i) (void)rule.judge(step(0.9, 0.5));
   EXPECT_EQ(rule.judge(step(0.9, 0.78)).kind, VerdictKind::localized);
-  EXPECT_EQ(rule.judge(step(0.9, 0.82)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step(0.9, 0.82)).kind, VerdictKind::ambiguous);
   EXPECT_EQ(rule.judge(step(0.9, 0.78)).kind, VerdictKind::searching);
 }
 
