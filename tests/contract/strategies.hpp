@@ -60,7 +60,8 @@ class Contract : public ::testing::Test {
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };
     for (const char* stage :
-         {"local_mapper/scan_matching", "contact_index/bitset", "contact_index/kd_tree",
+         {"local_mapper/scan_matching", "local_mapper/bounded", "local_mapper/key_frames",
+          "local_mapper/odometry", "contact_index/bitset", "contact_index/kd_tree",
           "contact_index/pcl_kd_tree", "matcher/pcl_icp", "matcher/pcl_prerejective", "local_mapper/octomap",
           "matcher/ransam", "matcher/indexed_ransam", "matcher/branch_and_bound", "threshold_policy/fixed",
           "verdict_rule/staged_margin", "clusterer/hierarchical_kmeans", "rater/cluster_rating",
