@@ -57,8 +57,9 @@ class DensityLabels {
     cells_.visit_near(cells_.cell(c), reach, reach, [&](std::size_t other) {
       for (const std::size_t j : cells_.members(other)) {
         if (are_near(i, j)) weight += weights_[j];
+        if (weight >= min_weight_) return false;
       }
-      return weight < min_weight_;
+      return true;
     });
     return weight >= min_weight_;
   }

@@ -29,6 +29,9 @@ class Bounded final : public LocalMapper {
   [[nodiscard]] const LocalMap& map() const override { return matching_.map(); }
   void reset() override;
 
+  /// Index of the points, for looking at how much the map takes.
+  [[nodiscard]] const PointGrid& grid() const { return matching_.grid(); }
+
  private:
   /// An observation in the window.
   struct Placed {

@@ -103,8 +103,9 @@ int ThinnedMap::find_point(GridCell cell, float z) const {
   const auto layer = [this](float height) {
     return std::floor(height / static_cast<float>(params_.resolution));
   };
+  const auto is_in_layer = [&](float height) { return height == z || layer(height) == layer(z); };
   int i = grid_.inside(cell);
-  while (i != PointGrid::none && layer(map_.points.z[static_cast<std::size_t>(i)]) != layer(z)) {
+  while (i != PointGrid::none && !is_in_layer(map_.points.z[static_cast<std::size_t>(i)])) {
     i = next_above_[static_cast<std::size_t>(i)];
   }
   return i;

@@ -172,6 +172,9 @@ TEST(Bounded, DoesNotGrowWithTheDrive) {
     if (k >= 360) late = std::max(late, mapper.map().points.size());
   }
   EXPECT_EQ(mapper.map().ends.size(), 20U);
+  // 5 m of way and 8 m of sight to both ends are 21 m, in tiles of 3.2 m, on a strip that touches two or
+  // three.
+  EXPECT_LE(mapper.grid().tiles(), 3U * 8U);
   EXPECT_LT(static_cast<double>(late), 1.1 * static_cast<double>(early));
 }
 
