@@ -1,4 +1,4 @@
-// Clustering 10 to 20,000 hypotheses, and merging a flood of them beforehand.
+// Clustering 10 to 100,000 hypotheses, and merging a flood of them beforehand.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "bench/scenes.hpp"
+#include "clustering/dbscan.hpp"
 #include "clustering/hierarchical_kmeans.hpp"
+#include "clustering/mean_shift.hpp"
+#include "clustering/pose_grid.hpp"
 #include "matchers/merge.hpp"
 
 namespace glocal::bench {
@@ -32,14 +35,15 @@ std::vector<Hypothesis> around(std::size_t poses, std::size_t hypotheses) {
 }
 
 /// Arguments: hypotheses, and around how many poses they lie (at most one pose each).
+template <class Strategy>
 void cluster(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
   const std::vector<Hypothesis> hypotheses = around(std::min(n, static_cast<std::size_t>(state.range(1))), n);
-  HierarchicalKmeans kmeans({});
+  Strategy strategy({});
   std::size_t clusters = 0;
   for ([[maybe_unused]] auto _ : state) {
     Rng rng(1);
-    clusters = kmeans.cluster(hypotheses, rng).size();
+    clusters = strategy.cluster(hypotheses, rng).size();
   }
   state.counters["clusters"] = static_cast<double>(clusters);
   state.counters["per_hypothesis"] = time_per_item(static_cast<double>(n));
@@ -58,8 +62,20 @@ void merge(benchmark::State& state) {
 }
 
 BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
-BENCHMARK(cluster)
+BENCHMARK(cluster<HierarchicalKmeans>)
     ->ArgsProduct({{10, 100, 1000, 5000, 20'000}, {3, 1000}})
+    ->ArgNames({"hypotheses", "poses"})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(cluster<Dbscan>)
+    ->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})
+    ->ArgNames({"hypotheses", "poses"})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(cluster<MeanShift>)
+    ->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})
+    ->ArgNames({"hypotheses", "poses"})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(cluster<PoseGridClusterer>)
+    ->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})
     ->ArgNames({"hypotheses", "poses"})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(merge)->Arg(10'000)->Arg(2000)->Unit(benchmark::kMillisecond);

@@ -1,4 +1,4 @@
-// Time of scan_matching per key frame: it must not grow with the drive.
+// Time of scan_matching and bounded per key frame: it must not grow with the drive.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include "bench/scenes.hpp"
 #include "glocal/rng.hpp"
+#include "local_mappers/bounded.hpp"
 #include "local_mappers/scan_matching.hpp"
 
 namespace glocal::bench {
@@ -63,11 +64,12 @@ std::vector<Observation> drive(int keyframes) {
 }
 
 /// The last 20 key frames (5 m) of a drive of so many metres.
+template <class Mapper>
 void last_keyframes_of_a_drive(benchmark::State& state) {
   constexpr std::size_t measured = 20;
   const std::vector<Observation> observations =
       drive(static_cast<int>(static_cast<double>(state.range(0)) / keyframe_m));
-  ScanMatching mapper({});
+  Mapper mapper({});
   for ([[maybe_unused]] auto _ : state) {
     state.PauseTiming();
     mapper.reset();
@@ -83,7 +85,14 @@ void last_keyframes_of_a_drive(benchmark::State& state) {
   state.counters["way_m"] = std::hypot(mapper.map().local_from_robot.x, mapper.map().local_from_robot.y);
 }
 BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
-BENCHMARK(last_keyframes_of_a_drive)
+BENCHMARK(last_keyframes_of_a_drive<ScanMatching>)
+    ->Arg(10)
+    ->Arg(40)
+    ->Arg(160)
+    ->Arg(640)
+    ->Iterations(10)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(last_keyframes_of_a_drive<Bounded>)
     ->Arg(10)
     ->Arg(40)
     ->Arg(160)

@@ -1,6 +1,9 @@
 #include "clustering/register.hpp"
 
+#include "clustering/dbscan.hpp"
 #include "clustering/hierarchical_kmeans.hpp"
+#include "clustering/mean_shift.hpp"
+#include "clustering/pose_grid.hpp"
 
 namespace glocal {
 
@@ -8,6 +11,10 @@ void register_clustering(Catalog& catalog) {
   catalog.clusterers.add<HierarchicalKmeans>(
       "hierarchical_kmeans",
       "Splits in two, again and again, what is spread too widely (Section III-A, eq. 6).");
+  catalog.clusterers.add<Dbscan>("dbscan", "Joins what has enough others near it, in clusters of any shape.");
+  catalog.clusterers.add<MeanShift>("mean_shift", "Joins what climbs to the same maximum of density.");
+  catalog.clusterers.add<PoseGridClusterer>("pose_grid",
+                                            "Joins what lies in the same cell of a grid of poses.");
 }
 
 }  // namespace glocal

@@ -1,18 +1,15 @@
 // The default local mapper: each scan is matched against the map of the scans before it.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "local_mappers/correlative_search.hpp"
 #include "local_mappers/line_registration.hpp"
-#include "local_mappers/point_grid.hpp"
 #include "local_mappers/scan_normals.hpp"
 #include "local_mappers/sight.hpp"
+#include "local_mappers/thinned_map.hpp"
 
 namespace glocal {
 
@@ -20,16 +17,12 @@ namespace glocal {
 /// against the points of the local map. Time per observation does not grow with the drive; memory grows with
 /// the area seen only.
 ///
-/// Matching is planar; heights are kept. Points are thinned in cells of `resolution` (cubes, for hits at
-/// different heights); a cell's point is the mean of its first `cell_hits` hits. The map starts anew (the
-/// next generation) when `restart_after` observations in a row do not fit it, or when the robot leaves what
-/// the grid can hold (800 m from where the map began, with cells of 5 cm). Hits outside that square or beyond
-/// `memory_mb` are left out.
+/// Matching is planar; heights are kept. The map starts anew (the next generation) when `restart_after`
+/// observations in a row do not fit it, or when the robot leaves what the grid can hold.
 class ScanMatching final : public LocalMapper {
  public:
   struct Params {
-    double resolution = 0.05;
-    int cell_hits = 3;
+    ThinningParams thinning;
     double likelihood_sigma = 0.1;
     ScanNormalParams normals;
     CorrelativeSearchParams search;
@@ -44,17 +37,24 @@ class ScanMatching final : public LocalMapper {
     double max_seen_through = 0.15;
     SightParams sight;
     int restart_after = 2;
-    int memory_mb = 256;
   };
 
   explicit ScanMatching(const Params& params);
 
   void add(const Observation& observation) override;
-  [[nodiscard]] const LocalMap& map() const override { return map_; }
+  [[nodiscard]] const LocalMap& map() const override { return map_.map(); }
   void reset() override;
 
-  /// Index of the points, for looking at how much the map takes.
-  [[nodiscard]] const PointGrid& grid() const { return grid_; }
+  // For mappers that choose what of this is kept; add() is place() and insert().
+  /// Moves the robot to where the scan fits, which may start the map over. Returns what the scan has to add:
+  /// nothing if it does not fit.
+  [[nodiscard]] LocalScan place(const Observation& observation);
+  void insert(const LocalScan& scan) { map_.add(scan); }
+  /// Forgets the points, but neither frame nor robot.
+  void clear() { map_.clear(); }
+
+  /// Index of the points.
+  [[nodiscard]] const PointGrid& grid() const { return map_.grid(); }
 
  private:
   /// What odometry says, from the last pose on.
@@ -64,19 +64,9 @@ class ScanMatching final : public LocalMapper {
   [[nodiscard]] Pose2 refine(const Scan& scan, const Points& normals, const Pose2& found,
                              const Pose2& predicted) const;
   [[nodiscard]] SearchResult search(const Points& hits, const Pose2& predicted) const;
-  void start_over();
-  void register_hits(const Points& hits, const Points& normals);
-  void register_hit(const Point& p, const Point& normal);
-  /// The point of the map in this cell and at this height, or PointGrid::none.
-  [[nodiscard]] int find_point(GridCell cell, float z) const;
-  void append_point(GridCell cell, const Point& p, const Point& normal);
-  void average_into(std::size_t index, const Point& p, const Point& normal);
 
   Params params_;
-  PointGrid grid_;
-  LocalMap map_;
-  std::vector<std::uint8_t> hits_;        ///< Hits averaged in each point so far.
-  std::vector<std::int32_t> next_above_;  ///< Next point in the same column of the plane, or none.
+  ThinnedMap map_;
   LatestSights sights_;
   std::optional<Pose2> last_odom_from_robot_;
   int misfits_ = 0;  ///< Observations in a row that did not fit.

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "raters/mean_quality.hpp"
+#include "raters/normalise.hpp"
+
 namespace glocal {
 
 void describe(ParamVisitor& v, ClusterRating::Params& p) {
@@ -32,12 +35,10 @@ std::vector<Rating> ClusterRating::rate(const std::vector<Cluster>& clusters,
   std::vector<Rating> ratings(clusters.size());
   double all_support = 0.0;
   for (const Hypothesis& hypothesis : hypotheses) all_support += static_cast<double>(hypothesis.support);
-  double sum = 0.0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     ratings[i].r = rate_one(clusters[i], hypotheses, all_support);
-    sum += ratings[i].r;
   }
-  for (Rating& rating : ratings) rating.r_normalised = rating.r / sum;  // eq. 8
+  normalise(ratings);
   return ratings;
 }
 
@@ -48,13 +49,8 @@ double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothe
   const double degree = radians(1.0);
   const double max_variance_rotation = params_.max_variance_rotation_deg2 * degree * degree;
   double support = 0.0;
-  double quality = 0.0;
-  for (const std::size_t i : cluster.members) {
-    const auto weight = static_cast<double>(hypotheses[i].support);
-    support += weight;
-    quality += weight * hypotheses[i].quality;
-  }
-  quality /= support;
+  for (const std::size_t i : cluster.members) support += static_cast<double>(hypotheses[i].support);
+  const double quality = mean_quality(hypotheses, cluster.members);
 
   const double share = support / all_support;
   const double variance = std::max(cluster.variance_x, cluster.variance_y);

@@ -1,18 +1,30 @@
 #include "raters/register.hpp"
 
+#include "raters/best_fraction.hpp"
 #include "raters/cluster_rating.hpp"
 #include "raters/consecutive_rating.hpp"
+#include "raters/exponential_threshold.hpp"
 #include "raters/fixed_threshold.hpp"
+#include "raters/quality_only.hpp"
+#include "raters/quantile_threshold.hpp"
 #include "raters/sliding_window.hpp"
+#include "raters/softmax.hpp"
 #include "raters/staged_margin.hpp"
 
 namespace glocal {
 
 void register_raters(Catalog& catalog) {
   catalog.raters.add<ClusterRating>("cluster_rating", "Size, spread and quality of a cluster (eq. 7, 8).");
+  catalog.raters.add<QualityOnly>("quality_only", "The quality of a cluster, whatever its size.");
+  catalog.raters.add<Softmax>("softmax", "Differences in quality, weighted exponentially.");
   catalog.threshold_policies.add<FixedThreshold>("fixed", "The same quality in every step.");
   catalog.threshold_policies.add<SlidingWindow>("sliding_window",
                                                 "Mean hypothesis quality over a sliding window (eq. 9).");
+  catalog.threshold_policies.add<ExponentialThreshold>(
+      "exponential", "Mean hypothesis quality, of which older steps count ever less.");
+  catalog.threshold_policies.add<QuantileThreshold>("quantile", "A quantile of the last step's qualities.");
+  catalog.threshold_policies.add<BestFraction>("best_fraction",
+                                               "A fraction of the best quality, of the last step or so far.");
   catalog.verdict_rules.add<ConsecutiveRating>(
       "consecutive_rating", "The same cluster rated highly in consecutive steps (Section IV).");
   catalog.verdict_rules.add<StagedMargin>(

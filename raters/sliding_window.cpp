@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "raters/mean_quality.hpp"
+
 namespace glocal {
 
 void describe(ParamVisitor& v, SlidingWindow::Params& p) {
@@ -25,14 +27,8 @@ double SlidingWindow::omega_max() const {
 }
 
 void SlidingWindow::update(const std::vector<Hypothesis>& hypotheses) {
-  double sum = 0.0;
-  double support = 0.0;
-  for (const Hypothesis& h : hypotheses) {
-    sum += static_cast<double>(h.support) * h.quality;
-    support += static_cast<double>(h.support);
-  }
   means_.pop_front();
-  means_.push_back(hypotheses.empty() ? 0.0 : sum / support);
+  means_.push_back(mean_quality(hypotheses));
 }
 
 void SlidingWindow::reset() {

@@ -59,12 +59,33 @@ class Contract : public ::testing::Test {
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };
-    for (const char* stage :
-         {"local_mapper/scan_matching", "contact_index/bitset", "contact_index/kd_tree",
-          "contact_index/pcl_kd_tree", "matcher/pcl_icp", "matcher/pcl_prerejective", "local_mapper/octomap",
-          "matcher/ransam", "matcher/indexed_ransam", "matcher/branch_and_bound", "threshold_policy/fixed",
-          "verdict_rule/staged_margin", "clusterer/hierarchical_kmeans", "rater/cluster_rating",
-          "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
+    for (const char* stage : {"local_mapper/scan_matching",
+                              "local_mapper/bounded",
+                              "local_mapper/key_frames",
+                              "local_mapper/odometry",
+                              "contact_index/bitset",
+                              "contact_index/kd_tree",
+                              "contact_index/pcl_kd_tree",
+                              "matcher/pcl_icp",
+                              "matcher/pcl_prerejective",
+                              "local_mapper/octomap",
+                              "matcher/ransam",
+                              "matcher/indexed_ransam",
+                              "matcher/branch_and_bound",
+                              "threshold_policy/fixed",
+                              "verdict_rule/staged_margin",
+                              "clusterer/hierarchical_kmeans",
+                              "rater/cluster_rating",
+                              "rater/quality_only",
+                              "rater/softmax",
+                              "threshold_policy/exponential",
+                              "threshold_policy/quantile",
+                              "threshold_policy/best_fraction",
+                              "clusterer/dbscan",
+                              "clusterer/mean_shift",
+                              "clusterer/pose_grid",
+                              "threshold_policy/sliding_window",
+                              "verdict_rule/consecutive_rating"}) {
       fillers_[stage] = [](AnyParams&) {};
     }
   }

@@ -7,54 +7,18 @@
 #include <cmath>
 #include <vector>
 
-#include "local_mappers/rooms.hpp"
+#include "local_mappers/drives.hpp"
 
 namespace glocal {
 namespace {
 
+using testing::at;
+using testing::bad_odometry;
+using testing::circle;
+using testing::Drive;
+using testing::drive;
 using ::testing::ElementsAre;
-
-/// A drive with the truth about it.
-struct Drive {
-  std::vector<Observation> observations;
-  std::vector<Pose2> map_from_robot;
-};
-
-struct OdometryFault {
-  double turn_per_m = 0.0;      ///< rad
-  double scale = 1.0;           ///< Of distances.
-  double noise_per_step = 0.0;  ///< Standard deviation, m and a third of it in rad.
-};
-
-/// Poses 0.2 m apart on a circle of radius 2 m around the pillar of the furnished room.
-std::vector<Pose2> circle(int steps) {
-  std::vector<Pose2> poses;
-  for (int i = 0; i < steps; ++i) {
-    const double angle = 0.1 * i;
-    poses.push_back(
-        {4.5 + 2.0 * std::cos(angle), 3.5 + 2.0 * std::sin(angle), wrap_angle(angle + radians(90))});
-  }
-  return poses;
-}
-
-Drive drive(const std::vector<testing::Wall>& walls, const std::vector<Pose2>& poses,
-            const testing::Laser& laser, const OdometryFault& fault) {
-  Rng rng(11);
-  Drive result;
-  Pose2 odom{3.0, -2.0, 1.0};
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (i > 0) {
-      Pose2 step = inverse(poses[i - 1]) * poses[i];
-      step.theta += fault.turn_per_m * std::hypot(step.x, step.y) + rng.normal(fault.noise_per_step / 3.0);
-      step.x = step.x * fault.scale + rng.normal(fault.noise_per_step);
-      step.y = step.y * fault.scale + rng.normal(fault.noise_per_step);
-      odom = odom * step;
-    }
-    result.observations.push_back({0.0, testing::scan_from(walls, poses[i], laser, rng), odom});
-    result.map_from_robot.push_back(poses[i]);
-  }
-  return result;
-}
+using testing::kidnapping;
 
 struct WorstError {
   double translation = 0.0;
@@ -71,9 +35,6 @@ WorstError worst_error(ScanMatching& mapper, const Drive& drive) {
   }
   return worst;
 }
-
-/// The wheels turn 3.4 degrees per metre too much, as on one of the real robots.
-constexpr OdometryFault bad_odometry{.turn_per_m = 0.06, .scale = 1.05, .noise_per_step = 0.01};
 
 TEST(ScanMatching, ExactScansGiveThePoseInSpiteOfBadOdometry) {
   ScanMatching mapper({});
@@ -126,13 +87,6 @@ TEST(ScanMatching, ABareCorridorKeepsTheOdometryAlongIt) {
   EXPECT_LT(worst.translation, 0.5);
   EXPECT_LT(worst.rotation, radians(1.0));
   EXPECT_LT(std::abs(mapper.map().local_from_robot.y), 0.05);
-}
-
-Observation at(double odom_x, const std::vector<Point>& hits) {
-  Observation observation;
-  observation.odom_from_robot.x = odom_x;
-  for (const Point& p : hits) observation.scan.hits.push_back(p);
-  return observation;
 }
 
 TEST(ScanMatching, ACellsPointIsTheMeanOfItsFirstThreeHits) {
@@ -203,19 +157,6 @@ TEST(ScanMatching, RegisteredPointsKeepTheirIndexAndStayInTheirCell) {
     before = now;
     ASSERT_EQ(mapper.map().ends.back(), now.size());
   }
-}
-
-/// Somebody carries the robot to a place that looks different; odometry does not notice.
-Drive kidnapping() {
-  Drive result = drive(testing::furnished_room(), circle(10), {}, {});
-  const std::vector<testing::Wall> closet{{-1, -0.6, 1.2, -0.6}, {1.2, -0.6, 1.2, 0.7}, {1.2, 0.7, -1, 0.7}};
-  Rng rng(5);
-  for (int i = 0; i < 4; ++i) {
-    Observation observation = result.observations.back();
-    observation.scan = testing::scan_from(closet, {0, 0, 0}, {}, rng);
-    result.observations.push_back(observation);
-  }
-  return result;
 }
 
 TEST(ScanMatching, StartsANewMapWhenObservationsStopFitting) {
@@ -342,7 +283,7 @@ TEST(ScanMatching, AnObservationTouchesNoMoreTilesHoweverLongTheDrive) {
 
 TEST(ScanMatching, MemoryIsLimited) {
   ScanMatching::Params params;
-  params.memory_mb = 1;
+  params.thinning.memory_mb = 1;
   ScanMatching mapper(params);
   for (int i = 0; i < 200; ++i) mapper.add(at(4.0 * i, {{1.0F, 0, 0}}));
   EXPECT_LE(mapper.grid().tiles() * PointGrid::tile_bytes(), 1000000U);

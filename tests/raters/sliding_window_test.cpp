@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "raters/with_qualities.hpp"
+
 namespace glocal {
 namespace {
 
-std::vector<Hypothesis> with_qualities(const std::vector<double>& qualities) {
-  std::vector<Hypothesis> hypotheses;
-  for (const double quality : qualities) hypotheses.push_back({{}, {}, quality});
-  return hypotheses;
-}
+using testing::with_qualities;
 
 TEST(SlidingWindow, StartsAtTheInitialThreshold) {
   EXPECT_DOUBLE_EQ(SlidingWindow({.window = 10, .initial = 0.6}).omega_max(), 0.6);

@@ -1,0 +1,115 @@
+#include "clustering/density_labels.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "clustering/disjoint_sets.hpp"
+#include "clustering/pose_cells.hpp"
+
+namespace glocal {
+namespace {
+
+/// Near poses are at most so many cells apart in each direction: cells are radius / sqrt(2) wide, and turns
+/// more than half the radius.
+constexpr int reach = 2;
+
+class DensityLabels {
+ public:
+  DensityLabels(std::span<const Pose2> poses, std::span<const double> weights, const PoseRadius& radius,
+                double min_weight)
+      : poses_(poses),
+        weights_(weights),
+        radius_(radius),
+        min_weight_(min_weight),
+        cells_(poses, radius.translation / std::numbers::sqrt2, parts_of_a_turn(radius.rotation)),
+        cores_(cells_.size()),
+        sets_(poses.size()) {}
+
+  [[nodiscard]] std::vector<std::size_t> find() {
+    for (std::size_t c = 0; c < cells_.size(); ++c) find_cores(c);
+    for (std::size_t c = 0; c < cells_.size(); ++c) join_near(c);
+    std::vector<std::size_t> labels(poses_.size());
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      for (const std::size_t i : cells_.members(c)) labels[i] = label(c, i);
+    }
+    return labels;
+  }
+
+ private:
+  [[nodiscard]] bool are_near(std::size_t i, std::size_t j) const {
+    return distance(poses_[i], poses_[j]) <= radius_.translation &&
+           rotation_between(poses_[i], poses_[j]) <= radius_.rotation;
+  }
+
+  /// Notes the cores of a cell; they are near each other.
+  void find_cores(std::size_t c) {
+    const auto members = cells_.members(c);
+    double weight = 0.0;
+    for (const std::size_t i : members) weight += weights_[i];
+    for (const std::size_t i : members) {
+      if (weight >= min_weight_ || is_core(c, i)) cores_[c].push_back(i);
+    }
+    for (const std::size_t i : cores_[c]) sets_.unite(cores_[c].front(), i);
+  }
+
+  [[nodiscard]] bool is_core(std::size_t c, std::size_t i) const {
+    double weight = 0.0;
+    cells_.visit_near(cells_.cell(c), reach, reach, [&](std::size_t other) {
+      for (const std::size_t j : cells_.members(other)) {
+        if (are_near(i, j)) weight += weights_[j];
+        if (weight >= min_weight_) return false;
+      }
+      return true;
+    });
+    return weight >= min_weight_;
+  }
+
+  /// Joins the cores of a cell with those of cells before it.
+  void join_near(std::size_t c) {
+    if (cores_[c].empty()) return;
+    cells_.visit_near(cells_.cell(c), reach, reach, [&](std::size_t other) {
+      if (other < c && !cores_[other].empty()) join(cores_[c], cores_[other]);
+      return true;
+    });
+  }
+
+  void join(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
+    if (sets_.find(a.front()) == sets_.find(b.front())) return;
+    for (const std::size_t i : a) {
+      if (std::any_of(b.begin(), b.end(), [&](std::size_t j) { return are_near(i, j); })) {
+        sets_.unite(i, b.front());
+        return;
+      }
+    }
+  }
+
+  /// The first core of the pose's cluster, or the pose itself where there is none.
+  [[nodiscard]] std::size_t label(std::size_t c, std::size_t i) {
+    if (std::binary_search(cores_[c].begin(), cores_[c].end(), i)) return sets_.find(i);
+    std::size_t first = poses_.size();
+    cells_.visit_near(cells_.cell(c), reach, reach, [&](std::size_t other) {
+      const auto near = std::find_if(cores_[other].begin(), cores_[other].end(),
+                                     [&](std::size_t j) { return are_near(i, j); });
+      if (near != cores_[other].end()) first = std::min(first, sets_.find(*near));
+      return true;
+    });
+    return first == poses_.size() ? i : first;
+  }
+
+  std::span<const Pose2> poses_;
+  std::span<const double> weights_;
+  PoseRadius radius_;
+  double min_weight_;
+  PoseCells cells_;
+  std::vector<std::vector<std::size_t>> cores_;  ///< Of each cell, ascending.
+  DisjointSets sets_;                            ///< Cores of one cluster.
+};
+
+}  // namespace
+
+std::vector<std::size_t> density_labels(std::span<const Pose2> poses, std::span<const double> weights,
+                                        const PoseRadius& radius, double min_weight) {
+  return DensityLabels(poses, weights, radius, min_weight).find();
+}
+
+}  // namespace glocal

@@ -1,0 +1,47 @@
+#include "local_mappers/bounded.hpp"
+
+#include <utility>
+
+namespace glocal {
+
+void describe(ParamVisitor& v, Bounded::Params& p) {
+  v.field(
+      "scans", p.scans,
+      {.doc = "The map is made of so many observations, the last ones; 0: not used.", .min = 0, .max = 1e6});
+  v.field("distance", p.distance,
+          {.doc = "… and of those made since so much way; 0: not used. A robot that stands still then fills "
+                  "the map without end where scans is not used either.",
+           .unit = "m",
+           .min = 0.0});
+  v.require(p.scans > 0 || p.distance > 0.0, "scans", "either scans or distance must be above 0");
+  describe(v, p.matching);
+}
+
+void Bounded::reset() {
+  matching_.reset();
+  window_.clear();
+}
+
+void Bounded::add(const Observation& observation) {
+  const int generation = map().generation;
+  const Pose2 last = map().local_from_robot;
+  LocalScan scan = matching_.place(observation);
+  if (map().generation != generation) window_.clear();
+  const double way = window_.empty() ? 0.0 : window_.back().way + distance(last, map().local_from_robot);
+  window_.push_back({std::move(scan), way});
+  if (!is_too_long()) {
+    matching_.insert(window_.back().scan);
+    return;
+  }
+  while (is_too_long()) window_.pop_front();
+  matching_.clear();
+  for (const Placed& placed : window_) matching_.insert(placed.scan);
+}
+
+bool Bounded::is_too_long() const {
+  const bool too_many = params_.scans > 0 && window_.size() > static_cast<std::size_t>(params_.scans);
+  const double way = window_.back().way - window_.front().way;
+  return too_many || (params_.distance > 0.0 && way > params_.distance);
+}
+
+}  // namespace glocal

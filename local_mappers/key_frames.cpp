@@ -1,0 +1,60 @@
+#include "local_mappers/key_frames.hpp"
+
+#include <cmath>
+
+namespace glocal {
+
+void describe(ParamVisitor& v, KeyFrames::Params& p) {
+  v.field("distance", p.distance,
+          {.doc = "An observation is a key frame this far from the last one …", .unit = "m", .min = 0.0});
+  v.field("angle", p.angle, {.doc = "… or turned by so much …", .unit = "rad", .min = 0.0});
+  v.field("overlap", p.overlap,
+          {.doc = "… or if less than this share of its hits lies on the map; 0: not used.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("overlap_distance", p.overlap_distance,
+          {.doc = "A hit lies on the map if a point is that near; at most refinement's gate.",
+           .unit = "m",
+           .above = 0.0});
+  describe(v, p.matching);
+  v.require(p.overlap_distance <= p.matching.refinement.gate, "overlap_distance",
+            "must be at most refinement's gate");
+}
+
+void KeyFrames::reset() {
+  matching_.reset();
+  local_from_last_.reset();
+}
+
+void KeyFrames::add(const Observation& observation) {
+  const int generation = map().generation;
+  const LocalScan scan = matching_.place(observation);
+  if (map().generation != generation) local_from_last_.reset();
+  if (!is_key_frame(scan.hits)) {
+    matching_.insert({});
+    return;
+  }
+  local_from_last_ = map().local_from_robot;
+  matching_.insert(scan);
+}
+
+bool KeyFrames::is_key_frame(const Points& hits) const {
+  if (hits.empty()) return false;
+  if (!local_from_last_) return true;
+  const Pose2& robot = map().local_from_robot;
+  return distance(*local_from_last_, robot) >= params_.distance ||
+         rotation_between(*local_from_last_, robot) >= params_.angle || overlap(hits) < params_.overlap;
+}
+
+double KeyFrames::overlap(const Points& hits) const {
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const int found = matching_.grid().nearest(hits.x[i], hits.y[i]);
+    if (found == PointGrid::none) continue;
+    const Point p = map().points[static_cast<std::size_t>(found)];
+    if (std::hypot(p.x - hits.x[i], p.y - hits.y[i]) <= params_.overlap_distance) ++near;
+  }
+  return static_cast<double>(near) / static_cast<double>(hits.size());
+}
+
+}  // namespace glocal

@@ -1,0 +1,30 @@
+#include "local_mappers/odometry.hpp"
+
+namespace glocal {
+
+void describe(ParamVisitor& v, Odometry::Params& p) {
+  describe(v, p.thinning);
+  v.field("normals", p.normals, {.doc = "Normals of a scan."});
+}
+
+// Nobody asks for the nearest point or for likelihoods: a point stamps its own cell only.
+Odometry::Odometry(const Params& params)
+    : params_(params), map_(params.thinning, 0, params.thinning.resolution) {}
+
+void Odometry::add(const Observation& observation) {
+  if (!odom_from_local_) odom_from_local_ = observation.odom_from_robot;
+  map_.move_robot(inverse(*odom_from_local_) * observation.odom_from_robot);
+  if (!map_.holds_robot()) {
+    map_.start_over();
+    odom_from_local_ = observation.odom_from_robot;
+  }
+  const Scan& scan = observation.scan;
+  map_.add({scan.hits, scan_normals(scan.hits, scan.origin, params_.normals), map().local_from_robot});
+}
+
+void Odometry::reset() {
+  map_.reset();
+  odom_from_local_.reset();
+}
+
+}  // namespace glocal

@@ -1,0 +1,140 @@
+#include "local_mappers/thinned_map.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace glocal {
+namespace {
+
+constexpr double bytes_per_mb = 1e6;
+
+std::size_t tiles_in(int memory_mb) {
+  return static_cast<std::size_t>(memory_mb * bytes_per_mb / static_cast<double>(PointGrid::tile_bytes()));
+}
+
+/// The normal of `n` hits whose mean normal is `mean`, and one more. A normal from the other side of a thin
+/// wall is left out.
+Point average_normal(const Point& mean, float n, const Point& normal) {
+  const float cosine = mean.x * normal.x + mean.y * normal.y;
+  if (cosine < 0.0F) return mean;
+  const float x = mean.x * n + normal.x;
+  const float y = mean.y * n + normal.y;
+  const float length = std::sqrt(x * x + y * y);
+  if (length <= 0.0F) return {};
+  return {x / length, y / length, 0.0F};
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, ThinningParams& p) {
+  v.field("resolution", p.resolution,
+          {.doc = "Side of the cells that thin the map, and of those that index it.",
+           .unit = "m",
+           .max = 1.0,
+           .above = 0.001});
+  v.field("cell_hits", p.cell_hits,
+          {.doc = "A cell's point is the mean of so many of its first hits.", .min = 1, .max = 100});
+  v.field("memory_mb", p.memory_mb,
+          {.doc = "Memory the index of the points may take.", .unit = "MB", .min = 1, .max = 65536});
+}
+
+int cells_in(double metres, double resolution) {
+  return static_cast<int>(std::ceil(metres / resolution));
+}
+
+LocalScan::LocalScan(const Points& robot_hits, const Points& robot_normals, const Pose2& local_from_robot) {
+  const Transform transform(local_from_robot);
+  const Transform rotation({0.0, 0.0, local_from_robot.theta});
+  hits.reserve(robot_hits.size());
+  normals.reserve(robot_hits.size());
+  for (std::size_t i = 0; i < robot_hits.size(); ++i) {
+    hits.push_back(transform(robot_hits[i]));
+    normals.push_back(rotation(robot_normals[i]));
+  }
+}
+
+ThinnedMap::ThinnedMap(const ThinningParams& params, int reach, double sigma)
+    : params_(params), grid_(params.resolution, reach, sigma, tiles_in(params.memory_mb)) {}
+
+bool ThinnedMap::holds_robot() const {
+  const Pose2& robot = map_.local_from_robot;
+  return grid_.contains(static_cast<float>(robot.x), static_cast<float>(robot.y));
+}
+
+void ThinnedMap::clear() {
+  map_.points.clear();
+  map_.normals.clear();
+  map_.ends.clear();
+  hits_.clear();
+  next_above_.clear();
+  grid_.clear();
+}
+
+void ThinnedMap::start_over() {
+  clear();
+  map_.local_from_robot = {};
+  ++map_.generation;
+}
+
+void ThinnedMap::reset() {
+  start_over();
+  map_.generation = 0;
+}
+
+void ThinnedMap::add(const LocalScan& scan) {
+  for (std::size_t i = 0; i < scan.hits.size(); ++i) {
+    const Point p = scan.hits[i];
+    if (grid_.contains(p.x, p.y)) add_hit(p, scan.normals[i]);
+  }
+  map_.ends.push_back(map_.points.size());
+}
+
+void ThinnedMap::add_hit(const Point& p, const Point& normal) {
+  const GridCell cell = grid_.cell(p.x, p.y);
+  const int found = find_point(cell, p.z);
+  if (found != PointGrid::none) {
+    average_into(static_cast<std::size_t>(found), p, normal);
+  } else {
+    append_point(cell, p, normal);
+  }
+}
+
+int ThinnedMap::find_point(GridCell cell, float z) const {
+  const auto layer = [this](float height) {
+    return std::floor(height / static_cast<float>(params_.resolution));
+  };
+  const auto is_in_layer = [&](float height) { return height == z || layer(height) == layer(z); };
+  int i = grid_.inside(cell);
+  while (i != PointGrid::none && !is_in_layer(map_.points.z[static_cast<std::size_t>(i)])) {
+    i = next_above_[static_cast<std::size_t>(i)];
+  }
+  return i;
+}
+
+void ThinnedMap::append_point(GridCell cell, const Point& p, const Point& normal) {
+  const std::size_t index = map_.points.size();
+  if (index >= PointGrid::max_points) return;
+  const int first = grid_.inside(cell);
+  std::int32_t next = PointGrid::none;
+  if (first != PointGrid::none) {
+    // The column's first point stays the one that scans are matched to; others are chained behind it.
+    next = std::exchange(next_above_[static_cast<std::size_t>(first)], static_cast<std::int32_t>(index));
+  } else if (!grid_.insert(cell, index)) {
+    return;
+  }
+  map_.points.push_back(p);
+  map_.normals.push_back(normal);
+  hits_.push_back(1);
+  next_above_.push_back(next);
+}
+
+void ThinnedMap::average_into(std::size_t index, const Point& p, const Point& normal) {
+  if (hits_[index] >= params_.cell_hits) return;
+  const auto n = static_cast<float>(hits_[index]++);
+  const Point mean = map_.points[index];
+  const auto average = [n](float a, float b) { return a + (b - a) / (n + 1.0F); };
+  map_.points.set(index, {average(mean.x, p.x), average(mean.y, p.y), average(mean.z, p.z)});
+  map_.normals.set(index, average_normal(map_.normals[index], n, normal));
+}
+
+}  // namespace glocal

@@ -1,0 +1,75 @@
+// The points of a local map, one for each cell that was hit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "glocal/local_map.hpp"
+#include "glocal/observation.hpp"
+#include "glocal/params.hpp"
+#include "local_mappers/point_grid.hpp"
+
+namespace glocal {
+
+/// Parameters of any local mapper that thins its points, among its own.
+struct ThinningParams {
+  double resolution = 0.05;
+  int cell_hits = 3;
+  int memory_mb = 256;
+};
+void describe(ParamVisitor& v, ThinningParams& p);
+
+/// Cells of this side that cover so many metres.
+[[nodiscard]] int cells_in(double metres, double resolution);
+
+/// Hits of one observation in the local frame, with their normals.
+struct LocalScan {
+  Points hits;
+  Points normals;
+
+  /// Hits and normals in the robot's frame, seen from there.
+  LocalScan(const Points& robot_hits, const Points& robot_normals, const Pose2& local_from_robot);
+  /// Nothing to be registered.
+  LocalScan() = default;
+};
+
+/// A local map thinned in cells of `resolution` (cubes, for hits at different heights); a cell's point is the
+/// mean of its first `cell_hits` hits. Hits outside of what the grid can hold (800 m from where the map
+/// began, with cells of 5 cm) or beyond `memory_mb` are left out.
+class ThinnedMap {
+ public:
+  /// `reach` (cells) and `sigma` (m) are the grid's.
+  ThinnedMap(const ThinningParams& params, int reach, double sigma);
+
+  [[nodiscard]] const LocalMap& map() const { return map_; }
+  /// Index of the points.
+  [[nodiscard]] const PointGrid& grid() const { return grid_; }
+
+  void move_robot(const Pose2& local_from_robot) { map_.local_from_robot = local_from_robot; }
+  /// Whether the grid can hold what lies where the robot is.
+  [[nodiscard]] bool holds_robot() const;
+  /// Registers the next observation's hits; perhaps none.
+  void add(const LocalScan& scan);
+  /// Forgets all observations, but neither frame nor robot.
+  void clear();
+  /// Begins the next generation, with the robot at the origin.
+  void start_over();
+  /// Begins the first one.
+  void reset();
+
+ private:
+  void add_hit(const Point& p, const Point& normal);
+  /// The point of the map in this cell and at this height, or PointGrid::none.
+  [[nodiscard]] int find_point(GridCell cell, float z) const;
+  void append_point(GridCell cell, const Point& p, const Point& normal);
+  void average_into(std::size_t index, const Point& p, const Point& normal);
+
+  ThinningParams params_;
+  PointGrid grid_;
+  LocalMap map_;
+  std::vector<std::uint8_t> hits_;        ///< Hits averaged in each point so far.
+  std::vector<std::int32_t> next_above_;  ///< Next point in the same column of the plane, or none.
+};
+
+}  // namespace glocal

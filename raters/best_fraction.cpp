@@ -1,0 +1,36 @@
+#include "raters/best_fraction.hpp"
+
+#include <algorithm>
+
+namespace glocal {
+
+void describe(ParamVisitor& v, BestFraction::Params& p) {
+  v.field("fraction", p.fraction,
+          {.doc = "Omega_max is this fraction of the best quality.", .min = 0.0, .max = 1.0});
+  v.field("best", p.best,
+          {.doc = "Which quality that is: the best of the last step, or the best so far.",
+           .choices = {"last_step", "so_far"}});
+  v.field("empty_share", p.empty_share,
+          {.doc = "What a step without hypotheses leaves of the best quality and of Omega_max.",
+           .min = 0.0,
+           .max = 0.999});
+  v.field("initial", p.initial, {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0});
+}
+
+void BestFraction::update(const std::vector<Hypothesis>& hypotheses) {
+  if (hypotheses.empty()) {
+    best_ *= params_.empty_share;
+    omega_max_ *= params_.empty_share;
+    return;
+  }
+  const double quality = std::clamp(hypotheses.front().quality, 0.0, 1.0);
+  best_ = params_.best == "so_far" ? std::max(best_, quality) : quality;
+  omega_max_ = params_.fraction * best_;
+}
+
+void BestFraction::reset() {
+  best_ = 0.0;
+  omega_max_ = params_.initial;
+}
+
+}  // namespace glocal

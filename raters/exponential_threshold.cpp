@@ -1,0 +1,22 @@
+#include "raters/exponential_threshold.hpp"
+
+#include <algorithm>
+
+#include "raters/mean_quality.hpp"
+
+namespace glocal {
+
+void describe(ParamVisitor& v, ExponentialThreshold::Params& p) {
+  v.field("weight", p.weight,
+          {.doc = "Share of the latest step; 2 / (n + 1) is about as slow as a window of n steps.",
+           .max = 1.0,
+           .above = 0.0});
+  v.field("initial", p.initial, {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0});
+}
+
+void ExponentialThreshold::update(const std::vector<Hypothesis>& hypotheses) {
+  omega_max_ += params_.weight * (mean_quality(hypotheses) - omega_max_);
+  omega_max_ = std::clamp(omega_max_, 0.0, 1.0);
+}
+
+}  // namespace glocal

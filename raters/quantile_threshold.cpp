@@ -1,0 +1,40 @@
+#include "raters/quantile_threshold.hpp"
+
+#include <algorithm>
+#include <ranges>
+
+namespace glocal {
+namespace {
+
+/// The least quality such that hypotheses of at most that quality have a share `quantile` of all support.
+/// They come in falling quality, and are not empty.
+double quality_at(double quantile, const std::vector<Hypothesis>& hypotheses) {
+  double all = 0.0;
+  for (const Hypothesis& h : hypotheses) all += static_cast<double>(h.support);
+  double so_far = 0.0;
+  for (const Hypothesis& h : std::views::reverse(hypotheses)) {
+    so_far += static_cast<double>(h.support);
+    if (so_far >= quantile * all) return h.quality;
+  }
+  return hypotheses.front().quality;
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, QuantileThreshold::Params& p) {
+  v.field("quantile", p.quantile,
+          {.doc = "Share of the last step's hypotheses, by support, that Omega_max is to be above; 0 is the "
+                  "worst one's quality, 1 the best one's.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("empty_share", p.empty_share,
+          {.doc = "What a step without hypotheses leaves of Omega_max.", .min = 0.0, .max = 0.999});
+  v.field("initial", p.initial, {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0});
+}
+
+void QuantileThreshold::update(const std::vector<Hypothesis>& hypotheses) {
+  omega_max_ = hypotheses.empty() ? params_.empty_share * omega_max_
+                                  : std::clamp(quality_at(params_.quantile, hypotheses), 0.0, 1.0);
+}
+
+}  // namespace glocal

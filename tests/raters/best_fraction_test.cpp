@@ -1,0 +1,45 @@
+#include "raters/best_fraction.hpp"
+
+#include <gtest/gtest.h>
+
+#include "raters/with_qualities.hpp"
+
+namespace glocal {
+namespace {
+
+using testing::with_qualities;
+
+TEST(BestFraction, OfTheLastStep) {
+  BestFraction threshold({.fraction = 0.5, .best = "last_step", .initial = 0.45});
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.45);
+  threshold.update(with_qualities({0.8, 0.6}));
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.4);
+  threshold.update(with_qualities({0.6}));
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.3);
+}
+
+TEST(BestFraction, OfTheBestSoFar) {
+  BestFraction threshold({.fraction = 0.5, .best = "so_far", .empty_share = 0.5, .initial = 0.45});
+  threshold.update(with_qualities({0.8, 0.6}));
+  threshold.update(with_qualities({0.6}));
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.4);
+  threshold.update({});  // 0.8 counts as 0.4 now
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.2);
+  threshold.update(with_qualities({0.3}));
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.2);
+  threshold.update(with_qualities({0.5}));
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.25);
+  threshold.reset();
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.45);
+  threshold.update(with_qualities({0.1}));
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.05);
+}
+
+TEST(BestFraction, EmptyStepsLetItFallFromTheStart) {
+  BestFraction threshold({.empty_share = 0.9, .initial = 0.5});
+  threshold.update({});
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.45);
+}
+
+}  // namespace
+}  // namespace glocal
