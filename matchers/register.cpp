@@ -1,6 +1,7 @@
 #include "matchers/register.hpp"
 
 #include "matchers/branch_and_bound.hpp"
+#include "matchers/exhaustive.hpp"
 #include "matchers/indexed_ransam.hpp"
 #include "matchers/ransam.hpp"
 
@@ -9,6 +10,8 @@ namespace glocal {
 void register_matchers(Catalog& catalog) {
   catalog.matchers.add<BranchAndBound>(
       "branch_and_bound", "Exact search of a grid of poses, by upper bounds for whole blocks of them.");
+  catalog.matchers.add<Exhaustive>("exhaustive", "Every pose of a grid, each judged by eq. 4: the oracle.",
+                                   {.contact = ContactChoice(catalog.contact_indexes)});
   catalog.matchers.add<IndexedRansam>(
       "indexed_ransam",
       "Random sample matching of dipoles over an index of the map; refined, carried on, checked by beams.");
