@@ -3,6 +3,7 @@
 #include "matchers/branch_and_bound.hpp"
 #include "matchers/exhaustive.hpp"
 #include "matchers/indexed_ransam.hpp"
+#include "matchers/iransac.hpp"
 #include "matchers/ransac.hpp"
 #include "matchers/ransam.hpp"
 
@@ -16,6 +17,8 @@ void register_matchers(Catalog& catalog) {
   catalog.matchers.add<IndexedRansam>(
       "indexed_ransam",
       "Random sample matching of dipoles over an index of the map; refined, carried on, checked by beams.");
+  catalog.matchers.add<IRansac>(
+      "iransac", "Incremental, preemptive random sample consensus over features of the map, hashed or not.");
   catalog.matchers.add<Ransac>("ransac", "Random sample consensus of pairs of points, without any table.");
   catalog.matchers.add<Ransam>("ransam",
                                "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",

@@ -70,8 +70,9 @@ class Contract : public ::testing::Test {
          {"local_mapper/scan_matching", "contact_index/bitset", "contact_index/kd_tree",
           "contact_index/pcl_kd_tree", "matcher/pcl_icp", "matcher/pcl_prerejective", "local_mapper/octomap",
           "matcher/ransam", "matcher/indexed_ransam", "matcher/branch_and_bound", "matcher/ransac",
-          "threshold_policy/fixed", "verdict_rule/staged_margin", "clusterer/hierarchical_kmeans",
-          "rater/cluster_rating", "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
+          "matcher/iransac", "threshold_policy/fixed", "verdict_rule/staged_margin",
+          "clusterer/hierarchical_kmeans", "rater/cluster_rating", "threshold_policy/sliding_window",
+          "verdict_rule/consecutive_rating"}) {
       fillers_[stage] = [](AnyParams&) {};
     }
   }
