@@ -30,8 +30,8 @@ void tiles(benchmark::State& state, const Scene& s) {
   std::size_t checks = 0;
   for ([[maybe_unused]] auto _ : state) {
     checks = 0;
-    for (int row = 0; row < pyramid.rows(); row += TileCounts::rows) {
-      for (int column = 0; column < pyramid.columns(); column += TileCounts::columns) {
+    for (int row = 0; row < pyramid.frame().rows; row += TileCounts::rows) {
+      for (int column = 0; column < pyramid.frame().columns; column += TileCounts::columns) {
         checks += pyramid.count(0, points, column, row, 0, counts);
       }
     }

@@ -11,9 +11,10 @@ void register_local_mappers(Catalog& catalog) {
   catalog.local_mappers.add<ScanMatching>(
       "scan_matching",
       "Searches around odometry, then refines point to line against the map of all scans so far.");
-  catalog.local_mappers.add<Bounded>("bounded", "The same against a map of the last scans or metres only.");
+  catalog.local_mappers.add<Bounded>("bounded",
+                                     "Scan matching against a map of the last scans or metres only.");
   catalog.local_mappers.add<KeyFrames>("key_frames",
-                                       "The same, but only scans that bring something new are registered.");
+                                       "Scan matching that registers only scans that bring something new.");
   catalog.local_mappers.add<Odometry>("odometry", "Scans joined by odometry alone.");
 }
 

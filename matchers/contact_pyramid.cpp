@@ -167,14 +167,12 @@ TileCounts::Mask TileCounts::at_least(std::size_t count) const {
   return nodes;
 }
 
-ContactPyramid::ContactPyramid(const Points& map_points, double cell, double epsilon, int top_level)
-    : cell_(cell) {
+CellFrame cell_frame(const Points& map_points, double cell, double epsilon) {
   const auto [low_x, high_x] = std::minmax_element(map_points.x.begin(), map_points.x.end());
   const auto [low_y, high_y] = std::minmax_element(map_points.y.begin(), map_points.y.end());
-  min_x_ = *low_x - epsilon;
-  min_y_ = *low_y - epsilon;
-  const double columns = std::floor((*high_x + epsilon - min_x_) / cell) + 1.0;
-  const double rows = std::floor((*high_y + epsilon - min_y_) / cell) + 1.0;
+  CellFrame frame{.cell = cell, .min_x = *low_x - epsilon, .min_y = *low_y - epsilon};
+  const double columns = std::floor((*high_x + epsilon - frame.min_x) / cell) + 1.0;
+  const double rows = std::floor((*high_y + epsilon - frame.min_y) / cell) + 1.0;
   constexpr double largest = 1024.0 * 1024.0 * 1024.0;
   if (!(columns * rows <= largest)) {
     throw ConfigError({{"", 0, 0,
@@ -182,13 +180,17 @@ ContactPyramid::ContactPyramid(const Points& map_points, double cell, double eps
                                     "than 1 GiB; cut the map, or take a larger cell",
                                     cell)}});
   }
-  columns_ = static_cast<int>(columns);
-  rows_ = static_cast<int>(rows);
+  frame.columns = static_cast<int>(columns);
+  frame.rows = static_cast<int>(rows);
+  return frame;
+}
 
+ContactPyramid::ContactPyramid(const Points& map_points, double cell, double epsilon, int top_level)
+    : frame_(cell_frame(map_points, cell, epsilon)) {
   // Windows may begin before the first cell.
   const int border = (1 << top_level) - 1;
-  const auto width = static_cast<std::size_t>(columns_) + static_cast<std::size_t>(border);
-  const auto height = static_cast<std::size_t>(rows_) + static_cast<std::size_t>(border);
+  const auto width = static_cast<std::size_t>(frame_.columns) + static_cast<std::size_t>(border);
+  const auto height = static_cast<std::size_t>(frame_.rows) + static_cast<std::size_t>(border);
   std::vector<std::uint8_t> windows(width * height, 0);
   const auto window = [&](int column, int row) -> std::uint8_t& {
     return windows[static_cast<std::size_t>(row + border) * width +
@@ -196,14 +198,14 @@ ContactPyramid::ContactPyramid(const Points& map_points, double cell, double eps
   };
   for (std::size_t i = 0; i < map_points.size(); ++i) {
     // In cells, relative to the centre of cell (0, 0).
-    const double x = (map_points.x[i] - min_x_) / cell - 0.5;
-    const double y = (map_points.y[i] - min_y_) / cell - 0.5;
+    const double x = (map_points.x[i] - frame_.min_x) / cell - 0.5;
+    const double y = (map_points.y[i] - frame_.min_y) / cell - 0.5;
     const double reach = epsilon / cell;
     const auto first = [&](double centre) {
       return std::max(0, static_cast<int>(std::ceil(centre - reach)));
     };
-    for (int r = first(y); r < rows_ && r <= y + reach; ++r) {
-      for (int c = first(x); c < columns_ && c <= x + reach; ++c) {
+    for (int r = first(y); r < frame_.rows && r <= y + reach; ++r) {
+      for (int c = first(x); c < frame_.columns && c <= x + reach; ++c) {
         if ((c - x) * (c - x) + (r - y) * (r - y) <= reach * reach) window(c, r) = 1;
       }
     }
@@ -225,12 +227,12 @@ void ContactPyramid::add_level(int level, const std::vector<std::uint8_t>& windo
   const auto nodes = [&](int cells) { return ((cells - 1) >> level) + 1; };
   Level l;
   // A tile may begin a whole tile before the first windows and end as far behind the last.
-  l.last_column = nodes(columns_) + TileCounts::columns - 1;
-  l.last_row = nodes(rows_) + TileCounts::rows - 1;
+  l.last_column = nodes(frame_.columns) + TileCounts::columns - 1;
+  l.last_row = nodes(frame_.rows) + TileCounts::rows - 1;
   l.words = l.last_column / word_bits + 2;
   l.rows = l.last_row + TileCounts::rows;
   l.bits.assign(static_cast<std::size_t>(l.words) * static_cast<std::size_t>(l.rows) << (2 * level), 0);
-  const int width = columns_ + border;
+  const int width = frame_.columns + border;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     if (windows[i] == 0) continue;
     const int column = static_cast<int>(i % static_cast<std::size_t>(width)) - border;

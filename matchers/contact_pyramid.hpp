@@ -28,6 +28,17 @@ class CellPoints {
   std::size_t size_ = 0;
 };
 
+/// Square cells over a map, and wherever a point can be in contact with it.
+struct CellFrame {
+  double cell = 0.0;                ///< m
+  double min_x = 0.0, min_y = 0.0;  ///< Outer corner of cell (0, 0) in the map's frame, m.
+  int columns = 0, rows = 0;
+};
+
+/// All cells within `epsilon` (m) of a point of the map. Throws ConfigError where they are too many for a
+/// grid (1 GiB).
+[[nodiscard]] CellFrame cell_frame(const Points& map_points, double cell, double epsilon);
+
 /// Where in a level's bits the points that meet a tile find those of its nodes.
 struct TileLooks {
   std::vector<std::uint32_t> words;   ///< The word of the tile's first row and column.
@@ -83,13 +94,9 @@ class ContactPyramid {
   /// Throws ConfigError if it would need more than 1 GiB.
   ContactPyramid(const Points& map_points, double cell, double epsilon, int top_level = default_top_level);
 
-  [[nodiscard]] double cell() const { return cell_; }
+  /// All cells in contact lie in it.
+  [[nodiscard]] const CellFrame& frame() const { return frame_; }
   [[nodiscard]] int top_level() const { return static_cast<int>(levels_.size()) - 1; }
-  [[nodiscard]] int columns() const { return columns_; }
-  [[nodiscard]] int rows() const { return rows_; }
-  /// Outer corner of cell (0, 0) in the map's frame, m. All cells in contact lie in [0, columns) x [0, rows).
-  [[nodiscard]] double min_x() const { return min_x_; }
-  [[nodiscard]] double min_y() const { return min_y_; }
   [[nodiscard]] std::size_t memory_bytes() const;
 
   /// For each node of a tile of level l, how many of the points are in contact after any of the node's
@@ -109,8 +116,7 @@ class ContactPyramid {
   };
   void add_level(int level, const std::vector<std::uint8_t>& windows, int border);
 
-  double cell_, min_x_, min_y_;
-  int columns_ = 0, rows_ = 0;
+  CellFrame frame_;
   std::vector<Level> levels_;
 };
 

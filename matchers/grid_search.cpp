@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <functional>
-#include <map>
-#include <numbers>
 #include <numeric>
-#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "glocal/parallel.hpp"
 #include "matchers/pose_grid.hpp"
@@ -20,49 +17,17 @@ namespace {
 /// Rotations searched before the bar is raised. Fixed, so that the answer does not depend on the threads.
 constexpr std::size_t rotations_at_a_time = 32;
 
-struct GridPose {
-  std::size_t in_contact = 0;
-  std::size_t rotation = 0;
-  int row = 0;
-  int column = 0;
+/// A first look at one rotation of the grid.
+struct Look {
+  FoundPoses found;
+  std::size_t bound = 0;  ///< No pose of the rotation has more points in contact.
 };
 
-/// More contact; then the first in the grid, so that the order of the search does not matter.
-bool is_better(const GridPose& a, const GridPose& b) {
-  return std::tie(b.in_contact, a.rotation, a.row, a.column) <
-         std::tie(a.in_contact, b.rotation, b.row, b.column);
+std::size_t most_in_contact(const FoundPoses& found) {
+  std::size_t most = 0;
+  for (const auto& [cell, pose] : found.best) most = std::max(most, pose.in_contact);
+  return most;
 }
-
-/// A cell of robot poses.
-using RobotCell = std::array<std::int32_t, 3>;
-using BestOfCells = std::map<RobotCell, GridPose>;
-
-void add(BestOfCells& best, const RobotCell& cell, const GridPose& pose) {
-  const auto [place, is_new] = best.try_emplace(cell, pose);
-  if (!is_new && is_better(pose, place->second)) place->second = pose;
-}
-
-/// How many points must be in contact for a share of them; at least one.
-std::size_t least_in_contact(double share, std::size_t points) {
-  const auto n = static_cast<double>(points);
-  auto least = static_cast<std::size_t>(std::max(1.0, std::floor(share * n)));
-  while (static_cast<double>(least) / n < share) ++least;
-  return least;
-}
-
-/// What has been found in one rotation of the grid.
-struct Found {
-  BestOfCells best;
-  std::size_t bound = 0;  ///< No pose of the rotation has more points in contact (after a first look).
-  std::size_t tested = 0;
-  std::size_t checks = 0;
-
-  [[nodiscard]] std::size_t most_in_contact() const {
-    std::size_t most = 0;
-    for (const auto& [cell, pose] : best) most = std::max(most, pose.in_contact);
-    return most;
-  }
-};
 
 /// The translations of one rotation.
 class RotationSearch {
@@ -72,20 +37,20 @@ class RotationSearch {
       : pyramid_(pyramid),
         rotation_(rotation),
         points_(grid.cells(rotation)),
-        robot_at_zero_(grid.pose(rotation, 0, 0, pyramid.min_x(), pyramid.min_y()) * local_from_robot),
-        side_(rule.distance / std::numbers::sqrt2),
-        turn_(rule.rotation) {}
+        robots_(grid.pose(rotation, 0, 0, pyramid.frame().min_x, pyramid.frame().min_y) * local_from_robot,
+                pyramid.frame().cell, rule) {}
 
   /// A bound for all poses, and the best pose of the node that promises most.
-  [[nodiscard]] Found look() {
+  [[nodiscard]] Look look() {
     const int top = pyramid_.top_level();
+    std::size_t bound = 0;
     int column = 0;
     int row = 0;
     for_each_top_tile([&](int x, int y) {
-      count(top, x, y, found_.bound + 1);
-      if (counts_.largest() <= found_.bound) return;
-      found_.bound = counts_.largest();
-      const auto [i, k] = first_of(counts_.at_least(found_.bound));
+      count(top, x, y, bound + 1);
+      if (counts_.largest() <= bound) return;
+      bound = counts_.largest();
+      const auto [i, k] = first_of(counts_.at_least(bound));
       column = x + (i << top);
       row = y + (k << top);
     });
@@ -93,11 +58,11 @@ class RotationSearch {
       count(0, column, y, 1);
       add_poses(column, y, std::max<std::size_t>(1, counts_.largest()));
     }
-    return std::move(found_);
+    return {std::move(found_), bound};
   }
 
   /// All poses that bring at least so many points into contact.
-  [[nodiscard]] Found search(std::size_t least) {
+  [[nodiscard]] FoundPoses search(std::size_t least) {
     for_each_top_tile([&](int x, int y) { descend(pyramid_.top_level(), x, y, least); });
     return std::move(found_);
   }
@@ -106,13 +71,10 @@ class RotationSearch {
   /// Together they hold all translations that bring a point among the map's cells.
   template <class Visit>
   void for_each_top_tile(Visit visit) const {
-    const auto columns = points_.columns();
-    const auto rows = points_.rows();
-    const auto [left, right] = std::minmax_element(columns.begin(), columns.end());
-    const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
+    const Translations all = translations(points_, pyramid_.frame());
     const int top = pyramid_.top_level();
-    for (int y = -*high; y < pyramid_.rows() - *low; y += TileCounts::rows << top) {
-      for (int x = -*right; x < pyramid_.columns() - *left; x += TileCounts::columns << top) visit(x, y);
+    for (int y = all.first_row; y <= all.last_row; y += TileCounts::rows << top) {
+      for (int x = all.first_column; x <= all.last_column; x += TileCounts::columns << top) visit(x, y);
     }
   }
 
@@ -145,17 +107,9 @@ class RotationSearch {
       for (std::uint64_t left = nodes[static_cast<std::size_t>(k)]; left != 0; left &= left - 1) {
         const int i = std::countr_zero(left);
         const GridPose pose{counts_.at(i, k), rotation_, row + k, column + i};
-        add(found_.best, cell_of(pose), pose);
+        add(found_.best, robots_.of(pose), pose);
       }
     }
-  }
-
-  [[nodiscard]] RobotCell cell_of(const GridPose& pose) const {
-    const auto cell = [](double value, double size) {
-      return static_cast<std::int32_t>(std::floor(value / size));
-    };
-    return {cell(robot_at_zero_.theta, turn_), cell(robot_at_zero_.y + pyramid_.cell() * pose.row, side_),
-            cell(robot_at_zero_.x + pyramid_.cell() * pose.column, side_)};
   }
 
   static std::array<int, 2> first_of(const TileCounts::Mask& nodes) {
@@ -167,91 +121,46 @@ class RotationSearch {
   const ContactPyramid& pyramid_;
   std::size_t rotation_;
   CellPoints points_;
-  Pose2 robot_at_zero_;  ///< The robot in the map, before any translation.
-  double side_, turn_;   ///< Of a cell of robot poses.
+  RobotCells robots_;
   TileCounts counts_;
-  Found found_;
-};
-
-/// The best poses so far, and what a pose must reach to become one of them.
-class BestPoses {
- public:
-  BestPoses(std::size_t most, std::size_t least) : most_(most), least_(least) {}
-
-  void add(const Found& found) {
-    for (const auto& [cell, pose] : found.best) {
-      if (pose.in_contact >= least_) glocal::add(best_, cell, pose);
-    }
-  }
-
-  /// If there are as many as are wanted, only what beats the last of them will do from now on.
-  void raise() {
-    if (best_.size() < most_) return;
-    std::vector<std::size_t> contacts;
-    for (const auto& [cell, pose] : best_) contacts.push_back(pose.in_contact);
-    const auto last = contacts.begin() + static_cast<std::ptrdiff_t>(most_) - 1;
-    std::nth_element(contacts.begin(), last, contacts.end(), std::greater<>());
-    least_ = *last + 1;
-    std::erase_if(best_, [&](const auto& entry) { return entry.second.in_contact < *last; });
-  }
-
-  [[nodiscard]] std::size_t least() const { return least_; }
-
-  [[nodiscard]] std::vector<GridPose> poses() const {
-    std::vector<GridPose> poses;
-    for (const auto& [cell, pose] : best_) poses.push_back(pose);
-    std::sort(poses.begin(), poses.end(), is_better);
-    if (poses.size() > most_) poses.resize(most_);
-    return poses;
-  }
-
- private:
-  std::size_t most_;
-  std::size_t least_;  ///< Points in contact.
-  BestOfCells best_;
+  FoundPoses found_;
 };
 
 }  // namespace
 
 GridSearchResult search_grid(const ContactPyramid& pyramid, const Points& points,
                              const Pose2& local_from_robot, const GridSearchRule& rule, int threads) {
-  const PoseGrid grid(points, pyramid.cell(), rule.min_rotation_step);
+  const CellFrame& frame = pyramid.frame();
+  const PoseGrid grid(points, frame.cell, rule.min_rotation_step);
   const auto rotation = [&](std::size_t index) {
     return RotationSearch(pyramid, grid, index, local_from_robot, rule);
   };
-  BestPoses best(rule.max_poses, least_in_contact(rule.min_quality, points.size()));
-  GridSearchResult result;
-  const auto take_in = [&](const std::vector<Found>& all) {
-    for (const Found& found : all) {
-      best.add(found);
-      result.tested += found.tested;
-      result.checks += found.checks;
-    }
-    best.raise();
-  };
-
-  std::vector<Found> looks(grid.rotations());
-  parallel_for(threads, looks.size(), [&](std::size_t i) { looks[i] = rotation(i).look(); });
-  take_in(looks);
-  std::vector<std::size_t> order(looks.size());
+  std::vector<std::size_t> bounds(grid.rotations());
+  std::vector<FoundPoses> found(grid.rotations());
+  parallel_for(threads, found.size(), [&](std::size_t i) {
+    Look look = rotation(i).look();
+    bounds[i] = look.bound;
+    found[i] = std::move(look.found);
+  });
+  BestPoses best(rule, points.size());
+  best.add(found);
+  std::vector<std::size_t> order(found.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return looks[a].most_in_contact() > looks[b].most_in_contact();
+    return most_in_contact(found[a]) > most_in_contact(found[b]);
   });
 
   for (std::size_t begin = 0; begin < order.size(); begin += rotations_at_a_time) {
-    std::vector<Found> found(std::min(rotations_at_a_time, order.size() - begin));
+    found.assign(std::min(rotations_at_a_time, order.size() - begin), {});
     parallel_for(threads, found.size(), [&](std::size_t i) {
       const std::size_t index = order[begin + i];
-      if (looks[index].bound >= best.least()) found[i] = rotation(index).search(best.least());
+      if (bounds[index] >= best.least()) found[i] = rotation(index).search(best.least());
     });
-    take_in(found);
+    best.add(found);
   }
-  for (const GridPose& pose : best.poses()) {
-    result.poses.push_back(
-        {grid.pose(pose.rotation, pose.column, pose.row, pyramid.min_x(), pyramid.min_y()), pose.in_contact});
-  }
-  return result;
+  return best.result([&](const GridPose& pose) {
+    return grid.pose(pose.rotation, pose.column, pose.row, frame.min_x, frame.min_y);
+  });
 }
 
 }  // namespace glocal

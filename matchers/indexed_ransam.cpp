@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "matchers/grid_search.hpp"
+#include "matchers/point_pair.hpp"
 #include "matchers/triple_sampler.hpp"
 
 namespace glocal {
@@ -84,22 +85,8 @@ DipoleIndex::Dipole draw_dipole(const Surfaces& s, double min_length, double max
   return dipole;
 }
 
-/// The motion that lays one dipole on another, middle on middle.
-void lay(const Surfaces& local, const DipoleIndex::Dipole& from, const Surfaces& map,
-         const DipoleIndex::Dipole& to, MotionBatch& motions, std::size_t i) {
-  const float ux = local.x[from.second] - local.x[from.first];
-  const float uy = local.y[from.second] - local.y[from.first];
-  const float vx = map.x[to.second] - map.x[to.first];
-  const float vy = map.y[to.second] - map.y[to.first];
-  const float lengths = std::sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy));
-  const float c = (ux * vx + uy * vy) / lengths;
-  const float s = (ux * vy - uy * vx) / lengths;
-  const float mx = 0.5F * (local.x[from.first] + local.x[from.second]);
-  const float my = 0.5F * (local.y[from.first] + local.y[from.second]);
-  motions.cosine[i] = c;
-  motions.sine[i] = s;
-  motions.x[i] = 0.5F * (map.x[to.first] + map.x[to.second]) - (c * mx - s * my);
-  motions.y[i] = 0.5F * (map.y[to.first] + map.y[to.second]) - (s * mx + c * my);
+PointPair ends_of(const Surfaces& s, const DipoleIndex::Dipole& dipole) {
+  return {Point{s.x[dipole.first], s.y[dipole.first]}, Point{s.x[dipole.second], s.y[dipole.second]}};
 }
 
 /// Share of the points for which a condition holds where a pose puts them.
@@ -351,7 +338,7 @@ void IndexedRansam::draw_dipoles(const DipoleIndex& index, const Surfaces& surfa
     const auto partners = index.find(surfaces, dipole);
     if (partners.empty()) continue;
     const DipoleIndex::Dipole& partner = partners[rng.below(static_cast<std::uint32_t>(partners.size()))];
-    lay(surfaces, dipole, index.surfaces(), partner, motions, size++);
+    lay(ends_of(surfaces, dipole), ends_of(index.surfaces(), partner), motions, size++);
     if (size < MotionBatch::capacity) continue;
     test(motions, size, sample, modes, result);
     size = 0;

@@ -1,5 +1,6 @@
 #include "matchers/merge.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -43,6 +44,19 @@ std::vector<Hypothesis> merged(const std::vector<Hypothesis>& hypotheses, double
 
 void merge_hypotheses(std::vector<Hypothesis>& hypotheses, std::size_t most) {
   for (double scale = 1.0; hypotheses.size() > most; scale *= 2.0) hypotheses = merged(hypotheses, scale);
+}
+
+MatchResult joined(const std::vector<MatchResult>& chunks, std::size_t most) {
+  MatchResult result;
+  for (const MatchResult& chunk : chunks) {
+    result.hypotheses.insert(result.hypotheses.end(), chunk.hypotheses.begin(), chunk.hypotheses.end());
+    result.collisions += chunk.collisions;
+    result.checks += chunk.checks;
+  }
+  std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
+  merge_hypotheses(result.hypotheses, most);
+  return result;
 }
 
 }  // namespace glocal

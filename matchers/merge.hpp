@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "glocal/hypothesis.hpp"
+#include "glocal/strategies.hpp"
 
 namespace glocal {
 
@@ -13,5 +14,9 @@ namespace glocal {
 /// degrees and double until no more than `most` are left, so every pose that is distinct at the final cell
 /// size keeps a hypothesis. `hypotheses` come and stay sorted by falling quality; most >= 8.
 void merge_hypotheses(std::vector<Hypothesis>& hypotheses, std::size_t most);
+
+/// What chunks of draws have found, in their order, as one answer: sorted, and merged where there are more
+/// hypotheses than `most`.
+[[nodiscard]] MatchResult joined(const std::vector<MatchResult>& chunks, std::size_t most);
 
 }  // namespace glocal

@@ -49,4 +49,12 @@ Pose2 PoseGrid::pose(std::size_t rotation, int column, int row, double min_x, do
   return moved * Pose2{-middle_x_, -middle_y_, 0.0};
 }
 
+Translations translations(const CellPoints& points, const CellFrame& frame) {
+  const auto columns = points.columns();
+  const auto rows = points.rows();
+  const auto [left, right] = std::minmax_element(columns.begin(), columns.end());
+  const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
+  return {-*right, frame.columns - 1 - *left, -*high, frame.rows - 1 - *low};
+}
+
 }  // namespace glocal

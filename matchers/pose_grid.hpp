@@ -33,4 +33,13 @@ class PoseGrid {
   std::size_t rotations_;
 };
 
+/// Translations by whole cells, from the first to the last.
+struct Translations {
+  int first_column, last_column;
+  int first_row, last_row;
+};
+
+/// All that bring a point into a cell of the frame.
+[[nodiscard]] Translations translations(const CellPoints& points, const CellFrame& frame);
+
 }  // namespace glocal

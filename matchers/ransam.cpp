@@ -140,22 +140,13 @@ MatchResult Ransam::match(const LocalMap& local, const Observation& latest, doub
                                                largest_side(params_.relation_cell))};
 
   hash_map_triples(draws.map_seed, rule);
-  std::vector<Chunk> chunks(chunk_count());
+  std::vector<MatchResult> chunks(chunk_count());
   parallel_for(setup_.threads, chunks.size(), [&](std::size_t i) {
     chunks[i] = match_local_triples(local, local_sampler, quality, rule, draws, i);
     if (clearance_) ask_beams(chunks[i].hypotheses, omega_max);
   });
 
-  MatchResult result;
-  for (const Chunk& chunk : chunks) {
-    result.hypotheses.insert(result.hypotheses.end(), chunk.hypotheses.begin(), chunk.hypotheses.end());
-    result.collisions += chunk.collisions;
-    result.checks += chunk.checks;
-  }
-  std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
-  merge_hypotheses(result.hypotheses, static_cast<std::size_t>(params_.max_hypotheses));
-  return result;
+  return joined(chunks, static_cast<std::size_t>(params_.max_hypotheses));
 }
 
 std::size_t Ransam::chunk_count() const {
@@ -190,10 +181,10 @@ void Ransam::hash_map_triples(std::uint64_t seed, const TriangleRule& rule) {
   }
 }
 
-Ransam::Chunk Ransam::match_local_triples(const LocalMap& local, const TripleSampler& local_sampler,
-                                          const QualityTest& quality, const TriangleRule& rule,
-                                          const Draws& draws, std::size_t chunk) const {
-  Chunk found;
+MatchResult Ransam::match_local_triples(const LocalMap& local, const TripleSampler& local_sampler,
+                                        const QualityTest& quality, const TriangleRule& rule,
+                                        const Draws& draws, std::size_t chunk) const {
+  MatchResult found;
   RelationBatch relations;
   PartnerBatch partners;
   TripleBatch local_triples;
@@ -221,7 +212,7 @@ Ransam::Chunk Ransam::match_local_triples(const LocalMap& local, const TripleSam
 
 void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_sampler,
                              const QualityTest& quality, const Draws& draws, TripleBatch& local_triples,
-                             TripleBatch& map_triples, Chunk& found) const {
+                             TripleBatch& map_triples, MatchResult& found) const {
   // Drawing again is cheaper than having kept the triples of all draws.
   local_sampler.draw(draws.local_seed, local_triples);
   sampler_.draw(draws.map_seed, map_triples);

@@ -62,21 +62,16 @@ class Ransam final : public Matcher {
     std::uint64_t map_seed;
     std::uint64_t local_seed;
   };
-  struct Chunk {
-    std::vector<Hypothesis> hypotheses;
-    std::size_t collisions = 0;
-    std::size_t checks = 0;
-  };
   [[nodiscard]] std::size_t iterations() const { return static_cast<std::size_t>(params_.iterations); }
   [[nodiscard]] std::size_t chunk_count() const;
   void hash_map_triples(std::uint64_t seed, const TriangleRule& rule);
-  [[nodiscard]] Chunk match_local_triples(const LocalMap& local, const TripleSampler& local_sampler,
-                                          const QualityTest& quality, const TriangleRule& rule,
-                                          const Draws& draws, std::size_t chunk) const;
+  [[nodiscard]] MatchResult match_local_triples(const LocalMap& local, const TripleSampler& local_sampler,
+                                                const QualityTest& quality, const TriangleRule& rule,
+                                                const Draws& draws, std::size_t chunk) const;
   /// Tests the hypotheses of pairs of triples, given by their numbers.
   void test_hypotheses(const LocalMap& local, const TripleSampler& local_sampler, const QualityTest& quality,
                        const Draws& draws, TripleBatch& local_triples, TripleBatch& map_triples,
-                       Chunk& found) const;
+                       MatchResult& found) const;
   void ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) const;
 
   Params params_;

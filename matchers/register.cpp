@@ -1,7 +1,10 @@
 #include "matchers/register.hpp"
 
 #include "matchers/branch_and_bound.hpp"
+#include "matchers/exhaustive.hpp"
 #include "matchers/indexed_ransam.hpp"
+#include "matchers/iransac.hpp"
+#include "matchers/ransac.hpp"
 #include "matchers/ransam.hpp"
 
 namespace glocal {
@@ -9,9 +12,15 @@ namespace glocal {
 void register_matchers(Catalog& catalog) {
   catalog.matchers.add<BranchAndBound>(
       "branch_and_bound", "Exact search of a grid of poses, by upper bounds for whole blocks of them.");
+  catalog.matchers.add<Exhaustive>(
+      "exhaustive", "Every pose of a grid, each judged by eq. 4: what other matchers are checked against.",
+      {.contact = ContactChoice(catalog.contact_indexes)});
   catalog.matchers.add<IndexedRansam>(
       "indexed_ransam",
       "Random sample matching of dipoles over an index of the map; refined, carried on, checked by beams.");
+  catalog.matchers.add<IRansac>(
+      "iransac", "Incremental, preemptive random sample consensus over features of the map, hashed or not.");
+  catalog.matchers.add<Ransac>("ransac", "Random sample consensus of pairs of points, without any table.");
   catalog.matchers.add<Ransam>("ransam",
                                "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",
                                {.contact = ContactChoice(catalog.contact_indexes)});

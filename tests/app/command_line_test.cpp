@@ -34,8 +34,8 @@ TEST_F(CommandLine, WrongUsageEndsWith2AndSuggests) {
   EXPECT_EQ(unknown.err, "error: unknown command 'lst' (did you mean 'list'?)\n");
   EXPECT_EQ(run("list matchr").err, "error: unknown kind 'matchr' (did you mean 'matcher'?)\n1 error\n");
   EXPECT_EQ(run("list matchr").exit_code, 2);
-  EXPECT_EQ(run("describe ransan").err,
-            "error: nothing is called 'ransan' (did you mean 'ransam'?)\n1 error\n");
+  EXPECT_EQ(run("describe ransamm").err,
+            "error: nothing is called 'ransamm' (did you mean 'ransam'?)\n1 error\n");
   EXPECT_EQ(run("describe").exit_code, 2);
   EXPECT_EQ(run("list --frobnicate").exit_code, 2);
   EXPECT_EQ(run("--frobnicate").exit_code, 2);

@@ -10,6 +10,7 @@
 
 #include "glocal/builtin.hpp"
 #include "glocal/yaml.hpp"
+#include "matchers/exhaustive.hpp"
 #include "octree_files.hpp"
 #include "plugins/plugin_loader.hpp"
 #include "sources/carmen_log.hpp"
@@ -56,6 +57,12 @@ class Contract : public ::testing::Test {
       p.log.path = log_;
       p.min_hits = 1;
     });
+    fill<Exhaustive::Params>("matcher/exhaustive", [](auto& p) {
+      // Defaults would take minutes.
+      p.grid.contact_epsilon = 0.2;
+      p.grid.cell = 0.2;
+      p.grid.min_rotation_step = 0.05;
+    });
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };
@@ -72,6 +79,8 @@ class Contract : public ::testing::Test {
                               "matcher/ransam",
                               "matcher/indexed_ransam",
                               "matcher/branch_and_bound",
+                              "matcher/ransac",
+                              "matcher/iransac",
                               "threshold_policy/fixed",
                               "verdict_rule/staged_margin",
                               "clusterer/hierarchical_kmeans",

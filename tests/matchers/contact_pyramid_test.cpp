@@ -43,10 +43,10 @@ CellPoints at(int column, int row) {
 class ContactCells {
  public:
   ContactCells(const Points& map, const ContactPyramid& pyramid) {
-    for (int row = 0; row < pyramid.rows(); ++row) {
-      for (int column = 0; column < pyramid.columns(); ++column) {
-        const double x = pyramid.min_x() + (column + 0.5) * pyramid.cell();
-        const double y = pyramid.min_y() + (row + 0.5) * pyramid.cell();
+    for (int row = 0; row < pyramid.frame().rows; ++row) {
+      for (int column = 0; column < pyramid.frame().columns; ++column) {
+        const double x = pyramid.frame().min_x + (column + 0.5) * pyramid.frame().cell;
+        const double y = pyramid.frame().min_y + (row + 0.5) * pyramid.frame().cell;
         for (std::size_t i = 0; i < map.size(); ++i) {
           if (std::hypot(map.x[i] - x, map.y[i] - y) > epsilon) continue;
           cells_.insert({column, row});
@@ -128,8 +128,8 @@ TEST(ContactPyramid, WindowsBeginAnywhere) {
   TileCounts counts;
   std::pair<int, int> in_contact{-1, -1};
   std::size_t cells = 0;
-  for (int row = 0; row < pyramid.rows(); ++row) {
-    for (int column = 0; column < pyramid.columns(); ++column) {
+  for (int row = 0; row < pyramid.frame().rows; ++row) {
+    for (int column = 0; column < pyramid.frame().columns; ++column) {
       pyramid.count(0, at(column, row), 0, 0, 0, counts);
       cells += counts.at(0, 0);
       if (counts.at(0, 0) == 1) in_contact = {column, row};

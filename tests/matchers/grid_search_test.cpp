@@ -35,14 +35,14 @@ struct GridPose {
 /// All poses of the grid with a point in contact, counted one point at a time.
 std::vector<GridPose> brute_force(const Problem& problem, const ContactPyramid& pyramid, std::size_t least) {
   const auto index = [&](int column, int row) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(pyramid.columns()) +
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(pyramid.frame().columns) +
            static_cast<std::size_t>(column);
   };
-  std::vector<std::uint8_t> contact(index(0, pyramid.rows()), 0);
-  for (int row = 0; row < pyramid.rows(); ++row) {
-    for (int column = 0; column < pyramid.columns(); ++column) {
-      const double x = pyramid.min_x() + (column + 0.5) * cell;
-      const double y = pyramid.min_y() + (row + 0.5) * cell;
+  std::vector<std::uint8_t> contact(index(0, pyramid.frame().rows), 0);
+  for (int row = 0; row < pyramid.frame().rows; ++row) {
+    for (int column = 0; column < pyramid.frame().columns; ++column) {
+      const double x = pyramid.frame().min_x + (column + 0.5) * cell;
+      const double y = pyramid.frame().min_y + (row + 0.5) * cell;
       for (std::size_t i = 0; i < problem.map.size(); ++i) {
         if (std::hypot(problem.map.x[i] - x, problem.map.y[i] - y) <= epsilon) {
           contact[index(column, row)] = 1;
@@ -54,17 +54,18 @@ std::vector<GridPose> brute_force(const Problem& problem, const ContactPyramid& 
   const PoseGrid grid(problem.local, cell, 0.001);
   for (std::size_t rotation = 0; rotation < grid.rotations(); ++rotation) {
     const CellPoints points = grid.cells(rotation);
-    for (int row = -60; row < pyramid.rows() + 60; ++row) {
-      for (int column = -60; column < pyramid.columns() + 60; ++column) {
+    for (int row = -60; row < pyramid.frame().rows + 60; ++row) {
+      for (int column = -60; column < pyramid.frame().columns + 60; ++column) {
         std::size_t in_contact = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
           const int c = points.columns()[i] + column;
           const int r = points.rows()[i] + row;
-          if (c < 0 || r < 0 || c >= pyramid.columns() || r >= pyramid.rows()) continue;
+          if (c < 0 || r < 0 || c >= pyramid.frame().columns || r >= pyramid.frame().rows) continue;
           in_contact += contact[index(c, r)];
         }
         if (in_contact < std::max<std::size_t>(1, least)) continue;
-        poses.push_back({grid.pose(rotation, column, row, pyramid.min_x(), pyramid.min_y()), in_contact});
+        poses.push_back(
+            {grid.pose(rotation, column, row, pyramid.frame().min_x, pyramid.frame().min_y), in_contact});
       }
     }
   }

@@ -1,0 +1,93 @@
+// The baselines: brute force, plain RANSAC, and RANSAC over features, on the same local maps.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/scenes.hpp"
+#include "matchers/exhaustive.hpp"
+#include "matchers/feature_index.hpp"
+#include "matchers/iransac.hpp"
+#include "matchers/ransac.hpp"
+
+namespace glocal::bench {
+namespace {
+
+/// A first match of the local maps of so many key frames, at every fifth start.
+template <class Kind>
+void match(benchmark::State& state, const Scene& s, const typename Kind::Params& params, double omega_max) {
+  Kind matcher(params, {s.prepared.map, 1});
+  std::vector<LocalMap> locals;
+  for (std::size_t i = 0; i < s.prepared.starts.size(); i += 5) {
+    locals.push_back(local_map_at(s, s.prepared.starts[i], static_cast<std::size_t>(state.range(0))));
+  }
+  Rng rng(1);
+  for ([[maybe_unused]] auto _ : state) {
+    for (const LocalMap& local : locals) {
+      matcher.reset();
+      benchmark::DoNotOptimize(matcher.match(local, {}, omega_max, rng));
+    }
+  }
+  state.counters["per_match"] = time_per_item(static_cast<double>(locals.size()));
+}
+
+/// A local map's features among those of the whole map; the share of the ten nearest that are found.
+void nearest(benchmark::State& state, const Scene& s, const std::optional<HashRule>& hashing) {
+  const Surfaces surfaces = surfaces_of(*s.prepared.map, {});
+  const FeatureIndex all(surfaces, {}, std::nullopt, 1);
+  const FeatureIndex index(surfaces, {}, hashing, 1);
+  const LocalMap local = local_map_at(s, s.prepared.starts.front(), 10);
+  std::vector<std::uint32_t> drawn;
+  const Surfaces seen = surfaces_of(local, SurfaceRule{});
+  for (std::uint32_t i = 0; i < seen.size(); i += 20) drawn.push_back(i);
+  const FeatureVectors features = shape_contexts(seen, drawn, {});
+  for ([[maybe_unused]] auto _ : state) {
+    for (std::size_t i = 0; i < features.size(); ++i)
+      benchmark::DoNotOptimize(index.nearest(features[i], 10));
+  }
+  double found = 0.0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const auto exact = all.nearest(features[i], 10);
+    for (const std::uint32_t number : index.nearest(features[i], 10)) {
+      found += std::find(exact.begin(), exact.end(), number) == exact.end() ? 0.0 : 0.1;
+    }
+  }
+  state.counters["found"] = found / static_cast<double>(features.size());
+  state.counters["per_feature"] = time_per_item(static_cast<double>(features.size()));
+}
+
+void register_all() {
+  const auto add = [](const std::string& name, auto run) {
+    return benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
+  };
+  add("exhaustive/paper_lab", [](benchmark::State& state) {
+    const GridMatching grid{
+        .contact_epsilon = 0.15, .cell = 0.15, .min_rotation_step = 0.02, .max_points = 100};
+    match<Exhaustive>(state, scene("paper_lab"), {.grid = grid}, 0.3);
+  })->Arg(0);
+  if (!has_datasets()) return;
+  add("ransac/intel", [](benchmark::State& state) { match<Ransac>(state, scene("intel"), {}, 0.55); })
+      ->Arg(0)
+      ->Arg(20);
+  for (const bool lsh : {false, true}) {
+    const std::string how = lsh ? "/lsh" : "/all";
+    add("iransac/intel" + how,
+        [lsh](benchmark::State& state) { match<IRansac>(state, scene("intel_indexed"), {.lsh = lsh}, 0.1); })
+        ->Arg(0)
+        ->Arg(20);
+    add("nearest/intel" + how, [lsh](benchmark::State& state) {
+      nearest(state, scene("intel_indexed"), lsh ? std::optional(HashRule{}) : std::nullopt);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace glocal::bench
+
+int main(int argc, char** argv) {
+  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
+}
