@@ -32,18 +32,6 @@ Point point_of(const Surfaces& s, std::uint32_t i) {
   return {s.x[i], s.y[i]};
 }
 
-/// The first n of a random order of what is below `below`.
-std::vector<std::uint32_t> draw_distinct(std::size_t n, std::size_t below, Rng& rng) {
-  std::vector<std::uint32_t> order(below);
-  for (std::size_t i = 0; i < below; ++i) order[i] = static_cast<std::uint32_t>(i);
-  const std::size_t size = std::min(n, below);
-  for (std::size_t i = 0; i < size; ++i) {
-    std::swap(order[i], order[i + rng.below(static_cast<std::uint32_t>(below - i))]);
-  }
-  order.resize(size);
-  return order;
-}
-
 /// One surface in each square of this side and each quarter turn of directions: as many for their length as
 /// the map has, and both sides of a wall.
 Surfaces thinned(const Surfaces& surfaces, double side) {
@@ -193,7 +181,7 @@ MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/,
 void IRansac::propose(const LocalMap& local, Rng& rng) {
   const Surfaces surfaces = thinned(surfaces_of(local, surface_rule(params_)), params_.thinning);
   const std::vector<std::uint32_t> drawn =
-      draw_distinct(static_cast<std::size_t>(params_.features), surfaces.size(), rng);
+      draw_numbers(static_cast<std::size_t>(params_.features), surfaces.size(), rng);
   if (drawn.size() < 2) return;
   const FeatureVectors features = shape_contexts(surfaces, drawn, params_.shape_context, threads_);
   std::vector<std::vector<std::uint32_t>> matches(drawn.size());

@@ -33,14 +33,20 @@ void refine(std::vector<Mode>& modes, const DistanceField& field, const Points& 
   }
 }
 
-Points sample_of(const Points& points, std::size_t n, Rng& rng) {
-  std::vector<std::uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0U);
-  Points sample;
-  for (std::size_t i = 0; i < std::min(n, order.size()); ++i) {
-    std::swap(order[i], order[i + rng.below(static_cast<std::uint32_t>(order.size() - i))]);
-    sample.push_back(points[order[i]]);
+std::vector<std::uint32_t> draw_numbers(std::size_t n, std::size_t below, Rng& rng) {
+  std::vector<std::uint32_t> numbers(below);
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  const std::size_t size = std::min(n, below);
+  for (std::size_t i = 0; i < size; ++i) {
+    std::swap(numbers[i], numbers[i + rng.below(static_cast<std::uint32_t>(below - i))]);
   }
+  numbers.resize(size);
+  return numbers;
+}
+
+Points sample_of(const Points& points, std::size_t n, Rng& rng) {
+  Points sample;
+  for (const std::uint32_t i : draw_numbers(n, points.size(), rng)) sample.push_back(points[i]);
   return sample;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "glocal/contact.hpp"
@@ -36,6 +37,9 @@ struct ModeRule {
 /// Refines each by the anchors, and judges it anew by the contact of `points`.
 void refine(std::vector<Mode>& modes, const DistanceField& field, const Points& anchors,
             const PoseRefinement& refinement, const ContactIndex& contact, const Points& points);
+
+/// At most n of the numbers below `below`, each once, in random order.
+[[nodiscard]] std::vector<std::uint32_t> draw_numbers(std::size_t n, std::size_t below, Rng& rng);
 
 /// At most n of the points, picked at random, in random order.
 [[nodiscard]] Points sample_of(const Points& points, std::size_t n, Rng& rng);

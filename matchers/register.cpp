@@ -12,9 +12,8 @@ namespace glocal {
 void register_matchers(Catalog& catalog) {
   catalog.matchers.add<BranchAndBound>(
       "branch_and_bound", "Exact search of a grid of poses, by upper bounds for whole blocks of them.");
-  catalog.matchers.add<Exhaustive>(
-      "exhaustive", "Every pose of a grid, each judged by eq. 4: what other matchers are checked against.",
-      {.contact = ContactChoice(catalog.contact_indexes)});
+  catalog.matchers.add<Exhaustive>("exhaustive", "Every pose of a grid, each judged by eq. 4.",
+                                   {.contact = ContactChoice(catalog.contact_indexes)});
   catalog.matchers.add<IndexedRansam>(
       "indexed_ransam",
       "Random sample matching of dipoles over an index of the map; refined, carried on, checked by beams.");

@@ -64,8 +64,7 @@ TEST(ShapeContexts, OfOneNeighbourByHand) {
   surfaces.add(1.0F, 1.0F, 0.0F);
   // It faces the point, turned by 30 degrees from facing it squarely: doubled, 60 degrees.
   surfaces.add(3.0F, 1.0F, static_cast<float>(std::numbers::pi + radians(30.0)));
-  // Rings end at 1, 2 and 4 m; 2 m is the edge of two rings, and half of the neighbour belongs to each.
-  // (Rings are 1, 2 wide in the logarithm: the first ring's middle counts half a ring.)
+  // Beyond the innermost ring (1 m), two more up to 4 m: each doubles the distance.
   const ShapeContextRule rule{.radius = 4.0, .nearest = 1.0, .rings = 3, .sectors = 1};
   const FeatureVectors features = shape_contexts(surfaces, {0}, rule);
   ASSERT_EQ(features.dimensions, 6U);
