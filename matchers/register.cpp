@@ -2,6 +2,7 @@
 
 #include "matchers/branch_and_bound.hpp"
 #include "matchers/indexed_ransam.hpp"
+#include "matchers/mcl.hpp"
 #include "matchers/ransam.hpp"
 
 namespace glocal {
@@ -12,6 +13,8 @@ void register_matchers(Catalog& catalog) {
   catalog.matchers.add<IndexedRansam>(
       "indexed_ransam",
       "Random sample matching of dipoles over an index of the map; refined, carried on, checked by beams.");
+  catalog.matchers.add<Mcl>(
+      "mcl", "Monte Carlo localization: a particle filter, as AMCL is; the local map is not looked at.");
   catalog.matchers.add<Ransam>("ransam",
                                "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",
                                {.contact = ContactChoice(catalog.contact_indexes)});
