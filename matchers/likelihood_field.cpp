@@ -12,12 +12,13 @@ double likelihood_of_distance(double distance, const LikelihoodFieldRule& rule) 
   return rule.z_hit * std::exp(-0.5 * deviations * deviations) + rule.z_rand / rule.max_range;
 }
 
-LikelihoodField::LikelihoodField(const Points& map, const LikelihoodFieldRule& rule,
+LikelihoodField::LikelihoodField(const GlobalMap& map, const LikelihoodFieldRule& rule,
                                  const std::function<double(double likelihood)>& term)
     : scale_(static_cast<float>(1.0 / rule.distance_cell)) {
-  const DistanceField distances(map, rule.distance_cell, rule.max_distance);
-  const auto [min_x, max_x] = std::minmax_element(map.x.begin(), map.x.end());
-  const auto [min_y, max_y] = std::minmax_element(map.y.begin(), map.y.end());
+  const Points& points = map.points();
+  const DistanceField distances(points, rule.distance_cell, rule.max_distance);
+  const auto [min_x, max_x] = std::minmax_element(points.x.begin(), points.x.end());
+  const auto [min_y, max_y] = std::minmax_element(points.y.begin(), points.y.end());
   // Two cells more than the distances reach, so that those at the border are far from all points.
   const double margin = rule.max_distance + 2.0 * rule.distance_cell;
   min_x_ = static_cast<float>(*min_x - margin);
@@ -29,8 +30,9 @@ LikelihoodField::LikelihoodField(const Points& map, const LikelihoodFieldRule& r
     for (int column = 0; column < columns_; ++column) {
       const float x = min_x_ + (static_cast<float>(column) + 0.5F) / scale_;
       const float y = min_y_ + (static_cast<float>(row) + 0.5F) / scale_;
-      const double distance = distances.at(x, y).distance;
-      cells_.push_back(static_cast<float>(term(likelihood_of_distance(distance, rule))));
+      const double likelihood = likelihood_of_distance(distances.at(x, y).distance, rule);
+      const double least = map.grid().at(x, y) == Cell::unknown ? rule.z_unknown / rule.max_range : 0.0;
+      cells_.push_back(static_cast<float>(term(std::max(likelihood, least))));
     }
   }
 }

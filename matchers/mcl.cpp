@@ -64,6 +64,7 @@ LikelihoodFieldRule field_rule(const Mcl::Params& p) {
   return {.z_hit = p.z_hit,
           .z_rand = p.z_rand,
           .sigma_hit = p.sigma_hit,
+          .z_unknown = p.z_unknown,
           .max_range = p.laser_max_range,
           .max_distance = p.laser_likelihood_max_dist,
           .distance_cell = p.field_cell};
@@ -80,8 +81,8 @@ BeamModelRule beam_rule(const Mcl::Params& p) {
 }
 
 std::string field_key(const Mcl::Params& p) {
-  return fmt::format("{} {} {} {} {} {} {}", p.laser_model_type, p.z_hit, p.z_rand, p.sigma_hit,
-                     p.laser_max_range, p.laser_likelihood_max_dist, p.field_cell);
+  return fmt::format("{} {} {} {} {} {} {} {}", p.laser_model_type, p.z_hit, p.z_rand, p.z_unknown,
+                     p.sigma_hit, p.laser_max_range, p.laser_likelihood_max_dist, p.field_cell);
 }
 
 }  // namespace
@@ -98,7 +99,7 @@ Mcl::Mcl(const Params& params, const StageSetup& setup)
     grid_ = clearance_grid(*setup.map);
   } else {
     field_ = setup.map->index<LikelihoodField>(field_key(params), [&] {
-      return LikelihoodField(setup.map->points(), field_rule(params), [this](double p) { return term(p); });
+      return LikelihoodField(*setup.map, field_rule(params), [this](double p) { return term(p); });
     });
   }
 }
@@ -238,8 +239,6 @@ void Mcl::resample(Rng& rng) {
   while (next.size() < n) next.push_back(free_space_->draw(stream));
   particles_ = std::move(next);
   weights_.assign(n, 1.0 / static_cast<double>(n));
-  // Else it would spiral into complete randomness (as in AMCL).
-  if (fresh > 0) averages_.reset();
 }
 
 /// KLD-sampling: draws fill bins until there are as many draws as the bins ask for.
@@ -333,6 +332,13 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
   v.field("z_max", p.z_max, {.doc = "Weight of beams that meet nothing.", .min = 0.0, .max = 1.0});
   v.field("z_rand", p.z_rand,
           {.doc = "Weight of beams that meet anything anywhere.", .max = 1.0, .above = 0.0});
+  v.field(
+      "z_unknown", p.z_unknown,
+      {.doc = "Likelihood fields: a beam that ends in an unknown cell is worth this weight at least, spread "
+              "over laser_max_range; with z_rand and less there, beams into the unknown count as misses. "
+              "Probabilistic Robotics, Section 6.4, has 1; AMCL knows of no unknown cells.",
+       .min = 0.0,
+       .max = 1.0});
   v.field("sigma_hit", p.sigma_hit, {.doc = "Standard deviation of a hit.", .unit = "m", .above = 0.0});
   v.field("lambda_short", p.lambda_short,
           {.doc = "Rate at which too short beams get rarer with their range.", .unit = "1/m", .above = 0.0});

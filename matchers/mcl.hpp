@@ -53,6 +53,7 @@ class Mcl final : public Matcher {
     double z_short = 0.05;
     double z_max = 0.05;
     double z_rand = 0.5;
+    double z_unknown = 0.0;
     double sigma_hit = 0.2;
     double lambda_short = 0.1;
     double laser_likelihood_max_dist = 2.0;
@@ -105,7 +106,7 @@ class Mcl final : public Matcher {
 
   std::vector<Pose2> particles_;         ///< map_from_robot as of the last update.
   std::vector<double> weights_;          ///< One for each; they add up to 1.
-  std::optional<Pose2> odom_from_last_;  ///< Odometry of the last update; none before the first.
+  std::optional<Pose2> odom_from_last_;  ///< Of the last update; none before the first.
   int updates_ = 0;
   RecoveryAverages averages_;
 };

@@ -62,9 +62,9 @@ class Contract : public ::testing::Test {
     for (const char* stage :
          {"local_mapper/scan_matching", "contact_index/bitset", "contact_index/kd_tree",
           "contact_index/pcl_kd_tree", "matcher/pcl_icp", "matcher/pcl_prerejective", "local_mapper/octomap",
-          "matcher/ransam", "matcher/indexed_ransam", "matcher/branch_and_bound", "threshold_policy/fixed",
-          "verdict_rule/staged_margin", "clusterer/hierarchical_kmeans", "rater/cluster_rating",
-          "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
+          "matcher/ransam", "matcher/indexed_ransam", "matcher/branch_and_bound", "matcher/mcl",
+          "threshold_policy/fixed", "verdict_rule/staged_margin", "clusterer/hierarchical_kmeans",
+          "rater/cluster_rating", "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
       fillers_[stage] = [](AnyParams&) {};
     }
   }
