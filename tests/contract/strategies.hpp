@@ -10,6 +10,7 @@
 
 #include "glocal/builtin.hpp"
 #include "glocal/yaml.hpp"
+#include "matchers/mcl.hpp"
 #include "octree_files.hpp"
 #include "plugins/plugin_loader.hpp"
 #include "sources/carmen_log.hpp"
@@ -56,15 +57,21 @@ class Contract : public ::testing::Test {
       p.log.path = log_;
       p.min_hits = 1;
     });
+    // So that some of the particles fit well enough after a single scan.
+    fill<Mcl::Params>("matcher/mcl", [](auto& p) {
+      p.max_particles = 20000;
+      p.merge_distance = 0.1;
+      p.merge_rotation = 0.05;
+    });
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };
     for (const char* stage :
          {"local_mapper/scan_matching", "contact_index/bitset", "contact_index/kd_tree",
           "contact_index/pcl_kd_tree", "matcher/pcl_icp", "matcher/pcl_prerejective", "local_mapper/octomap",
-          "matcher/ransam", "matcher/indexed_ransam", "matcher/branch_and_bound", "matcher/mcl",
-          "threshold_policy/fixed", "verdict_rule/staged_margin", "clusterer/hierarchical_kmeans",
-          "rater/cluster_rating", "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
+          "matcher/ransam", "matcher/indexed_ransam", "matcher/branch_and_bound", "threshold_policy/fixed",
+          "verdict_rule/staged_margin", "clusterer/hierarchical_kmeans", "rater/cluster_rating",
+          "threshold_policy/sliding_window", "verdict_rule/consecutive_rating"}) {
       fillers_[stage] = [](AnyParams&) {};
     }
   }
