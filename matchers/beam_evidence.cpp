@@ -53,13 +53,13 @@ ClearanceGrid::ClearanceGrid(const OccupancyGrid& grid)
   }
 }
 
-bool ClearanceGrid::is_blocked(const Point& from, const Point& to, double margin) const {
+std::optional<double> ClearanceGrid::first_occupied(const Point& from, const Point& to, double margin) const {
   const Point a = grid_from_map_(from);
   const Point b = grid_from_map_(to);
   const float dx = b.x - a.x;
   const float dy = b.y - a.y;
   const float length = std::sqrt(dx * dx + dy * dy);
-  if (clearance_.empty() || !(length > 0.0F)) return false;
+  if (clearance_.empty() || !(length > 0.0F)) return std::nullopt;
   const float scale = 1.0F / resolution_;
   const float end = (length - static_cast<float>(margin)) * scale;
   for (float t = 0.5F; t <= end;) {
@@ -68,10 +68,10 @@ bool ClearanceGrid::is_blocked(const Point& from, const Point& to, double margin
     const bool inside = column >= 0.0F && row >= 0.0F && column < static_cast<float>(width_) &&
                         row < static_cast<float>(height_);
     const int clearance = inside ? clearance_[index(static_cast<int>(column), static_cast<int>(row))] : 1;
-    if (clearance == 0) return true;
+    if (clearance == 0) return t * resolution_;
     t += std::max(0.5F, static_cast<float>(clearance - 1));
   }
-  return false;
+  return std::nullopt;
 }
 
 std::shared_ptr<const ClearanceGrid> clearance_grid(const GlobalMap& map) {

@@ -7,6 +7,7 @@
 #include <deque>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "glocal/global_map.hpp"
@@ -33,10 +34,15 @@ class ClearanceGrid {
  public:
   explicit ClearanceGrid(const OccupancyGrid& grid);
 
-  /// Whether the way between two points (m, in the map's frame) meets an occupied cell before its last
-  /// `margin` (m). It is looked at every half cell. What lies beyond the grid is not occupied: a map without
-  /// a grid blocks nothing.
-  [[nodiscard]] bool is_blocked(const Point& from, const Point& to, double margin) const;
+  /// The first occupied cell on the way between two points (m, in the map's frame), but for the last `margin`
+  /// (m) of it: how far that is from the first point (m), none if there is no such cell. It is looked at
+  /// every half cell. What lies beyond the grid is not occupied: a map without a grid blocks nothing.
+  [[nodiscard]] std::optional<double> first_occupied(const Point& from, const Point& to, double margin) const;
+
+  /// Whether there is one.
+  [[nodiscard]] bool is_blocked(const Point& from, const Point& to, double margin) const {
+    return first_occupied(from, to, margin).has_value();
+  }
 
  private:
   [[nodiscard]] std::size_t index(int column, int row) const {

@@ -4,6 +4,7 @@
 #include "matchers/exhaustive.hpp"
 #include "matchers/indexed_ransam.hpp"
 #include "matchers/iransac.hpp"
+#include "matchers/mcl.hpp"
 #include "matchers/ransac.hpp"
 #include "matchers/ransam.hpp"
 
@@ -19,6 +20,8 @@ void register_matchers(Catalog& catalog) {
       "Random sample matching of dipoles over an index of the map; refined, carried on, checked by beams.");
   catalog.matchers.add<IRansac>(
       "iransac", "Incremental, preemptive random sample consensus over features of the map, hashed or not.");
+  catalog.matchers.add<Mcl>(
+      "mcl", "Monte Carlo localization: a particle filter, as AMCL is; the local map is not looked at.");
   catalog.matchers.add<Ransac>("ransac", "Random sample consensus of pairs of points, without any table.");
   catalog.matchers.add<Ransam>("ransam",
                                "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",

@@ -161,7 +161,7 @@ TEST_F(Stages, MatchersKeepToTheThresholdInFallingQuality) {
   for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
     const auto matcher = catalog_.matchers.make(choice, setup());
     Rng rng(1);
-    const auto found = matcher->match(local_map(), {}, 0.5, rng).hypotheses;
+    const auto found = matcher->match(local_map(), observation(seen(0.0)), 0.5, rng).hypotheses;
     ASSERT_FALSE(found.empty());
     double last = 1.0;
     for (const Hypothesis& h : found) {
@@ -178,7 +178,7 @@ TEST_F(Stages, MatchersAnswerAlikeForAnyNumberOfThreadsAndAfterAReset) {
     const auto two = catalog_.matchers.make(choice, setup(2));
     const auto answer = [](Matcher& matcher) {
       Rng rng(1);
-      return matcher.match(local_map(), {}, 0.5, rng);
+      return matcher.match(local_map(), observation(seen(0.0)), 0.5, rng);
     };
     const MatchResult first = answer(*one);
     const MatchResult parallel = answer(*two);

@@ -11,6 +11,7 @@
 #include "glocal/builtin.hpp"
 #include "glocal/yaml.hpp"
 #include "matchers/exhaustive.hpp"
+#include "matchers/mcl.hpp"
 #include "octree_files.hpp"
 #include "plugins/plugin_loader.hpp"
 #include "sources/carmen_log.hpp"
@@ -62,6 +63,13 @@ class Contract : public ::testing::Test {
       p.grid.contact_epsilon = 0.2;
       p.grid.cell = 0.2;
       p.grid.min_rotation_step = 0.05;
+    });
+    // So that some of the particles fit well enough after a single scan.
+    fill<Mcl::Params>("matcher/mcl", [](auto& p) {
+      p.max_particles = 20000;
+      p.merge_distance = 0.1;
+      p.merge_rotation = 0.05;
+      p.contact_epsilon = 0.3;
     });
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");

@@ -72,6 +72,33 @@ TEST(ClearanceGrid, BlocksWhatLookingAtEveryHalfCellWouldBlock) {
   EXPECT_LT(differ, 60);
 }
 
+TEST(ClearanceGrid, TheFirstOccupiedCellIsWhereSmallStepsWouldMeetIt) {
+  Rng rng(11);
+  OccupancyGrid grid{{-1.0, 2.0, -0.3}, 0.1, 70, 60, std::vector<Cell>(4200, Cell::free)};
+  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.02 ? Cell::occupied : Cell::free;
+  const ClearanceGrid clearance(grid);
+  int met = 0;
+  int far_off = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Pose2 centre = grid.centre(static_cast<int>(rng.below(70)), static_cast<int>(rng.below(60)));
+    const double angle = rng.uniform(-3.14, 3.14);
+    const Point from{static_cast<float>(centre.x), static_cast<float>(centre.y), 0.0F};
+    const Point to{static_cast<float>(centre.x + 20.0 * std::cos(angle)),
+                   static_cast<float>(centre.y + 20.0 * std::sin(angle)), 0.0F};
+    double expected = 20.0;
+    for (double t = 0.05; t < expected; t += 0.002) {
+      if (grid.at(from.x + t * std::cos(angle), from.y + t * std::sin(angle)) == Cell::occupied) expected = t;
+    }
+    const double found = clearance.first_occupied(from, to, 0.0).value_or(20.0);
+    // Never before it, and within a step after it, unless only a corner was touched.
+    EXPECT_GT(found, expected - 0.003);
+    met += expected < 20.0 ? 1 : 0;
+    far_off += found > expected + 0.055 ? 1 : 0;
+  }
+  EXPECT_GT(met, 300);
+  EXPECT_LT(far_off, met / 10);
+}
+
 TEST(ClearanceGrid, AMapWithoutAGridBlocksNothing) {
   EXPECT_FALSE(ClearanceGrid(OccupancyGrid{}).is_blocked({}, {5.0F, 0.0F, 0.0F}, 0.3));
 }

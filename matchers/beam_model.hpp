@@ -1,0 +1,30 @@
+// How likely a measured range is where the map says what a beam should meet.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace glocal {
+
+/// Parameters of the model, with the names and defaults of AMCL (Nav2). The four weights need not add up to
+/// 1: only their shares count.
+struct BeamModelRule {
+  double z_hit = 0.5;
+  double z_short = 0.05;
+  double z_max = 0.05;
+  double z_rand = 0.5;
+  double sigma_hit = 0.2;     ///< m
+  double lambda_short = 0.1;  ///< 1/m
+  double max_range = 100.0;   ///< m
+};
+
+/// What a beam has measured: a range (m), or that it met nothing.
+constexpr double met_nothing = std::numeric_limits<double>::infinity();
+
+/// p(z | x, m) of a measured range where the beam should end at `expected` (m; met_nothing where the map has
+/// nothing there): a normal distribution about it, an exponential one of things before it, a peak at the
+/// largest range and a uniform distribution, each normalised (Thrun, Burgard and Fox, Probabilistic Robotics,
+/// eq. 6.4 to 6.12). A density in 1/m, for met_nothing a probability.
+[[nodiscard]] double beam_likelihood(double measured, double expected, const BeamModelRule& rule);
+
+}  // namespace glocal
