@@ -77,13 +77,15 @@ std::vector<std::string> pair_warnings(const PairComparison& pair) {
         "is so for {}.",
         enumerated(few)));
   }
+  std::vector<std::string> missing;
   for (const Measure& measure : measures()) {
     const bool is_there =
         std::any_of(pair.measures.begin(), pair.measures.end(),
                     [&](const MeasureDifference& d) { return d.measure.name == measure.name; });
-    if (!is_there)
-      warnings.push_back(fmt::format("There is no start at which both have a value for {}.", measure.label));
+    if (!is_there) missing.emplace_back(measure.label);
   }
+  if (!missing.empty())
+    warnings.push_back("There is no start at which both have a value for " + enumerated(missing) + ".");
   return warnings;
 }
 
