@@ -27,6 +27,7 @@ struct Context {
 void add_plugins(CLI::App& app, Context& context);
 
 void add_check(CLI::App& app, Context& context);
+void add_compare(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);

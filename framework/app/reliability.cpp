@@ -5,8 +5,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +13,7 @@
 
 #include "commands.hpp"
 #include "experiment_options.hpp"
+#include "results/results_folder.hpp"
 
 namespace glocal::app {
 namespace {
@@ -33,25 +32,6 @@ struct Findings {
   std::size_t squared_errors = 0;
   double sum_of_squared_errors = 0.0;  ///< Normalised, of right declarations.
 };
-
-[[noreturn]] void refuse(const std::filesystem::path& file, std::size_t line, const std::string& what) {
-  throw ConfigError({{file.string(), static_cast<int>(line), 0, what}});
-}
-
-/// Hands over each line of a file of JSON lines. Throws ConfigError for one that is none.
-void for_each_line(const std::filesystem::path& file, const std::function<void(const Json&)>& work) {
-  std::ifstream stream(file);
-  if (!stream)
-    refuse(file, 0, "cannot be read; name a folder that glocal run has left with output.steps: true");
-  std::string line;
-  for (std::size_t number = 1; std::getline(stream, line); ++number) {
-    try {
-      work(Json::parse(line));
-    } catch (const Json::exception& error) {
-      refuse(file, number, fmt::format("is no line of results ({}); run the experiment again", error.what()));
-    }
-  }
-}
 
 void add_trials(const std::filesystem::path& folder, Findings& findings) {
   for_each_line(folder / "trials.jsonl", [&](const Json& trial) {

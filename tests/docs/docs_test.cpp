@@ -177,6 +177,7 @@ class DocsExamples : public CommandLine {
     // Nothing was run that these could look at.
     if (command.starts_with("explain ")) return "explain --help";
     if (command.starts_with("reliability ")) return "reliability --help";
+    if (command.starts_with("compare ")) return "compare --help";
     if (!command.starts_with("run ") && !command.starts_with("mapping ")) return command;
     std::string check = "check";
     for (const std::smatch& match : matches(command, R"((--(set|seed|threads) \S+|\S+\.yaml)(?=\s|$))")) {
@@ -228,6 +229,14 @@ void collect_keys(const nlohmann::json& json, std::set<std::string>& keys) {
   }
 }
 
+/// Each name is in the document: as a heading, or in code.
+void expect_described(const std::set<std::string>& names, const fs::path& document) {
+  const std::string text = read(document);
+  for (const std::string& name : names) {
+    EXPECT_TRUE(std::regex_search(text, std::regex("(`|### )" + name + "(`|/|\n)"))) << name;
+  }
+}
+
 TEST_F(DocsExamples, WhatARunLeavesIsDescribed) {
   const fs::path document = root / "docs/file-formats.md";
   save_examples(document);
@@ -243,11 +252,29 @@ TEST_F(DocsExamples, WhatARunLeavesIsDescribed) {
   const auto provenance = nlohmann::json::parse(read("a/provenance.json"));
   for (const auto& [key, value] : provenance.items()) names.insert(key);
   EXPECT_GT(names.size(), 40U);
-  const std::string text = read(document);
-  for (const std::string& name : names) {
-    if (name == "x" || name == "y" || name == "theta") continue;
-    EXPECT_TRUE(std::regex_search(text, std::regex("(`|### )" + name + "(`|/|\n)"))) << name;
+  for (const char* part_of_pose : {"x", "y", "theta"}) names.erase(part_of_pose);
+  expect_described(names, document);
+}
+
+TEST_F(DocsExamples, WhatCompareWritesIsDescribed) {
+  const fs::path document = root / "docs/file-formats.md";
+  save_examples(document);
+  for (const char* folder : {"a", "b"}) {
+    const Answer answer =
+        run(std::string("run configs/experiments/room.yaml --quiet --set trials.every_scan=5 --set "
+                        "trials.whole=false --set trials.max_steps=4 --set "
+                        "localizer.matcher.ransam.iterations=5000 --out ") +
+            folder);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
   }
+  const Answer answer = run("compare a b --json c.json --csv c.csv");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  std::set<std::string> names;
+  collect_keys(nlohmann::json::parse(read("c.json")), names);
+  std::istringstream columns(lines_of(read("c.csv")).front());
+  for (std::string column; std::getline(columns, column, ',');) names.insert(column);
+  EXPECT_GT(names.size(), 40U);
+  expect_described(names, document);
 }
 
 TEST(DocsStrategy, IsShownAsItIsCompiledHere) {

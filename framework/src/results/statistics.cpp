@@ -1,7 +1,9 @@
 #include "results/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <numeric>
 
 namespace glocal {
 
@@ -14,9 +16,14 @@ double quantile(std::vector<double> values, double p) {
   return std::lerp(values[below], values[above], place - std::floor(place));
 }
 
+double mean(const std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 Proportion wilson(std::size_t successes, std::size_t trials) {
   if (trials == 0) return {};
-  constexpr double z = 1.959963984540054;  // 97.5 % quantile of the normal distribution
+  const double z = boost::math::quantile(boost::math::normal(), 0.975);
   const auto n = static_cast<double>(trials);
   const double share = static_cast<double>(successes) / n;
   const double scale = 1.0 / (1.0 + z * z / n);

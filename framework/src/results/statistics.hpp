@@ -10,6 +10,9 @@ namespace glocal {
 /// values.
 [[nodiscard]] double quantile(std::vector<double> values, double p);
 
+/// 0 for no values.
+[[nodiscard]] double mean(const std::vector<double>& values);
+
 struct Proportion {
   double value = 0.0;
   double low = 0.0;

@@ -23,6 +23,11 @@ TEST(Quantile, OfOneValueIsThatValueAndOfNoneZero) {
   }
 }
 
+TEST(Mean, IsTheSumSharedOut) {
+  EXPECT_DOUBLE_EQ(mean({1.0, 2.5, 4.0}), 2.5);
+  EXPECT_EQ(mean({}), 0.0);
+}
+
 void expect_interval(std::size_t successes, std::size_t trials, double low, double high) {
   const Proportion p = wilson(successes, trials);
   EXPECT_DOUBLE_EQ(p.value, static_cast<double>(successes) / static_cast<double>(trials));

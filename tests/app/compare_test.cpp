@@ -1,0 +1,194 @@
+// glocal compare.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+
+namespace glocal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+class CompareCommand : public CommandLine {
+ protected:
+  CompareCommand() {
+    std::ofstream(file("world.yaml"))
+        << "size: [12, 6]\n"
+           "walls:\n"
+           "  - {points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}\n"
+           "  - {points: [[5, 0], [5, 2.4]]}\n"
+           "free_from: [[1, 1]]\n"
+           "way_points: [[1, 3], [10, 3], [10, 1]]\n";
+    std::ofstream(file("room.yaml")) << "schema: 1\n"
+                                        "name: room\n"
+                                        "map: {simulation: {world: world.yaml}}\n"
+                                        "observations: {simulation: {world: world.yaml}}\n"
+                                        "trials: {every_scan: 2, max_steps: 8}\n"
+                                        "localizer:\n"
+                                        "  matcher: indexed_ransam\n"
+                                        "  threshold_policy: {fixed: {omega_max: 0.1}}\n"
+                                        "  verdict_rule: staged_margin\n"
+                                        "output: {maps: none}\n";
+  }
+
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
+
+  void run_room(const std::string& out, const std::string& options = "") const {
+    const Answer answer = run("run " + file("room.yaml") + " --quiet --out " + file(out) + " " + options);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  }
+
+  /// One with a threshold that nothing reaches.
+  void run_both() const {
+    run_room("all/some");
+    run_room("all/none", "--set localizer.threshold_policy.fixed.omega_max=1");
+  }
+
+  void expect_refused(const std::string& arguments, const std::string& why) const {
+    const Answer answer = run("compare " + arguments + " --json " + file("refused.json"));
+    EXPECT_EQ(answer.exit_code, 2) << arguments;
+    EXPECT_EQ(answer.out, "") << arguments;
+    EXPECT_THAT(answer.err, HasSubstr(why)) << arguments;
+    EXPECT_FALSE(fs::exists(file("refused.json"))) << arguments;
+  }
+};
+
+TEST_F(CompareCommand, ComparesWhatRunHasLeft) {
+  run_both();
+  const std::string command = "compare " + file("all/some") + " " + file("all/none") + " --force --json " +
+                              file("c.json") + " --csv " + file("c.csv") + " --markdown " + file("c.md");
+  const Answer answer = run(command);
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.err, "");
+  const json comparison = json::parse(content(file("c.json")));
+  const json some = json::parse(content(file("all/some/summary.json")));
+  const json none = json::parse(content(file("all/none/summary.json")));
+  // The figures of each run are those of its own summary.
+  ASSERT_EQ(comparison["starts"], some["trials"]["count"]);
+  for (const auto& [run, summary] : {std::pair{comparison["runs"][0], some}, {comparison["runs"][1], none}}) {
+    EXPECT_EQ(run["right"], summary["trials"]["right"]);
+    EXPECT_EQ(run["wrong"], summary["trials"]["wrong"]);
+    EXPECT_EQ(run["success_rate"], summary["success_rate"]);
+  }
+  EXPECT_EQ(comparison["runs"][0]["medians"]["steps"], some["steps_to_localize"]["median"]);
+  // What is right in one of them is not in the other: 2 / 2^n.
+  const auto n = some["trials"]["right"].get<int>();
+  ASSERT_EQ(none["trials"]["right"], 0);
+  ASSERT_GE(n, 6);
+  EXPECT_EQ(comparison["pairs"][0]["outcomes"][0]["p"], std::ldexp(2.0, -n));
+  EXPECT_THAT(answer.out, HasSubstr("none against some\n"));
+  // Whether times differ, too, is another matter.
+  const auto conclusion = comparison["pairs"][0]["conclusion"].get<std::string>();
+  EXPECT_THAT(conclusion, ContainsRegex("worse (than some )?in right \\(-"));
+  EXPECT_THAT(content(file("c.md")), HasSubstr("## none against some"));
+  EXPECT_THAT(content(file("c.csv")), HasSubstr("none,some,right,"));
+
+  const std::string text = content(file("c.json")) + content(file("c.csv")) + content(file("c.md"));
+  const Answer again = run(command);
+  EXPECT_EQ(again.out, answer.out);
+  EXPECT_EQ(content(file("c.json")) + content(file("c.csv")) + content(file("c.md")), text);
+}
+
+TEST_F(CompareCommand, TakesAFolderOfVariantsAndAnyBaseline) {
+  run_both();
+  Answer answer = run("compare " + file("all"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("some against none\n"));
+  answer = run("compare " + file("all") + "/ --baseline some");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("none against some\n"));
+}
+
+TEST_F(CompareCommand, TellsFoldersOfOneNameApart) {
+  run_room("a/1");
+  run_room("b/1", "--set name=other");
+  const Answer answer = run("compare " + file("a/1") + " " + file("b/1") + " --baseline other");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr(file("a/1") + " against " + file("b/1") + "\n"));
+}
+
+TEST_F(CompareCommand, FindsNothingBetweenARunAndItself) {
+  run_room("a");
+  run_room("b");
+  const Answer answer = run("compare " + file("a") + " " + file("b") + " --json " + file("c.json"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, Not(HasSubstr("better than a in right")));
+  const json comparison = json::parse(content(file("c.json")));
+  for (const json& outcome : comparison["pairs"][0]["outcomes"]) EXPECT_EQ(outcome["p"], 1.0);
+  EXPECT_EQ(comparison["pairs"][0]["measures"][0]["nonzero"], 0);
+}
+
+TEST_F(CompareCommand, WarnsOfRunsThatDiffer) {
+  run_room("a");
+  run_room("b", "--seed 2 --set evaluation.max_translation_error=0.2 --set map.simulation.resolution=0.1");
+  const Answer answer = run("compare " + file("a") + " " + file("b") + " --json " + file("c.json"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const std::string warnings = json::parse(content(file("c.json")))["warnings"].dump();
+  EXPECT_THAT(warnings, HasSubstr("evaluation.max_translation_error: 0.2 instead of 0.5"));
+  EXPECT_THAT(warnings, HasSubstr("map.simulation.resolution: 0.1 instead of"));
+  EXPECT_THAT(warnings, HasSubstr("b has seed 2 and a seed 1"));
+  EXPECT_THAT(warnings, HasSubstr("Few starts"));
+  EXPECT_THAT(warnings, Not(HasSubstr("other observations")));
+}
+
+TEST_F(CompareCommand, WarnsOfAWorldThatHasChanged) {
+  run_room("a");
+  std::ofstream(file("world.yaml"), std::ios::app) << "circles: [{centre: [2, 1], radius: 0.2}]\n";
+  run_room("b");
+  const Answer answer = run("compare " + file("a") + " " + file("b") + " --json " + file("c.json"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(json::parse(content(file("c.json")))["warnings"].dump(),
+              AllOf(HasSubstr("map.simulation.world: " + file("world.yaml") + " has changed"),
+                    HasSubstr("observations.simulation.world: ")));
+}
+
+TEST_F(CompareCommand, RefusesWhatCannotBeCompared) {
+  run_room("a");
+  run_room("b");
+  fs::create_directory(file("empty"));
+  expect_refused(file("a"), "there is nothing to compare it with");
+  expect_refused(file("a") + " " + file("b") + " " + file("a/../a"), "is named twice");
+  expect_refused(file("a") + " " + file("empty"), "empty: error: holds no results");
+  expect_refused(file("a") + " " + file("missing"), "missing: error: is no folder");
+  expect_refused(file("a") + " " + file("b") + " --baseline c", "--baseline c: error: names none");
+  // Both are of the experiment "room".
+  expect_refused(file("a") + " " + file("b") + " --baseline room", "or more than one, of the runs");
+  fs::remove(file("b/trials.jsonl"));
+  expect_refused(file("a") + " " + file("b"), "b/trials.jsonl: error: cannot be read");
+  run_room("later", "--set 'trials={starts_m: [0.4], max_steps: 5}'");
+  expect_refused(file("a") + " " + file("later"), "none of its 1 starts is one of all runs");
+}
+
+TEST_F(CompareCommand, ReportsTheFaultsOfAllFolders) {
+  fs::create_directory(file("empty"));
+  const Answer answer = run("compare " + file("empty") + " " + file("missing"));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err,
+              AllOf(HasSubstr("holds no results"), HasSubstr("is no folder"), HasSubstr("2 errors")));
+}
+
+TEST_F(CompareCommand, ReplacesNoFileUnlessForced) {
+  run_room("a");
+  run_room("b");
+  const std::string command =
+      "compare " + file("a") + " " + file("b") + " --csv " + file("new.csv") + " --json ";
+  std::ofstream(file("old.json")) << "kept";
+  const Answer refused = run(command + file("old.json"));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("the file exists"));
+  EXPECT_EQ(content(file("old.json")), "kept");
+  EXPECT_FALSE(fs::exists(file("new.csv")));
+  EXPECT_EQ(run(command + file("old.json") + " --force").exit_code, 0);
+  EXPECT_TRUE(json::accept(content(file("old.json"))));
+}
+
+}  // namespace
+}  // namespace glocal::test
