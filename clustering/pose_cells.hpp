@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glocal/pose2.hpp"
@@ -18,7 +18,10 @@ struct PoseCell {
   std::int64_t row = 0;
   std::int64_t column = 0;
 
-  friend auto operator<=>(const PoseCell&, const PoseCell&) = default;
+  friend bool operator==(const PoseCell&, const PoseCell&) = default;
+  friend bool operator<(const PoseCell& a, const PoseCell& b) {
+    return std::tie(a.turn, a.row, a.column) < std::tie(b.turn, b.row, b.column);
+  }
 };
 
 /// Square cells times equal parts of a full turn; only those that hold poses take memory.
@@ -49,7 +52,7 @@ class PoseCells {
         const PoseCell last{turn, row, centre.column + reach};
         const PoseCell first{turn, row, centre.column - reach};
         for (auto it = std::lower_bound(cells_.begin(), cells_.end(), first);
-             it != cells_.end() && *it <= last; ++it) {
+             it != cells_.end() && !(last < *it); ++it) {
           if (!visit(static_cast<std::size_t>(it - cells_.begin()))) return;
         }
       }

@@ -1,7 +1,6 @@
 #include "raters/quantile_threshold.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 namespace glocal {
 namespace {
@@ -12,9 +11,9 @@ double quality_at(double quantile, const std::vector<Hypothesis>& hypotheses) {
   double all = 0.0;
   for (const Hypothesis& h : hypotheses) all += static_cast<double>(h.support);
   double so_far = 0.0;
-  for (const Hypothesis& h : std::views::reverse(hypotheses)) {
-    so_far += static_cast<double>(h.support);
-    if (so_far >= quantile * all) return h.quality;
+  for (auto h = hypotheses.rbegin(); h != hypotheses.rend(); ++h) {
+    so_far += static_cast<double>(h->support);
+    if (so_far >= quantile * all) return h->quality;
   }
   return hypotheses.front().quality;
 }
