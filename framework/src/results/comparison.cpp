@@ -36,7 +36,8 @@ std::optional<double> if_right(const TrialResult& trial, Value value) {
 
 std::vector<TrialStart> shared_starts(const std::vector<NamedRun>& runs) {
   std::vector<TrialStart> shared;
-  for (const auto& [start, trial] : runs.front().results.trials) {
+  for (const auto& entry : runs.front().results.trials) {
+    const TrialStart& start = entry.first;
     const bool all = std::all_of(runs.begin(), runs.end(),
                                  [&](const NamedRun& run) { return run.results.trials.contains(start); });
     if (all) shared.push_back(start);
@@ -134,8 +135,8 @@ PairComparison compare_pair(const std::string& name, const TrialsByStart& baseli
       compare_outcome({.name = "right", .more_is_better = true}, is_right, 0, baseline, variant),
       compare_outcome({.name = "wrong", .more_is_better = false}, is_wrong, 1, baseline, variant)};
   for (std::size_t i = 0; i < measure_count; ++i) {
-    MeasureDifference difference = compare_measure(i, baseline, variant);
-    if (difference.starts > 0) pair.measures.push_back(std::move(difference));
+    const MeasureDifference difference = compare_measure(i, baseline, variant);
+    if (difference.starts > 0) pair.measures.push_back(difference);
   }
   return pair;
 }

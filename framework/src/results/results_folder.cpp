@@ -94,7 +94,7 @@ void read_trials(RunResults& results) {
     if (time != times.end()) trial.step_ms = time->second;
     const Json& start = line.at("start");
     const TrialStart at{start.at("sample"), start.at("distance_m"), start.at("stamp")};
-    if (!results.trials.emplace(at, std::move(trial)).second) {
+    if (!results.trials.emplace(at, trial).second) {
       throw std::invalid_argument("an earlier trial starts at the same place");
     }
   });
