@@ -20,12 +20,15 @@ struct CheckOptions {
 };
 
 void check(const std::string& file, const ExperimentOptions& options, Context& context) {
-  const Experiment experiment = options.read(file, context);
-  Prepared prepared =
-      prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
-  static_cast<void>(make_localizer(experiment, context.catalog, prepared));
-  fmt::print("{}: ok, {} map points, {} observations, {} trials\n", file, prepared.map->points().size(),
-             prepared.drive.samples.size(), prepared.starts.size());
+  std::vector<Variant> variants = options.read_variants(file, context);
+  Preparer preparer(context.catalog, [](const std::string& text) { spdlog::warn(text); });
+  static_cast<void>(count_trials(variants, preparer, context.catalog));
+  Experiment& first = variants.front().experiment;
+  Prepared& prepared = preparer.prepare(first);
+  static_cast<void>(make_localizer(first, context.catalog, prepared));
+  fmt::print("{}: ok, {} map points, {} observations, {} trials{}\n", file, prepared.map->points().size(),
+             prepared.drive.samples.size(), prepared.starts.size(),
+             variants.size() > 1 ? fmt::format(" of each of {} variants", variants.size()) : "");
 }
 
 void check_all(const CheckOptions& options, Context& context) {

@@ -3,6 +3,15 @@
 #include "glocal/error.hpp"
 
 namespace glocal::app {
+namespace {
+
+/// All that are there, however they were named: the effective experiment must do without --plugin.
+void name_plugins(Experiment& experiment, const Context& context) {
+  experiment.plugins.clear();
+  for (const auto& plugin : context.plugins.loaded()) experiment.plugins.push_back({plugin.string(), plugin});
+}
+
+}  // namespace
 
 void ExperimentOptions::add_to(CLI::App& command) {
   command.add_option("FILE", file, "Experiment file (YAML)")->required();
@@ -34,16 +43,26 @@ std::vector<Override> ExperimentOptions::overrides() const {
   return overrides;
 }
 
-Experiment ExperimentOptions::read(const std::string& other_file, Context& context) const {
+std::vector<Override> ExperimentOptions::load_plugins(const std::string& other_file, Context& context) const {
   std::vector<Override> all = overrides();
   if (seed) all.emplace_back("seed", std::to_string(*seed));
   if (threads) all.emplace_back("threads", std::to_string(*threads));
   for (const FilePath& plugin : read_plugins(other_file, all)) context.plugins.load(plugin.resolved);
+  return all;
+}
+
+Experiment ExperimentOptions::read(const std::string& other_file, Context& context) const {
+  const std::vector<Override> all = load_plugins(other_file, context);
   Experiment experiment = read_experiment(other_file, all, context.catalog);
-  // All that are there, however they were named: the effective experiment must do without --plugin.
-  experiment.plugins.clear();
-  for (const auto& plugin : context.plugins.loaded()) experiment.plugins.push_back({plugin.string(), plugin});
+  name_plugins(experiment, context);
   return experiment;
+}
+
+std::vector<Variant> ExperimentOptions::read_variants(const std::string& other_file, Context& context) const {
+  const std::vector<Override> all = load_plugins(other_file, context);
+  std::vector<Variant> variants = glocal::read_variants(other_file, all, context.catalog);
+  for (Variant& variant : variants) name_plugins(variant.experiment, context);
+  return variants;
 }
 
 }  // namespace glocal::app

@@ -32,6 +32,12 @@ struct ExperimentOptions {
   /// Loads the plugins the file names, too. Throws ConfigError.
   [[nodiscard]] Experiment read(Context& context) const { return read(file, context); }
   [[nodiscard]] Experiment read(const std::string& other_file, Context& context) const;
+  /// With what its variants change; the experiment itself, without a name, if it has none.
+  [[nodiscard]] std::vector<Variant> read_variants(const std::string& other_file, Context& context) const;
+
+ private:
+  /// All that is changed; loads the plugins that are then named.
+  [[nodiscard]] std::vector<Override> load_plugins(const std::string& other_file, Context& context) const;
 };
 
 }  // namespace glocal::app

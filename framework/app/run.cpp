@@ -1,202 +1,252 @@
-// glocal run: runs an experiment and leaves its results in a folder.
+// glocal run: runs an experiment, or each of its variants, and leaves results in folders.
 #include "pipeline/run.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.hpp"
+#include "config/nearest.hpp"
 #include "experiment_options.hpp"
 #include "glocal/experiment.hpp"
+#include "progress.hpp"
 #include "results/output_folder.hpp"
 #include "results/provenance.hpp"
-#include "results/summary.hpp"
+#include "results/run_results.hpp"
 #include "results/writers.hpp"
+#include "run_report.hpp"
 
 namespace glocal::app {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Summarised = std::pair<std::string, Json>;  ///< A variant's name and its summary.
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
 
 struct RunOptions {
   ExperimentOptions experiment;
+  std::vector<std::string> only;
   std::string out;
+  int jobs = 1;
   bool force = false;
   bool quiet = false;
 };
 
-/// One line on a terminal that is written over again and again.
-class ProgressBar {
- public:
-  ProgressBar(bool shown, std::size_t trials)
-      : shown_(shown && isatty(STDERR_FILENO) == 1), trials_(trials) {}
-  ~ProgressBar() {
-    if (shown_) std::fputs("\r\033[K", stderr);
+/// Keeps the variants that are named, in the order of the file.
+void select(std::vector<Variant>& variants, const RunOptions& options) {
+  std::vector<std::string> names;
+  for (const Variant& variant : variants) {
+    if (!variant.name.empty()) names.push_back(variant.name);
   }
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-
-  /// `share` of the current trial's samples are done.
-  void show(std::size_t trial, std::size_t step, double share, const char* verdict) {
-    using Clock = std::chrono::steady_clock;
-    if (!shown_ || Clock::now() - last_ < std::chrono::milliseconds(100)) return;
-    last_ = Clock::now();
-    constexpr int width = 30;
-    const double done = (static_cast<double>(trial) + share) / static_cast<double>(trials_);
-    const auto filled = static_cast<int>(done * width);
-    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] trial {}/{}  step {}  {}", "", filled, "", width - filled,
-               trial + 1, trials_, step + 1, verdict);
-    std::fflush(stderr);
+  std::vector<Fault> faults;
+  for (const std::string& name : options.only) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    const std::string help =
+        names.empty() ? " (the experiment has no variants)" : suggestion(name, names, "there are");
+    faults.push_back({"--only " + name, 0, 0, "no such variant" + help});
   }
-
- private:
-  bool shown_;
-  std::size_t trials_;
-  std::chrono::steady_clock::time_point last_;
-};
-
-/// Writes what a trial leaves behind, once it is finished.
-class ResultsWriter {
- public:
-  ResultsWriter(OutputFolder& folder, const OutputConfig& config) : folder_(folder), config_(config) {
-    folder_.append("trials.jsonl", "");
-    if (config_.steps) folder_.append("steps.jsonl", "");
-  }
-
-  void step(const StepRecord& record, const Localizer& localizer) {
-    if (!keeps_map(trial_)) return;
-    local_maps_.push_back({record.result.step, {"pcd", pcd(localizer.local_map().points)}});
-    for (MapFile& file : localizer.local_map_files())
-      local_maps_.push_back({record.result.step, std::move(file)});
-  }
-
-  void finish(const TrialRecord& trial) {
-    folder_.append("trials.jsonl", trial_line(trial));
-    if (config_.steps) {
-      std::string lines;
-      for (const StepRecord& record : trial.records) lines += step_line(trial.trial, record);
-      folder_.append("steps.jsonl", lines);
-    }
-    const Trajectories trajectories = tum_trajectories(trial);
-    folder_.append(fmt::format("trajectories/trial_{:04}_estimate.tum", trial.trial), trajectories.estimate);
-    if (!trajectories.reference.empty()) {
-      folder_.append(fmt::format("trajectories/trial_{:04}_reference.tum", trial.trial),
-                     trajectories.reference);
-    }
-    for (const auto& [step, file] : local_maps_) {
-      folder_.append(fmt::format("maps/trial_{:04}/step_{:04}.{}", trial.trial, step, file.extension),
-                     file.content);
-    }
-    local_maps_.clear();
-    ++trial_;
-  }
-
- private:
-  [[nodiscard]] bool keeps_map(std::size_t trial) const {
-    return config_.maps == "all" || (config_.maps == "first_trial" && trial == 0);
-  }
-
-  OutputFolder& folder_;
-  const OutputConfig& config_;
-  std::size_t trial_ = 0;
-  std::vector<std::pair<std::size_t, MapFile>> local_maps_;
-};
-
-void print_summary(const nlohmann::ordered_json& s, const std::filesystem::path& folder) {
-  const auto& trials = s["trials"];
-  fmt::print("{}, seed {}{}\n", s["name"].get<std::string>(), s["seed"].get<std::uint64_t>(),
-             s["complete"].get<bool>() ? "" : " (interrupted: some trials are missing)");
-  fmt::print("  trials              {}: {} right, {} wrong, {} undecided\n", trials["count"].get<int>(),
-             trials["right"].get<int>(), trials["wrong"].get<int>(), trials["undecided"].get<int>());
-  if (trials.contains("failed")) fmt::print("  failed              {}\n", trials["failed"].get<int>());
-  const auto& rate = s["success_rate"];
-  fmt::print("  success             {:.1f} % (95 %: {:.1f} to {:.1f} %)\n",
-             100.0 * rate["value"].get<double>(), 100.0 * rate["low"].get<double>(),
-             100.0 * rate["high"].get<double>());
-  if (trials["right"].get<int>() > 0) {
-    fmt::print("  localized after     {:.0f} steps, {:.1f} m (median)\n",
-               s["steps_to_localize"]["median"].get<double>(),
-               s["distance_to_localize_m"]["median"].get<double>());
-    fmt::print("  error then          {:.3f} m, {:.2f} deg (median); {:.3f} m, {:.2f} deg (largest)\n",
-               s["translation_error_m"]["median"].get<double>(),
-               s["rotation_error_deg"]["median"].get<double>(), s["translation_error_m"]["max"].get<double>(),
-               s["rotation_error_deg"]["max"].get<double>());
-  }
-  const auto& later = s["after_declaration"];
-  if (later["steps"].get<std::size_t>() > trials["count"].get<std::size_t>()) {
-    fmt::print("  error from then on  {:.3f} m, {:.2f} deg (largest of {} steps on the map)\n",
-               later["translation_error_m"]["max"].get<double>(),
-               later["rotation_error_deg"]["max"].get<double>(), later["steps"].get<std::size_t>());
-  }
-  fmt::print("  time for a step     {:.1f} ms (median), {:.1f} ms (95 %); matching {:.1f} ms (median)\n",
-             s["step_ms"]["median"].get<double>(), s["step_ms"]["p95"].get<double>(),
-             s["stage_ms"]["match"]["median"].get<double>());
-  fmt::print("  time for the map    {:.0f} ms to load, {:.0f} ms to index\n",
-             s["map"]["build_ms"].get<double>(), s["map"]["index_ms"].get<double>());
-  fmt::print("  results             {}\n", folder.string());
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  if (options.only.empty()) return;
+  std::erase_if(variants, [&](const Variant& variant) {
+    return std::find(options.only.begin(), options.only.end(), variant.name) == options.only.end();
+  });
 }
 
-void run(const RunOptions& options, Context& context) {
-  Experiment experiment = options.experiment.read(context);
-  const std::filesystem::path out = options.out.empty() ? std::filesystem::path("results") / experiment.name
-                                                        : std::filesystem::path(options.out);
-  // From here on an interrupt ends the run in good order.
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
-  Prepared prepared =
-      prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
-  prepared.inputs.insert(std::filesystem::absolute(options.experiment.file));
-  prepared.inputs.insert(context.plugins.loaded().begin(), context.plugins.loaded().end());
+/// Everything one run after the other needs.
+class Runner {
+ public:
+  Runner(const RunOptions& options, Context& context, fs::path out)
+      : options_(options),
+        context_(context),
+        out_(std::move(out)),
+        preparer_(context.catalog, [](const std::string& text) { spdlog::warn(text); }) {}
+
+  /// The summaries of the variants that an earlier run has finished; they are taken out of the list. Throws
+  /// ConfigError for results of other runs that are in the way.
+  std::vector<Summarised> take_finished(std::vector<Variant>& variants);
+
+  /// Runs all, until interrupted; tells the summary of each.
+  std::vector<Summarised> run(std::vector<Variant>& variants);
+
+  [[nodiscard]] fs::path folder_of(const Variant& variant) const { return out_ / variant.name; }
+
+ private:
+  Json run_one(Variant& variant, Progress& progress);
+  [[nodiscard]] std::optional<std::string> why_other(const fs::path& folder, Experiment& experiment);
+  void note_trials(const std::vector<Variant>& variants) const;
+
+  const RunOptions& options_;
+  Context& context_;
+  fs::path out_;
+  Preparer preparer_;
+  FileHashes hashes_;
+};
+
+std::optional<std::string> Runner::why_other(const fs::path& folder, Experiment& experiment) {
+  return why_other_run(folder, effective_yaml(experiment, context_.catalog),
+                       fs::absolute(options_.experiment.file), hashes_);
+}
+
+std::vector<Summarised> Runner::take_finished(std::vector<Variant>& variants) {
+  std::vector<Summarised> finished;
+  std::vector<Fault> faults;
+  if (fs::exists(out_ / "provenance.json")) {
+    faults.push_back({out_.string(), 0, 0,
+                      "output: the folder has results of a run without variants; choose another one with "
+                      "--out"});
+  }
+  std::erase_if(variants, [&](Variant& variant) {
+    const fs::path folder = folder_of(variant);
+    if (!fs::exists(folder / "provenance.json")) return false;
+    const auto why = why_other(folder, variant.experiment);
+    if (why && !options_.force) {
+      faults.push_back(
+          {folder.string(), 0, 0,
+           fmt::format("output: the folder has results of another run: {}; choose another folder "
+                       "with --out, or replace earlier results with --force",
+                       *why)});
+    }
+    if (why || fs::exists(folder / journal_folder)) return false;
+    if (!options_.quiet) spdlog::info("{}: kept, as an earlier run has finished it", variant.name);
+    std::ifstream summary(folder / "summary.json");
+    finished.emplace_back(variant.name, Json::parse(summary));
+    return true;
+  });
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  return finished;
+}
+
+void Runner::note_trials(const std::vector<Variant>& variants) const {
+  if (options_.quiet) return;
+  for (const Variant& variant : variants) {
+    if (variant.changes_trials)
+      spdlog::info("{}: has a seed, a map, observations or trials of its own: other starts or other noise",
+                   variant.name);
+  }
+}
+
+std::vector<Summarised> Runner::run(std::vector<Variant>& variants) {
+  note_trials(variants);
+  std::size_t trials = 0;
+  for (const std::size_t n : count_trials(variants, preparer_, context_.catalog)) trials += n;
+  Progress progress(!options_.quiet, trials);
+  std::vector<Summarised> summaries;
+  for (Variant& variant : variants) {
+    if (interrupted && !summaries.empty()) break;
+    progress.begin(variant.name);
+    summaries.emplace_back(variant.name, run_one(variant, progress));
+  }
+  return summaries;
+}
+
+Json Runner::run_one(Variant& variant, Progress& progress) {
+  Experiment& experiment = variant.experiment;
+  const Catalog& catalog = context_.catalog;
+  Prepared& prepared = preparer_.prepare(experiment);
+  prepared.inputs.insert(fs::absolute(options_.experiment.file));
+  prepared.inputs.insert(context_.plugins.loaded().begin(), context_.plugins.loaded().end());
   const auto start = std::chrono::steady_clock::now();
-  Localizer localizer = make_localizer(experiment, context.catalog, prepared);
+  std::vector<Localizer> localizers;
+  localizers.push_back(make_localizer(experiment, catalog, prepared));
   const double map_index_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
   // Nothing is written before everything is known to be in order.
-  OutputFolder folder(out, options.force);
-  folder.append("effective.yaml", effective_yaml(experiment, context.catalog));
-  folder.append("provenance.json",
-                provenance(context.catalog, experiment.threads, prepared.inputs).dump(2) + "\n");
-  if (experiment.output.maps != "none") folder.append("maps/global.pcd", pcd(prepared.map->points()));
+  std::optional<std::string> declined;
+  OutputFolder folder(folder_of(variant), options_.force, [&](const fs::path& earlier) {
+    if (!fs::exists(earlier / journal_folder)) return false;
+    declined = why_other(earlier, experiment);
+    return !declined;
+  });
+  if (declined)
+    spdlog::warn("{}: starts afresh: what an earlier run has left unfinished is dropped, as {}",
+                 folder.path().string(), *declined);
+  RunResults results(folder, experiment.output, prepared.starts.size());
+  const std::size_t trials = prepared.starts.size();
+  const std::size_t before = trials - results.to_run().size();
+  if (before > 0 && !options_.quiet)
+    spdlog::info("{}: goes on where an earlier run has stopped: {} of {} trials are finished",
+                 folder.path().string(), before, trials);
+  progress.skip(before);
+  folder.write("effective.yaml", effective_yaml(experiment, catalog));
+  Json origin = provenance(catalog, experiment.threads, prepared.inputs, hashes_);
+  origin["jobs"] = options_.jobs;
+  folder.write("provenance.json", origin.dump(2) + "\n");
+  if (experiment.output.maps != "none") folder.write("maps/global.pcd", pcd(prepared.map->points()));
 
-  ProgressBar progress(!options.quiet, prepared.starts.size());
-  ResultsWriter writer(folder, experiment.output);
-  Summary summary;
-  std::size_t trial = 0;
-  const auto stop = [] { return interrupted != 0; };
-  const auto on_step = [&](const StepRecord& record, const Localizer& now) {
-    writer.step(record, now);
-    const auto& result = record.result;
-    const std::size_t steps = std::min(prepared.drive.samples.size(), step_limit(experiment.trials));
-    progress.show(trial, result.step, static_cast<double>(result.step) / static_cast<double>(steps),
-                  to_string(result.verdict.kind));
+  while (localizers.size() < std::min(static_cast<std::size_t>(options_.jobs), results.to_run().size()))
+    localizers.push_back(make_localizer(experiment, catalog, prepared));
+  const double steps =
+      static_cast<double>(std::min(prepared.drive.samples.size(), step_limit(experiment.trials)));
+  const auto on_step = [&](std::size_t trial, const StepRecord& record, const Localizer& now) {
+    results.step(trial, record, now);
+    progress.step(trial, record.result.step, static_cast<double>(record.result.step) / steps,
+                  to_string(record.result.verdict.kind));
   };
-  const bool complete =
-      run_trials(localizer, experiment, prepared, {on_step, stop}, [&](const TrialRecord& record) {
-        writer.finish(record);
-        if (record.outcome == Outcome::failed) {
-          spdlog::error("trial {} failed in step {}: {}", record.trial, record.records.size(), record.why);
-          context.exit_code = 1;
-        }
-        summary.add(record);
-        ++trial;
-      });
+  const auto on_done = [&](const TrialRecord& record) {
+    results.finish(record);
+    progress.finish(record.trial);
+    if (record.outcome == Outcome::failed)
+      spdlog::error("trial {} failed in step {}: {}", record.trial, record.records.size(), record.why);
+  };
+  const bool complete = run_trials(localizers, experiment, prepared, results.to_run(),
+                                   {on_step, on_done, [] { return interrupted.load(); }});
 
-  const auto json =
-      summary.to_json({experiment.name, experiment.seed, complete, prepared.map->points().size(),
-                       prepared.map_build_ms, map_index_ms, localizer.map_index()});
-  folder.append("summary.json", json.dump(2) + "\n");
+  Json summary = results.put_together().to_json({experiment.name, experiment.seed, complete,
+                                                 prepared.map->points().size(), prepared.map_build_ms,
+                                                 map_index_ms, localizers.front().map_index()});
+  folder.write("summary.json", summary.dump(2) + "\n");
   folder.commit();
-  if (!options.quiet) print_summary(json, folder.path());
-  if (!complete) {
-    spdlog::warn("interrupted: {} of {} trials were finished and kept", trial, prepared.starts.size());
-    context.exit_code = 3;
+  // Only now: a run that is killed before goes on with it.
+  if (complete) fs::remove_all(folder.path() / journal_folder);
+  if (!complete)
+    spdlog::warn("interrupted: {} of {} trials were finished and kept",
+                 summary["trials"]["count"].get<std::size_t>(), trials);
+  return summary;
+}
+
+void run(const RunOptions& options, Context& context) {
+  std::vector<Variant> variants = options.experiment.read_variants(options.experiment.file, context);
+  select(variants, options);
+  const fs::path out =
+      options.out.empty() ? fs::path("results") / variants.front().experiment.name : fs::path(options.out);
+  std::vector<std::string> names;
+  for (const Variant& variant : variants) names.push_back(variant.name);
+  const bool has_variants = !names.front().empty();
+  // From here on an interrupt ends the run in good order.
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  Runner runner(options, context, out);
+  std::vector<Summarised> summaries;
+  if (has_variants) summaries = runner.take_finished(variants);
+  for (auto& summary : runner.run(variants)) summaries.push_back(std::move(summary));
+  const auto place = [&](const Summarised& s) { return std::find(names.begin(), names.end(), s.first); };
+  std::sort(summaries.begin(), summaries.end(),
+            [&](const Summarised& a, const Summarised& b) { return place(a) < place(b); });
+
+  for (const auto& [name, summary] : summaries) {
+    if (summary["trials"].contains("failed")) context.exit_code = 1;
+  }
+  const bool complete = summaries.size() == names.size() &&
+                        std::all_of(summaries.begin(), summaries.end(), [](const auto& named) {
+                          return named.second["complete"].template get<bool>();
+                        });
+  if (!complete) context.exit_code = 3;
+  if (options.quiet) return;
+  if (has_variants) {
+    print_table(summaries, fs::absolute(out));
+  } else {
+    print_summary(summaries.front().second, fs::absolute(out).lexically_normal());
   }
 }
 
@@ -204,11 +254,16 @@ void run(const RunOptions& options, Context& context) {
 
 void add_run(CLI::App& app, Context& context) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand("run", "Run an experiment and leave its results in a folder.");
+  CLI::App* command =
+      app.add_subcommand("run", "Run an experiment, or all its variants, and leave the results in a folder.");
   options->experiment.add_to(*command);
+  command->add_option("--only", options->only, "Run only this variant (repeatable)")->allow_extra_args(false);
   command->add_option("--out", options->out, "Folder for the results (default: results/NAME)");
+  command->add_option("--jobs", options->jobs, "Trials that run side by side, each with --threads of its own")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
   command->add_flag("--force", options->force, "Replace earlier results in that folder");
-  command->add_flag("--quiet", options->quiet, "No progress bar and no summary");
+  command->add_flag("--quiet", options->quiet, "No progress and no summary");
   command->callback([options, &context] { run(*options, context); });
 }
 

@@ -81,7 +81,8 @@ void simulate(const SimulateOptions& options, Context& context) {
   experiment.map = recorded_map();
   experiment.observations = recorded_drive(drive.laser);
   folder.append("experiment.yaml", effective_yaml(experiment, catalog));
-  folder.append("provenance.json", provenance(catalog, experiment.threads, inputs).dump(2) + "\n");
+  FileHashes hashes;
+  folder.append("provenance.json", provenance(catalog, experiment.threads, inputs, hashes).dump(2) + "\n");
   folder.commit();
   fmt::print("{} scans, a map of {} x {} cells and an experiment in {}\n", scans, map.grid.width,
              map.grid.height, folder.path().string());

@@ -6,20 +6,18 @@
 
 #include <atomic>
 #include <map>
-#include <mutex>
 
 namespace glocal {
 namespace {
 
-/// Kept from call to call: threads that have just worked in an arena are still awake there.
+/// Kept from call to call: threads that have just worked in an arena are still awake there. Each caller has
+/// its own: those that run side by side must not wait for each other.
 oneapi::tbb::task_arena& arena_of(int threads) {
   // TBB keeps to the number of processors unless it is told otherwise; users may ask for more.
   constexpr std::size_t most_threads = 256;
   static const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                                  most_threads);
-  static std::mutex mutex;
-  static std::map<int, oneapi::tbb::task_arena> arenas;
-  const std::lock_guard lock(mutex);
+  static thread_local std::map<int, oneapi::tbb::task_arena> arenas;
   return arenas.try_emplace(threads, threads).first->second;
 }
 

@@ -2,81 +2,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 
-#include "app/program.hpp"
+#include "app/room.hpp"
 
 namespace glocal::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
-
-/// Times are all that may differ between two runs of the same experiment.
-Json without_times(Json json) {
-  for (const char* key : {"stage_ms", "step_ms", "peak_rss_mb"}) json.erase(key);
-  if (json.contains("map")) {
-    json["map"].erase("build_ms");
-    json["map"].erase("index_ms");
-  }
-  return json;
-}
-
-class RunCommand : public CommandLine {
- protected:
-  RunCommand() {
-    std::ofstream(file("world.yaml"))
-        << "size: [12, 6]\n"
-           "walls:\n"
-           "  - {points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}\n"
-           "  - {points: [[5, 0], [5, 2.4]]}\n"
-           "free_from: [[1, 1]]\n"
-           "way_points: [[1, 3], [10, 3], [10, 1]]\n";
-    write_experiment("trials: {every_scan: 6, max_steps: 5}\n");
-  }
-
-  void write_experiment(const std::string& trials) const {
-    std::ofstream(file("room.yaml")) << "schema: 1\n"
-                                        "name: room\n"
-                                        "map: {simulation: {world: world.yaml}}\n"
-                                        "observations: {simulation: {world: world.yaml}}\n"
-                                     << trials << "localizer: {matcher: {ransam: {iterations: 20000}}}\n";
-  }
-
-  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
-
-  [[nodiscard]] Answer run_room(const std::string& out, const std::string& options = "--quiet") const {
-    return run("run " + file("room.yaml") + " " + options + " --out " + file(out));
-  }
-
-  [[nodiscard]] Json json(const std::string& name) const { return Json::parse(content(file(name))); }
-
-  /// All lines, without their times.
-  [[nodiscard]] std::string lines(const std::string& name) const {
-    std::ifstream in(file(name));
-    std::string text;
-    for (std::string line; std::getline(in, line);) text += without_times(Json::parse(line)).dump() + "\n";
-    return text;
-  }
-
-  void expect_same_results(const std::string& a, const std::string& b) const {
-    EXPECT_EQ(lines(a + "/steps.jsonl"), lines(b + "/steps.jsonl"));
-    EXPECT_EQ(content(file(a + "/trials.jsonl")), content(file(b + "/trials.jsonl")));
-    EXPECT_EQ(without_times(json(a + "/summary.json")), without_times(json(b + "/summary.json")));
-    for (const char* folder : {"/trajectories", "/maps"}) {
-      std::size_t files = 0;
-      for (const auto& entry : fs::recursive_directory_iterator(file(a) + folder)) {
-        if (!entry.is_regular_file()) continue;
-        const fs::path other = fs::path(file(b)) / fs::relative(entry.path(), file(a));
-        EXPECT_EQ(content(entry.path()), content(other)) << other;
-        ++files;
-      }
-      EXPECT_GT(files, 0U) << folder;
-    }
-  }
-};
+using RunCommand = Room;
 
 TEST_F(RunCommand, LeavesTheFilesOfTheContract) {
   const Answer answer = run_room("a", "");
@@ -169,9 +102,9 @@ TEST_F(RunCommand, AnInterruptKeepsFinishedTrials) {
   const std::string start = GLOCAL_PROGRAM " run " + file("room.yaml") +
                             " --set localizer.matcher.ransam.iterations=300000 --out " + file("a") + " >" +
                             file("out") + " 2>" + file("err") + " & pid=$!; ";
-  const std::string interrupt = "for i in $(seq 600); do grep -qs right\\\\\\|wrong\\\\\\|undecided " +
-                                file(".a.") + "$pid.unfinished/trials.jsonl && break; sleep 0.1; done; " +
-                                "kill -INT $pid; wait $pid";
+  const std::string interrupt = "for i in $(seq 600); do [ -e " +
+                                file(".a.unfinished/journal/trial_0000.json") +
+                                " ] && break; sleep 0.1; done; " + "kill -INT $pid; wait $pid";
   const int status = std::system(("bash -c '" + start + interrupt + "'").c_str());
   ASSERT_EQ(WEXITSTATUS(status), 3) << content(file("err"));
   EXPECT_THAT(content(file("err")), HasSubstr("trials were finished and kept"));

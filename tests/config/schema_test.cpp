@@ -22,6 +22,7 @@ class Validator {
 
  private:
   [[nodiscard]] bool accepts(const Json& schema, const Json& value) const {
+    if (schema.is_boolean()) return schema.get<bool>();
     return std::all_of(schema.items().begin(), schema.items().end(),
                        [&](const auto& item) { return keyword(item.key(), item.value(), schema, value); });
   }
@@ -52,7 +53,7 @@ class Validator {
       });
     }
     if (key == "properties") return properties(rule, value);
-    if (key == "additionalProperties") return additional(schema, value);
+    if (key == "additionalProperties") return additional(schema, rule, value);
     const bool says_nothing =
         key == "$schema" || key == "title" || key == "description" || key == "default" || key == "$defs";
     EXPECT_TRUE(says_nothing) << "unexpected keyword " << key;
@@ -82,10 +83,12 @@ class Validator {
     });
   }
 
-  static bool additional(const Json& schema, const Json& value) {
+  [[nodiscard]] bool additional(const Json& schema, const Json& rule, const Json& value) const {
     if (!value.is_object()) return true;
-    return std::all_of(value.items().begin(), value.items().end(),
-                       [&](const auto& item) { return schema.at("properties").contains(item.key()); });
+    const Json known = schema.value("properties", Json::object());
+    return std::all_of(value.items().begin(), value.items().end(), [&](const auto& item) {
+      return known.contains(item.key()) || accepts(rule, item.value());
+    });
   }
 
   Json root_;
@@ -123,6 +126,10 @@ TEST_F(SchemaTest, AcceptsWhatTheReaderAccepts) {
   EXPECT_TRUE(accepts("/map/toy_map/walls", Json::parse("[{}, {\"height\": 2}]")));
   EXPECT_TRUE(accepts("/seed", 18446744073709551615ULL));
   EXPECT_TRUE(accepts("/output", {{"maps", "all"}}));
+  EXPECT_TRUE(accepts("/variants", nullptr));
+  EXPECT_TRUE(
+      accepts("/variants/list", Json::parse(R"({"a": null, "b": {"seed": 3, "trials.starts_m": [1]}})")));
+  EXPECT_TRUE(accepts("/variants/grid", Json::parse(R"({"seed": [1, 2], "localizer.matcher": ["ransam"]})")));
 }
 
 TEST_F(SchemaTest, RefusesWhatTheReaderRefuses) {
@@ -145,6 +152,10 @@ TEST_F(SchemaTest, RefusesWhatTheReaderRefuses) {
   EXPECT_FALSE(accepts("/localizer/matcher", {{"ransam", nullptr}, {"indexed", nullptr}}));
   EXPECT_FALSE(accepts("/output", {{"maps", "first"}}));
   EXPECT_FALSE(accepts("/output", {{"steps", 1}}));
+  EXPECT_FALSE(accepts("/variants/lists", Json::object()));
+  EXPECT_FALSE(accepts("/variants/list", Json::parse(R"({"a": 3})")));
+  EXPECT_FALSE(accepts("/variants/grid", Json::parse(R"({"seed": 3})")));
+  EXPECT_FALSE(accepts("/variants/zip", Json::parse(R"({"seed": []})")));
 }
 
 TEST_F(SchemaTest, KindWithoutStrategiesAcceptsNothing) {

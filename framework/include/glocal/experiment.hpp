@@ -62,9 +62,24 @@ void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog);
 /// is YAML.
 using Override = std::pair<std::string, std::string>;
 
-/// Reads an experiment file. Throws ConfigError with every fault found in it and in the overrides.
+/// Reads an experiment file, without its variants. Throws ConfigError with every fault found in it and in the
+/// overrides.
 [[nodiscard]] Experiment read_experiment(const std::filesystem::path& file,
                                          const std::vector<Override>& overrides, const Catalog& catalog);
+
+/// One experiment of a file with variants.
+struct Variant {
+  std::string name;  ///< Fit for a folder; empty for the experiment of a file without variants.
+  Experiment experiment;
+  bool changes_trials = false;  ///< It has another map, other observations, trials or another seed.
+};
+
+/// Reads the variants of an experiment file in the order of list, grid and zip; of a file without any, the
+/// experiment itself. Overrides are applied before the variants' changes. Throws ConfigError with every fault
+/// of all variants.
+[[nodiscard]] std::vector<Variant> read_variants(const std::filesystem::path& file,
+                                                 const std::vector<Override>& overrides,
+                                                 const Catalog& catalog);
 
 /// The plugins that an experiment file names, as far as they are there: to be loaded before the file is read.
 /// Says nothing of faults, which read_experiment() finds.

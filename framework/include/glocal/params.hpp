@@ -43,6 +43,18 @@ struct FilePath {
   std::filesystem::path resolved;  ///< Where it is; set by the reader.
 };
 
+struct YamlNode;
+
+/// Sets of changes to an experiment by name, as written: {name: {path: value}}. Null if there is none.
+struct NamedChanges {
+  std::shared_ptr<const YamlNode> written = nullptr;
+};
+
+/// Values for paths into an experiment, as written: {path: [value, value]}. Null if there is none.
+struct ListedChanges {
+  std::shared_ptr<const YamlNode> written = nullptr;
+};
+
 class ParamVisitor;
 class RegistryBase;
 struct StrategyChoice;
@@ -87,6 +99,9 @@ class ParamVisitor {
   /// A list of pairs of numbers (segments, way points).
   virtual void field(std::string_view name, std::vector<std::array<double, 2>>& value,
                      const FieldInfo& info) = 0;
+  /// Changes to an experiment, which are judged where they are put to use.
+  virtual void field(std::string_view name, NamedChanges& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, ListedChanges& value, const FieldInfo& info) = 0;
 
   /// A struct within a struct.
   template <Described T>

@@ -1,13 +1,16 @@
 #include "glocal/experiment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
 #include "config/experiment_params.hpp"
 #include "config/overrides.hpp"
 #include "config/reader.hpp"
 #include "config/text_file.hpp"
+#include "config/variants.hpp"
 #include "config/writer.hpp"
 #include "config/yaml_parser.hpp"
 
@@ -47,15 +50,70 @@ void describe(ParamVisitor& v, PluginsSection& s) {
   v.field("plugins", s.plugins, {.doc = plugins_doc});
 }
 
-/// Letters, digits, `_`, `-` and `.`, beginning with a letter, a digit or `_`: fit for a folder, and for a
-/// command line.
-bool is_folder_name(std::string_view name) {
-  const auto is_word = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  };
-  constexpr std::size_t longest = 100;
-  return !name.empty() && name.size() <= longest && is_word(name.front()) &&
-         std::all_of(name.begin(), name.end(), [&](char c) { return is_word(c) || c == '-' || c == '.'; });
+/// The tree of a file with the overrides put in, and what is read of it. None where it is no tree at all.
+std::optional<YamlNode> read_file(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                                  ExperimentFileParams& params, std::vector<Fault>& faults) {
+  auto tree = parse_yaml(read_text_file(file), origin_of(file), faults);
+  if (tree) {
+    apply_overrides(*tree, overrides, params, faults);
+    read_params(*tree, params, faults);
+  }
+  return tree;
+}
+
+bool is_place_of(const Fault& fault, const Place& place) {
+  return fault.file == place.origin->label && fault.line == place.line && fault.column == place.column;
+}
+
+bool is_within(const Fault& fault, const YamlNode& node) {
+  return is_place_of(fault, node.place) ||
+         std::any_of(node.items.begin(), node.items.end(),
+                     [&](const YamlNode& item) { return is_within(fault, item); }) ||
+         std::any_of(node.entries.begin(), node.entries.end(), [&](const YamlEntry& entry) {
+           return is_place_of(fault, entry.place) || is_within(fault, entry.value);
+         });
+}
+
+/// A fault of a variant said at what the variant changes, also if it shows elsewhere: a rule that spans
+/// fields is broken where those are that the variant leaves alone.
+Fault fault_of(const VariantChanges& variant, const Fault& fault) {
+  for (const Change& change : variant.changes) {
+    if (is_place_of(fault, change.place) || is_within(fault, change.value)) return fault;
+  }
+  // The change that is about what the message begins with.
+  const std::string about = fault.message.substr(0, fault.message.find(':'));
+  const auto cause = std::find_if(variant.changes.begin(), variant.changes.end(),
+                                  [&](const Change& c) { return c.path.starts_with(about); });
+  return fault_at(cause == variant.changes.end() ? variant.changes.front().place : cause->place,
+                  "with this change, " + fault.message);
+}
+
+/// The experiment with the variant's changes; faults that the experiment has without them are left out.
+Variant read_variant(YamlNode tree, const VariantChanges& changes, const Catalog& catalog,
+                     const std::vector<Fault>& of_base, std::vector<Fault>& faults) {
+  constexpr std::array<std::string_view, 4> of_trials = {"seed", "map", "observations", "trials"};
+  Variant variant{changes.name, default_experiment()};
+  ExperimentParams params(variant.experiment, catalog);
+  std::vector<Fault> found;
+  for (const Change& change : changes.changes) {
+    apply_change(tree, change.path, change.value, change.place, params, found);
+    const std::string first = change.path.substr(0, change.path.find('.'));
+    variant.changes_trials |= std::find(of_trials.begin(), of_trials.end(), first) != of_trials.end();
+  }
+  read_params(tree, params, found);
+  for (const Fault& fault : found) {
+    if (std::find(of_base.begin(), of_base.end(), fault) == of_base.end()) {
+      faults.push_back(fault_of(changes, fault));
+    }
+  }
+  return variant;
+}
+
+/// Points of a grid share their values, and with them their faults.
+[[noreturn]] void throw_once_each(std::vector<Fault> faults) {
+  std::sort(faults.begin(), faults.end());
+  faults.erase(std::unique(faults.begin(), faults.end()), faults.end());
+  throw ConfigError(std::move(faults));
 }
 
 }  // namespace
@@ -147,14 +205,27 @@ Experiment default_experiment() {
 Experiment read_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides,
                            const Catalog& catalog) {
   std::vector<Fault> faults;
-  Experiment experiment = default_experiment();
-  ExperimentParams params(experiment, catalog);
-  if (auto tree = parse_yaml(read_text_file(file), origin_of(file), faults)) {
-    apply_overrides(*tree, overrides, params, faults);
-    read_params(*tree, params, faults);
-  }
+  ExperimentFileParams params(catalog);
+  static_cast<void>(read_file(file, overrides, params, faults));
   if (!faults.empty()) throw ConfigError(std::move(faults));
-  return experiment;
+  return std::move(params.file.experiment);
+}
+
+std::vector<Variant> read_variants(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                                   const Catalog& catalog) {
+  std::vector<Fault> of_base;
+  ExperimentFileParams params(catalog);
+  auto tree = read_file(file, overrides, params, of_base);
+  std::vector<Fault> faults = of_base;
+  const std::vector<VariantChanges> all = expand(params.file.variants, faults);
+  std::vector<Variant> variants;
+  if (all.empty()) variants.push_back({"", std::move(params.file.experiment)});
+  if (tree) std::erase_if(tree->entries, [](const YamlEntry& entry) { return entry.key == "variants"; });
+  for (const VariantChanges& changes : all) {
+    variants.push_back(read_variant(*tree, changes, catalog, of_base, faults));
+  }
+  if (!faults.empty()) throw_once_each(std::move(faults));
+  return variants;
 }
 
 std::vector<FilePath> read_plugins(const std::filesystem::path& file,

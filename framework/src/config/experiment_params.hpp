@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "config/variants.hpp"
 #include "glocal/experiment.hpp"
 
 namespace glocal {
@@ -19,6 +20,31 @@ class ExperimentParams final : public AnyParams {
 
  private:
   Experiment* experiment_;
+  const Catalog* catalog_;
+};
+
+/// An experiment file: an experiment, and what its variants change of it.
+struct ExperimentFile {
+  Experiment experiment = default_experiment();
+  VariantsSection variants;
+};
+
+/// An experiment file as a described struct.
+class ExperimentFileParams final : public AnyParams {
+ public:
+  explicit ExperimentFileParams(const Catalog& catalog) : catalog_(&catalog) {}
+  void visit(ParamVisitor& visitor) override {
+    describe(visitor, file.experiment, *catalog_);
+    visitor.field("variants", file.variants,
+                  {.doc = "Experiments that differ in some values, for `glocal run` to compare."});
+  }
+  [[nodiscard]] std::unique_ptr<AnyParams> clone() const override {
+    return std::make_unique<ExperimentFileParams>(*this);
+  }
+
+  ExperimentFile file;
+
+ private:
   const Catalog* catalog_;
 };
 

@@ -35,6 +35,10 @@ template <>
 constexpr FieldType type_of<std::vector<FilePath>> = FieldType::paths;
 template <>
 constexpr FieldType type_of<std::vector<std::array<double, 2>>> = FieldType::pairs;
+template <>
+constexpr FieldType type_of<NamedChanges> = FieldType::named_changes;
+template <>
+constexpr FieldType type_of<ListedChanges> = FieldType::listed_changes;
 
 template <class T>
 Json to_json_value(const T& value) {
@@ -47,6 +51,14 @@ Json to_json_value(const std::vector<FilePath>& values) {
   Json list = Json::array();
   for (const FilePath& value : values) list.push_back(value.text);
   return list;
+}
+
+/// There is no default to show.
+Json to_json_value(const NamedChanges& /*value*/) {
+  return {};
+}
+Json to_json_value(const ListedChanges& /*value*/) {
+  return {};
 }
 
 class Documenter final : public UniformVisitor<Documenter> {
@@ -118,6 +130,10 @@ std::string type_name(const FieldDoc& field) {
       return "list of paths";
     case FieldType::pairs:
       return "list of pairs of numbers";
+    case FieldType::named_changes:
+      return "maps of paths and values";
+    case FieldType::listed_changes:
+      return "map of paths and lists of values";
     case FieldType::group:
       return "map";
     case FieldType::list:

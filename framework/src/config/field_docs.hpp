@@ -21,6 +21,8 @@ enum class FieldType {
   texts,
   paths,
   pairs,
+  named_changes,
+  listed_changes,
   group,
   list,
   strategy

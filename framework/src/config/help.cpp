@@ -40,8 +40,7 @@ std::string strategy_help(const StrategyInfo& info, const RegistryBase& registry
 std::optional<std::string> help(std::string_view name, const Catalog& catalog) {
   std::string text;
   if (name == "experiment") {
-    Experiment experiment = default_experiment();
-    ExperimentParams params(experiment, catalog);
+    ExperimentFileParams params(catalog);
     text = "experiment\nThe keys of an experiment file.\n\n";
     write_struct(document(params), 2, text);
   }

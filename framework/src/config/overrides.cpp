@@ -112,20 +112,26 @@ void put(YamlNode& tree, Path path, const std::vector<bool>& is_strategy, YamlNo
 
 }  // namespace
 
+void apply_change(YamlNode& tree, const std::string& path, YamlNode value, const Place& place,
+                  AnyParams& params, std::vector<Fault>& faults) {
+  const auto parts = split(path);
+  if (!parts) {
+    faults.push_back(fault_at(place, "the path has an empty part; write it as a.b.c"));
+    return;
+  }
+  std::vector<bool> is_strategy(parts->size(), false);
+  StrategyFinder finder(*parts, 0, is_strategy);
+  params.visit(finder);
+  put(tree, *parts, is_strategy, std::move(value), place, faults);
+}
+
 void apply_overrides(YamlNode& tree, const std::vector<Override>& overrides, AnyParams& params,
                      std::vector<Fault>& faults) {
   for (const auto& [text, value] : overrides) {
     const auto origin = std::make_shared<Origin>(
         Origin{fmt::format("--set {}={}", text, value), std::filesystem::current_path()});
-    const Place place{origin, 0, 0};
-    const auto path = split(text);
-    if (!path) faults.push_back(fault_at(place, "the path has an empty part; write it as a.b.c"));
     auto node = parse_yaml_value(value, origin, faults);
-    if (!path || !node) continue;
-    std::vector<bool> is_strategy(path->size(), false);
-    StrategyFinder finder(*path, 0, is_strategy);
-    params.visit(finder);
-    put(tree, *path, is_strategy, *std::move(node), place, faults);
+    if (node) apply_change(tree, text, *std::move(node), {origin, 0, 0}, params, faults);
   }
 }
 

@@ -156,8 +156,37 @@ class MapReader final : public UniformVisitor<MapReader> {
     for (std::size_t i = 0; i < 2; ++i) read(node.items[i], what + "[" + std::to_string(i) + "]", v[i], info);
   }
 
+  void read(const YamlNode& node, const std::string& what, NamedChanges& v, const FieldInfo& /*info*/) {
+    if (!check_map(node, what, "a map (name: {path: value})")) return;
+    bool good = true;
+    for (const YamlEntry& entry : node.entries) {
+      good &= check_map(entry.value, what + "." + entry.key, "a map (path: value)");
+    }
+    if (good) v.written = std::make_shared<const YamlNode>(node);
+  }
+
+  void read(const YamlNode& node, const std::string& what, ListedChanges& v, const FieldInfo& /*info*/) {
+    if (!check_map(node, what, "a map (path: [value, value])")) return;
+    bool good = true;
+    for (const YamlEntry& entry : node.entries) {
+      good &=
+          check_list(entry.value, what + "." + entry.key, {.doc = "", .min_items = 1}, "a list of values");
+    }
+    if (good) v.written = std::make_shared<const YamlNode>(node);
+  }
+
+  /// A null node is a map without keys.
+  bool check_map(const YamlNode& node, const std::string& what, const std::string& expected) {
+    if (node.kind == NodeKind::map || node.kind == NodeKind::null) return true;
+    if (node.kind != NodeKind::invalid) {
+      refuse(node.place, what, "expected " + expected + ", got " + name_of(node));
+    }
+    return false;
+  }
+
   bool check_list(const YamlNode& node, const std::string& what, const FieldInfo& info,
                   const std::string& expected) {
+    if (node.kind == NodeKind::invalid) return false;
     if (node.kind != NodeKind::list) {
       refuse(node.place, what, "expected " + expected + ", got " + name_of(node));
       return false;

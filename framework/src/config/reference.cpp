@@ -53,8 +53,7 @@ std::string table(const StructDoc& doc) {
 }  // namespace
 
 std::string parameter_reference(const Catalog& catalog) {
-  Experiment experiment = default_experiment();
-  ExperimentParams params(experiment, catalog);
+  ExperimentFileParams params(catalog);
   std::string text =
       "# Parameters\n\nWritten by `glocal reference` from the descriptions in the code; do not edit.\n\n"
       "## The experiment file\n\n" +

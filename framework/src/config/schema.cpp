@@ -56,6 +56,11 @@ Json pair_schema(const FieldInfo& info) {
   return {{"type", "array"}, {"items", number_schema("number", info)}, {"minItems", 2}, {"maxItems", 2}};
 }
 
+/// A map of any keys; nothing at all is one without keys.
+Json map_schema(Json values) {
+  return {{"type", {"object", "null"}}, {"additionalProperties", std::move(values)}};
+}
+
 Json type_schema(const FieldDoc& field) {
   const FieldInfo& info = field.info;
   switch (field.type) {
@@ -79,6 +84,10 @@ Json type_schema(const FieldDoc& field) {
       return list_schema({{"type", "string"}}, info);
     case FieldType::pairs:
       return list_schema(pair_schema(info), info);
+    case FieldType::named_changes:
+      return map_schema(map_schema(true));
+    case FieldType::listed_changes:
+      return map_schema({{"type", "array"}, {"minItems", 1}});
     case FieldType::group:
       return struct_schema(field.inner.front());
     case FieldType::list:
@@ -146,8 +155,7 @@ Json registry_schema(const RegistryBase& registry) {
 }  // namespace
 
 Json experiment_schema(const Catalog& catalog) {
-  Experiment experiment = default_experiment();
-  ExperimentParams params(experiment, catalog);
+  ExperimentFileParams params(catalog);
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "glocal experiment"}};
   schema.update(struct_schema(document(params)));
   for (const RegistryBase* registry : catalog.registries()) {

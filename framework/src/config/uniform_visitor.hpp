@@ -40,6 +40,13 @@ class UniformVisitor : public ParamVisitor {
     self().value(name, v, info);
   }
 
+  void field(std::string_view name, NamedChanges& v, const FieldInfo& info) final {
+    self().value(name, v, info);
+  }
+  void field(std::string_view name, ListedChanges& v, const FieldInfo& info) final {
+    self().value(name, v, info);
+  }
+
  private:
   Derived& self() { return static_cast<Derived&>(*this); }
 };

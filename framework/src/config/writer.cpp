@@ -37,6 +37,10 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
     line(name, flow(v));
   }
 
+  /// Variants are written as experiments of their own.
+  void value(std::string_view /*name*/, NamedChanges& /*v*/, const FieldInfo& /*info*/) {}
+  void value(std::string_view /*name*/, ListedChanges& /*v*/, const FieldInfo& /*info*/) {}
+
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
                 const FieldInfo& /*info*/) override {
     YamlWriter parameters(indent_.size() + 4);

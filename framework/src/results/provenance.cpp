@@ -1,5 +1,6 @@
 #include "results/provenance.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "glocal/error.hpp"
@@ -15,6 +17,8 @@
 
 namespace glocal {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::string host_name() {
   std::array<char, 256> name{};
@@ -29,7 +33,30 @@ std::string cpu_model() {
   return "unknown";
 }
 
+/// The program and the library this is in: strategies of the program's own are in one of them.
+Json program_sha256(FileHashes& hashes) {
+  Dl_info library{};
+  // A pointer to a function, as dladdr wants it.
+  const bool found = dladdr(reinterpret_cast<const void*>(&sha256_of_file), &library) != 0;  // NOLINT
+  Json files;
+  files["program"] = hashes.of("/proc/self/exe");
+  if (found) files["library"] = hashes.of(std::filesystem::canonical(library.dli_fname));
+  return files;
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
 }  // namespace
+
+const std::string& FileHashes::of(const std::filesystem::path& file) {
+  auto known = known_.find(file);
+  if (known == known_.end()) known = known_.emplace(file, sha256_of_file(file)).first;
+  return known->second;
+}
 
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -48,10 +75,10 @@ std::string sha256_of_file(const std::filesystem::path& file) {
   return hex;
 }
 
-nlohmann::ordered_json provenance(const Catalog& catalog, int threads,
-                                  const std::set<std::filesystem::path>& inputs) {
-  nlohmann::ordered_json files = nlohmann::ordered_json::object();
-  for (const std::filesystem::path& input : inputs) files[input.string()] = sha256_of_file(input);
+Json provenance(const Catalog& catalog, int threads, const std::set<std::filesystem::path>& inputs,
+                FileHashes& hashes) {
+  Json files = Json::object();
+  for (const std::filesystem::path& input : inputs) files[input.string()] = hashes.of(input);
   std::set<std::string> origins;
   for (const RegistryBase* registry : catalog.registries()) {
     for (const StrategyInfo* info : registry->all()) origins.insert(info->origin);
@@ -59,12 +86,34 @@ nlohmann::ordered_json provenance(const Catalog& catalog, int threads,
   origins.erase("glocal");
   return {{"version", version},
           {"revision", revision()},
+          {"program_sha256", program_sha256(hashes)},
           {"compiler", compiler},
           {"host", host_name()},
           {"cpu", cpu_model()},
           {"threads", threads},
           {"inputs_sha256", std::move(files)},
           {"plugins", origins}};
+}
+
+std::optional<std::string> why_other_run(const std::filesystem::path& folder, const std::string& effective,
+                                         const std::filesystem::path& experiment_file, FileHashes& hashes) {
+  if (content_of(folder / "effective.yaml") != effective) return "it is of other values (effective.yaml)";
+  const auto record = Json::parse(content_of(folder / "provenance.json"), nullptr, false);
+  const auto text_at = [&](const char* key) {
+    return record.is_object() ? record.value(key, Json()) : Json();
+  };
+  if (text_at("version") != version || text_at("revision") != revision() ||
+      text_at("program_sha256") != program_sha256(hashes)) {
+    return "it is of another build of the program";
+  }
+  const Json inputs = text_at("inputs_sha256");
+  for (const auto& [file, hash] : inputs.items()) {
+    if (file == experiment_file) continue;
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored) || hashes.of(file) != hash)
+      return file + " has changed since";
+  }
+  return std::nullopt;
 }
 
 }  // namespace glocal

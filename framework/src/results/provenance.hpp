@@ -2,19 +2,42 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <set>
+#include <string>
 
 #include "glocal/catalog.hpp"
 
 namespace glocal {
 
-/// Version, revision, compiler, host, CPU, threads, SHA-256 of every input file, and which plugins took part.
-[[nodiscard]] nlohmann::ordered_json provenance(const Catalog& catalog, int threads,
-                                                const std::set<std::filesystem::path>& inputs);
-
 /// SHA-256 of a file in hexadecimal digits, as sha256sum prints it. Throws RunError if the file cannot be
 /// read.
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
+
+/// SHA-256 of files, each read once.
+class FileHashes {
+ public:
+  /// Throws RunError if the file cannot be read.
+  [[nodiscard]] const std::string& of(const std::filesystem::path& file);
+
+ private:
+  std::map<std::filesystem::path, std::string> known_;
+};
+
+/// Version, revision, compiler, host, CPU, threads, SHA-256 of the program and of every input file, and which
+/// plugins took part.
+[[nodiscard]] nlohmann::ordered_json provenance(const Catalog& catalog, int threads,
+                                                const std::set<std::filesystem::path>& inputs,
+                                                FileHashes& hashes);
+
+/// Why results in `folder`, finished or not, are not those of a run with this effective experiment by this
+/// very program from the same input files; none if they are. The experiment file itself may have changed: its
+/// effective values tell all of it.
+[[nodiscard]] std::optional<std::string> why_other_run(const std::filesystem::path& folder,
+                                                       const std::string& effective,
+                                                       const std::filesystem::path& experiment_file,
+                                                       FileHashes& hashes);
 
 }  // namespace glocal

@@ -31,7 +31,18 @@ double peak_rss_mb() {
 
 }  // namespace
 
-void Summary::add(const TrialRecord& trial) {
+TrialFigures figures_of(const TrialRecord& trial) {
+  TrialFigures figures{trial.outcome, static_cast<double>(trial.steps), trial.distance_m};
+  if (trial.outcome == Outcome::right) figures.error = *trial.error;
+  for (const StepRecord& step : trial.records) {
+    figures.step_ms.push_back(step.result.stage_ms);
+    if (step.result.verdict.kind == VerdictKind::localized && step.on_map && step.error)
+      figures.later_errors.push_back(*step.error);
+  }
+  return figures;
+}
+
+void Summary::add(const TrialFigures& trial) {
   ++count_;
   right_ += trial.outcome == Outcome::right ? 1 : 0;
   wrong_ += trial.outcome == Outcome::wrong ? 1 : 0;
@@ -39,22 +50,21 @@ void Summary::add(const TrialRecord& trial) {
   declared_ += trial.outcome == Outcome::declared ? 1 : 0;
   failed_ += trial.outcome == Outcome::failed ? 1 : 0;
   if (trial.outcome == Outcome::right) {
-    steps_.push_back(static_cast<double>(trial.steps));
+    steps_.push_back(trial.steps);
     distances_m_.push_back(trial.distance_m);
-    translations_m_.push_back(trial.error->translation_m);
-    rotations_deg_.push_back(degrees(trial.error->rotation_rad));
+    translations_m_.push_back(trial.error.translation_m);
+    rotations_deg_.push_back(degrees(trial.error.rotation_rad));
   }
-  for (const StepRecord& step : trial.records) {
-    const StageTimes& ms = step.result.stage_ms;
+  for (const StageTimes& ms : trial.step_ms) {
     ms_.local_map.push_back(ms.local_map);
     ms_.match.push_back(ms.match);
     ms_.cluster.push_back(ms.cluster);
     ms_.rate.push_back(ms.rate);
     ms_.total.push_back(ms.total());
-    if (step.result.verdict.kind == VerdictKind::localized && step.on_map && step.error) {
-      later_translations_m_.push_back(step.error->translation_m);
-      later_rotations_deg_.push_back(degrees(step.error->rotation_rad));
-    }
+  }
+  for (const PoseError& error : trial.later_errors) {
+    later_translations_m_.push_back(error.translation_m);
+    later_rotations_deg_.push_back(degrees(error.rotation_rad));
   }
 }
 

@@ -12,10 +12,21 @@
 
 namespace glocal {
 
+/// What the figures of a run need of one trial.
+struct TrialFigures {
+  Outcome outcome = Outcome::undecided;
+  double steps = 0.0;
+  double distance_m = 0.0;
+  PoseError error = {};                      ///< Of a right declaration.
+  std::vector<StageTimes> step_ms = {};      ///< Of all steps.
+  std::vector<PoseError> later_errors = {};  ///< Of the steps on the map that are localized.
+};
+[[nodiscard]] TrialFigures figures_of(const TrialRecord& trial);
+
 /// Collects trials and sums them up as the contract for `summary.json` says.
 class Summary {
  public:
-  void add(const TrialRecord& trial);
+  void add(const TrialFigures& trial);
 
   struct Run {
     std::string name;

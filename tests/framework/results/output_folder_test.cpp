@@ -137,6 +137,70 @@ TEST(OutputFolder, KeepsResultsThatAppearedMeanwhile) {
   EXPECT_EQ(entries(folder / ""), 1);
 }
 
+TEST(OutputFolder, EarlierResultsComeBackIfNewOnesCannotTakeTheirPlace) {
+  const TempFolder folder;
+  fs::create_directory(folder / "results");
+  folder.write("results/provenance.json", "old");
+  {
+    OutputFolder out(folder / "results", true);
+    out.append("provenance.json", "new");
+    // A run that ended between the two renames of commit().
+    fs::rename(folder / "results", folder / ".results.replaced");
+  }
+  EXPECT_FALSE(fs::exists(folder / "results"));
+  const OutputFolder out(folder / "results", true);
+  EXPECT_EQ(content(folder / "results/provenance.json"), "old");
+  EXPECT_FALSE(fs::exists(folder / ".results.replaced"));
+}
+
+TEST(OutputFolder, TakesUpWhatWasLeftUnfinished) {
+  const TempFolder folder;
+  {
+    OutputFolder out(folder / "results", false);
+    out.write("a", "1");
+    out.keep_unfinished();
+  }
+  EXPECT_EQ(content(folder / ".results.unfinished/a"), "1");
+  EXPECT_EQ(entries(folder / ""), 1) << "the lock goes with its owner";
+  {
+    OutputFolder out(folder / "results", false, [](const fs::path&) { return true; });
+    out.write("b", "2");
+    out.write("b", "3");
+    out.commit();
+  }
+  EXPECT_EQ(content(folder / "results/a"), "1");
+  EXPECT_EQ(content(folder / "results/b"), "3");
+  EXPECT_EQ(entries(folder / ""), 1);
+}
+
+TEST(OutputFolder, RemovesWhatIsNotTakenUp) {
+  const TempFolder folder;
+  fs::create_directory(folder / ".results.unfinished");
+  folder.write(".results.unfinished/a", "1");
+  OutputFolder out(folder / "results", false);
+  out.commit();
+  EXPECT_TRUE(fs::is_empty(folder / "results"));
+}
+
+TEST(OutputFolder, TakesUpResultsThatAreNotComplete) {
+  const TempFolder folder;
+  fs::create_directory(folder / "results");
+  folder.write("results/a", "1");
+  OutputFolder out(folder / "results", false, [](const fs::path&) { return true; });
+  EXPECT_FALSE(fs::exists(folder / "results"));
+  out.commit();
+  EXPECT_EQ(content(folder / "results/a"), "1");
+}
+
+TEST(OutputFolder, HasOneOwner) {
+  const TempFolder folder;
+  const OutputFolder out(folder / "results", false);
+  EXPECT_EQ(config_error((folder / "").parent_path(), [&] { OutputFolder(folder / "results", true); }),
+            "results: error: output: another run is writing this folder; wait for its end, or choose another "
+            "one with --out");
+  EXPECT_TRUE(fs::exists(out.unfinished()));
+}
+
 TEST(OutputFolder, SaysWhyItCannotBeMade) {
   const TempFolder folder;
   const fs::path file = folder.write("a.txt", "");

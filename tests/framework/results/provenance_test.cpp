@@ -37,7 +37,8 @@ TEST(Provenance, SaysWhereResultsComeFrom) {
   const auto input = folder.write("abc", "abc");
   Catalog catalog;
   register_matchers(catalog);
-  const nlohmann::ordered_json json = provenance(catalog, 3, {input});
+  FileHashes hashes;
+  const nlohmann::ordered_json json = provenance(catalog, 3, {input}, hashes);
   for (const char* key : {"version", "revision", "compiler", "host", "cpu"}) {
     EXPECT_FALSE(json.at(key).get<std::string>().empty()) << key;
   }
@@ -46,6 +47,29 @@ TEST(Provenance, SaysWhereResultsComeFrom) {
   EXPECT_EQ(json["inputs_sha256"].at(input.string()),
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_TRUE(json.at("plugins").empty());
+}
+
+TEST(WhyOtherRun, NamesWhatHasChanged) {
+  const TempFolder folder;
+  const auto input = folder.write("abc", "abc");
+  const auto experiment = folder.write("e.yaml", "first");
+  FileHashes hashes;
+  auto record = provenance(Catalog(), 1, {input, experiment}, hashes);
+  folder.write("effective.yaml", "values");
+  const auto why = [&](const std::string& effective) {
+    folder.write("provenance.json", record.dump());
+    FileHashes now;
+    return why_other_run(input.parent_path(), effective, experiment, now).value_or("");
+  };
+  EXPECT_EQ(why("values"), "");
+  EXPECT_EQ(why("other values"), "it is of other values (effective.yaml)");
+  folder.write("e.yaml", "with a comment");
+  EXPECT_EQ(why("values"), "");
+  folder.write("abc", "abd");
+  EXPECT_EQ(why("values"), input.string() + " has changed since");
+  folder.write("abc", "abc");
+  record["program_sha256"]["library"] = "another";
+  EXPECT_EQ(why("values"), "it is of another build of the program");
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ TrialRecord trial(Outcome outcome, std::size_t steps, double distance_m, const P
 
 Json sum_up(const std::vector<TrialRecord>& trials, bool complete = true) {
   Summary summary;
-  for (const TrialRecord& record : trials) summary.add(record);
+  for (const TrialRecord& record : trials) summary.add(figures_of(record));
   return summary.to_json({"a name", 42, complete, 1000, 12.5, 160.25});
 }
 

@@ -1,0 +1,47 @@
+// How far a run is, for who is waiting for it.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace glocal::app {
+
+/// On a terminal one line that is written over again and again, elsewhere a line of the log now and then.
+/// Calls may come from several threads.
+class Progress {
+ public:
+  /// `trials` of all variants are to be run.
+  Progress(bool shown, std::size_t trials);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// What is run from now on: a variant's name, or nothing.
+  void begin(const std::string& what);
+  /// `share` of the trial's observations are done.
+  void step(std::size_t trial, std::size_t step, double share, const char* verdict);
+  void finish(std::size_t trial);
+  /// So many trials need not be run.
+  void skip(std::size_t trials);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] double done() const;
+  [[nodiscard]] std::string time_left(double done) const;
+
+  bool shown_;
+  bool on_terminal_;
+  double trials_;
+  std::string what_;
+  std::size_t finished_ = 0;
+  std::map<std::size_t, double> running_;  ///< Shares of trials.
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+  std::mutex mutex_;
+};
+
+}  // namespace glocal::app

@@ -1,0 +1,185 @@
+#include "config/variants.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string_view>
+#include <utility>
+
+namespace glocal {
+namespace {
+
+constexpr std::size_t most_variants = 10000;
+
+/// Letters and digits that need no thought in a name.
+bool is_word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// A path with the values to try for it.
+struct Axis {
+  const YamlEntry* written;
+  std::string label;  ///< The end of the path, as far as it tells this axis from the others.
+
+  [[nodiscard]] std::size_t size() const { return written->value.items.size(); }
+};
+
+/// The scalars of a value, one after the other: `0.5`, `staged_margin`, `0-0.3`.
+std::string text_of(const YamlNode& value) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "-") + part; };
+  if (value.kind == NodeKind::scalar) add(value.text);
+  for (const YamlNode& item : value.items) add(text_of(item));
+  for (const YamlEntry& entry : value.entries) {
+    add(entry.key);
+    if (entry.value.kind != NodeKind::null) add(text_of(entry.value));
+  }
+  if (text.empty()) text = "none";
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return !is_word(c) && c != '-' && c != '.'; }, '-');
+  return text;
+}
+
+/// Whether the path ends with these parts.
+bool ends_with_parts(const std::string& path, const std::string& parts) {
+  return path == parts || path.ends_with("." + parts);
+}
+
+/// The shortest end of a path that no other one has.
+std::string label_of(const std::string& path, const std::vector<YamlEntry>& all) {
+  for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
+       dot = path.rfind('.', dot - 1)) {
+    const std::string end = path.substr(dot + 1);
+    const auto same = std::count_if(all.begin(), all.end(),
+                                    [&](const YamlEntry& e) { return ends_with_parts(e.key, end); });
+    if (same == 1) return end;
+  }
+  return path;
+}
+
+void check_path(const YamlEntry& entry, std::vector<Fault>& faults) {
+  constexpr std::array<std::string_view, 4> fixed = {"schema", "name", "plugins", "variants"};
+  const std::string first = entry.key.substr(0, entry.key.find('.'));
+  if (std::find(fixed.begin(), fixed.end(), first) == fixed.end()) return;
+  faults.push_back(
+      fault_at(entry.place, "variants: '" + first + "' is the same for all variants and cannot be changed"));
+}
+
+std::vector<Axis> axes_of(const ListedChanges& changes, std::vector<Fault>& faults) {
+  std::vector<Axis> axes;
+  if (!changes.written) return axes;
+  for (const YamlEntry& entry : changes.written->entries) {
+    check_path(entry, faults);
+    axes.push_back({&entry, label_of(entry.key, changes.written->entries)});
+  }
+  return axes;
+}
+
+/// The variant that takes value at[i] of axis i.
+VariantChanges point(const std::vector<Axis>& axes, const std::vector<std::size_t>& at) {
+  VariantChanges variant;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const YamlEntry& written = *axes[i].written;
+    const YamlNode& value = written.value.items[at[i]];
+    variant.name += (i == 0 ? "" : "_") + axes[i].label + "-" + text_of(value);
+    variant.changes.push_back({written.key, written.place, value});
+  }
+  variant.place = variant.changes.back().value.place;
+  return variant;
+}
+
+void add_list(const NamedChanges& list, std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
+  if (!list.written) return;
+  for (const YamlEntry& named : list.written->entries) {
+    VariantChanges variant{named.key, named.place, {}};
+    for (const YamlEntry& entry : named.value.entries) {
+      check_path(entry, faults);
+      variant.changes.push_back({entry.key, entry.place, entry.value});
+    }
+    variants.push_back(std::move(variant));
+  }
+}
+
+void add_grid(const ListedChanges& grid, std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
+  const std::vector<Axis> axes = axes_of(grid, faults);
+  if (axes.empty()) return;
+  std::size_t points = 1;
+  for (const Axis& axis : axes) points = std::min(points * axis.size(), most_variants + 1);
+  if (points > most_variants) {
+    faults.push_back(fault_at(
+        axes.front().written->place,
+        fmt::format("variants.grid: has more than {} combinations; leave some values out", most_variants)));
+    return;
+  }
+  std::vector<std::size_t> at(axes.size());
+  for (std::size_t k = 0; k < points; ++k) {
+    variants.push_back(point(axes, at));
+    // Counts on, the last axis fastest.
+    for (std::size_t i = axes.size(); i-- > 0;) {
+      at[i] = (at[i] + 1) % axes[i].size();
+      if (at[i] != 0) break;
+    }
+  }
+}
+
+void add_zip(const ListedChanges& zip, std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
+  const std::vector<Axis> axes = axes_of(zip, faults);
+  if (axes.empty()) return;
+  const std::size_t rows = axes.front().size();
+  bool even = true;
+  for (const Axis& axis : axes) {
+    if (axis.size() == rows) continue;
+    even = false;
+    faults.push_back(
+        fault_at(axis.written->value.place,
+                 fmt::format("variants.zip: {} values for '{}', but {} for '{}'; give equally many",
+                             axis.size(), axis.written->key, rows, axes.front().written->key)));
+  }
+  for (std::size_t row = 0; even && row < rows; ++row) {
+    variants.push_back(point(axes, std::vector<std::size_t>(axes.size(), row)));
+  }
+}
+
+void check_names(const std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
+  std::map<std::string, int> first_lines;
+  for (const VariantChanges& variant : variants) {
+    const auto [first, is_new] = first_lines.try_emplace(variant.name, variant.place.line);
+    if (!is_new) {
+      faults.push_back(fault_at(variant.place, fmt::format("variants: '{}' is there twice (first in line {})",
+                                                           variant.name, first->second)));
+    } else if (!is_folder_name(variant.name)) {
+      faults.push_back(
+          fault_at(variant.place, fmt::format("variants: '{}' is no name for a folder: at most 100 letters, "
+                                              "digits, '_', '-' and '.', beginning with a letter, a digit or "
+                                              "'_'; variants.list lets you choose names",
+                                              variant.name)));
+    }
+  }
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, VariantsSection& s) {
+  v.field("list", s.list, {.doc = "Each has a name, and values by their paths, written as for `--set`."});
+  v.field("grid", s.grid, {.doc = "Every combination of the values listed for each path."});
+  v.field("zip", s.zip, {.doc = "The first values of all paths, then the second of all, and so on."});
+}
+
+std::vector<VariantChanges> expand(const VariantsSection& section, std::vector<Fault>& faults) {
+  std::vector<VariantChanges> variants;
+  add_list(section.list, variants, faults);
+  add_grid(section.grid, variants, faults);
+  add_zip(section.zip, variants, faults);
+  check_names(variants, faults);
+  return variants;
+}
+
+bool is_folder_name(std::string_view name) {
+  constexpr std::size_t longest = 100;
+  return !name.empty() && name.size() <= longest && is_word(name.front()) &&
+         std::all_of(name.begin(), name.end(), [](char c) { return is_word(c) || c == '-' || c == '.'; });
+}
+
+}  // namespace glocal

@@ -1,0 +1,23 @@
+// One process at a time.
+#pragma once
+
+#include <filesystem>
+
+namespace glocal {
+
+/// Holds a lock file, which is made for it and removed with it. The system lets go of the lock when a process
+/// ends, however it ends.
+class FileLock {
+ public:
+  /// Throws ConfigError naming `shown` if another process has the lock, RunError if there can be none.
+  FileLock(std::filesystem::path file, const std::filesystem::path& shown);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  std::filesystem::path file_;
+  int fd_ = -1;
+};
+
+}  // namespace glocal

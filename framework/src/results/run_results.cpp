@@ -1,0 +1,67 @@
+#include "results/run_results.hpp"
+
+#include <fmt/format.h>
+
+#include "results/writers.hpp"
+
+namespace glocal {
+
+RunResults::RunResults(OutputFolder& folder, const OutputConfig& config, std::size_t trials)
+    : folder_(folder), config_(config), trials_(trials) {
+  for (std::size_t trial = 0; trial < trials; ++trial) {
+    if (!read_entry(folder.unfinished(), trial)) to_run_.push_back(trial);
+  }
+}
+
+void RunResults::step(std::size_t trial, const StepRecord& record, const Localizer& localizer) {
+  if (!keeps_map(trial)) return;
+  std::vector<MapFile> files = localizer.local_map_files();
+  files.insert(files.begin(), {"pcd", pcd(localizer.local_map().points)});
+  const std::lock_guard lock(mutex_);
+  for (MapFile& file : files) maps_[trial].push_back({record.result.step, std::move(file)});
+}
+
+void RunResults::finish(const TrialRecord& trial) {
+  JournalEntry entry{trial.trial, figures_of(trial), trial_line(trial), ""};
+  const auto write = [&](const std::string& name, const std::string& content) {
+    folder_.write(name, content);
+    entry.files[name] = content.size();
+  };
+  if (config_.steps) {
+    for (const StepRecord& record : trial.records) entry.step_lines += step_line(trial.trial, record);
+  }
+  const Trajectories trajectories = tum_trajectories(trial);
+  write(fmt::format("trajectories/trial_{:04}_estimate.tum", trial.trial), trajectories.estimate);
+  if (!trajectories.reference.empty())
+    write(fmt::format("trajectories/trial_{:04}_reference.tum", trial.trial), trajectories.reference);
+  for (const auto& [step, file] : take_maps(trial.trial))
+    write(fmt::format("maps/trial_{:04}/step_{:04}.{}", trial.trial, step, file.extension), file.content);
+  write_entry(folder_, entry);
+  folder_.keep_unfinished();
+}
+
+Summary RunResults::put_together() {
+  Summary summary;
+  folder_.write("trials.jsonl", "");
+  if (config_.steps) folder_.write("steps.jsonl", "");
+  for (std::size_t trial = 0; trial < trials_; ++trial) {
+    const auto entry = read_entry(folder_.unfinished(), trial);
+    if (!entry) continue;
+    folder_.append("trials.jsonl", entry->trial_line);
+    if (config_.steps) folder_.append("steps.jsonl", entry->step_lines);
+    summary.add(entry->figures);
+  }
+  return summary;
+}
+
+bool RunResults::keeps_map(std::size_t trial) const {
+  return config_.maps == "all" || (config_.maps == "first_trial" && trial == 0);
+}
+
+RunResults::MapFiles RunResults::take_maps(std::size_t trial) {
+  const std::lock_guard lock(mutex_);
+  const auto node = maps_.extract(trial);
+  return node.empty() ? MapFiles{} : std::move(node.mapped());
+}
+
+}  // namespace glocal

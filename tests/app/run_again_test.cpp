@@ -1,0 +1,172 @@
+// glocal run after a run that was killed, and beside another one.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <thread>
+
+#include "app/room.hpp"
+
+namespace glocal::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class RunAgain : public Room {
+ protected:
+  RunAgain() { write_experiment("trials: {every_scan: 2, max_steps: 6}\n"); }
+
+  /// Starts a run of room.yaml and kills it with this signal once `wanted` holds.
+  void kill_run(const std::string& out, int with, const std::function<bool()>& wanted,
+                const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> words = {GLOCAL_PROGRAM, "run",   file("room.yaml"),
+                                      "--quiet",      "--out", file(out)};
+    words.insert(words.end(), options.begin(), options.end());
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+      execv(GLOCAL_PROGRAM, arguments.data());
+      _exit(127);
+    }
+    int status = 0;
+    while (!wanted()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << "the run ended before it was killed";
+    }
+    ::kill(child, with);
+    waitpid(child, &status, 0);
+  }
+
+  /// The journal's files of an unfinished run, with their bytes.
+  [[nodiscard]] std::map<std::string, std::string> journal(const std::string& folder) const {
+    std::map<std::string, std::string> files;
+    if (!fs::exists(file(folder + "/journal"))) return files;
+    for (const auto& entry : fs::directory_iterator(file(folder + "/journal"))) {
+      if (entry.path().extension() == ".json") files[entry.path().filename()] = content(entry.path());
+    }
+    return files;
+  }
+
+  /// Lines as they are, with their times: a trial that was run twice has others.
+  void expect_steps_of(const std::map<std::string, std::string>& journal, const std::string& results) const {
+    const std::string steps = content(file(results + "/steps.jsonl"));
+    for (const auto& [name, text] : journal) {
+      const std::string of_trial = Json::parse(text)["step_lines"];
+      EXPECT_FALSE(of_trial.empty());
+      EXPECT_NE(steps.find(of_trial), std::string::npos) << name;
+    }
+  }
+};
+
+TEST_F(RunAgain, AKilledRunIsGoneOnWithAndNothingIsRunTwice) {
+  for (const std::string jobs : {"1", "2"}) {
+    const std::string out = "jobs" + jobs;
+    kill_run(out, SIGKILL, [&] { return journal("." + out + ".unfinished").size() >= 3; }, {"--jobs", jobs});
+    EXPECT_FALSE(fs::exists(file(out)));
+    const auto before = journal("." + out + ".unfinished");
+    const Answer answer = run_room(out, "--jobs " + jobs);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_THAT(
+        answer.err,
+        HasSubstr("goes on where an earlier run has stopped: " + std::to_string(before.size()) + " of "));
+    expect_steps_of(before, out);
+    EXPECT_FALSE(fs::exists(file(out + "/journal")));
+    EXPECT_FALSE(fs::exists(file("." + out + ".unfinished")));
+    EXPECT_FALSE(fs::exists(file("." + out + ".lock")));
+  }
+  ASSERT_EQ(run_room("whole").exit_code, 0);
+  expect_same_results("whole", "jobs1");
+  expect_same_results("whole", "jobs2");
+}
+
+TEST_F(RunAgain, AKilledVariantIsGoneOnWith) {
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\noutput: {steps: false}\n",
+                   "variants: {grid: {localizer.matcher.ransam.iterations: [10000, 20000]}}\n");
+  kill_run("all", SIGKILL, [&] { return !journal("all/.iterations-20000.unfinished").empty(); });
+  const auto before = journal("all/.iterations-20000.unfinished");
+  const Answer answer = run_room("all", "");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("iterations-10000: kept"),
+                                HasSubstr("iterations-20000: goes on where an earlier run has stopped: " +
+                                          std::to_string(before.size()) + " of ")));
+  ASSERT_EQ(run_room("whole").exit_code, 0);
+  EXPECT_EQ(content(file("all/iterations-20000/trials.jsonl")),
+            content(file("whole/iterations-20000/trials.jsonl")));
+  EXPECT_EQ(without_times(json("all/iterations-20000/summary.json")),
+            without_times(json("whole/iterations-20000/summary.json")));
+}
+
+TEST_F(RunAgain, ADamagedEntryIsRunAgain) {
+  kill_run("a", SIGKILL, [&] { return journal(".a.unfinished").size() >= 3; });
+  const auto before = journal(".a.unfinished");
+  const std::string first = file(".a.unfinished/journal/trial_0000.json");
+  fs::resize_file(first, fs::file_size(first) / 2);
+  fs::resize_file(file(".a.unfinished/trajectories/trial_0001_estimate.tum"), 0);
+  const Answer answer = run_room("a", "");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.err, HasSubstr("stopped: " + std::to_string(before.size() - 2) + " of "));
+  ASSERT_EQ(run_room("whole").exit_code, 0);
+  expect_same_results("whole", "a");
+}
+
+TEST_F(RunAgain, AnInterruptedRunIsGoneOnWith) {
+  kill_run("a", SIGINT, [&] { return journal(".a.unfinished").size() >= 2; });
+  ASSERT_EQ(json("a/summary.json")["complete"], false);
+  const auto before = journal("a");
+  ASSERT_GE(before.size(), 2U);
+  ASSERT_EQ(run_room("a").exit_code, 0);
+  expect_steps_of(before, "a");
+  ASSERT_EQ(run_room("whole").exit_code, 0);
+  expect_same_results("whole", "a");
+  EXPECT_EQ(run_room("a").exit_code, 2) << "what is complete is not run again";
+}
+
+TEST_F(RunAgain, AnotherRunStartsAfreshAndSaysWhy) {
+  const auto three = [&] { return journal(".a.unfinished").size() >= 3; };
+  kill_run("a", SIGKILL, three);
+  Answer answer = run_room("a", "--quiet --seed 2");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.err,
+              HasSubstr("starts afresh: what an earlier run has left unfinished is dropped, as it "
+                        "is of other values (effective.yaml)"));
+  ASSERT_EQ(run_room("two", "--quiet --seed 2").exit_code, 0);
+  expect_same_results("two", "a");
+
+  fs::remove_all(file("a"));
+  kill_run("a", SIGKILL, three);
+  std::ofstream(file("world.yaml"), std::ios::app) << "# a change\n";
+  answer = run_room("a");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.err, HasSubstr("as " + file("world.yaml") + " has changed since"));
+}
+
+TEST_F(RunAgain, TwoAtOnceAreRefused) {
+  Answer second{};
+  kill_run("a", SIGKILL, [&] {
+    if (journal(".a.unfinished").empty()) return false;
+    second = run_room("a");
+    return true;
+  });
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_THAT(second.err, HasSubstr(file("a") + ": error: output: another run is writing this folder"));
+  EXPECT_FALSE(journal(".a.unfinished").empty()) << "the first one's files are left alone";
+}
+
+TEST_F(RunAgain, AnyNumberOfJobsGivesTheSameResults) {
+  ASSERT_EQ(run_room("one").exit_code, 0);
+  ASSERT_EQ(run_room("three", "--quiet --jobs 3 --threads 2 --set output.maps=all").exit_code, 0);
+  ASSERT_EQ(run_room("all_maps", "--quiet --set output.maps=all").exit_code, 0);
+  expect_same_results("all_maps", "three");
+  EXPECT_EQ(lines("one/steps.jsonl"), lines("three/steps.jsonl"));
+}
+
+}  // namespace
+}  // namespace glocal::test

@@ -1,0 +1,121 @@
+// glocal run with variants.
+#include <gmock/gmock.h>
+
+#include "app/room.hpp"
+
+namespace glocal::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::Not;
+
+class RunVariants : public Room {
+ protected:
+  RunVariants() { write_variants("20000"); }
+
+  /// Two variants; one of them draws so often.
+  void write_variants(const std::string& iterations) const {
+    write_experiment("trials: {every_scan: 9, max_steps: 4}\n",
+                     "variants:\n"
+                     "  list:\n"
+                     "    paper: {}\n"
+                     "    other: {localizer.matcher.ransam.iterations: " +
+                         iterations + "}\n");
+  }
+};
+
+TEST_F(RunVariants, EachHasAFolderAndALineOfTheTable) {
+  write_variants("15000");
+  const Answer answer = run_room("all", "");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json paper = json("all/paper/summary.json");
+  const Json other = json("all/other/summary.json");
+  EXPECT_EQ(paper["name"], "room");
+  EXPECT_EQ(paper["trials"]["count"], other["trials"]["count"]);
+  // Name, and number of trials.
+  const std::string count = " +" + paper["trials"]["count"].dump() + " .*";
+  EXPECT_THAT(answer.out, MatchesRegex("variant .*\npaper" + count + "\nother" + count + "\nresults in " +
+                                       file("all") + "\n"));
+  const std::string effective = content(file("all/other/effective.yaml"));
+  EXPECT_THAT(effective, AllOf(HasSubstr("iterations: 15000"), Not(HasSubstr("variants"))));
+  // The same as a run of its own.
+  ASSERT_EQ(run("run " + file("all/other/effective.yaml") + " --quiet --out " + file("alone")).exit_code, 0);
+  expect_same_results("alone", "all/other");
+}
+
+TEST_F(RunVariants, OnlyThoseThatAreNamed) {
+  ASSERT_EQ(run_room("all", "--quiet --only other").exit_code, 0);
+  EXPECT_TRUE(fs::exists(file("all/other/summary.json")));
+  EXPECT_FALSE(fs::exists(file("all/paper")));
+  const Answer unknown = run_room("none", "--only papr --only other");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_EQ(unknown.err, "--only papr: error: no such variant (did you mean 'paper'?)\n1 error\n");
+  EXPECT_FALSE(fs::exists(file("none")));
+}
+
+TEST_F(RunVariants, WhatIsFinishedIsKeptIfItIsTheSame) {
+  ASSERT_EQ(run_room("all", "--quiet --only paper").exit_code, 0);
+  const auto written = fs::last_write_time(file("all/paper/summary.json"));
+  const Answer answer = run_room("all", "");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("paper: kept, as an earlier run has finished it"),
+                                Not(HasSubstr("other: kept"))));
+  EXPECT_EQ(fs::last_write_time(file("all/paper/summary.json")), written);
+
+  // Another variant has changed since, and it alone is in the way.
+  write_variants("18000");
+  const Answer changed = run_room("all", "--quiet");
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_EQ(changed.err, file("all/other") +
+                             ": error: output: the folder has results of another run: it is of other values "
+                             "(effective.yaml); choose another folder with --out, or replace earlier results "
+                             "with --force\n1 error\n");
+  EXPECT_EQ(run_room("all", "--quiet --force").exit_code, 0);
+  EXPECT_EQ(fs::last_write_time(file("all/paper/summary.json")), written);
+  EXPECT_THAT(content(file("all/other/effective.yaml")), HasSubstr("iterations: 18000"));
+}
+
+TEST_F(RunVariants, ABadVariantLeavesNothingOfAny) {
+  write_variants("0");
+  const Answer answer = run_room("all");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_EQ(answer.err, file("room.yaml") +
+                            ":10:50: error: localizer.matcher.ransam: iterations: 0 is out of range, must be "
+                            ">= 1 and <= 100000000\n1 error\n");
+  write_experiment("trials: {every_scan: 9}\n",
+                   "variants: {list: {paper: {}, none: {trials.min_steps: 100000}}}\n");
+  const Answer late = run_room("all");
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_THAT(late.err, HasSubstr("error: variant 'none': trials: none of "));
+  EXPECT_FALSE(fs::exists(file("all")));
+}
+
+TEST_F(RunVariants, AVariantWithAnotherDriveSaysSo) {
+  write_experiment("trials: {every_scan: 9, max_steps: 2}\n", "variants: {grid: {seed: [1, 2]}}\n");
+  const Answer answer = run_room("all", "");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.err, HasSubstr("seed-2: has a seed, a map, observations or trials of its own"));
+  EXPECT_EQ(json("all/seed-2/summary.json")["seed"], 2);
+  EXPECT_NE(lines("all/seed-1/steps.jsonl"), lines("all/seed-2/steps.jsonl"));
+  // Its drive is its own: the same as if it were run alone.
+  ASSERT_EQ(run_room("alone", "--quiet --seed 2 --set variants={}").exit_code, 0);
+  expect_same_results("alone", "all/seed-2");
+}
+
+TEST_F(RunVariants, ResultsWithoutVariantsAreNotMixedWithThem) {
+  ASSERT_EQ(run_room("all", "--quiet --set variants={}").exit_code, 0);
+  const Answer answer = run_room("all", "--force");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("the folder has results of a run without variants"));
+}
+
+TEST_F(RunVariants, AreCheckedWithoutRunningThem) {
+  const Answer answer = run("check " + file("room.yaml"));
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, MatchesRegex(".*: ok, .* trials of each of 2 variants\n"));
+}
+
+}  // namespace
+}  // namespace glocal::test
