@@ -51,7 +51,7 @@ bool ends_with_parts(const std::string& path, const std::string& parts) {
 std::string label_of(const std::string& path, const std::vector<YamlEntry>& all) {
   for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
        dot = path.rfind('.', dot - 1)) {
-    const std::string end = path.substr(dot + 1);
+    std::string end = path.substr(dot + 1);
     const auto same = std::count_if(all.begin(), all.end(),
                                     [&](const YamlEntry& e) { return ends_with_parts(e.key, end); });
     if (same == 1) return end;
