@@ -84,9 +84,9 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
           {.doc = "Features of the local map that are looked up in a step.", .min = 2, .max = 100000});
   v.field("matches", p.matches,
           {.doc = "Map features taken for each: those most alike.", .min = 1, .max = 10000});
-  v.field(
-      "lsh", p.lsh,
-      {.doc = "Look features up by locality-sensitive hashing, which misses some, instead of a kd-tree."});
+  v.field("lsh", p.lsh,
+          {.doc = "Look features up by locality-sensitive hashing, which misses some, instead of comparing "
+                  "them with all."});
   v.field("hashing", p.hashing, {.doc = "How they are hashed."});
   v.field("shape_context", p.shape_context, {.doc = "What makes a feature."});
   v.field("thinning", p.thinning,
