@@ -26,6 +26,7 @@ struct CompareOptions {
   std::vector<std::string> folders;
   std::string baseline;
   std::string csv, json, markdown;
+  bool no_times = false;
   bool force = false;
 };
 
@@ -91,6 +92,13 @@ std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& 
                       "names none, or more than one, of the runs" + suggestion(name, names, "there are")}});
 }
 
+/// What is left is the same for runs of the same seed.
+void leave_out_times(std::vector<NamedRun>& runs) {
+  for (NamedRun& run : runs) {
+    for (auto& [start, trial] : run.results.trials) trial.step_ms.reset();
+  }
+}
+
 std::string json_text(const Comparison& comparison) {
   // Names of folders need not be UTF-8.
   return to_json(comparison).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -99,6 +107,7 @@ std::string json_text(const Comparison& comparison) {
 void compare_runs(const CompareOptions& options) {
   std::vector<NamedRun> runs = read_runs(options.folders);
   tell_apart(runs);
+  if (options.no_times) leave_out_times(runs);
   const Comparison comparison = compare(runs, find_baseline(runs, options.baseline));
   AtomicFiles files(options.force);
   if (!options.csv.empty()) files.add(options.csv, to_csv(comparison));
@@ -120,6 +129,7 @@ void add_compare(CLI::App& app, Context& /*context*/) {
   command->add_option("--csv", options->csv, "Write a row for each variant and test");
   command->add_option("--json", options->json, "Write everything");
   command->add_option("--markdown", options->markdown, "Write the report as Markdown");
+  command->add_flag("--no-times", options->no_times, "Leave times out, which no two runs have in common");
   command->add_flag("--force", options->force, "Replace files that exist");
   command->callback([options] { compare_runs(*options); });
 }

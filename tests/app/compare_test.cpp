@@ -126,6 +126,20 @@ TEST_F(CompareCommand, FindsNothingBetweenARunAndItself) {
   EXPECT_EQ(comparison["pairs"][0]["measures"][0]["nonzero"], 0);
 }
 
+TEST_F(CompareCommand, SaysTheSameOfRunsWithTheSameSeedIfTimesAreLeftOut) {
+  run_both();
+  const Answer first = run("compare --no-times " + file("all"));
+  fs::rename(file("all"), file("before"));
+  run_both();
+  const Answer second = run("compare --no-times " + file("all"));
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.out, second.out);
+  EXPECT_THAT(first.out, AllOf(HasSubstr("steps to localize"),
+                               Not(HasSubstr("significantly better than none in time"))));
+  EXPECT_THAT(run("compare " + file("all")).out, HasSubstr("time of a step, ms  "));
+  EXPECT_THAT(first.out, Not(HasSubstr("time of a step, ms  ")));
+}
+
 TEST_F(CompareCommand, WarnsOfRunsThatDiffer) {
   run_room("a");
   run_room("b", "--seed 2 --set evaluation.max_translation_error=0.2 --set map.simulation.resolution=0.1");

@@ -64,14 +64,14 @@ bool is_below(const std::string& path, const std::string& section) {
 }
 
 /// "map.log_map.resolution: 0.1 instead of 0.05", of the first few settings of a section that differ.
-Sentences differences(const RunResults& run, const RunResults& baseline, const std::string& section) {
+Sentences differences(const StoredRun& run, const StoredRun& baseline, const std::string& section) {
   std::set<std::string> paths;
-  for (const RunResults* results : {&run, &baseline}) {
+  for (const StoredRun* results : {&run, &baseline}) {
     for (const auto& [path, setting] : results->settings) {
       if (is_below(path, section)) paths.insert(path);
     }
   }
-  const auto find = [](const RunResults& results, const std::string& path) {
+  const auto find = [](const StoredRun& results, const std::string& path) {
     const auto found = results.settings.find(path);
     return found == results.settings.end() ? Setting{"nothing", "nothing"} : found->second;
   };

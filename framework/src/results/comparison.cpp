@@ -56,7 +56,7 @@ std::vector<TrialStart> shared_starts(const std::vector<NamedRun>& runs) {
   return shared;
 }
 
-TrialsByStart trials_at(const std::vector<TrialStart>& starts, const RunResults& results) {
+TrialsByStart trials_at(const std::vector<TrialStart>& starts, const StoredRun& results) {
   TrialsByStart trials;
   for (const TrialStart& start : starts) trials.push_back(&results.trials.at(start));
   return trials;

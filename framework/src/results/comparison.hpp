@@ -17,7 +17,7 @@ namespace glocal {
 /// A run with the name it goes by in a comparison.
 struct NamedRun {
   std::string name;
-  RunResults results;
+  StoredRun results;
 };
 
 /// What is measured of a trial besides its outcome. Less is better.

@@ -85,7 +85,7 @@ std::map<std::size_t, double> step_times(const fs::path& file) {
   return medians;
 }
 
-void read_trials(RunResults& results) {
+void read_trials(StoredRun& results) {
   const std::map<std::size_t, double> times = step_times(results.folder / "steps.jsonl");
   const fs::path file = results.folder / "trials.jsonl";
   for_each_line(file, [&](const Json& line) {
@@ -114,7 +114,7 @@ void flatten(const YamlNode& node, const std::string& path, const std::map<std::
   settings[path] = {node.text, hash == hashes.end() ? node.text : hash->second};
 }
 
-void read_settings(const std::map<std::string, std::string>& hashes, RunResults& results) {
+void read_settings(const std::map<std::string, std::string>& hashes, StoredRun& results) {
   const fs::path file = results.folder / "effective.yaml";
   check_readable(file);
   std::vector<Fault> faults;
@@ -142,8 +142,8 @@ void for_each_line(const fs::path& file, const std::function<void(const Json&)>&
   }
 }
 
-RunResults read_results(const fs::path& folder) {
-  RunResults results;
+StoredRun read_results(const fs::path& folder) {
+  StoredRun results;
   results.folder = folder;
   with_json(folder / "summary.json", [&](const Json& summary) {
     results.experiment = summary.at("name");

@@ -53,7 +53,7 @@ struct Machine {
   friend bool operator==(const Machine&, const Machine&) = default;
 };
 
-struct RunResults {
+struct StoredRun {
   std::filesystem::path folder;  ///< As given.
   std::string experiment;        ///< Its name.
   std::uint64_t seed = 0;
@@ -64,7 +64,7 @@ struct RunResults {
 };
 
 /// Throws ConfigError for what is not there, or not as glocal run leaves it.
-[[nodiscard]] RunResults read_results(const std::filesystem::path& folder);
+[[nodiscard]] StoredRun read_results(const std::filesystem::path& folder);
 
 /// The results folder that `path` is, or those in it, sorted by name (hidden ones left out). Throws
 /// ConfigError if there is none.

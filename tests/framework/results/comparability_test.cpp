@@ -25,7 +25,7 @@ class Comparability : public testing::Test {
     }
   }
   [[nodiscard]] std::vector<std::string> warnings() const { return compare(runs_, 0).warnings; }
-  RunResults& b() { return runs_[1].results; }
+  StoredRun& b() { return runs_[1].results; }
   TrialResult& trial(std::size_t index) {
     return std::next(b().trials.begin(), std::ptrdiff_t(index))->second;
   }

@@ -58,7 +58,7 @@ class ResultsFolder : public testing::Test {
 };
 
 TEST_F(ResultsFolder, IsReadWithTheTimesOfItsSteps) {
-  const RunResults results = read_results(folder());
+  const StoredRun results = read_results(folder());
   EXPECT_EQ(results.experiment, "lab");
   EXPECT_EQ(results.seed, 7U);
   EXPECT_TRUE(results.complete);
