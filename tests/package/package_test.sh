@@ -64,8 +64,11 @@ run_page() {
     { cat "$reader/said"; fail "docs/$page.md"; }
 }
 run_page writing-a-strategy
-tail -n 2 "$work/writing-a-strategy/said" | jq -s -e '.[0].variant == "mine" and .[1].variant == "paper" and .[0].of == .[1].of and .[1].right > 0' >/dev/null ||
-  fail "the comparison of docs/writing-a-strategy.md: $(tail -n 2 "$work/writing-a-strategy/said")"
+said=$work/writing-a-strategy/said
+# Two lines of JSON, and what glocal compare says of the runs.
+grep '^{"variant"' "$said" | jq -s -e '.[0].variant == "mine" and .[1].variant == "paper" and .[0].of == .[1].of and .[1].right > 0' >/dev/null ||
+  fail "the comparison of docs/writing-a-strategy.md: $(cat "$said")"
+grep -q 'against' "$said" || fail "glocal compare in docs/writing-a-strategy.md: $(cat "$said")"
 run_page embedding
 # The embedding program says what the program says.
 "$prefix/bin/glocal" run "$work/embedding/drive/experiment.yaml" --set 'trials={whole: true}' --quiet --out "$work/whole"
