@@ -39,7 +39,7 @@ function axis(label: string, more: Partial<uPlot.Axis>): uPlot.Axis {
   const ink = themeColour("ink");
   const grid = themeColour("grid");
   return {
-    label,
+    ...(label ? { label } : {}),
     font,
     labelFont: font,
     labelSize: 14,

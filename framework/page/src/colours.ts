@@ -1,14 +1,19 @@
 // Colours that colour-blind readers tell apart: Okabe and Ito's for kinds of things, viridis for ratings.
 import type { VerdictKind } from "./data";
 
-const okabeIto = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+const runColours = 6; // --run-0 to --run-5 of the style sheet
 const dashes: number[][] = [[], [7, 3], [2, 3]];
 
-/** Line of the i-th run: colours first, then dashes, so that 18 are told apart. */
+/** For style sheets, where it follows the theme. */
+export function runColour(i: number): string {
+  return `var(--run-${i % runColours})`;
+}
+
+/** For drawings: line of the i-th run: colours first, then dashes, so that 18 are told apart. */
 export function runLine(i: number): { colour: string; dash: number[] } {
   return {
-    colour: okabeIto[i % okabeIto.length],
-    dash: dashes[Math.floor(i / okabeIto.length) % dashes.length],
+    colour: themeColour(`run-${i % runColours}`),
+    dash: dashes[Math.floor(i / runColours) % dashes.length],
   };
 }
 

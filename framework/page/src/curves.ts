@@ -1,10 +1,10 @@
 // The curves of the paper's Fig. 3, step by step, with one cursor that the slider shares.
 import type uPlot from "uplot";
 import { chart, type Line } from "./charts";
-import { runLine, themeColour } from "./colours";
+import { runColour, runLine, themeColour } from "./colours";
 import { firstLocalized, type Column, type Run, type Steps } from "./data";
 import { el, replace } from "./elements";
-import { significant } from "./numbers";
+import { count, significant } from "./numbers";
 import { matchingTrial, type Change, type Store } from "./store";
 
 interface Curve {
@@ -15,6 +15,7 @@ interface Curve {
   /** Drawn dashed, on an axis to the right. */
   second?: { unit: string; values: (steps: Steps) => Column };
   range?: [number, number];
+  whole?: boolean;
   log: boolean;
 }
 
@@ -31,7 +32,7 @@ const curves: Curve[] = [
     second: { unit: "°", values: (s) => s.rotation_error_deg },
     log: true,
   },
-  { id: "clusters", title: "Clusters", unit: "", values: (s) => s.clusters, log: true },
+  { id: "clusters", title: "Clusters", unit: "", whole: true, values: (s) => s.clusters, log: true },
 ];
 
 /** A run's trial that starts where the chosen one does. */
@@ -111,12 +112,13 @@ export class Curves {
 export function lineSample(i: number): SVGElement {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
-  const { colour, dash } = runLine(i);
+  const { dash } = runLine(i);
   const set = (element: SVGElement, attributes: Record<string, string>): void => {
     for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
   };
   set(svg, { width: "26", height: "10", "aria-hidden": "true", class: "sample" });
-  set(line, { x1: "0", y1: "5", x2: "26", y2: "5", stroke: colour, "stroke-width": "2.5", "stroke-dasharray": dash.join(" ") });
+  set(line, { x1: "0", y1: "5", x2: "26", y2: "5", "stroke-width": "2.5", "stroke-dasharray": dash.join(" ") });
+  line.style.stroke = runColour(i);
   svg.append(line);
   return svg;
 }
@@ -182,7 +184,8 @@ class Panel {
   showStep(): void {
     const { steps } = this.store;
     const { step } = this.store.selected;
-    const told = (values: Column, unit: string): string => `${significant(values[step])}${unit && ` ${unit}`}`;
+    const number = this.curve.whole ? count : significant;
+    const told = (values: Column, unit: string): string => `${number(values[step])}${unit && ` ${unit}`}`;
     const texts = steps && steps.step.length > 0 ? [told(this.curve.values(steps), this.curve.unit)] : [];
     if (steps && texts.length > 0 && this.curve.second)
       texts.push(told(this.curve.second.values(steps), this.curve.second.unit));
@@ -208,6 +211,7 @@ class Panel {
     ctx.save();
     ctx.strokeStyle = themeColour("ink");
     ctx.lineWidth = 2 * devicePixelRatio;
+    ctx.setLineDash([]);
     ctx.beginPath();
     ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bbox.top + bbox.height);

@@ -63,6 +63,11 @@ export class MapView {
   private readonly shown: Record<Layer, boolean>;
   private readonly pointers = new Map<number, PointerEvent>();
   private view: View = { x: 0, y: 0, scale: 20 };
+  /** Of the drawing, px; asking the page for them would have it laid out anew each time. */
+  private width = 0;
+  private height = 0;
+  private isFitted = false;
+  private fittedMap: GlobalMap | undefined;
   private follows = false;
   private moved = 0;
   private frame = 0;
@@ -73,7 +78,8 @@ export class MapView {
     this.element = el("figure", { class: "map" }, stage, this.legend(), this.note);
     this.listen();
     store.subscribe((change) => {
-      if (change.run) this.fitOnce();
+      // Runs on one map are easier to compare if the view stays.
+      if (change.run && this.globalMap() !== this.fittedMap && !store.report.live) this.fit();
       if (change.step) this.hideTip();
       if (this.follows) this.centre();
       this.draw();
@@ -102,6 +108,8 @@ export class MapView {
     const margin = 24;
     const width = Math.max(box.high.x - box.low.x, 1);
     const height = Math.max(box.high.y - box.low.y, 1);
+    this.isFitted = this.width > 0;
+    this.fittedMap = this.globalMap();
     this.view = {
       x: (box.low.x + box.high.x) / 2,
       y: (box.low.y + box.high.y) / 2,
@@ -118,7 +126,7 @@ export class MapView {
   drawNow(): void {
     this.frame = 0;
     const context = this.canvas.getContext("2d");
-    if (!context || this.width === 0) return;
+    if (!context || !this.isFitted) return;
     const ratio = this.canvas.width / this.width;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.width, this.height);
@@ -130,13 +138,6 @@ export class MapView {
     if (steps && steps.step.length > 0) this.drawStep(context, steps);
     this.drawScale(context);
     this.tellState();
-  }
-
-  private get width(): number {
-    return this.canvas.clientWidth;
-  }
-  private get height(): number {
-    return this.canvas.clientHeight;
   }
 
   private globalMap(): GlobalMap | undefined {
@@ -153,13 +154,6 @@ export class MapView {
       if (!map) box = union(box, boundingBox(steps.estimate.x, steps.estimate.y));
     }
     return box;
-  }
-
-  private fittedTo: unknown = null;
-  private fitOnce(): void {
-    const contents = this.globalMap() ?? this.store.run.folder;
-    if (contents !== this.fittedTo && !this.store.report.live) this.fit();
-    this.fittedTo = contents;
   }
 
   private toMap(px: number, py: number): { x: number; y: number } {
@@ -450,11 +444,12 @@ export class MapView {
   }
 
   private resize(): void {
-    const ratio = window.devicePixelRatio || 1;
-    const isFirst = this.canvas.width === 0 || !this.canvas.dataset.scale;
-    this.canvas.width = Math.round(this.width * ratio);
-    this.canvas.height = Math.round(this.height * ratio);
-    if (isFirst) this.fit();
+    this.width = this.canvas.clientWidth;
+    this.height = this.canvas.clientHeight;
+    if (this.width === 0) return;
+    this.canvas.width = Math.round(this.width * window.devicePixelRatio);
+    this.canvas.height = Math.round(this.height * window.devicePixelRatio);
+    if (!this.isFitted) this.fit();
     this.drawNow();
   }
 

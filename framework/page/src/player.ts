@@ -24,11 +24,11 @@ export class Player {
     this.element = el(
       "div",
       { class: "player", role: "group", "aria-label": "Steps" },
-      button("First step (Home)", "⏮", () => this.store.chooseStep(0)),
+      button("First step (Home)", "|◀", () => this.store.chooseStep(0)),
       button("Step back (←)", "◀", () => this.move(-1)),
       this.playButton,
       button("Step on (→)", "▶", () => this.move(1)),
-      button("Last step (End)", "⏭", () => this.store.chooseStep(this.store.lastStep)),
+      button("Last step (End)", "▶|", () => this.store.chooseStep(this.store.lastStep)),
       el("div", { class: "track" }, this.strip, this.slider),
       this.told,
       this.speed,

@@ -6,6 +6,7 @@ import { lineSample } from "./curves";
 import { stepTime, type Run, type Trial } from "./data";
 import { el, replace, section, table } from "./elements";
 import { count, fixed } from "./numbers";
+import { cumulativeShare } from "./shares";
 import type { Store } from "./store";
 
 /** The list of the chosen run's trials. */
@@ -89,10 +90,10 @@ export class Distributions {
     ): ShareChart =>
       new ShareChart(id, title, xLabel, runs.map((run, index) => ({ label: run.name, index, ...sample(run) })), options);
     const charts = [
-      share("over_steps", "Localized, of all trials", "steps", rights((trial) => trial.steps)),
-      share("over_distance", "Localized, of all trials", "distance, m", rights((trial) => trial.distance_m)),
-      share("translation", "Error when localized", "m", ofRight((trial) => trial.translation_error_m)),
-      share("rotation", "Error when localized", "°", ofRight((trial) => trial.rotation_error_deg)),
+      share("over_steps", "Localized, by steps", "steps", rights((trial) => trial.steps)),
+      share("over_distance", "Localized, by distance", "distance, m", rights((trial) => trial.distance_m)),
+      share("translation", "Translation error when localized", "m", ofRight((trial) => trial.translation_error_m)),
+      share("rotation", "Rotation error when localized", "°", ofRight((trial) => trial.rotation_error_deg)),
       share("time", "Time for a step", "ms", times, { logX: true }),
     ];
     const success = runs.length > 1 && runs.every((run) => run.summary) ? [new SuccessChart(runs)] : [];
@@ -152,17 +153,6 @@ class ShareChart {
       ...this.options,
     });
   }
-}
-
-/** What part of the sample is no larger than each x; null where the sample is empty. */
-export function cumulativeShare(sample: { values: number[]; of: number }, x: number[]): (number | null)[] {
-  if (sample.of === 0) return x.map(() => null);
-  const sorted = [...sample.values].sort((a, b) => a - b);
-  let n = 0;
-  return x.map((limit) => {
-    while (n < sorted.length && sorted[n] <= limit) ++n;
-    return n / sample.of;
-  });
 }
 
 /** Right and wrong of all trials, with their 95 % intervals. */
