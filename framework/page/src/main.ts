@@ -123,7 +123,8 @@ function show(report: Report, page: HTMLElement): void {
     : [
         summarySection(report.runs),
         comparisonSection(report),
-        distributions.element,
+        // One trial has no distribution.
+        report.runs.some((run) => run.trials.length > 1) ? distributions.element : null,
         trials.element,
         configurationSection(report.runs),
         provenanceSection(report),
