@@ -1,0 +1,116 @@
+// What all charts share: how uPlot is set up to fit the page.
+import uPlot from "uplot";
+import { themeColour } from "./colours";
+import { significant } from "./numbers";
+
+export interface Line {
+  label: string;
+  colour: string;
+  dash: number[];
+  values: (number | null)[];
+  /** "right" has an axis of its own on that side. */
+  side?: "left" | "right";
+  width?: number;
+  stepped?: boolean;
+}
+
+export interface ChartOptions {
+  x: number[];
+  lines: Line[];
+  xLabel: string;
+  /** Of the axis on the left, and of that on the right. */
+  labels: string[];
+  logX?: boolean;
+  logY?: boolean;
+  /** Fixed ranges of the x axis, and of the axis on the left. */
+  xRange?: [number, number];
+  range?: [number, number];
+  /** The x axis has ticks at whole numbers only. */
+  whole?: boolean;
+  height: number;
+  /** Charts of the same key share their cursor. */
+  sync?: string;
+  hooks?: uPlot.Hooks.Arrays;
+}
+
+const font = "11px system-ui, sans-serif";
+
+function axis(label: string, more: Partial<uPlot.Axis>): uPlot.Axis {
+  const ink = themeColour("ink");
+  const grid = themeColour("grid");
+  return {
+    ...(label ? { label } : {}),
+    font,
+    labelFont: font,
+    labelSize: 14,
+    labelGap: 0,
+    stroke: ink,
+    grid: { stroke: grid, width: 1 },
+    ticks: { stroke: grid, width: 1, size: 4 },
+    ...more,
+  };
+}
+
+/** Logarithms want positive numbers. */
+function positive(values: (number | null)[]): (number | null)[] {
+  return values.map((value) => (value !== null && value > 0 ? value : null));
+}
+
+const labelled = (_: uPlot, splits: (number | null)[]): string[] =>
+  splits.map((value) => (value === null ? "" : significant(value, 3).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "")));
+
+/** Draws a chart into `target`, as wide as it is, until the returned function is called. */
+export function chart(target: HTMLElement, options: ChartOptions): { plot: uPlot; destroy: () => void } {
+  const { lines, logX, logY } = options;
+  const hasRight = lines.some((line) => line.side === "right");
+  const distr = (isLog?: boolean): 1 | 3 => (isLog ? 3 : 1);
+  const scales: uPlot.Scales = {
+    x: { time: false, distr: distr(logX), ...(options.xRange ? { range: options.xRange } : {}) },
+    y: { distr: distr(logY), ...(options.range && !logY ? { range: options.range } : {}) },
+  };
+  const axes = [
+    axis(options.xLabel, { values: labelled, size: 26, space: options.whole ? 20 : 45, ...(options.whole ? { incrs: [1, 2, 5, 10, 20, 50] } : {}) }),
+    axis(options.labels[0], { values: labelled, size: 44, space: 24 }),
+  ];
+  if (hasRight) {
+    scales.right = { distr: distr(logY) };
+    axes.push(axis(options.labels[1], { scale: "right", side: 1, values: labelled, size: 44, space: 24, grid: { show: false } }));
+  }
+  const series: uPlot.Series[] = lines.map((line) => ({
+    label: line.label,
+    stroke: line.colour,
+    dash: line.dash,
+    width: line.width ?? 1.5,
+    scale: line.side === "right" ? "right" : "y",
+    points: { show: options.x.length === 1 },
+    ...(line.stepped ? { paths: uPlot.paths.stepped?.({ align: 1 }), spanGaps: true } : {}),
+  }));
+  const plot = new uPlot(
+    {
+      width: Math.max(target.clientWidth, 120),
+      height: options.height,
+      legend: { show: false },
+      cursor: {
+        y: false,
+        points: { size: 6 },
+        ...(options.sync ? { sync: { key: options.sync, scales: ["x", null] } } : {}),
+      },
+      scales,
+      axes,
+      series: [{}, ...series],
+      hooks: options.hooks ?? {},
+    },
+    [options.x, ...lines.map((line) => (logY ? positive(line.values) : line.values))] as uPlot.AlignedData,
+    target,
+  );
+  const observer = new ResizeObserver(() => {
+    const width = target.clientWidth;
+    if (width > 0 && width !== plot.width) plot.setSize({ width, height: options.height });
+  });
+  observer.observe(target);
+  const destroy = (): void => {
+    observer.disconnect();
+    plot.destroy();
+  };
+  return { plot, destroy };
+}

@@ -1,0 +1,51 @@
+// Colours that colour-blind readers tell apart: Okabe and Ito's for kinds of things, viridis for ratings.
+import type { VerdictKind } from "./data";
+
+const runColours = 6; // --run-0 to --run-5 of the style sheet
+const dashes: number[][] = [[], [7, 3], [2, 3]];
+
+/** For style sheets, where it follows the theme. */
+export function runColour(i: number): string {
+  return `var(--run-${i % runColours})`;
+}
+
+/** For drawings: line of the i-th run: colours first, then dashes, so that 18 are told apart. */
+export function runLine(i: number): { colour: string; dash: number[] } {
+  return {
+    colour: themeColour(`run-${i % runColours}`),
+    dash: dashes[Math.floor(i / runColours) % dashes.length],
+  };
+}
+
+export const verdictColours: Record<VerdictKind, string> = {
+  searching: "#9a9a9a",
+  ambiguous: "#e69f00",
+  localized: "#0072b2",
+  unknown_place: "#cc79a7",
+};
+
+export const verdictNames: Record<VerdictKind, string> = {
+  searching: "searching",
+  ambiguous: "ambiguous",
+  localized: "localized",
+  unknown_place: "unknown place",
+};
+
+// Eleven points of matplotlib's viridis, in between which it is all but linear.
+const viridis = [
+  [68, 1, 84], [72, 36, 117], [65, 68, 135], [53, 95, 141], [42, 120, 142], [33, 145, 140],
+  [34, 168, 132], [68, 191, 112], [122, 209, 81], [189, 223, 38], [253, 231, 37],
+];
+
+/** Of a rating r in [0, 1]. */
+export function ratingColour(r: number): string {
+  const at = Math.min(Math.max(r, 0), 1) * (viridis.length - 1);
+  const i = Math.min(Math.floor(at), viridis.length - 2);
+  const mix = viridis[i].map((low, k) => Math.round(low + (at - i) * (viridis[i + 1][k] - low)));
+  return `rgb(${mix.join(", ")})`;
+}
+
+/** A colour of the style sheet, which depends on light and dark. */
+export function themeColour(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}

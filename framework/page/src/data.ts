@@ -1,0 +1,243 @@
+// What the program puts in the page. Lengths in m (points of maps and scans in whole mm), angles in rad, times
+// in ms unless a name says otherwise.
+
+/** null where a step has no such value. */
+export type Column = (number | null)[];
+
+export interface PoseColumns {
+  x: Column;
+  y: Column;
+  theta: Column;
+}
+
+export interface Pose {
+  x: number;
+  y: number;
+  theta: number;
+}
+
+export type VerdictKind = "searching" | "ambiguous" | "localized" | "unknown_place";
+
+/** One value a step in each. */
+export interface Steps {
+  step: number[];
+  stamp: number[];
+  local_map_ms: number[];
+  match_ms: number[];
+  cluster_ms: number[];
+  rate_ms: number[];
+  local_map_points: number[];
+  omega_best: number[];
+  omega_max: number[];
+  omega_place: Column;
+  collisions: number[];
+  checks: number[];
+  hypotheses: number[];
+  clusters: number[];
+  verdict: VerdictKind[];
+  /** Indexes into `sentences`. */
+  why: number[];
+  sentences: string[];
+  translation_error_m: Column;
+  rotation_error_deg: Column;
+  confidence: Column;
+  on_map: (boolean | null)[];
+  estimate: PoseColumns;
+  reference: PoseColumns;
+  local_from_robot: PoseColumns;
+  /** x, y, theta of each candidate, one after the other. */
+  candidates: number[][];
+  evidence: Record<string, Column>;
+  /** The clusters of step i are [first[i], first[i + 1]), falling rating. */
+  best: {
+    first: number[];
+    x: number[];
+    y: number[];
+    theta: number[];
+    size: number[];
+    r: number[];
+    r_normalised: number[];
+  };
+}
+
+/** Points that come and go: each lives in the frames [from, to). */
+export interface PointLives {
+  /** The step that each frame was recorded after. */
+  steps: number[];
+  x: number[];
+  y: number[];
+  from: number[];
+  to: number[];
+}
+
+/** The points of recorded scan i are [first[i], first[i + 1]), in the robot's frame. */
+export interface Scans {
+  steps: number[];
+  first: number[];
+  x: number[];
+  y: number[];
+}
+
+export type Outcome = "right" | "wrong" | "undecided" | "declared" | "failed";
+
+export interface Trial {
+  trial: number;
+  start: { sample: number; distance_m: number; stamp: number; reference?: Pose };
+  /** Absent while the trial runs. */
+  outcome?: Outcome;
+  /** Up to the declaration; all of them if there is none. */
+  steps?: number;
+  distance_m?: number;
+  pose?: Pose;
+  translation_error_m?: number;
+  rotation_error_deg?: number;
+  confidence?: number;
+  why?: string;
+  /** Absent where steps were not written. */
+  columns?: Steps;
+  local_map?: PointLives;
+  scans?: Scans;
+}
+
+export interface Proportion {
+  value: number;
+  low: number;
+  high: number;
+}
+
+export interface Quantiles {
+  median: number;
+  p90?: number;
+  p95?: number;
+  max?: number;
+}
+
+export interface Summary {
+  name: string;
+  seed: number;
+  complete: boolean;
+  trials: { count: number; right: number; wrong: number; undecided: number; failed?: number; declared_without_reference?: number };
+  success_rate: Proportion;
+  false_rate: Proportion;
+  steps_to_localize: Quantiles;
+  distance_to_localize_m: Quantiles;
+  translation_error_m: Quantiles;
+  rotation_error_deg: Quantiles;
+  step_ms: Quantiles;
+  stage_ms: Record<"local_map" | "match" | "cluster" | "rate", Quantiles>;
+  map: { points: number; build_ms: number; index_ms: number };
+  peak_rss_mb: number;
+}
+
+export interface Setting {
+  text: string;
+  /** The hash of the file it names; files are the same if their content is. */
+  identity?: string;
+}
+
+export interface Run {
+  name: string;
+  folder: string;
+  /** Absent while the run goes on. */
+  summary?: Summary;
+  provenance?: Record<string, unknown>;
+  settings: Record<string, Setting>;
+  /** Index into `maps`. */
+  map?: number;
+  trials: Trial[];
+}
+
+export interface GlobalMap {
+  x: number[];
+  y: number[];
+  spacing_m: number;
+}
+
+export interface Difference {
+  value: number;
+  low: number;
+  high: number;
+}
+
+export interface OutcomeDifference {
+  outcome: string;
+  both: number;
+  only_baseline: number;
+  only_variant: number;
+  neither: number;
+  difference_points: Difference;
+  test: string;
+  p: number;
+  p_holm: number;
+  significant: boolean;
+}
+
+export interface MeasureDifference {
+  measure: string;
+  starts: number;
+  baseline_median: number;
+  variant_median: number;
+  median_difference: Difference;
+  test: string;
+  p: number;
+  p_holm: number;
+  significant: boolean;
+}
+
+export interface Comparison {
+  baseline: string;
+  starts: number;
+  significance: number;
+  warnings: string[];
+  pairs: {
+    variant: string;
+    conclusion: string;
+    warnings: string[];
+    outcomes: OutcomeDifference[];
+    measures: MeasureDifference[];
+  }[];
+}
+
+export interface Live {
+  experiment: string;
+  variant: string;
+  trials_done: number;
+  trials: number;
+  remaining_s?: number;
+  finished: boolean;
+  version: number;
+}
+
+export interface Report {
+  format: number;
+  generator: string;
+  live?: Live;
+  maps: GlobalMap[];
+  runs: Run[];
+  comparison?: Comparison;
+  comparison_refused?: string;
+}
+
+/** The data in the page. */
+export function embeddedReport(): Report {
+  const element = document.getElementById("glocal-data");
+  if (!element) throw new Error("the page holds no data");
+  return JSON.parse(element.textContent ?? "") as Report;
+}
+
+export function poseAt(poses: PoseColumns, i: number): Pose | null {
+  const x = poses.x[i];
+  const y = poses.y[i];
+  const theta = poses.theta[i];
+  return x == null || y == null || theta == null ? null : { x, y, theta };
+}
+
+/** Wall-clock time of the whole step, ms. */
+export function stepTime(steps: Steps, i: number): number {
+  return steps.local_map_ms[i] + steps.match_ms[i] + steps.cluster_ms[i] + steps.rate_ms[i];
+}
+
+/** Number of the first step whose verdict is `localized`; -1 if there is none. */
+export function firstLocalized(steps: Steps | undefined): number {
+  return steps ? steps.verdict.indexOf("localized") : -1;
+}

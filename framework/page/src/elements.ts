@@ -1,0 +1,50 @@
+// Making parts of the page. Text of results only ever becomes text, never markup.
+
+type Child = Node | string | number | null | undefined | false;
+type Attributes = Record<string, string | number | boolean | EventListener | undefined>;
+
+/** An element; attributes that are functions listen to the event of that name. */
+export function el<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === "function") element.addEventListener(name, value);
+    else if (value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : String(value));
+  }
+  append(element, ...children);
+  return element;
+}
+
+export function append(parent: Element, ...children: Child[]): void {
+  for (const child of children) {
+    if (child === null || child === undefined || child === false) continue;
+    parent.append(child instanceof Node ? child : String(child));
+  }
+}
+
+export function replace(parent: Element, ...children: Child[]): void {
+  parent.replaceChildren();
+  append(parent, ...children);
+}
+
+/** A part of the page with a heading that links can lead to. */
+export function section(id: string, title: string, ...children: Child[]): HTMLElement {
+  return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
+}
+
+/** A table whose first column names the rows. Cells may be elements. */
+export function table(head: Child[], rows: Child[][], className = ""): HTMLElement {
+  const headRow = el("tr", {}, ...head.map((cell) => el("th", { scope: "col" }, cell)));
+  const body = el(
+    "tbody",
+    {},
+    ...rows.map(([name, ...cells]) =>
+      el("tr", {}, el("th", { scope: "row" }, name), ...cells.map((cell) => el("td", {}, cell))),
+    ),
+  );
+  // Tab-able, so that wide tables scroll by keyboard, too.
+  return el("div", { class: "scroll", tabindex: 0 }, el("table", { class: className }, el("thead", {}, headRow), body));
+}

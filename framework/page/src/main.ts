@@ -1,0 +1,152 @@
+// The page of glocal report and of glocal run --watch.
+import { verdictNames } from "./colours";
+import { Curves } from "./curves";
+import { embeddedReport, type Report } from "./data";
+import { Details } from "./details";
+import { append, el, replace } from "./elements";
+import { LiveNews } from "./live";
+import { MapView } from "./map_view";
+import { listenToKeys, Player } from "./player";
+import { Store } from "./store";
+import { comparisonSection, configurationSection, provenanceSection, summarySection } from "./tables";
+import { Distributions, TrialList } from "./trials_section";
+
+/** The only format this page reads; the program that wrote the data has this page in it. */
+const format = 1;
+
+function runPicker(store: Store): HTMLElement | null {
+  if (store.report.runs.length < 2) return null;
+  const select = el("select", { id: "run", change: () => store.chooseRun(Number(select.value)) });
+  store.report.runs.forEach((run, i) => select.append(el("option", { value: i }, run.name)));
+  store.subscribe(() => (select.value = String(store.selected.run)));
+  return el("label", {}, "run ", select);
+}
+
+function trialPicker(store: Store): HTMLElement {
+  const select = el("select", { id: "trial", change: () => store.chooseTrial(Number(select.value)) });
+  const fill = (): void => {
+    const { trials } = store.run;
+    replace(
+      select,
+      ...trials.map((trial, i) => el("option", { value: i }, `${trial.trial}: ${trial.outcome ?? "running"}`)),
+    );
+    select.disabled = trials.length < 2;
+    select.value = String(store.selected.trial);
+  };
+  fill();
+  store.subscribe((change) => {
+    if (change.run) fill();
+    else if (change.trial) select.value = String(store.selected.trial);
+  });
+  return el("label", {}, "trial ", select);
+}
+
+/** Light, dark, or as the system has it. */
+function themeButton(redraw: () => void): HTMLElement {
+  const themes = ["auto", "light", "dark"];
+  let theme = 0;
+  const show = (): void => {
+    document.documentElement.dataset.theme = themes[theme];
+    replace(button, `theme: ${themes[theme]}`);
+    redraw();
+  };
+  const button = el("button", {
+    type: "button",
+    click: () => {
+      theme = (theme + 1) % themes.length;
+      show();
+    },
+  });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  // Paper is white, whatever the screen is.
+  window.addEventListener("beforeprint", () => {
+    document.documentElement.dataset.theme = "light";
+    redraw();
+  });
+  window.addEventListener("afterprint", show);
+  replace(button, `theme: ${themes[theme]}`);
+  document.documentElement.dataset.theme = themes[theme];
+  return button;
+}
+
+function keysHelp(): HTMLElement {
+  const keys: [string, string][] = [
+    ["← →", "step"],
+    ["Ctrl ← →", "ten steps"],
+    ["Home End", "first, last step"],
+    ["space", "play"],
+    ["[ ]", "trial"],
+    ["+ − 0", "zoom, show all"],
+    ["Shift + arrows", "move the map"],
+  ];
+  return el(
+    "p",
+    { class: "keys" },
+    ...keys.flatMap(([key, meaning]) => [el("kbd", {}, key), ` ${meaning}  `]),
+    `Drag in a curve to zoom it, double-click to zoom out.`,
+  );
+}
+
+function links(sections: (HTMLElement | null)[]): HTMLElement {
+  const link = (target: HTMLElement): HTMLElement =>
+    el("a", { href: `#${target.id}` }, target.querySelector("h2")?.textContent ?? target.id);
+  return el("nav", { "aria-label": "Parts of the report" }, ...sections.filter((s) => s !== null).map(link));
+}
+
+function show(report: Report, page: HTMLElement): void {
+  if (report.format !== format) throw new Error(`the data has format ${report.format}, and this page reads ${format}`);
+  if (report.runs.length === 0) throw new Error("the data has no run");
+  const store = new Store(report);
+  const map = new MapView(store);
+  const curves = new Curves(store);
+  const player = new Player(store);
+  const details = new Details(store);
+  const trials = new TrialList(store);
+  const distributions = new Distributions(store);
+  const news = report.live ? new LiveNews(store) : null;
+  const redraw = (): void => {
+    map.drawNow();
+    curves.rebuild();
+    distributions.rebuild();
+    player.drawStrip();
+  };
+  const sections = news
+    ? [trials.element, configurationSection(report.runs)]
+    : [
+        summarySection(report.runs),
+        comparisonSection(report),
+        distributions.element,
+        trials.element,
+        configurationSection(report.runs),
+        provenanceSection(report),
+      ];
+  const title = el("h1", {}, report.runs.map((run) => run.name).join(", "));
+  const header = el("header", {}, title, runPicker(store), trialPicker(store), themeButton(redraw), links(sections));
+  const view = el("main", { id: "view" }, map.element, curves.element, player.element, details.element);
+  replace(page, header, news?.element, view, keysHelp());
+  append(page, ...sections);
+  listenToKeys(store, player, map);
+  trials.fill();
+  details.update();
+  player.newTrial();
+  redraw();
+  store.subscribe(() => tellTitle(store));
+  tellTitle(store);
+  void news?.listen();
+}
+
+function tellTitle(store: Store): void {
+  const verdict = store.steps?.verdict[store.selected.step];
+  document.body.dataset.step = String(store.selected.step);
+  document.body.dataset.verdict = verdict ? verdictNames[verdict] : "";
+}
+
+const page = document.getElementById("page");
+if (page) {
+  try {
+    show(embeddedReport(), page);
+  } catch (error) {
+    replace(page, el("p", { class: "warning", role: "alert" }, `The report cannot be shown: ${String(error)}`));
+    throw error;
+  }
+}

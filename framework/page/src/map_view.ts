@@ -1,0 +1,552 @@
+// The map with everything that happened on it: the only drawing that is our own.
+import { ratingColour, themeColour, verdictColours } from "./colours";
+import { poseAt, type GlobalMap, type PointLives, type Pose, type Scans, type Steps } from "./data";
+import { el, replace } from "./elements";
+import { boundingBox, compose, degrees, inverse, union, type Box } from "./geometry";
+import { fixed, significant } from "./numbers";
+import type { Store } from "./store";
+
+const metres = 1e-3; // of the whole mm in which points are given
+const triangle = { length: 15, width: 10 }; // px
+const reach = 14; // px, of the pointer
+
+const layers = {
+  map: "global map",
+  local_map: "local map",
+  scan: "scan",
+  clusters: "clusters",
+  estimate: "estimate",
+  reference: "reference",
+  unknown_place: "unknown place",
+} as const;
+type Layer = keyof typeof layers;
+
+interface View {
+  /** What is in the middle, m. */
+  x: number;
+  y: number;
+  /** px per m. */
+  scale: number;
+}
+
+/** Robot pose in the map that the local map is laid under; null without any. */
+function chosenPose(store: Store): Pose | null {
+  const steps = store.steps;
+  const { step, hypothesis } = store.selected;
+  if (!steps || steps.step.length === 0) return null;
+  if (hypothesis === "reference") return poseAt(steps.reference, step);
+  if (hypothesis === "estimate") return poseAt(steps.estimate, step);
+  const { best } = steps;
+  const k = best.first[step] + hypothesis;
+  return k < best.first[step + 1] ? { x: best.x[k], y: best.y[k], theta: best.theta[k] } : null;
+}
+
+/** The newest frame recorded up to this step; -1 if there is none. */
+function frameAt(lives: PointLives | Scans, step: number): number {
+  let frame = -1;
+  while (frame + 1 < lives.steps.length && lives.steps[frame + 1] <= step) ++frame;
+  return frame;
+}
+
+/** The clusters of a step with their place in the columns, lowest rating first, so that the best end on top. */
+function clustersOf(steps: Steps, step: number): number[] {
+  const indexes = [];
+  for (let k = steps.best.first[step + 1] - 1; k >= steps.best.first[step]; --k) indexes.push(k);
+  return indexes;
+}
+
+export class MapView {
+  readonly element: HTMLElement;
+  private readonly canvas = el("canvas", { tabindex: 0, role: "img" });
+  private readonly tip = el("div", { class: "tip", hidden: true });
+  private readonly note = el("p", { class: "note" });
+  private readonly shown: Record<Layer, boolean>;
+  private readonly pointers = new Map<number, PointerEvent>();
+  private view: View = { x: 0, y: 0, scale: 20 };
+  /** Of the drawing, px; asking the page for them would have it laid out anew each time. */
+  private width = 0;
+  private height = 0;
+  private isFitted = false;
+  private fittedMap: GlobalMap | undefined;
+  private follows = false;
+  private moved = 0;
+  private frame = 0;
+
+  constructor(private readonly store: Store) {
+    this.shown = Object.fromEntries(Object.keys(layers).map((layer) => [layer, true])) as Record<Layer, boolean>;
+    const stage = el("div", { class: "stage" }, this.canvas, this.tip, this.zoomButtons());
+    this.element = el("figure", { class: "map" }, stage, this.legend(), this.note);
+    this.listen();
+    store.subscribe((change) => {
+      // Runs on one map are easier to compare if the view stays.
+      if (change.run && this.globalMap() !== this.fittedMap && !store.report.live) this.fit();
+      if (change.step) this.hideTip();
+      if (this.follows) this.centre();
+      this.draw();
+    });
+    new ResizeObserver(() => this.resize()).observe(stage);
+  }
+
+  zoom(factor: number, at = { x: this.width / 2, y: this.height / 2 }): void {
+    const fixedPoint = this.toMap(at.x, at.y);
+    this.view.scale = Math.min(Math.max(this.view.scale * factor, 0.5), 5000);
+    this.view.x = fixedPoint.x - (at.x - this.width / 2) / this.view.scale;
+    this.view.y = fixedPoint.y + (at.y - this.height / 2) / this.view.scale;
+    this.draw();
+  }
+
+  /** By px to the right and down. */
+  pan(right: number, down: number): void {
+    this.view.x -= right / this.view.scale;
+    this.view.y += down / this.view.scale;
+    this.draw();
+  }
+
+  /** Shows the whole map, or the whole drive where there is no map. */
+  fit(): void {
+    const box = this.contents() ?? { low: { x: -5, y: -5 }, high: { x: 5, y: 5 } };
+    const margin = 24;
+    const width = Math.max(box.high.x - box.low.x, 1);
+    const height = Math.max(box.high.y - box.low.y, 1);
+    this.isFitted = this.width > 0;
+    this.fittedMap = this.globalMap();
+    this.view = {
+      x: (box.low.x + box.high.x) / 2,
+      y: (box.low.y + box.high.y) / 2,
+      scale: Math.max(Math.min((this.width - 2 * margin) / width, (this.height - 2 * margin) / height), 0.5),
+    };
+    this.draw();
+  }
+
+  /** In the next frame, once, however often it is asked for. */
+  draw(): void {
+    if (this.frame === 0) this.frame = requestAnimationFrame(() => this.drawNow());
+  }
+
+  drawNow(): void {
+    this.frame = 0;
+    const context = this.canvas.getContext("2d");
+    if (!context || !this.isFitted) return;
+    const ratio = this.canvas.width / this.width;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, this.width, this.height);
+    const { x, y, scale } = this.view;
+    Object.assign(this.canvas.dataset, { x, y, scale });
+    const map = this.globalMap();
+    if (map && this.shown.map) this.drawMap(context, map);
+    const steps = this.store.steps;
+    if (steps && steps.step.length > 0) this.drawStep(context, steps);
+    this.drawScale(context);
+    this.tellState();
+  }
+
+  private globalMap(): GlobalMap | undefined {
+    const { run, report } = this.store;
+    return run.map === undefined ? undefined : report.maps[run.map];
+  }
+
+  private contents(): Box | null {
+    const map = this.globalMap();
+    const steps = this.store.steps;
+    let box = map ? boundingBox(map.x, map.y, metres) : null;
+    if (steps) {
+      box = union(box, boundingBox(steps.reference.x, steps.reference.y));
+      if (!map) box = union(box, boundingBox(steps.estimate.x, steps.estimate.y));
+    }
+    return box;
+  }
+
+  private toMap(px: number, py: number): { x: number; y: number } {
+    return {
+      x: this.view.x + (px - this.width / 2) / this.view.scale,
+      y: this.view.y - (py - this.height / 2) / this.view.scale,
+    };
+  }
+
+  private toScreen(x: number, y: number): { x: number; y: number } {
+    return {
+      x: this.width / 2 + (x - this.view.x) * this.view.scale,
+      y: this.height / 2 - (y - this.view.y) * this.view.scale,
+    };
+  }
+
+  private drawMap(context: CanvasRenderingContext2D, map: GlobalMap): void {
+    context.fillStyle = themeColour("wall");
+    this.drawPoints(context, map.x, map.y, 0, map.x.length, { x: 0, y: 0, theta: 0 }, map.spacing_m);
+  }
+
+  /** Squares of the size of a cell, but never too small to be seen. */
+  private drawPoints(
+    context: CanvasRenderingContext2D,
+    xs: number[],
+    ys: number[],
+    begin: number,
+    end: number,
+    pose: Pose,
+    size_m: number,
+    isShown?: (i: number) => boolean,
+  ): void {
+    const size = Math.max(1, size_m * this.view.scale);
+    const { scale } = this.view;
+    const c = Math.cos(pose.theta) * scale * metres;
+    const s = Math.sin(pose.theta) * scale * metres;
+    const origin = this.toScreen(pose.x, pose.y);
+    for (let i = begin; i < end; ++i) {
+      if (isShown && !isShown(i)) continue;
+      const x = origin.x + c * xs[i] - s * ys[i];
+      const y = origin.y - s * xs[i] - c * ys[i];
+      if (x < -size || y < -size || x > this.width + size || y > this.height + size) continue;
+      context.fillRect(x - size / 2, y - size / 2, size, size);
+    }
+  }
+
+  private drawStep(context: CanvasRenderingContext2D, steps: Steps): void {
+    const { step } = this.store.selected;
+    if (this.shown.reference) this.drawReference(context, steps);
+    if (this.shown.estimate) this.drawEstimates(context, steps, step);
+    if (this.shown.unknown_place) this.drawUnknownPlaces(context, steps, step);
+    const pose = chosenPose(this.store);
+    if (pose) this.drawObserved(context, steps, step, pose);
+    if (this.shown.clusters) this.drawClusters(context, steps, step);
+    const reference = poseAt(steps.reference, step);
+    if (reference && this.shown.reference) this.drawRobot(context, reference, themeColour("reference"), true);
+    const estimate = poseAt(steps.estimate, step);
+    if (estimate && this.shown.estimate) this.drawRobot(context, estimate, themeColour("estimate"), false);
+  }
+
+  private drawReference(context: CanvasRenderingContext2D, steps: Steps): void {
+    context.strokeStyle = themeColour("reference");
+    context.lineWidth = 1.5;
+    context.setLineDash([6, 4]);
+    context.beginPath();
+    let joined = false;
+    for (let i = 0; i < steps.step.length; ++i) {
+      const pose = poseAt(steps.reference, i);
+      if (pose) {
+        const at = this.toScreen(pose.x, pose.y);
+        if (joined) context.lineTo(at.x, at.y);
+        else context.moveTo(at.x, at.y);
+      }
+      joined = pose !== null;
+    }
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  /** Dots, joined between steps that both are localized: before that, estimates jump about. Later ones are faint. */
+  private drawEstimates(context: CanvasRenderingContext2D, steps: Steps, shown: number): void {
+    context.strokeStyle = context.fillStyle = themeColour("estimate");
+    context.lineWidth = 2;
+    let before: { x: number; y: number } | null = null;
+    for (let i = 0; i < steps.step.length; ++i) {
+      context.globalAlpha = i <= shown ? 1 : 0.25;
+      const pose = poseAt(steps.estimate, i);
+      const at = pose && this.toScreen(pose.x, pose.y);
+      if (at) {
+        context.fillRect(at.x - 1.5, at.y - 1.5, 3, 3);
+        if (before && steps.verdict[i] === "localized") {
+          context.beginPath();
+          context.moveTo(before.x, before.y);
+          context.lineTo(at.x, at.y);
+          context.stroke();
+        }
+      }
+      before = steps.verdict[i] === "localized" ? at : null;
+    }
+    context.globalAlpha = 1;
+  }
+
+  /** Crosses where the robot was, as far as that is known. */
+  private drawUnknownPlaces(context: CanvasRenderingContext2D, steps: Steps, shown: number): void {
+    context.strokeStyle = verdictColours.unknown_place;
+    context.lineWidth = 2;
+    for (let i = 0; i < steps.step.length; ++i) {
+      const pose = steps.verdict[i] === "unknown_place" ? (poseAt(steps.reference, i) ?? poseAt(steps.estimate, i)) : null;
+      if (!pose) continue;
+      context.globalAlpha = i <= shown ? 1 : 0.25;
+      const { x, y } = this.toScreen(pose.x, pose.y);
+      context.beginPath();
+      context.moveTo(x - 4, y - 4);
+      context.lineTo(x + 4, y + 4);
+      context.moveTo(x - 4, y + 4);
+      context.lineTo(x + 4, y - 4);
+      context.stroke();
+    }
+    context.globalAlpha = 1;
+  }
+
+  /** The local map and the scan, laid on the map under a robot pose. */
+  private drawObserved(context: CanvasRenderingContext2D, steps: Steps, step: number, robot: Pose): void {
+    const { local_map: lives, scans } = this.store.trial ?? {};
+    const inLocal = poseAt(steps.local_from_robot, step);
+    if (lives && inLocal && this.shown.local_map) {
+      const frame = frameAt(lives, step);
+      const pose = compose(robot, inverse(inLocal));
+      context.fillStyle = themeColour("local-map");
+      const lived = (i: number): boolean => lives.from[i] <= frame && frame < lives.to[i];
+      this.drawPoints(context, lives.x, lives.y, 0, lives.x.length, pose, this.pointSize(), lived);
+    }
+    if (scans && this.shown.scan) {
+      const frame = frameAt(scans, step);
+      if (scans.steps[frame] !== step) return;
+      context.fillStyle = themeColour("scan");
+      this.drawPoints(context, scans.x, scans.y, scans.first[frame], scans.first[frame + 1], robot, this.pointSize() * 1.2);
+    }
+  }
+
+  private pointSize(): number {
+    return Math.max(this.globalMap()?.spacing_m ?? 0.05, 2 / this.view.scale);
+  }
+
+  private drawClusters(context: CanvasRenderingContext2D, steps: Steps, step: number): void {
+    const { best } = steps;
+    const chosen = this.store.selected.hypothesis;
+    for (const k of clustersOf(steps, step)) {
+      const isChosen = k - best.first[step] === chosen;
+      context.fillStyle = ratingColour(best.r[k]);
+      context.strokeStyle = themeColour(isChosen ? "local-map" : "ink");
+      context.lineWidth = isChosen ? 3 : 0.8;
+      this.traceTriangle(context, best.x[k], best.y[k], best.theta[k], 1);
+      context.fill();
+      context.stroke();
+    }
+    context.strokeStyle = verdictColours.ambiguous;
+    context.lineWidth = 2;
+    const candidates = steps.candidates[step];
+    for (let k = 0; k + 2 < candidates.length; k += 3) {
+      const at = this.toScreen(candidates[k], candidates[k + 1]);
+      context.beginPath();
+      context.arc(at.x, at.y, triangle.length, 0, 2 * Math.PI);
+      context.stroke();
+    }
+  }
+
+  private drawRobot(context: CanvasRenderingContext2D, pose: Pose, colour: string, dashed: boolean): void {
+    context.strokeStyle = colour;
+    context.lineWidth = 2.5;
+    context.setLineDash(dashed ? [4, 3] : []);
+    this.traceTriangle(context, pose.x, pose.y, pose.theta, 1.5);
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  /** Points where the robot looks. */
+  private traceTriangle(context: CanvasRenderingContext2D, x: number, y: number, theta: number, size: number): void {
+    const at = this.toScreen(x, y);
+    const c = Math.cos(theta) * size;
+    const s = Math.sin(theta) * size;
+    const corner = (along: number, across: number): [number, number] => [
+      at.x + c * along - s * across,
+      at.y - s * along - c * across,
+    ];
+    const { length, width } = triangle;
+    context.beginPath();
+    context.moveTo(...corner((2 * length) / 3, 0));
+    context.lineTo(...corner(-length / 3, width / 2));
+    context.lineTo(...corner(-length / 3, -width / 2));
+    context.closePath();
+  }
+
+  private drawScale(context: CanvasRenderingContext2D): void {
+    const longest = 120 / this.view.scale;
+    const power = 10 ** Math.floor(Math.log10(longest));
+    const length = [5, 2, 1].map((n) => n * power).find((l) => l <= longest) ?? power;
+    const width = length * this.view.scale;
+    const y = this.height - 12;
+    context.strokeStyle = context.fillStyle = themeColour("ink");
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(12, y - 4);
+    context.lineTo(12, y);
+    context.lineTo(12 + width, y);
+    context.lineTo(12 + width, y - 4);
+    context.stroke();
+    context.font = "12px system-ui, sans-serif";
+    context.fillText(`${significant(length, 1)} m`, 16, y - 6);
+  }
+
+  /** For those who cannot see the picture, and what is missing in it for those who can. */
+  private tellState(): void {
+    const { steps, trial } = this.store;
+    const { step, hypothesis } = this.store.selected;
+    const missing: string[] = [];
+    if (!this.globalMap()) missing.push("The results hold no global map (output.maps: none).");
+    if (!steps) missing.push("The results hold no steps (output.steps: false).");
+    if (steps && steps.step.length > 0) {
+      const listed = steps.best.first[step + 1] - steps.best.first[step];
+      if (listed < steps.clusters[step]) missing.push(`The ${listed} best of ${steps.clusters[step]} clusters.`);
+      if (!chosenPose(this.store)) {
+        missing.push(
+          hypothesis === "estimate"
+            ? "No hypothesis in this step: nothing to lay the local map under."
+            : "This step has no such pose: nothing to lay the local map under.",
+        );
+      }
+      const lives = trial?.local_map;
+      const frame = lives ? frameAt(lives, step) : -1;
+      if (!lives) missing.push("Local maps of this trial were not recorded (output.maps: all records every trial's).");
+      else if (frame >= 0 && lives.steps[frame] !== step) missing.push(`The local map is that of step ${lives.steps[frame]}.`);
+    }
+    replace(this.note, missing.join(" "));
+    const label = steps
+      ? `Map at step ${step} of trial ${trial?.trial}: ${steps.verdict[step] ?? "no step"}, ${steps.clusters[step] ?? 0} clusters`
+      : "Map";
+    this.canvas.setAttribute("aria-label", label);
+  }
+
+  private legend(): HTMLElement {
+    const entry = (layer: Layer): HTMLElement => {
+      const box = el("input", {
+        type: "checkbox",
+        checked: true,
+        "data-layer": layer,
+        change: () => {
+          this.shown[layer] = box.checked;
+          this.draw();
+        },
+      });
+      return el("label", {}, box, el("span", { class: `symbol ${layer}`, "aria-hidden": "true" }), layers[layer]);
+    };
+    const stops = [0, 0.25, 0.5, 0.75, 1].map(ratingColour).join(", ");
+    const bar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${stops})` });
+    const follow = el("input", {
+      type: "checkbox",
+      change: () => {
+        this.follows = follow.checked;
+        this.centre();
+        this.draw();
+      },
+    });
+    return el(
+      "figcaption",
+      { class: "legend" },
+      ...(Object.keys(layers) as Layer[]).map(entry),
+      el("span", { class: "scale" }, "rating r  0 ", bar, " 1"),
+      el("label", {}, follow, "follow the robot"),
+    );
+  }
+
+  private zoomButtons(): HTMLElement {
+    const button = (label: string, text: string, work: () => void): HTMLElement =>
+      el("button", { type: "button", title: label, "aria-label": label, click: work }, text);
+    return el(
+      "div",
+      { class: "zoom" },
+      button("Zoom in (+)", "+", () => this.zoom(1.5)),
+      button("Zoom out (-)", "−", () => this.zoom(1 / 1.5)),
+      button("Show everything (0)", "⤢", () => this.fit()),
+    );
+  }
+
+  private centre(): void {
+    const pose = chosenPose(this.store);
+    if (this.follows && pose) Object.assign(this.view, { x: pose.x, y: pose.y });
+  }
+
+  private resize(): void {
+    this.width = this.canvas.clientWidth;
+    this.height = this.canvas.clientHeight;
+    if (this.width === 0) return;
+    this.canvas.width = Math.round(this.width * window.devicePixelRatio);
+    this.canvas.height = Math.round(this.height * window.devicePixelRatio);
+    if (!this.isFitted) this.fit();
+    this.drawNow();
+  }
+
+  private listen(): void {
+    const { canvas } = this;
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        this.zoom(Math.exp(-event.deltaY / 400), { x: event.offsetX, y: event.offsetY });
+      },
+      { passive: false },
+    );
+    canvas.addEventListener("dblclick", () => this.fit());
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      this.pointers.set(event.pointerId, event);
+      this.moved = 0;
+    });
+    canvas.addEventListener("pointermove", (event) => this.pointerMoved(event));
+    const released = (event: PointerEvent): void => {
+      this.pointers.delete(event.pointerId);
+    };
+    canvas.addEventListener("pointercancel", released);
+    canvas.addEventListener("pointerup", (event) => {
+      released(event);
+      const cluster = this.moved < 4 ? this.clusterAt(event.offsetX, event.offsetY) : null;
+      if (cluster !== null) this.store.chooseHypothesis(cluster);
+    });
+    canvas.addEventListener("pointerleave", () => this.hideTip());
+  }
+
+  /** One pointer drags, two zoom and drag. */
+  private pointerMoved(event: PointerEvent): void {
+    const before = this.pointers.get(event.pointerId);
+    if (!before) {
+      this.showTip(event.offsetX, event.offsetY);
+      return;
+    }
+    const right = event.offsetX - before.offsetX;
+    const down = event.offsetY - before.offsetY;
+    this.moved += Math.abs(right) + Math.abs(down);
+    const other = [...this.pointers.values()].find((pointer) => pointer.pointerId !== event.pointerId);
+    this.pan(right / this.pointers.size, down / this.pointers.size);
+    if (other) {
+      const distance = (pointer: PointerEvent): number =>
+        Math.hypot(pointer.offsetX - other.offsetX, pointer.offsetY - other.offsetY);
+      this.zoom(distance(event) / Math.max(distance(before), 1), { x: other.offsetX, y: other.offsetY });
+    }
+    this.pointers.set(event.pointerId, event);
+  }
+
+  /** Rank of the cluster under the pointer, the best if there are several; null if there is none. */
+  private clusterAt(px: number, py: number): number | null {
+    const steps = this.store.steps;
+    const { step } = this.store.selected;
+    if (!steps || steps.step.length === 0 || !this.shown.clusters) return null;
+    const { first, x, y } = steps.best;
+    let nearest: number | null = null;
+    let least = reach;
+    for (let k = first[step]; k < first[step + 1]; ++k) {
+      const at = this.toScreen(x[k], y[k]);
+      const distance = Math.hypot(at.x - px, at.y - py);
+      if (distance < least - 0.5) {
+        nearest = k - first[step];
+        least = distance;
+      }
+    }
+    return nearest;
+  }
+
+  private showTip(px: number, py: number): void {
+    const rank = this.clusterAt(px, py);
+    const steps = this.store.steps;
+    this.canvas.classList.toggle("over-cluster", rank !== null);
+    if (rank === null || !steps) {
+      this.hideTip();
+      return;
+    }
+    const { best } = steps;
+    const k = best.first[this.store.selected.step] + rank;
+    replace(
+      this.tip,
+      el("strong", {}, `r̄ = ${significant(best.r_normalised[k])}`),
+      ` · r = ${significant(best.r[k])}`,
+      el("br"),
+      `cluster ${rank + 1}, ${best.size[k]} ${best.size[k] === 1 ? "hypothesis" : "hypotheses"}`,
+      el("br"),
+      `${fixed(best.x[k], 2)} m, ${fixed(best.y[k], 2)} m, ${fixed(degrees(best.theta[k]), 1)}°`,
+    );
+    this.tip.hidden = false;
+    const left = Math.min(px + 14, this.width - this.tip.offsetWidth - 4);
+    const top = py + 14 + this.tip.offsetHeight > this.height ? py - this.tip.offsetHeight - 8 : py + 14;
+    this.tip.style.transform = `translate(${Math.max(0, left)}px, ${Math.max(0, top)}px)`;
+  }
+
+  private hideTip(): void {
+    this.tip.hidden = true;
+  }
+}

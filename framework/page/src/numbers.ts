@@ -1,0 +1,36 @@
+// Numbers as people read them.
+import type { Proportion } from "./data";
+
+const none = "–";
+
+/** With so many significant digits, without exponent where it can be avoided. */
+export function significant(value: number | null | undefined, digits = 3): string {
+  if (value == null || !Number.isFinite(value)) return none;
+  if (value === 0) return "0";
+  const magnitude = Math.floor(Math.log10(Math.abs(value)));
+  if (magnitude < -4 || magnitude > 8) return value.toExponential(digits - 1);
+  return value.toFixed(Math.max(0, digits - 1 - magnitude));
+}
+
+export function fixed(value: number | null | undefined, digits: number): string {
+  return value == null || !Number.isFinite(value) ? none : value.toFixed(digits);
+}
+
+export function count(value: number | null | undefined): string {
+  return value == null ? none : value.toLocaleString("en");
+}
+
+export function percent(value: number, digits = 1): string {
+  return `${(100 * value).toFixed(digits)} %`;
+}
+
+/** With its 95 % interval. */
+export function proportion(p: Proportion): string {
+  return `${percent(p.value)} (${(100 * p.low).toFixed(1)} to ${percent(p.high)})`;
+}
+
+export function duration(seconds: number): string {
+  if (seconds < 90) return `${Math.ceil(seconds)} s`;
+  if (seconds < 5400) return `${Math.round(seconds / 60)} min`;
+  return `${(seconds / 3600).toFixed(1)} h`;
+}
