@@ -19,7 +19,7 @@
 #include "map_align.hpp"
 #include "map_index.hpp"
 #include "results/atomic_file.hpp"
-#include "results/writers.hpp"
+#include "results/pcd.hpp"
 #include "sources/log_map.hpp"
 #include "sources/ros_map.hpp"
 #include "sources/ros_map_writer.hpp"

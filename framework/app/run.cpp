@@ -18,9 +18,9 @@
 #include "glocal/experiment.hpp"
 #include "progress.hpp"
 #include "results/output_folder.hpp"
+#include "results/pcd.hpp"
 #include "results/provenance.hpp"
 #include "results/run_results.hpp"
-#include "results/writers.hpp"
 #include "run_report.hpp"
 
 namespace glocal::app {
@@ -189,7 +189,8 @@ Json Runner::run_one(Variant& variant, Progress& progress) {
   const double steps =
       static_cast<double>(std::min(prepared.drive.samples.size(), step_limit(experiment.trials)));
   const auto on_step = [&](std::size_t trial, const StepRecord& record, const Localizer& now) {
-    results.step(trial, record, now);
+    const Sample& sample = prepared.drive.samples[prepared.starts[trial] + record.result.step];
+    results.step(trial, record, sample.observation.scan, now);
     progress.step(trial, record.result.step, static_cast<double>(record.result.step) / steps,
                   to_string(record.result.verdict.kind));
   };

@@ -1,9 +1,15 @@
 // glocal run.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
 
 #include "app/room.hpp"
+#include "glocal/points.hpp"
+#include "results/pcd.hpp"
 
 namespace glocal::test {
 namespace {
@@ -16,9 +22,9 @@ TEST_F(RunCommand, LeavesTheFilesOfTheContract) {
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("room, seed 1\n"));
   EXPECT_THAT(answer.out, HasSubstr(file("a")));
-  for (const char* name :
-       {"summary.json", "trials.jsonl", "steps.jsonl", "effective.yaml", "provenance.json", "maps/global.pcd",
-        "maps/trial_0000/step_0000.pcd", "trajectories/trial_0000_reference.tum"}) {
+  for (const char* name : {"summary.json", "trials.jsonl", "steps.jsonl", "effective.yaml", "provenance.json",
+                           "maps/global.pcd", "maps/trial_0000/step_0000.pcd",
+                           "maps/trial_0000/scan_0000.pcd", "trajectories/trial_0000_reference.tum"}) {
     EXPECT_TRUE(fs::exists(file("a") + "/" + name)) << name;
   }
   const Json summary = json("a/summary.json");
@@ -26,6 +32,34 @@ TEST_F(RunCommand, LeavesTheFilesOfTheContract) {
   const std::string trials = content(file("a/trials.jsonl"));
   EXPECT_EQ(summary["trials"]["count"], std::count(trials.begin(), trials.end(), '\n'));
   EXPECT_GT(summary["trials"]["count"], 1);
+}
+
+/// Distance to the nearest of the room's walls, m.
+double distance_to_walls(const Point& p) {
+  const std::vector<std::array<double, 4>> walls = {{0, 0, 12, 0}, {12, 0, 12, 4}, {12, 4, 7, 6},
+                                                    {7, 6, 0, 6},  {0, 6, 0, 0},   {5, 0, 5, 2.4}};
+  double nearest = 1e9;
+  for (const auto& [x1, y1, x2, y2] : walls) {
+    const double dx = x2 - x1, dy = y2 - y1;
+    const double along = std::clamp(((p.x - x1) * dx + (p.y - y1) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+    nearest = std::min(nearest, std::hypot(p.x - x1 - along * dx, p.y - y1 - along * dy));
+  }
+  return nearest;
+}
+
+TEST_F(RunCommand, LeavesTheScanOfEachStepInTheRobotsFrame) {
+  ASSERT_EQ(run_room("a", "--quiet --set output.maps=all").exit_code, 0);
+  std::ifstream steps(file("a/steps.jsonl"));
+  for (std::string line; std::getline(steps, line);) {
+    const Json step = Json::parse(line);
+    const Json& pose = step["reference"];
+    const Transform map_from_robot(Pose2{pose["x"], pose["y"], pose["theta"]});
+    const Points hits = read_pcd(file(
+        fmt::format("a/maps/trial_{:04}/scan_{:04}.pcd", step["trial"].get<int>(), step["step"].get<int>())));
+    EXPECT_GT(hits.size(), 50U);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      ASSERT_LT(distance_to_walls(map_from_robot(hits[i])), 0.15) << line.substr(0, 30);
+  }
 }
 
 TEST_F(RunCommand, QuietSaysNothing) {

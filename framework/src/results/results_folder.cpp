@@ -29,17 +29,6 @@ void check_readable(const fs::path& file) {
   if (why_unreadable(file)) refuse(file, 0, "cannot be read; name a folder that glocal run has left");
 }
 
-/// A whole file of JSON, handed over.
-void with_json(const fs::path& file, const std::function<void(const Json&)>& work) {
-  check_readable(file);
-  try {
-    work(Json::parse(std::ifstream(file)));
-  } catch (const std::exception& error) {
-    refuse(file, 0,
-           fmt::format("is not as glocal run leaves it ({}); run the experiment again", error.what()));
-  }
-}
-
 Outcome outcome_of(const std::string& text) {
   using enum Outcome;
   constexpr std::array all = {right, wrong, undecided, declared, failed};
@@ -114,20 +103,21 @@ void flatten(const YamlNode& node, const std::string& path, const std::map<std::
   settings[path] = {node.text, hash == hashes.end() ? node.text : hash->second};
 }
 
-void read_settings(const std::map<std::string, std::string>& hashes, StoredRun& results) {
-  const fs::path file = results.folder / "effective.yaml";
-  check_readable(file);
-  std::vector<Fault> faults;
-  const auto tree = parse_yaml(read_text_file(file), origin_of(file), faults);
-  if (!faults.empty()) throw ConfigError(std::move(faults));
-  flatten(*tree, "", hashes, results.settings);
-}
-
 bool holds_results(const fs::path& folder) {
   return fs::exists(folder / "summary.json") || fs::exists(folder / "trials.jsonl");
 }
 
 }  // namespace
+
+void with_json(const fs::path& file, const std::function<void(const nlohmann::ordered_json&)>& work) {
+  check_readable(file);
+  try {
+    work(nlohmann::ordered_json::parse(std::ifstream(file)));
+  } catch (const std::exception& error) {
+    refuse(file, 0,
+           fmt::format("is not as glocal run leaves it ({}); run the experiment again", error.what()));
+  }
+}
 
 void for_each_line(const fs::path& file, const std::function<void(const Json&)>& work) {
   check_readable(file);
@@ -142,20 +132,32 @@ void for_each_line(const fs::path& file, const std::function<void(const Json&)>&
   }
 }
 
+std::map<std::string, Setting> read_settings(const fs::path& folder,
+                                             const std::map<std::string, std::string>& hashes) {
+  const fs::path file = folder / "effective.yaml";
+  check_readable(file);
+  std::vector<Fault> faults;
+  const auto tree = parse_yaml(read_text_file(file), origin_of(file), faults);
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  std::map<std::string, Setting> settings;
+  flatten(*tree, "", hashes, settings);
+  return settings;
+}
+
 StoredRun read_results(const fs::path& folder) {
   StoredRun results;
   results.folder = folder;
-  with_json(folder / "summary.json", [&](const Json& summary) {
+  with_json(folder / "summary.json", [&](const auto& summary) {
     results.experiment = summary.at("name");
     results.seed = summary.at("seed");
     results.complete = summary.at("complete");
   });
   std::map<std::string, std::string> hashes;
-  with_json(folder / "provenance.json", [&](const Json& provenance) {
+  with_json(folder / "provenance.json", [&](const auto& provenance) {
     results.machine = {provenance.at("host"), provenance.at("cpu"), provenance.at("threads")};
     hashes = provenance.at("inputs_sha256");
   });
-  read_settings(hashes, results);
+  results.settings = read_settings(folder, hashes);
   read_trials(results);
   return results;
 }

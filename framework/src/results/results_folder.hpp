@@ -16,6 +16,11 @@
 
 namespace glocal {
 
+/// Hands over the content of a file of JSON. Throws ConfigError for one that is none, or that `work` cannot
+/// make sense of: then it throws a std::exception.
+void with_json(const std::filesystem::path& file,
+               const std::function<void(const nlohmann::ordered_json&)>& work);
+
 /// Hands over each line of a file of JSON lines. Throws ConfigError naming the line that is none, or that
 /// `work` cannot make sense of: then it throws a std::exception.
 void for_each_line(const std::filesystem::path& file, const std::function<void(const nlohmann::json&)>& work);
@@ -62,6 +67,10 @@ struct StoredRun {
   Machine machine;
   std::map<TrialStart, TrialResult> trials;
 };
+
+/// The values of effective.yaml by path; `hashes` are those of the input files. Throws ConfigError.
+[[nodiscard]] std::map<std::string, Setting> read_settings(const std::filesystem::path& folder,
+                                                           const std::map<std::string, std::string>& hashes);
 
 /// Throws ConfigError for what is not there, or not as glocal run leaves it.
 [[nodiscard]] StoredRun read_results(const std::filesystem::path& folder);

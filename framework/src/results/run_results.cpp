@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "results/pcd.hpp"
 #include "results/writers.hpp"
 
 namespace glocal {
@@ -13,12 +14,18 @@ RunResults::RunResults(OutputFolder& folder, const OutputConfig& config, std::si
   }
 }
 
-void RunResults::step(std::size_t trial, const StepRecord& record, const Localizer& localizer) {
+void RunResults::step(std::size_t trial, const StepRecord& record, const Scan& scan,
+                      const Localizer& localizer) {
   if (!keeps_map(trial)) return;
-  std::vector<MapFile> files = localizer.local_map_files();
-  files.insert(files.begin(), {"pcd", pcd(localizer.local_map().points)});
+  const auto name = [&](const char* what, const std::string& extension) {
+    return fmt::format("maps/trial_{:04}/{}_{:04}.{}", trial, what, record.result.step, extension);
+  };
+  MapFiles files = {{name("step", "pcd"), pcd(localizer.local_map().points)},
+                    {name("scan", "pcd"), pcd(scan.hits)}};
+  for (MapFile& file : localizer.local_map_files())
+    files.emplace_back(name("step", file.extension), std::move(file.content));
   const std::lock_guard lock(mutex_);
-  for (MapFile& file : files) maps_[trial].push_back({record.result.step, std::move(file)});
+  for (auto& file : files) maps_[trial].push_back(std::move(file));
 }
 
 void RunResults::finish(const TrialRecord& trial) {
@@ -34,8 +41,7 @@ void RunResults::finish(const TrialRecord& trial) {
   write(fmt::format("trajectories/trial_{:04}_estimate.tum", trial.trial), trajectories.estimate);
   if (!trajectories.reference.empty())
     write(fmt::format("trajectories/trial_{:04}_reference.tum", trial.trial), trajectories.reference);
-  for (const auto& [step, file] : take_maps(trial.trial))
-    write(fmt::format("maps/trial_{:04}/step_{:04}.{}", trial.trial, step, file.extension), file.content);
+  for (const auto& [name, content] : take_maps(trial.trial)) write(name, content);
   write_entry(folder_, entry);
   folder_.keep_unfinished();
 }

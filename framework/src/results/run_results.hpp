@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "glocal/experiment.hpp"
+#include "glocal/observation.hpp"
 #include "results/journal.hpp"
 #include "results/output_folder.hpp"
 #include "results/summary.hpp"
@@ -23,8 +25,8 @@ class RunResults {
   /// Numbers of the trials that are still to be run, ascending.
   [[nodiscard]] const std::vector<std::size_t>& to_run() const { return to_run_; }
 
-  /// To be called after each step of a trial.
-  void step(std::size_t trial, const StepRecord& record, const Localizer& localizer);
+  /// To be called after each step of a trial, with what the robot has seen in it.
+  void step(std::size_t trial, const StepRecord& record, const Scan& scan, const Localizer& localizer);
   /// Writes what the trial leaves; it need not be run again from here on.
   void finish(const TrialRecord& trial);
 
@@ -32,7 +34,7 @@ class RunResults {
   [[nodiscard]] Summary put_together();
 
  private:
-  using MapFiles = std::vector<std::pair<std::size_t, MapFile>>;  ///< With their step.
+  using MapFiles = std::vector<std::pair<std::string, std::string>>;  ///< Names and contents.
 
   [[nodiscard]] bool keeps_map(std::size_t trial) const;
   MapFiles take_maps(std::size_t trial);

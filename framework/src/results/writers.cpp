@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 namespace glocal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-static_assert(std::endian::native == std::endian::little, "binary PCD files are little-endian");
 
 constexpr std::size_t most_clusters_listed = 50;
 
@@ -117,22 +112,6 @@ Trajectories tum_trajectories(const TrialRecord& trial) {
     if (step.reference) result.reference += tum_line(step.result.stamp, *step.reference);
   }
   return result;
-}
-
-std::string pcd(const Points& points) {
-  const std::size_t n = points.size();
-  std::string text = fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT "
-      "1 1 1\n"
-      "WIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
-      n);
-  const std::size_t header = text.size();
-  text.resize(header + n * 3 * sizeof(float));
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::array<float, 3> xyz = {points.x[i], points.y[i], points.z[i]};
-    std::memcpy(text.data() + header + i * sizeof(xyz), xyz.data(), sizeof(xyz));
-  }
-  return text;
 }
 
 }  // namespace glocal

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "glocal/points.hpp"
+#include "glocal/pose2.hpp"
 #include "pipeline/trials.hpp"
 
 namespace glocal {
@@ -23,9 +23,6 @@ struct Trajectories {
   std::string reference;
 };
 [[nodiscard]] Trajectories tum_trajectories(const TrialRecord& trial);
-
-/// Points as a binary PCD file (version 0.7, fields x y z).
-[[nodiscard]] std::string pcd(const Points& points);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const Pose2& pose);
 

@@ -152,27 +152,5 @@ TEST(Tum, IsOneLineForEachPose) {
   EXPECT_EQ(tum.reference, "100.500000 0.125000 3.000000 0 0 0 0.707106781 0.707106781\n");
 }
 
-TEST(Pcd, IsAHeaderAndLittleEndianFloats) {
-  Points points;
-  points.push_back({1.0F, -2.0F, 0.5F});
-  points.push_back({0.0F, 4.0F, -0.0F});
-  const std::string header =
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n"
-      "COUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA binary\n";
-  const std::string bytes(
-      "\x00\x00\x80\x3f"
-      "\x00\x00\x00\xc0"
-      "\x00\x00\x00\x3f"
-      "\x00\x00\x00\x00"
-      "\x00\x00\x80\x40"
-      "\x00\x00\x00\x80",
-      24);
-  EXPECT_EQ(pcd(points), header + bytes);
-}
-
-TEST(Pcd, OfNoPointsIsAHeader) {
-  EXPECT_THAT(pcd({}), ::testing::EndsWith("POINTS 0\nDATA binary\n"));
-}
-
 }  // namespace
 }  // namespace glocal::test

@@ -1,0 +1,57 @@
+#include "report/map_points.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "report/millimetres.hpp"
+#include "report/numbers.hpp"
+
+namespace glocal {
+namespace {
+
+/// Square of the distance to the nearest other point, mm².
+std::int64_t nearest_squared(const std::vector<GridPoint>& points, std::size_t which) {
+  const auto squared = [](std::int64_t d) { return d * d; };
+  std::int64_t nearest = std::numeric_limits<std::int64_t>::max();
+  // They ascend in x: farther on this side than the nearest so far is none nearer.
+  const auto look = [&](std::size_t i) {
+    const std::int64_t dx = squared(std::int64_t{points[i].x} - points[which].x);
+    if (dx >= nearest) return false;
+    nearest = std::min(nearest, dx + squared(std::int64_t{points[i].y} - points[which].y));
+    return true;
+  };
+  for (std::size_t i = which + 1; i < points.size() && look(i); ++i) {
+  }
+  for (std::size_t i = which; i > 0 && look(i - 1); --i) {
+  }
+  return nearest;
+}
+
+/// Median distance to the nearest other point, m; of some hundred points all over the map.
+double spacing_of(const std::vector<GridPoint>& points) {
+  if (points.size() < 2) return 0.0;
+  const std::size_t stride = 1 + points.size() / 512;
+  std::vector<std::int64_t> squared;
+  for (std::size_t i = 0; i < points.size(); i += stride) squared.push_back(nearest_squared(points, i));
+  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
+  std::nth_element(squared.begin(), middle, squared.end());
+  return std::sqrt(static_cast<double>(*middle)) / 1000.0;
+}
+
+}  // namespace
+
+nlohmann::ordered_json map_points(const Points& points) {
+  std::vector<GridPoint> grid_points = in_millimetres(points);
+  std::sort(grid_points.begin(), grid_points.end());
+  grid_points.erase(std::unique(grid_points.begin(), grid_points.end()), grid_points.end());
+  std::vector<int> x, y;
+  for (const GridPoint& point : grid_points) {
+    x.push_back(point.x);
+    y.push_back(point.y);
+  }
+  return {{"x", x}, {"y", y}, {"spacing_m", short_number(spacing_of(grid_points))}};
+}
+
+}  // namespace glocal

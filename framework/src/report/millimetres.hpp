@@ -1,0 +1,31 @@
+// Points on a grid of 1 mm, the finest that a report shows.
+#pragma once
+
+#include <cmath>
+#include <compare>
+#include <vector>
+
+#include "glocal/points.hpp"
+
+namespace glocal {
+
+/// mm.
+struct GridPoint {
+  int x = 0;
+  int y = 0;
+
+  friend auto operator<=>(const GridPoint&, const GridPoint&) = default;  // NOLINT(modernize-use-nullptr)
+  friend bool operator==(const GridPoint&, const GridPoint&) = default;
+};
+
+/// The points rounded to whole mm, in their order; they must lie within 2000 km.
+[[nodiscard]] inline std::vector<GridPoint> in_millimetres(const Points& points) {
+  const auto rounded = [](float metres) { return static_cast<int>(std::lround(1000.0 * metres)); };
+  std::vector<GridPoint> grid_points;
+  grid_points.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    grid_points.push_back({rounded(points.x[i]), rounded(points.y[i])});
+  return grid_points;
+}
+
+}  // namespace glocal

@@ -1,0 +1,17 @@
+// A page with its data in it: one file that needs nothing else.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+namespace glocal {
+
+/// JSON as text. What is not UTF-8 in it, such as names of folders may have, is replaced.
+[[nodiscard]] std::string json_text(const nlohmann::ordered_json& data);
+
+/// The page with title and data in the place of its two marks.
+[[nodiscard]] std::string page_with(std::string_view page, const std::string& title,
+                                    const nlohmann::ordered_json& data);
+
+}  // namespace glocal

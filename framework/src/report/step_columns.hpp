@@ -1,0 +1,45 @@
+// The lines of steps.jsonl of one trial, as columns.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace glocal {
+
+/// A column has one value for each step, null where the step has none. Repeated keys are what makes lines
+/// large: columns need a quarter.
+class StepColumns {
+ public:
+  /// Keeps the best of each step's clusters.
+  explicit StepColumns(std::size_t clusters);
+
+  /// The trial's next line. Throws std::exception for one that is not as glocal run writes it, or that is not
+  /// of the next step; what was added before stays, but nothing may be added any more.
+  void add(const nlohmann::json& line);
+
+  [[nodiscard]] std::size_t size() const { return steps_; }
+  /// Such as {"step": [0, 1], "verdict": ["searching", "localized"], …}.
+  [[nodiscard]] nlohmann::ordered_json to_json() const;
+
+ private:
+  using Column = nlohmann::ordered_json;
+
+  void add_numbers(const nlohmann::json& line);
+  void add_poses(const nlohmann::json& line);
+  void add_evidence(const nlohmann::json& line);
+  void add_clusters(const nlohmann::json& line);
+  void add_sentence(const std::string& why);
+
+  std::size_t clusters_;
+  std::size_t steps_ = 0;
+  nlohmann::ordered_json columns_;
+  nlohmann::ordered_json evidence_ = nlohmann::ordered_json::object();
+  nlohmann::ordered_json best_;
+  nlohmann::ordered_json sentences_ = nlohmann::ordered_json::array();
+  std::map<std::string, std::size_t> sentence_numbers_;
+};
+
+}  // namespace glocal
