@@ -35,6 +35,17 @@ test("an interrupted run", { skip }, async () => {
   assertQuiet(opened);
 });
 
+test("a run interrupted before its first trial was finished", { skip }, async () => {
+  const folder = join(work, "at_once");
+  const code = await interruptedRun("paper_simulation", folder, 0, "--set", "localizer.matcher.ransam.iterations=2000000");
+  assert.equal(code, 3);
+  assert.deepEqual(trialsOf(folder), []);
+  const opened = await open(report(join(work, "at_once.html"), folder));
+  assert.match(await opened.page.locator(".map .note").innerText(), /No trial was finished/);
+  await opened.page.keyboard.press("]");
+  assertQuiet(opened);
+});
+
 test("a run without steps and maps", { skip }, async () => {
   const folder = runExperiment("paper_lab", join(work, "bare"), "--set", "output.steps=false", "--set", "output.maps=none");
   const opened = await open(report(join(work, "bare.html"), folder));

@@ -30,8 +30,9 @@ export async function interruptedRun(name, out, trials, ...parameters) {
   });
   const ended = new Promise((resolve) => run.on("exit", resolve));
   const slash = out.lastIndexOf("/");
-  const journal = join(out.slice(0, slash), `.${out.slice(slash + 1)}.unfinished`, "journal");
-  const last = join(journal, `trial_${String(trials - 1).padStart(4, "0")}.json`);
+  const unfinished = join(out.slice(0, slash), `.${out.slice(slash + 1)}.unfinished`);
+  const entry = `trial_${String(trials - 1).padStart(4, "0")}.json`;
+  const last = trials > 0 ? join(unfinished, "journal", entry) : join(unfinished, "maps");
   while (!existsSync(last) && run.exitCode === null) await new Promise((resolve) => setTimeout(resolve, 5));
   run.kill("SIGINT");
   return ended;

@@ -350,7 +350,8 @@ export class MapView {
     const { step, hypothesis } = this.store.selected;
     const missing: string[] = [];
     if (!this.globalMap()) missing.push("The results hold no global map (output.maps: none).");
-    if (!steps) missing.push("The results hold no steps (output.steps: false).");
+    if (!trial) missing.push("No trial was finished.");
+    else if (!steps) missing.push("The results hold no steps (output.steps: false).");
     if (steps && steps.step.length > 0) {
       const listed = steps.best.first[step + 1] - steps.best.first[step];
       if (listed < steps.clusters[step]) missing.push(`The ${listed} best of ${steps.clusters[step]} clusters.`);
