@@ -16,6 +16,7 @@
 #include "results/comparison.hpp"
 #include "results/comparison_report.hpp"
 #include "results/comparison_writers.hpp"
+#include "results_arguments.hpp"
 
 namespace glocal::app {
 namespace {
@@ -39,26 +40,11 @@ std::string own_name(const fs::path& folder) {
 /// Folders that are results, or hold some; every fault of all of them at once.
 std::vector<NamedRun> read_runs(const std::vector<std::string>& folders) {
   std::vector<NamedRun> runs;
-  std::vector<Fault> faults;
-  std::set<fs::path> seen;
-  const auto read = [&](const fs::path& folder) {
-    if (!seen.insert(fs::canonical(folder)).second)
-      throw ConfigError({{folder.string(), 0, 0, "is named twice; name each folder of results once"}});
+  FaultCollector faults;
+  for_each_results_folder(folders, faults, [&](const fs::path& folder) {
     runs.push_back({own_name(folder), read_results(folder)});
-  };
-  const auto collect = [&](const auto& work) {
-    try {
-      work();
-    } catch (const ConfigError& error) {
-      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
-    }
-  };
-  for (const std::string& path : folders) {
-    collect([&] {
-      for (const fs::path& folder : results_folders(path)) collect([&] { read(folder); });
-    });
-  }
-  if (!faults.empty()) throw ConfigError(std::move(faults));
+  });
+  faults.report();
   if (runs.size() < 2) {
     throw ConfigError({{folders.front(), 0, 0,
                         "there is nothing to compare it with; name two folders of results or more"}});

@@ -1,0 +1,35 @@
+// All faults of several pieces of work, for one report.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "glocal/error.hpp"
+
+namespace glocal::app {
+
+class FaultCollector {
+ public:
+  /// Does some work; faults of a ConfigError are kept, the same ones once.
+  template <class Work>
+  void collect(const Work& work) {
+    try {
+      work();
+    } catch (const ConfigError& error) {
+      for (const Fault& fault : error.faults()) {
+        if (std::find(faults_.begin(), faults_.end(), fault) == faults_.end()) faults_.push_back(fault);
+      }
+    }
+  }
+
+  /// Throws ConfigError with all that was found, if there is anything.
+  void report() {
+    if (!faults_.empty()) throw ConfigError(std::move(faults_));
+  }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+}  // namespace glocal::app
