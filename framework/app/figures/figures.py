@@ -421,7 +421,8 @@ def draw_pictures(run):
             except LeftOut as why:
                 print(f"{run.folder}: {name}{letter} is left out: {why}", file=sys.stderr)
                 continue
-            height = min(COLUMN / made[letter].aspect(), COLUMN) + 0.15
+            width = COLUMN - 0.6 if made[letter].rated else COLUMN  # beside the colour bar
+            height = min(width / made[letter].aspect(), COLUMN) + 0.15
             figure = plt.figure(figsize=(COLUMN, height), layout="constrained")
             draw_picture(figure, figure.add_gridspec(1, 1)[0], made[letter], "")
             yield name + letter, figure
