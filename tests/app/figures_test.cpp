@@ -420,6 +420,7 @@ TEST_F(DrawnFigures, TellWhatIsLeftOut) {
   run_whole("a");
   ASSERT_EQ(draw_svg("a", "b").exit_code, 0);
   ASSERT_TRUE(fs::exists(file("b/fig5c.svg")));
+  std::ofstream(file("b/fig4b.png")) << "of somebody else";
   fs::remove_all(file("a"));
   run_whole(
       "a",
@@ -434,6 +435,7 @@ TEST_F(DrawnFigures, TellWhatIsLeftOut) {
                     HasSubstr("fig4c is left out: no step is ambiguous"), HasSubstr("fig5c is left out")));
   EXPECT_TRUE(fs::exists(file("b/fig3e.svg")));
   EXPECT_FALSE(fs::exists(file("b/fig5c.svg"))) << "a figure of other results";
+  EXPECT_TRUE(fs::exists(file("b/fig4b.png")));
 }
 
 TEST_F(DrawnFigures, OfSeveralRunsShareTheirCurves) {

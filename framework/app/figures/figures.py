@@ -61,7 +61,12 @@ STYLE = {
     "pdf.fonttype": 42,
     "svg.hashsalt": "glocal",
 }
-DATES = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}  # none: the same results give the same bytes
+MAKER = "glocal figures"  # how figures of an earlier call are known
+METADATA = {  # without dates: the same results give the same bytes
+    "pdf": {"Creator": MAKER, "CreationDate": None},
+    "svg": {"Creator": MAKER, "Date": None},
+    "png": {"Software": MAKER},
+}
 # What each step must have.
 NEEDED = set("trial step stage_ms omega_best omega_max hypotheses clusters best verdict local_from_robot".split())
 
@@ -453,17 +458,17 @@ def write(out, figures):
             figure.set_layout_engine(None)  # laid out once for all formats
             for extension in FORMATS:
                 file = pathlib.Path(unfinished) / f"{len(moves)}.{extension}"
-                figure.savefig(file, metadata=DATES.get(extension))
+                figure.savefig(file, metadata=METADATA.get(extension))
                 moves.append((file, folder / f"{name}.{extension}"))
             plt.close(figure)
-        for folder in {target.parent for _, target in moves}:
-            folder.mkdir(exist_ok=True)
-            for name in ("fig3", "fig4", "fig5"):
-                for extension in FORMATS:
-                    for old in [folder / f"{name}{letter}.{extension}" for letter in ("", *"abcdef")]:
-                        old.unlink(missing_ok=True)
         for file, target in moves:
+            target.parent.mkdir(exist_ok=True)
             os.replace(file, target)
+    targets = {target for _, target in moves}
+    for folder in {target.parent for target in targets}:
+        for old in set(folder.glob("fig[345]*.*")) - targets:
+            if old.is_file() and MAKER.encode() in old.read_bytes():
+                old.unlink()
     print(f"{len(moves) // len(FORMATS)} figures in {out}, each as {', '.join(FORMATS)}")
 
 
