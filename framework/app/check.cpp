@@ -8,8 +8,8 @@
 
 #include "commands.hpp"
 #include "experiment_options.hpp"
-#include "glocal/error.hpp"
 #include "pipeline/run.hpp"
+#include "results/fault_collector.hpp"
 
 namespace glocal::app {
 namespace {
@@ -32,15 +32,10 @@ void check(const std::string& file, const ExperimentOptions& options, Context& c
 }
 
 void check_all(const CheckOptions& options, Context& context) {
-  std::vector<Fault> faults;
-  for (const std::string& file : options.files) {
-    try {
-      check(file, options.experiment, context);
-    } catch (const ConfigError& error) {
-      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
-    }
-  }
-  if (!faults.empty()) throw ConfigError(std::move(faults));
+  FaultCollector faults;
+  for (const std::string& file : options.files)
+    faults.collect([&] { check(file, options.experiment, context); });
+  faults.report();
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_describe(app, context);
   add_explain(app, context);
   add_compare(app, context);
+  add_figures(app, context);
   add_reliability(app, context);
   add_report(app, context);
   add_schema(app, context);

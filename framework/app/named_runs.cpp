@@ -4,8 +4,8 @@
 #include <set>
 
 #include "config/nearest.hpp"
-#include "results/collect_faults.hpp"
 #include "results/results_folder.hpp"
+#include "results_arguments.hpp"
 
 namespace glocal::app {
 namespace {
@@ -32,25 +32,12 @@ void tell_apart(std::vector<NamedRun>& runs) {
 std::vector<NamedRun> read_runs(const std::vector<std::string>& folders,
                                 const std::function<void(const fs::path&)>& also) {
   std::vector<NamedRun> runs;
-  std::vector<Fault> faults;
-  std::set<fs::path> seen;
-  const auto read = [&](const fs::path& folder) {
-    if (!seen.insert(fs::canonical(folder)).second) {
-      faults.push_back({folder.string(), 0, 0, "is named twice; name each folder of results once"});
-      return;
-    }
-    collect_faults(faults, [&] { runs.push_back({own_name(folder), read_results(folder)}); });
-    collect_faults(faults, [&] { also(folder); });
-  };
-  for (const std::string& path : folders) {
-    collect_faults(faults, [&] {
-      for (const fs::path& folder : results_folders(path)) read(folder);
-    });
-  }
-  // Both readers may have found the same.
-  std::sort(faults.begin(), faults.end());
-  faults.erase(std::unique(faults.begin(), faults.end()), faults.end());
-  if (!faults.empty()) throw ConfigError(std::move(faults));
+  FaultCollector faults;
+  for_each_results_folder(folders, faults, [&](const fs::path& folder) {
+    faults.collect([&] { runs.push_back({own_name(folder), read_results(folder)}); });
+    also(folder);
+  });
+  faults.report();
   tell_apart(runs);
   return runs;
 }

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "report/map_points.hpp"
-#include "results/collect_faults.hpp"
 #include "results/comparison_writers.hpp"
 #include "results/pcd.hpp"
 #include "version.hpp"
@@ -56,39 +55,39 @@ Json report_head() {
 }
 
 void ReportData::add(const fs::path& folder) {
-  std::vector<Fault> faults;
+  FaultCollector faults;
   Run run;
   run.folder = folder;
   read_head(run, faults);
   read_trials(run, faults);
   read_map(run, faults);
   for (const auto& [number, trial] : run.trials) read_recordings(run, number, faults);
-  if (!faults.empty()) throw ConfigError(std::move(faults));
+  faults.report();
   runs_.push_back(std::move(run));
   share_limits();
 }
 
-void ReportData::read_head(Run& run, std::vector<Fault>& faults) const {
-  collect_faults(faults, [&] {
+void ReportData::read_head(Run& run, FaultCollector& faults) const {
+  faults.collect([&] {
     with_json(run.folder / "summary.json", [&](const Json& summary) {
       run.trials_counted = summary.at("trials").at("count");
       run.summary = summary;
     });
   });
   std::map<std::string, std::string> hashes;
-  collect_faults(faults, [&] {
+  faults.collect([&] {
     with_json(run.folder / "provenance.json", [&](const Json& provenance) {
       hashes = provenance.at("inputs_sha256");
       run.provenance = provenance;
     });
   });
-  collect_faults(faults, [&] { run.settings = read_settings(run.folder, hashes); });
+  faults.collect([&] { run.settings = read_settings(run.folder, hashes); });
 }
 
 /// With their steps.
-void ReportData::read_trials(Run& run, std::vector<Fault>& faults) const {
+void ReportData::read_trials(Run& run, FaultCollector& faults) const {
   const fs::path file = run.folder / "trials.jsonl";
-  const bool is_read = collect_faults(faults, [&] {
+  const bool is_read = faults.collect([&] {
     for_each_line(file, [&](const Line& line) {
       const std::size_t number = line.at("trial");
       if (!run.trials.try_emplace(number, Trial{.line = line, .least_steps = line.at("steps")}).second)
@@ -97,17 +96,17 @@ void ReportData::read_trials(Run& run, std::vector<Fault>& faults) const {
   });
   if (!is_read) return;
   if (run.trials_counted && *run.trials_counted != run.trials.size())
-    faults.push_back(fault_of(file, fmt::format("has {} trials, where summary.json counts {}",
-                                                run.trials.size(), *run.trials_counted)));
+    faults.add(fault_of(file, fmt::format("has {} trials, where summary.json counts {}", run.trials.size(),
+                                          *run.trials_counted)));
   read_steps(run, faults);
 }
 
-void ReportData::read_steps(Run& run, std::vector<Fault>& faults) const {
+void ReportData::read_steps(Run& run, FaultCollector& faults) const {
   const auto written = run.settings.find("output.steps");
   if (written != run.settings.end() && written->second.text == "false") return;
   const fs::path file = run.folder / "steps.jsonl";
   for (auto& [number, trial] : run.trials) trial.steps.emplace(limits_.clusters);
-  const bool is_read = collect_faults(faults, [&] {
+  const bool is_read = faults.collect([&] {
     for_each_line(file, [&](const Line& line) {
       const std::size_t number = line.at("trial");
       const auto trial = run.trials.find(number);
@@ -120,16 +119,16 @@ void ReportData::read_steps(Run& run, std::vector<Fault>& faults) const {
     if (!is_read) {
       trial.steps.reset();  // how many there are in all is not known
     } else if (trial.steps->size() < trial.least_steps) {
-      faults.push_back(fault_of(file, fmt::format("has {} of the {} steps of trial {}", trial.steps->size(),
-                                                  trial.least_steps, number)));
+      faults.add(fault_of(file, fmt::format("has {} of the {} steps of trial {}", trial.steps->size(),
+                                            trial.least_steps, number)));
     }
   }
 }
 
-void ReportData::read_map(Run& run, std::vector<Fault>& faults) {
+void ReportData::read_map(Run& run, FaultCollector& faults) {
   const fs::path file = run.folder / "maps" / "global.pcd";
   if (!fs::exists(file)) return;
-  collect_faults(faults, [&] {
+  faults.collect([&] {
     Json map = map_points(read_pcd(file));
     const auto same = std::find(maps_.begin(), maps_.end(), map);
     run.map = static_cast<std::size_t>(same - maps_.begin());
@@ -138,7 +137,7 @@ void ReportData::read_map(Run& run, std::vector<Fault>& faults) {
 }
 
 /// Local maps and scans of a trial.
-void ReportData::read_recordings(Run& run, std::size_t number, std::vector<Fault>& faults) {
+void ReportData::read_recordings(Run& run, std::size_t number, FaultCollector& faults) {
   Trial& trial = run.trials.at(number);
   const fs::path folder = run.folder / "maps" / fmt::format("trial_{:04}", number);
   const auto read = [&](const char* kind, auto& frames, std::size_t most, std::size_t& trials_with) {
@@ -147,13 +146,11 @@ void ReportData::read_recordings(Run& run, std::size_t number, std::vector<Fault
     frames.emplace(most / ++trials_with);
     const std::size_t steps = trial.steps ? trial.steps->size() : found;
     if (found > steps)
-      faults.push_back(
-          fault_of(folder, fmt::format("steps.jsonl has {} steps of this trial, where there are {} "
-                                       "files {}_NNNN.pcd",
-                                       steps, found, kind)));
+      faults.add(fault_of(folder, fmt::format("steps.jsonl has {} steps of this trial, where there are {} "
+                                              "files {}_NNNN.pcd",
+                                              steps, found, kind)));
     for (std::size_t step = 0; step < steps; ++step) {
-      collect_faults(faults,
-                     [&] { frames->add(read_pcd(folder / fmt::format("{}_{:04}.pcd", kind, step))); });
+      faults.collect([&] { frames->add(read_pcd(folder / fmt::format("{}_{:04}.pcd", kind, step))); });
     }
   };
   read("step", trial.local_map, limits_.lives, trials_with_maps_);

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "glocal/error.hpp"
 #include "report/point_lives.hpp"
 #include "report/scan_frames.hpp"
 #include "report/step_columns.hpp"
 #include "results/comparison.hpp"
+#include "results/fault_collector.hpp"
 #include "results/results_folder.hpp"
 
 namespace glocal {
@@ -58,11 +58,11 @@ class ReportData {
     std::map<std::size_t, Trial> trials;
   };
 
-  void read_head(Run& run, std::vector<Fault>& faults) const;
-  void read_trials(Run& run, std::vector<Fault>& faults) const;
-  void read_steps(Run& run, std::vector<Fault>& faults) const;
-  void read_map(Run& run, std::vector<Fault>& faults);
-  void read_recordings(Run& run, std::size_t number, std::vector<Fault>& faults);
+  void read_head(Run& run, FaultCollector& faults) const;
+  void read_trials(Run& run, FaultCollector& faults) const;
+  void read_steps(Run& run, FaultCollector& faults) const;
+  void read_map(Run& run, FaultCollector& faults);
+  void read_recordings(Run& run, std::size_t number, FaultCollector& faults);
   void share_limits();
   [[nodiscard]] static nlohmann::ordered_json to_json(const Run& run, const std::string& name);
 

@@ -1,0 +1,477 @@
+// glocal figures.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "app/room.hpp"
+#include "app/svg.hpp"
+#include "glocal/pose2.hpp"
+
+namespace glocal::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr const char* odd_name = "it's \"1\" $x$ & <script>";
+
+/// For the shell.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+bool has_matplotlib() {
+  static const bool has =
+      std::system("python3 -c 'import matplotlib' 2>&- || /usr/bin/python3 -c 'import matplotlib' 2>&-") == 0;
+  return has;
+}
+
+class Figures : public Room {
+ protected:
+  Figures() { write_experiment("trials: {whole: true}\n"); }
+
+  void run_whole(const std::string& out, const std::string& options = "") const {
+    const Answer answer = run_room(out, "--quiet " + options);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  }
+
+  [[nodiscard]] Answer figures(const std::string& folder, const std::string& out,
+                               const std::string& options = "") const {
+    return run("figures " + quoted(file(folder)) + " --out " + quoted(file(out)) + " " + options);
+  }
+
+  [[nodiscard]] std::string program(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name)) << "#!/bin/sh\n" << text << "\n";
+    fs::permissions(file(name), fs::perms::owner_all);
+    return file(name);
+  }
+
+  /// An option for a Python that draws nothing, and notes what it is called with.
+  [[nodiscard]] std::string pretended_python() const {
+    return " --python " + program("pretended", "[ \"$1\" = -c ] || printf '%s\\n' \"$@\" >" + file("called"));
+  }
+
+  [[nodiscard]] std::vector<Json> steps(const std::string& folder) const {
+    std::vector<Json> all;
+    std::ifstream in(file(folder + "/steps.jsonl"));
+    for (std::string line; std::getline(in, line);) all.push_back(Json::parse(line));
+    return all;
+  }
+
+  void write_steps(const std::string& folder, const std::vector<Json>& all) const {
+    std::ofstream out(file(folder + "/steps.jsonl"));
+    for (const Json& step : all) out << step.dump() << "\n";
+  }
+};
+
+TEST_F(Figures, HandsTheFoldersToAScript) {
+  run_whole("a");
+  fs::rename(file("a"), file(odd_name));
+  const Answer answer = figures(odd_name, "b 'c", pretended_python());
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(content(file("b 'c/figures.py")), StartsWith("#!/usr/bin/env python3\n"));
+  EXPECT_EQ(content(file("called")), file("b 'c/figures.py") + "\n--out\n" + file("b 'c") +
+                                         "\n--trial\n0\n--\n" + file(odd_name) + "\n");
+}
+
+TEST_F(Figures, KeepsAScriptThatWasChanged) {
+  run_whole("a");
+  ASSERT_EQ(figures("a", "b", pretended_python()).exit_code, 0);
+  const std::string script = content(file("b/figures.py"));
+  EXPECT_EQ(figures("a", "b", pretended_python()).err, "");
+  std::ofstream(file("b/figures.py")) << "changed\n";
+  const Answer kept = figures("a", "b", pretended_python());
+  EXPECT_EQ(kept.exit_code, 0);
+  EXPECT_THAT(kept.err, HasSubstr("drawn with this as it has been changed; --force writes it anew"));
+  EXPECT_EQ(content(file("b/figures.py")), "changed\n");
+  EXPECT_EQ(figures("a", "b", "--force" + pretended_python()).exit_code, 0);
+  EXPECT_EQ(content(file("b/figures.py")), script);
+}
+
+TEST_F(Figures, WritesIntoNoForeignFolderUnlessForced) {
+  run_whole("a");
+  fs::create_directory(file("thesis"));
+  std::ofstream(file("thesis/fig3.pdf")) << "unfinished\n";
+  const Answer refused = figures("a", "thesis", pretended_python());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("thesis: error: holds other files, and no figures.py"));
+  EXPECT_FALSE(fs::exists(file("thesis/figures.py")));
+  EXPECT_EQ(figures("a", "thesis", "--force" + pretended_python()).exit_code, 0);
+  EXPECT_TRUE(fs::exists(file("thesis/figures.py")));
+  EXPECT_THAT(figures("a", "room.yaml", pretended_python()).err, HasSubstr("room.yaml: error: is no folder"));
+}
+
+TEST_F(Figures, ReportsTheFaultsOfAllFolders) {
+  for (const char* folder : {"cut_line", "cut_steps", "cut_clouds", "no_steps"}) run_whole(folder);
+  fs::resize_file(file("cut_line/steps.jsonl"), fs::file_size(file("cut_line/steps.jsonl")) - 10);
+  const std::size_t n = steps("cut_steps").size();
+  write_steps("cut_steps", {steps("cut_steps").front()});
+  for (const char* cloud : {"global.pcd", "trial_0000/step_0003.pcd"})
+    fs::resize_file(file("cut_clouds/maps") / fs::path(cloud), 300);
+  fs::remove(file("no_steps/steps.jsonl"));
+  fs::create_directory(file("foreign"));
+  std::string folders;
+  for (const char* folder : {"cut_line", "cut_steps", "cut_clouds", "no_steps", "foreign", "missing"})
+    folders += " " + file(folder);
+
+  const Answer answer = run("figures" + folders + " --out " + file("b") + pretended_python());
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_EQ(answer.out, "");
+  const std::string count = std::to_string(n);
+  const std::string declared = json("cut_steps/trials.jsonl")["steps"].dump();
+  for (const std::string& fault :
+       {"cut_line/steps.jsonl:" + count + ": error: is no line of results",
+        "cut_steps/steps.jsonl: error: is cut off: it has 1 of the " + declared +
+            " steps or more of trial 0; run",
+        std::string("cut_clouds/maps/global.pcd: error: has 130 bytes of points where"),
+        std::string("cut_clouds/maps/trial_0000/step_0003.pcd: error: has 132 bytes of points where"),
+        std::string("no_steps/steps.jsonl: error: is not there; run the experiment again with --set "
+                    "output.steps=true"),
+        std::string("foreign: error: holds no results"), std::string("missing: error: is no folder"),
+        std::string("\n7 errors\n")}) {
+    EXPECT_THAT(answer.err, HasSubstr(fault));
+  }
+  EXPECT_FALSE(fs::exists(file("b")));
+  EXPECT_FALSE(fs::exists(file("called")));
+}
+
+TEST_F(Figures, RefusesATrialThatIsNotThere) {
+  run_whole("a");
+  const Answer answer = figures("a", "b", "--trial 1" + pretended_python());
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("a/trials.jsonl: error: has no trial 1; choose one from 0 to 0"));
+  EXPECT_EQ(figures("a", "b", "--trial -1" + pretended_python()).exit_code, 2);
+  EXPECT_FALSE(fs::exists(file("b")));
+}
+
+TEST_F(Figures, RefusesStepsOfAnotherKind) {
+  run_whole("a");
+  std::vector<Json> changed = steps("a");
+  changed[2]["best"][0]["pose"]["x"] = "far";
+  write_steps("a", changed);
+  EXPECT_THAT(figures("a", "b", pretended_python()).err, HasSubstr("a/steps.jsonl:3: error: is no line"));
+  changed.erase(changed.begin() + 2);
+  write_steps("a", changed);
+  EXPECT_THAT(figures("a", "b", pretended_python()).err, HasSubstr("(step 2 is missing)"));
+  EXPECT_FALSE(fs::exists(file("b")));
+}
+
+TEST_F(Figures, SayWhereToGetMatplotlib) {
+  run_whole("a");
+  const Answer without = figures("a", "b", "--python false");
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_THAT(without.err,
+              AllOf(HasSubstr("false: cannot import matplotlib"), HasSubstr("package python3-matplotlib")));
+  const Answer missing = figures("a", "b", "--python " + file("python"));
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.err, HasSubstr(file("python") + ": No such file or directory"));
+  EXPECT_FALSE(fs::exists(file("b")));
+}
+
+TEST_F(Figures, TakeThePythonOfPathFirst) {
+  run_whole("a");
+  fs::create_directory(file("bin"));
+  fs::rename(program("python3", "echo called"), file("bin/python3"));
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (file("bin") + ":" + path).c_str(), 1);
+  const Answer answer = figures("a", "b");
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out, "called\n");
+}
+
+TEST_F(Figures, FailWithTheScript) {
+  run_whole("a");
+  const std::string failing = program("failing", "[ \"$1\" = -c ] || { echo nonsense >&2; exit 7; }");
+  const Answer answer = figures("a", "b", "--python " + failing);
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.err, AllOf(StartsWith("nonsense\n"), HasSubstr("b/figures.py: ended with exit code 7")));
+}
+
+/// Those that are drawn.
+class DrawnFigures : public Figures {
+ protected:
+  void SetUp() override {
+    if (!has_matplotlib()) GTEST_SKIP() << "matplotlib is not installed";
+  }
+
+  /// Draws SVG files only, which is quicker, by a script that was changed.
+  [[nodiscard]] Answer draw_svg(const std::string& folder, const std::string& out) const {
+    EXPECT_EQ(figures(folder, out, pretended_python()).exit_code, 0);
+    std::string script = content(file(out + "/figures.py"));
+    const std::string formats = "FORMATS = [\"pdf\", \"svg\", \"png\"]";
+    const std::size_t at = script.find(formats);
+    EXPECT_NE(at, std::string::npos);
+    std::ofstream(file(out + "/figures.py")) << script.replace(at, formats.size(), "FORMATS = [\"svg\"]");
+    Answer answer = figures(folder, out);
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_FALSE(fs::exists(file(out + "/fig3.pdf")));
+    return answer;
+  }
+
+  [[nodiscard]] std::string svg(const std::string& name) const { return content(file(name + ".svg")); }
+};
+
+std::vector<std::string> names_of_figures() {
+  std::vector<std::string> names;
+  for (const char* figure : {"fig3", "fig4", "fig5"}) {
+    for (const char* panel : {"", "a", "b", "c"}) names.push_back(std::string(figure) + panel);
+  }
+  for (const char* panel : {"d", "e", "f"}) names.push_back(std::string("fig3") + panel);
+  return names;
+}
+
+TEST_F(DrawnFigures, AreWholeFilesAndTheSameEachTime) {
+  run_whole("a");
+  fs::rename(file("a"), file(odd_name));
+  const auto draw = [&] {
+    const Answer answer = figures(odd_name, "b");
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_EQ(answer.err, "");
+    EXPECT_EQ(answer.out, "15 figures in " + file("b") + ", each as pdf, svg, png\n");
+  };
+  draw();
+  std::map<std::string, std::string> first;
+  std::string svg_files;
+  for (const std::string& name : names_of_figures()) {
+    const bool is_combined = name == "fig4" || name == "fig5";
+    const std::string pdf = content(file("b/" + name + ".pdf"));
+    EXPECT_THAT(pdf, AllOf(StartsWith("%PDF-1."), HasSubstr("\n%%EOF"))) << name;
+    EXPECT_THAT(pdf, AllOf(HasSubstr("/FontFile2"), Not(HasSubstr("/CreationDate")))) << name;
+    const std::string png = content(file("b/" + name + ".png"));
+    EXPECT_THAT(png, AllOf(StartsWith("\x89PNG\r\n\x1a\n"), HasSubstr("IEND"))) << name;
+    if (!is_combined) {
+      EXPECT_THAT(pdf, HasSubstr("/MediaBox [ 0 0 252 ")) << name;           // 3.5 in
+      EXPECT_EQ(png.substr(16, 4), std::string("\0\0\x04\x1a", 4)) << name;  // of 300 pixels
+    }
+    svg_files += " " + file("b/" + name + ".svg");
+    for (const char* extension : {".pdf", ".svg", ".png"})
+      first[name + extension] = content(file("b/" + name + extension));
+  }
+  const std::string parse =
+      "python3 -c 'import sys, xml.dom.minidom as m; [m.parse(f) for f in sys.argv[1:]]'";
+  EXPECT_EQ(std::system((parse + svg_files).c_str()), 0);
+
+  draw();
+  for (const auto& [name, bytes] : first) EXPECT_EQ(content(file("b/" + name)), bytes) << name;
+  EXPECT_EQ(std::distance(fs::directory_iterator(file("b")), {}), 46);  // and the script
+}
+
+TEST_F(DrawnFigures, HaveTheValuesOfTheSteps) {
+  run_whole("a");
+  std::vector<Json> all = steps("a");
+  all[3]["hypotheses"] = 0;  // then there is no best one
+  all[0].erase("omega_place");
+  all[5]["clusters"] = 0;
+  write_steps("a", all);
+  ASSERT_THAT(draw_svg("a", "b").err, HasSubstr("as it has been changed"));
+
+  using Value = std::function<std::optional<double>(const Json&)>;
+  const auto error = [](const char* key, double factor) -> Value {
+    return [=](const Json& step) -> std::optional<double> {
+      if (step["verdict"] != "localized") return std::nullopt;
+      return factor * step[key].get<double>();
+    };
+  };
+  const auto expect_values = [&](const std::string& figure, const std::string& id, const Value& value,
+                                 const Scale& scale = {}) {
+    const std::vector<Place> drawn = curve(svg("b/" + figure), id + "_0", scale);
+    std::size_t n = 0;
+    for (const Json& step : all) {
+      const std::optional<double> expected = value(step);
+      if (!expected) continue;
+      ASSERT_LT(n, drawn.size()) << id;
+      EXPECT_NEAR(drawn[n].x, step["step"].get<double>(), 1e-3) << id;
+      EXPECT_NEAR(drawn[n].y, *expected, 1e-4 * std::max(1.0, *expected))
+          << id << " of step " << step["step"];
+      ++n;
+    }
+    EXPECT_EQ(n, drawn.size()) << id;
+    EXPECT_GT(n, 5U) << id;
+  };
+  expect_values("fig3a", "match", [](const Json& step) { return step["stage_ms"]["match"].get<double>(); });
+  expect_values("fig3b", "omega_best", [](const Json& step) -> std::optional<double> {
+    if (step["hypotheses"] == 0) return std::nullopt;
+    return step["omega_best"].get<double>();
+  });
+  expect_values("fig3c", "omega_max", [](const Json& step) { return step["omega_max"].get<double>(); });
+  expect_values("fig3d", "omega_place", [](const Json& step) -> std::optional<double> {
+    if (!step.contains("omega_place")) return std::nullopt;
+    return step["omega_place"].get<double>();
+  });
+  expect_values("fig3e", "translation", error("translation_error_m", 100.0));
+  expect_values("fig3e", "rotation", error("rotation_error_deg", 1.0));
+  // Linear from 0 to 1, then a decade is 0.9 times as long.
+  const Scale logarithmic{[](double v) { return v <= 1.0 ? v : 1.0 + 0.9 * std::log10(v); },
+                          [](double s) { return s <= 1.0 ? s : std::pow(10.0, (s - 1.0) / 0.9); }};
+  expect_values(
+      "fig3f", "clusters", [](const Json& step) { return step["clusters"].get<double>(); }, logarithmic);
+
+  const auto first =
+      std::find_if(all.begin(), all.end(), [](const Json& s) { return s["verdict"] == "localized"; });
+  EXPECT_NEAR(curve(svg("b/fig3f"), "localized_0", logarithmic).front().x, (*first)["step"].get<double>(),
+              1e-3);
+}
+
+/// Metres on a picture of the room's map, 12 m by 6 m, from places in a file.
+std::vector<Place> metres(const std::vector<Place>& places, const std::vector<Place>& global_map) {
+  const auto [left, right] = std::minmax_element(global_map.begin(), global_map.end(),
+                                                 [](const Place& a, const Place& b) { return a.x < b.x; });
+  const auto [top, bottom] = std::minmax_element(global_map.begin(), global_map.end(),
+                                                 [](const Place& a, const Place& b) { return a.y < b.y; });
+  std::vector<Place> result;
+  for (const Place& place : places) {
+    result.push_back({12.0 * (place.x - left->x) / (right->x - left->x),
+                      6.0 * (bottom->y - place.y) / (bottom->y - top->y)});
+  }
+  return result;
+}
+
+double distance_between(const Place& a, const Place& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+/// Share of places within 0.1 m of the map.
+double share_on_map(const std::vector<Place>& places, const std::vector<Place>& map) {
+  const auto is_near = [&](const Place& place) {
+    return std::any_of(map.begin(), map.end(),
+                       [&](const Place& other) { return distance_between(place, other) < 0.1; });
+  };
+  return static_cast<double>(std::count_if(places.begin(), places.end(), is_near)) /
+         static_cast<double>(places.size());
+}
+
+Pose2 pose_of(const Json& json) {
+  return {json["x"], json["y"], json["theta"]};
+}
+
+/// A point cloud in another frame.
+std::string moved(std::string pcd, const Pose2& new_from_old) {
+  const std::string data = "DATA binary\n";
+  for (std::size_t i = pcd.find(data) + data.size(); i < pcd.size(); i += 3 * sizeof(float)) {
+    std::array<float, 2> point{};
+    std::memcpy(point.data(), pcd.data() + i, sizeof(point));
+    const Pose2 place = new_from_old * Pose2{point[0], point[1], 0.0};
+    point = {static_cast<float>(place.x), static_cast<float>(place.y)};
+    std::memcpy(pcd.data() + i, point.data(), sizeof(point));
+  }
+  return pcd;
+}
+
+TEST_F(DrawnFigures, LayTheLocalMapWhereTheRobotIs) {
+  run_whole("a");
+  ASSERT_EQ(draw_svg("a", "b").exit_code, 0);
+  std::vector<Json> all = steps("a");
+  const auto first =
+      std::find_if(all.begin(), all.end(), [](const Json& s) { return s["verdict"] == "localized"; });
+  for (const char* figure : {"b/fig4b", "b/fig5b"}) {
+    const std::vector<Place> global_map = dots(svg(figure), "global_map");
+    const std::vector<Place> local_map = dots(svg(figure), "local_map");
+    ASSERT_GT(local_map.size(), 100U);
+    EXPECT_GT(share_on_map(metres(local_map, global_map), metres(global_map, global_map)), 0.95) << figure;
+  }
+  const std::string where_localized = svg("b/fig4b");
+  const auto mark = [&](const char* id) {
+    return metres({middle(where_localized, id)}, dots(where_localized, "global_map")).front();
+  };
+  EXPECT_LT(distance_between(mark("mark_0"), {1.0, 3.0}), 0.15);  // the world's first way point
+  const Pose2 robot = pose_of((*first)["reference"]);
+  EXPECT_LT(distance_between(mark("mark_1"), {robot.x, robot.y}), 0.15);
+
+  // The same again, as if the local map had started over at some step after the declaration.
+  constexpr std::size_t over = 14;
+  const Pose2 new_from_old = inverse(pose_of(all[over]["local_from_robot"]));
+  for (std::size_t i = over; i < all.size(); ++i) {
+    const Pose2 now = i == over ? Pose2{} : new_from_old * pose_of(all[i]["local_from_robot"]);
+    all[i]["local_from_robot"] = {{"x", now.x}, {"y", now.y}, {"theta", now.theta}};
+  }
+  write_steps("a", all);
+  const std::string last = file("a/maps/trial_0000/step_00" + std::to_string(all.size() - 1) + ".pcd");
+  const std::string cloud = moved(content(last), new_from_old);
+  std::ofstream(last, std::ios::binary) << cloud;
+  ASSERT_EQ(draw_svg("a", "c").exit_code, 0);
+
+  const std::vector<Place> before = dots(svg("b/fig5b"), "local_map");
+  const std::vector<Place> after = dots(svg("c/fig5b"), "local_map");
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT(distance_between(before[i], after[i]), 0.01);
+  EXPECT_EQ(svg("b/fig4b"), svg("c/fig4b"));  // of an earlier step
+  // In the new frame the path begins at the robot, and the start lies where the reference has it.
+  const std::string picture = svg("c/fig5c");
+  const std::vector<Place> path = vertices(picture, "path");
+  ASSERT_EQ(path.size(), all.size() - over);
+  const double metres_per_point = distance(Pose2{}, pose_of(all.back()["local_from_robot"])) /
+                                  distance_between(path.front(), path.back());
+  EXPECT_NEAR(metres_per_point * distance_between(path.front(), middle(picture, "mark_0")),
+              distance(pose_of(all[over]["reference"]), pose_of(all[0]["reference"])), 0.15);
+}
+
+TEST_F(DrawnFigures, TellWhatIsLeftOut) {
+  run_whole("a");
+  ASSERT_EQ(draw_svg("a", "b").exit_code, 0);
+  ASSERT_TRUE(fs::exists(file("b/fig5c.svg")));
+  std::ofstream(file("b/fig4b.png")) << "of somebody else";
+  fs::remove_all(file("a"));
+  run_whole(
+      "a",
+      "--set output.maps=none --set trials.whole=false --set trials.every_scan=1 --set trials.max_steps=2");
+  const Answer answer = figures("a", "b");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.out, StartsWith("7 figures in "));
+  EXPECT_THAT(answer.err,
+              AllOf(HasSubstr("fig4a is left out: there is no " + file("a/maps/global.pcd") +
+                              "; run the experiment with --set output.maps=all"),
+                    HasSubstr("fig4b is left out: the robot was never localized"),
+                    HasSubstr("fig4c is left out: no step is ambiguous"), HasSubstr("fig5c is left out")));
+  EXPECT_TRUE(fs::exists(file("b/fig3e.svg")));
+  EXPECT_FALSE(fs::exists(file("b/fig5c.svg"))) << "a figure of other results";
+  EXPECT_TRUE(fs::exists(file("b/fig4b.png")));
+}
+
+TEST_F(DrawnFigures, OfSeveralRunsShareTheirCurves) {
+  run_whole("a/1");
+  run_whole("b/1", "--seed 2");
+  ASSERT_EQ(draw_svg("a", "c").exit_code, 0);
+  const Answer answer = figures("a", "c", file("b"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(vertices(svg("c/fig3c"), "omega_max_0").size(), steps("a/1").size());
+  EXPECT_EQ(vertices(svg("c/fig3c"), "omega_max_1").size(), steps("b/1").size());
+  EXPECT_THAT(svg("c/fig3c"), AllOf(HasSubstr("<!-- 1 -->"), HasSubstr("<!-- 1_2 -->")));
+  EXPECT_TRUE(fs::exists(file("c/1/fig4a.svg")));
+  EXPECT_TRUE(fs::exists(file("c/1_2/fig5c.svg")));
+  EXPECT_FALSE(fs::exists(file("c/fig4a.svg")));
+}
+
+TEST_F(DrawnFigures, AreDrawnByTheScriptAlone) {
+  run_whole("a");
+  ASSERT_EQ(draw_svg("a", "b").exit_code, 0);
+  const std::string python =
+      "$(python3 -c 'import matplotlib' 2>&- && echo python3 || echo /usr/bin/python3) ";
+  const auto alone = [&](const std::string& arguments) {
+    return std::system((python + file("b/figures.py") + " " + arguments + " 2>" + file("err")).c_str());
+  };
+  EXPECT_EQ(alone(file("a") + " --out " + file("c") + " >" + file("out")), 0);
+  for (const std::string& name : names_of_figures()) EXPECT_EQ(svg("b/" + name), svg("c/" + name)) << name;
+  EXPECT_NE(alone(file("missing") + " --out " + file("d")), 0);
+  EXPECT_EQ(content(file("err")), file("missing/steps.jsonl") +
+                                      ": cannot be read; run the experiment with --set output.steps=true\n");
+  EXPECT_NE(alone(file("a") + " --trial 3 --out " + file("d")), 0);
+  EXPECT_EQ(content(file("err")), file("a/steps.jsonl") + ": has no steps of trial 3\n");
+  fs::resize_file(file("a/maps/global.pcd"), 300);
+  EXPECT_NE(alone(file("a") + " --out " + file("d")), 0);
+  EXPECT_THAT(content(file("err")), StartsWith(file("a/maps/global.pcd") + ": is no point cloud"));
+  EXPECT_TRUE(!fs::exists(file("d")) || fs::is_empty(file("d")));
+}
+
+}  // namespace
+}  // namespace glocal::test
