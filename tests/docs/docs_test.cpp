@@ -178,6 +178,7 @@ class DocsExamples : public CommandLine {
     if (command.starts_with("explain ")) return "explain --help";
     if (command.starts_with("reliability ")) return "reliability --help";
     if (command.starts_with("compare ")) return "compare --help";
+    if (command.starts_with("report ")) return "report --help";
     if (!command.starts_with("run ") && !command.starts_with("mapping ")) return command;
     std::string check = "check";
     for (const std::smatch& match : matches(command, R"((--(set|seed|threads) \S+|\S+\.yaml)(?=\s|$))")) {

@@ -23,7 +23,7 @@ export class Details {
     const focused = document.activeElement?.getAttribute("data-hypothesis");
     const scrolled = this.element.querySelector(".scroll")?.scrollTop ?? 0;
     replace(this.element, verdict(steps, step), facts(steps, step), this.hypotheses(steps, step));
-    this.element.querySelector(".scroll")?.scrollTo(0, scrolled);
+    if (scrolled > 0) this.element.querySelector(".scroll")?.scrollTo(0, scrolled);
     if (focused != null) this.element.querySelector<HTMLElement>(`[data-hypothesis="${focused}"]`)?.focus();
   }
 

@@ -29,6 +29,8 @@ export class LiveNews {
         return;
       }
       if (report?.live) {
+        // Another variant has other settings, perhaps another map: a new page.
+        if (report.live.variant !== this.store.report.live?.variant) location.reload();
         version = report.live.version;
         this.tell(report.live);
         this.store.update(report);

@@ -87,6 +87,14 @@ function keysHelp(): HTMLElement {
   );
 }
 
+const mostNamed = 4;
+
+function headline({ runs }: Report): string {
+  if (runs.length <= mostNamed) return runs.map((run) => run.name).join(", ");
+  const experiments = new Set(runs.map((run) => run.settings.name?.text ?? run.name));
+  return `${runs.length} runs of ${[...experiments].join(", ")}`;
+}
+
 function links(sections: (HTMLElement | null)[]): HTMLElement {
   const link = (target: HTMLElement): HTMLElement =>
     el("a", { href: `#${target.id}` }, target.querySelector("h2")?.textContent ?? target.id);
@@ -115,13 +123,13 @@ function show(report: Report, page: HTMLElement): void {
     : [
         summarySection(report.runs),
         comparisonSection(report),
-        distributions.element,
+        // One trial has no distribution.
+        report.runs.some((run) => run.trials.length > 1) ? distributions.element : null,
         trials.element,
         configurationSection(report.runs),
         provenanceSection(report),
       ];
-  const title = el("h1", {}, report.runs.map((run) => run.name).join(", "));
-  const header = el("header", {}, title, runPicker(store), trialPicker(store), themeButton(redraw), links(sections));
+  const header = el("header", {}, el("h1", {}, headline(report)), runPicker(store), trialPicker(store), themeButton(redraw), links(sections));
   const view = el("main", { id: "view" }, map.element, curves.element, player.element, details.element);
   replace(page, header, news?.element, view, keysHelp());
   append(page, ...sections);

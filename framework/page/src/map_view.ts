@@ -4,6 +4,7 @@ import { poseAt, type GlobalMap, type PointLives, type Pose, type Scans, type St
 import { el, replace } from "./elements";
 import { boundingBox, compose, degrees, inverse, union, type Box } from "./geometry";
 import { fixed, significant } from "./numbers";
+import { PointLayer } from "./point_layer";
 import type { Store } from "./store";
 
 const metres = 1e-3; // of the whole mm in which points are given
@@ -74,8 +75,8 @@ export class MapView {
 
   constructor(private readonly store: Store) {
     this.shown = Object.fromEntries(Object.keys(layers).map((layer) => [layer, true])) as Record<Layer, boolean>;
-    const stage = el("div", { class: "stage" }, this.canvas, this.tip, this.zoomButtons());
-    this.element = el("figure", { class: "map" }, stage, this.legend(), this.note);
+    const stage = el("div", { class: "stage" }, this.canvas, this.note, this.tip, this.zoomButtons());
+    this.element = el("figure", { class: "map" }, stage, this.legend());
     this.listen();
     store.subscribe((change) => {
       // Runs on one map are easier to compare if the view stays.
@@ -127,13 +128,11 @@ export class MapView {
     this.frame = 0;
     const context = this.canvas.getContext("2d");
     if (!context || !this.isFitted) return;
-    const ratio = this.canvas.width / this.width;
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, this.width, this.height);
     const { x, y, scale } = this.view;
     Object.assign(this.canvas.dataset, { x, y, scale });
-    const map = this.globalMap();
-    if (map && this.shown.map) this.drawMap(context, map);
+    const ratio = this.canvas.width / this.width;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.drawPoints(context, ratio);
     const steps = this.store.steps;
     if (steps && steps.step.length > 0) this.drawStep(context, steps);
     this.drawScale(context);
@@ -170,33 +169,38 @@ export class MapView {
     };
   }
 
-  private drawMap(context: CanvasRenderingContext2D, map: GlobalMap): void {
-    context.fillStyle = themeColour("wall");
-    this.drawPoints(context, map.x, map.y, 0, map.x.length, { x: 0, y: 0, theta: 0 }, map.spacing_m);
+  /** Everything that is points: below all lines. */
+  private drawPoints(context: CanvasRenderingContext2D, ratio: number): void {
+    const origin = this.toScreen(0, 0);
+    const placement = { u0: origin.x * ratio, v0: origin.y * ratio, scale: this.view.scale * ratio };
+    const layer = new PointLayer(this.canvas.width, this.canvas.height, placement);
+    const map = this.globalMap();
+    if (map && this.shown.map) {
+      const all = { x: map.x, y: map.y, begin: 0, end: map.x.length };
+      layer.draw(all, { x: 0, y: 0, theta: 0 }, map.spacing_m, 1, themeColour("wall"));
+    }
+    const robot = chosenPose(this.store);
+    if (robot) this.drawObserved(layer, robot, 2 * ratio);
+    layer.show(context);
   }
 
-  /** Squares of the size of a cell, but never too small to be seen. */
-  private drawPoints(
-    context: CanvasRenderingContext2D,
-    xs: number[],
-    ys: number[],
-    begin: number,
-    end: number,
-    pose: Pose,
-    size_m: number,
-    isShown?: (i: number) => boolean,
-  ): void {
-    const size = Math.max(1, size_m * this.view.scale);
-    const { scale } = this.view;
-    const c = Math.cos(pose.theta) * scale * metres;
-    const s = Math.sin(pose.theta) * scale * metres;
-    const origin = this.toScreen(pose.x, pose.y);
-    for (let i = begin; i < end; ++i) {
-      if (isShown && !isShown(i)) continue;
-      const x = origin.x + c * xs[i] - s * ys[i];
-      const y = origin.y - s * xs[i] - c * ys[i];
-      if (x < -size || y < -size || x > this.width + size || y > this.height + size) continue;
-      context.fillRect(x - size / 2, y - size / 2, size, size);
+  /** The local map and the scan, laid on the map under a robot pose. */
+  private drawObserved(layer: PointLayer, robot: Pose, least: number): void {
+    const { step } = this.store.selected;
+    const { local_map: lives, scans, columns } = this.store.trial ?? {};
+    const size = this.globalMap()?.spacing_m ?? 0;
+    const inLocal = columns ? poseAt(columns.local_from_robot, step) : null;
+    if (lives && inLocal && this.shown.local_map) {
+      const frame = frameAt(lives, step);
+      const isShown = (i: number): boolean => lives.from[i] <= frame && frame < lives.to[i];
+      const points = { x: lives.x, y: lives.y, begin: 0, end: lives.x.length, isShown };
+      layer.draw(points, compose(robot, inverse(inLocal)), size, least, themeColour("local-map"));
+    }
+    if (scans && this.shown.scan) {
+      const frame = frameAt(scans, step);
+      if (scans.steps[frame] !== step) return;
+      const points = { x: scans.x, y: scans.y, begin: scans.first[frame], end: scans.first[frame + 1] };
+      layer.draw(points, robot, size, 1.5 * least, themeColour("scan"));
     }
   }
 
@@ -205,8 +209,6 @@ export class MapView {
     if (this.shown.reference) this.drawReference(context, steps);
     if (this.shown.estimate) this.drawEstimates(context, steps, step);
     if (this.shown.unknown_place) this.drawUnknownPlaces(context, steps, step);
-    const pose = chosenPose(this.store);
-    if (pose) this.drawObserved(context, steps, step, pose);
     if (this.shown.clusters) this.drawClusters(context, steps, step);
     const reference = poseAt(steps.reference, step);
     if (reference && this.shown.reference) this.drawRobot(context, reference, themeColour("reference"), true);
@@ -273,29 +275,6 @@ export class MapView {
       context.stroke();
     }
     context.globalAlpha = 1;
-  }
-
-  /** The local map and the scan, laid on the map under a robot pose. */
-  private drawObserved(context: CanvasRenderingContext2D, steps: Steps, step: number, robot: Pose): void {
-    const { local_map: lives, scans } = this.store.trial ?? {};
-    const inLocal = poseAt(steps.local_from_robot, step);
-    if (lives && inLocal && this.shown.local_map) {
-      const frame = frameAt(lives, step);
-      const pose = compose(robot, inverse(inLocal));
-      context.fillStyle = themeColour("local-map");
-      const lived = (i: number): boolean => lives.from[i] <= frame && frame < lives.to[i];
-      this.drawPoints(context, lives.x, lives.y, 0, lives.x.length, pose, this.pointSize(), lived);
-    }
-    if (scans && this.shown.scan) {
-      const frame = frameAt(scans, step);
-      if (scans.steps[frame] !== step) return;
-      context.fillStyle = themeColour("scan");
-      this.drawPoints(context, scans.x, scans.y, scans.first[frame], scans.first[frame + 1], robot, this.pointSize() * 1.2);
-    }
-  }
-
-  private pointSize(): number {
-    return Math.max(this.globalMap()?.spacing_m ?? 0.05, 2 / this.view.scale);
   }
 
   private drawClusters(context: CanvasRenderingContext2D, steps: Steps, step: number): void {
@@ -371,7 +350,8 @@ export class MapView {
     const { step, hypothesis } = this.store.selected;
     const missing: string[] = [];
     if (!this.globalMap()) missing.push("The results hold no global map (output.maps: none).");
-    if (!steps) missing.push("The results hold no steps (output.steps: false).");
+    if (!trial) missing.push("No trial was finished.");
+    else if (!steps) missing.push("The results hold no steps (output.steps: false).");
     if (steps && steps.step.length > 0) {
       const listed = steps.best.first[step + 1] - steps.best.first[step];
       if (listed < steps.clusters[step]) missing.push(`The ${listed} best of ${steps.clusters[step]} clusters.`);

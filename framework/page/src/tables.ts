@@ -44,12 +44,13 @@ export function comparisonSection(report: Report): HTMLElement | null {
   const { comparison, comparison_refused: refused } = report;
   if (refused !== undefined) return section("comparison", "Comparison", el("p", { class: "warning" }, refused));
   if (!comparison) return null;
-  const warnings = [...comparison.warnings, ...comparison.pairs.flatMap((pair) => pair.warnings)];
+  const ofPairs = comparison.pairs.flatMap(({ variant, warnings: own }) => own.map((text) => `${variant}: ${text}`));
+  const warnings = [...comparison.warnings, ...ofPairs];
   return section(
     "comparison",
     `Comparison with ${comparison.baseline}`,
     el("ul", {}, ...comparison.pairs.map((pair) => el("li", {}, pair.conclusion))),
-    warnings.length > 0 && el("ul", { class: "warning" }, ...[...new Set(warnings)].map((text) => el("li", {}, text))),
+    warnings.length > 0 && el("ul", { class: "warning" }, ...warnings.map((text) => el("li", {}, text))),
     table(
       ["variant", "measure", comparison.baseline, "variant's", "difference (95 %)", "test", "p", "p after Holm"],
       comparisonRows(comparison),

@@ -1,0 +1,70 @@
+// Very many small squares, written pixel by pixel: tens of thousands a step are too many for a canvas's own calls.
+import type { Pose } from "./data";
+
+/** Where the map lies on the drawing, in its pixels: u = u0 + scale x, v = v0 - scale y. */
+export interface Placement {
+  u0: number;
+  v0: number;
+  scale: number;
+}
+
+/** Points in whole mm, of which [begin, end) are meant, and of these only those that `isShown` wants. */
+export interface PointRange {
+  x: number[];
+  y: number[];
+  begin: number;
+  end: number;
+  isShown?: (i: number) => boolean;
+}
+
+const metres = 1e-3;
+
+export class PointLayer {
+  private readonly image: ImageData;
+  private readonly pixels: Uint32Array;
+
+  constructor(
+    private readonly width: number,
+    private readonly height: number,
+    private readonly placement: Placement,
+  ) {
+    this.image = new ImageData(width, height);
+    this.pixels = new Uint32Array(this.image.data.buffer);
+  }
+
+  /** Squares of a side of `size_m`, at least `least` pixels, of points in a frame that lies at `pose` in the map. */
+  draw(points: PointRange, pose: Pose, size_m: number, least: number, colour: string): void {
+    const { u0, v0, scale } = this.placement;
+    // Rounded up: neighbours leave no gap.
+    const size = Math.ceil(Math.max(least, size_m * scale));
+    const c = Math.cos(pose.theta) * scale * metres;
+    const s = Math.sin(pose.theta) * scale * metres;
+    const u = u0 + pose.x * scale - size / 2;
+    const v = v0 - pose.y * scale - size / 2;
+    const paint = pixelOf(colour);
+    const { x, y, isShown } = points;
+    for (let i = points.begin; i < points.end; ++i) {
+      if (isShown && !isShown(i)) continue;
+      this.square(Math.round(u + c * x[i] - s * y[i]), Math.round(v - s * x[i] - c * y[i]), size, paint);
+    }
+  }
+
+  /** Replaces what is drawn. */
+  show(context: CanvasRenderingContext2D): void {
+    context.putImageData(this.image, 0, 0);
+  }
+
+  private square(left: number, top: number, size: number, paint: number): void {
+    const begin = Math.max(left, 0);
+    const end = Math.min(left + size, this.width);
+    if (begin >= end) return;
+    for (let v = Math.max(top, 0); v < Math.min(top + size, this.height); ++v)
+      this.pixels.fill(paint, v * this.width + begin, v * this.width + end);
+  }
+}
+
+/** Of "#rrggbb", opaque, in the byte order of the machine. */
+function pixelOf(colour: string): number {
+  const bytes = new Uint8Array([1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16)).concat(255));
+  return new Uint32Array(bytes.buffer)[0];
+}

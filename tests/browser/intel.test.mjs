@@ -1,0 +1,65 @@
+// A real log: 42 trials of a few steps each.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { assertQuiet, closeBrowser, drawn, open, skip as noBrowser } from "./open.mjs";
+import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
+import { checkClusters, checkSteps } from "./steps_check.mjs";
+import { viridis } from "./viridis.mjs";
+
+const skip = noBrowser || (process.env.GLOCAL_DATASETS ? false : "GLOCAL_DATASETS is not set");
+let folder, trials, opened, page;
+
+before(async () => {
+  if (skip) return;
+  const work = workFolder();
+  folder = runExperiment("intel", join(work, "intel"), "--jobs", "2");
+  trials = trialsOf(folder);
+  opened = await open(report(join(work, "report.html"), folder));
+  page = opened.page;
+});
+after(async () => {
+  if (!skip) assertQuiet(opened);
+  await closeBrowser();
+});
+
+test("every trial can be chosen, and shows its own steps", { skip }, async () => {
+  assert.equal(await page.locator("#trial option").count(), trials.length);
+  for (const { trial, outcome } of [trials[0], trials[7], trials.at(-1)]) {
+    await page.locator("#trial").selectOption(String(trial));
+    await drawn(page);
+    const steps = stepsOf(folder, trial);
+    assert.match(await page.locator("#trial option:checked").innerText(), new RegExp(outcome));
+    assert.equal(await page.locator("input[type=range]").getAttribute("max"), String(steps.length - 1));
+    await checkSteps(page, steps, [0, steps.length >> 1, steps.length - 1]);
+  }
+});
+
+test("clusters of a real log are drawn where they are", { skip }, async () => {
+  await page.locator("#trial").selectOption("0");
+  await page.keyboard.press("Escape");
+  assert.ok((await checkClusters(page, stepsOf(folder, 0)[0], viridis)) >= 1);
+});
+
+test("the list of trials tells what trials.jsonl does, and leads to a trial", { skip }, async () => {
+  const rows = page.locator("#trials tbody tr");
+  assert.equal(await rows.count(), trials.length);
+  const trial = trials[3];
+  const text = await rows.nth(3).innerText();
+  for (const part of [trial.outcome, String(trial.steps), trial.translation_error_m.toFixed(3)]) assert.ok(text.includes(part), text);
+  await rows.nth(3).locator("button").click();
+  assert.equal(await page.locator("#trial").inputValue(), "3");
+});
+
+test("the summary counts the trials", { skip }, async () => {
+  const right = trials.filter(({ outcome }) => outcome === "right").length;
+  const wrong = trials.filter(({ outcome }) => outcome === "wrong").length;
+  const row = page.locator("#summary tr", { hasText: "right, wrong, undecided" });
+  assert.match(await row.innerText(), new RegExp(`${right}, ${wrong}, ${trials.length - right - wrong}`));
+});
+
+test("the share of localized trials ends at that of right ones", { skip }, async () => {
+  await page.locator("[data-share=over_steps] canvas").waitFor();
+  // Six charts over trials have something to show: only success of several runs is missing.
+  assert.equal(await page.locator("#distributions canvas").count(), 5);
+});

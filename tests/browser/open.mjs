@@ -1,0 +1,126 @@
+// A report in a browser that notes everything that must not happen.
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+
+const browserFile = "/usr/bin/chromium";
+export const skip = existsSync(browserFile) ? false : "Chromium is missing; scripts/setup --browser installs it";
+
+let browser = null;
+
+async function launch() {
+  const { chromium } = createRequire(join(process.env.GLOCAL_BROWSER_PACKAGES, "package.json"))("playwright-core");
+  return chromium.launch({
+    executablePath: browserFile,
+    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  });
+}
+
+export async function closeBrowser() {
+  await browser?.close();
+  browser = null;
+}
+
+/** The page of a report, when it has drawn itself. `options` are those of a browser context. */
+export async function open(address, options = {}) {
+  browser ??= await launch();
+  const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, ...options });
+  const page = await context.newPage();
+  const noted = { errors: [], requests: [], dialogs: 0 };
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && noted.errors.push(message.text()));
+  page.on("pageerror", (error) => noted.errors.push(String(error)));
+  page.on("request", (request) => noted.requests.push(request.url()));
+  page.on("dialog", async (dialog) => {
+    ++noted.dialogs;
+    await dialog.dismiss();
+  });
+  const url = address.startsWith("http") ? address : `file://${address}`;
+  await page.goto(url);
+  await page.waitForSelector("canvas[data-scale]");
+  return { page, noted, url: page.url() };
+}
+
+/** Nothing was fetched besides the page itself, no error was told, and nothing asked the reader. */
+export function assertQuiet({ noted, url }) {
+  // The empty icon is part of the page.
+  assert.deepEqual(noted.requests.filter((address) => !address.startsWith("data:")), [url]);
+  assert.deepEqual(noted.errors, []);
+  assert.equal(noted.dialogs, 0);
+}
+
+export async function moveSlider(page, step) {
+  await page.locator("input[type=range]").evaluate((slider, value) => {
+    slider.value = String(value);
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+  }, step);
+  await drawn(page);
+}
+
+/** Waits until what was asked for has been drawn. */
+export async function drawn(page) {
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+}
+
+/** What the page says of its view, to find a place of the map on the screen (y up in the map, down on the screen). */
+export async function mapView(page) {
+  const { data, box } = await page.locator(".stage canvas").evaluate((canvas) => {
+    window.scrollTo(0, 0);
+    const rectangle = canvas.getBoundingClientRect();
+    return { data: { ...canvas.dataset }, box: { left: rectangle.left, top: rectangle.top, width: rectangle.width, height: rectangle.height } };
+  });
+  const [x, y, scale] = [Number(data.x), Number(data.y), Number(data.scale)];
+  return {
+    x,
+    y,
+    scale,
+    box,
+    toScreen: (pose) => ({
+      x: box.left + box.width / 2 + (pose.x - x) * scale,
+      y: box.top + box.height / 2 - (pose.y - y) * scale,
+    }),
+  };
+}
+
+/** The map's drawing as it is: red, green, blue, opacity of its pixels, which places on the screen lead to. */
+async function drawing(page) {
+  const { bytes, width, height, box } = await page.locator(".stage canvas").evaluate((canvas) => {
+    // Reading the page's own canvas again and again would have the browser warn of it.
+    const copy = document.createElement("canvas");
+    copy.width = canvas.width;
+    copy.height = canvas.height;
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(canvas, 0, 0);
+    const { data, width, height } = context.getImageData(0, 0, copy.width, copy.height);
+    let text = "";
+    for (let i = 0; i < data.length; i += 8192) text += String.fromCharCode(...data.subarray(i, i + 8192));
+    const { left, top, width: shown } = canvas.getBoundingClientRect();
+    return { bytes: btoa(text), width, height, box: { left, top, ratio: canvas.width / shown } };
+  });
+  const data = Buffer.from(bytes, "base64");
+  return ({ x, y }) => {
+    const [column, row] = [Math.floor((x - box.left) * box.ratio), Math.floor((y - box.top) * box.ratio)];
+    const isInside = column >= 0 && row >= 0 && column < width && row < height;
+    return isInside ? [...data.subarray(4 * (row * width + column), 4 * (row * width + column) + 4)] : [0, 0, 0, 0];
+  };
+}
+
+/** For each place on the screen whether anything is drawn there, or in a pixel beside it. */
+export async function painted(page, places) {
+  const at = await drawing(page);
+  const offsets = [-1, 0, 1];
+  return places.map(({ x, y }) => offsets.some((dx) => offsets.some((dy) => at({ x: x + dx, y: y + dy })[3] > 0)));
+}
+
+/** Colour of the map's drawing at a place on the screen: red, green, blue, opacity. */
+export async function colourAt(page, place) {
+  return (await drawing(page))(place);
+}
+
+/** What is drawn: all layers but these are switched off. */
+export async function showOnly(page, ...layers) {
+  for (const box of await page.locator("input[data-layer]").all()) {
+    await box.setChecked(layers.includes(await box.getAttribute("data-layer")));
+  }
+  await drawn(page);
+}

@@ -1,0 +1,48 @@
+// Real runs of the program, and what they leave, read by nobody's code but this.
+import { execFileSync, spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+export const program = process.env.GLOCAL_PROGRAM;
+export const experiments = join(process.env.GLOCAL_SOURCE_DIR, "configs/experiments");
+
+/** A folder of the test's own, gone when the test program ends. */
+export function workFolder() {
+  const folder = mkdtempSync(join(tmpdir(), "glocal-browser-"));
+  process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
+  return folder;
+}
+
+export function glocal(...parameters) {
+  return execFileSync(program, parameters, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
+}
+
+export function runExperiment(name, out, ...parameters) {
+  glocal("run", join(experiments, `${name}.yaml`), "--out", out, "--quiet", ...parameters);
+  return out;
+}
+
+/** Stops a run as Ctrl-C does, once so many trials are finished. */
+export async function interruptedRun(name, out, trials, ...parameters) {
+  const run = spawn(program, ["run", join(experiments, `${name}.yaml`), "--out", out, "--quiet", ...parameters], {
+    stdio: "ignore",
+  });
+  const ended = new Promise((resolve) => run.on("exit", resolve));
+  const slash = out.lastIndexOf("/");
+  const unfinished = join(out.slice(0, slash), `.${out.slice(slash + 1)}.unfinished`);
+  const entry = `trial_${String(trials - 1).padStart(4, "0")}.json`;
+  const last = trials > 0 ? join(unfinished, "journal", entry) : join(unfinished, "maps");
+  while (!existsSync(last) && run.exitCode === null) await new Promise((resolve) => setTimeout(resolve, 5));
+  run.kill("SIGINT");
+  return ended;
+}
+
+export function report(file, ...folders) {
+  glocal("report", ...folders, "-o", file);
+  return file;
+}
+
+const lines = (file) => readFileSync(file, "utf8").split("\n").filter(Boolean).map((line) => JSON.parse(line));
+export const trialsOf = (folder) => lines(join(folder, "trials.jsonl"));
+export const stepsOf = (folder, trial) => lines(join(folder, "steps.jsonl")).filter((step) => step.trial === trial);

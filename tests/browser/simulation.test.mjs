@@ -1,0 +1,183 @@
+// The paper's simulation: one trial of 136 steps with its maps.
+import assert from "node:assert/strict";
+import { readFileSync, statSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { assertQuiet, closeBrowser, drawn, mapView, moveSlider, open, painted, showOnly, skip } from "./open.mjs";
+import { report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
+import { checkClusters, checkNumbers, checkRobot, checkSteps } from "./steps_check.mjs";
+import { viridis } from "./viridis.mjs";
+
+let folder, file, steps, opened, page;
+
+before(async () => {
+  if (skip) return;
+  const work = workFolder();
+  folder = runExperiment("paper_simulation", join(work, "simulation"));
+  file = report(join(work, "report.html"), folder);
+  steps = stepsOf(folder, 0);
+  opened = await open(file);
+  page = opened.page;
+});
+after(async () => {
+  if (!skip) assertQuiet(opened);
+  await closeBrowser();
+});
+
+test("is one file of less than 5 MB", { skip }, () => {
+  assert.ok(statSync(file).size < 5e6);
+  assert.equal(steps.length, 136);
+});
+
+test("numbers are those of steps.jsonl", { skip }, async () => {
+  await checkSteps(page, steps, [0, 1, 27, 45, 86, 87, 88, 135]);
+});
+
+test("clusters are drawn where they are, in the colour of r, and tell their normalised rating", { skip }, async () => {
+  let checked = 0;
+  for (const k of [0, 6, 12]) {
+    await moveSlider(page, k);
+    checked += await checkClusters(page, steps[k], viridis);
+  }
+  assert.ok(checked >= 3, `${checked} clusters lie alone`);
+});
+
+test("zooming keeps the place under the pointer, and what is drawn stays where it is on the map", { skip }, async () => {
+  await moveSlider(page, 0);
+  const before = await mapView(page);
+  const at = before.toScreen(steps[0].best[0].pose);
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.wheel(0, -400);
+  await drawn(page);
+  const after = await mapView(page);
+  assert.ok(Math.abs(after.scale / before.scale - Math.E) < 0.01, `${before.scale} to ${after.scale}`);
+  const now = after.toScreen(steps[0].best[0].pose);
+  assert.ok(Math.hypot(now.x - at.x, now.y - at.y) < 1.5);
+  assert.ok((await checkClusters(page, steps[0], viridis)) >= 1);
+  await page.mouse.move(now.x, now.y);
+  await page.mouse.down();
+  await page.mouse.move(now.x + 50, now.y + 30, { steps: 4 });
+  await page.mouse.up();
+  await drawn(page);
+  const dragged = (await mapView(page)).toScreen(steps[0].best[0].pose);
+  assert.ok(Math.abs(dragged.x - now.x - 50) < 1.5 && Math.abs(dragged.y - now.y - 30) < 1.5);
+  await page.keyboard.press("0");
+  await drawn(page);
+  assert.equal((await mapView(page)).scale, before.scale);
+});
+
+test("estimate and reference are drawn at their poses", { skip }, async () => {
+  await moveSlider(page, 100);
+  await checkRobot(page, "estimate", steps[100].estimate);
+  await checkRobot(page, "reference", steps[100].reference);
+});
+
+/** x and y of the points of a PCD file as the program writes it. */
+function readPcd(name) {
+  const content = readFileSync(name);
+  const begin = content.indexOf("DATA binary\n") + "DATA binary\n".length;
+  const points = [];
+  for (let i = begin; i < content.length; i += 12) points.push({ x: content.readFloatLE(i), y: content.readFloatLE(i + 4) });
+  return points;
+}
+
+test("the local map lies on the map under the estimate, and the scan under the robot", { skip }, async () => {
+  const k = 100;
+  await moveSlider(page, k);
+  const { estimate, local_from_robot: local } = steps[k];
+  const turn = estimate.theta - local.theta;
+  const rotated = (p, angle) => ({ x: Math.cos(angle) * p.x - Math.sin(angle) * p.y, y: Math.sin(angle) * p.x + Math.cos(angle) * p.y });
+  const share = async (points, place) => {
+    const view = await mapView(page);
+    const found = await painted(page, points.map((point) => view.toScreen(place(point))));
+    return found.filter(Boolean).length / points.length;
+  };
+  const inMap = (point) => {
+    const p = rotated({ x: point.x - local.x, y: point.y - local.y }, turn);
+    return { x: estimate.x + p.x, y: estimate.y + p.y };
+  };
+  const ofScan = (point) => {
+    const p = rotated(point, estimate.theta);
+    return { x: estimate.x + p.x, y: estimate.y + p.y };
+  };
+  const maps = join(folder, "maps", "trial_0000");
+  const localMap = readPcd(join(maps, "step_0100.pcd"));
+  const scan = readPcd(join(maps, "scan_0100.pcd"));
+  await showOnly(page, "local_map");
+  assert.equal(await share(localMap, inMap), 1);
+  await showOnly(page, "scan");
+  assert.equal(await share(scan, ofScan), 1);
+  await showOnly(page);
+  assert.equal(await share(localMap, inMap), 0);
+  await showOnly(page, "map");
+  const global = readPcd(join(folder, "maps", "global.pcd"));
+  assert.equal(await share(global, (p) => p), 1);
+});
+
+test("another hypothesis can be chosen by its button and by a click on the map", { skip }, async () => {
+  await moveSlider(page, 0);
+  await page.locator("[data-hypothesis='3']").click();
+  assert.equal(await page.locator("[data-hypothesis='3']").getAttribute("aria-pressed"), "true");
+  await showOnly(page, "clusters");
+  const view = await mapView(page);
+  const at = view.toScreen(steps[0].best[1].pose);
+  await page.mouse.click(at.x, at.y);
+  const chosen = Number(await page.locator(".hypotheses table [aria-pressed=true]").getAttribute("data-hypothesis"));
+  const place = view.toScreen(steps[0].best[chosen].pose);
+  assert.ok(Math.hypot(place.x - at.x, place.y - at.y) < 2, "the nearest cluster is chosen");
+});
+
+test("keys move the step, and play goes on by itself", { skip }, async () => {
+  await page.locator(".stage canvas").focus();
+  const step = () => page.evaluate(() => Number(document.body.dataset.step));
+  await page.keyboard.press("Home");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await step(), 1);
+  await page.keyboard.press("Control+ArrowRight");
+  assert.equal(await step(), 11);
+  await page.keyboard.press("End");
+  assert.equal(await step(), 135);
+  await checkNumbers(page, steps[135]);
+  await page.keyboard.press("Home");
+  await page.keyboard.press("Space");
+  await page.waitForFunction(() => Number(document.body.dataset.step) >= 3);
+  await page.keyboard.press("Space");
+  const stopped = await step();
+  await page.waitForTimeout(300);
+  assert.equal(await step(), stopped);
+});
+
+test("a click in a curve chooses the step, and the cursor of all curves follows the slider", { skip }, async () => {
+  const over = page.locator("[data-curve=omega_max] .u-over");
+  const box = await over.boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  const step = await page.evaluate(() => Number(document.body.dataset.step));
+  assert.ok(Math.abs(step - 135 / 2) <= 1.5, `step ${step}`);
+  await checkNumbers(page, steps[step]);
+  await moveSlider(page, 135);
+  for (const curve of ["match_ms", "omega_best", "omega_max", "omega_place", "error", "clusters"]) {
+    const at = await page.locator(`[data-curve=${curve}] .u-over`).evaluate((plot) => {
+      const line = plot.querySelector(".step-line").getBoundingClientRect();
+      const all = plot.getBoundingClientRect();
+      return (line.left + line.width / 2 - all.left) / all.width;
+    });
+    assert.ok(Math.abs(at - 1) < 0.01, `${curve}: ${at}`);
+  }
+});
+
+test("light, dark and paper", { skip }, async () => {
+  const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const theme = page.locator("header button", { hasText: "theme" });
+  await theme.click();
+  const light = await paper();
+  await theme.click();
+  assert.notEqual(await paper(), light);
+  await theme.click();
+  await page.emulateMedia({ colorScheme: "dark" });
+  assert.notEqual(await paper(), light);
+  await page.emulateMedia({ colorScheme: null });
+  const pdf = await page.pdf();
+  assert.equal(pdf.subarray(0, 5).toString(), "%PDF-");
+});
