@@ -13,6 +13,14 @@ namespace {
 constexpr std::chrono::milliseconds between_bars{100};
 constexpr std::chrono::minutes between_lines{1};
 
+/// ", about 3 min left", once that can be told.
+std::string time_left(std::optional<double> left_s) {
+  if (!left_s) return "";
+  if (*left_s < 99.0) return fmt::format(", about {:.0f} s left", *left_s);
+  if (*left_s < 99.0 * 60.0) return fmt::format(", about {:.0f} min left", *left_s / 60.0);
+  return fmt::format(", about {:.1f} h left", *left_s / 3600.0);
+}
+
 }  // namespace
 
 Progress::Progress(bool shown, std::size_t trials)
@@ -33,15 +41,16 @@ void Progress::step(std::size_t trial, std::size_t step, double share, const cha
   const auto now = Clock::now();
   if (!shown_ || now - last_ < (on_terminal_ ? Clock::duration(between_bars) : between_lines)) return;
   last_ = now;
-  const double share_done = std::min(1.0, done() / trials_);
+  const double done = share_done();
+  const std::string left = time_left(seconds_left(done));
   if (!on_terminal_) {
-    spdlog::info("{}{} of {:.0f} trials done{}", what_, finished_, trials_, time_left(share_done));
+    spdlog::info("{}{} of {:.0f} trials done{}", what_, finished_, trials_, left);
     return;
   }
   constexpr int width = 30;
-  const auto filled = static_cast<int>(share_done * width);
+  const auto filled = static_cast<int>(done * width);
   fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {} of {:.0f}{}  {}trial {}, step {}  {}", "", filled, "",
-             width - filled, finished_, trials_, time_left(share_done), what_, trial, step, verdict);
+             width - filled, finished_, trials_, left, what_, trial, step, verdict);
   std::fflush(stderr);
 }
 
@@ -56,21 +65,23 @@ void Progress::skip(std::size_t trials) {
   trials_ -= static_cast<double>(trials);
 }
 
-/// Trials, with the shares of those that are running.
-double Progress::done() const {
-  double done = static_cast<double>(finished_);
-  for (const auto& [trial, share] : running_) done += share;
-  return done;
+RunProgress Progress::now() {
+  const std::lock_guard lock(mutex_);
+  return {finished_, static_cast<std::size_t>(trials_), seconds_left(share_done())};
 }
 
-/// ", about 3 min left", once that can be told.
-std::string Progress::time_left(double done) const {
+/// Of all trials, with what is done of those that are running.
+double Progress::share_done() const {
+  double done = static_cast<double>(finished_);
+  for (const auto& [trial, share] : running_) done += share;
+  return std::min(1.0, done / trials_);
+}
+
+/// None until it can be told.
+std::optional<double> Progress::seconds_left(double share_done) const {
   const double passed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-  if (passed_s < 2.0 || done < 0.01) return "";
-  const double left_s = passed_s * (1.0 - done) / done;
-  if (left_s < 99.0) return fmt::format(", about {:.0f} s left", left_s);
-  if (left_s < 99.0 * 60.0) return fmt::format(", about {:.0f} min left", left_s / 60.0);
-  return fmt::format(", about {:.1f} h left", left_s / 3600.0);
+  if (passed_s < 2.0 || share_done < 0.01) return std::nullopt;
+  return passed_s * (1.0 - share_done) / share_done;
 }
 
 }  // namespace glocal::app

@@ -5,7 +5,10 @@
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
+
+#include "report/run_progress.hpp"
 
 namespace glocal::app {
 
@@ -27,11 +30,14 @@ class Progress {
   /// So many trials need not be run.
   void skip(std::size_t trials);
 
+  /// How far it is.
+  [[nodiscard]] RunProgress now();
+
  private:
   using Clock = std::chrono::steady_clock;
 
-  [[nodiscard]] double done() const;
-  [[nodiscard]] std::string time_left(double done) const;
+  [[nodiscard]] double share_done() const;
+  [[nodiscard]] std::optional<double> seconds_left(double share_done) const;
 
   bool shown_;
   bool on_terminal_;

@@ -17,11 +17,14 @@
 #include "experiment_options.hpp"
 #include "glocal/experiment.hpp"
 #include "progress.hpp"
+#include "report/live_run.hpp"
 #include "results/output_folder.hpp"
 #include "results/pcd.hpp"
 #include "results/provenance.hpp"
+#include "results/results_folder.hpp"
 #include "results/run_results.hpp"
 #include "run_report.hpp"
+#include "watch_server.hpp"
 
 namespace glocal::app {
 namespace {
@@ -33,11 +36,18 @@ using Summarised = std::pair<std::string, Json>;  ///< A variant's name and its 
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
 
+/// What --watch stands for without a port.
+constexpr const char* any_port = "any";
+
+/// For whoever watches to hear that the run is over.
+constexpr std::chrono::seconds longest_farewell{2};
+
 struct RunOptions {
   ExperimentOptions experiment;
   std::vector<std::string> only;
   std::string out;
   int jobs = 1;
+  std::string watch;  ///< Port, or any_port; empty if nobody may watch.
   bool force = false;
   bool quiet = false;
 };
@@ -65,9 +75,10 @@ void select(std::vector<Variant>& variants, const RunOptions& options) {
 /// Everything one run after the other needs.
 class Runner {
  public:
-  Runner(const RunOptions& options, Context& context, fs::path out)
+  Runner(const RunOptions& options, Context& context, fs::path out, LiveRun* live)
       : options_(options),
         context_(context),
+        live_(live),
         out_(std::move(out)),
         preparer_(context.catalog, [](const std::string& text) { spdlog::warn(text); }) {}
 
@@ -87,6 +98,7 @@ class Runner {
 
   const RunOptions& options_;
   Context& context_;
+  LiveRun* live_;  ///< Null if nobody may watch.
   fs::path out_;
   Preparer preparer_;
   FileHashes hashes_;
@@ -193,13 +205,18 @@ Json Runner::run_one(Variant& variant, Progress& progress) {
     results.step(trial, record, sample.observation.scan, now);
     progress.step(trial, record.result.step, static_cast<double>(record.result.step) / steps,
                   to_string(record.result.verdict.kind));
+    if (live_ != nullptr) live_->step(trial, record, now.local_map().points, progress.now());
   };
   const auto on_done = [&](const TrialRecord& record) {
     results.finish(record);
     progress.finish(record.trial);
+    if (live_ != nullptr) live_->finish(record, progress.now());
     if (record.outcome == Outcome::failed)
       spdlog::error("trial {} failed in step {}: {}", record.trial, record.records.size(), record.why);
   };
+  if (live_ != nullptr)
+    live_->begin(variant.name, folder.path(), read_settings(folder.unfinished(), origin["inputs_sha256"]),
+                 prepared);
   const bool complete = run_trials(localizers, experiment, prepared, results.to_run(),
                                    {on_step, on_done, [] { return interrupted.load(); }});
 
@@ -227,10 +244,18 @@ void run(const RunOptions& options, Context& context) {
   // From here on an interrupt ends the run in good order.
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
-  Runner runner(options, context, out);
+  LiveRun live(variants.front().experiment.name);
+  std::optional<WatchServer> server;
+  if (!options.watch.empty()) {
+    server.emplace(options.watch == any_port ? 0 : std::stoi(options.watch), live);
+    spdlog::info("watch: http://127.0.0.1:{}/", server->port());
+  }
+  Runner runner(options, context, out, server ? &live : nullptr);
   std::vector<Summarised> summaries;
   if (has_variants) summaries = runner.take_finished(variants);
   for (auto& summary : runner.run(variants)) summaries.push_back(std::move(summary));
+  live.end();
+  if (!interrupted) live.wait_until_told(longest_farewell);
   const auto place = [&](const Summarised& s) { return std::find(names.begin(), names.end(), s.first); };
   std::sort(summaries.begin(), summaries.end(),
             [&](const Summarised& a, const Summarised& b) { return place(a) < place(b); });
@@ -263,6 +288,10 @@ void add_run(CLI::App& app, Context& context) {
   command->add_option("--jobs", options->jobs, "Trials that run side by side, each with --threads of its own")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  command
+      ->add_flag(fmt::format("--watch{{{}}}", any_port), options->watch,
+                 "Show the run while it goes on, in a browser on this machine; --watch=PORT to choose where")
+      ->check((CLI::IsMember({any_port, "0"}) | CLI::Range(1024, 65535)).description(""));
   command->add_flag("--force", options->force, "Replace earlier results in that folder");
   command->add_flag("--quiet", options->quiet, "No progress and no summary");
   command->callback([options, &context] { run(*options, context); });

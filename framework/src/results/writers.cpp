@@ -51,7 +51,7 @@ Json to_json(const Pose2& pose) {
   return {{"x", pose.x}, {"y", pose.y}, {"theta", pose.theta}};
 }
 
-std::string step_line(std::size_t trial, const StepRecord& record) {
+Json step_json(std::size_t trial, const StepRecord& record) {
   const StepResult& step = record.result;
   Json json = {{"trial", trial},
                {"step", step.step},
@@ -86,14 +86,22 @@ std::string step_line(std::size_t trial, const StepRecord& record) {
   }
   if (record.error) add_error(json, *record.error);
   if (step.verdict.belief) add_belief(json, *step.verdict.belief, record.nees);
-  return json.dump() + "\n";
+  return json;
+}
+
+std::string step_line(std::size_t trial, const StepRecord& record) {
+  return step_json(trial, record).dump() + "\n";
+}
+
+Json start_json(const TrialRecord& trial) {
+  Json start = {{"sample", trial.start_sample}, {"distance_m", trial.start_m}, {"stamp", trial.start_stamp}};
+  if (trial.start_reference) start["reference"] = to_json(*trial.start_reference);
+  return start;
 }
 
 std::string trial_line(const TrialRecord& trial) {
-  Json start = {{"sample", trial.start_sample}, {"distance_m", trial.start_m}, {"stamp", trial.start_stamp}};
-  if (trial.start_reference) start["reference"] = to_json(*trial.start_reference);
   Json json = {{"trial", trial.trial},
-               {"start", std::move(start)},
+               {"start", start_json(trial)},
                {"outcome", to_string(trial.outcome)},
                {"steps", trial.steps},
                {"distance_m", trial.distance_m}};

@@ -11,8 +11,14 @@
 
 namespace glocal {
 
+/// What a line of steps.jsonl has.
+[[nodiscard]] nlohmann::ordered_json step_json(std::size_t trial, const StepRecord& step);
+
 /// One line of steps.jsonl.
 [[nodiscard]] std::string step_line(std::size_t trial, const StepRecord& step);
+
+/// Where a trial starts, as a line of trials.jsonl has it.
+[[nodiscard]] nlohmann::ordered_json start_json(const TrialRecord& trial);
 
 /// One line of trials.jsonl.
 [[nodiscard]] std::string trial_line(const TrialRecord& trial);
