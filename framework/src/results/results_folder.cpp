@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -38,15 +37,6 @@ void with_json(const fs::path& file, const std::function<void(const Json&)>& wor
     refuse(file, 0,
            fmt::format("is not as glocal run leaves it ({}); run the experiment again", error.what()));
   }
-}
-
-Outcome outcome_of(const std::string& text) {
-  using enum Outcome;
-  constexpr std::array all = {right, wrong, undecided, declared, failed};
-  const auto* const found =
-      std::find_if(all.begin(), all.end(), [&](Outcome outcome) { return text == to_string(outcome); });
-  if (found == all.end()) throw std::invalid_argument("there is no outcome '" + text + "'");
-  return *found;
 }
 
 std::optional<double> number(const Json& line, const char* key) {
