@@ -92,13 +92,6 @@ std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& 
                       "names none, or more than one, of the runs" + suggestion(name, names, "there are")}});
 }
 
-/// What is left is the same for runs of the same seed.
-void leave_out_times(std::vector<NamedRun>& runs) {
-  for (NamedRun& run : runs) {
-    for (auto& [start, trial] : run.results.trials) trial.step_ms.reset();
-  }
-}
-
 std::string json_text(const Comparison& comparison) {
   // Names of folders need not be UTF-8.
   return to_json(comparison).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -107,8 +100,8 @@ std::string json_text(const Comparison& comparison) {
 void compare_runs(const CompareOptions& options) {
   std::vector<NamedRun> runs = read_runs(options.folders);
   tell_apart(runs);
-  if (options.no_times) leave_out_times(runs);
-  const Comparison comparison = compare(runs, find_baseline(runs, options.baseline));
+  const Comparison comparison = compare(runs, find_baseline(runs, options.baseline),
+                                        options.no_times ? measures_but_time() : measures());
   AtomicFiles files(options.force);
   if (!options.csv.empty()) files.add(options.csv, to_csv(comparison));
   if (!options.json.empty()) files.add(options.json, json_text(comparison));

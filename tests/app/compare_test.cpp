@@ -134,10 +134,8 @@ TEST_F(CompareCommand, SaysTheSameOfRunsWithTheSameSeedIfTimesAreLeftOut) {
   const Answer second = run("compare --no-times " + file("all"));
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_EQ(first.out, second.out);
-  EXPECT_THAT(first.out, AllOf(HasSubstr("steps to localize"),
-                               Not(HasSubstr("significantly better than none in time"))));
-  EXPECT_THAT(run("compare " + file("all")).out, HasSubstr("time of a step, ms  "));
-  EXPECT_THAT(first.out, Not(HasSubstr("time of a step, ms  ")));
+  EXPECT_THAT(run("compare " + file("all")).out, HasSubstr("time of a step"));
+  EXPECT_THAT(first.out, AllOf(HasSubstr("steps to localize"), Not(HasSubstr("time of a step"))));
 }
 
 TEST_F(CompareCommand, WarnsOfRunsThatDiffer) {
