@@ -20,13 +20,7 @@ using testing::Not;
 class CompareCommand : public CommandLine {
  protected:
   CompareCommand() {
-    std::ofstream(file("world.yaml"))
-        << "size: [12, 6]\n"
-           "walls:\n"
-           "  - {points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}\n"
-           "  - {points: [[5, 0], [5, 2.4]]}\n"
-           "free_from: [[1, 1]]\n"
-           "way_points: [[1, 3], [10, 3], [10, 1]]\n";
+    write_world();
     std::ofstream(file("room.yaml")) << "schema: 1\n"
                                         "name: room\n"
                                         "map: {simulation: {world: world.yaml}}\n"
@@ -38,8 +32,6 @@ class CompareCommand : public CommandLine {
                                         "  verdict_rule: staged_margin\n"
                                         "output: {maps: none}\n";
   }
-
-  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
 
   void run_room(const std::string& out, const std::string& options = "") const {
     const Answer answer = run("run " + file("room.yaml") + " --quiet --out " + file(out) + " " + options);
