@@ -31,11 +31,7 @@ void describe(ParamVisitor& v, GridMatching& p) {
                   "mode_rotation. Fewer take less time.",
            .min = 1,
            .max = 100000});
-  v.field("mode_distance", p.mode_distance,
-          {.doc = "Robot poses nearer to each other are one mode.", .unit = "m", .above = 0.0});
-  v.field("mode_rotation", p.mode_rotation,
-          {.doc = "… if they are turned by less.", .unit = "rad", .above = 0.0});
-  v.field("refinement_points", p.refinement_points, {.doc = "Points used to refine a pose.", .min = 3});
+  describe(v, p.mode);
   v.field("refinement", p.refinement,
           {.doc = "How poses are refined on the distance field; without iterations they stay on the grid."});
   v.field("field_cell", p.field_cell,
@@ -44,7 +40,9 @@ void describe(ParamVisitor& v, GridMatching& p) {
 
 GridMatcher::GridMatcher(const GridMatching& params, const GlobalMap& map,
                          std::shared_ptr<const ContactIndex> contact)
-    : params_(params), contact_(std::move(contact)), field_(distance_field(map, params.field_cell)) {}
+    : params_(params),
+      refiner_(params.mode, static_cast<std::size_t>(params.max_poses), params.refinement,
+               distance_field(map, params.field_cell), std::move(contact)) {}
 
 MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
                                Rng& rng) {
@@ -56,8 +54,8 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
   const GridSearchResult found = search(sample, local.local_from_robot,
                                         {.min_quality = omega_max,
                                          .min_rotation_step = params_.min_rotation_step,
-                                         .distance = params_.mode_distance,
-                                         .rotation = params_.mode_rotation,
+                                         .distance = params_.mode.distance,
+                                         .rotation = params_.mode.rotation,
                                          .max_poses = static_cast<std::size_t>(params_.max_poses)});
   result.collisions = found.tested;
   result.checks = found.checks;
@@ -66,12 +64,10 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
     modes.push_back(
         {pose.map_from_local, static_cast<double>(pose.in_contact) / static_cast<double>(sample.size())});
   }
-  modes = distinct(std::move(modes), local.local_from_robot);
+  modes = refiner_.distinct(std::move(modes), local.local_from_robot);
   if (params_.refinement.iterations > 0) {
     result.checks += modes.size() * local.points.size();
-    const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
-    refine(modes, *field_, anchors, params_.refinement, *contact_, local.points);
-    modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
+    modes = refiner_.refined(std::move(modes), local.local_from_robot, sample, local.points);
   }
   for (const Mode& mode : modes) {
     if (mode.quality < omega_max) break;
@@ -79,11 +75,6 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
         {mode.map_from_local, mode.map_from_local * local.local_from_robot, mode.quality});
   }
   return result;
-}
-
-std::vector<Mode> GridMatcher::distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const {
-  return distinct_modes(std::move(modes), local_from_robot, {params_.mode_distance, params_.mode_rotation},
-                        static_cast<std::size_t>(params_.max_poses));
 }
 
 }  // namespace glocal

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "glocal/catalog.hpp"
 #include "glocal/contact.hpp"
@@ -20,9 +19,7 @@ struct GridMatching {
   double min_rotation_step = 0.005;
   int max_points = 200;
   int max_poses = 50;
-  double mode_distance = 0.4;
-  double mode_rotation = 0.2;
-  int refinement_points = 50;
+  ModeRule mode = {};
   PoseRefinement refinement = {};
   double field_cell = 0.05;
 };
@@ -47,11 +44,9 @@ class GridMatcher : public Matcher {
  private:
   [[nodiscard]] virtual GridSearchResult search(const Points& points, const Pose2& local_from_robot,
                                                 const GridSearchRule& rule) const = 0;
-  [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
 
   GridMatching params_;
-  std::shared_ptr<const ContactIndex> contact_;
-  std::shared_ptr<const DistanceField> field_;
+  ModeRefiner refiner_;
 };
 
 }  // namespace glocal

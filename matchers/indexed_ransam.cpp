@@ -65,10 +65,6 @@ RelationIndex build_index(const IndexedRansam::Params& p, const GlobalMap& map, 
   return DipoleIndex(surfaces_of(map, surface_rule(p)), dipole_rule(p), threads);
 }
 
-ModeRule mode_rule(const IndexedRansam::Params& p) {
-  return {p.mode_distance, p.mode_rotation};
-}
-
 /// Two points drawn until their distance is in range: in a large local map most pairs are too far apart.
 /// Given up after some tries.
 DipoleIndex::Dipole draw_dipole(const Surfaces& s, double min_length, double max_length, Rng& rng) {
@@ -151,11 +147,7 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("best", p.best, {.doc = "Of these, the best that become hypotheses.", .min = 1, .max = 10000});
   v.field("carried", p.carried,
           {.doc = "Of those, the best that go on to the next step.", .min = 0, .max = 10000});
-  v.field("mode_distance", p.mode_distance,
-          {.doc = "Robot poses nearer to each other are one mode.", .unit = "m", .above = 0.0});
-  v.field("mode_rotation", p.mode_rotation,
-          {.doc = "… if they are turned by less.", .unit = "rad", .above = 0.0});
-  v.field("refinement_points", p.refinement_points, {.doc = "Points used to refine a pose.", .min = 3});
+  describe(v, p.mode);
   v.field("refinement", p.refinement, {.doc = "How poses are refined on the distance field."});
   v.field("uncertainty", p.uncertainty, {.doc = "What the covariance of a hypothesis is made from."});
   v.field("field_cell", p.field_cell,
@@ -217,6 +209,7 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       map_(setup.map),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
       field_(distance_field(*setup.map, params.field_cell)),
+      refiner_(params.mode, static_cast<std::size_t>(params.modes), params.refinement, field_, contact_),
       clearance_(clearance_grid(*setup.map)),
       pyramid_(params.exact_search.after_steps > 0
                    ? contact_pyramid(*setup.map, params.exact_search.cell, params.contact_epsilon)
@@ -287,10 +280,7 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
 /// The best of the modes, refined; `modes` keeps the distinct ones.
 std::vector<Mode> IndexedRansam::settled(std::vector<Mode>& modes, const LocalMap& local,
                                          const Points& sample, MatchResult& result) const {
-  modes = distinct(std::move(modes), local.local_from_robot);
-  const Points anchors = first_of(sample, static_cast<std::size_t>(params_.refinement_points));
-  refine(modes, *field_, anchors, params_.refinement, *contact_, sample);
-  modes = distinct(std::move(modes), local.local_from_robot);  // some have become one
+  modes = refiner_.refined(std::move(modes), local.local_from_robot, sample, sample);
   result.checks += modes.size() * local.points.size();
   return judged(modes, local, sample);
 }
@@ -357,17 +347,17 @@ void IndexedRansam::draw_until_stable(const LocalPoints& points, const Points& s
       robots.push_back(modes[i].map_from_local * local_from_robot);
     return robots;
   };
-  modes = distinct(std::move(modes), local_from_robot);
+  modes = refiner_.distinct(std::move(modes), local_from_robot);
   std::vector<Pose2> before = best_of();
   for (int drawn = 0, stable = 0; drawn < budget.limit && stable < budget.stable_chunks;) {
     const int draws = std::min(budget.chunk, budget.limit - drawn);
     draw(points, sample, static_cast<std::size_t>(draws), rng, modes, result);
     drawn += draws;
-    modes = distinct(std::move(modes), local_from_robot);
+    modes = refiner_.distinct(std::move(modes), local_from_robot);
     const std::vector<Pose2> best = best_of();
     const auto was_there = [&](const Pose2& robot) {
       return std::any_of(before.begin(), before.end(),
-                         [&](const Pose2& other) { return is_same_mode(robot, other, mode_rule(params_)); });
+                         [&](const Pose2& other) { return is_same_mode(robot, other, params_.mode); });
     };
     const bool same =
         !best.empty() && best.size() == before.size() && std::all_of(best.begin(), best.end(), was_there);
@@ -440,8 +430,8 @@ void IndexedRansam::search_exactly(const Points& sample, const Pose2& local_from
       search_grid(*pyramid_, sample, local_from_robot,
                   {.min_quality = params_.min_contact,
                    .min_rotation_step = params_.exact_search.min_rotation_step,
-                   .distance = params_.mode_distance,
-                   .rotation = params_.mode_rotation,
+                   .distance = params_.mode.distance,
+                   .rotation = params_.mode.rotation,
                    .max_poses = static_cast<std::size_t>(params_.exact_search.max_poses)},
                   threads_);
   for (const GridSearchResult::Pose& pose : found.poses) {
@@ -449,11 +439,6 @@ void IndexedRansam::search_exactly(const Points& sample, const Pose2& local_from
   }
   result.collisions += found.tested;
   result.checks += found.checks;
-}
-
-std::vector<Mode> IndexedRansam::distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const {
-  return distinct_modes(std::move(modes), local_from_robot, mode_rule(params_),
-                        static_cast<std::size_t>(params_.modes));
 }
 
 double IndexedRansam::conflict_share(const Points& sample, const Pose2& map_from_local) const {

@@ -61,9 +61,7 @@ class IndexedRansam final : public Matcher {
     int modes = 40;
     int best = 10;
     int carried = 10;
-    double mode_distance = 0.4;
-    double mode_rotation = 0.2;
-    int refinement_points = 50;
+    ModeRule mode = {};
     PoseRefinement refinement = {};
     PoseUncertainty uncertainty = {};
     double field_cell = 0.05;
@@ -113,7 +111,6 @@ class IndexedRansam final : public Matcher {
   [[nodiscard]] std::vector<Mode> settled(std::vector<Mode>& modes, const LocalMap& local,
                                           const Points& sample, MatchResult& result) const;
   [[nodiscard]] bool is_clear(const std::vector<Mode>& best) const;
-  [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
   [[nodiscard]] Hypothesis hypothesis(const Mode& mode, const LocalMap& local, const Points& sample) const;
   [[nodiscard]] double conflict_share(const Points& sample, const Pose2& map_from_local) const;
   [[nodiscard]] double unknown_share(const Points& sample, const Pose2& map_from_local) const;
@@ -127,6 +124,7 @@ class IndexedRansam final : public Matcher {
   std::shared_ptr<const RelationIndex> index_;
   MapIndexInfo map_index_;
   std::shared_ptr<const DistanceField> field_;
+  ModeRefiner refiner_;
   std::shared_ptr<const ClearanceGrid> clearance_;
   std::shared_ptr<const ContactPyramid> pyramid_;  ///< Null without exact search.
   BeamEvidence beams_;

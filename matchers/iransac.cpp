@@ -118,11 +118,7 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
            .unit = "m",
            .above = 0.0});
   v.field("best", p.best, {.doc = "Distinct poses that become hypotheses.", .min = 1, .max = 10000});
-  v.field("mode_distance", p.mode_distance,
-          {.doc = "Robot poses nearer to each other are one mode.", .unit = "m", .above = 0.0});
-  v.field("mode_rotation", p.mode_rotation,
-          {.doc = "… if they are turned by less.", .unit = "rad", .above = 0.0});
-  v.field("refinement_points", p.refinement_points, {.doc = "Points used to refine a pose.", .min = 3});
+  describe(v, p.mode);
   v.field("refinement", p.refinement, {.doc = "How poses are refined on the distance field."});
   v.field("field_cell", p.field_cell,
           {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
@@ -132,7 +128,8 @@ IRansac::IRansac(const Params& params, const StageSetup& setup)
     : params_(params),
       threads_(setup.threads),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
-      field_(distance_field(*setup.map, params.field_cell)) {
+      refiner_(params.mode, static_cast<std::size_t>(params.pool), params.refinement,
+               distance_field(*setup.map, params.field_cell), contact_) {
   const auto begin = std::chrono::steady_clock::now();
   index_ = setup.map->index<FeatureIndex>(index_key(params), [&] {
     return FeatureIndex(surfaces_of(*setup.map, surface_rule(params)), params.shape_context,
@@ -159,10 +156,7 @@ MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/,
 
   std::vector<Mode> modes;
   for (const ScoredPose& pose : pool_) modes.push_back({pose.map_from_local, pose.score()});
-  modes = distinct(std::move(modes), local.local_from_robot);
-  refine(modes, *field_, first_of(shuffled, static_cast<std::size_t>(params_.refinement_points)),
-         params_.refinement, *contact_, local.points);
-  modes = distinct(std::move(modes), local.local_from_robot);
+  modes = refiner_.refined(std::move(modes), local.local_from_robot, shuffled, local.points);
   result.checks += modes.size() * local.points.size();
   pool_.clear();
   for (const Mode& mode : modes) {
@@ -208,11 +202,6 @@ void IRansac::propose(const LocalMap& local, Rng& rng) {
     pool_.push_back({motion[0].pose()});
     ++proposed;
   }
-}
-
-std::vector<Mode> IRansac::distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const {
-  return distinct_modes(std::move(modes), local_from_robot, {params_.mode_distance, params_.mode_rotation},
-                        static_cast<std::size_t>(params_.pool));
 }
 
 }  // namespace glocal

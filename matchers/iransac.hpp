@@ -49,9 +49,7 @@ class IRansac final : public Matcher {
     int pool = 100;
     double contact_epsilon = 0.10;
     int best = 10;
-    double mode_distance = 0.4;
-    double mode_rotation = 0.2;
-    int refinement_points = 50;
+    ModeRule mode = {};
     PoseRefinement refinement = {};
     double field_cell = 0.05;
   };
@@ -66,12 +64,11 @@ class IRansac final : public Matcher {
 
  private:
   void propose(const LocalMap& local, Rng& rng);
-  [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
 
   Params params_;
   int threads_;
   std::shared_ptr<const ContactIndex> contact_;
-  std::shared_ptr<const DistanceField> field_;
+  ModeRefiner refiner_;
   std::shared_ptr<const FeatureIndex> index_;
   MapIndexInfo map_index_;
   std::vector<ScoredPose> pool_;

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "glocal/contact.hpp"
+#include "glocal/params.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose2.hpp"
 #include "glocal/rng.hpp"
@@ -19,31 +21,46 @@ struct Mode {
   double quality = 0.0;
 };
 
-/// When two robot poses are one mode: both nearer and turned by less.
+/// When two robot poses are one mode, both nearer and turned by less; and how many points refine one.
 struct ModeRule {
   double distance = 0.4;  ///< m
   double rotation = 0.2;  ///< rad
+  int refinement_points = 50;
 };
+/// Among the fields of a matcher, not in a group of their own.
+void describe(ParamVisitor& v, ModeRule& p);
 
 [[nodiscard]] inline bool is_same_mode(const Pose2& a, const Pose2& b, const ModeRule& rule) {
   return distance(a, b) < rule.distance && rotation_between(a, b) < rule.rotation;
 }
 
-/// At most `most` modes, the best first, leaving out those that only repeat a better one: the same robot
-/// pose.
-[[nodiscard]] std::vector<Mode> distinct_modes(std::vector<Mode> modes, const Pose2& local_from_robot,
-                                               const ModeRule& rule, std::size_t most);
+/// Makes few modes of many poses.
+class ModeRefiner {
+ public:
+  /// Of more than `most` modes the best are kept.
+  ModeRefiner(const ModeRule& rule, std::size_t most, const PoseRefinement& refinement,
+              std::shared_ptr<const DistanceField> field, std::shared_ptr<const ContactIndex> contact);
 
-/// Refines each by the anchors, and judges it anew by the contact of `points`.
-void refine(std::vector<Mode>& modes, const DistanceField& field, const Points& anchors,
-            const PoseRefinement& refinement, const ContactIndex& contact, const Points& points);
+  /// The best first, leaving out those that only repeat a better one: the same robot pose.
+  [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
+
+  /// The distinct ones, each refined by the first points of `sample` and judged anew by the contact of
+  /// `points`; distinct again, as some may have become one.
+  [[nodiscard]] std::vector<Mode> refined(std::vector<Mode> modes, const Pose2& local_from_robot,
+                                          const Points& sample, const Points& points) const;
+
+ private:
+  ModeRule rule_;
+  std::size_t most_;
+  PoseRefinement refinement_;
+  std::shared_ptr<const DistanceField> field_;
+  std::shared_ptr<const ContactIndex> contact_;
+};
 
 /// At most n of the numbers below `below`, each once, in random order.
 [[nodiscard]] std::vector<std::uint32_t> draw_numbers(std::size_t n, std::size_t below, Rng& rng);
 
 /// At most n of the points, picked at random, in random order.
 [[nodiscard]] Points sample_of(const Points& points, std::size_t n, Rng& rng);
-
-[[nodiscard]] Points first_of(const Points& points, std::size_t n);
 
 }  // namespace glocal

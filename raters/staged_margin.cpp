@@ -192,14 +192,10 @@ std::optional<PoseCovariance> StagedMargin::covariance(const std::vector<Hypothe
     spread.yt += weight * y * t;
     spread.tt += weight * t * t;
   }
-  PoseCovariance c = *best.covariance;
-  c.xx += spread.xx / weights;
-  c.xy += spread.xy / weights;
-  c.xt += spread.xt / weights;
-  c.yy += spread.yy / weights;
-  c.yt += spread.yt / weights;
-  c.tt += spread.tt / weights;
-  return c;
+  const PoseCovariance& own = *best.covariance;
+  return PoseCovariance{own.xx + spread.xx / weights, own.xy + spread.xy / weights,
+                        own.xt + spread.xt / weights, own.yy + spread.yy / weights,
+                        own.yt + spread.yt / weights, own.tt + spread.tt / weights};
 }
 
 bool StagedMargin::are_rivals(const Pose2& a, const Pose2& b) const {

@@ -24,13 +24,6 @@ struct CompareOptions {
   bool force = false;
 };
 
-/// What is left is the same for runs of the same seed.
-void leave_out_times(std::vector<NamedRun>& runs) {
-  for (NamedRun& run : runs) {
-    for (auto& [start, trial] : run.results.trials) trial.step_ms.reset();
-  }
-}
-
 std::string json_text(const Comparison& comparison) {
   // Names of folders need not be UTF-8.
   return to_json(comparison).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -42,8 +35,8 @@ void compare_runs(const CompareOptions& options) {
     throw ConfigError({{options.folders.front(), 0, 0,
                         "there is nothing to compare it with; name two folders of results or more"}});
   }
-  if (options.no_times) leave_out_times(runs);
-  const Comparison comparison = compare(runs, find_baseline(runs, options.baseline));
+  const Comparison comparison = compare(runs, find_baseline(runs, options.baseline),
+                                        options.no_times ? measures_but_time() : measures());
   AtomicFiles files(options.force);
   if (!options.csv.empty()) files.add(options.csv, to_csv(comparison));
   if (!options.json.empty()) files.add(options.json, json_text(comparison));

@@ -20,13 +20,7 @@ using testing::Not;
 class CompareCommand : public CommandLine {
  protected:
   CompareCommand() {
-    std::ofstream(file("world.yaml"))
-        << "size: [12, 6]\n"
-           "walls:\n"
-           "  - {points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}\n"
-           "  - {points: [[5, 0], [5, 2.4]]}\n"
-           "free_from: [[1, 1]]\n"
-           "way_points: [[1, 3], [10, 3], [10, 1]]\n";
+    write_world();
     std::ofstream(file("room.yaml")) << "schema: 1\n"
                                         "name: room\n"
                                         "map: {simulation: {world: world.yaml}}\n"
@@ -38,8 +32,6 @@ class CompareCommand : public CommandLine {
                                         "  verdict_rule: staged_margin\n"
                                         "output: {maps: none}\n";
   }
-
-  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
 
   void run_room(const std::string& out, const std::string& options = "") const {
     const Answer answer = run("run " + file("room.yaml") + " --quiet --out " + file(out) + " " + options);
@@ -134,10 +126,8 @@ TEST_F(CompareCommand, SaysTheSameOfRunsWithTheSameSeedIfTimesAreLeftOut) {
   const Answer second = run("compare --no-times " + file("all"));
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_EQ(first.out, second.out);
-  EXPECT_THAT(first.out, AllOf(HasSubstr("steps to localize"),
-                               Not(HasSubstr("significantly better than none in time"))));
-  EXPECT_THAT(run("compare " + file("all")).out, HasSubstr("time of a step, ms  "));
-  EXPECT_THAT(first.out, Not(HasSubstr("time of a step, ms  ")));
+  EXPECT_THAT(run("compare " + file("all")).out, HasSubstr("time of a step"));
+  EXPECT_THAT(first.out, AllOf(HasSubstr("steps to localize"), Not(HasSubstr("time of a step"))));
 }
 
 TEST_F(CompareCommand, WarnsOfRunsThatDiffer) {

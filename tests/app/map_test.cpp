@@ -23,7 +23,6 @@ class MapCommand : public CommandLine {
       log << "TRUEPOS 0 0 0 0 0 0 " << i << " h 0\nFLASER 2 1 2 0 0 0 0 0 0 " << i << " h 0\n";
     }
   }
-  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
 };
 
 TEST_F(MapCommand, BuildsShowsAndConverts) {
@@ -121,7 +120,6 @@ class MapIndexCommand : public CommandLine {
                                         "trials: {whole: true, max_steps: 10}\n"
                                         "localizer: {matcher: indexed_ransam}\n";
   }
-  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
   [[nodiscard]] Answer build(const std::string& options = "") const {
     return run("map index " + file("room.yaml") + " -o " + file("room.index") + " " + options);
   }

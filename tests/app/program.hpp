@@ -34,6 +34,19 @@ class CommandLine : public testing::Test {
     return text.str();
   }
 
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
+
+  /// world.yaml: a room with a wall in it, and a way through it.
+  void write_world() const {
+    folder_.write("world.yaml",
+                  "size: [12, 6]\n"
+                  "walls:\n"
+                  "  - {points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}\n"
+                  "  - {points: [[5, 0], [5, 2.4]]}\n"
+                  "free_from: [[1, 1]]\n"
+                  "way_points: [[1, 3], [10, 3], [10, 1]]\n");
+  }
+
   TemporaryFolder folder_;
 };
 

@@ -25,13 +25,7 @@ inline Json without_times(Json json) {
 class Room : public CommandLine {
  protected:
   Room() {
-    std::ofstream(file("world.yaml"))
-        << "size: [12, 6]\n"
-           "walls:\n"
-           "  - {points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}\n"
-           "  - {points: [[5, 0], [5, 2.4]]}\n"
-           "free_from: [[1, 1]]\n"
-           "way_points: [[1, 3], [10, 3], [10, 1]]\n";
+    write_world();
     write_experiment("trials: {every_scan: 6, max_steps: 5}\n");
   }
 
@@ -44,8 +38,6 @@ class Room : public CommandLine {
                                      << trials << "localizer: {matcher: {ransam: {iterations: 20000}}}\n"
                                      << more;
   }
-
-  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
 
   [[nodiscard]] Answer run_room(const std::string& out, const std::string& options = "--quiet") const {
     return run("run " + file("room.yaml") + " " + options + " --out " + file(out));

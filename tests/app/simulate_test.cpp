@@ -13,13 +13,7 @@ using testing::HasSubstr;
 class SimulateCommand : public CommandLine {
  protected:
   SimulateCommand() {
-    std::ofstream(file("world.yaml"))
-        << "size: [12, 6]\n"
-           "walls:\n"
-           "  - {points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}\n"
-           "  - {points: [[5, 0], [5, 2.4]]}\n"
-           "free_from: [[1, 1]]\n"
-           "way_points: [[1, 3], [10, 3], [10, 1]]\n";
+    write_world();
     std::ofstream(file("experiment.yaml")) << "schema: 1\n"
                                               "name: room\n"
                                               "map: {simulation: {world: world.yaml}}\n"
@@ -27,7 +21,6 @@ class SimulateCommand : public CommandLine {
                                               "trials: {whole: true}\n"
                                               "localizer: {matcher: {ransam: {iterations: 20000}}}\n";
   }
-  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
 };
 
 TEST_F(SimulateCommand, WhatItWritesRunsLikeTheSimulation) {

@@ -14,12 +14,8 @@ namespace {
 using testing::at;
 using ::testing::ElementsAre;
 using testing::Groups;
-using testing::groups_of;
 
-Groups cluster(const std::vector<Hypothesis>& hypotheses, const Dbscan::Params& params) {
-  Rng rng(1);
-  return groups_of(Dbscan(params).cluster(hypotheses, rng));
-}
+constexpr auto cluster = testing::clustered<Dbscan>;
 
 /// DBSCAN as Ester et al. write it down: poses are taken one after the other, and a core's cluster is
 /// expanded seed by seed.

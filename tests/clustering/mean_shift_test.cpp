@@ -13,12 +13,8 @@ namespace {
 using testing::at;
 using ::testing::ElementsAre;
 using testing::Groups;
-using testing::groups_of;
 
-Groups cluster(const std::vector<Hypothesis>& hypotheses, const MeanShift::Params& params) {
-  Rng rng(1);
-  return groups_of(MeanShift(params).cluster(hypotheses, rng));
-}
+constexpr auto cluster = testing::clustered<MeanShift>;
 
 TEST(MeanShift, FlatKernelByHand) {
   // From 0.0 the mean within 1 m is 0.4, from there again; all of the first three end there. From 3.0 and 3.8

@@ -10,13 +10,8 @@ namespace {
 
 using testing::at;
 using ::testing::ElementsAre;
-using testing::Groups;
-using testing::groups_of;
 
-Groups cluster(const std::vector<Hypothesis>& hypotheses, const PoseGridClusterer::Params& params) {
-  Rng rng(1);
-  return groups_of(PoseGridClusterer(params).cluster(hypotheses, rng));
-}
+constexpr auto cluster = testing::clustered<PoseGridClusterer>;
 
 // Cells of 0.5 m; of 30 deg, the first from -15 to 15 deg.
 const std::vector<Hypothesis> some = {at(0.1, 0.1, 0), at(0.4, 0.4, 14), at(-0.1, 0.1, 0),

@@ -25,6 +25,13 @@ inline Groups groups_of(const std::vector<Cluster>& clusters) {
   return groups;
 }
 
+/// What a clusterer with these parameters finds.
+template <class Clusterer>
+Groups clustered(const std::vector<Hypothesis>& hypotheses, const typename Clusterer::Params& params) {
+  Rng rng(1);
+  return groups_of(Clusterer(params).cluster(hypotheses, rng));
+}
+
 /// Poses around places on both sides of the seam of headings, and some anywhere.
 inline std::vector<Hypothesis> crowded(int n, Rng& rng) {
   std::vector<Hypothesis> hypotheses;

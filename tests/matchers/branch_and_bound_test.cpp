@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
 namespace glocal {
@@ -81,7 +82,7 @@ TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGri
     for (std::size_t k = 0; k < i; ++k) {
       const Pose2& a = found[i].map_from_robot;
       const Pose2& b = found[k].map_from_robot;
-      EXPECT_TRUE(distance(a, b) >= params.mode_distance || rotation_between(a, b) >= params.mode_rotation);
+      EXPECT_TRUE(distance(a, b) >= params.mode.distance || rotation_between(a, b) >= params.mode.rotation);
     }
   }
 }
@@ -141,13 +142,7 @@ TEST(BranchAndBound, AnswersAlikeForAnyNumberOfThreads) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
   const MatchResult one = match({}, local, 0.1, testing::small_world(), 1);
   const MatchResult two = match({}, local, 0.1, testing::small_world(), 2);
-  ASSERT_EQ(one.hypotheses.size(), two.hypotheses.size());
-  for (std::size_t i = 0; i < one.hypotheses.size(); ++i) {
-    EXPECT_EQ(one.hypotheses[i].map_from_local, two.hypotheses[i].map_from_local);
-    EXPECT_EQ(one.hypotheses[i].quality, two.hypotheses[i].quality);
-  }
-  EXPECT_EQ(one.collisions, two.collisions);
-  EXPECT_EQ(one.checks, two.checks);
+  testing::expect_same_answer(one, two);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "matchers/branch_and_bound.hpp"
+#include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
 namespace glocal {
@@ -138,14 +139,7 @@ TEST(Exhaustive, AnswersAlikeForAnyNumberOfThreads) {
   const Exhaustive::Params params{.grid = {.contact_epsilon = 0.2, .cell = 0.2}};
   const MatchResult one = match<Exhaustive>(params, local, 0.1, testing::small_world(), 1);
   const MatchResult two = match<Exhaustive>(params, local, 0.1, testing::small_world(), 2);
-  ASSERT_EQ(one.hypotheses.size(), two.hypotheses.size());
-  ASSERT_FALSE(one.hypotheses.empty());
-  for (std::size_t i = 0; i < one.hypotheses.size(); ++i) {
-    EXPECT_EQ(one.hypotheses[i].map_from_local, two.hypotheses[i].map_from_local);
-    EXPECT_EQ(one.hypotheses[i].quality, two.hypotheses[i].quality);
-  }
-  EXPECT_EQ(one.collisions, two.collisions);
-  EXPECT_EQ(one.checks, two.checks);
+  testing::expect_same_answer(one, two);
 }
 
 }  // namespace

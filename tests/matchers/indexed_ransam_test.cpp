@@ -43,7 +43,7 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
     for (std::size_t k = 0; k < i; ++k) {
       const Pose2& a = result.hypotheses[i].map_from_robot;
       const Pose2& b = result.hypotheses[k].map_from_robot;
-      EXPECT_TRUE(distance(a, b) >= params.mode_distance || rotation_between(a, b) >= params.mode_rotation);
+      EXPECT_TRUE(distance(a, b) >= params.mode.distance || rotation_between(a, b) >= params.mode.rotation);
     }
   }
 }

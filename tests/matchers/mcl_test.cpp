@@ -8,6 +8,7 @@
 #include <string>
 
 #include "glocal/error.hpp"
+#include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
 namespace glocal {
@@ -224,14 +225,8 @@ TEST(Mcl, AnswersAlikeForAnyNumberOfThreads) {
     const Observation observation = observation_at(pose);
     Rng rng(step);
     Rng same(step++);
-    const auto a = one.match(local_map_of(observation), observation, 0.0, rng).hypotheses;
-    const auto b = two.match(local_map_of(observation), observation, 0.0, same).hypotheses;
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      EXPECT_EQ(a[i].map_from_local, b[i].map_from_local);
-      EXPECT_EQ(a[i].quality, b[i].quality);
-      EXPECT_EQ(a[i].support, b[i].support);
-    }
+    testing::expect_same_answer(one.match(local_map_of(observation), observation, 0.0, rng),
+                                two.match(local_map_of(observation), observation, 0.0, same));
   }
 }
 

@@ -21,8 +21,6 @@ class PluginCommand : public CommandLine {
     return fs::path(GLOCAL_TEST_PLUGINS) / (name + ".so");
   }
 
-  [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
-
   /// An experiment of nothing but the plugin's strategies.
   void write_experiment(const std::string& plugins, const std::string& matcher = "oracle") const {
     std::ofstream(file("e.yaml")) << "schema: 1\n"

@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace glocal {
@@ -81,6 +82,14 @@ const char* to_string(Outcome outcome) {
       return "failed";
   }
   return "";
+}
+
+Outcome outcome_of(const std::string& name) {
+  using enum Outcome;
+  for (const Outcome outcome : {right, wrong, undecided, declared, failed}) {
+    if (name == to_string(outcome)) return outcome;
+  }
+  throw std::invalid_argument("there is no outcome '" + name + "'");
 }
 
 std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, const GlobalMap& map,

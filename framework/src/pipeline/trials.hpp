@@ -38,6 +38,8 @@ enum class Outcome {
   failed,     ///< A strategy threw an exception; `why` has its message.
 };
 [[nodiscard]] const char* to_string(Outcome outcome);
+/// The other way round. Throws std::invalid_argument where there is no outcome of that name.
+[[nodiscard]] Outcome outcome_of(const std::string& name);
 
 struct TrialRecord {
   std::size_t trial = 0;

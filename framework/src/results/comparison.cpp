@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "glocal/error.hpp"
@@ -62,7 +63,7 @@ TrialsByStart trials_at(const std::vector<TrialStart>& starts, const StoredRun& 
   return trials;
 }
 
-RunFigures figures(const NamedRun& run, const TrialsByStart& trials) {
+RunFigures figures(const NamedRun& run, const TrialsByStart& trials, std::span<const Measure> measured) {
   RunFigures figures{run.name, run.results.folder.string(), run.results.experiment, run.results.seed};
   for (const TrialResult* trial : trials) {
     figures.right += is_right(*trial) ? 1 : 0;
@@ -71,12 +72,13 @@ RunFigures figures(const NamedRun& run, const TrialsByStart& trials) {
   figures.undecided = trials.size() - figures.right - figures.wrong;
   figures.success = wilson(figures.right, trials.size());
   figures.false_rate = wilson(figures.wrong, trials.size());
-  for (std::size_t i = 0; i < measure_count; ++i) {
+  for (const Measure& measure : measured) {
     std::vector<double> values;
     for (const TrialResult* trial : trials) {
-      if (const auto value = measures()[i].of(*trial)) values.push_back(*value);
+      if (const auto value = measure.of(*trial)) values.push_back(*value);
     }
-    if (!values.empty()) figures.medians[i] = quantile(std::move(values), 0.5);
+    figures.medians.push_back(values.empty() ? std::nullopt
+                                             : std::optional(quantile(std::move(values), 0.5)));
   }
   return figures;
 }
@@ -103,9 +105,8 @@ double median(const std::vector<double>& values) {
   return quantile(values, 0.5);
 }
 
-MeasureDifference compare_measure(std::size_t index, const TrialsByStart& baseline,
+MeasureDifference compare_measure(const Measure& measure, std::size_t index, const TrialsByStart& baseline,
                                   const TrialsByStart& variant) {
-  const Measure& measure = measures()[index];
   std::vector<double> first, second, differences;
   for (std::size_t i = 0; i < baseline.size(); ++i) {
     const auto a = measure.of(*baseline[i]);
@@ -128,14 +129,14 @@ MeasureDifference compare_measure(std::size_t index, const TrialsByStart& baseli
 }
 
 PairComparison compare_pair(const std::string& name, const TrialsByStart& baseline,
-                            const TrialsByStart& variant) {
+                            const TrialsByStart& variant, std::span<const Measure> measured) {
   PairComparison pair;
   pair.variant = name;
   pair.outcomes = {
       compare_outcome({.name = "right", .more_is_better = true}, is_right, 0, baseline, variant),
       compare_outcome({.name = "wrong", .more_is_better = false}, is_wrong, 1, baseline, variant)};
-  for (std::size_t i = 0; i < measure_count; ++i) {
-    const MeasureDifference difference = compare_measure(i, baseline, variant);
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const MeasureDifference difference = compare_measure(measured[i], i, baseline, variant);
     if (difference.starts > 0) pair.measures.push_back(difference);
   }
   return pair;
@@ -168,8 +169,8 @@ void correct(Comparison& comparison) {
 
 }  // namespace
 
-const std::array<Measure, measure_count>& measures() {
-  static constexpr std::array<Measure, measure_count> all = {{
+std::span<const Measure> measures() {
+  static constexpr std::array<Measure, 5> all = {{
       {"steps", "", "steps to localize", [](const TrialResult& t) { return if_right(t, t.steps); }},
       {"distance_m", "m", "way to localize", [](const TrialResult& t) { return if_right(t, t.distance_m); }},
       {"translation_error_m", "m", "translation error",
@@ -181,7 +182,12 @@ const std::array<Measure, measure_count>& measures() {
   return all;
 }
 
-Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline) {
+std::span<const Measure> measures_but_time() {
+  return measures().first(measures().size() - 1);
+}
+
+Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline,
+                   std::span<const Measure> measured) {
   const std::vector<TrialStart> starts = shared_starts(runs);
   std::vector<TrialsByStart> trials;
   for (const NamedRun& run : runs) trials.push_back(trials_at(starts, run.results));
@@ -189,15 +195,17 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline) {
   Comparison comparison;
   comparison.baseline = runs[baseline].name;
   comparison.starts = starts.size();
+  comparison.measured = measured;
   comparison.warnings = comparability_warnings(runs, baseline, starts, trials);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    comparison.runs.push_back(figures(runs[i], trials[i]));
-    if (i != baseline) comparison.pairs.push_back(compare_pair(runs[i].name, trials[baseline], trials[i]));
+    comparison.runs.push_back(figures(runs[i], trials[i], measured));
+    if (i == baseline) continue;
+    comparison.pairs.push_back(compare_pair(runs[i].name, trials[baseline], trials[i], measured));
   }
   correct(comparison);
   for (PairComparison& pair : comparison.pairs) {
     pair.conclusion = conclude(pair, comparison.baseline, comparison.starts);
-    pair.warnings = pair_warnings(pair);
+    pair.warnings = pair_warnings(pair, measured);
   }
   return comparison;
 }

@@ -1,9 +1,9 @@
 // Runs on the same starts, compared with one of them.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +28,9 @@ struct Measure {
   /// None where the trial has no such value: all but the time are of right trials.
   std::optional<double> (*of)(const TrialResult&);
 };
-inline constexpr std::size_t measure_count = 5;
-[[nodiscard]] const std::array<Measure, measure_count>& measures();
+[[nodiscard]] std::span<const Measure> measures();
+/// Those that are the same for runs with the same seed.
+[[nodiscard]] std::span<const Measure> measures_but_time();
 
 /// One run over the shared starts.
 struct RunFigures {
@@ -39,7 +40,7 @@ struct RunFigures {
   std::size_t right = 0, wrong = 0;
   std::size_t undecided = 0;  ///< With failed trials, and those without a reference to judge by.
   Proportion success{}, false_rate{};
-  std::array<std::optional<double>, measure_count> medians{};  ///< In the order of measures().
+  std::vector<std::optional<double>> medians = {};  ///< In the order of Comparison::measured.
 };
 
 /// A difference, variant less baseline, with its 95 % interval by the bootstrap over starts.
@@ -81,6 +82,7 @@ struct PairComparison {
 struct Comparison {
   std::string baseline;
   std::size_t starts = 0;  ///< That all runs have.
+  std::span<const Measure> measured;
   std::vector<RunFigures> runs;
   std::vector<PairComparison> pairs;  ///< Every other run with the baseline.
   std::vector<std::string> warnings;  ///< What makes the runs hard to compare.
@@ -93,6 +95,7 @@ inline constexpr double significance = 0.05;
 
 /// Compares runs, of which `baseline` is an index, over the starts that all of them have. Throws ConfigError
 /// if there are none. The same runs give the same comparison.
-[[nodiscard]] Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline);
+[[nodiscard]] Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline,
+                                 std::span<const Measure> measured = measures());
 
 }  // namespace glocal

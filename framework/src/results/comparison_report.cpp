@@ -65,7 +65,7 @@ Table runs_table(const Comparison& comparison) {
 
 Table medians_table(const Comparison& comparison) {
   Table table{{"median"}, {}};
-  for (const Measure& measure : measures()) table.header.push_back(with_unit(measure));
+  for (const Measure& measure : comparison.measured) table.header.push_back(with_unit(measure));
   for (const RunFigures& run : comparison.runs) {
     table.rows.push_back({run.name});
     for (const std::optional<double>& median : run.medians)

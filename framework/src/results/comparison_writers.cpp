@@ -26,10 +26,10 @@ Json to_json(const Difference& d) {
   return value_and_range(d.value, d.interval.low, d.interval.high);
 }
 
-Json to_json(const RunFigures& run) {
+Json to_json(const RunFigures& run, std::span<const Measure> measured) {
   Json medians = Json::object();
-  for (std::size_t i = 0; i < measure_count; ++i) {
-    if (run.medians[i]) medians[measures()[i].name] = *run.medians[i];
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    if (run.medians[i]) medians[measured[i].name] = *run.medians[i];
   }
   return {{"name", run.name},
           {"folder", run.folder},
@@ -119,13 +119,15 @@ std::string csv_row(const MeasureDifference& d) {
 }  // namespace
 
 Json to_json(const Comparison& comparison) {
+  Json runs = Json::array();
+  for (const RunFigures& run : comparison.runs) runs.push_back(to_json(run, comparison.measured));
   return {{"baseline", comparison.baseline},
           {"starts", comparison.starts},
           {"significance", significance},
           {"families", {{"outcomes", comparison.outcome_tests}, {"measures", comparison.measure_tests}}},
           {"bootstrap_resamples", bootstrap_resamples},
           {"warnings", comparison.warnings},
-          {"runs", list_of(comparison.runs)},
+          {"runs", std::move(runs)},
           {"pairs", list_of(comparison.pairs)}};
 }
 

@@ -1,6 +1,7 @@
 // What the numbers of a comparison say, in words.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace glocal {
                                    std::size_t starts);
 
 /// What the pair has too few starts for, a sentence each.
-[[nodiscard]] std::vector<std::string> pair_warnings(const PairComparison& pair);
+[[nodiscard]] std::vector<std::string> pair_warnings(const PairComparison& pair,
+                                                     std::span<const Measure> measured);
 
 }  // namespace glocal

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <system_error>
 
 namespace glocal {
@@ -15,14 +14,6 @@ using Json = nlohmann::ordered_json;
 
 std::filesystem::path name_of(std::size_t trial) {
   return std::filesystem::path(journal_folder) / fmt::format("trial_{:04}.json", trial);
-}
-
-Outcome outcome_of(const std::string& name) {
-  for (const Outcome outcome :
-       {Outcome::right, Outcome::wrong, Outcome::undecided, Outcome::declared, Outcome::failed}) {
-    if (name == to_string(outcome)) return outcome;
-  }
-  throw std::out_of_range(name);
 }
 
 Json to_json(const PoseError& error) {

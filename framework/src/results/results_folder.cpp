@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -27,15 +26,6 @@ using Json = nlohmann::json;
 
 void check_readable(const fs::path& file) {
   if (why_unreadable(file)) refuse(file, 0, "cannot be read; name a folder that glocal run has left");
-}
-
-Outcome outcome_of(const std::string& text) {
-  using enum Outcome;
-  constexpr std::array all = {right, wrong, undecided, declared, failed};
-  const auto* const found =
-      std::find_if(all.begin(), all.end(), [&](Outcome outcome) { return text == to_string(outcome); });
-  if (found == all.end()) throw std::invalid_argument("there is no outcome '" + text + "'");
-  return *found;
 }
 
 std::optional<double> number(const Json& line, const char* key) {

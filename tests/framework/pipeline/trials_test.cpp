@@ -3,6 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "framework/pipeline/fakes.hpp"
 
 namespace glocal::test {
@@ -162,6 +167,20 @@ TEST_F(TrialTest, GivesUpWhenToldToStop) {
                                  [&] { return ++asked == 3; }};
   EXPECT_FALSE(try_trial(0, callbacks).has_value());
   EXPECT_EQ(steps, 2);
+}
+
+TEST(Outcome, IsFoundByItsName) {
+  const std::vector<std::pair<std::string, Outcome>> names = {{"right", Outcome::right},
+                                                              {"wrong", Outcome::wrong},
+                                                              {"undecided", Outcome::undecided},
+                                                              {"declared", Outcome::declared},
+                                                              {"failed", Outcome::failed}};
+  for (const auto& [name, outcome] : names) {
+    EXPECT_EQ(outcome_of(name), outcome);
+    EXPECT_EQ(to_string(outcome), name);
+  }
+  EXPECT_THROW(static_cast<void>(outcome_of("Right")), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(outcome_of("")), std::invalid_argument);
 }
 
 TEST(PoseError, TurnsTheShorterWay) {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "framework/results/runs.hpp"
 #include "glocal/error.hpp"
+#include "results/comparison_report.hpp"
 
 namespace glocal::test {
 namespace {
@@ -16,6 +18,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 TEST(Comparison, CountsOutcomesStartByStart) {
   const Comparison comparison = compare(slow_and_quick(), 0);
@@ -124,6 +127,22 @@ TEST(Comparison, LeavesOutMeasuresThatNoStartHas) {
   EXPECT_THAT(
       comparison.pairs.front().warnings,
       Contains(HasSubstr("no start at which both have a value for steps to localize, way to localize")));
+}
+
+TEST(Comparison, SaysNothingOfMeasuresThatAreNotAskedFor) {
+  std::vector<NamedRun> runs = slow_and_quick();
+  EXPECT_EQ(compare(runs, 0, measures_but_time()).measure_tests, 4U);
+  for (NamedRun& run : runs) {
+    for (auto& [start, trial] : run.results.trials) trial.step_ms.reset();
+  }
+  const Comparison all = compare(runs, 0);
+  const Comparison some = compare(runs, 0, measures_but_time());
+  EXPECT_EQ(all.runs[0].medians.size(), 5U);
+  EXPECT_EQ(some.runs[0].medians.size(), 4U);
+  EXPECT_THAT(all.pairs.front().warnings, ElementsAre(HasSubstr("both have a value for time of a step.")));
+  EXPECT_THAT(some.pairs.front().warnings, IsEmpty());
+  EXPECT_THAT(text_report(all), HasSubstr("time of a step"));
+  EXPECT_THAT(text_report(some), Not(HasSubstr("time of a step")));
 }
 
 TEST(Comparison, FallsBackOnTheMeanWhereTheMedianSaysNothing) {
