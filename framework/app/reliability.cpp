@@ -18,7 +18,7 @@
 namespace glocal::app {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 struct ReliabilityOptions {
   std::vector<std::string> folders;

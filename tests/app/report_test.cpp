@@ -137,7 +137,7 @@ TEST_F(ReportCommand, HasEveryLineOfTheRun) {
     for (std::string line; std::getline(trials, line); ++n) {
       Json trial = run["trials"][n];
       for (const char* more : {"columns", "local_map", "scans"}) EXPECT_EQ(trial.erase(more), 1U) << more;
-      EXPECT_EQ(nlohmann::json(trial), nlohmann::json::parse(line));
+      EXPECT_EQ(trial, Json::parse(line));
     }
     EXPECT_EQ(run["trials"].size(), n);
     std::ifstream steps(file(name + "/steps.jsonl"));

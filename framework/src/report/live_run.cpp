@@ -68,7 +68,7 @@ void LiveRun::begin(const std::string& variant, const std::filesystem::path& fol
 
 void LiveRun::step(std::size_t trial, const StepRecord& record, const Points& local_map,
                    const RunProgress& progress) {
-  const nlohmann::json line = step_json(trial, record);
+  const Json line = step_json(trial, record, clusters);
   const std::size_t sample = prepared_->starts[trial] + record.result.step;
   Points latest = local_map;
   Points hits = prepared_->drive.samples[sample].observation.scan.hits;

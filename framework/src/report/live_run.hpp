@@ -52,7 +52,7 @@ class LiveRun {
 
  private:
   /// Of each step; few, as everything is told again and again.
-  static constexpr std::size_t clusters = 10;
+  static constexpr int clusters = 10;
 
   struct RunningTrial {
     nlohmann::ordered_json start = {};

@@ -19,7 +19,6 @@ namespace glocal {
 namespace {
 
 namespace fs = std::filesystem;
-using Line = nlohmann::json;
 using Json = nlohmann::ordered_json;
 
 constexpr int format = 1;
@@ -88,7 +87,7 @@ void ReportData::read_head(Run& run, FaultCollector& faults) const {
 void ReportData::read_trials(Run& run, FaultCollector& faults) const {
   const fs::path file = run.folder / "trials.jsonl";
   const bool is_read = faults.collect([&] {
-    for_each_line(file, [&](const Line& line) {
+    for_each_line(file, [&](const Json& line) {
       const std::size_t number = line.at("trial");
       if (!run.trials.try_emplace(number, Trial{.line = line, .least_steps = line.at("steps")}).second)
         throw std::invalid_argument(fmt::format("trial {} is there already", number));
@@ -107,7 +106,7 @@ void ReportData::read_steps(Run& run, FaultCollector& faults) const {
   const fs::path file = run.folder / "steps.jsonl";
   for (auto& [number, trial] : run.trials) trial.steps.emplace(limits_.clusters);
   const bool is_read = faults.collect([&] {
-    for_each_line(file, [&](const Line& line) {
+    for_each_line(file, [&](const Json& line) {
       const std::size_t number = line.at("trial");
       const auto trial = run.trials.find(number);
       if (trial == run.trials.end())

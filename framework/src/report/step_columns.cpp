@@ -12,7 +12,6 @@
 namespace glocal {
 namespace {
 
-using Line = nlohmann::json;
 using Json = nlohmann::ordered_json;
 
 constexpr std::array stages = {"local_map", "match", "cluster", "rate"};
@@ -25,13 +24,13 @@ constexpr std::array coordinates = {"x", "y", "theta"};
 constexpr std::array cluster_numbers = {"size", "r", "r_normalised"};
 
 /// A writer has only null for infinity and for what is no number.
-Json number(const Line& value) {
+Json number(const Json& value) {
   if (value.is_null()) return nullptr;
   if (value.is_number_integer()) return value;
   return short_number(value.get<double>());
 }
 
-Json number_or_null(const Line& line, const char* key) {
+Json number_or_null(const Json& line, const char* key) {
   return line.contains(key) ? number(line.at(key)) : Json(nullptr);
 }
 
@@ -64,7 +63,7 @@ Json empty_best() {
 StepColumns::StepColumns(std::size_t clusters)
     : clusters_(clusters), columns_(empty_columns()), best_(empty_best()) {}
 
-void StepColumns::add(const Line& line) {
+void StepColumns::add(const Json& line) {
   const auto step = line.at("step").get<std::size_t>();
   if (step != steps_)
     throw std::invalid_argument(fmt::format("step {} of trial {} is here, where step {} belongs", step,
@@ -81,7 +80,7 @@ void StepColumns::add(const Line& line) {
   ++steps_;
 }
 
-void StepColumns::add_numbers(const Line& line) {
+void StepColumns::add_numbers(const Json& line) {
   for (const char* stage : stages)
     columns_[fmt::format("{}_ms", stage)].push_back(number(line.at("stage_ms").at(stage)));
   for (const char* key : numbers) columns_[key].push_back(number(line.at(key)));
@@ -94,7 +93,7 @@ void StepColumns::add_sentence(const std::string& why) {
   columns_["why"].push_back(known->second);
 }
 
-void StepColumns::add_poses(const Line& line) {
+void StepColumns::add_poses(const Json& line) {
   for (const char* pose : poses) {
     for (const char* coordinate : coordinates)
       columns_[pose][coordinate].push_back(line.contains(pose) ? number(line.at(pose).at(coordinate))
@@ -102,14 +101,14 @@ void StepColumns::add_poses(const Line& line) {
   }
   Json candidates = Json::array();
   if (line.contains("candidates")) {
-    for (const Line& pose : line.at("candidates")) {
+    for (const Json& pose : line.at("candidates")) {
       for (const char* coordinate : coordinates) candidates.push_back(number(pose.at(coordinate)));
     }
   }
   columns_["candidates"].push_back(std::move(candidates));
 }
 
-void StepColumns::add_evidence(const Line& line) {
+void StepColumns::add_evidence(const Json& line) {
   if (line.contains("evidence")) {
     for (const auto& [name, value] : line.at("evidence").items()) {
       if (!evidence_.contains(name)) evidence_[name] = std::vector<std::nullptr_t>(steps_);
@@ -121,11 +120,11 @@ void StepColumns::add_evidence(const Line& line) {
   }
 }
 
-void StepColumns::add_clusters(const Line& line) {
-  const Line& best = line.at("best");
+void StepColumns::add_clusters(const Json& line) {
+  const Json& best = line.at("best");
   const std::size_t n = std::min(best.size(), clusters_);
   for (std::size_t i = 0; i < n; ++i) {
-    const Line& cluster = best.at(i);
+    const Json& cluster = best.at(i);
     for (const char* coordinate : coordinates)
       best_[coordinate].push_back(number(cluster.at("pose").at(coordinate)));
     for (const char* key : cluster_numbers) best_[key].push_back(number(cluster.at(key)));

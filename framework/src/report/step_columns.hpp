@@ -18,7 +18,7 @@ class StepColumns {
 
   /// The trial's next line. Throws std::exception for one that is not as glocal run writes it, or that is not
   /// of the next step; what was added before stays, but nothing may be added any more.
-  void add(const nlohmann::json& line);
+  void add(const nlohmann::ordered_json& line);
 
   [[nodiscard]] std::size_t size() const { return steps_; }
   /// Such as {"step": [0, 1], "verdict": ["searching", "localized"], …}.
@@ -27,10 +27,10 @@ class StepColumns {
  private:
   using Column = nlohmann::ordered_json;
 
-  void add_numbers(const nlohmann::json& line);
-  void add_poses(const nlohmann::json& line);
-  void add_evidence(const nlohmann::json& line);
-  void add_clusters(const nlohmann::json& line);
+  void add_numbers(const nlohmann::ordered_json& line);
+  void add_poses(const nlohmann::ordered_json& line);
+  void add_evidence(const nlohmann::ordered_json& line);
+  void add_clusters(const nlohmann::ordered_json& line);
   void add_sentence(const std::string& why);
 
   std::size_t clusters_;

@@ -18,7 +18,7 @@ namespace glocal {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 [[noreturn]] void refuse(const fs::path& file, std::size_t line, const std::string& what) {
   throw ConfigError({{file.string(), static_cast<int>(line), 0, what}});
@@ -99,10 +99,10 @@ bool holds_results(const fs::path& folder) {
 
 }  // namespace
 
-void with_json(const fs::path& file, const std::function<void(const nlohmann::ordered_json&)>& work) {
+void with_json(const fs::path& file, const std::function<void(const Json&)>& work) {
   check_readable(file);
   try {
-    work(nlohmann::ordered_json::parse(std::ifstream(file)));
+    work(Json::parse(std::ifstream(file)));
   } catch (const std::exception& error) {
     refuse(file, 0,
            fmt::format("is not as glocal run leaves it ({}); run the experiment again", error.what()));
@@ -137,13 +137,13 @@ std::map<std::string, Setting> read_settings(const fs::path& folder,
 StoredRun read_results(const fs::path& folder) {
   StoredRun results;
   results.folder = folder;
-  with_json(folder / "summary.json", [&](const auto& summary) {
+  with_json(folder / "summary.json", [&](const Json& summary) {
     results.experiment = summary.at("name");
     results.seed = summary.at("seed");
     results.complete = summary.at("complete");
   });
   std::map<std::string, std::string> hashes;
-  with_json(folder / "provenance.json", [&](const auto& provenance) {
+  with_json(folder / "provenance.json", [&](const Json& provenance) {
     results.machine = {provenance.at("host"), provenance.at("cpu"), provenance.at("threads")};
     hashes = provenance.at("inputs_sha256");
   });

@@ -23,7 +23,8 @@ void with_json(const std::filesystem::path& file,
 
 /// Hands over each line of a file of JSON lines. Throws ConfigError naming the line that is none, or that
 /// `work` cannot make sense of: then it throws a std::exception.
-void for_each_line(const std::filesystem::path& file, const std::function<void(const nlohmann::json&)>& work);
+void for_each_line(const std::filesystem::path& file,
+                   const std::function<void(const nlohmann::ordered_json&)>& work);
 
 /// Where on a drive a trial starts: the same in all runs over the same observations.
 struct TrialStart {

@@ -11,11 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_clusters_listed = 50;
-
-Json best_clusters(const StepResult& step) {
+Json best_clusters(const StepResult& step, std::size_t most) {
   Json best = Json::array();
-  for (std::size_t i = 0; i < std::min(step.clusters.size(), most_clusters_listed); ++i) {
+  for (std::size_t i = 0; i < std::min(step.clusters.size(), most); ++i) {
     best.push_back({{"pose", to_json(step.clusters[i].map_from_robot)},
                     {"size", step.clusters[i].members.size()},
                     {"r", step.ratings[i].r},
@@ -51,7 +49,7 @@ Json to_json(const Pose2& pose) {
   return {{"x", pose.x}, {"y", pose.y}, {"theta", pose.theta}};
 }
 
-Json step_json(std::size_t trial, const StepRecord& record) {
+Json step_json(std::size_t trial, const StepRecord& record, std::size_t most_clusters) {
   const StepResult& step = record.result;
   Json json = {{"trial", trial},
                {"step", step.step},
@@ -69,7 +67,7 @@ Json step_json(std::size_t trial, const StepRecord& record) {
   json["checks"] = step.checks;
   json["hypotheses"] = record.hypotheses;
   json["clusters"] = step.clusters.size();
-  json["best"] = best_clusters(step);
+  json["best"] = best_clusters(step, most_clusters);
   json["verdict"] = to_string(step.verdict.kind);
   json["why"] = step.verdict.why;
   if (!step.verdict.candidates.empty()) {

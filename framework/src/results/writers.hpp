@@ -11,8 +11,12 @@
 
 namespace glocal {
 
+/// Of the clusters of a step.
+inline constexpr std::size_t most_clusters_listed = 50;
+
 /// What a line of steps.jsonl has.
-[[nodiscard]] nlohmann::ordered_json step_json(std::size_t trial, const StepRecord& step);
+[[nodiscard]] nlohmann::ordered_json step_json(std::size_t trial, const StepRecord& step,
+                                               std::size_t most_clusters = most_clusters_listed);
 
 /// One line of steps.jsonl.
 [[nodiscard]] std::string step_line(std::size_t trial, const StepRecord& step);

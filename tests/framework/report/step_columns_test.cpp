@@ -15,8 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 
-nlohmann::json line_of(const StepRecord& record) {
-  return nlohmann::json::parse(step_line(0, record));
+Json line_of(const StepRecord& record) {
+  return Json::parse(step_line(0, record));
 }
 
 Json columns_of(const std::vector<StepRecord>& records, std::size_t clusters = 50) {
@@ -26,7 +26,7 @@ Json columns_of(const std::vector<StepRecord>& records, std::size_t clusters = 5
 }
 
 /// What is said of a line.
-std::string fault(const nlohmann::json& line) {
+std::string fault(const Json& line) {
   StepColumns columns(50);
   try {
     columns.add(line);
@@ -123,12 +123,12 @@ TEST(StepColumns, WantOneStepAfterTheOther) {
 }
 
 TEST(StepColumns, WantWhatEachLineHas) {
-  const nlohmann::json whole = line_of(step_record(0, {}));
+  const Json whole = line_of(step_record(0, {}));
   EXPECT_EQ(fault(whole), "");
   for (const char* key :
        {"step", "stamp", "stage_ms", "local_map_points", "omega_best", "omega_max", "collisions", "checks",
         "hypotheses", "clusters", "best", "verdict", "why", "local_from_robot"}) {
-    nlohmann::json line = whole;
+    Json line = whole;
     line[key] = "text";
     const bool may_be_text = key == std::string("verdict") || key == std::string("why");
     EXPECT_EQ(fault(line).empty(), may_be_text) << key;
