@@ -34,6 +34,7 @@ void describe(ParamVisitor& v, EvaluationConfig& p);
 
 struct OutputConfig {
   bool steps = true;
+  int clusters = 50;
   std::string maps = "first_trial";
 };
 void describe(ParamVisitor& v, OutputConfig& p);

@@ -157,6 +157,8 @@ void describe(ParamVisitor& v, EvaluationConfig& p) {
 
 void describe(ParamVisitor& v, OutputConfig& p) {
   v.field("steps", p.steps, {.doc = "Whether to write steps.jsonl, one line a step."});
+  v.field("clusters", p.clusters,
+          {.doc = "How many clusters of a step to list there, best first.", .min = 0.0});
   v.field("maps", p.maps,
           {.doc = "Of which trials to write the local maps, for viewers.",
            .choices = {"none", "first_trial", "all"}});

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -20,7 +21,8 @@ namespace glocal {
 
 /// What keeps a report small enough for a browser.
 struct ReportLimits {
-  std::size_t clusters = 50;            ///< Of each step.
+  /// Of each step, of those that the run has listed.
+  std::size_t clusters = std::numeric_limits<std::size_t>::max();
   std::size_t lives = 250'000;          ///< Of points of local maps, in the whole report.
   std::size_t scan_points = 1'000'000;  ///< In the whole report.
 };

@@ -35,7 +35,8 @@ void RunResults::finish(const TrialRecord& trial) {
     entry.files[name] = content.size();
   };
   if (config_.steps) {
-    for (const StepRecord& record : trial.records) entry.step_lines += step_line(trial.trial, record);
+    for (const StepRecord& record : trial.records)
+      entry.step_lines += step_line(trial.trial, record, config_.clusters);
   }
   const Trajectories trajectories = tum_trajectories(trial);
   write(fmt::format("trajectories/trial_{:04}_estimate.tum", trial.trial), trajectories.estimate);

@@ -11,9 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json best_clusters(const StepResult& step, std::size_t most) {
+Json best_clusters(const StepResult& step, int most) {
   Json best = Json::array();
-  for (std::size_t i = 0; i < std::min(step.clusters.size(), most); ++i) {
+  for (std::size_t i = 0; i < std::min(step.clusters.size(), static_cast<std::size_t>(most)); ++i) {
     best.push_back({{"pose", to_json(step.clusters[i].map_from_robot)},
                     {"size", step.clusters[i].members.size()},
                     {"r", step.ratings[i].r},
@@ -49,7 +49,7 @@ Json to_json(const Pose2& pose) {
   return {{"x", pose.x}, {"y", pose.y}, {"theta", pose.theta}};
 }
 
-Json step_json(std::size_t trial, const StepRecord& record, std::size_t most_clusters) {
+Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
   const StepResult& step = record.result;
   Json json = {{"trial", trial},
                {"step", step.step},
@@ -87,8 +87,8 @@ Json step_json(std::size_t trial, const StepRecord& record, std::size_t most_clu
   return json;
 }
 
-std::string step_line(std::size_t trial, const StepRecord& record) {
-  return step_json(trial, record).dump() + "\n";
+std::string step_line(std::size_t trial, const StepRecord& record, int most_clusters) {
+  return step_json(trial, record, most_clusters).dump() + "\n";
 }
 
 Json start_json(const TrialRecord& trial) {

@@ -6,20 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "glocal/experiment.hpp"
 #include "glocal/pose2.hpp"
 #include "pipeline/trials.hpp"
 
 namespace glocal {
 
-/// Of the clusters of a step.
-inline constexpr std::size_t most_clusters_listed = 50;
-
-/// What a line of steps.jsonl has.
-[[nodiscard]] nlohmann::ordered_json step_json(std::size_t trial, const StepRecord& step,
-                                               std::size_t most_clusters = most_clusters_listed);
+/// What a line of steps.jsonl has, with so many clusters at most.
+[[nodiscard]] nlohmann::ordered_json step_json(std::size_t trial, const StepRecord& step, int most_clusters);
 
 /// One line of steps.jsonl.
-[[nodiscard]] std::string step_line(std::size_t trial, const StepRecord& step);
+[[nodiscard]] std::string step_line(std::size_t trial, const StepRecord& step,
+                                    int most_clusters = OutputConfig{}.clusters);
 
 /// Where a trial starts, as a line of trials.jsonl has it.
 [[nodiscard]] nlohmann::ordered_json start_json(const TrialRecord& trial);
