@@ -35,12 +35,14 @@ test("the page shows the run as it goes on, and keeps what it has when the progr
   const first = await last();
   await page.waitForFunction((before) => Number(document.querySelector("input[type=range]").max) > before + 2, first);
   assert.match(await page.locator(".live").innerText(), /paper_simulation: running, 0 of 1 trials/);
-  // Who looks at the newest step stays there.
+  // The page begins with the newest step, and who looks at that stays there.
+  assert.ok((await page.locator(".map .note").innerText()).includes("only the newest step") === false);
   await page.waitForFunction(() => document.body.dataset.step === document.querySelector("input[type=range]").max);
   await page.keyboard.press("Home");
   const grown = await last();
   await page.waitForFunction((before) => Number(document.querySelector("input[type=range]").max) > before, grown);
   assert.equal(await page.evaluate(() => document.body.dataset.step), "0");
+  assert.match(await page.locator(".map .note").innerText(), /only the newest step has its local map/);
   run.kill("SIGINT");
   assert.equal(await ended, 3);
   await page.waitForFunction(() => /does not answer|finished/.test(document.querySelector(".live").textContent));

@@ -33,6 +33,9 @@ export interface ChartOptions {
   hooks?: uPlot.Hooks.Arrays;
 }
 
+/** From one tick to the next. */
+const wholeSteps = [1, 10, 100, 1000, 10000].flatMap((power) => [power, 2 * power, 5 * power]);
+
 const font = "11px system-ui, sans-serif";
 
 function axis(label: string, more: Partial<uPlot.Axis>): uPlot.Axis {
@@ -69,7 +72,7 @@ export function chart(target: HTMLElement, options: ChartOptions): { plot: uPlot
     y: { distr: distr(logY), ...(options.range && !logY ? { range: options.range } : {}) },
   };
   const axes = [
-    axis(options.xLabel, { values: labelled, size: 26, space: options.whole ? 20 : 45, ...(options.whole ? { incrs: [1, 2, 5, 10, 20, 50] } : {}) }),
+    axis(options.xLabel, { values: labelled, size: 26, space: 45, ...(options.whole ? { incrs: wholeSteps } : {}) }),
     axis(options.labels[0], { values: labelled, size: 44, space: 24 }),
   ];
   if (hasRight) {

@@ -174,6 +174,7 @@ class Panel {
       logY: curve.log,
       range: curve.range,
       height: 150,
+      whole: true,
       sync: "steps",
       hooks: { draw: [(plot) => this.drawLocalized(plot), () => this.placeCursor()] },
     });

@@ -364,7 +364,8 @@ export class MapView {
       }
       const lives = trial?.local_map;
       const frame = lives ? frameAt(lives, step) : -1;
-      if (!lives) missing.push("Local maps of this trial were not recorded (output.maps: all records every trial's).");
+      if (this.store.report.live && frame < 0) missing.push("While the run goes on, only the newest step has its local map.");
+      else if (!lives) missing.push("Local maps of this trial were not recorded (output.maps: all records every trial's).");
       else if (frame >= 0 && lives.steps[frame] !== step) missing.push(`The local map is that of step ${lives.steps[frame]}.`);
     }
     replace(this.note, missing.join(" "));

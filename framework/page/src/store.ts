@@ -27,7 +27,9 @@ export class Store {
   private selection: Selection = { run: 0, trial: 0, step: 0, hypothesis: "estimate" };
   private listeners: Listener[] = [];
 
-  constructor(private current: Report) {}
+  constructor(private current: Report) {
+    if (current.live) this.selection = { ...this.selection, ...this.newest() };
+  }
 
   get report(): Report {
     return this.current;
@@ -79,11 +81,20 @@ export class Store {
     this.current = report;
     const trials = this.run.trials;
     const same = trials.findIndex((trial) => trial.trial === wasTrial);
-    const trial = (wasLast && wasNewest) || same < 0 ? Math.max(0, trials.length - 1) : same;
-    this.selection = { ...this.selection, trial };
-    const step = wasLast ? this.lastStep : Math.min(this.selection.step, this.lastStep);
-    this.selection = { ...this.selection, step };
+    if ((wasLast && wasNewest) || same < 0) {
+      this.selection = { ...this.selection, ...this.newest() };
+    } else {
+      this.selection = { ...this.selection, trial: same };
+      this.selection.step = wasLast ? this.lastStep : Math.min(this.selection.step, this.lastStep);
+    }
     this.tell({ run: true, trial: true, step: true, hypothesis: true });
+  }
+
+  /** The last step of the last trial. */
+  private newest(): Pick<Selection, "trial" | "step"> {
+    const { trials } = this.run;
+    const trial = Math.max(0, trials.length - 1);
+    return { trial, step: Math.max(0, (trials[trial]?.columns?.step.length ?? 0) - 1) };
   }
 
   private select(next: Selection): void {
