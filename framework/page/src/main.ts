@@ -43,29 +43,31 @@ function trialPicker(store: Store): HTMLElement {
 
 /** Light, dark, or as the system has it. */
 function themeButton(redraw: () => void): HTMLElement {
-  const themes = ["auto", "light", "dark"];
-  let theme = 0;
+  const themes = ["auto", "light", "dark"] as const;
+  const system = matchMedia("(prefers-color-scheme: dark)");
+  const button = el("button", { type: "button" });
+  let chosen = 0;
   const show = (): void => {
-    document.documentElement.dataset.theme = themes[theme];
-    replace(button, `theme: ${themes[theme]}`);
+    const theme = themes[chosen];
+    document.documentElement.dataset.theme = theme === "auto" ? (system.matches ? "dark" : "light") : theme;
+    replace(button, `theme: ${theme}`);
+  };
+  const change = (): void => {
+    show();
     redraw();
   };
-  const button = el("button", {
-    type: "button",
-    click: () => {
-      theme = (theme + 1) % themes.length;
-      show();
-    },
+  button.addEventListener("click", () => {
+    chosen = (chosen + 1) % themes.length;
+    change();
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  system.addEventListener("change", change);
   // Paper is white, whatever the screen is.
   window.addEventListener("beforeprint", () => {
     document.documentElement.dataset.theme = "light";
     redraw();
   });
-  window.addEventListener("afterprint", show);
-  replace(button, `theme: ${themes[theme]}`);
-  document.documentElement.dataset.theme = themes[theme];
+  window.addEventListener("afterprint", change);
+  show();
   return button;
 }
 
