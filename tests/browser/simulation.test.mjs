@@ -177,7 +177,7 @@ test("light, dark and paper", { skip }, async () => {
   assert.notEqual(await paper(), light);
   await theme.click();
   await page.emulateMedia({ colorScheme: "dark" });
-  assert.notEqual(await paper(), light);
+  await page.waitForFunction((colour) => getComputedStyle(document.body).backgroundColor !== colour, light);
   await page.emulateMedia({ colorScheme: null });
   const pdf = await page.pdf();
   assert.equal(pdf.subarray(0, 5).toString(), "%PDF-");
