@@ -51,8 +51,10 @@ void add_report(CLI::App& app, Context& /*context*/) {
   command->add_option("-o,--out", options->out, "The page's file")->capture_default_str();
   command->add_option("--baseline", options->baseline,
                       "Run to compare with, by the name of its folder or experiment (default: the first)");
-  command->add_option("--clusters", options->limits.clusters,
-                      "Best clusters to keep of each step (default: all that the run has listed)");
+  command
+      ->add_option("--clusters", options->limits.clusters,
+                   "Best clusters to keep of each step (default: all that the run has listed)")
+      ->check(CLI::Range(0, 1'000'000));
   command->add_flag("--force", options->force, "Replace the file if it exists");
   command->callback([options] { write_report(*options); });
 }

@@ -89,6 +89,8 @@ TEST(StepLine, ListsFiftyClustersButCountsAll) {
   record.result.ratings.assign(51, Rating{0.1, 0.2});
   const Json json = parse_line(step_line(0, record));
   EXPECT_EQ(json["clusters"], 51);
+  EXPECT_EQ(parse_line(step_line(0, record, 51))["best"].size(), 51U);
+  EXPECT_TRUE(parse_line(step_line(0, record, 0))["best"].empty());
   EXPECT_EQ(json["best"].size(), 50U);
 }
 
