@@ -140,12 +140,13 @@ function show(report: Report, page: HTMLElement): void {
   details.update();
   player.newTrial();
   redraw();
-  store.subscribe(() => tellTitle(store));
-  tellTitle(store);
+  store.subscribe(() => noteStep(store));
+  noteStep(store);
   void news?.listen();
 }
 
-function tellTitle(store: Store): void {
+/** For whoever looks at the page from outside, as tests do. */
+function noteStep(store: Store): void {
   const verdict = store.steps?.verdict[store.selected.step];
   document.body.dataset.step = String(store.selected.step);
   document.body.dataset.verdict = verdict ? verdictNames[verdict] : "";

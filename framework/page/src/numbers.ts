@@ -20,8 +20,8 @@ export function count(value: number | null | undefined): string {
   return value == null ? none : value.toLocaleString("en");
 }
 
-export function percent(value: number, digits = 1): string {
-  return `${(100 * value).toFixed(digits)} %`;
+export function percent(value: number): string {
+  return `${(100 * value).toFixed(1)} %`;
 }
 
 /** With its 95 % interval. */

@@ -86,12 +86,7 @@ export class Player {
     this.slider.value = String(step);
     const verdict = steps?.verdict[step];
     this.slider.setAttribute("aria-valuetext", verdict ? `step ${step}, ${verdictNames[verdict]}` : `step ${step}`);
-    replace(
-      this.told,
-      verdict
-        ? `step ${step} of ${this.store.lastStep}`
-        : "no steps",
-    );
+    replace(this.told, verdict ? `step ${step} of ${this.store.lastStep}` : "no steps");
   }
 
   /** The verdict of every step, as a strip of colours above the slider. */
