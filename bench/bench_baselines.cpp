@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "bench/scenes.hpp"
-#include "matchers/exhaustive.hpp"
-#include "matchers/feature_index.hpp"
-#include "matchers/iransac.hpp"
-#include "matchers/ransac.hpp"
+#include "matchers/grid_search/exhaustive.hpp"
+#include "matchers/iransac/feature_index.hpp"
+#include "matchers/iransac/iransac.hpp"
+#include "matchers/ransac/ransac.hpp"
 
 namespace glocal::bench {
 namespace {

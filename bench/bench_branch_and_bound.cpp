@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/scenes.hpp"
-#include "matchers/branch_and_bound.hpp"
-#include "matchers/contact_pyramid.hpp"
+#include "matchers/grid_search/branch_and_bound.hpp"
+#include "matchers/grid_search/contact_pyramid.hpp"
 
 namespace glocal::bench {
 namespace {

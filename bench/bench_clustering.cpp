@@ -10,7 +10,7 @@
 #include "clustering/hierarchical_kmeans.hpp"
 #include "clustering/mean_shift.hpp"
 #include "clustering/pose_grid.hpp"
-#include "matchers/merge.hpp"
+#include "matchers/common/merge.hpp"
 
 namespace glocal::bench {
 namespace {

@@ -12,7 +12,7 @@
 #include "bench/plain.hpp"
 #include "bench/scenes.hpp"
 #include "glocal/contact.hpp"
-#include "matchers/quality.hpp"
+#include "matchers/common/quality.hpp"
 
 namespace glocal::bench {
 namespace {

@@ -16,10 +16,10 @@
 
 #include "bench/plain.hpp"
 #include "bench/scenes.hpp"
-#include "matchers/ransam.hpp"
-#include "matchers/relation_table.hpp"
-#include "matchers/triangle.hpp"
-#include "matchers/triple_sampler.hpp"
+#include "matchers/common/triangle.hpp"
+#include "matchers/common/triple_sampler.hpp"
+#include "matchers/ransam/ransam.hpp"
+#include "matchers/ransam/relation_table.hpp"
 
 namespace glocal::bench {
 namespace {

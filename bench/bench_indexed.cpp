@@ -10,13 +10,13 @@
 
 #include "bench/scenes.hpp"
 #include "glocal/contact.hpp"
-#include "matchers/beam_evidence.hpp"
-#include "matchers/dipole_index.hpp"
-#include "matchers/distance_field.hpp"
-#include "matchers/indexed_ransam.hpp"
-#include "matchers/saved_index.hpp"
-#include "matchers/surfaces.hpp"
-#include "matchers/triangle_index.hpp"
+#include "glocal/distance_field.hpp"
+#include "matchers/common/beam_evidence.hpp"
+#include "matchers/common/surfaces.hpp"
+#include "matchers/indexed_ransam/dipole_index.hpp"
+#include "matchers/indexed_ransam/indexed_ransam.hpp"
+#include "matchers/indexed_ransam/saved_index.hpp"
+#include "matchers/indexed_ransam/triangle_index.hpp"
 
 namespace glocal::bench {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bench/scenes.hpp"
 #include "glocal/contact.hpp"
-#include "matchers/ransam.hpp"
+#include "matchers/ransam/ransam.hpp"
 
 namespace glocal::bench {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "bench/scenes.hpp"
-#include "matchers/likelihood_field.hpp"
-#include "matchers/mcl.hpp"
-#include "matchers/odometry_motion.hpp"
+#include "matchers/mcl/likelihood_field.hpp"
+#include "matchers/mcl/mcl.hpp"
+#include "matchers/mcl/odometry_motion.hpp"
 
 namespace glocal::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bench/scenes.hpp"
 #include "glocal/builtin.hpp"
-#include "plugins/plugin_loader.hpp"
+#include "loading/plugin_loader.hpp"
 
 namespace glocal::bench {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "bench/plain.hpp"
 #include "bench/scenes.hpp"
-#include "matchers/ransam.hpp"
-#include "matchers/triple_sampler.hpp"
+#include "matchers/common/triple_sampler.hpp"
+#include "matchers/ransam/ransam.hpp"
 
 namespace glocal::bench {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "glocal/points.hpp"
 #include "glocal/rng.hpp"
-#include "matchers/triangle.hpp"
+#include "matchers/common/triangle.hpp"
 
 namespace glocal::plain {
 

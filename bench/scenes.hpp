@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
+#include "evaluation/running/experiment_loader.hpp"
 #include "glocal/experiment.hpp"
 #include "glocal/global_map.hpp"
 #include "glocal/local_map.hpp"
-#include "pipeline/run.hpp"
 
 namespace glocal::bench {
 

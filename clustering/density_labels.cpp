@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "clustering/disjoint_sets.hpp"
-#include "clustering/pose_cells.hpp"
+#include "glocal/pose_cells.hpp"
 
 namespace glocal {
 namespace {

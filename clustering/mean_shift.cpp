@@ -5,7 +5,7 @@
 
 #include "clustering/clusters_of.hpp"
 #include "clustering/density_labels.hpp"
-#include "clustering/pose_cells.hpp"
+#include "glocal/pose_cells.hpp"
 
 namespace glocal {
 namespace {

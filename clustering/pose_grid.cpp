@@ -2,7 +2,7 @@
 
 #include "clustering/clusters_of.hpp"
 #include "clustering/disjoint_sets.hpp"
-#include "clustering/pose_cells.hpp"
+#include "glocal/pose_cells.hpp"
 
 namespace glocal {
 

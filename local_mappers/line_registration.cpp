@@ -10,10 +10,10 @@ namespace {
 constexpr double converged_m = 1e-4;
 constexpr double converged_rad = 1e-4;
 
-/// Sums in plain doubles, which the compiler keeps in registers.
-class Sums {
+/// NormalSums in plain doubles, which the compiler keeps in registers.
+class NormalSums {
  public:
-  explicit Sums(double kernel) : kernel_squared_(kernel * kernel) {}
+  explicit NormalSums(double kernel) : kernel_squared_(kernel * kernel) {}
 
   /// One residual (m) with its derivative by x, y and theta.
   void add(double residual, double dx, double dy, double dtheta, double weight) {
@@ -83,7 +83,7 @@ NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Poin
   const Point robot = transform({});
   const auto gate_squared = static_cast<float>(params.gate * params.gate);
   const auto min_cosine = static_cast<float>(std::cos(params.max_normal_angle));
-  Sums sums(params.gate * params.kernel_share);
+  NormalSums sums(params.gate * params.kernel_share);
   int matches = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Point p = transform(hits[i]);

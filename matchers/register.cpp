@@ -1,12 +1,12 @@
 #include "matchers/register.hpp"
 
-#include "matchers/branch_and_bound.hpp"
-#include "matchers/exhaustive.hpp"
-#include "matchers/indexed_ransam.hpp"
-#include "matchers/iransac.hpp"
-#include "matchers/mcl.hpp"
-#include "matchers/ransac.hpp"
-#include "matchers/ransam.hpp"
+#include "matchers/grid_search/branch_and_bound.hpp"
+#include "matchers/grid_search/exhaustive.hpp"
+#include "matchers/indexed_ransam/indexed_ransam.hpp"
+#include "matchers/iransac/iransac.hpp"
+#include "matchers/mcl/mcl.hpp"
+#include "matchers/ransac/ransac.hpp"
+#include "matchers/ransam/ransam.hpp"
 
 namespace glocal {
 

@@ -20,21 +20,21 @@ namespace {
 
 namespace io = boost::iostreams;
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string message) {
+[[noreturn]] void refuse_file(const std::filesystem::path& file, std::string message) {
   throw ConfigError({{file.string(), 0, 0, std::move(message)}});
 }
 
 std::string read_raw(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) fail(file, "is a folder; a file is needed");
+  if (std::filesystem::is_directory(file)) refuse_file(file, "is a folder; a file is needed");
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, "cannot be opened: " + std::string(std::strerror(errno)));
+  if (!in) refuse_file(file, "cannot be opened: " + std::string(std::strerror(errno)));
   std::string content;
   std::array<char, 1U << 16U> chunk{};
   while (in.read(chunk.data(), chunk.size()) || in.gcount() > 0) {
     content.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
   }
-  if (in.bad()) fail(file, "cannot be read: " + std::string(std::strerror(errno)));
+  if (in.bad()) refuse_file(file, "cannot be read: " + std::string(std::strerror(errno)));
   return content;
 }
 
@@ -48,7 +48,8 @@ std::string decompress(const std::filesystem::path& file, const std::string& raw
     in.push(io::array_source(raw.data(), raw.size()));
     io::copy(in, io::back_inserter(content));
   } catch (const std::ios_base::failure&) {
-    fail(file, std::string("the ") + format + " data is damaged or ends early; get a fresh copy of the file");
+    refuse_file(
+        file, std::string("the ") + format + " data is damaged or ends early; get a fresh copy of the file");
   }
   return content;
 }

@@ -13,7 +13,6 @@
 namespace glocal {
 namespace {
 
-constexpr double max_cells = 64e6;
 constexpr double path_spacing = 0.25;  // m
 
 /// A scan and the sensor's place on the map.
@@ -75,7 +74,7 @@ OccupancyGrid make_grid(const Box& box, double resolution, const std::string& fi
   const double y = std::floor(box.min_y / resolution) * resolution;
   const double width = std::floor((box.max_x - x) / resolution) + 1.0;
   const double height = std::floor((box.max_y - y) / resolution) + 1.0;
-  if (!(width * height <= max_cells)) {
+  if (!(width * height <= max_grid_cells)) {
     throw ConfigError(
         {{file, 0, 0,
           "its map would have more than 64 million cells; raise resolution, lower max_range, or look for "

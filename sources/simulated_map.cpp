@@ -10,8 +10,6 @@
 namespace glocal {
 namespace {
 
-constexpr double max_cells = 64e6;
-
 /// A grid whose cells are centred on multiples of its resolution.
 class Raster {
  public:
@@ -106,7 +104,7 @@ SimulatedMap::SimulatedMap(const Params& params, const SourceSetup& setup) : par
 MapData SimulatedMap::load() {
   const std::string file = params_.world.resolved.string();
   const World world = read_world(params_.world.resolved);
-  if (!(world.size[0] / params_.resolution * (world.size[1] / params_.resolution) <= max_cells)) {
+  if (!(world.size[0] / params_.resolution * (world.size[1] / params_.resolution) <= max_grid_cells)) {
     throw ConfigError({{file, 0, 0,
                         fmt::format("its map would have more than 64 million cells of {} m; raise resolution",
                                     params_.resolution)}});

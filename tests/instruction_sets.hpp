@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace glocal::testing {
+namespace glocal::test {
 
 /// Runs a check with each instruction set of this processor for which code was generated.
 template <class Check>
@@ -21,4 +21,4 @@ void with_every_instruction_set(Check check) {
   hwy::GetChosenTarget().DeInit();
 }
 
-}  // namespace glocal::testing
+}  // namespace glocal::test

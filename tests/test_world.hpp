@@ -12,7 +12,7 @@
 #include "glocal/points.hpp"
 #include "glocal/rng.hpp"
 
-namespace glocal::testing {
+namespace glocal::test {
 
 /// Points every 5 cm along a polyline, m.
 inline void add_wall(Points& points, const std::vector<std::pair<double, double>>& corners) {
@@ -77,4 +77,4 @@ inline LocalMap local_map_at(const Pose2& map_from_robot, double reach) {
   return local;
 }
 
-}  // namespace glocal::testing
+}  // namespace glocal::test

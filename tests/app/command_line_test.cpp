@@ -8,7 +8,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::command_line_test {
 namespace {
 
 using testing::HasSubstr;
@@ -83,4 +83,4 @@ TEST_F(CommandLine, LostAnswerIsAFailure) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::command_line_test

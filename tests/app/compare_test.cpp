@@ -7,7 +7,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::compare_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -195,4 +195,4 @@ TEST_F(CompareCommand, ReplacesNoFileUnlessForced) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::compare_test

@@ -10,7 +10,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::explain_test {
 namespace {
 
 using nlohmann::json;
@@ -191,4 +191,4 @@ TEST_F(ExplainCommand, ReportsFaults) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::explain_test

@@ -13,7 +13,7 @@
 #include "app/svg.hpp"
 #include "glocal/pose2.hpp"
 
-namespace glocal::test {
+namespace glocal::test::figures_test {
 namespace {
 
 using testing::AllOf;
@@ -474,4 +474,4 @@ TEST_F(DrawnFigures, AreDrawnByTheScriptAlone) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::figures_test

@@ -6,7 +6,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::kidnapping_test {
 namespace {
 
 class Kidnapping : public CommandLine {};
@@ -57,4 +57,4 @@ TEST_F(Kidnapping, TakesTheVerdictBackAndFindsTheRobotAgain) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::kidnapping_test

@@ -7,7 +7,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::map_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -200,4 +200,4 @@ TEST_F(MapIndexCommand, AMatcherWithoutAnIndexIsRefused) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::map_test

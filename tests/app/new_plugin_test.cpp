@@ -5,7 +5,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::new_plugin_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,4 +55,4 @@ TEST_F(NewPluginCommand, LeavesAFolderThatIsInUseAlone) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::new_plugin_test

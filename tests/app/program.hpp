@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "config/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace glocal::test {
 

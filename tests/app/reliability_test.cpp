@@ -5,7 +5,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::reliability_test {
 namespace {
 
 using testing::HasSubstr;
@@ -73,4 +73,4 @@ TEST_F(ReliabilityCommand, NamesTheLineThatIsNoResult) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::reliability_test

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "app/room.hpp"
-#include "results/pcd.hpp"
+#include "evaluation/results/pcd.hpp"
 
-namespace glocal::test {
+namespace glocal::test::report_test {
 namespace {
 
 using testing::HasSubstr;
@@ -242,4 +242,4 @@ TEST_F(ReportCommand, IsSmallForAWholeDrive) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::report_test

@@ -11,7 +11,7 @@
 
 #include "app/room.hpp"
 
-namespace glocal::test {
+namespace glocal::test::run_again_test {
 namespace {
 
 using testing::AllOf;
@@ -169,4 +169,4 @@ TEST_F(RunAgain, AnyNumberOfJobsGivesTheSameResults) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::run_again_test

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "app/room.hpp"
+#include "evaluation/results/pcd.hpp"
 #include "glocal/points.hpp"
-#include "results/pcd.hpp"
 
-namespace glocal::test {
+namespace glocal::test::run_test {
 namespace {
 
 using testing::HasSubstr;
@@ -178,4 +178,4 @@ TEST_F(RunCommand, APerfectlySymmetricWorldIsNeverDeclared) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::run_test

@@ -3,7 +3,7 @@
 
 #include "app/room.hpp"
 
-namespace glocal::test {
+namespace glocal::test::run_variants_test {
 namespace {
 
 using testing::AllOf;
@@ -118,4 +118,4 @@ TEST_F(RunVariants, AreCheckedWithoutRunningThem) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::run_variants_test

@@ -5,7 +5,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::simulate_test {
 namespace {
 
 using testing::HasSubstr;
@@ -67,4 +67,4 @@ TEST_F(SimulateCommand, RefusesARecordedDriveAndAFullFolder) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::simulate_test

@@ -15,7 +15,7 @@
 
 #include "app/room.hpp"
 
-namespace glocal::test {
+namespace glocal::test::watch_test {
 namespace {
 
 using testing::HasSubstr;
@@ -185,4 +185,4 @@ TEST_F(WatchedRun, WantsAPortOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::watch_test

@@ -8,14 +8,14 @@
 
 #include "clustering/poses.hpp"
 
-namespace glocal {
+namespace glocal::dbscan_test {
 namespace {
 
-using testing::at;
+using test::at;
+using test::Groups;
 using ::testing::ElementsAre;
-using testing::Groups;
 
-constexpr auto cluster = testing::clustered<Dbscan>;
+constexpr auto cluster = test::clustered<Dbscan>;
 
 /// DBSCAN as Ester et al. write it down: poses are taken one after the other, and a core's cluster is
 /// expanded seed by seed.
@@ -87,7 +87,7 @@ class AsPublished {
 TEST(Dbscan, IsWhatThePaperWritesDown) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Rng rng(seed);
-    const std::vector<Hypothesis> hypotheses = testing::crowded(400, rng);
+    const std::vector<Hypothesis> hypotheses = test::crowded(400, rng);
     for (const double radius : {0.03, 0.1, 0.3}) {
       for (const double rotation : {2.0, 7.0, 100.0, 180.0}) {
         for (const int support : {1, 3, 8, 40}) {
@@ -137,4 +137,4 @@ TEST(Dbscan, ManyAtOnePlaceAreOneCluster) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::dbscan_test

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace glocal {
+namespace glocal::hierarchical_kmeans_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -106,4 +106,4 @@ TEST(HierarchicalKmeans, KeepsKnownGroupsApart) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::hierarchical_kmeans_test

@@ -7,14 +7,14 @@
 
 #include "clustering/poses.hpp"
 
-namespace glocal {
+namespace glocal::mean_shift_test {
 namespace {
 
-using testing::at;
+using test::at;
+using test::Groups;
 using ::testing::ElementsAre;
-using testing::Groups;
 
-constexpr auto cluster = testing::clustered<MeanShift>;
+constexpr auto cluster = test::clustered<MeanShift>;
 
 TEST(MeanShift, FlatKernelByHand) {
   // From 0.0 the mean within 1 m is 0.4, from there again; all of the first three end there. From 3.0 and 3.8
@@ -108,4 +108,4 @@ TEST(MeanShift, ManyAtOnePlaceAreOneCluster) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::mean_shift_test

@@ -5,13 +5,13 @@
 
 #include "clustering/poses.hpp"
 
-namespace glocal {
+namespace glocal::pose_grid_test {
 namespace {
 
-using testing::at;
+using test::at;
 using ::testing::ElementsAre;
 
-constexpr auto cluster = testing::clustered<PoseGridClusterer>;
+constexpr auto cluster = test::clustered<PoseGridClusterer>;
 
 // Cells of 0.5 m; of 30 deg, the first from -15 to 15 deg.
 const std::vector<Hypothesis> some = {at(0.1, 0.1, 0), at(0.4, 0.4, 14), at(-0.1, 0.1, 0),
@@ -51,4 +51,4 @@ TEST(PoseGridClusterer, NothingGivesNothing) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::pose_grid_test

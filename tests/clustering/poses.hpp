@@ -8,7 +8,7 @@
 #include "glocal/hypothesis.hpp"
 #include "glocal/rng.hpp"
 
-namespace glocal::testing {
+namespace glocal::test {
 
 using Groups = std::vector<std::vector<std::size_t>>;
 
@@ -46,4 +46,4 @@ inline std::vector<Hypothesis> crowded(int n, Rng& rng) {
   return hypotheses;
 }
 
-}  // namespace glocal::testing
+}  // namespace glocal::test

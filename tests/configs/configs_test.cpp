@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "app/program.hpp"
-#include "sources/files.hpp"
+#include "files.hpp"
 
-namespace glocal::test {
+namespace glocal::test::configs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST_P(Worlds, AreUsed) {
 INSTANTIATE_TEST_SUITE_P(Configs, Worlds, testing::ValuesIn(names_in("worlds")), name_of);
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::configs_test

@@ -6,7 +6,7 @@
 #include "contract/strategies.hpp"
 #include "glocal/yaml.hpp"
 
-namespace glocal::test {
+namespace glocal::test::parameters_test {
 namespace {
 
 void expect_documented(const StructDoc& doc) {
@@ -45,4 +45,4 @@ TEST_F(Contract, DefaultsAreInRangeAndComeBackFromYaml) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::parameters_test

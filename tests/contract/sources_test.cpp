@@ -3,7 +3,7 @@
 
 #include "contract/strategies.hpp"
 
-namespace glocal::test {
+namespace glocal::test::sources_test {
 namespace {
 
 std::vector<Sample> all_of(ObservationSource& source) {
@@ -72,4 +72,4 @@ TEST_F(Contract, MapSourcesGiveTheSamePointsAndAWholeGrid) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::sources_test

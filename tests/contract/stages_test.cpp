@@ -8,7 +8,7 @@
 
 #include "contract/strategies.hpp"
 
-namespace glocal::test {
+namespace glocal::test::stages_test {
 namespace {
 
 Observation observation(const Points& hits, double x = 0.0) {
@@ -19,7 +19,7 @@ Observation observation(const Points& hits, double x = 0.0) {
 }
 
 Points seen(double x) {
-  return glocal::testing::seen_from(glocal::testing::small_world_points(), {2.0 + x, 2.0, 0.0}, 2.5);
+  return glocal::test::seen_from(glocal::test::small_world_points(), {2.0 + x, 2.0, 0.0}, 2.5);
 }
 
 LocalMap local_map() {
@@ -62,7 +62,7 @@ bool equal(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b) {
 class Stages : public Contract {
  protected:
   [[nodiscard]] StageSetup setup(int threads = 1) const { return {map_, threads}; }
-  std::shared_ptr<const GlobalMap> map_ = glocal::testing::small_world();
+  std::shared_ptr<const GlobalMap> map_ = glocal::test::small_world();
 };
 
 TEST_F(Stages, LocalMappersPlaceTheFirstObservationAtTheOrigin) {
@@ -285,4 +285,4 @@ TEST_F(Stages, VerdictsAreWholeNeverUnknownPlaceAndForgottenByAReset) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::stages_test

@@ -8,14 +8,14 @@
 #include <memory>
 #include <string>
 
+#include "files.hpp"
 #include "glocal/builtin.hpp"
 #include "glocal/yaml.hpp"
-#include "matchers/exhaustive.hpp"
-#include "matchers/mcl.hpp"
+#include "loading/plugin_loader.hpp"
+#include "matchers/grid_search/exhaustive.hpp"
+#include "matchers/mcl/mcl.hpp"
 #include "octree_files.hpp"
-#include "plugins/plugin_loader.hpp"
 #include "sources/carmen_log.hpp"
-#include "sources/files.hpp"
 #include "sources/log_map.hpp"
 #include "sources/random_scans.hpp"
 #include "sources/ros_map.hpp"
@@ -130,7 +130,7 @@ class Contract : public ::testing::Test {
     }
   }
 
-  TempFolder folder_;
+  TemporaryFolder folder_;
   Catalog catalog_;
 
  private:

@@ -16,7 +16,7 @@
 #include "glocal/catalog.hpp"
 #include "raters/share_of_best.hpp"
 
-namespace glocal::test {
+namespace glocal::test::docs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -303,4 +303,4 @@ TEST(DocsStrategy, DoesWhatItSays) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::docs_test

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace glocal {
+namespace glocal::pose2_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -39,4 +39,4 @@ TEST(Pose2, RotationBetweenTakesTheShortWay) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::pose2_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glocal {
+namespace glocal::pose_covariance_test {
 namespace {
 
 TEST(NormalisedError, IsTheSumOfSquaredDeviationsWhereNothingIsCorrelated) {
@@ -16,8 +16,8 @@ TEST(NormalisedError, IsTheSumOfSquaredDeviationsWhereNothingIsCorrelated) {
 
 TEST(NormalisedError, TakesTheShortWayRound) {
   const PoseCovariance c{.xx = 1.0, .yy = 1.0, .tt = 0.01};
-  const double pi = std::numbers::pi;
-  EXPECT_NEAR(normalised_error_squared({0, 0, pi - 0.05}, {0, 0, -pi + 0.05}, c), 1.0, 1e-9);
+  EXPECT_NEAR(normalised_error_squared({0, 0, std::numbers::pi - 0.05}, {0, 0, -std::numbers::pi + 0.05}, c),
+              1.0, 1e-9);
 }
 
 TEST(NormalisedError, CountsAnErrorAlongTheCorrelationLess) {
@@ -33,4 +33,4 @@ TEST(NormalisedError, IsInfiniteForWhatIsNoCovariance) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::pose_covariance_test

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace glocal {
+namespace glocal::rng_test {
 namespace {
 
 TEST(Rng, IsSplitMix64) {
@@ -52,4 +52,4 @@ TEST(Rng, NormalHasItsMoments) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::rng_test

@@ -10,7 +10,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::golden_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -84,4 +84,4 @@ INSTANTIATE_TEST_SUITE_P(Experiments, Golden,
                          testing::Values("paper_simulation", "paper_symmetry", "paper_lab"), name_of);
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::golden_test

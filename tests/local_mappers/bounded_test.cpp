@@ -11,14 +11,14 @@
 
 #include "local_mappers/drives.hpp"
 
-namespace glocal {
+namespace glocal::bounded_test {
 namespace {
 
-using testing::at;
-using testing::bad_odometry;
-using testing::circle;
-using testing::Drive;
-using testing::drive;
+using test::at;
+using test::bad_odometry;
+using test::circle;
+using test::Drive;
+using test::drive;
 using ::testing::ElementsAre;
 
 /// Points of a map and how many there are after each observation.
@@ -67,7 +67,7 @@ void expect_equal(const LocalMap& map, const Thinned& expected) {
 }
 
 TEST(Bounded, IsWhatTheLastObservationsAloneWouldGive) {
-  const Drive noisy = drive(testing::furnished_room(), circle(60), {.noise = 0.02}, bad_odometry);
+  const Drive noisy = drive(test::furnished_room(), circle(60), {.noise = 0.02}, bad_odometry);
   Bounded mapper({.scans = 7, .distance = 0.0});
   std::vector<Pose2> poses;
   for (std::size_t k = 0; k < noisy.observations.size(); ++k) {
@@ -80,7 +80,7 @@ TEST(Bounded, IsWhatTheLastObservationsAloneWouldGive) {
 }
 
 TEST(Bounded, KeepsSoManyMetresOfWay) {
-  const Drive exact = drive(testing::furnished_room(), circle(40), {}, {});
+  const Drive exact = drive(test::furnished_room(), circle(40), {}, {});
   Bounded mapper({.scans = 0, .distance = 1.0});
   std::vector<Pose2> poses;
   for (std::size_t k = 0; k < exact.observations.size(); ++k) {
@@ -107,7 +107,7 @@ TEST(Bounded, TheStricterLimitHolds) {
 }
 
 TEST(Bounded, IsScanMatchingWhileNothingFallsOut) {
-  const Drive noisy = drive(testing::furnished_room(), circle(40), {.noise = 0.02}, bad_odometry);
+  const Drive noisy = drive(test::furnished_room(), circle(40), {.noise = 0.02}, bad_odometry);
   Bounded bounded({.scans = 40, .distance = 0.0});
   ScanMatching all({});
   for (const Observation& observation : noisy.observations) {
@@ -121,7 +121,7 @@ TEST(Bounded, IsScanMatchingWhileNothingFallsOut) {
 }
 
 TEST(Bounded, WhatIsStillSeenStays) {
-  const Drive exact = drive(testing::furnished_room(), circle(1), {}, {});
+  const Drive exact = drive(test::furnished_room(), circle(1), {}, {});
   Bounded mapper({.scans = 3, .distance = 0.0});
   mapper.add(exact.observations.front());
   const std::size_t points = mapper.map().points.size();
@@ -148,7 +148,7 @@ TEST(Bounded, ObservationsWithoutHitsCountToo) {
 
 TEST(Bounded, ForgetsTheWindowWithTheMap) {
   Bounded mapper({.scans = 100, .distance = 0.0});
-  for (const Observation& observation : testing::kidnapping().observations) mapper.add(observation);
+  for (const Observation& observation : test::kidnapping().observations) mapper.add(observation);
   // Ten observations, one that does not fit, and a new map from the second of those on.
   EXPECT_EQ(mapper.map().generation, 1);
   EXPECT_EQ(mapper.map().ends.size(), 3U);
@@ -162,7 +162,7 @@ TEST(Bounded, DoesNotGrowWithTheDrive) {
   std::vector<Pose2> poses;
   for (int i = 0; i < 400; ++i) poses.push_back({0.25 * i - 60.0, 0.0, 0.0});
   const Drive corridor =
-      drive(testing::bare_corridor(), poses, {.beams = 61, .max_range = 8.0, .noise = 0.01}, {});
+      drive(test::bare_corridor(), poses, {.beams = 61, .max_range = 8.0, .noise = 0.01}, {});
   Bounded mapper({.scans = 20, .distance = 0.0});
   std::size_t early = 0;
   std::size_t late = 0;
@@ -179,4 +179,4 @@ TEST(Bounded, DoesNotGrowWithTheDrive) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::bounded_test

@@ -6,7 +6,7 @@
 
 #include "local_mappers/rooms.hpp"
 
-namespace glocal {
+namespace glocal::correlative_search_test {
 namespace {
 
 constexpr double resolution = 0.05;
@@ -39,7 +39,7 @@ double likelihood_at(const PointGrid& grid, const Points& hits, const Pose2& pos
 class CorrelativeSearch : public ::testing::Test {
  protected:
   Rng rng{1};
-  Points hits = testing::scan_from(testing::furnished_room(), {2, 2, 0.3}, {.beams = 181}, rng).hits;
+  Points hits = test::scan_from(test::furnished_room(), {2, 2, 0.3}, {.beams = 181}, rng).hits;
   PointGrid grid = grid_of(hits);
   CorrelativeSearchParams params{
       .translation = 0.1, .rotation = 0.15, .rotation_step = 0.0175, .points = 200, .odometry_penalty = 0.0};
@@ -90,4 +90,4 @@ TEST_F(CorrelativeSearch, WithoutARangeItOnlyRates) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::correlative_search_test

@@ -6,7 +6,7 @@
 
 #include "local_mappers/rooms.hpp"
 
-namespace glocal::testing {
+namespace glocal::test {
 
 /// A drive with the truth about it.
 struct Drive {
@@ -74,4 +74,4 @@ inline Drive kidnapping() {
   return result;
 }
 
-}  // namespace glocal::testing
+}  // namespace glocal::test

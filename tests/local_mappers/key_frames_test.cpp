@@ -7,10 +7,10 @@
 
 #include "local_mappers/drives.hpp"
 
-namespace glocal {
+namespace glocal::key_frames_test {
 namespace {
 
-using testing::at;
+using test::at;
 using ::testing::ElementsAre;
 
 // With so few hits odometry is kept.
@@ -54,8 +54,8 @@ TEST(KeyFrames, AnObservationWithoutHitsIsNone) {
 }
 
 TEST(KeyFrames, FollowsTheRobotWithAThirdOfTheScans) {
-  const testing::Drive noisy =
-      testing::drive(testing::furnished_room(), testing::circle(120), {.noise = 0.02}, testing::bad_odometry);
+  const test::Drive noisy =
+      test::drive(test::furnished_room(), test::circle(120), {.noise = 0.02}, test::bad_odometry);
   KeyFrames mapper({.overlap = 0.0});
   double worst = 0.0;
   for (std::size_t k = 0; k < noisy.observations.size(); ++k) {
@@ -75,7 +75,7 @@ TEST(KeyFrames, FollowsTheRobotWithAThirdOfTheScans) {
 
 TEST(KeyFrames, TheFirstOneOfANewMapIsOne) {
   KeyFrames mapper({.distance = 100.0, .angle = 3.0, .overlap = 0.0});
-  for (const Observation& observation : testing::kidnapping().observations) mapper.add(observation);
+  for (const Observation& observation : test::kidnapping().observations) mapper.add(observation);
   EXPECT_EQ(mapper.map().generation, 1);
   ASSERT_EQ(mapper.map().ends.size(), 3U);
   EXPECT_GT(mapper.map().ends.front(), 50U);
@@ -83,4 +83,4 @@ TEST(KeyFrames, TheFirstOneOfANewMapIsOne) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::key_frames_test

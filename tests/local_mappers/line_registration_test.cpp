@@ -7,7 +7,7 @@
 #include "local_mappers/rooms.hpp"
 #include "local_mappers/scan_normals.hpp"
 
-namespace glocal {
+namespace glocal::line_registration_test {
 namespace {
 
 /// A map made of one scan at the origin, each hit a point of its own.
@@ -74,7 +74,7 @@ TEST(LineRegistration, MatchesNeedTheGateAndTheNormals) {
 
 TEST(LineRegistration, TheGradientIsTheNumericDerivativeOfTheCost) {
   Rng rng(3);
-  const Scan scan = testing::scan_from(testing::furnished_room(), {2, 2, 0.3}, {.noise = 0.01}, rng);
+  const Scan scan = test::scan_from(test::furnished_room(), {2, 2, 0.3}, {.noise = 0.01}, rng);
   const ScanMap world(scan);
   // A few hits without normals, so that both kinds of residual take part.
   Points normals = scan_normals(scan.hits, {}, {});
@@ -99,7 +99,7 @@ TEST(LineRegistration, TheGradientIsTheNumericDerivativeOfTheCost) {
 
 TEST(LineRegistration, BringsAScanBackOntoItself) {
   Rng rng(3);
-  const Scan scan = testing::scan_from(testing::furnished_room(), {2, 2, 0.3}, {}, rng);
+  const Scan scan = test::scan_from(test::furnished_room(), {2, 2, 0.3}, {}, rng);
   const ScanMap world(scan);
   const Points normals = scan_normals(scan.hits, {}, {});
   const Registration found =
@@ -112,7 +112,7 @@ TEST(LineRegistration, BringsAScanBackOntoItself) {
 
 TEST(LineRegistration, ABareCorridorLeavesTheWayAlongItAlone) {
   Rng rng(3);
-  const Scan scan = testing::scan_from(testing::bare_corridor(), {0, 0, 0}, {.max_range = 8.0}, rng);
+  const Scan scan = test::scan_from(test::bare_corridor(), {0, 0, 0}, {.max_range = 8.0}, rng);
   const ScanMap world(scan);
   const Points normals = scan_normals(scan.hits, {}, {});
   const Registration found =
@@ -132,4 +132,4 @@ TEST(LineRegistration, WithoutMatchesItStays) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::line_registration_test

@@ -5,10 +5,10 @@
 
 #include "local_mappers/drives.hpp"
 
-namespace glocal {
+namespace glocal::odometry_test {
 namespace {
 
-using testing::at;
+using test::at;
 using ::testing::ElementsAre;
 
 Observation seen_at(const Pose2& odom_from_robot, const Point& hit) {
@@ -43,8 +43,7 @@ TEST(Odometry, ThinsAsScanMatchingDoes) {
 }
 
 TEST(Odometry, IsNotCorrectedByScans) {
-  const testing::Drive drive =
-      testing::drive(testing::furnished_room(), testing::circle(60), {}, testing::bad_odometry);
+  const test::Drive drive = test::drive(test::furnished_room(), test::circle(60), {}, test::bad_odometry);
   Odometry mapper({});
   for (const Observation& observation : drive.observations) mapper.add(observation);
   const Pose2 odom =
@@ -70,4 +69,4 @@ TEST(Odometry, StartsAnewWhenTheRobotLeavesTheGrid) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::odometry_test

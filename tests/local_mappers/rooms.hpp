@@ -10,7 +10,7 @@
 #include "glocal/observation.hpp"
 #include "glocal/rng.hpp"
 
-namespace glocal::testing {
+namespace glocal::test {
 
 /// A wall from (x0, y0) to (x1, y1), m.
 using Wall = std::array<double, 4>;
@@ -65,4 +65,4 @@ inline Scan scan_from(const std::vector<Wall>& walls, const Pose2& map_from_robo
   return scan;
 }
 
-}  // namespace glocal::testing
+}  // namespace glocal::test

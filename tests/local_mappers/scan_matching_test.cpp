@@ -9,16 +9,16 @@
 
 #include "local_mappers/drives.hpp"
 
-namespace glocal {
+namespace glocal::scan_matching_test {
 namespace {
 
-using testing::at;
-using testing::bad_odometry;
-using testing::circle;
-using testing::Drive;
-using testing::drive;
+using test::at;
+using test::bad_odometry;
+using test::circle;
+using test::Drive;
+using test::drive;
+using test::kidnapping;
 using ::testing::ElementsAre;
-using testing::kidnapping;
 
 struct WorstError {
   double translation = 0.0;
@@ -38,15 +38,14 @@ WorstError worst_error(ScanMatching& mapper, const Drive& drive) {
 
 TEST(ScanMatching, ExactScansGiveThePoseInSpiteOfBadOdometry) {
   ScanMatching mapper({});
-  const WorstError worst =
-      worst_error(mapper, drive(testing::furnished_room(), circle(120), {}, bad_odometry));
+  const WorstError worst = worst_error(mapper, drive(test::furnished_room(), circle(120), {}, bad_odometry));
   EXPECT_LT(worst.translation, 0.03);
   EXPECT_LT(worst.rotation, radians(0.3));
   EXPECT_EQ(mapper.map().generation, 0);
 }
 
 TEST(ScanMatching, NoisyScansGiveThePoseInSpiteOfBadOdometry) {
-  const Drive noisy = drive(testing::furnished_room(), circle(120), {.noise = 0.02}, bad_odometry);
+  const Drive noisy = drive(test::furnished_room(), circle(120), {.noise = 0.02}, bad_odometry);
   ScanMatching mapper({});
   const WorstError worst = worst_error(mapper, noisy);
   EXPECT_LT(worst.translation, 0.05);
@@ -59,7 +58,7 @@ TEST(ScanMatching, NoisyScansGiveThePoseInSpiteOfBadOdometry) {
 }
 
 TEST(ScanMatching, PointsLieOnTheWallsAndHaveNormalsAcrossThem) {
-  const Drive exact = drive(testing::furnished_room(), circle(60), {}, bad_odometry);
+  const Drive exact = drive(test::furnished_room(), circle(60), {}, bad_odometry);
   ScanMatching mapper({});
   for (const Observation& observation : exact.observations) mapper.add(observation);
   const LocalMap& map = mapper.map();
@@ -82,7 +81,7 @@ TEST(ScanMatching, ABareCorridorKeepsTheOdometryAlongIt) {
   std::vector<Pose2> poses;
   for (int i = 0; i < 60; ++i) poses.push_back({0.25 * i, 0.0, 0.0});
   ScanMatching mapper({});
-  const Drive straight = drive(testing::bare_corridor(), poses, {.max_range = 8.0, .noise = 0.01}, {});
+  const Drive straight = drive(test::bare_corridor(), poses, {.max_range = 8.0, .noise = 0.01}, {});
   const WorstError worst = worst_error(mapper, straight);
   EXPECT_LT(worst.translation, 0.5);
   EXPECT_LT(worst.rotation, radians(1.0));
@@ -128,7 +127,7 @@ TEST(ScanMatching, AnObservationWithoutHitsOnlyMovesTheRobot) {
 }
 
 TEST(ScanMatching, TheSameDriveGivesTheSameMapAlsoAfterAReset) {
-  const Drive noisy = drive(testing::furnished_room(), circle(40), {.noise = 0.02}, bad_odometry);
+  const Drive noisy = drive(test::furnished_room(), circle(40), {.noise = 0.02}, bad_odometry);
   ScanMatching first({});
   ScanMatching second({});
   worst_error(first, noisy);
@@ -144,7 +143,7 @@ TEST(ScanMatching, TheSameDriveGivesTheSameMapAlsoAfterAReset) {
 }
 
 TEST(ScanMatching, RegisteredPointsKeepTheirIndexAndStayInTheirCell) {
-  const Drive noisy = drive(testing::furnished_room(), circle(40), {.noise = 0.02}, bad_odometry);
+  const Drive noisy = drive(test::furnished_room(), circle(40), {.noise = 0.02}, bad_odometry);
   ScanMatching mapper({});
   Points before;
   for (const Observation& observation : noisy.observations) {
@@ -184,8 +183,8 @@ TEST(ScanMatching, StartsANewMapWhenObservationsStopFitting) {
 }
 
 /// Two corridors with the same walls and other boxes along them.
-std::vector<testing::Wall> corridor_with_boxes(const std::vector<double>& places, double side) {
-  std::vector<testing::Wall> walls = testing::bare_corridor();
+std::vector<test::Wall> corridor_with_boxes(const std::vector<double>& places, double side) {
+  std::vector<test::Wall> walls = test::bare_corridor();
   for (const double x : places) {
     walls.push_back({x, side, x, 0.3 * side});
     walls.push_back({x, 0.3 * side, x + 0.8, 0.3 * side});
@@ -244,7 +243,7 @@ TEST(ScanMatching, LeavesOutHitsBeyondItsSquareAndStartsAnewWhenTheRobotLeavesIt
 
 TEST(ScanMatching, MemoryDoesNotGrowInARoomThatIsKnown) {
   ScanMatching mapper({});
-  const Drive round = drive(testing::furnished_room(), circle(190), {.noise = 0.01}, bad_odometry);
+  const Drive round = drive(test::furnished_room(), circle(190), {.noise = 0.01}, bad_odometry);
   std::size_t after_one_round = 0;
   for (std::size_t i = 0; i < round.observations.size(); ++i) {
     mapper.add(round.observations[i]);
@@ -257,7 +256,7 @@ TEST(ScanMatching, MemoryDoesNotGrowInARoomThatIsKnown) {
 }
 
 TEST(ScanMatching, AnObservationTouchesNoMoreTilesHoweverLongTheDrive) {
-  std::vector<testing::Wall> walls = testing::bare_corridor();
+  std::vector<test::Wall> walls = test::bare_corridor();
   for (int i = -50; i < 50; ++i) {
     const double x = 2.0 * i + 0.3 * (i % 3);
     walls.push_back({x, 1, x, 0.7});
@@ -293,4 +292,4 @@ TEST(ScanMatching, MemoryIsLimited) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::scan_matching_test

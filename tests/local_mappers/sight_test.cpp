@@ -8,7 +8,7 @@
 
 #include "local_mappers/rooms.hpp"
 
-namespace glocal {
+namespace glocal::sight_test {
 namespace {
 
 /// Beams in every direction, half a degree apart, that all end after `range` m.
@@ -61,12 +61,10 @@ TEST(RangeProfile, SaysNothingOfDirectionsItDidNotLookIn) {
 
 struct Sights {
   Rng rng{7};
-  std::vector<testing::Wall> walls = testing::furnished_room();
+  std::vector<test::Wall> walls = test::furnished_room();
   LatestSights latest{SightParams{}};
 
-  [[nodiscard]] Scan scan_at(const Pose2& pose) {
-    return testing::scan_from(walls, pose, {.noise = 0.02}, rng);
-  }
+  [[nodiscard]] Scan scan_at(const Pose2& pose) { return test::scan_from(walls, pose, {.noise = 0.02}, rng); }
 };
 
 TEST(LatestSights, ADriveThroughARoomIsInAccordWithItself) {
@@ -112,4 +110,4 @@ TEST(LatestSights, ForgetsOldScans) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::sight_test

@@ -5,7 +5,7 @@
 
 #include "glocal/strategies.hpp"
 
-namespace glocal::testing {
+namespace glocal::test {
 
 /// Some hypotheses, bit for bit the same, found with the same work.
 inline void expect_same_answer(const MatchResult& one, const MatchResult& other) {
@@ -20,4 +20,4 @@ inline void expect_same_answer(const MatchResult& one, const MatchResult& other)
   EXPECT_EQ(one.checks, other.checks);
 }
 
-}  // namespace glocal::testing
+}  // namespace glocal::test

@@ -6,13 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "files.hpp"
 #include "glocal/builtin.hpp"
 #include "glocal/yaml.hpp"
+#include "loading/plugin_loader.hpp"
 #include "octree_files.hpp"
-#include "plugins/plugin_loader.hpp"
-#include "sources/files.hpp"
 
-namespace glocal::test {
+namespace glocal::test::octomap_test {
 namespace {
 
 using testing::HasSubstr;
@@ -39,7 +39,7 @@ class Octomap : public testing::Test {
     return config_error(folder_ / "", [&] { (void)load(content, params); });
   }
 
-  TempFolder folder_;
+  TemporaryFolder folder_;
   Catalog catalog_;
 };
 
@@ -210,4 +210,4 @@ TEST_F(Octomap, TheLocalMapsFileReadsBackAsAMap) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::octomap_test

@@ -3,13 +3,13 @@
 
 #include <cmath>
 
+#include "files.hpp"
 #include "glocal/builtin.hpp"
 #include "glocal/yaml.hpp"
-#include "plugins/plugin_loader.hpp"
-#include "sources/files.hpp"
+#include "loading/plugin_loader.hpp"
 #include "test_world.hpp"
 
-namespace glocal::test {
+namespace glocal::test::pcl_test {
 namespace {
 
 class Pcl : public ::testing::Test {
@@ -21,12 +21,12 @@ class Pcl : public ::testing::Test {
 
   MatchResult match(const std::string& name, const LocalMap& local, std::uint64_t seed = 1) {
     const auto matcher =
-        catalog_.matchers.make(catalog_.matchers.choose(name), {glocal::testing::small_world(), 1});
+        catalog_.matchers.make(catalog_.matchers.choose(name), {glocal::test::small_world(), 1});
     Rng rng(seed);
     return matcher->match(local, {}, 0.7, rng);
   }
 
-  TempFolder folder_;
+  TemporaryFolder folder_;
   Catalog catalog_;
 };
 
@@ -35,7 +35,7 @@ constexpr double reach = 3.5;
 TEST_F(Pcl, BothMatchersFindThePose) {
   const Pose2 truth{5.5, 2.5, 0.7};
   for (const char* name : {"pcl_icp", "pcl_prerejective"}) {
-    const MatchResult result = match(name, glocal::testing::local_map_at(truth, reach));
+    const MatchResult result = match(name, glocal::test::local_map_at(truth, reach));
     ASSERT_FALSE(result.hypotheses.empty()) << name;
     const Pose2& best = result.hypotheses.front().map_from_robot;
     EXPECT_LT(distance(best, truth), 0.03) << name;
@@ -47,8 +47,8 @@ TEST_F(Pcl, BothMatchersFindThePose) {
 TEST_F(Pcl, AnotherOriginOfTheLocalMapChangesNothing) {
   const Pose2 truth{2.0, 6.0, -1.0};
   const Pose2 local_from_robot{3.0, -1.0, 0.5};
-  LocalMap local = glocal::testing::local_map_at(truth, reach);
-  local.points = glocal::testing::moved(local.points, local_from_robot);
+  LocalMap local = glocal::test::local_map_at(truth, reach);
+  local.points = glocal::test::moved(local.points, local_from_robot);
   local.local_from_robot = local_from_robot;
   const MatchResult result = match("pcl_icp", local);
   ASSERT_FALSE(result.hypotheses.empty());
@@ -56,7 +56,7 @@ TEST_F(Pcl, AnotherOriginOfTheLocalMapChangesNothing) {
 }
 
 TEST_F(Pcl, KdTreesOfPclAndOfNanoflannAgreePointByPoint) {
-  const auto map = glocal::testing::small_world();
+  const auto map = glocal::test::small_world();
   constexpr double epsilon = 0.1;
   const ContactSetup setup{&map->points(), epsilon};
   const auto pcl = catalog_.contact_indexes.make({"pcl_kd_tree"}, setup);
@@ -79,17 +79,17 @@ TEST_F(Pcl, KdTreesOfPclAndOfNanoflannAgreePointByPoint) {
 TEST_F(Pcl, RansamTakesPclsKdTree) {
   StrategyChoice choice = catalog_.matchers.choose("ransam");
   read_yaml(folder_.write("params.yaml", "iterations: 5000\ncontact: pcl_kd_tree\n"), *choice.params);
-  const auto matcher = catalog_.matchers.make(choice, {glocal::testing::small_world(), 1});
+  const auto matcher = catalog_.matchers.make(choice, {glocal::test::small_world(), 1});
   const Pose2 truth{5.5, 2.5, 0.7};
   Rng rng(1);
-  const MatchResult result = matcher->match(glocal::testing::local_map_at(truth, reach), {}, 0.8, rng);
+  const MatchResult result = matcher->match(glocal::test::local_map_at(truth, reach), {}, 0.8, rng);
   ASSERT_FALSE(result.hypotheses.empty());
   EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.1);
 }
 
 TEST_F(Pcl, AMapWithoutFreeSpaceIsRefused) {
   MapData data;
-  data.points = glocal::testing::small_world_points();
+  data.points = glocal::test::small_world_points();
   data.grid = {{}, 0.1, 10, 10, std::vector<Cell>(100, Cell::unknown)};
   const auto map = std::make_shared<const GlobalMap>(std::move(data));
   EXPECT_NE(config_error(folder_ / "",
@@ -101,4 +101,4 @@ TEST_F(Pcl, AMapWithoutFreeSpaceIsRefused) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::pcl_test

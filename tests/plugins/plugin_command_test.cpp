@@ -6,7 +6,7 @@
 
 #include "app/program.hpp"
 
-namespace glocal::test {
+namespace glocal::test::plugin_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ TEST_F(PluginCommand, APluginExportsNothingButItsEntry) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::plugin_command_test

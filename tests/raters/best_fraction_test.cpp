@@ -4,10 +4,10 @@
 
 #include "raters/with_qualities.hpp"
 
-namespace glocal {
+namespace glocal::best_fraction_test {
 namespace {
 
-using testing::with_qualities;
+using test::with_qualities;
 
 TEST(BestFraction, OfTheLastStep) {
   BestFraction threshold({.fraction = 0.5, .best = "last_step", .initial = 0.45});
@@ -42,4 +42,4 @@ TEST(BestFraction, EmptyStepsLetItFallFromTheStart) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::best_fraction_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glocal {
+namespace glocal::cluster_rating_test {
 namespace {
 
 Hypothesis with_quality(double quality) {
@@ -60,4 +60,4 @@ TEST(ClusterRating, NothingGivesNothing) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::cluster_rating_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace glocal {
+namespace glocal::consecutive_rating_test {
 namespace {
 
 struct Rated {
@@ -114,4 +114,4 @@ TEST(ConsecutiveRating, ResetForgets) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::consecutive_rating_test

@@ -4,10 +4,10 @@
 
 #include "raters/with_qualities.hpp"
 
-namespace glocal {
+namespace glocal::exponential_threshold_test {
 namespace {
 
-using testing::with_qualities;
+using test::with_qualities;
 
 TEST(ExponentialThreshold, ByHand) {
   ExponentialThreshold threshold({.weight = 0.25, .initial = 0.6});
@@ -38,4 +38,4 @@ TEST(ExponentialThreshold, EmptyStepsLetItFall) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::exponential_threshold_test

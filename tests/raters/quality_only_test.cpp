@@ -4,12 +4,12 @@
 
 #include "raters/two_clusters.hpp"
 
-namespace glocal {
+namespace glocal::quality_only_test {
 namespace {
 
-using testing::qualities;
-using testing::two_clusters;
-using testing::with_qualities;
+using test::qualities;
+using test::two_clusters;
+using test::with_qualities;
 
 TEST(QualityOnly, RatesByTheBestHypothesis) {
   QualityOnly rater({.quality = "best"});
@@ -38,4 +38,4 @@ TEST(QualityOnly, StaysAboveZero) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::quality_only_test

@@ -4,10 +4,10 @@
 
 #include "raters/with_qualities.hpp"
 
-namespace glocal {
+namespace glocal::quantile_threshold_test {
 namespace {
 
-using testing::with_qualities;
+using test::with_qualities;
 
 double after(double quantile, const std::vector<Hypothesis>& hypotheses) {
   QuantileThreshold threshold({.quantile = quantile});
@@ -47,4 +47,4 @@ TEST(QuantileThreshold, OnlyTheLastStepCountsAndEmptyOnesLetItFall) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::quantile_threshold_test

@@ -4,10 +4,10 @@
 
 #include "raters/with_qualities.hpp"
 
-namespace glocal {
+namespace glocal::sliding_window_test {
 namespace {
 
-using testing::with_qualities;
+using test::with_qualities;
 
 TEST(SlidingWindow, StartsAtTheInitialThreshold) {
   EXPECT_DOUBLE_EQ(SlidingWindow({.window = 10, .initial = 0.6}).omega_max(), 0.6);
@@ -41,4 +41,4 @@ TEST(SlidingWindow, ResetForgets) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::sliding_window_test

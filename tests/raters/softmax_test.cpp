@@ -6,12 +6,12 @@
 
 #include "raters/two_clusters.hpp"
 
-namespace glocal {
+namespace glocal::softmax_test {
 namespace {
 
-using testing::qualities;
-using testing::two_clusters;
-using testing::with_qualities;
+using test::qualities;
+using test::two_clusters;
+using test::with_qualities;
 
 TEST(Softmax, ByHand) {
   Softmax rater({.beta = 10.0});
@@ -38,4 +38,4 @@ TEST(Softmax, IsANumberAtItsLimits) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::softmax_test

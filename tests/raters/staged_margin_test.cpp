@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace glocal {
+namespace glocal::staged_margin_test {
 namespace {
 
 const Pose2 here{3.0, 4.0, 0.5};
@@ -168,4 +168,4 @@ TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::staged_margin_test

@@ -5,7 +5,7 @@
 
 #include "glocal/hypothesis.hpp"
 
-namespace glocal::testing {
+namespace glocal::test {
 
 /// In the order given, which should be falling.
 inline std::vector<Hypothesis> with_qualities(const std::vector<double>& qualities) {
@@ -14,4 +14,4 @@ inline std::vector<Hypothesis> with_qualities(const std::vector<double>& qualiti
   return hypotheses;
 }
 
-}  // namespace glocal::testing
+}  // namespace glocal::test

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "sources/files.hpp"
+#include "files.hpp"
 
-namespace glocal {
+namespace glocal::carmen_log_test {
 namespace {
 
 using testing::ElementsAre;
@@ -47,7 +47,7 @@ std::vector<double> stamps(const std::vector<Sample>& samples) {
 }
 
 TEST(CarmenLog, TakesKeyFramesByDistance) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   LogParams params = params_for(folder.write("a.log", straight_drive(11)));
   EXPECT_THAT(stamps(read_all(params)), ElementsAre(0, 3, 6, 9));
   params.keyframe_distance = 0.0;
@@ -55,14 +55,14 @@ TEST(CarmenLog, TakesKeyFramesByDistance) {
 }
 
 TEST(CarmenLog, TakesKeyFramesByAngle) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   std::string log;
   for (int i = 0; i < 8; ++i) log += flaser(0.0, 3.0 + 0.15 * i, i);  // Across pi.
   EXPECT_THAT(stamps(read_all(params_for(folder.write("a.log", log)))), ElementsAre(0, 2, 4, 6));
 }
 
 TEST(CarmenLog, TakesSegmentsByShareOfThePath) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   LogParams params = params_for(folder.write("a.log", straight_drive(11)));
   params.keyframe_distance = 0.0;
   params.segments = {{0.05, 0.25}, {0.75, 1.0}};
@@ -74,7 +74,7 @@ TEST(CarmenLog, TakesSegmentsByShareOfThePath) {
 }
 
 TEST(CarmenLog, MeasuresThePathByOdometry) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   std::string log;
   for (const int x : {0, 1, 2, 5, 8}) {
     // The reference poses jump back and forth, as corrected ones may.
@@ -87,7 +87,7 @@ TEST(CarmenLog, MeasuresThePathByOdometry) {
 }
 
 TEST(CarmenLog, TellsHitsFromRaysThatMetNothing) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   // 8 readings from -90 degrees in steps of 22.5; the fifth looks straight ahead.
   const std::string log = flaser(0, 0, 0, "8 1 0.05 -1 inf 2 nan 30 19.99");
   LogParams params = params_for(folder.write("a.log", log));
@@ -116,7 +116,7 @@ TEST(CarmenLog, TellsHitsFromRaysThatMetNothing) {
 }
 
 TEST(CarmenLog, PlacesTheLaserOnTheRobotAndCorrectsItsYaw) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   // The laser is 0.5 m ahead of the robot, which heads along odometry's y.
   const double half_pi = std::acos(0.0);
   const std::string log =
@@ -135,7 +135,7 @@ TEST(CarmenLog, PlacesTheLaserOnTheRobotAndCorrectsItsYaw) {
 }
 
 TEST(CarmenLog, ChoosesTheLaser) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   LogParams params =
       params_for(folder.write("a.log", flaser(0, 0, 1) + "RLASER 2 1 1 0 0 0 0 0 0 2 h 0\n" +
                                            "ROBOTLASER1 0 0 1 1 30 0 0 1 1 0 0 0 0 0 0 0 0 0 0 0 0 3 h 0\n"));
@@ -149,7 +149,7 @@ TEST(CarmenLog, ChoosesTheLaser) {
 }
 
 TEST(CarmenLog, RobotlaserKnowsItsOwnRange) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const LogParams params =
       params_for(folder.write("a.log", "ROBOTLASER1 0 0 1 1 5 0 0 2 4.9 5 0 0 0 0 0 0 0 0 0 0 0 0 3 h 0\n"));
   const Scan scan = read_all(params).front().observation.scan;
@@ -159,7 +159,7 @@ TEST(CarmenLog, RobotlaserKnowsItsOwnRange) {
 }
 
 TEST(CarmenLog, WarnsOnceOfTimeThatDoesNotRunForwards) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   LogParams params = params_for(
       folder.write("a.log", flaser(0, 0, 5) + flaser(1, 0, 4) + flaser(2, 0, 4) + flaser(3, 0, 6)));
   std::vector<std::string> warnings;
@@ -176,7 +176,7 @@ TEST(CarmenLog, WarnsOnceOfTimeThatDoesNotRunForwards) {
 }
 
 TEST(CarmenLog, RefusesSegmentsWithoutScans) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   LogParams params = params_for(folder.write("a.log", straight_drive(3)));
   params.segments = {{0.0, 0.1}, {0.2, 0.3}, {0.6, 0.75}};
   EXPECT_EQ(test::config_error(params.path.resolved.parent_path(), [&] { read_all(params); }),
@@ -215,4 +215,4 @@ INSTANTIATE_TEST_SUITE_P(Datasets, SharedLog,
                          });
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::carmen_log_test

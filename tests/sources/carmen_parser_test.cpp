@@ -5,20 +5,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "sources/files.hpp"
+#include "files.hpp"
 
-namespace glocal {
+namespace glocal::carmen_parser_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
 std::vector<CarmenScan> parse(std::string_view content) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   return read_carmen_log(folder.write("a.log", content));
 }
 
 std::string fault_of(std::string_view content) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.write("a.log", content);
   return test::config_error(file.parent_path(), [&] { static_cast<void>(read_carmen_log(file)); });
 }
@@ -150,4 +150,4 @@ TEST(CarmenParser, RefusesFilesWithoutScans) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::carmen_parser_test

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "files.hpp"
 #include "sources/carmen_log.hpp"
-#include "sources/files.hpp"
 #include "sources/simulation.hpp"
 
-namespace glocal {
+namespace glocal::carmen_writer_test {
 namespace {
 
 template <class Source>
@@ -31,7 +31,7 @@ void expect_near(const Pose2& a, const Pose2& b) {
 }
 
 TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params;
   params.world =
       test::file_path(folder.write("world.yaml",
@@ -81,4 +81,4 @@ TEST(CarmenWriter, WritesTheFormatsFields) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::carmen_writer_test

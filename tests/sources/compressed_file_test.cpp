@@ -9,9 +9,9 @@
 #include <boost/iostreams/filtering_stream.hpp>
 #include <sstream>
 
-#include "sources/files.hpp"
+#include "files.hpp"
 
-namespace glocal {
+namespace glocal::compressed_file_test {
 namespace {
 
 template <class Compressor>
@@ -40,12 +40,12 @@ struct Format {
 class CompressedFile : public testing::TestWithParam<Format> {};
 
 TEST_P(CompressedFile, IsKnownByItsContent) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_EQ(read_decompressed(folder.write("odd_name.txt", GetParam().compress(some_text()))), some_text());
 }
 
 TEST_P(CompressedFile, IsRefusedWhenCutOffAnywhere) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const std::string whole = GetParam().compress(some_text());
   for (const std::size_t missing :
        {std::size_t{1}, std::size_t{5}, std::size_t{20}, whole.size() / 2, whole.size() - 8}) {
@@ -64,13 +64,13 @@ INSTANTIATE_TEST_SUITE_P(Formats, CompressedFile,
                          [](const auto& format) { return format.param.name; });
 
 TEST(PlainFile, IsReadAsItIs) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_EQ(read_decompressed(folder.write("a.gz", "plain\n")), "plain\n");
   EXPECT_EQ(read_decompressed(folder.write("empty", "")), "");
 }
 
 TEST(PlainFile, IsRefusedWhereThereIsNone) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto message = [&](const std::filesystem::path& file) {
     return test::config_error(file.parent_path(), [&] { static_cast<void>(read_decompressed(file)); });
   };
@@ -81,4 +81,4 @@ TEST(PlainFile, IsRefusedWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::compressed_file_test

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace glocal {
+namespace glocal::grid_ray_test {
 namespace {
 
 using Cells = std::vector<std::pair<int, int>>;
@@ -50,4 +50,4 @@ TEST(GridRay, StopsWhereItIsToldTo) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::grid_ray_test

@@ -2,22 +2,22 @@
 
 #include <gtest/gtest.h>
 
-#include "sources/files.hpp"
+#include "files.hpp"
 #include "sources/png_files.hpp"
 
-namespace glocal {
+namespace glocal::image_test {
 namespace {
 
 using test::bytes;
 using test::make_png;
 
 Image read(const std::string& bytes) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   return read_image(folder.write("a.image", bytes));
 }
 
 std::string fault_of(const std::string& bytes) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.write("a.image", bytes);
   return test::config_error(file.parent_path(), [&] { static_cast<void>(read_image(file)); });
 }
@@ -129,4 +129,4 @@ TEST(Writers, AreReadBack) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::image_test

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "sources/files.hpp"
+#include "files.hpp"
 
-namespace glocal {
+namespace glocal::log_map_test {
 namespace {
 
 std::string scan_at(double x, double y, const std::string& readings) {
@@ -27,7 +27,7 @@ std::size_t count(const OccupancyGrid& grid, Cell kind) {
 }
 
 TEST(LogMap, CountsHitsAndFreesTheWay) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   // Two beams, to the right and straight ahead; the robot at (0.25, 1.25). The beam to the right is too short
   // to say anything. Ahead there are two hits in the cell [2, 2.5[, one in the cell [2.5, 3[.
   auto params =
@@ -50,7 +50,7 @@ TEST(LogMap, CountsHitsAndFreesTheWay) {
 }
 
 TEST(LogMap, ACellThatMostRaysPassIsFree) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   std::string log = scan_at(0.25, 0.25, "2 0.01 2") + scan_at(0.25, 0.25, "2 0.01 2");
   for (int i = 0; i < 8; ++i) log += scan_at(0.25, 0.25, "2 0.01 4");
   auto params = params_for(folder.write("a.log", log));
@@ -64,7 +64,7 @@ TEST(LogMap, ACellThatMostRaysPassIsFree) {
 }
 
 TEST(LogMap, RaysThatMetNothingFreeTheWayAsFarAsTrusted) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   auto params =
       params_for(folder.write("a.log", scan_at(0.25, 0.25, "2 1 81.8") + scan_at(0.25, 0.25, "2 1 81.8")));
   params.log.free_range = 2.0;
@@ -75,7 +75,7 @@ TEST(LogMap, RaysThatMetNothingFreeTheWayAsFarAsTrusted) {
 }
 
 TEST(LogMap, UsesItsSegmentsOnly) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   std::string log;
   for (int i = 0; i <= 10; ++i) {
     log += scan_at(i, 0, "2 0.01 0.4");
@@ -89,7 +89,7 @@ TEST(LogMap, UsesItsSegmentsOnly) {
 }
 
 TEST(LogMap, SaysWhyThereIsNoMap) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto message = [&](const LogMap::Params& params) {
     return test::config_error(params.log.path.resolved.parent_path(),
                               [&] { static_cast<void>(LogMap(params, {}).load()); });
@@ -138,4 +138,4 @@ INSTANTIATE_TEST_SUITE_P(Datasets, SharedLogMap,
                          });
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::log_map_test

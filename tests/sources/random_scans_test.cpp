@@ -9,9 +9,9 @@
 #include <set>
 #include <utility>
 
-#include "sources/files.hpp"
+#include "files.hpp"
 
-namespace glocal {
+namespace glocal::random_scans_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -39,7 +39,7 @@ class Plan {
   }
 
  private:
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_;
 };
 
@@ -200,4 +200,4 @@ TEST(RandomScans, SayWhyThereAreNone) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::random_scans_test

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "sources/files.hpp"
+#include "files.hpp"
 #include "sources/image.hpp"
 #include "sources/png_files.hpp"
 #include "sources/ros_map_writer.hpp"
 
-namespace glocal {
+namespace glocal::ros_map_test {
 namespace {
 
 using testing::ElementsAre;
@@ -41,7 +41,7 @@ class Row {
   }
 
  private:
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 std::string thresholds(double occupied, double free) {
@@ -71,7 +71,7 @@ TEST(RosMap, RawTakesBytesAsPerCent) {
 }
 
 TEST(RosMap, AlphaIsAColourOrMakesUnknown) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   // Black opaque, black transparent, white opaque, white transparent.
   folder.write("map.png", test::make_png(4, 1, 8, PNG_COLOR_TYPE_GRAY_ALPHA,
                                          test::bytes({0, 255, 0, 0, 255, 255, 255, 0})));
@@ -86,7 +86,7 @@ TEST(RosMap, AlphaIsAColourOrMakesUnknown) {
 }
 
 TEST(RosMap, TheLowestRowOfTheImageIsTheLowestY) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   folder.write("map.pgm", "P2 2 3 255\n0 255\n255 255\n255 0");
   const auto file = folder.write("map.yaml", "image: map.pgm\nresolution: 0.5\norigin: [10, 20, 0]\n");
   const MapData map = RosMap({test::file_path(file)}, {}).load();
@@ -100,7 +100,7 @@ TEST(RosMap, TheLowestRowOfTheImageIsTheLowestY) {
 }
 
 TEST(RosMap, TurnsWithItsOrigin) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   folder.write("map.pgm", "P2 3 1 255\n255 255 0");
   const auto file =
       folder.write("map.yaml", "image: map.pgm\nresolution: 1\norigin: [5, 6, 1.5707963267948966]\n");
@@ -115,7 +115,7 @@ TEST(RosMap, TurnsWithItsOrigin) {
 
 TEST(RosMap, NamesThePlaceOfAFault) {
   const Row row({0, 255});
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto fault_of = [&](const std::string& yaml) {
     const auto file = folder.write("map.yaml", yaml);
     return test::config_error(file.parent_path(), [&] { RosMap({test::file_path(file)}, {}); });
@@ -141,7 +141,7 @@ TEST(RosMap, RefusesAMapWithoutOccupiedCell) {
 }
 
 TEST(RosMap, RefusesATruncatedImage) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   folder.write("map.pgm", "P5 9 9 255\n123");
   const auto file = folder.write("map.yaml", "image: map.pgm\nresolution: 1\norigin: [0, 0, 0]\n");
   EXPECT_THAT(test::config_error(file.parent_path(),
@@ -152,7 +152,7 @@ TEST(RosMap, RefusesATruncatedImage) {
 TEST(RosMapWriter, IsReadBack) {
   OccupancyGrid grid{{-1.25, 3.7, 0.3}, 0.05, 3, 2, {o, f, u, u, u, o}};
   for (const bool as_png : {false, true}) {
-    const test::TempFolder folder;
+    const test::TemporaryFolder folder;
     const ByteImage image = trinary_image(grid);
     folder.write("map.image", as_png ? png(image) : pgm(image));
     const auto file = folder.write("map.yaml", ros_map_yaml(grid, "map.image"));
@@ -197,4 +197,4 @@ INSTANTIATE_TEST_SUITE_P(Datasets, SharedRosMap,
                          });
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::ros_map_test

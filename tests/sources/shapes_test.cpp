@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glocal {
+namespace glocal::shapes_test {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -51,4 +51,4 @@ TEST(Clearance, IsTheDistanceToTheNearestOutline) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::shapes_test

@@ -8,9 +8,9 @@
 #include <set>
 #include <utility>
 
-#include "sources/files.hpp"
+#include "files.hpp"
 
-namespace glocal {
+namespace glocal::simulation_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -48,7 +48,7 @@ void expect_near(const Pose2& a, const Pose2& b) {
 }
 
 TEST(Route, TakesStepsAndTurnsOnTheSpot) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params;
   params.world = test::file_path(folder.write("world.yaml", room));
   const auto poses = route_of(read_world(params.world.resolved), params, Rng(1)).poses;
@@ -83,7 +83,7 @@ std::vector<Position> corners_of(const std::vector<Pose2>& poses) {
 }
 
 TEST(Route, OfATourKeepsToTheWaysAndTurnsBackAtDeadEndsOnly) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params;
   params.world = test::file_path(folder.write("world.yaml", triangle));
   params.tour_legs = 200;
@@ -104,7 +104,7 @@ TEST(Route, OfATourKeepsToTheWaysAndTurnsBackAtDeadEndsOnly) {
 }
 
 TEST(Route, GoesOnWhereTheRobotIsCarriedTo) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params = exact(folder.write("world.yaml", triangle));
   params.step_length = 0.5;
   params.step_turn_deg = 180.0;
@@ -127,7 +127,7 @@ TEST(Route, GoesOnWhereTheRobotIsCarriedTo) {
 }
 
 TEST(Route, SaysWhyARobotCannotBeCarriedThere) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params;
   params.world = test::file_path(
       folder.write("world.yaml", std::string(triangle) + "rectangles: [{centre: [6, 3], size: [1, 4]}]\n"));
@@ -147,7 +147,7 @@ TEST(Route, SaysWhyARobotCannotBeCarriedThere) {
 }
 
 TEST(Simulation, MeasuresDistancesExactlyWithoutNoise) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params = exact(folder.write("world.yaml", room));
   params.laser.step_deg = 90.0;
   params.laser.max_range = 4.0;
@@ -168,7 +168,7 @@ TEST(Simulation, MeasuresDistancesExactlyWithoutNoise) {
 }
 
 TEST(Simulation, SeesWhatIsThereAndNotWhatTheMapShows) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params = exact(
       folder.write("world.yaml", std::string(room) + "circles:\n"
                                                      "  - {centre: [4, 1], radius: 0.5, in_reality: false}\n"
@@ -183,7 +183,7 @@ TEST(Simulation, SeesWhatIsThereAndNotWhatTheMapShows) {
 }
 
 TEST(Simulation, MountsTheLaser) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params = exact(folder.write("world.yaml", room));
   params.laser = {.fov_deg = 90.0, .step_deg = 90.0, .noise = 0.0, .x = 0.5, .y = 0.25, .yaw_deg = 45.0};
   const auto samples = read_all(params);
@@ -199,7 +199,7 @@ TEST(Simulation, MountsTheLaser) {
 }
 
 TEST(Simulation, NoiseHasItsSize) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params = exact(folder.write("world.yaml", room));
   params.laser.fov_deg = 0.1;  // All rays meet the wall 5 m ahead.
   params.laser.step_deg = 0.01;
@@ -223,7 +223,7 @@ TEST(Simulation, NoiseHasItsSize) {
 }
 
 TEST(Simulation, OutliersHaveTheirShare) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params = exact(folder.write("world.yaml", room));
   params.step_length = 0.01;
   const auto clean = read_all(params);
@@ -242,7 +242,7 @@ TEST(Simulation, OutliersHaveTheirShare) {
 }
 
 TEST(Simulation, OdometryIsExactWithoutErrors) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto samples = read_all(exact(folder.write("world.yaml", room)));
   for (const Sample& sample : samples) {
     expect_near(*samples[0].map_from_robot * sample.observation.odom_from_robot, *sample.map_from_robot);
@@ -250,7 +250,7 @@ TEST(Simulation, OdometryIsExactWithoutErrors) {
 }
 
 TEST(Simulation, OdometryDriftsWithDistanceAndTurn) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params = exact(folder.write("world.yaml", room));
   params.odometry.distance_bias = 0.1;
   auto samples = read_all(params);
@@ -264,7 +264,7 @@ TEST(Simulation, OdometryDriftsWithDistanceAndTurn) {
 }
 
 TEST(Simulation, DependsOnItsSeedOnly) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   DriveParams params;
   params.world = test::file_path(folder.write("world.yaml", room));
   const auto a = read_all(params, 7);
@@ -279,7 +279,7 @@ TEST(Simulation, DependsOnItsSeedOnly) {
   }
 }
 
-MapData load(const test::TempFolder& folder, const std::string& yaml, double resolution) {
+MapData load(const test::TemporaryFolder& folder, const std::string& yaml, double resolution) {
   return SimulatedMap({test::file_path(folder.write("world.yaml", yaml)), resolution}, {}).load();
 }
 
@@ -288,7 +288,7 @@ std::size_t count(const OccupancyGrid& grid, Cell kind) {
 }
 
 TEST(SimulatedMap, DrawsWallsOneCellThickWhereTheyStand) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const MapData map = load(folder, room, 0.5);
   EXPECT_EQ(map.grid.width, 13);
   EXPECT_EQ(map.grid.height, 7);
@@ -303,7 +303,7 @@ TEST(SimulatedMap, DrawsWallsOneCellThickWhereTheyStand) {
 }
 
 TEST(SimulatedMap, ShowsWhatIsOnTheMapOnly) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const MapData map = load(folder,
                            std::string(room) +
                                "circles: [{centre: [3, 1.5], radius: 0.1, on_map: false}]\n"
@@ -319,7 +319,7 @@ TEST(SimulatedMap, ShowsWhatIsOnTheMapOnly) {
 }
 
 TEST(SimulatedMap, FreeSpaceStaysWithinSlantedWalls) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const MapData map = load(folder,
                            "size: [9, 9]\n"
                            "walls: [{points: [[1, 1], [8, 3.3], [4.2, 7.7]], closed: true}]\n"
@@ -335,7 +335,7 @@ TEST(SimulatedMap, FreeSpaceStaysWithinSlantedWalls) {
 }
 
 TEST(SimulatedMap, SaysWhyThereIsNoMap) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto message = [&](const std::string& yaml, double resolution) {
     return test::config_error(folder / "", [&] { static_cast<void>(load(folder, yaml, resolution)); });
   };
@@ -364,4 +364,4 @@ TEST(Worlds, OfThePaperAreReadAndHaveItsSizes) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::simulation_test

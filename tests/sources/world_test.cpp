@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sources/files.hpp"
+#include "files.hpp"
 
-namespace glocal {
+namespace glocal::world_test {
 namespace {
 
 constexpr const char* room =
@@ -15,12 +15,12 @@ constexpr const char* room =
     "way_points: [[1, 1], [5, 1]]\n";
 
 World read(const std::string& yaml) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   return read_world(folder.write("world.yaml", yaml));
 }
 
 std::string fault_of(const std::string& yaml) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.write("world.yaml", yaml);
   return test::config_error(file.parent_path(), [&] { static_cast<void>(read_world(file)); });
 }
@@ -85,4 +85,4 @@ TEST(World, NamesThePlaceOfAFault) {
 }
 
 }  // namespace
-}  // namespace glocal
+}  // namespace glocal::world_test

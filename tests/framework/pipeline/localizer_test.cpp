@@ -5,7 +5,7 @@
 
 #include "framework/pipeline/fakes.hpp"
 
-namespace glocal::test {
+namespace glocal::test::localizer_test {
 namespace {
 
 using testing::ElementsAre;
@@ -185,4 +185,4 @@ TEST_F(LocalizerTest, ATrialDrawsTheSameNumbersWheneverItRuns) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::localizer_test

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace glocal::test {
+namespace glocal::test::unknown_place_test {
 namespace {
 
 GlobalMap four_points() {
@@ -102,4 +102,4 @@ TEST(UnknownPlace, IsUnknownBelowTheLimitOnly) {
 }
 
 }  // namespace
-}  // namespace glocal::test
+}  // namespace glocal::test::unknown_place_test

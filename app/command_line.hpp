@@ -1,0 +1,14 @@
+// From arguments to an exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands.hpp"
+
+namespace glocal::app {
+
+/// Parses the arguments and runs the subcommand they name. What goes wrong is said on stderr, and in the exit
+/// code: 1 failed while running, 2 wrong usage or configuration.
+[[nodiscard]] int run_command_line(CLI::App& app, const Context& context, int argc, char** argv);
+
+}  // namespace glocal::app

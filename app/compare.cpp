@@ -1,0 +1,65 @@
+// glocal compare: which of several runs on the same starts is better, and whether that can be told.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/named_runs.hpp"
+#include "evaluation/comparison/comparison.hpp"
+#include "evaluation/comparison/comparison_report.hpp"
+#include "evaluation/comparison/comparison_writers.hpp"
+#include "evaluation/results/atomic_file.hpp"
+
+namespace glocal::app {
+namespace {
+
+struct CompareOptions {
+  std::vector<std::string> folders;
+  std::string baseline;
+  std::string csv, json, markdown;
+  bool no_times = false;
+  bool force = false;
+};
+
+std::string json_text(const Comparison& comparison) {
+  // Names of folders need not be UTF-8.
+  return to_json(comparison).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+void compare_runs(const CompareOptions& options) {
+  std::vector<NamedRun> runs = read_runs(options.folders);
+  if (runs.size() < 2) {
+    throw ConfigError({{options.folders.front(), 0, 0,
+                        "there is nothing to compare it with; name two folders of results or more"}});
+  }
+  const Comparison comparison = compare(runs, find_baseline(runs, options.baseline),
+                                        options.no_times ? measures_but_time() : measures());
+  AtomicFiles files(options.force);
+  if (!options.csv.empty()) files.add(options.csv, to_csv(comparison));
+  if (!options.json.empty()) files.add(options.json, json_text(comparison));
+  if (!options.markdown.empty()) files.add(options.markdown, markdown_report(comparison));
+  files.commit();
+  fmt::print("{}", text_report(comparison));
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Context& /*context*/) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare runs on the same starts, with tests of what differs.");
+  command->add_option("DIR", options->folders, "Folders of results, or folders that hold some")->required();
+  command->add_option("--baseline", options->baseline,
+                      "Run to compare with, by the name of its folder or experiment (default: the first)");
+  command->add_option("--csv", options->csv, "Write a row for each variant and test");
+  command->add_option("--json", options->json, "Write everything");
+  command->add_option("--markdown", options->markdown, "Write the report as Markdown");
+  command->add_flag("--no-times", options->no_times, "Leave times out, which no two runs have in common");
+  command->add_flag("--force", options->force, "Replace files that exist");
+  command->callback([options] { compare_runs(*options); });
+}
+
+}  // namespace glocal::app

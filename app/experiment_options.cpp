@@ -1,0 +1,68 @@
+#include "app/experiment_options.hpp"
+
+#include "glocal/error.hpp"
+
+namespace glocal::app {
+namespace {
+
+/// All that are there, however they were named: the effective experiment must do without --plugin.
+void name_plugins(Experiment& experiment, const Context& context) {
+  experiment.plugins.clear();
+  for (const auto& plugin : context.plugins.loaded()) experiment.plugins.push_back({plugin.string(), plugin});
+}
+
+}  // namespace
+
+void ExperimentOptions::add_to(CLI::App& command) {
+  command.add_option("FILE", file, "Experiment file (YAML)")->required();
+  add_overrides_to(command);
+}
+
+void ExperimentOptions::add_overrides_to(CLI::App& command) {
+  add_set_to(command, "Change a value: localizer.matcher.ransam.iterations=50000 (repeatable)");
+  command.add_option("--seed", seed, "Change the seed");
+  command.add_option("--threads", threads, "Change the number of threads");
+}
+
+void ExperimentOptions::add_set_to(CLI::App& command, const std::string& help) {
+  command.add_option("--set", set, help)->allow_extra_args(false);
+}
+
+std::vector<Override> ExperimentOptions::overrides() const {
+  std::vector<Override> overrides;
+  std::vector<Fault> faults;
+  for (const std::string& text : set) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      faults.push_back({"--set " + text, 0, 0, "not of the form path=value"});
+    } else {
+      overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+  }
+  if (!faults.empty()) throw ConfigError(faults);
+  return overrides;
+}
+
+std::vector<Override> ExperimentOptions::load_plugins(const std::string& other_file, Context& context) const {
+  std::vector<Override> all = overrides();
+  if (seed) all.emplace_back("seed", std::to_string(*seed));
+  if (threads) all.emplace_back("threads", std::to_string(*threads));
+  for (const FilePath& plugin : read_plugins(other_file, all)) context.plugins.load(plugin.resolved);
+  return all;
+}
+
+Experiment ExperimentOptions::read(const std::string& other_file, Context& context) const {
+  const std::vector<Override> all = load_plugins(other_file, context);
+  Experiment experiment = read_experiment(other_file, all, context.catalog);
+  name_plugins(experiment, context);
+  return experiment;
+}
+
+std::vector<Variant> ExperimentOptions::read_variants(const std::string& other_file, Context& context) const {
+  const std::vector<Override> all = load_plugins(other_file, context);
+  std::vector<Variant> variants = glocal::read_variants(other_file, all, context.catalog);
+  for (Variant& variant : variants) name_plugins(variant.experiment, context);
+  return variants;
+}
+
+}  // namespace glocal::app

@@ -1,0 +1,43 @@
+// The experiment file and what may be changed of it on the command line; the same for every subcommand that
+// takes one.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "glocal/experiment.hpp"
+
+namespace glocal::app {
+
+struct ExperimentOptions {
+  std::string file;
+  std::vector<std::string> set;  ///< "path=value", as given with --set.
+  std::optional<std::uint64_t> seed;
+  std::optional<int> threads;
+
+  /// Adds FILE, --set, --seed and --threads. This object must live as long as the command.
+  void add_to(CLI::App& command);
+  /// Everything but FILE, for commands that take several files.
+  void add_overrides_to(CLI::App& command);
+
+  /// Only --set, with a help text of its own.
+  void add_set_to(CLI::App& command, const std::string& help);
+
+  /// What was given with --set. Throws ConfigError for what is not of the form path=value.
+  [[nodiscard]] std::vector<Override> overrides() const;
+
+  /// Loads the plugins the file names, too. Throws ConfigError.
+  [[nodiscard]] Experiment read(Context& context) const { return read(file, context); }
+  [[nodiscard]] Experiment read(const std::string& other_file, Context& context) const;
+  /// With what its variants change; the experiment itself, without a name, if it has none.
+  [[nodiscard]] std::vector<Variant> read_variants(const std::string& other_file, Context& context) const;
+
+ private:
+  /// All that is changed; loads the plugins that are then named.
+  [[nodiscard]] std::vector<Override> load_plugins(const std::string& other_file, Context& context) const;
+};
+
+}  // namespace glocal::app

@@ -1,0 +1,198 @@
+// glocal explain: at which stage of a step the true pose was lost.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/experiment_options.hpp"
+#include "evaluation/running/experiment_loader.hpp"
+#include "glocal/contact.hpp"
+#include "glocal/distance_field.hpp"
+#include "glocal/error.hpp"
+#include "raters/fixed_threshold.hpp"
+
+namespace glocal::app {
+namespace {
+
+struct ExplainOptions {
+  std::string folder;
+  std::size_t trial = 0;
+  std::size_t step = 0;
+};
+
+[[noreturn]] void refuse(const std::string& file, const std::string& message) {
+  throw ConfigError({{file, 0, 0, message}});
+}
+
+/// One step of a trial, made again.
+struct Replayed {
+  StepResult result;
+  LocalMap local;
+  Pose2 map_from_robot;  ///< Reference.
+  double driven_m = 0.0;
+};
+
+Replayed replay(const ExplainOptions& options, const Experiment& experiment, const Catalog& catalog,
+                Prepared& prepared) {
+  if (options.trial >= prepared.starts.size()) {
+    refuse(options.folder, fmt::format("there is no trial {}: the last one is {}", options.trial,
+                                       prepared.starts.size() - 1));
+  }
+  const std::size_t start = prepared.starts[options.trial];
+  const std::size_t index = start + options.step;
+  const auto& samples = prepared.drive.samples;
+  const bool runs_so_far = options.step < step_limit(experiment.trials) && index < samples.size() &&
+                           samples[index].segment == samples[start].segment;
+  if (!runs_so_far)
+    refuse(options.folder, fmt::format("trial {} has no step {}", options.trial, options.step));
+  if (!samples[index].map_from_robot)
+    refuse(options.folder, "the observations have no reference pose to compare with");
+
+  Localizer localizer = make_localizer(experiment, catalog, prepared);
+  localizer.reset(options.trial);
+  StepResult result;
+  for (std::size_t i = start; i <= index; ++i) {
+    if (result.verdict.kind == VerdictKind::localized && !experiment.trials.whole) {
+      refuse(options.folder, fmt::format("trial {} has no step {}: it ended with a declaration in step {}",
+                                         options.trial, options.step, result.step));
+    }
+    result = localizer.step(samples[i].observation);
+  }
+  return {std::move(result), localizer.local_map(), *samples[index].map_from_robot,
+          prepared.drive.path_m[index] - prepared.drive.path_m[start]};
+}
+
+/// The experiment in which every pose that is drawn passes. Its steps have the same local maps and random
+/// numbers, so a matcher whose draws do not depend on the threshold draws the same.
+Experiment without_threshold(Experiment experiment) {
+  auto params = std::make_unique<ParamsOf<FixedThreshold::Params>>();
+  params->value.omega_max = 0.0;
+  experiment.localizer.threshold_policy = {"fixed", OwnedParams(std::move(params))};
+  experiment.trials.whole = true;  // it may declare earlier
+  return experiment;
+}
+
+/// Contact of the local map at a robot pose, in [0, 1].
+double contact_at(const Replayed& step, const ContactIndex& contact, const Pose2& map_from_robot) {
+  return contact.share(step.local.points, Transform(map_from_robot * inverse(step.local.local_from_robot)));
+}
+
+bool agree(const Pose2& a, const Pose2& b, const EvaluationConfig& limits) {
+  return distance(a, b) <= limits.max_translation_error &&
+         rotation_between(a, b) <= radians(limits.max_rotation_error_deg);
+}
+
+std::string text_of(const Pose2& pose) {
+  return fmt::format("x {:.2f} m, y {:.2f} m, heading {:.1f} deg", pose.x, pose.y, degrees(pose.theta));
+}
+
+/// "no 3 of 10, 0.12 m and 0.8 deg off", or that there is none; `at` is its index.
+template <class Items>
+std::string rank_text(const Items& items, std::ptrdiff_t at, const Pose2& truth) {
+  if (at == std::ssize(items)) return fmt::format("none of {}", items.size());
+  const Pose2& pose = items[static_cast<std::size_t>(at)].map_from_robot;
+  return fmt::format("no {} of {}, {:.2f} m and {:.1f} deg off", at + 1, items.size(), distance(pose, truth),
+                     degrees(rotation_between(pose, truth)));
+}
+
+/// Index of the first that agrees with the truth, or one behind the last.
+template <class Items>
+std::ptrdiff_t first_right(const Items& items, const Pose2& truth, const EvaluationConfig& limits) {
+  const auto found = std::find_if(items.begin(), items.end(), [&](const auto& item) {
+    return agree(item.map_from_robot, truth, limits);
+  });
+  return found - items.begin();
+}
+
+/// Why no hypothesis is near the truth, told by the best of all poses drawn near it.
+std::string lost_by_matcher(const std::vector<Hypothesis>& drawn, const Replayed& step,
+                            const EvaluationConfig& limits) {
+  const std::ptrdiff_t near = first_right(drawn, step.map_from_robot, limits);
+  if (near == std::ssize(drawn))
+    return "never drawn: no pose near the reference is proposed, even without a threshold";
+  const double quality = drawn[static_cast<std::size_t>(near)].quality;
+  return fmt::format("rejected: the best pose drawn near the reference has quality {:.2f}, {}", quality,
+                     quality < step.result.omega_max ? "less than the threshold"
+                                                     : "but was given up before all points were looked at");
+}
+
+/// What became of the hypotheses near the truth.
+std::string lost_after_matcher(const StepResult& result, std::ptrdiff_t cluster) {
+  if (cluster == std::ssize(result.clusters))
+    return "clustered away: its hypotheses lie in clusters with another mean";
+  if (cluster > 0) {
+    return fmt::format("out-rated: its cluster is rated {:.2f}, another one {:.2f}",
+                       result.ratings[static_cast<std::size_t>(cluster)].r, result.ratings.front().r);
+  }
+  return fmt::format("not declared: its cluster is rated highest, but the verdict is {}",
+                     to_string(result.verdict.kind));
+}
+
+void explain(const ExplainOptions& options, Context& context) {
+  const std::string file = (std::filesystem::path(options.folder) / "effective.yaml").string();
+  if (!std::filesystem::exists(file)) {
+    refuse(options.folder,
+           "holds no results: there is no effective.yaml; name a folder that glocal run has left");
+  }
+  const Experiment experiment = ExperimentOptions{}.read(file, context);
+  const EvaluationConfig& limits = experiment.evaluation;
+  Prepared prepared =
+      prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
+  const Replayed step = replay(options, experiment, context.catalog, prepared);
+  const StepResult& result = step.result;
+  const Pose2& truth = step.map_from_robot;
+
+  const auto contact =
+      contact_index(*prepared.map, "bitset", experiment.localizer.unknown_place.contact_epsilon);
+  const DistanceField field(prepared.map->points());
+  const Pose2 map_from_local = truth * inverse(step.local.local_from_robot);
+  const Pose2 fitted = refined_pose(field, step.local.points, map_from_local, {.iterations = 30}) *
+                       step.local.local_from_robot;
+  const double at_truth = contact_at(step, *contact, truth);
+  const double near_truth = std::max(at_truth, contact_at(step, *contact, fitted));
+
+  const std::ptrdiff_t hypothesis = first_right(result.hypotheses, truth, limits);
+  const std::ptrdiff_t cluster = first_right(result.clusters, truth, limits);
+  const auto lost = [&]() -> std::string {
+    const bool declared = result.verdict.kind == VerdictKind::localized;
+    if (declared && agree(*result.verdict.map_from_robot, truth, limits))
+      return "nowhere: declared, and right";
+    if (hypothesis < std::ssize(result.hypotheses)) return lost_after_matcher(result, cluster);
+    if (!agree(fitted, truth, limits))
+      return "unclear: the local map does not fit where the reference says it was";
+    const Replayed open = replay(options, without_threshold(experiment), context.catalog, prepared);
+    return lost_by_matcher(open.result.hypotheses, step, limits);
+  };
+
+  fmt::print("{}, trial {}, step {}, after {:.1f} m\n", experiment.name, options.trial, options.step,
+             step.driven_m);
+  fmt::print("  reference   {}\n", text_of(truth));
+  fmt::print(
+      "  contact     {:.0f} % at the reference, {:.0f} % at the best fit near by ({:.2f} m, {:.1f} deg "
+      "off)\n",
+      100.0 * at_truth, 100.0 * near_truth, distance(fitted, truth),
+      degrees(rotation_between(fitted, truth)));
+  fmt::print("  threshold   {:.2f}; best quality {:.2f}\n", result.omega_max, result.omega_best);
+  fmt::print("  hypothesis  {}\n", rank_text(result.hypotheses, hypothesis, truth));
+  fmt::print("  cluster     {}\n", rank_text(result.clusters, cluster, truth));
+  fmt::print("  verdict     {}: {}\n", to_string(result.verdict.kind), result.verdict.why);
+  fmt::print("  lost        {}\n", lost());
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app, Context& context) {
+  auto options = std::make_shared<ExplainOptions>();
+  CLI::App* command = app.add_subcommand("explain", "Say at which stage of a step the true pose was lost.");
+  command->add_option("DIR", options->folder, "Folder of results, as glocal run leaves it")->required();
+  command->add_option("--trial", options->trial, "Number of the trial, from 0")->required();
+  command->add_option("--step", options->step, "Number of the step, from 0")->required();
+  command->callback([options, &context] { explain(*options, context); });
+}
+
+}  // namespace glocal::app

@@ -1,0 +1,102 @@
+// glocal figures: the paper's figures, drawn from what runs left.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/python.hpp"
+#include "app/results_arguments.hpp"
+#include "config/text_file.hpp"
+#include "evaluation/results/atomic_file.hpp"
+#include "report/figures/figures_input.hpp"
+#include "report/figures/figures_script.hpp"
+
+namespace glocal::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FiguresOptions {
+  std::vector<std::string> folders;
+  std::string out;
+  std::string python;
+  std::size_t trial = 0;
+  bool force = false;
+};
+
+fs::path script_of(const FiguresOptions& options) {
+  return fs::absolute(options.out) / "figures.py";
+}
+
+/// Only a folder that figures were drawn in before, or a new one, is written to.
+void check_out(const FiguresOptions& options) {
+  const auto refuse = [&](const char* why) { throw ConfigError({{options.out, 0, 0, why}}); };
+  if (!fs::exists(options.out)) return;
+  if (!fs::is_directory(options.out)) refuse("is no folder; name one for the figures");
+  if (!options.force && !fs::is_empty(options.out) && !fs::exists(script_of(options)))
+    refuse("holds other files, and no figures.py; choose another folder, or write there with --force");
+}
+
+/// Every fault of all that is named, at once. Returns the folders of results.
+std::vector<std::string> checked_folders(const FiguresOptions& options) {
+  std::vector<std::string> folders;
+  FaultCollector faults;
+  faults.collect([&] { check_out(options); });
+  for_each_results_folder(options.folders, faults, [&](const fs::path& folder) {
+    check_figures_input(folder, options.trial, faults);
+    folders.push_back(folder.string());
+  });
+  faults.report();
+  return folders;
+}
+
+/// The user may have changed the one that is there.
+void write_script(const FiguresOptions& options) {
+  const fs::path script = script_of(options);
+  if (!options.force && fs::exists(script)) {
+    if (read_text_file(script) != figures_script())
+      spdlog::info("{}: drawn with this as it has been changed; --force writes it anew", script.string());
+    return;
+  }
+  AtomicFiles files(options.force);
+  files.add(script, figures_script());
+  files.commit();
+}
+
+void draw_figures(const FiguresOptions& options) {
+  const std::vector<std::string> folders = checked_folders(options);
+  const std::string python = python_with_matplotlib(options.python);
+  write_script(options);
+  std::vector<std::string> words = {
+      python, script_of(options), "--out", options.out, "--trial", std::to_string(options.trial), "--"};
+  words.insert(words.end(), folders.begin(), folders.end());
+  if (const int code = run_program(words); code != 0) {
+    throw RunError(
+        fmt::format("{}: ended with exit code {}; no figures were written. If it has been changed, "
+                    "--force writes it anew",
+                    script_of(options).string(), code));
+  }
+}
+
+}  // namespace
+
+void add_figures(CLI::App& app, Context& /*context*/) {
+  auto options = std::make_shared<FiguresOptions>();
+  CLI::App* command =
+      app.add_subcommand("figures", "Draw the paper's Fig. 3, 4 and 5 from results, as PDF, SVG and PNG.");
+  command->add_option("DIR", options->folders, "Folders of results, or folders that hold some")->required();
+  command->add_option("-o,--out", options->out, "Folder for the figures and the script that draws them")
+      ->required();
+  command->add_option("--trial", options->trial, "Number of the trial, from 0 (default: 0)");
+  command->add_option("--python", options->python,
+                      "Python with matplotlib (default: python3, or else /usr/bin/python3)");
+  command->add_flag("--force", options->force, "Write figures.py anew, and into any folder");
+  command->callback([options] { draw_figures(*options); });
+}
+
+}  // namespace glocal::app

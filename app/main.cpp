@@ -1,0 +1,49 @@
+// glocal: finds out where a mobile robot is on a known map from range scans and odometry.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "app/command_line.hpp"
+#include "app/commands.hpp"
+#include "glocal/builtin.hpp"
+#include "version.hpp"
+
+namespace {
+
+void add_all(CLI::App& app, glocal::app::Context& context) {
+  using namespace glocal::app;
+  add_run(app, context);
+  add_check(app, context);
+  add_list(app, context);
+  add_describe(app, context);
+  add_explain(app, context);
+  add_compare(app, context);
+  add_figures(app, context);
+  add_reliability(app, context);
+  add_report(app, context);
+  add_schema(app, context);
+  add_reference(app, context);
+  add_simulate(app, context);
+  add_map(app, context);
+  add_mapping(app, context);
+  add_new_plugin(app, context);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Answers go to stdout, everything else to stderr.
+  spdlog::set_default_logger(spdlog::stderr_color_mt("glocal"));
+  spdlog::set_pattern("%^%l%$: %v");
+  glocal::app::Context context;
+  glocal::register_builtin_strategies(context.catalog);
+  CLI::App app("Finds out where a mobile robot is on a known map from range scans and odometry.", "glocal");
+  app.set_version_flag("--version",
+                       std::string("glocal ") + glocal::version + " (" + glocal::revision() + ")");
+  app.require_subcommand(1);
+  add_all(app, context);
+  glocal::app::add_plugins(app, context);
+  return glocal::app::run_command_line(app, context, argc, argv);
+}

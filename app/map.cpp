@@ -1,0 +1,198 @@
+// glocal map: build maps from logs, convert maps, show what is in them.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/experiment_options.hpp"
+#include "app/map_align.hpp"
+#include "app/map_index.hpp"
+#include "config/overrides.hpp"
+#include "config/reader.hpp"
+#include "config/text_file.hpp"
+#include "config/yaml_parser.hpp"
+#include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/pcd.hpp"
+#include "glocal/error.hpp"
+#include "sources/log_map.hpp"
+#include "sources/ros_map.hpp"
+#include "sources/ros_map_writer.hpp"
+
+namespace glocal::app {
+namespace {
+
+struct MapOptions {
+  ExperimentOptions input;
+  std::string out;
+  std::string image = "pgm";
+  bool force = false;
+};
+
+SourceSetup setup_for(std::uint64_t seed) {
+  SourceSetup setup;
+  setup.seed = seed;
+  setup.warn = [](const std::string& text) { spdlog::warn(text); };
+  return setup;
+}
+
+/// A map server's file names an image; an experiment does not.
+bool is_ros_map(const std::string& file) {
+  std::vector<Fault> faults;
+  const auto tree = parse_yaml(read_text_file(file), origin_of(file), faults);
+  return tree && tree->kind == NodeKind::map && find_entry(*tree, "image") != nullptr;
+}
+
+/// The map of a file; `input` has what may be changed in it.
+MapData load(const ExperimentOptions& input, Context& context) {
+  if (is_ros_map(input.file)) return RosMap({{input.file, input.file}}, setup_for(0)).load();
+  const Experiment experiment = input.read(context);
+  return context.catalog.map_sources.make(experiment.map, setup_for(experiment.seed))->load();
+}
+
+/// The parameters of log_map, from `--set name=value`.
+LogMap::Params log_map_params(const ExperimentOptions& input) {
+  const auto origin = std::make_shared<Origin>(Origin{"map build", std::filesystem::current_path()});
+  const Place place{origin};
+  YamlNode path = make_node(NodeKind::scalar, place);
+  path.text = input.file;
+  path.quoted = true;
+  YamlNode tree = make_node(NodeKind::map, place);
+  tree.entries.push_back({"path", place, std::move(path)});
+  ParamsOf<LogMap::Params> params;
+  std::vector<Fault> faults;
+  apply_overrides(tree, input.overrides(), params, faults);
+  read_params(tree, params, faults);
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  return std::move(params.value);
+}
+
+void write(const MapData& map, const MapOptions& options) {
+  const std::filesystem::path out(options.out);
+  AtomicFiles files(options.force);
+  if (out.extension() == ".pcd") {
+    files.add(out, pcd(map.points));
+  } else if (out.extension() == ".yaml") {
+    const ByteImage image = trinary_image(map.grid);
+    const std::filesystem::path image_file = std::filesystem::path(out).replace_extension(options.image);
+    files.add(image_file, options.image == "png" ? png(image) : pgm(image));
+    files.add(out, ros_map_yaml(map.grid, image_file.filename().string()));
+  } else {
+    throw ConfigError({{options.out, 0, 0, "the name must end in .yaml (ROS map) or .pcd (points)"}});
+  }
+  files.commit();
+}
+
+std::string range_of(const std::vector<float>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return fmt::format("{:.2f} to {:.2f}", *low, *high);
+}
+
+void show(const MapData& map) {
+  const OccupancyGrid& grid = map.grid;
+  const auto cells = [&](Cell kind) { return std::count(grid.cells.begin(), grid.cells.end(), kind); };
+  fmt::print("cells       {} x {} of {} m: {:.2f} m x {:.2f} m\n", grid.width, grid.height, grid.resolution,
+             grid.width * grid.resolution, grid.height * grid.resolution);
+  fmt::print("origin      x {:.3f} m, y {:.3f} m, yaw {:.2f} deg\n", grid.map_from_grid.x,
+             grid.map_from_grid.y, degrees(grid.map_from_grid.theta));
+  fmt::print("occupied    {}\nfree        {} ({:.1f} m^2)\nunknown     {}\n", cells(Cell::occupied),
+             cells(Cell::free), static_cast<double>(cells(Cell::free)) * grid.resolution * grid.resolution,
+             cells(Cell::unknown));
+  fmt::print("points      {}: x {} m, y {} m\n", map.points.size(), range_of(map.points.x),
+             range_of(map.points.y));
+  fmt::print("path        {} poses\n", map.path.size());
+}
+
+struct AlignOptions {
+  ExperimentOptions map;
+  ExperimentOptions other;
+  double contact_epsilon = 0.15;
+};
+
+void align(const AlignOptions& options, Context& context) {
+  const auto map = std::make_shared<const GlobalMap>(load(options.map, context));
+  const MapData other = load(options.other, context);
+  // Whole maps have room for large triangles, which say more.
+  const Ransam::Params params{.iterations = 2'000'000,
+                              .contact_epsilon = options.contact_epsilon,
+                              .relation_cell = options.contact_epsilon,
+                              .min_side = 3.0,
+                              .min_height = 1.0};
+  const auto found = align_maps(map, other.points, params, 1);
+  if (!found) {
+    throw RunError(fmt::format(
+        "{} does not fit into {}: no pose brings a quarter of its points within {} m of the map's",
+        options.other.file, options.map.file, options.contact_epsilon));
+  }
+  const Pose2& p = found->map_from_other;
+  fmt::print("pose        [{:.3f}, {:.3f}, {:.4f}]: x, y (m), yaw (rad) of {} in {}\n", p.x, p.y, p.theta,
+             options.other.file, options.map.file);
+  fmt::print("contact     {:.1f} % of its points within {} m\n", 100.0 * found->in_contact,
+             options.contact_epsilon);
+}
+
+void index(const MapOptions& options, Context& context) {
+  const Experiment experiment = options.input.read(context);
+  MapData map = context.catalog.map_sources.make(experiment.map, setup_for(experiment.seed))->load();
+  const MapIndexInfo saved = save_index(experiment, std::move(map), options.out, options.force);
+  fmt::print("entries     {}\nbytes       {}\nbuild       {:.1f} ms\n", saved.entries, saved.bytes,
+             saved.build_ms);
+}
+
+void add_output(CLI::App& command, MapOptions& options) {
+  command.add_option("-o,--out", options.out, "NAME.yaml: ROS map with its image; NAME.pcd: points")
+      ->required();
+  command.add_option("--image", options.image, "Kind of the ROS map's image")
+      ->check(CLI::IsMember({"pgm", "png"}));
+  command.add_flag("--force", options.force, "Replace files that exist");
+}
+
+}  // namespace
+
+void add_map(CLI::App& app, Context& context) {
+  auto options = std::make_shared<MapOptions>();
+  CLI::App* map = app.add_subcommand("map", "Build, convert and look at maps.");
+  map->require_subcommand(1);
+
+  CLI::App* build = map->add_subcommand("build", "Build a map from a CARMEN log with reference poses.");
+  build->add_option("LOG", options->input.file, "CARMEN log")->required();
+  options->input.add_set_to(*build, "Change a parameter of log_map: segments=[[0,0.3]] (repeatable)");
+  add_output(*build, *options);
+  build->callback(
+      [options] { write(LogMap(log_map_params(options->input), setup_for(0)).load(), *options); });
+
+  constexpr const char* file = "ROS map (YAML), or experiment whose map is meant";
+  CLI::App* convert = map->add_subcommand("convert", "Write a map in another format.");
+  convert->add_option("FILE", options->input.file, file)->required();
+  options->input.add_overrides_to(*convert);
+  add_output(*convert, *options);
+  convert->callback([options, &context] { write(load(options->input, context), *options); });
+
+  auto aligned = std::make_shared<AlignOptions>();
+  CLI::App* align_command = map->add_subcommand("align", "Find out where one map lies in another.");
+  align_command->add_option("MAP", aligned->map.file, file)->required();
+  align_command->add_option("OTHER", aligned->other.file, file)->required();
+  align_command->add_option("--epsilon", aligned->contact_epsilon, "Distance that counts as contact, m")
+      ->check(CLI::Range(0.01, 1.0));
+  align_command->callback([aligned, &context] { align(*aligned, context); });
+
+  CLI::App* index_command =
+      map->add_subcommand("index", "Save the index that an experiment's matcher builds of the map.");
+  options->input.add_to(*index_command);
+  index_command->add_option("-o,--out", options->out, "File for the index: a matcher's index_file")
+      ->required();
+  index_command->add_flag("--force", options->force, "Replace the file if it exists");
+  index_command->callback([options, &context] { index(*options, context); });
+
+  CLI::App* info = map->add_subcommand("info", "Show size, cells and points of a map.");
+  info->add_option("FILE", options->input.file, file)->required();
+  options->input.add_overrides_to(*info);
+  info->callback([options, &context] { show(load(options->input, context)); });
+}
+
+}  // namespace glocal::app

@@ -1,0 +1,49 @@
+// glocal map align: where one map lies in another.
+#include "app/map_align.hpp"
+
+#include <numeric>
+#include <optional>
+
+#include "glocal/contact.hpp"
+#include "glocal/distance_field.hpp"
+#include "matchers/ransam/ransam.hpp"
+
+namespace glocal::app {
+namespace {
+
+/// About the middle of the points, so that turning them does not move them.
+Pose2 middle(const Points& points) {
+  const auto mean = [&](const std::vector<float>& v) {
+    return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+  };
+  return {mean(points.x), mean(points.y), 0.0};
+}
+
+}  // namespace
+
+std::optional<Alignment> align_maps(const std::shared_ptr<const GlobalMap>& map, const Points& other,
+                                    const Ransam::Params& params, std::uint64_t seed) {
+  Ransam matcher(params, {map, 1});
+  LocalMap local;
+  local.points = other;
+  local.ends = {other.size()};
+  Rng rng(seed);
+  // Maps of one place may have little in common: furniture, rooms behind doors.
+  for (const double omega_max : {0.6, 0.4, 0.25}) {
+    const MatchResult result = matcher.match(local, {}, omega_max, rng);
+    if (result.hypotheses.empty()) continue;
+    const Pose2 other_from_middle = middle(other);
+    Points centred;
+    const Transform to_middle(inverse(other_from_middle));
+    for (std::size_t i = 0; i < other.size(); ++i) centred.push_back(to_middle(other[i]));
+    const Pose2 map_from_middle =
+        refined_pose(DistanceField(map->points()), centred,
+                     result.hypotheses.front().map_from_local * other_from_middle, {.iterations = 100});
+    const Pose2 map_from_other = map_from_middle * inverse(other_from_middle);
+    const auto contact = contact_index(*map, params.contact, params.contact_epsilon);
+    return Alignment{map_from_other, contact->share(other, Transform(map_from_other))};
+  }
+  return std::nullopt;
+}
+
+}  // namespace glocal::app

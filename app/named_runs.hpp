@@ -1,0 +1,24 @@
+// Runs that are named on the command line, by the folders that hold their results.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "evaluation/comparison/comparison.hpp"
+
+namespace glocal::app {
+
+/// The results in folders that are results, or hold some; `also` reads more of each, in the same order.
+/// Throws ConfigError with every fault of all of them.
+[[nodiscard]] std::vector<NamedRun> read_runs(
+    const std::vector<std::string>& folders,
+    const std::function<void(const std::filesystem::path&)>& also = [](const std::filesystem::path&) {});
+
+/// The run with that name, or the only one of the experiment with that name; the first without a name. Throws
+/// ConfigError.
+[[nodiscard]] std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& name);
+
+}  // namespace glocal::app

@@ -1,0 +1,22 @@
+// Strategies from outside, for every subcommand.
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+
+namespace glocal::app {
+
+void add_plugins(CLI::App& app, Context& context) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  app.add_option("--plugin", *files, "Load a plugin's strategies (repeatable)")->allow_extra_args(false);
+  for (CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; }))
+    command->fallthrough();
+  app.parse_complete_callback([files, &context] {
+    if (const char* folders = std::getenv("GLOCAL_PLUGIN_PATH")) context.plugins.load_folders(folders);
+    for (const std::string& file : *files) context.plugins.load(file);
+  });
+}
+
+}  // namespace glocal::app

@@ -1,0 +1,87 @@
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace glocal::app {
+namespace {
+
+constexpr std::chrono::milliseconds between_bars{100};
+constexpr std::chrono::minutes between_lines{1};
+
+/// ", about 3 min left", once that can be told.
+std::string time_left(std::optional<double> left_s) {
+  if (!left_s) return "";
+  if (*left_s < 99.0) return fmt::format(", about {:.0f} s left", *left_s);
+  if (*left_s < 99.0 * 60.0) return fmt::format(", about {:.0f} min left", *left_s / 60.0);
+  return fmt::format(", about {:.1f} h left", *left_s / 3600.0);
+}
+
+}  // namespace
+
+Progress::Progress(bool shown, std::size_t trials)
+    : shown_(shown), on_terminal_(isatty(STDERR_FILENO) == 1), trials_(static_cast<double>(trials)) {}
+
+Progress::~Progress() {
+  if (shown_ && on_terminal_) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::begin(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  what_ = what.empty() ? "" : what + ", ";
+}
+
+void Progress::step(std::size_t trial, std::size_t step, double share, const char* verdict) {
+  const std::lock_guard lock(mutex_);
+  running_[trial] = share;
+  const auto now = Clock::now();
+  if (!shown_ || now - last_ < (on_terminal_ ? Clock::duration(between_bars) : between_lines)) return;
+  last_ = now;
+  const double done = share_done();
+  const std::string left = time_left(seconds_left(done));
+  if (!on_terminal_) {
+    spdlog::info("{}{} of {:.0f} trials done{}", what_, finished_, trials_, left);
+    return;
+  }
+  constexpr int width = 30;
+  const auto filled = static_cast<int>(done * width);
+  fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {} of {:.0f}{}  {}trial {}, step {}  {}", "", filled, "",
+             width - filled, finished_, trials_, left, what_, trial, step, verdict);
+  std::fflush(stderr);
+}
+
+void Progress::finish(std::size_t trial) {
+  const std::lock_guard lock(mutex_);
+  running_.erase(trial);
+  ++finished_;
+}
+
+void Progress::skip(std::size_t trials) {
+  const std::lock_guard lock(mutex_);
+  trials_ -= static_cast<double>(trials);
+}
+
+RunProgress Progress::now() {
+  const std::lock_guard lock(mutex_);
+  return {finished_, static_cast<std::size_t>(trials_), seconds_left(share_done())};
+}
+
+/// Of all trials, with what is done of those that are running.
+double Progress::share_done() const {
+  double done = static_cast<double>(finished_);
+  for (const auto& [trial, share] : running_) done += share;
+  return std::min(1.0, done / trials_);
+}
+
+/// None until it can be told.
+std::optional<double> Progress::seconds_left(double share_done) const {
+  const double passed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  if (passed_s < 2.0 || share_done < 0.01) return std::nullopt;
+  return passed_s * (1.0 - share_done) / share_done;
+}
+
+}  // namespace glocal::app

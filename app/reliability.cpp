@@ -1,0 +1,113 @@
+// glocal reliability: whether the confidences and covariances of runs mean what they say.
+#include "evaluation/statistics/reliability.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/experiment_options.hpp"
+#include "evaluation/results/results_folder.hpp"
+
+namespace glocal::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ReliabilityOptions {
+  std::vector<std::string> folders;
+};
+
+/// What has been found out in all folders.
+struct Findings {
+  Reliability declared;
+  Reliability believed;  ///< Declared or not; one step of each trial, so that they are independent.
+  std::size_t trials = 0, right = 0, wrong = 0;
+  std::size_t squared_errors = 0;
+  double sum_of_squared_errors = 0.0;  ///< Normalised, of right declarations.
+};
+
+void add_trials(const std::filesystem::path& folder, Findings& findings) {
+  for_each_line(folder / "trials.jsonl", [&](const Json& trial) {
+    const std::string outcome = trial.at("outcome");
+    ++findings.trials;
+    findings.right += outcome == "right" ? 1 : 0;
+    findings.wrong += outcome == "wrong" ? 1 : 0;
+    if ((outcome != "right" && outcome != "wrong") || !trial.contains("confidence")) return;
+    findings.declared.add(trial.at("confidence"), outcome == "right");
+    if (outcome != "right" || !trial.contains("nees")) return;
+    ++findings.squared_errors;
+    findings.sum_of_squared_errors += trial.at("nees").get<double>();
+  });
+}
+
+/// From trial number n the n-th of its steps with a belief, counted round and round.
+void add_steps(const std::filesystem::path& folder, const EvaluationConfig& limits, Findings& findings) {
+  struct Belief {
+    double confidence;
+    bool is_right;
+  };
+  std::map<std::size_t, std::vector<Belief>> trials;
+  for_each_line(folder / "steps.jsonl", [&](const Json& step) {
+    if (!step.contains("confidence") || !step.contains("translation_error_m")) return;
+    const bool is_right = step.at("translation_error_m") <= limits.max_translation_error &&
+                          step.at("rotation_error_deg") <= limits.max_rotation_error_deg;
+    trials[step.at("trial")].push_back({step.at("confidence"), is_right});
+  });
+  for (const auto& [trial, beliefs] : trials) {
+    const Belief& belief = beliefs[trial % beliefs.size()];
+    findings.believed.add(belief.confidence, belief.is_right);
+  }
+}
+
+void print_bins(const char* title, const Reliability& reliability) {
+  fmt::print("\n{}\n", title);
+  fmt::print("  confidence    poses   mean    right   95 % interval\n");
+  for (const Reliability::Bin& bin : reliability.bins()) {
+    fmt::print("  {:.2f} - {:.2f} {:8d}  {:.3f}    {:.3f}   {:.3f} - {:.3f}{}\n", bin.low, bin.high,
+               bin.count, bin.mean_confidence, bin.right.value, bin.right.low, bin.right.high,
+               bin.is_off() ? "  off" : "");
+  }
+}
+
+void reliability(const ReliabilityOptions& options, Context& context) {
+  Findings findings;
+  for (const std::filesystem::path folder : options.folders) {
+    const Experiment experiment = ExperimentOptions{}.read((folder / "effective.yaml").string(), context);
+    add_trials(folder, findings);
+    add_steps(folder, experiment.evaluation, findings);
+  }
+  const Proportion wrong = wilson(findings.wrong, findings.trials);
+  fmt::print(
+      "{} trials: {} right, {} wrong ({:.2f} %, 95 % interval {:.2f} to {:.2f} %), {} without a "
+      "declaration\n",
+      findings.trials, findings.right, findings.wrong, 100.0 * wrong.value, 100.0 * wrong.low,
+      100.0 * wrong.high, findings.trials - findings.right - findings.wrong);
+  print_bins("Declared poses", findings.declared);
+  print_bins("Best poses, declared or not: one step of each trial", findings.believed);
+  if (findings.squared_errors == 0) return;
+  const auto n = static_cast<double>(findings.squared_errors);
+  // Each has 3 degrees of freedom: mean 3, variance 6.
+  fmt::print(
+      "\nNormalised error squared of right declarations: {:.2f} in the mean; {:.2f} to {:.2f} if the "
+      "covariances are right\n",
+      findings.sum_of_squared_errors / n, 3.0 - 1.96 * std::sqrt(6.0 / n), 3.0 + 1.96 * std::sqrt(6.0 / n));
+}
+
+}  // namespace
+
+void add_reliability(CLI::App& app, Context& context) {
+  auto options = std::make_shared<ReliabilityOptions>();
+  CLI::App* command =
+      app.add_subcommand("reliability", "Compare confidences and covariances with what was right.");
+  command->add_option("DIR", options->folders, "Folders of results, as glocal run leaves them")->required();
+  command->callback([options, &context] { reliability(*options, context); });
+}
+
+}  // namespace glocal::app

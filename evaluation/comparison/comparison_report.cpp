@@ -1,0 +1,241 @@
+#include "evaluation/comparison/comparison_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace glocal {
+namespace {
+
+/// A report is a list of these, whichever way it is written.
+struct Heading {
+  std::string text;
+};
+struct Paragraph {
+  std::string text;
+};
+struct List {
+  std::vector<std::string> items;
+};
+/// Columns hold names first, then numbers.
+struct Table {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+using Block = std::variant<Heading, Paragraph, List, Table>;
+using Report = std::vector<Block>;
+
+// Adding 0 turns -0 into 0.
+std::string number(double value) {
+  return fmt::format("{:.4g}", value + 0.0);
+}
+std::string signed_number(double value) {
+  return fmt::format("{:+.3g}", value + 0.0);
+}
+std::string range(const Interval& interval) {
+  return signed_number(interval.low) + " to " + signed_number(interval.high);
+}
+std::string per_cent(const Proportion& p) {
+  return fmt::format("{:.1f} ({:.1f} to {:.1f})", 100.0 * p.value, 100.0 * p.low, 100.0 * p.high);
+}
+std::string p_value(double p) {
+  return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p);
+}
+std::string with_unit(const Measure& measure) {
+  return *measure.unit == '\0' ? measure.label : fmt::format("{}, {}", measure.label, measure.unit);
+}
+const char* star(double p_holm) {
+  return p_holm < significance ? "*" : "";
+}
+
+Table runs_table(const Comparison& comparison) {
+  Table table{{"run", "right", "%, 95 %", "wrong", "%, 95 %", "undecided"}, {}};
+  for (const RunFigures& run : comparison.runs) {
+    table.rows.push_back({run.name, std::to_string(run.right), per_cent(run.success),
+                          std::to_string(run.wrong), per_cent(run.false_rate),
+                          std::to_string(run.undecided)});
+  }
+  return table;
+}
+
+Table medians_table(const Comparison& comparison) {
+  Table table{{"median"}, {}};
+  for (const Measure& measure : comparison.measured) table.header.push_back(with_unit(measure));
+  for (const RunFigures& run : comparison.runs) {
+    table.rows.push_back({run.name});
+    for (const std::optional<double>& median : run.medians)
+      table.rows.back().push_back(median ? number(*median) : "-");
+  }
+  return table;
+}
+
+Table outcomes_table(const PairComparison& pair, const std::string& baseline) {
+  Table table{{"outcome", "only " + baseline, "only " + pair.variant, "difference, points", "95 %, bootstrap",
+               "95 %, Newcombe", "p", "p (Holm)", ""},
+              {}};
+  for (const OutcomeDifference& d : pair.outcomes) {
+    table.rows.push_back({d.name, std::to_string(d.counts.only_first), std::to_string(d.counts.only_second),
+                          signed_number(d.points.value), range(d.points.interval), range(d.newcombe_points),
+                          p_value(d.p), p_value(d.p_holm), star(d.p_holm)});
+  }
+  return table;
+}
+
+Table measures_table(const PairComparison& pair) {
+  Table table{{"difference", "starts", "median", "95 %", "mean", "95 %", "p", "p (Holm)", "", "test"}, {}};
+  for (const MeasureDifference& d : pair.measures) {
+    table.rows.push_back({with_unit(d.measure), std::to_string(d.starts), signed_number(d.median.value),
+                          range(d.median.interval), signed_number(d.mean.value), range(d.mean.interval),
+                          p_value(d.test.p), p_value(d.p_holm), star(d.p_holm),
+                          d.test.exact ? "exact" : "normal"});
+  }
+  return table;
+}
+
+void add_list(const std::vector<std::string>& items, Report& report) {
+  if (!items.empty()) report.emplace_back(List{items});
+}
+
+std::string explanation(const Comparison& comparison) {
+  return fmt::format(
+      "Differences are variant less {0}, start by start. Success and wrong with Wilson's intervals. Right "
+      "and "
+      "wrong: McNemar's exact test. Everything else: Wilcoxon's signed-rank test, zeros dropped; exact up to "
+      "{1} differences, otherwise the normal approximation with corrections for ties and continuity. Steps, "
+      "way "
+      "and errors are compared where both runs are right, times where both have them. Holm's correction in "
+      "two "
+      "families: the {2} tests of right and wrong, the {3} other ones; * marks p (Holm) < {4}. Bootstrap: "
+      "percentiles of {5} resamples of the starts.",
+      comparison.baseline, most_exact_differences, comparison.outcome_tests, comparison.measure_tests,
+      significance, bootstrap_resamples);
+}
+
+Report report_of(const Comparison& comparison) {
+  Report report;
+  report.emplace_back(Heading{fmt::format("{} starts that all {} runs have, compared with {}",
+                                          comparison.starts, comparison.runs.size(), comparison.baseline)});
+  add_list(comparison.warnings, report);
+  report.emplace_back(runs_table(comparison));
+  report.emplace_back(medians_table(comparison));
+  for (const PairComparison& pair : comparison.pairs) {
+    report.emplace_back(Heading{fmt::format("{} against {}", pair.variant, comparison.baseline)});
+    report.emplace_back(Paragraph{pair.conclusion});
+    add_list(pair.warnings, report);
+    report.emplace_back(outcomes_table(pair, comparison.baseline));
+    if (!pair.measures.empty()) report.emplace_back(measures_table(pair));
+  }
+  report.emplace_back(Heading{"How to read this"});
+  report.emplace_back(Paragraph{explanation(comparison)});
+  return report;
+}
+
+/// Columns a terminal's width of text is broken at.
+constexpr std::size_t text_width = 110;
+
+std::string wrapped(const std::string& text, const std::string& first, const std::string& later) {
+  std::string result = first;
+  std::size_t column = first.size();
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::size_t length = end - begin;
+    if (begin > 0 && column + 1 + length > text_width) {
+      result += "\n" + later;
+      column = later.size();
+    } else if (begin > 0) {
+      result += " ";
+      ++column;
+    }
+    result.append(text, begin, length);
+    column += length;
+    begin = end + 1;
+  }
+  return result + "\n";
+}
+
+struct AsText {
+  std::string operator()(const Heading& heading) const { return heading.text + "\n"; }
+  std::string operator()(const Paragraph& paragraph) const { return wrapped(paragraph.text, "  ", "  "); }
+  std::string operator()(const List& list) const {
+    std::string text;
+    for (const std::string& item : list.items) text += wrapped(item, "  ! ", "    ");
+    return text;
+  }
+  std::string operator()(const Table& table) const {
+    std::vector<std::size_t> widths(table.header.size());
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      widths[i] = table.header[i].size();
+      for (const auto& row : table.rows) widths[i] = std::max(widths[i], row[i].size());
+    }
+    std::string text = line(table.header, widths);
+    for (const auto& row : table.rows) text += line(row, widths);
+    return text;
+  }
+
+ private:
+  static std::string line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
+    std::string text = fmt::format("  {:<{}}", cells[0], widths[0]);
+    for (std::size_t i = 1; i < cells.size(); ++i) text += fmt::format("  {:>{}}", cells[i], widths[i]);
+    return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+  }
+};
+
+struct AsMarkdown {
+  std::string operator()(const Heading& heading) const { return "## " + escaped(heading.text) + "\n"; }
+  std::string operator()(const Paragraph& paragraph) const { return escaped(paragraph.text) + "\n"; }
+  std::string operator()(const List& list) const {
+    std::string text;
+    for (const std::string& item : list.items) text += "- " + escaped(item) + "\n";
+    return text;
+  }
+  std::string operator()(const Table& table) const {
+    std::string text = line(table.header) + "|---|";
+    for (std::size_t i = 1; i < table.header.size(); ++i) text += "---:|";
+    text += "\n";
+    for (const auto& row : table.rows) text += line(row);
+    return text;
+  }
+
+ private:
+  /// Names may hold what Markdown gives a meaning to, and so does the star of significance.
+  static std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+      if (std::string_view("|*_`\\<[").find(c) != std::string_view::npos) result += '\\';
+      result += c;
+    }
+    return result;
+  }
+  static std::string line(const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (const std::string& cell : cells) text += " " + escaped(cell) + " |";
+    return text + "\n";
+  }
+};
+
+template <class Format>
+std::string written(const Comparison& comparison, const Format& format) {
+  std::string text;
+  for (const Block& block : report_of(comparison)) {
+    if (!text.empty()) text += "\n";
+    text += std::visit(format, block);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string text_report(const Comparison& comparison) {
+  return written(comparison, AsText{});
+}
+
+std::string markdown_report(const Comparison& comparison) {
+  return written(comparison, AsMarkdown{});
+}
+
+}  // namespace glocal

@@ -1,0 +1,57 @@
+#include "evaluation/results/atomic_file.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <system_error>
+
+#include "evaluation/results/file_io.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check(const std::error_code& error, const fs::path& file) {
+  if (error) throw RunError(fmt::format("{}: cannot write: {}", file.string(), error.message()));
+}
+
+}  // namespace
+
+AtomicFiles::~AtomicFiles() {
+  std::error_code ignored;
+  for (const Pending& pending : pending_) fs::remove(pending.temporary, ignored);
+}
+
+void AtomicFiles::add(const fs::path& file, std::string_view content) {
+  const fs::path target = fs::absolute(file).lexically_normal();
+  std::error_code error;
+  if (fs::is_directory(target, error)) {
+    throw ConfigError({{file.string(), 0, 0, "is a folder; name a file"}});
+  }
+  if (!replace_ && fs::exists(target, error)) {
+    throw ConfigError(
+        {{file.string(), 0, 0, "the file exists; choose another name, or replace it with --force"}});
+  }
+  fs::create_directories(target.parent_path(), error);
+  check(error, file);
+  const fs::path temporary =
+      target.parent_path() / fmt::format(".{}.{}.unfinished", target.filename().string(), ::getpid());
+  fs::remove(temporary, error);
+  pending_.push_back({target, temporary});
+  append_to_file(temporary, content, file);
+  sync_to_disk(temporary);
+}
+
+void AtomicFiles::commit() {
+  std::error_code error;
+  for (const Pending& pending : pending_) {
+    fs::rename(pending.temporary, pending.file, error);
+    check(error, pending.file);
+  }
+  for (const Pending& pending : pending_) sync_to_disk(pending.file.parent_path());
+  pending_.clear();
+}
+
+}  // namespace glocal

@@ -1,0 +1,118 @@
+#include "evaluation/results/provenance.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "evaluation/results/file_io.hpp"
+#include "glocal/error.hpp"
+#include "version.hpp"
+
+namespace glocal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+std::string cpu_model() {
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  for (std::string line; std::getline(cpuinfo, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+/// The shared object that a function is in.
+template <class Function>
+std::filesystem::path object_of(Function* function) {
+  Dl_info object{};
+  // A pointer to a function, as dladdr wants it.
+  const bool found = dladdr(reinterpret_cast<const void*>(function), &object) != 0;  // NOLINT
+  return found ? std::filesystem::canonical(object.dli_fname) : std::filesystem::path();
+}
+
+/// The program and glocal's libraries: strategies of the program's own are in one of them.
+Json program_sha256(FileHashes& hashes) {
+  return {{"program", hashes.of("/proc/self/exe")},
+          {"library", hashes.of(object_of(&revision))},
+          {"evaluation", hashes.of(object_of(&sha256_of_file))}};
+}
+
+}  // namespace
+
+const std::string& FileHashes::of(const std::filesystem::path& file) {
+  auto known = known_.find(file);
+  if (known == known_.end()) known = known_.emplace(file, sha256_of_file(file)).first;
+  return known->second;
+}
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw RunError(file.string() + ": cannot read");
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
+  EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+  std::array<char, 65536> buffer{};
+  while (in.read(buffer.data(), buffer.size()), in.gcount() > 0) {
+    EVP_DigestUpdate(context.get(), buffer.data(), static_cast<std::size_t>(in.gcount()));
+  }
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned length = 0;
+  EVP_DigestFinal_ex(context.get(), digest.data(), &length);
+  std::string hex;
+  for (unsigned i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest.at(i));
+  return hex;
+}
+
+Json provenance(const Catalog& catalog, int threads, const std::set<std::filesystem::path>& inputs,
+                FileHashes& hashes) {
+  Json files = Json::object();
+  for (const std::filesystem::path& input : inputs) files[input.string()] = hashes.of(input);
+  std::set<std::string> origins;
+  for (const RegistryBase* registry : catalog.registries()) {
+    for (const StrategyInfo* info : registry->all()) origins.insert(info->origin);
+  }
+  origins.erase("glocal");
+  return {{"version", version},
+          {"revision", revision()},
+          {"program_sha256", program_sha256(hashes)},
+          {"compiler", compiler},
+          {"host", host_name()},
+          {"cpu", cpu_model()},
+          {"threads", threads},
+          {"inputs_sha256", std::move(files)},
+          {"plugins", origins}};
+}
+
+std::optional<std::string> why_other_run(const std::filesystem::path& folder, const std::string& effective,
+                                         const std::filesystem::path& experiment_file, FileHashes& hashes) {
+  if (content_of(folder / "effective.yaml") != effective) return "it is of other values (effective.yaml)";
+  const auto record = Json::parse(content_of(folder / "provenance.json"), nullptr, false);
+  const auto text_at = [&](const char* key) {
+    return record.is_object() ? record.value(key, Json()) : Json();
+  };
+  if (text_at("version") != version || text_at("revision") != revision() ||
+      text_at("program_sha256") != program_sha256(hashes)) {
+    return "it is of another build of the program";
+  }
+  const Json inputs = text_at("inputs_sha256");
+  for (const auto& [file, hash] : inputs.items()) {
+    if (file == experiment_file) continue;
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored) || hashes.of(file) != hash)
+      return file + " has changed since";
+  }
+  return std::nullopt;
+}
+
+}  // namespace glocal

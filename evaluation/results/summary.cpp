@@ -1,0 +1,105 @@
+#include "evaluation/results/summary.hpp"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "evaluation/statistics/statistics.hpp"
+
+namespace glocal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json spread(const std::vector<double>& values) {
+  return {{"median", quantile(values, 0.5)}, {"p95", quantile(values, 0.95)}, {"max", quantile(values, 1.0)}};
+}
+
+Json median_and_p90(const std::vector<double>& values) {
+  return {{"median", quantile(values, 0.5)}, {"p90", quantile(values, 0.9)}};
+}
+
+Json with_interval(const Proportion& p) {
+  return {{"value", p.value}, {"low", p.low}, {"high", p.high}};
+}
+
+double peak_rss_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace
+
+TrialFigures figures_of(const TrialRecord& trial) {
+  TrialFigures figures{trial.outcome, static_cast<double>(trial.steps), trial.distance_m};
+  if (trial.outcome == Outcome::right) figures.error = *trial.error;
+  for (const StepRecord& step : trial.records) {
+    figures.step_ms.push_back(step.result.stage_ms);
+    if (step.result.verdict.kind == VerdictKind::localized && step.on_map && step.error)
+      figures.later_errors.push_back(*step.error);
+  }
+  return figures;
+}
+
+void Summary::add(const TrialFigures& trial) {
+  ++count_;
+  right_ += trial.outcome == Outcome::right ? 1 : 0;
+  wrong_ += trial.outcome == Outcome::wrong ? 1 : 0;
+  undecided_ += trial.outcome == Outcome::undecided ? 1 : 0;
+  declared_ += trial.outcome == Outcome::declared ? 1 : 0;
+  failed_ += trial.outcome == Outcome::failed ? 1 : 0;
+  if (trial.outcome == Outcome::right) {
+    steps_.push_back(trial.steps);
+    distances_m_.push_back(trial.distance_m);
+    translations_m_.push_back(trial.error.translation_m);
+    rotations_deg_.push_back(degrees(trial.error.rotation_rad));
+  }
+  for (const StageTimes& ms : trial.step_ms) {
+    ms_.local_map.push_back(ms.local_map);
+    ms_.match.push_back(ms.match);
+    ms_.cluster.push_back(ms.cluster);
+    ms_.rate.push_back(ms.rate);
+    ms_.total.push_back(ms.total());
+  }
+  for (const PoseError& error : trial.later_errors) {
+    later_translations_m_.push_back(error.translation_m);
+    later_rotations_deg_.push_back(degrees(error.rotation_rad));
+  }
+}
+
+Json Summary::to_json(const Run& run) const {
+  Json trials = {{"count", count_}, {"right", right_}, {"wrong", wrong_}, {"undecided", undecided_}};
+  if (declared_ > 0) trials["declared_without_reference"] = declared_;
+  if (failed_ > 0) trials["failed"] = failed_;
+  Json map = {{"points", run.map_points}, {"build_ms", run.map_build_ms}, {"index_ms", run.map_index_ms}};
+  if (run.map_index) {
+    map["index"] = {{"entries", run.map_index->entries},
+                    {"bytes", run.map_index->bytes},
+                    {"build_ms", run.map_index->build_ms}};
+  }
+  return {{"name", run.name},
+          {"seed", run.seed},
+          {"complete", run.complete},
+          {"trials", std::move(trials)},
+          {"success_rate", with_interval(wilson(right_, count_))},
+          {"false_rate", with_interval(wilson(wrong_, count_))},
+          {"steps_to_localize", median_and_p90(steps_)},
+          {"distance_to_localize_m", median_and_p90(distances_m_)},
+          {"translation_error_m", spread(translations_m_)},
+          {"rotation_error_deg", spread(rotations_deg_)},
+          {"after_declaration",
+           {{"steps", later_translations_m_.size()},
+            {"translation_error_m", spread(later_translations_m_)},
+            {"rotation_error_deg", spread(later_rotations_deg_)}}},
+          {"step_ms", spread(ms_.total)},
+          {"stage_ms",
+           {{"local_map", spread(ms_.local_map)},
+            {"match", spread(ms_.match)},
+            {"cluster", spread(ms_.cluster)},
+            {"rate", spread(ms_.rate)}}},
+          {"map", std::move(map)},
+          {"peak_rss_mb", peak_rss_mb()}};
+}
+
+}  // namespace glocal

@@ -1,0 +1,123 @@
+#include "evaluation/results/writers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace glocal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json best_clusters(const StepResult& step, int most) {
+  Json best = Json::array();
+  for (std::size_t i = 0; i < std::min(step.clusters.size(), static_cast<std::size_t>(most)); ++i) {
+    best.push_back({{"pose", to_json(step.clusters[i].map_from_robot)},
+                    {"size", step.clusters[i].members.size()},
+                    {"r", step.ratings[i].r},
+                    {"r_normalised", step.ratings[i].r_normalised}});
+  }
+  return best;
+}
+
+void add_error(Json& json, const PoseError& error) {
+  json["translation_error_m"] = error.translation_m;
+  json["rotation_error_deg"] = degrees(error.rotation_rad);
+}
+
+/// Upper triangle, row by row: xx, xy, xt, yy, yt, tt.
+Json to_json(const PoseCovariance& c) {
+  return {c.xx, c.xy, c.xt, c.yy, c.yt, c.tt};
+}
+
+void add_belief(Json& json, const Belief& belief, const std::optional<double>& nees) {
+  json["confidence"] = belief.confidence;
+  if (belief.covariance) json["covariance"] = to_json(*belief.covariance);
+  if (nees) json["nees"] = *nees;
+}
+
+std::string tum_line(double stamp, const Pose2& pose) {
+  return fmt::format("{:.6f} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", stamp, pose.x, pose.y,
+                     std::sin(pose.theta / 2.0), std::cos(pose.theta / 2.0));
+}
+
+}  // namespace
+
+Json to_json(const Pose2& pose) {
+  return {{"x", pose.x}, {"y", pose.y}, {"theta", pose.theta}};
+}
+
+Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
+  const StepResult& step = record.result;
+  Json json = {{"trial", trial},
+               {"step", step.step},
+               {"stamp", step.stamp},
+               {"stage_ms",
+                {{"local_map", step.stage_ms.local_map},
+                 {"match", step.stage_ms.match},
+                 {"cluster", step.stage_ms.cluster},
+                 {"rate", step.stage_ms.rate}}},
+               {"local_map_points", step.local_map_points},
+               {"omega_best", step.omega_best},
+               {"omega_max", step.omega_max}};
+  if (step.omega_place) json["omega_place"] = *step.omega_place;
+  json["collisions"] = step.collisions;
+  json["checks"] = step.checks;
+  json["hypotheses"] = record.hypotheses;
+  json["clusters"] = step.clusters.size();
+  json["best"] = best_clusters(step, most_clusters);
+  json["verdict"] = to_string(step.verdict.kind);
+  json["why"] = step.verdict.why;
+  if (!step.verdict.candidates.empty()) {
+    Json candidates = Json::array();
+    for (const Pose2& pose : step.verdict.candidates) candidates.push_back(to_json(pose));
+    json["candidates"] = std::move(candidates);
+  }
+  for (const Evidence& e : step.verdict.evidence) json["evidence"][e.name] = e.value;
+  json["local_from_robot"] = to_json(step.local_from_robot);
+  if (const auto estimate = step.estimate()) json["estimate"] = to_json(*estimate);
+  if (record.reference) {
+    json["reference"] = to_json(*record.reference);
+    json["on_map"] = record.on_map;
+  }
+  if (record.error) add_error(json, *record.error);
+  if (step.verdict.belief) add_belief(json, *step.verdict.belief, record.nees);
+  return json;
+}
+
+std::string step_line(std::size_t trial, const StepRecord& record, int most_clusters) {
+  return step_json(trial, record, most_clusters).dump() + "\n";
+}
+
+Json start_json(const TrialRecord& trial) {
+  Json start = {{"sample", trial.start_sample}, {"distance_m", trial.start_m}, {"stamp", trial.start_stamp}};
+  if (trial.start_reference) start["reference"] = to_json(*trial.start_reference);
+  return start;
+}
+
+std::string trial_line(const TrialRecord& trial) {
+  Json json = {{"trial", trial.trial},
+               {"start", start_json(trial)},
+               {"outcome", to_string(trial.outcome)},
+               {"steps", trial.steps},
+               {"distance_m", trial.distance_m}};
+  if (trial.pose) json["pose"] = to_json(*trial.pose);
+  if (trial.error) add_error(json, *trial.error);
+  if (trial.belief) add_belief(json, *trial.belief, trial.nees);
+  json["why"] = trial.why;
+  return json.dump() + "\n";
+}
+
+Trajectories tum_trajectories(const TrialRecord& trial) {
+  Trajectories result;
+  for (const StepRecord& step : trial.records) {
+    if (const auto estimate = step.result.estimate())
+      result.estimate += tum_line(step.result.stamp, *estimate);
+    if (step.reference) result.reference += tum_line(step.result.stamp, *step.reference);
+  }
+  return result;
+}
+
+}  // namespace glocal

@@ -1,0 +1,121 @@
+#include "evaluation/running/drive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+bool has_reference(const Sample& sample) {
+  return sample.map_from_robot.has_value();
+}
+
+double distance_to_path(const Pose2& pose, const std::vector<Pose2>& path) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Pose2& p : path) least = std::min(least, distance(pose, p));
+  return least;
+}
+
+/// Whether the grid knows a free cell within `reach` of the pose.
+bool near_free_cell(const Pose2& pose, const OccupancyGrid& grid, double reach) {
+  // From the pose itself outwards, so that its own cell counts however short the reach is.
+  const int cells = static_cast<int>(reach / grid.resolution);
+  for (int row = -cells; row <= cells; ++row) {
+    for (int column = -cells; column <= cells; ++column) {
+      const double dx = column * grid.resolution;
+      const double dy = row * grid.resolution;
+      if (dx * dx + dy * dy <= reach * reach && grid.at(pose.x + dx, pose.y + dy) == Cell::free) return true;
+    }
+  }
+  return false;
+}
+
+/// A map made from a drive is known near that drive's path; another one is known where cells are free.
+bool within_map(const Sample& sample, const GlobalMap& map, double reach) {
+  if (reach <= 0.0 || !has_reference(sample)) return true;
+  const Pose2& pose = *sample.map_from_robot;
+  return map.path().empty() ? near_free_cell(pose, map.grid(), reach)
+                            : distance_to_path(pose, map.path()) <= reach;
+}
+
+std::vector<std::size_t> starts_at(const std::vector<double>& places_m, const Drive& drive) {
+  std::vector<std::size_t> starts;
+  for (const double place : places_m) {
+    const auto it = std::lower_bound(drive.path_m.begin(), drive.path_m.end(), place);
+    if (it != drive.path_m.end()) starts.push_back(static_cast<std::size_t>(it - drive.path_m.begin()));
+  }
+  return starts;
+}
+
+std::vector<double> every(double distance_m, double length_m) {
+  std::vector<double> places;
+  for (std::size_t i = 0; static_cast<double>(i) * distance_m <= length_m; ++i) {
+    places.push_back(static_cast<double>(i) * distance_m);
+  }
+  return places;
+}
+
+/// Observations from a start to the end of its segment.
+std::size_t steps_left(const Drive& drive, std::size_t start) {
+  std::size_t end = start;
+  while (end < drive.samples.size() && drive.samples[end].segment == drive.samples[start].segment) ++end;
+  return end - start;
+}
+
+std::vector<std::size_t> wanted_starts(const TrialsConfig& config, const Drive& drive) {
+  if (config.whole) return {0};
+  if (config.every_m > 0.0) return starts_at(every(config.every_m, drive.path_m.back()), drive);
+  if (!config.starts_m.empty()) return starts_at(config.starts_m, drive);
+  std::vector<std::size_t> starts;
+  const auto stride = static_cast<std::size_t>(config.every_scan);
+  for (std::size_t i = 0; i < drive.samples.size(); i += stride) starts.push_back(i);
+  return starts;
+}
+
+}  // namespace
+
+Drive read_drive(ObservationSource& source) {
+  Drive drive;
+  while (std::optional<Sample> sample = source.next()) drive.samples.push_back(std::move(*sample));
+  double path = 0.0;
+  for (std::size_t i = 0; i < drive.samples.size(); ++i) {
+    if (i > 0 && drive.samples[i].segment == drive.samples[i - 1].segment) {
+      path += distance(drive.samples[i - 1].observation.odom_from_robot,
+                       drive.samples[i].observation.odom_from_robot);
+    }
+    drive.path_m.push_back(path);
+  }
+  return drive;
+}
+
+std::vector<std::size_t> trial_starts(const TrialsConfig& config, const Drive& drive, const GlobalMap& map) {
+  if (drive.samples.empty()) {
+    throw ConfigError(
+        {{"", 0, 0, "observations: the drive has no observation; check the source and its segments"}});
+  }
+  std::vector<std::size_t> starts = wanted_starts(config, drive);
+  std::sort(starts.begin(), starts.end());
+  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+  const std::size_t wanted = starts.size();
+  std::erase_if(starts, [&](std::size_t i) {
+    return steps_left(drive, i) < static_cast<std::size_t>(config.min_steps) ||
+           !within_map(drive.samples[i], map, config.within_map_m);
+  });
+  if (starts.empty()) {
+    throw ConfigError(
+        {{"", 0, 0,
+          fmt::format(
+              "trials: none of {} starts along the drive of {:.1f} m lies within {} m of the mapped "
+              "area with at least {} observations left; use other starts, another segment of the drive, "
+              "a larger trials.within_map_m or a smaller trials.min_steps",
+              wanted, drive.path_m.back(), config.within_map_m, config.min_steps)}});
+  }
+  return starts;
+}
+
+}  // namespace glocal

@@ -1,0 +1,138 @@
+#include "evaluation/running/mapping_accuracy.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "glocal/error.hpp"
+
+namespace glocal {
+
+namespace {
+
+/// The first sample of the same segment that lies `metres` farther, if there is one.
+std::optional<std::size_t> farther(const Drive& drive, std::size_t from, double metres) {
+  const auto it = std::lower_bound(drive.path_m.begin() + static_cast<std::ptrdiff_t>(from),
+                                   drive.path_m.end(), drive.path_m[from] + metres);
+  if (it == drive.path_m.end()) return std::nullopt;
+  const auto found = static_cast<std::size_t>(it - drive.path_m.begin());
+  if (drive.samples[found].segment != drive.samples[from].segment) return std::nullopt;
+  return found;
+}
+
+/// The first sample at or after each multiple of `every_m`.
+std::vector<std::size_t> window_starts(const Drive& drive, double every_m) {
+  std::vector<std::size_t> starts;
+  double next = 0.0;
+  for (std::size_t i = 0; i < drive.samples.size(); ++i) {
+    if (drive.path_m[i] < next) continue;
+    starts.push_back(i);
+    next = (std::floor(drive.path_m[i] / every_m) + 1.0) * every_m;
+  }
+  return starts;
+}
+
+/// Cells that hits have fallen in.
+class CellCounter {
+ public:
+  explicit CellCounter(double cell) : cell_(cell) {}
+
+  void add(const Points& hits, const Pose2& local_from_robot) {
+    const Transform transform(local_from_robot);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const Point p = transform(hits[i]);
+      cells_.emplace_back(std::floor(p.x / cell_), std::floor(p.y / cell_));
+    }
+  }
+
+  [[nodiscard]] std::size_t count() {
+    std::sort(cells_.begin(), cells_.end());
+    cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+    return cells_.size();
+  }
+
+ private:
+  double cell_;
+  std::vector<std::pair<double, double>> cells_;
+};
+
+/// Runs the mapper from one start.
+class WindowRun {
+ public:
+  WindowRun(const Drive& drive, LocalMapper& mapper, std::size_t first, double cell)
+      : drive_(drive), mapper_(mapper), first_(first), next_(first), cells_(cell) {
+    mapper_.reset();
+  }
+
+  /// Goes on up to and including `last`.
+  void run_to(std::size_t last, std::vector<double>& add_ms) {
+    using Clock = std::chrono::steady_clock;
+    for (; next_ <= last; ++next_) {
+      const Observation& observation = drive_.samples[next_].observation;
+      const auto begin = Clock::now();
+      mapper_.add(observation);
+      add_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+      const LocalMap& map = mapper_.map();
+      if (next_ == first_) generation_ = map.generation;
+      cells_.add(observation.scan.hits, map.local_from_robot);
+    }
+  }
+
+  /// After the last observation.
+  [[nodiscard]] PoseError error() const {
+    const std::size_t last = next_ - 1;
+    if (mapper_.map().generation != generation_) {
+      return {drive_.path_m[last] - drive_.path_m[first_], std::numbers::pi};
+    }
+    const Pose2 first_from_last =
+        inverse(*drive_.samples[first_].map_from_robot) * *drive_.samples[last].map_from_robot;
+    return pose_error(mapper_.map().local_from_robot, first_from_last);
+  }
+
+  [[nodiscard]] std::size_t occupied_cells() { return cells_.count(); }
+
+ private:
+  const Drive& drive_;
+  LocalMapper& mapper_;
+  std::size_t first_;
+  std::size_t next_;
+  int generation_ = 0;
+  CellCounter cells_;
+};
+
+void require_references(const Drive& drive) {
+  for (std::size_t i = 0; i < drive.samples.size(); ++i) {
+    if (drive.samples[i].map_from_robot) continue;
+    throw ConfigError(
+        {{"", 0, 0,
+          "observations: number " + std::to_string(i + 1) +
+              " has no reference pose; judge mapping on a drive where every observation has one"}});
+  }
+}
+
+}  // namespace
+
+MappingAccuracy measure_mapping(const Drive& drive, LocalMapper& mapper, const MappingWindows& windows) {
+  require_references(drive);
+  MappingAccuracy accuracy;
+  for (const std::size_t first : window_starts(drive, windows.every_m)) {
+    const auto middle = farther(drive, first, windows.after_m);
+    if (!middle) continue;
+    WindowRun run(drive, mapper, first, windows.cell);
+    run.run_to(*middle, accuracy.add_ms);
+    MappingWindow window{first, run.error(), run.occupied_cells(), std::nullopt};
+    if (const auto end = farther(drive, first, windows.fail_after_m)) {
+      run.run_to(*end, accuracy.add_ms);
+      const PoseError error = run.error();
+      window.failed = error.translation_m > windows.fail_translation ||
+                      degrees(error.rotation_rad) > windows.fail_rotation_deg;
+    }
+    accuracy.windows.push_back(window);
+  }
+  return accuracy;
+}
+
+}  // namespace glocal

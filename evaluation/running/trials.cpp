@@ -1,0 +1,127 @@
+#include "evaluation/running/trials.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace glocal {
+namespace {
+
+StepRecord make_record(StepResult result, const Sample& sample, const GlobalMap& map) {
+  StepRecord record;
+  record.hypotheses = result.hypotheses.size();
+  record.result = std::move(result);
+  record.result.hypotheses = {};
+  record.reference = sample.map_from_robot;
+  if (record.reference) {
+    record.on_map = map.grid().at(record.reference->x, record.reference->y) != Cell::unknown;
+    if (const auto estimate = record.result.estimate())
+      record.error = pose_error(*estimate, *record.reference);
+    const auto& belief = record.result.verdict.belief;
+    if (belief && belief->covariance)
+      record.nees = normalised_error_squared(belief->map_from_robot, *record.reference, *belief->covariance);
+  }
+  return record;
+}
+
+Outcome judge(const std::optional<PoseError>& error, const EvaluationConfig& limits) {
+  if (!error) return Outcome::declared;
+  const bool right = error->translation_m <= limits.max_translation_error &&
+                     degrees(error->rotation_rad) <= limits.max_rotation_error_deg;
+  return right ? Outcome::right : Outcome::wrong;
+}
+
+/// Notes the trial's first declaration.
+void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfig& limits) {
+  trial.pose = record.result.verdict.map_from_robot;
+  if (record.reference) trial.error = pose_error(*trial.pose, *record.reference);
+  trial.outcome = judge(trial.error, limits);
+  trial.belief = record.result.verdict.belief;
+  trial.nees = record.nees;
+}
+
+/// A step's result; none if a strategy threw an exception, with which the trial has failed.
+std::optional<StepResult> step_or_fail(Localizer& localizer, const Observation& observation,
+                                       TrialRecord& trial) {
+  try {
+    return localizer.step(observation);
+  } catch (const std::exception& error) {
+    trial.why = fmt::format("a strategy threw an exception: {}", error.what());
+  } catch (...) {
+    trial.why = "a strategy threw something that is no std::exception";
+  }
+  trial.outcome = Outcome::failed;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::size_t step_limit(const TrialsConfig& config) {
+  if (config.whole || config.max_steps == 0) return std::numeric_limits<std::size_t>::max();
+  return static_cast<std::size_t>(config.max_steps);
+}
+
+PoseError pose_error(const Pose2& estimate, const Pose2& reference) {
+  return {distance(estimate, reference), rotation_between(estimate, reference)};
+}
+
+const char* to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::right:
+      return "right";
+    case Outcome::wrong:
+      return "wrong";
+    case Outcome::undecided:
+      return "undecided";
+    case Outcome::declared:
+      return "declared";
+    case Outcome::failed:
+      return "failed";
+  }
+  return "";
+}
+
+Outcome outcome_of(const std::string& name) {
+  using enum Outcome;
+  for (const Outcome outcome : {right, wrong, undecided, declared, failed}) {
+    if (name == to_string(outcome)) return outcome;
+  }
+  throw std::invalid_argument("there is no outcome '" + name + "'");
+}
+
+std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, const GlobalMap& map,
+                                     const Experiment& experiment, std::size_t trial,
+                                     std::size_t start_sample, const TrialCallbacks& callbacks) {
+  const Sample& start = drive.samples[start_sample];
+  TrialRecord record;
+  record.trial = trial;
+  record.start_sample = start_sample;
+  record.start_m = drive.path_m[start_sample];
+  record.start_stamp = start.observation.stamp;
+  record.start_reference = start.map_from_robot;
+
+  localizer.reset(trial);
+  for (std::size_t i = start_sample; i < drive.samples.size(); ++i) {
+    const Sample& sample = drive.samples[i];
+    const bool over = sample.segment != start.segment || i - start_sample >= step_limit(experiment.trials);
+    if (over || (record.pose && !experiment.trials.whole)) break;
+    if (callbacks.stop && callbacks.stop()) return std::nullopt;
+
+    auto result = step_or_fail(localizer, sample.observation, record);
+    if (!result) break;
+    record.records.push_back(make_record(std::move(*result), sample, map));
+    const StepRecord& step = record.records.back();
+    if (callbacks.step) callbacks.step(step, localizer);
+    if (record.pose) continue;
+    record.steps = i - start_sample + 1;
+    record.distance_m = drive.path_m[i] - record.start_m;
+    record.why = step.result.verdict.why;
+    if (step.result.verdict.kind == VerdictKind::localized) declare(record, step, experiment.evaluation);
+  }
+  return record;
+}
+
+}  // namespace glocal

@@ -1,0 +1,80 @@
+// Runs localization trials along a drive and judges their answers.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluation/running/drive.hpp"
+#include "glocal/experiment.hpp"
+#include "glocal/localizer.hpp"
+#include "glocal/step_result.hpp"
+
+namespace glocal {
+
+struct PoseError {
+  double translation_m = 0.0;
+  double rotation_rad = 0.0;
+};
+[[nodiscard]] PoseError pose_error(const Pose2& estimate, const Pose2& reference);
+
+/// A step with what the evaluation knows about it.
+struct StepRecord {
+  StepResult result;  ///< Without its hypotheses, which can be tens of thousands.
+  std::size_t hypotheses = 0;
+  std::optional<Pose2> reference;
+  std::optional<PoseError> error;  ///< Of the estimate, declared or not.
+  std::optional<double> nees;      ///< Normalised error squared of what the verdict rule believes.
+  bool on_map = false;             ///< The reference lies where the map's grid is not unknown.
+};
+
+enum class Outcome {
+  right,      ///< Declared, and within the limits of the evaluation.
+  wrong,      ///< Declared, and outside of them.
+  undecided,  ///< Never declared.
+  declared,   ///< Declared, but there is no reference to check it against.
+  failed,     ///< A strategy threw an exception; `why` has its message.
+};
+[[nodiscard]] const char* to_string(Outcome outcome);
+/// The other way round. Throws std::invalid_argument where there is no outcome of that name.
+[[nodiscard]] Outcome outcome_of(const std::string& name);
+
+struct TrialRecord {
+  std::size_t trial = 0;
+  std::size_t start_sample = 0;
+  double start_m = 0.0;  ///< Along the drive.
+  double start_stamp = 0.0;
+  std::optional<Pose2> start_reference;
+  Outcome outcome = Outcome::undecided;
+  std::size_t steps = 0;           ///< Up to the declaration; all of them if there is none.
+  double distance_m = 0.0;         ///< Driven in these steps.
+  std::optional<Pose2> pose;       ///< Declared robot pose.
+  std::optional<PoseError> error;  ///< Of the declared pose.
+  std::optional<Belief> belief;    ///< Of the rule that declared it, where it has one.
+  std::optional<double> nees;      ///< Normalised error squared of that, where it has a covariance.
+  std::string why;                 ///< Of the declaration, or else of the last step.
+  std::vector<StepRecord>
+      records;  ///< Every step, also those after the declaration. Local maps are not kept.
+};
+
+/// What to do while trials run; each may be empty.
+struct TrialCallbacks {
+  std::function<void(const StepRecord&, const Localizer&)> step;
+  std::function<bool()>
+      stop;  ///< Asked before each step; true gives up the running trial and all later ones.
+};
+
+/// The most steps a trial takes; the largest number there is where only the end of the drive limits it.
+[[nodiscard]] std::size_t step_limit(const TrialsConfig& config);
+
+/// Runs one trial: to the first declaration or `max_steps`, or with `whole` to the end of the drive. No trial
+/// runs across the end of a segment. One in which a strategy throws an exception has failed and ends there.
+/// None if stopped.
+[[nodiscard]] std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive,
+                                                   const GlobalMap& map, const Experiment& experiment,
+                                                   std::size_t trial, std::size_t start_sample,
+                                                   const TrialCallbacks& callbacks);
+
+}  // namespace glocal

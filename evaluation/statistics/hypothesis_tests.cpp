@@ -1,0 +1,105 @@
+#include "evaluation/statistics/hypothesis_tests.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <numeric>
+
+namespace glocal {
+namespace {
+
+/// The distinct sizes of tied groups enter the variance only; ranks are doubled to keep means of ties whole.
+struct Ranks {
+  std::vector<std::size_t> doubled;  ///< In the order of the values.
+  double tie_term = 0.0;             ///< Sum of t^3 - t over groups of t equal values.
+};
+
+Ranks ranks_of(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  Ranks ranks{std::vector<std::size_t>(values.size()), 0.0};
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    while (end < order.size() && values[order[end]] == values[order[begin]]) ++end;
+    // Places begin + 1 to end share their mean.
+    for (std::size_t i = begin; i < end; ++i) ranks.doubled[order[i]] = begin + 1 + end;
+    const auto t = static_cast<double>(end - begin);
+    ranks.tie_term += t * t * t - t;
+  }
+  return ranks;
+}
+
+/// By counting, rank by rank, in how many of the 2^n ways to give signs the positive ranks have each sum. All
+/// counts are whole numbers up to 2^50, which a double holds exactly.
+double exact_p(const std::vector<std::size_t>& ranks, std::size_t positive_sum) {
+  const std::size_t total = std::accumulate(ranks.begin(), ranks.end(), std::size_t{0});
+  std::vector<double> ways(total + 1, 0.0);
+  ways[0] = 1.0;
+  for (const std::size_t rank : ranks) {
+    for (std::size_t sum = total; sum >= rank; --sum) ways[sum] += ways[sum - rank];
+  }
+  // The distribution is symmetric: the upper tail of a sum is the lower tail of what is left of the total.
+  const std::size_t tail = std::min(positive_sum, total - positive_sum);
+  const double at_most =
+      std::accumulate(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(tail) + 1, 0.0);
+  return std::min(1.0, 2.0 * at_most / std::exp2(static_cast<double>(ranks.size())));
+}
+
+double approximate_p(const SignedRank& test, double tie_term) {
+  const auto n = static_cast<double>(test.nonzero);
+  const double variance = n * (n + 1.0) * (2.0 * n + 1.0) / 24.0 - tie_term / 48.0;
+  const double beyond = std::max(0.0, std::abs(test.positive_sum - test.expected_sum) - 0.5);
+  const boost::math::normal standard;
+  return 2.0 * boost::math::cdf(boost::math::complement(standard, beyond / std::sqrt(variance)));
+}
+
+}  // namespace
+
+double mcnemar_exact(std::size_t only_first, std::size_t only_second) {
+  const auto n = static_cast<double>(only_first + only_second);
+  if (n == 0.0) return 1.0;
+  const boost::math::binomial fair(n, 0.5);
+  return std::min(1.0, 2.0 * boost::math::cdf(fair, static_cast<double>(std::min(only_first, only_second))));
+}
+
+SignedRank wilcoxon_signed_rank(const std::vector<double>& differences) {
+  std::vector<double> sizes;
+  std::vector<bool> is_positive;
+  for (const double difference : differences) {
+    if (difference == 0.0) continue;
+    sizes.push_back(std::abs(difference));
+    is_positive.push_back(difference > 0.0);
+  }
+  SignedRank test;
+  test.nonzero = sizes.size();
+  if (sizes.empty()) return test;
+  const Ranks ranks = ranks_of(sizes);
+  std::size_t doubled_sum = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) doubled_sum += is_positive[i] ? ranks.doubled[i] : 0;
+  const auto n = static_cast<double>(test.nonzero);
+  test.positive_sum = static_cast<double>(doubled_sum) / 2.0;
+  test.expected_sum = n * (n + 1.0) / 4.0;
+  test.exact = test.nonzero <= most_exact_differences;
+  test.p = test.exact ? exact_p(ranks.doubled, doubled_sum) : approximate_p(test, ranks.tie_term);
+  return test;
+}
+
+double least_p(std::size_t differing_pairs) {
+  return std::min(1.0, 2.0 * std::exp2(-static_cast<double>(differing_pairs)));
+}
+
+std::vector<double> holm(const std::vector<double>& p) {
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
+  std::vector<double> adjusted(p.size());
+  double largest = 0.0;  // A test is not more significant than one with a smaller p.
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    largest = std::max(largest, static_cast<double>(order.size() - i) * p[order[i]]);
+    adjusted[order[i]] = std::min(1.0, largest);
+  }
+  return adjusted;
+}
+
+}  // namespace glocal

@@ -1,0 +1,41 @@
+#include "glocal/pose_cells.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace glocal {
+
+PoseCells::PoseCells(std::span<const Pose2> poses, double side, int turns)
+    : side_(side), turns_(turns), order_(poses.size()) {
+  std::vector<PoseCell> cells(poses.size());
+  std::transform(poses.begin(), poses.end(), cells.begin(), [this](const Pose2& p) { return cell_of(p); });
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::size_t a, std::size_t b) { return cells[a] < cells[b]; });
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const PoseCell& cell = cells[order_[i]];
+    if (!cells_.empty() && cells_.back() == cell) continue;
+    cells_.push_back(cell);
+    starts_.push_back(i);
+  }
+  starts_.push_back(order_.size());
+}
+
+PoseCell PoseCells::cell_of(const Pose2& pose) const {
+  const double width = 2.0 * std::numbers::pi / static_cast<double>(turns_);
+  const auto turn = static_cast<std::int64_t>(std::floor(pose.theta / width + 0.5));
+  return {(turn + turns_) % turns_, static_cast<std::int64_t>(std::floor(pose.y / side_)),
+          static_cast<std::int64_t>(std::floor(pose.x / side_))};
+}
+
+int parts_of_a_turn(double width_rad) {
+  // Not one part more for the rounding of a width that divides the turn.
+  return static_cast<int>(std::ceil(2.0 * std::numbers::pi / width_rad - 1e-9));
+}
+
+int wide_parts_of_a_turn(double width_rad) {
+  return std::max(1, static_cast<int>(2.0 * std::numbers::pi / width_rad));
+}
+
+}  // namespace glocal

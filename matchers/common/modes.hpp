@@ -1,0 +1,66 @@
+// Distinct poses among many that mean nearly the same.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "glocal/contact.hpp"
+#include "glocal/distance_field.hpp"
+#include "glocal/params.hpp"
+#include "glocal/points.hpp"
+#include "glocal/pose2.hpp"
+#include "glocal/rng.hpp"
+
+namespace glocal {
+
+/// A pose of the local map, and how good it looks so far.
+struct Mode {
+  Pose2 map_from_local;
+  double quality = 0.0;
+};
+
+/// When two robot poses are one mode, both nearer and turned by less; and how many points refine one.
+struct ModeRule {
+  double distance = 0.4;  ///< m
+  double rotation = 0.2;  ///< rad
+  int refinement_points = 50;
+};
+/// Among the fields of a matcher, not in a group of their own.
+void describe(ParamVisitor& v, ModeRule& p);
+
+[[nodiscard]] inline bool is_same_mode(const Pose2& a, const Pose2& b, const ModeRule& rule) {
+  return distance(a, b) < rule.distance && rotation_between(a, b) < rule.rotation;
+}
+
+/// Makes few modes of many poses.
+class ModeRefiner {
+ public:
+  /// Of more than `most` modes the best are kept.
+  ModeRefiner(const ModeRule& rule, std::size_t most, const PoseRefinement& refinement,
+              std::shared_ptr<const DistanceField> field, std::shared_ptr<const ContactIndex> contact);
+
+  /// The best first, leaving out those that only repeat a better one: the same robot pose.
+  [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
+
+  /// The distinct ones, each refined by the first points of `sample` and judged anew by the contact of
+  /// `points`; distinct again, as some may have become one.
+  [[nodiscard]] std::vector<Mode> refined(std::vector<Mode> modes, const Pose2& local_from_robot,
+                                          const Points& sample, const Points& points) const;
+
+ private:
+  ModeRule rule_;
+  std::size_t most_;
+  PoseRefinement refinement_;
+  std::shared_ptr<const DistanceField> field_;
+  std::shared_ptr<const ContactIndex> contact_;
+};
+
+/// At most n of the numbers below `below`, each once, in random order.
+[[nodiscard]] std::vector<std::uint32_t> draw_numbers(std::size_t n, std::size_t below, Rng& rng);
+
+/// At most n of the points, picked at random, in random order.
+[[nodiscard]] Points sample_of(const Points& points, std::size_t n, Rng& rng);
+
+}  // namespace glocal

@@ -1,0 +1,229 @@
+#include "matchers/common/surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace glocal {
+namespace {
+
+constexpr auto pi = static_cast<float>(std::numbers::pi);
+
+/// Points in square cells, for looking at neighbours.
+class Cells {
+ public:
+  using Key = std::uint64_t;
+
+  Cells(const Points& points, double side) : points_(points), scale_(1.0 / side) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto [place, is_new] = cells_.try_emplace(key(points.x[i], points.y[i]), order_.size());
+      if (is_new) order_.emplace_back();
+      order_[place->second].push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  /// The cells' points, in the order in which the cells were first met.
+  [[nodiscard]] const std::vector<std::vector<std::uint32_t>>& all() const { return order_; }
+
+  /// Calls visit(x, y) for all points within a radius, which is at most twice a cell's side.
+  template <class Visit>
+  void near(float x, float y, double radius, Visit visit) const {
+    const auto squared = static_cast<float>(radius * radius);
+    for (int row = -2; row <= 2; ++row) {
+      for (int column = -2; column <= 2; ++column) {
+        const auto cell =
+            cells_.find(key(x + static_cast<float>(column / scale_), y + static_cast<float>(row / scale_)));
+        if (cell == cells_.end()) continue;
+        for (const std::uint32_t i : order_[cell->second]) {
+          const float dx = points_.x[i] - x;
+          const float dy = points_.y[i] - y;
+          if (dx * dx + dy * dy <= squared) visit(points_.x[i], points_.y[i]);
+        }
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] Key key(float x, float y) const {
+    const auto number = [&](float v) {
+      return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(v * scale_)));
+    };
+    return Key{number(x)} << 32U | number(y);
+  }
+
+  const Points& points_;
+  double scale_;
+  std::unordered_map<Key, std::size_t> cells_;
+  std::vector<std::vector<std::uint32_t>> order_;
+};
+
+/// A straight line, with how far its points lie from it and along it (standard deviations, m).
+struct Line {
+  double x = 0.0, y = 0.0;  ///< The middle of its points.
+  double direction = 0.0;   ///< rad
+  double across = 0.0, along = 0.0;
+  std::size_t size = 0;
+};
+
+/// The principal axis of those points that are within `reach` of a line.
+Line fitted_line(const std::vector<std::pair<float, float>>& points, const Line& line, double reach) {
+  const double c = std::cos(line.direction);
+  const double s = std::sin(line.direction);
+  double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, syy = 0.0;
+  Line fit;
+  for (const auto& [x, y] : points) {
+    const double dx = x - line.x;
+    const double dy = y - line.y;
+    if (std::abs(c * dy - s * dx) > reach) continue;
+    ++fit.size;
+    sx += dx;
+    sy += dy;
+    sxx += dx * dx;
+    sxy += dx * dy;
+    syy += dy * dy;
+  }
+  if (fit.size == 0) return fit;
+  const auto n = static_cast<double>(fit.size);
+  const double cxx = sxx / n - sx * sx / (n * n);
+  const double cxy = sxy / n - sx * sy / (n * n);
+  const double cyy = syy / n - sy * sy / (n * n);
+  const double mean = (cxx + cyy) / 2.0;
+  const double spread = std::hypot((cxx - cyy) / 2.0, cxy);
+  fit.x = line.x + sx / n;
+  fit.y = line.y + sy / n;
+  fit.direction = 0.5 * std::atan2(2.0 * cxy, cxx - cyy);
+  fit.across = std::sqrt(std::max(0.0, mean - spread));
+  fit.along = std::sqrt(mean + spread);
+  return fit;
+}
+
+/// The line through a point that most of its neighbours are near to (Torr and Zisserman 2000: truncated
+/// squares, MSAC): at a corner or at a thin wall the others lie on another surface, and count alike wherever
+/// they are.
+Line best_line_through(float x, float y, const std::vector<std::pair<float, float>>& points, double reach) {
+  constexpr int directions = 18;  // so that the best one is off by 5 degrees at most: 2 cm at 0.2 m
+  Line best{.x = x, .y = y};
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < directions; ++i) {
+    const double direction = std::numbers::pi * i / directions;
+    const double c = std::cos(direction);
+    const double s = std::sin(direction);
+    double cost = 0.0;
+    for (const auto& [px, py] : points) {
+      const double off = c * (py - y) - s * (px - x);
+      cost += std::min(off * off, reach * reach);
+    }
+    if (cost >= least) continue;
+    least = cost;
+    best.direction = direction;
+  }
+  return best;
+}
+
+/// Angle of the normal, up to half a turn, by the principal components of the neighbours on one line with the
+/// point; none where there is no line, or less than `fewest_on_line` of them are on it: clutter.
+std::optional<float> normal_angle(const Cells& cells, float x, float y, const SurfaceRule& rule) {
+  constexpr std::size_t fewest = 3;
+  constexpr double fewest_on_line = 0.45;
+  std::vector<std::pair<float, float>> points;
+  cells.near(x, y, rule.radius, [&](float px, float py) { points.emplace_back(px, py); });
+  const double reach = rule.thinning / 2.0;
+  Line line = best_line_through(x, y, points, reach);
+  // Twice: the point itself may be at the edge of a rough wall.
+  for (int i = 0; i < 2; ++i) line = fitted_line(points, line, reach);
+  if (line.size < fewest) return std::nullopt;
+  if (static_cast<double>(line.size) < fewest_on_line * static_cast<double>(points.size()))
+    return std::nullopt;
+  if (!(line.across < rule.max_roughness * line.along)) return std::nullopt;
+  return static_cast<float>(line.direction + std::numbers::pi / 2.0);
+}
+
+float wrapped(float angle) {
+  return angle > pi ? angle - 2.0F * pi : angle <= -pi ? angle + 2.0F * pi : angle;
+}
+
+/// The mean of a cell's points.
+Point middle_of(const Points& points, const std::vector<std::uint32_t>& members) {
+  float x = 0.0F;
+  float y = 0.0F;
+  for (const std::uint32_t i : members) {
+    x += points.x[i];
+    y += points.y[i];
+  }
+  return {x / static_cast<float>(members.size()), y / static_cast<float>(members.size()), 0.0F};
+}
+
+/// Calls add(x, y, angle) for the middle of each cell where there is a normal; how many cells there are.
+template <class Add>
+std::size_t for_each_thinned(const Points& points, const SurfaceRule& rule, Add add) {
+  const Cells cells(points, rule.thinning);
+  for (const auto& members : cells.all()) {
+    const Point p = middle_of(points, members);
+    if (const auto angle = normal_angle(cells, p.x, p.y, rule)) add(p.x, p.y, *angle);
+  }
+  return cells.all().size();
+}
+
+/// Whether there is a free cell a little way off in this direction, and not beyond another surface: the other
+/// side of a thin wall.
+bool is_free_side(const OccupancyGrid& grid, float x, float y, float angle) {
+  constexpr double nearest = 0.1;
+  constexpr double farthest = 0.31;
+  bool left_own = false;
+  for (double d = nearest; d < farthest; d += grid.resolution) {
+    const Cell cell = grid.at(x + d * std::cos(angle), y + d * std::sin(angle));
+    if (cell == Cell::free) return true;
+    if (cell == Cell::unknown) left_own = true;
+    if (cell == Cell::occupied && left_own) return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+Surfaces surfaces_of(const GlobalMap& map, const SurfaceRule& rule) {
+  Surfaces result;
+  for_each_thinned(map.points(), rule, [&](float x, float y, float angle) {
+    const bool this_side = is_free_side(map.grid(), x, y, angle);
+    const bool other_side = is_free_side(map.grid(), x, y, angle + pi);
+    if (this_side || !other_side) result.add(x, y, wrapped(angle));
+    if (other_side || !this_side) result.add(x, y, wrapped(angle + pi));
+  });
+  return result;
+}
+
+Surfaces surfaces_of(const LocalMap& local, const SurfaceRule& rule) {
+  Surfaces result;
+  for (std::size_t i = 0; i < local.normals.size(); ++i) {
+    const Point normal = local.normals[i];
+    if (normal.x == 0.0F && normal.y == 0.0F) continue;
+    result.add(local.points.x[i], local.points.y[i], std::atan2(normal.y, normal.x));
+  }
+  if (!local.normals.empty()) return result;
+  for_each_thinned(local.points, rule, [&](float x, float y, float angle) {
+    result.add(x, y, wrapped(angle));
+    result.add(x, y, wrapped(angle + pi));
+  });
+  return result;
+}
+
+double share_of_surfaces(const GlobalMap& map, const SurfaceRule& rule) {
+  std::size_t with_normal = 0;
+  const std::size_t all =
+      for_each_thinned(map.points(), rule, [&](float /*x*/, float /*y*/, float /*angle*/) { ++with_normal; });
+  return static_cast<double>(with_normal) / static_cast<double>(all);
+}
+
+Points thinned(const Points& points, double side) {
+  const Cells cells(points, side);
+  Points result;
+  for (const auto& members : cells.all()) result.push_back(middle_of(points, members));
+  return result;
+}
+
+}  // namespace glocal

@@ -1,0 +1,93 @@
+#include "matchers/common/triple_sampler.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace glocal {
+namespace {
+
+/// A point of the 3 x 3 cells around another one lies within the radius with a probability of pi / 9 if
+/// points are spread evenly; along a wall it is much higher.
+constexpr int attempts_to_find_a_neighbour = 8;
+/// Random numbers set aside for each draw.
+constexpr std::uint64_t numbers_per_draw = 1 + 2 * attempts_to_find_a_neighbour;
+
+}  // namespace
+
+TripleSampler::TripleSampler(const Points& points, double local_radius)
+    : points_(points),
+      size_(static_cast<std::uint32_t>(points.size())),
+      radius_(static_cast<float>(local_radius)) {
+  if (radius_ <= 0.0F) return;
+  const auto [low_x, high_x] = std::minmax_element(points.x.begin(), points.x.end());
+  const auto [low_y, high_y] = std::minmax_element(points.y.begin(), points.y.end());
+  min_x_ = *low_x;
+  min_y_ = *low_y;
+  // With a margin of one cell all around, so that every point has eight neighbouring cells.
+  columns_ = static_cast<std::size_t>((*high_x - min_x_) / radius_) + 3;
+  const std::size_t rows = static_cast<std::size_t>((*high_y - min_y_) / radius_) + 3;
+
+  starts_.assign(columns_ * rows + 1, 0);
+  for (std::size_t i = 0; i < points.size(); ++i) ++starts_[cell_of(points.x[i], points.y[i]) + 1];
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  order_.resize(points.size());
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  for (std::uint32_t i = 0; i < size_; ++i) order_[next[cell_of(points.x[i], points.y[i])]++] = i;
+}
+
+std::size_t TripleSampler::cell_of(float x, float y) const {
+  const std::size_t row = static_cast<std::size_t>((y - min_y_) / radius_) + 1;
+  return row * columns_ + static_cast<std::size_t>((x - min_x_) / radius_) + 1;
+}
+
+void TripleSampler::draw(std::uint64_t seed, TripleBatch& batch) const {
+  if (radius_ <= 0.0F) {
+    draw_uniform(seed, size_, batch);
+    return;
+  }
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    Rng rng(seed);
+    rng.skip(batch.numbers[i] * numbers_per_draw);
+    const Triple triple = draw_local(rng);
+    batch.first[i] = triple[0];
+    batch.second[i] = triple[1];
+    batch.third[i] = triple[2];
+  }
+}
+
+Triple TripleSampler::draw_local(Rng rng) const {
+  const std::uint32_t first = rng.below(size_);
+  const auto second = draw_near(first, rng);
+  const auto third = draw_near(first, rng);
+  if (!second || !third) return {first, first, first};
+  return {first, *second, *third};
+}
+
+std::optional<std::uint32_t> TripleSampler::draw_near(std::uint32_t centre, Rng& rng) const {
+  const float x = points_.x[centre];
+  const float y = points_.y[centre];
+  const std::size_t cell = cell_of(x, y);
+  struct Run {
+    std::uint32_t begin, length;
+  };
+  std::array<Run, 3> runs{};
+  std::uint32_t candidates = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t left = cell + i * columns_ - columns_ - 1;
+    runs[i] = {starts_[left], starts_[left + 3] - starts_[left]};
+    candidates += runs[i].length;
+  }
+  for (int attempt = 0; attempt < attempts_to_find_a_neighbour; ++attempt) {
+    std::uint32_t pick = rng.below(candidates);
+    std::size_t run = 0;
+    while (pick >= runs[run].length) pick -= runs[run++].length;
+    const std::uint32_t candidate = order_[runs[run].begin + pick];
+    const float dx = points_.x[candidate] - x;
+    const float dy = points_.y[candidate] - y;
+    if (dx * dx + dy * dy <= radius_ * radius_) return candidate;
+  }
+  return std::nullopt;
+}
+
+}  // namespace glocal

@@ -1,0 +1,127 @@
+#include "matchers/grid_search/exhaustive.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "glocal/parallel.hpp"
+
+namespace glocal {
+namespace {
+
+/// Rotations searched before the bar is raised. Fixed, so that the answer does not depend on the threads.
+constexpr std::size_t rotations_per_round = 32;
+/// Points looked at before a pose is asked again whether it can still reach the bar.
+constexpr std::size_t batch = 16;
+
+/// For each batch of n points, how many must have been in contact so that the others can make up the rest.
+std::vector<std::uint32_t> least_after_batches(std::size_t n, std::size_t least) {
+  std::vector<std::uint32_t> result;
+  for (std::size_t looked_at = 0; looked_at < n;) {
+    looked_at = std::min(n, looked_at + batch);
+    const std::size_t others = n - looked_at;
+    result.push_back(static_cast<std::uint32_t>(least > others ? least - others : 0));
+  }
+  return result;
+}
+
+/// Poses of one rotation on their way through the test, as many at a time as a MotionBatch has.
+class Candidates {
+ public:
+  Candidates(const ContactIndex& contact, const Points& points, std::size_t least)
+      : contact_(contact),
+        points_(points),
+        least_(least),
+        least_after_(least_after_batches(points.size(), least)) {}
+
+  [[nodiscard]] bool full() const { return size_ == MotionBatch::capacity; }
+  void add(const Transform& map_from_points, const GridPose& pose) {
+    motions_.cosine[size_] = map_from_points.cosine();
+    motions_.sine[size_] = map_from_points.sine();
+    motions_.x[size_] = map_from_points.x();
+    motions_.y[size_] = map_from_points.y();
+    poses_[size_++] = pose;
+  }
+
+  /// Adds those that reach the bar, and begins anew.
+  void test(const RobotCells& robots, FoundPoses& found) {
+    const std::size_t n = points_.size();
+    const ContactIndex::BatchColumn begins{};
+    contact_.count_at_most(points_, n, motions_, size_, begins, at_most_);
+    found.tested += size_;
+    found.checks += size_ * n;
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (at_most_[i] < least_) continue;
+      const auto [in_contact, looked_at] =
+          contact_.count_while(points_, 0, n, batch, least_after_, motions_[i]);
+      found.checks += looked_at;
+      if (in_contact < least_) continue;
+      poses_[i].in_contact = in_contact;
+      glocal::add(found.best, robots.of(poses_[i]), poses_[i]);
+    }
+    size_ = 0;
+  }
+
+ private:
+  const ContactIndex& contact_;
+  const Points& points_;
+  std::size_t least_;
+  std::vector<std::uint32_t> least_after_;
+  std::size_t size_ = 0;
+  MotionBatch motions_;
+  std::array<GridPose, MotionBatch::capacity> poses_{};
+  ContactIndex::BatchColumn at_most_{};
+};
+
+}  // namespace
+
+void describe(ParamVisitor& v, Exhaustive::Params& p) {
+  describe(v, p.grid);
+  p.contact.describe_as("contact", v);
+}
+
+Exhaustive::Exhaustive(const Params& params, const StageSetup& setup)
+    : GridMatcher(params.grid, *setup.map,
+                  contact_index(*setup.map, params.contact, params.grid.contact_epsilon)),
+      threads_(setup.threads),
+      frame_(cell_frame(setup.map->points(), params.grid.cell, params.grid.contact_epsilon)),
+      contact_(contact_index(*setup.map, params.contact, params.grid.contact_epsilon)) {}
+
+GridSearchResult Exhaustive::search(const Points& points, const Pose2& local_from_robot,
+                                    const GridSearchRule& rule) const {
+  const PoseGrid grid(points, frame_.cell, rule.min_rotation_step);
+  const auto pose_of = [&](const GridPose& pose) {
+    return grid.pose(pose.rotation, pose.column, pose.row, frame_.min_x, frame_.min_y);
+  };
+  BestPoses best(rule, points.size());
+  for (std::size_t begin = 0; begin < grid.rotations(); begin += rotations_per_round) {
+    std::vector<FoundPoses> found(std::min(rotations_per_round, grid.rotations() - begin));
+    parallel_for(threads_, found.size(), [&](std::size_t i) {
+      const RobotCells robots(pose_of({.rotation = begin + i}) * local_from_robot, frame_.cell, rule);
+      found[i] = search_rotation(grid, begin + i, points, robots, best.least());
+    });
+    best.add(found);
+  }
+  return best.result(pose_of);
+}
+
+FoundPoses Exhaustive::search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
+                                       const RobotCells& robots, std::size_t least) const {
+  const Translations all = translations(grid.cells(rotation), frame_);
+  const Pose2 at_zero = grid.pose(rotation, 0, 0, frame_.min_x, frame_.min_y);
+  const Transform turned(at_zero);
+  Candidates candidates(*contact_, points, least);
+  FoundPoses found;
+  for (int row = all.first_row; row <= all.last_row; ++row) {
+    for (int column = all.first_column; column <= all.last_column; ++column) {
+      candidates.add({turned.cosine(), turned.sine(), static_cast<float>(at_zero.x + frame_.cell * column),
+                      static_cast<float>(at_zero.y + frame_.cell * row)},
+                     {.rotation = rotation, .row = row, .column = column});
+      if (candidates.full()) candidates.test(robots, found);
+    }
+  }
+  candidates.test(robots, found);
+  return found;
+}
+
+}  // namespace glocal

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "matchers/grid_search/contact_pyramid.hpp"
+#include "matchers/grid_search/grid_matcher.hpp"
+#include "matchers/grid_search/pose_grid.hpp"
+
+namespace glocal {
+
+/// Brute force: looks at every pose of the grid that branch_and_bound searches, and judges each by the
+/// contact of its points where they really lie (Omega, eq. 4). Slow, and with nothing in it that could go
+/// wrong: what other matchers are measured by, on small maps.
+///
+/// Of the poses, the best max_poses become modes, one in each cell of mode_distance and mode_rotation. A pose
+/// is left as soon as too few points remain to make it one of them; no pose is skipped by guess. With
+/// `contact: kd_tree` quality is exact, with `bitset` up to half a voxel.
+///
+/// `checks` counts looks at a point; `collisions` the poses of the grid, all of which are tested.
+class Exhaustive final : public GridMatcher {
+ public:
+  struct Params {
+    GridMatching grid = {};
+    ContactChoice contact = "bitset";
+  };
+
+  /// Throws ConfigError where the map is too large for a contact grid or a distance field.
+  Exhaustive(const Params& params, const StageSetup& setup);
+
+ private:
+  [[nodiscard]] GridSearchResult search(const Points& points, const Pose2& local_from_robot,
+                                        const GridSearchRule& rule) const override;
+  [[nodiscard]] FoundPoses search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
+                                           const RobotCells& robots, std::size_t least) const;
+
+  int threads_;
+  CellFrame frame_;
+  std::shared_ptr<const ContactIndex> contact_;
+};
+void describe(ParamVisitor& v, Exhaustive::Params& p);
+
+}  // namespace glocal

@@ -1,0 +1,80 @@
+#include "matchers/grid_search/grid_matcher.hpp"
+
+#include <utility>
+
+#include "matchers/grid_search/contact_pyramid.hpp"
+
+namespace glocal {
+
+void describe(ParamVisitor& v, GridMatching& p) {
+  v.field("contact_epsilon", p.contact_epsilon,
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
+           .unit = "m",
+           .above = 0.0});
+  v.field("cell", p.cell,
+          {.doc = "Translations are multiples of this; at most contact_epsilon.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0});
+  v.require(p.cell <= p.contact_epsilon, "cell", "must be at most contact_epsilon");
+  v.field("min_rotation_step", p.min_rotation_step,
+          {.doc = "Rotations differ by what moves the farthest point by one cell, but by this at least.",
+           .unit = "rad",
+           .min = 0.0001,
+           .max = 0.1});
+  v.field("max_points", p.max_points,
+          {.doc = "Of more points of the local map a random sample is searched for; 0 takes all.",
+           .min = 0,
+           .max = static_cast<double>(TileCounts::most_points)});
+  v.field("max_poses", p.max_poses,
+          {.doc = "Poses searched for: the best, one in each cell of mode_distance (its diagonal) and "
+                  "mode_rotation. Fewer take less time.",
+           .min = 1,
+           .max = 100000});
+  describe(v, p.mode);
+  v.field("refinement", p.refinement,
+          {.doc = "How poses are refined on the distance field; without iterations they stay on the grid."});
+  v.field("field_cell", p.field_cell,
+          {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
+}
+
+GridMatcher::GridMatcher(const GridMatching& params, const GlobalMap& map,
+                         std::shared_ptr<const ContactIndex> contact)
+    : params_(params),
+      refiner_(params.mode, static_cast<std::size_t>(params.max_poses), params.refinement,
+               distance_field(map, params.field_cell), std::move(contact)) {}
+
+MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
+                               Rng& rng) {
+  MatchResult result;
+  if (local.points.empty()) return result;
+  const auto most_points =
+      params_.max_points > 0 ? static_cast<std::size_t>(params_.max_points) : TileCounts::most_points;
+  const Points sample = sample_of(local.points, most_points, rng);
+  const GridSearchResult found = search(sample, local.local_from_robot,
+                                        {.min_quality = omega_max,
+                                         .min_rotation_step = params_.min_rotation_step,
+                                         .distance = params_.mode.distance,
+                                         .rotation = params_.mode.rotation,
+                                         .max_poses = static_cast<std::size_t>(params_.max_poses)});
+  result.collisions = found.tested;
+  result.checks = found.checks;
+  std::vector<Mode> modes;
+  for (const GridSearchResult::Pose& pose : found.poses) {
+    modes.push_back(
+        {pose.map_from_local, static_cast<double>(pose.in_contact) / static_cast<double>(sample.size())});
+  }
+  modes = refiner_.distinct(std::move(modes), local.local_from_robot);
+  if (params_.refinement.iterations > 0) {
+    result.checks += modes.size() * local.points.size();
+    modes = refiner_.refined(std::move(modes), local.local_from_robot, sample, local.points);
+  }
+  for (const Mode& mode : modes) {
+    if (mode.quality < omega_max) break;
+    result.hypotheses.push_back(
+        {mode.map_from_local, mode.map_from_local * local.local_from_robot, mode.quality});
+  }
+  return result;
+}
+
+}  // namespace glocal

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "glocal/catalog.hpp"
+#include "glocal/contact.hpp"
+#include "glocal/distance_field.hpp"
+#include "glocal/params.hpp"
+#include "glocal/strategies.hpp"
+#include "matchers/common/modes.hpp"
+#include "matchers/grid_search/best_poses.hpp"
+
+namespace glocal {
+
+/// Which grid of poses is searched, and what becomes of the poses found.
+struct GridMatching {
+  double contact_epsilon = 0.10;
+  double cell = 0.05;
+  double min_rotation_step = 0.005;
+  int max_points = 200;
+  int max_poses = 50;
+  ModeRule mode = {};
+  PoseRefinement refinement = {};
+  double field_cell = 0.05;
+};
+void describe(ParamVisitor& v, GridMatching& p);
+
+/// Matching by a search of a grid of poses. A pose of the grid turns the local map by whole steps about its
+/// middle and moves it by whole cells (PoseGrid). A local map of more than max_points is searched for by a
+/// sample of them.
+///
+/// Hypotheses are the distinct poses (modes) of what was found. Refined ones, as they are by default, have
+/// left the grid, and are as good as all points say (Omega, eq. 4); without iterations of refinement they are
+/// poses of the grid, with its quality. A pose that only refinement would bring over Omega_max is not found.
+class GridMatcher : public Matcher {
+ public:
+  /// `contact` judges refined poses. Throws ConfigError where the map is too large for a distance field.
+  GridMatcher(const GridMatching& params, const GlobalMap& map, std::shared_ptr<const ContactIndex> contact);
+
+  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
+                                  Rng& rng) final;
+  void reset() final {}
+
+ private:
+  [[nodiscard]] virtual GridSearchResult search(const Points& points, const Pose2& local_from_robot,
+                                                const GridSearchRule& rule) const = 0;
+
+  GridMatching params_;
+  ModeRefiner refiner_;
+};
+
+}  // namespace glocal

@@ -1,0 +1,166 @@
+#include "matchers/grid_search/grid_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "glocal/parallel.hpp"
+#include "matchers/grid_search/pose_grid.hpp"
+
+namespace glocal {
+namespace {
+
+/// Rotations searched before the bar is raised. Fixed, so that the answer does not depend on the threads.
+constexpr std::size_t rotations_at_a_time = 32;
+
+/// A first look at one rotation of the grid.
+struct Look {
+  FoundPoses found;
+  std::size_t bound = 0;  ///< No pose of the rotation has more points in contact.
+};
+
+std::size_t most_in_contact(const FoundPoses& found) {
+  std::size_t most = 0;
+  for (const auto& [cell, pose] : found.best) most = std::max(most, pose.in_contact);
+  return most;
+}
+
+/// The translations of one rotation.
+class RotationSearch {
+ public:
+  RotationSearch(const ContactPyramid& pyramid, const PoseGrid& grid, std::size_t rotation,
+                 const Pose2& local_from_robot, const GridSearchRule& rule)
+      : pyramid_(pyramid),
+        rotation_(rotation),
+        points_(grid.cells(rotation)),
+        robots_(grid.pose(rotation, 0, 0, pyramid.frame().min_x, pyramid.frame().min_y) * local_from_robot,
+                pyramid.frame().cell, rule) {}
+
+  /// A bound for all poses, and the best pose of the node that promises most.
+  [[nodiscard]] Look look() {
+    const int top = pyramid_.top_level();
+    std::size_t bound = 0;
+    int column = 0;
+    int row = 0;
+    for_each_top_tile([&](int x, int y) {
+      count(top, x, y, bound + 1);
+      if (counts_.largest() <= bound) return;
+      bound = counts_.largest();
+      const auto [i, k] = first_of(counts_.at_least(bound));
+      column = x + (i << top);
+      row = y + (k << top);
+    });
+    for (int y = row; y < row + (1 << top); y += TileCounts::rows) {
+      count(0, column, y, 1);
+      add_poses(column, y, std::max<std::size_t>(1, counts_.largest()));
+    }
+    return {std::move(found_), bound};
+  }
+
+  /// All poses that bring at least so many points into contact.
+  [[nodiscard]] FoundPoses search(std::size_t least) {
+    for_each_top_tile([&](int x, int y) { descend(pyramid_.top_level(), x, y, least); });
+    return std::move(found_);
+  }
+
+ private:
+  /// Together they hold all translations that bring a point among the map's cells.
+  template <class Visit>
+  void for_each_top_tile(Visit visit) const {
+    const Translations all = translations(points_, pyramid_.frame());
+    const int top = pyramid_.top_level();
+    for (int y = all.first_row; y <= all.last_row; y += TileCounts::rows << top) {
+      for (int x = all.first_column; x <= all.last_column; x += TileCounts::columns << top) visit(x, y);
+    }
+  }
+
+  void count(int level, int column, int row, std::size_t least) {
+    found_.checks += pyramid_.count(level, points_, column, row, least, counts_);
+    if (level == 0) found_.tested += std::size_t{TileCounts::columns} * TileCounts::rows;
+  }
+
+  void descend(int level, int column, int row, std::size_t least) {
+    count(level, column, row, least);
+    if (level == 0) return add_poses(column, row, least);
+    const TileCounts::Mask promising = counts_.at_least(least);
+    // A quarter of the nodes makes a tile of the level below.
+    constexpr int half_columns = TileCounts::columns / 2;
+    constexpr int half_rows = TileCounts::rows / 2;
+    for (int k = 0; k < TileCounts::rows; k += half_rows) {
+      for (int i = 0; i < TileCounts::columns; i += half_columns) {
+        std::uint64_t any = 0;
+        for (int r = k; r < k + half_rows; ++r) any |= promising[static_cast<std::size_t>(r)] >> i;
+        if (static_cast<std::uint32_t>(any) == 0) continue;
+        descend(level - 1, column + (i << level), row + (k << level), least);
+      }
+    }
+  }
+
+  /// Those of the tile just counted, of level 0.
+  void add_poses(int column, int row, std::size_t least) {
+    const TileCounts::Mask nodes = counts_.at_least(least);
+    for (int k = 0; k < TileCounts::rows; ++k) {
+      for (std::uint64_t left = nodes[static_cast<std::size_t>(k)]; left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        const GridPose pose{counts_.at(i, k), rotation_, row + k, column + i};
+        add(found_.best, robots_.of(pose), pose);
+      }
+    }
+  }
+
+  static std::array<int, 2> first_of(const TileCounts::Mask& nodes) {
+    int row = 0;
+    while (nodes[static_cast<std::size_t>(row)] == 0) ++row;
+    return {std::countr_zero(nodes[static_cast<std::size_t>(row)]), row};
+  }
+
+  const ContactPyramid& pyramid_;
+  std::size_t rotation_;
+  CellPoints points_;
+  RobotCells robots_;
+  TileCounts counts_;
+  FoundPoses found_;
+};
+
+}  // namespace
+
+GridSearchResult search_grid(const ContactPyramid& pyramid, const Points& points,
+                             const Pose2& local_from_robot, const GridSearchRule& rule, int threads) {
+  const CellFrame& frame = pyramid.frame();
+  const PoseGrid grid(points, frame.cell, rule.min_rotation_step);
+  const auto rotation = [&](std::size_t index) {
+    return RotationSearch(pyramid, grid, index, local_from_robot, rule);
+  };
+  std::vector<std::size_t> bounds(grid.rotations());
+  std::vector<FoundPoses> found(grid.rotations());
+  parallel_for(threads, found.size(), [&](std::size_t i) {
+    Look look = rotation(i).look();
+    bounds[i] = look.bound;
+    found[i] = std::move(look.found);
+  });
+  BestPoses best(rule, points.size());
+  best.add(found);
+  std::vector<std::size_t> order(found.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return most_in_contact(found[a]) > most_in_contact(found[b]);
+  });
+
+  for (std::size_t begin = 0; begin < order.size(); begin += rotations_at_a_time) {
+    found.assign(std::min(rotations_at_a_time, order.size() - begin), {});
+    parallel_for(threads, found.size(), [&](std::size_t i) {
+      const std::size_t index = order[begin + i];
+      if (bounds[index] >= best.least()) found[i] = rotation(index).search(best.least());
+    });
+    best.add(found);
+  }
+  return best.result([&](const GridPose& pose) {
+    return grid.pose(pose.rotation, pose.column, pose.row, frame.min_x, frame.min_y);
+  });
+}
+
+}  // namespace glocal

@@ -1,0 +1,45 @@
+// The poses an exact search looks at: whole cells of translation, and rotations about a middle.
+#pragma once
+
+#include <cstddef>
+
+#include "glocal/points.hpp"
+#include "matchers/grid_search/contact_pyramid.hpp"
+
+namespace glocal {
+
+/// Poses of a local map. The points are turned about the middle of the rectangle they fill, by whole steps,
+/// and moved by whole cells: once turned, each lies in the cell that its coordinates over the side of a cell,
+/// rounded down, name, and translations keep it in the same place within its cell. So what cells the points
+/// of a grid pose lie in is a matter of integers.
+class PoseGrid {
+ public:
+  /// `cell` in m. A rotation by one step moves the farthest point by one cell, but is not smaller than
+  /// `min_rotation_step` (rad) and at most 0.1 rad. At least one point.
+  PoseGrid(const Points& points, double cell, double min_rotation_step);
+
+  [[nodiscard]] std::size_t rotations() const { return rotations_; }
+  /// In [0, 2 pi), rad.
+  [[nodiscard]] double angle(std::size_t rotation) const;
+  /// The cells of the points, turned but not moved.
+  [[nodiscard]] CellPoints cells(std::size_t rotation) const;
+  /// target_from_points of a grid pose, where the target's cell (0, 0) begins at (min_x, min_y).
+  [[nodiscard]] Pose2 pose(std::size_t rotation, int column, int row, double min_x, double min_y) const;
+
+ private:
+  const Points& points_;
+  double cell_;
+  double middle_x_, middle_y_;
+  std::size_t rotations_;
+};
+
+/// Translations by whole cells, from the first to the last.
+struct Translations {
+  int first_column, last_column;
+  int first_row, last_row;
+};
+
+/// All that bring a point into a cell of the frame.
+[[nodiscard]] Translations translations(const CellPoints& points, const CellFrame& frame);
+
+}  // namespace glocal

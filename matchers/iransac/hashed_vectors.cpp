@@ -1,0 +1,78 @@
+#include "matchers/iransac/hashed_vectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace glocal {
+
+void describe(ParamVisitor& v, HashRule& r) {
+  v.field("tables", r.tables, {.doc = "Hash tables (L).", .min = 1, .max = 1000});
+  v.field("projections", r.projections, {.doc = "Projections that name a bucket (k).", .min = 1, .max = 64});
+  v.field("bucket_width", r.bucket_width,
+          {.doc = "Width of a bucket along each of them (w); vectors have length 1.", .above = 0.0});
+}
+
+HashedVectors::HashedVectors(const FeatureVectors& vectors, const HashRule& rule, Rng rng)
+    : rule_(rule), dimensions_(vectors.dimensions) {
+  const auto tables = static_cast<std::size_t>(rule.tables);
+  const std::size_t functions = tables * static_cast<std::size_t>(rule.projections);
+  for (std::size_t i = 0; i < functions * dimensions_; ++i) {
+    directions_.push_back(static_cast<float>(rng.normal(1.0)));
+  }
+  for (std::size_t i = 0; i < functions; ++i) {
+    offsets_.push_back(static_cast<float>(rng.uniform(0.0, rule.bucket_width)));
+  }
+  tables_.resize(tables);
+  for (std::size_t table = 0; table < tables; ++table) {
+    std::vector<Entry>& entries = tables_[table];
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+      entries.push_back({bucket(table, vectors[i]), static_cast<std::uint32_t>(i)});
+    }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+      return std::tie(a.bucket, a.vector) < std::tie(b.bucket, b.vector);
+    });
+  }
+}
+
+std::vector<std::uint32_t> HashedVectors::find(const float* vector) const {
+  std::vector<std::uint32_t> found;
+  for (std::size_t table = 0; table < tables_.size(); ++table) {
+    const std::vector<Entry>& entries = tables_[table];
+    const std::uint64_t name = bucket(table, vector);
+    const auto first = std::lower_bound(entries.begin(), entries.end(), name,
+                                        [](const Entry& e, std::uint64_t key) { return e.bucket < key; });
+    for (auto e = first; e != entries.end() && e->bucket == name; ++e) found.push_back(e->vector);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::uint64_t HashedVectors::bucket(std::size_t table, const float* vector) const {
+  const auto projections = static_cast<std::size_t>(rule_.projections);
+  std::uint64_t name = 0;
+  for (std::size_t i = table * projections; i < (table + 1) * projections; ++i) {
+    const float along = dot(&directions_[i * dimensions_], vector, dimensions_) + offsets_[i];
+    const auto cell = static_cast<std::int64_t>(std::floor(along / rule_.bucket_width));
+    name = mix64(name ^
+                 static_cast<std::uint64_t>(cell));  // 64 bits: buckets of two names never meet in practice
+  }
+  return name;
+}
+
+std::size_t HashedVectors::memory_bytes() const {
+  std::size_t bytes = (directions_.size() + offsets_.size()) * sizeof(float);
+  for (const auto& table : tables_) bytes += table.size() * sizeof(Entry);
+  return bytes;
+}
+
+double HashedVectors::collision_probability(double distance, double bucket_width) {
+  const double ratio = bucket_width / distance;
+  const double normal_cdf = 0.5 * std::erfc(ratio / std::numbers::sqrt2);  // of -ratio
+  return 1.0 - 2.0 * normal_cdf -
+         2.0 / (std::sqrt(2.0 * std::numbers::pi) * ratio) * (1.0 - std::exp(-ratio * ratio / 2.0));
+}
+
+}  // namespace glocal

@@ -1,0 +1,49 @@
+#include "matchers/iransac/preemption.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "glocal/parallel.hpp"
+
+namespace glocal {
+
+std::size_t left_after(std::size_t hypotheses, std::size_t observations, std::size_t block) {
+  const std::size_t halvings = observations / block;
+  return halvings < std::numeric_limits<std::size_t>::digits ? hypotheses >> halvings : 0;
+}
+
+std::size_t preempt(std::vector<ScoredPose>& hypotheses, const ContactIndex& contact, const Points& all,
+                    const Points& latest, const PreemptionRule& rule, int threads) {
+  struct Candidate {
+    ScoredPose pose;
+    const Points* points;
+  };
+  std::vector<Candidate> candidates;
+  for (const ScoredPose& pose : hypotheses) {
+    candidates.push_back({pose, pose.looked_at == 0 ? &all : &latest});
+  }
+  std::size_t checks = 0;
+  const std::size_t most = std::max(all.size(), latest.size());
+  for (std::size_t begin = 0; begin < most; begin += rule.block) {
+    parallel_for(threads, candidates.size(), [&](std::size_t i) {
+      auto& [pose, points] = candidates[i];
+      if (begin >= points->size()) return;
+      const std::size_t n = std::min(rule.block, points->size() - begin);
+      pose.in_contact += contact.count(*points, begin, n, Transform(pose.map_from_local));
+      pose.looked_at += n;
+    });
+    checks += candidates.size() * rule.block;
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.pose.score() > b.pose.score(); });
+    const std::size_t left =
+        std::max(rule.fewest, left_after(hypotheses.size(), begin + rule.block, rule.block));
+    if (left < candidates.size())
+      candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(left), candidates.end());
+    if (candidates.size() <= rule.fewest) break;
+  }
+  hypotheses.clear();
+  for (const Candidate& candidate : candidates) hypotheses.push_back(candidate.pose);
+  return checks;
+}
+
+}  // namespace glocal

@@ -1,0 +1,363 @@
+#include "matchers/mcl/mcl.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "glocal/parallel.hpp"
+#include "matchers/common/pose_cell.hpp"
+
+namespace glocal {
+namespace {
+
+/// Names of the random streams within a step.
+enum Stream : std::uint64_t { beginning, moving, resampling };
+
+/// Bins of KLD-sampling, as in AMCL.
+constexpr PoseCellSize kld_bin{.metres = 0.5, .radians = radians(10.0)};
+
+double cube(double value) {
+  return value * value * value;
+}
+
+/// Particles of one cell.
+struct Heap {
+  double weight = 0.0, x = 0.0, y = 0.0, cosine = 0.0, sine = 0.0;
+
+  void add(const Pose2& pose, double w) {
+    weight += w;
+    x += w * pose.x;
+    y += w * pose.y;
+    cosine += w * std::cos(pose.theta);
+    sine += w * std::sin(pose.theta);
+  }
+  [[nodiscard]] Pose2 mean() const { return {x / weight, y / weight, std::atan2(sine, cosine)}; }
+};
+
+/// Particles by cells, the heaviest `most` of these first.
+std::vector<Heap> heaps_of(const std::vector<Pose2>& particles, const std::vector<double>& weights,
+                           const PoseCellSize& size, std::size_t most) {
+  std::vector<Heap> heaps;
+  std::unordered_map<std::uint64_t, std::size_t> heap_of_cell;
+  std::size_t heap = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    // Copies of a particle follow each other.
+    if (i == 0 || !(particles[i] == particles[i - 1])) {
+      const auto [it, is_new] = heap_of_cell.try_emplace(pose_cell(particles[i], size), heaps.size());
+      if (is_new) heaps.emplace_back();
+      heap = it->second;
+    }
+    heaps[heap].add(particles[i], weights[i]);
+  }
+  std::stable_sort(heaps.begin(), heaps.end(),
+                   [](const Heap& a, const Heap& b) { return a.weight > b.weight; });
+  heaps.resize(std::min(heaps.size(), most));
+  return heaps;
+}
+
+LikelihoodFieldRule field_rule(const Mcl::Params& p) {
+  return {.z_hit = p.z_hit,
+          .z_rand = p.z_rand,
+          .sigma_hit = p.sigma_hit,
+          .z_unknown = p.z_unknown,
+          .max_range = p.laser_max_range,
+          .max_distance = p.laser_likelihood_max_dist,
+          .distance_cell = p.field_cell};
+}
+
+BeamModelRule beam_rule(const Mcl::Params& p) {
+  return {.z_hit = p.z_hit,
+          .z_short = p.z_short,
+          .z_max = p.z_max,
+          .z_rand = p.z_rand,
+          .sigma_hit = p.sigma_hit,
+          .lambda_short = p.lambda_short,
+          .max_range = p.laser_max_range};
+}
+
+std::string field_key(const Mcl::Params& p) {
+  return fmt::format("{} {} {} {} {} {} {} {}", p.laser_model_type, p.z_hit, p.z_rand, p.z_unknown,
+                     p.sigma_hit, p.laser_max_range, p.laser_likelihood_max_dist, p.field_cell);
+}
+
+}  // namespace
+
+Mcl::Mcl(const Params& params, const StageSetup& setup)
+    : params_(params),
+      is_product_(params.laser_model_type.ends_with("_prob")),
+      threads_(setup.threads),
+      free_space_(free_space(*setup.map)),
+      contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
+      beam_rule_(beam_rule(params)),
+      averages_(params.recovery_alpha_slow, params.recovery_alpha_fast) {
+  if (params.laser_model_type.starts_with("beam")) {
+    grid_ = clearance_grid(*setup.map);
+  } else {
+    field_ = setup.map->index<LikelihoodField>(field_key(params), [&] {
+      return LikelihoodField(*setup.map, field_rule(params), [this](double p) { return term(p); });
+    });
+  }
+}
+
+void Mcl::reset() {
+  particles_.clear();
+  weights_.clear();
+  odom_from_last_.reset();
+  updates_ = 0;
+  averages_.reset();
+}
+
+MatchResult Mcl::match(const LocalMap& local, const Observation& latest, double omega_max, Rng& rng) {
+  MatchResult result;
+  if (latest.scan.hits.empty()) return result;
+  if (particles_.empty()) begin(rng);
+  Pose2 moved = odom_from_last_ ? inverse(*odom_from_last_) * latest.odom_from_robot : Pose2{};
+  result.collisions = particles_.size();
+  if (!odom_from_last_ || is_due(moved)) {
+    const Beams beams = beams_of(latest.scan);
+    result.checks = particles_.size() * beams.ranges.size();
+    update(moved, beams, rng);
+    odom_from_last_ = latest.odom_from_robot;
+    moved = {};
+  }
+  if (local.points.empty()) return result;
+  result.hypotheses = hypotheses(local, latest.scan, moved);
+  std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return h.quality < omega_max; });
+  return result;
+}
+
+void Mcl::begin(Rng& rng) {
+  Rng stream = rng.stream({beginning});
+  particles_.resize(static_cast<std::size_t>(params_.max_particles));
+  for (Pose2& particle : particles_) particle = free_space_->draw(stream);
+  weights_.assign(particles_.size(), 1.0 / static_cast<double>(particles_.size()));
+}
+
+bool Mcl::is_due(const Pose2& moved) const {
+  return std::hypot(moved.x, moved.y) >= params_.update_min_d ||
+         std::abs(moved.theta) >= params_.update_min_a;
+}
+
+/// An even choice of all beams.
+Mcl::Beams Mcl::beams_of(const Scan& scan) const {
+  const std::size_t all = scan.hits.size() + scan.free_ends.size();
+  const std::size_t n = std::min(all, static_cast<std::size_t>(params_.max_beams));
+  Beams beams{.origin = scan.origin, .hits = {}, .ranges = {}, .reach = {}};
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = k * all / n;
+    const bool is_hit = i < scan.hits.size();
+    const Point end = is_hit ? scan.hits[i] : scan.free_ends[i - scan.hits.size()];
+    if (is_hit) beams.hits.push_back(end);
+    const float dx = end.x - scan.origin.x;
+    const float dy = end.y - scan.origin.y;
+    const float range = std::hypot(dx, dy);
+    const float stretch = range > 0.0F ? static_cast<float>(params_.laser_max_range) / range : 0.0F;
+    beams.ranges.push_back(is_hit ? double{range} : met_nothing);
+    beams.reach.push_back({scan.origin.x + stretch * dx, scan.origin.y + stretch * dy, scan.origin.z});
+  }
+  return beams;
+}
+
+/// One step of the filter: motion, likelihoods, and every so often new particles in place of unlikely ones.
+void Mcl::update(const Pose2& moved, const Beams& beams, Rng& rng) {
+  const OdometryMotion motion(moved, params_.noise);
+  std::vector<double> log_likelihoods(particles_.size());
+  constexpr std::size_t chunk = MotionBatch::capacity;
+  parallel_for(threads_, (particles_.size() + chunk - 1) / chunk, [&](std::size_t number) {
+    Rng stream = rng.stream({moving, number});
+    const std::size_t first = number * chunk;
+    const std::size_t size = std::min(chunk, particles_.size() - first);
+    MotionBatch poses;
+    for (std::size_t i = 0; i < size; ++i) {
+      Pose2& particle = particles_[first + i];
+      particle = motion.sample(particle, stream);
+      poses.cosine[i] = static_cast<float>(std::cos(particle.theta));
+      poses.sine[i] = static_cast<float>(std::sin(particle.theta));
+      poses.x[i] = static_cast<float>(particle.x);
+      poses.y[i] = static_cast<float>(particle.y);
+    }
+    LikelihoodField::Sums scores{};
+    score(beams, poses, size, scores);
+    for (std::size_t i = 0; i < size; ++i) {
+      log_likelihoods[first + i] =
+          is_product_ ? params_.likelihood_exponent * double{scores[i]} : std::log1p(double{scores[i]});
+    }
+  });
+  weigh(log_likelihoods);
+  if (++updates_ % params_.resample_interval == 0) resample(rng);
+}
+
+/// What a beam of this likelihood adds to a pose's score.
+double Mcl::term(double likelihood) const {
+  return is_product_ ? std::log(likelihood) : cube(likelihood);
+}
+
+void Mcl::score(const Beams& beams, const MotionBatch& poses, std::size_t size,
+                LikelihoodField::Sums& scores) const {
+  if (field_) {
+    field_->sum(beams.hits, poses, size, scores);
+  } else {
+    for (std::size_t i = 0; i < size; ++i) scores[i] = static_cast<float>(beam_score(beams, poses[i]));
+  }
+}
+
+double Mcl::beam_score(const Beams& beams, const Transform& map_from_robot) const {
+  const Point origin = map_from_robot(beams.origin);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < beams.ranges.size(); ++i) {
+    const auto expected = grid_->first_occupied(origin, map_from_robot(beams.reach[i]), 0.0);
+    sum += term(beam_likelihood(beams.ranges[i], expected.value_or(met_nothing), beam_rule_));
+  }
+  return sum;
+}
+
+void Mcl::weigh(std::vector<double>& log_likelihoods) {
+  const double most = *std::max_element(log_likelihoods.begin(), log_likelihoods.end());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    weights_[i] *= std::exp(log_likelihoods[i] - most);
+    sum += weights_[i];
+  }
+  for (double& weight : weights_) weight /= sum;
+  averages_.add(sum * std::exp(most));
+}
+
+void Mcl::resample(Rng& rng) {
+  Rng stream = rng.stream({resampling});
+  const double share_of_new = averages_.share_of_new();
+  const std::size_t n = sample_size(share_of_new, stream);
+  const auto fresh = static_cast<std::size_t>(std::lround(share_of_new * static_cast<double>(n)));
+  std::vector<Pose2> next;
+  next.reserve(n);
+  for (const std::uint32_t i : low_variance_draws(weights_, n - fresh, stream.uniform()))
+    next.push_back(particles_[i]);
+  while (next.size() < n) next.push_back(free_space_->draw(stream));
+  particles_ = std::move(next);
+  weights_.assign(n, 1.0 / static_cast<double>(n));
+}
+
+/// KLD-sampling: draws fill bins until there are as many draws as the bins ask for.
+std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
+  const auto least = static_cast<std::size_t>(params_.min_particles);
+  const auto most = static_cast<std::size_t>(params_.max_particles);
+  const std::vector<std::uint32_t> draws = low_variance_draws(weights_, most, rng.uniform());
+  // Draws are sorted: steps of the golden ratio take them from everywhere.
+  std::size_t step = static_cast<std::size_t>(0.618 * static_cast<double>(most)) + 1;
+  while (std::gcd(step, most) != 1) ++step;
+  std::unordered_set<std::uint64_t> bins;
+  double asked_for = 1.0;
+  std::size_t n = 0;
+  while (n < most && (n < least || static_cast<double>(n) < asked_for)) {
+    const bool is_new = rng.uniform() < share_of_new;
+    const Pose2 pose = is_new ? free_space_->draw(rng) : particles_[draws[n * step % most]];
+    if (bins.insert(pose_cell(pose, kld_bin)).second)
+      asked_for = kld_sample_size(bins.size(), params_.pf_err, params_.pf_z);
+    if (asked_for >= static_cast<double>(most)) return most;
+    ++n;
+  }
+  return n;
+}
+
+std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan, const Pose2& moved) const {
+  const std::vector<Heap> heaps =
+      heaps_of(particles_, weights_, {params_.merge_distance, params_.merge_rotation},
+               static_cast<std::size_t>(params_.max_hypotheses));
+  const Pose2 robot_from_local = inverse(local.local_from_robot);
+  std::vector<Hypothesis> found;
+  for (const Heap& heap : heaps) {
+    const Pose2 map_from_robot = heap.mean() * moved;
+    const auto support = std::lround(heap.weight * static_cast<double>(particles_.size()));
+    found.push_back({.map_from_local = map_from_robot * robot_from_local,
+                     .map_from_robot = map_from_robot,
+                     .quality = contact_->share(scan.hits, Transform(map_from_robot)),
+                     .support = static_cast<std::size_t>(std::max(1L, support))});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
+  return found;
+}
+
+void describe(ParamVisitor& v, Mcl::Params& p) {
+  v.field("min_particles", p.min_particles, {.doc = "Particles at least.", .min = 1, .max = 10e6});
+  v.field("max_particles", p.max_particles,
+          {.doc = "Particles at most, and at the start.", .min = 1, .max = 10e6});
+  v.require(p.min_particles <= p.max_particles, "min_particles", "must be at most max_particles");
+  v.field("pf_err", p.pf_err,
+          {.doc = "KLD-sampling: largest error between the particles and what they stand for (epsilon of Fox "
+                  "2003).",
+           .above = 0.0});
+  v.field("pf_z", p.pf_z,
+          {.doc = "KLD-sampling: upper standard normal quantile of the probability that the error is smaller "
+                  "(z of Fox 2003; 0.99, AMCL's default, means 84 %).",
+           .min = 0.0});
+  v.field("recovery_alpha_slow", p.recovery_alpha_slow,
+          {.doc = "Rate of the slow average of the mean likelihood, of which new particles depend; 0 adds "
+                  "none. AMCL's manual proposes 0.001.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("recovery_alpha_fast", p.recovery_alpha_fast,
+          {.doc = "Rate of the fast one; 0 adds none. AMCL's manual proposes 0.1.", .min = 0.0, .max = 1.0});
+  v.field("resample_interval", p.resample_interval,
+          {.doc = "Updates between resamplings.", .min = 1, .max = 1000});
+  v.field("update_min_d", p.update_min_d,
+          {.doc = "An observation counts if the robot has driven so far since the last one that did; 0 lets "
+                  "all count.",
+           .unit = "m",
+           .min = 0.0});
+  v.field("update_min_a", p.update_min_a, {.doc = "… or turned so far.", .unit = "rad", .min = 0.0});
+  describe(v, p.noise);
+  v.field(
+      "laser_model_type", p.laser_model_type,
+      {.doc = "How likely a scan is: by beams in the occupancy grid, or by how far their ends are from the "
+              "map's points. With _prob the likelihoods of its beams are multiplied, without it is 1 and "
+              "the sum of their cubes, as in AMCL.",
+       .choices = {"beam", "beam_prob", "likelihood_field", "likelihood_field_prob"}});
+  v.field("max_beams", p.max_beams, {.doc = "Beams of a scan that are looked at.", .min = 1, .max = 100000});
+  v.field("likelihood_exponent", p.likelihood_exponent,
+          {.doc = "With _prob: the product is raised to this power, since beams err alike (Probabilistic "
+                  "Robotics, Section 6.3.4). Not in AMCL.",
+           .max = 1.0,
+           .above = 0.0});
+  v.field("z_hit", p.z_hit, {.doc = "Weight of beams that meet what the map says.", .min = 0.0, .max = 1.0});
+  v.field("z_short", p.z_short,
+          {.doc = "Weight of beams that meet something before it; beam models only, as are z_max and "
+                  "lambda_short.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("z_max", p.z_max, {.doc = "Weight of beams that meet nothing.", .min = 0.0, .max = 1.0});
+  v.field("z_rand", p.z_rand,
+          {.doc = "Weight of beams that meet anything anywhere.", .max = 1.0, .above = 0.0});
+  v.field(
+      "z_unknown", p.z_unknown,
+      {.doc = "Likelihood fields: a beam that ends in an unknown cell is worth this weight at least, spread "
+              "over laser_max_range; with z_rand and less there, beams into the unknown count as misses. "
+              "Probabilistic Robotics, Section 6.4, has 1; AMCL knows of no unknown cells.",
+       .min = 0.0,
+       .max = 1.0});
+  v.field("sigma_hit", p.sigma_hit, {.doc = "Standard deviation of a hit.", .unit = "m", .above = 0.0});
+  v.field("lambda_short", p.lambda_short,
+          {.doc = "Rate at which too short beams get rarer with their range.", .unit = "1/m", .above = 0.0});
+  v.field(
+      "laser_likelihood_max_dist", p.laser_likelihood_max_dist,
+      {.doc = "Larger distances from the map count as this one.", .unit = "m", .max = 20.0, .above = 0.0});
+  v.field("laser_max_range", p.laser_max_range,
+          {.doc = "Range over which z_rand is spread.", .unit = "m", .above = 0.0});
+  v.field("field_cell", p.field_cell,
+          {.doc = "Side of a cell of the likelihood field.", .unit = "m", .min = 0.01, .max = 1.0});
+  v.field("contact_epsilon", p.contact_epsilon,
+          {.doc = "Distance at which a point of the scan is in contact with the map (epsilon of eq. 4).",
+           .unit = "m",
+           .above = 0.0});
+  v.field("merge_distance", p.merge_distance,
+          {.doc = "Particles in a cell of this side are one hypothesis …", .unit = "m", .min = 0.001});
+  v.field("merge_rotation", p.merge_rotation, {.doc = "… and of this angle.", .unit = "rad", .min = 0.001});
+  v.field("max_hypotheses", p.max_hypotheses,
+          {.doc = "Of more, the heaviest are told.", .min = 1, .max = 1000000});
+}
+
+}  // namespace glocal

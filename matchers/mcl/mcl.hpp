@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/contact.hpp"
+#include "glocal/params.hpp"
+#include "glocal/strategies.hpp"
+#include "matchers/common/beam_evidence.hpp"
+#include "matchers/mcl/beam_model.hpp"
+#include "matchers/mcl/free_space.hpp"
+#include "matchers/mcl/likelihood_field.hpp"
+#include "matchers/mcl/odometry_motion.hpp"
+#include "matchers/mcl/resampling.hpp"
+
+namespace glocal {
+
+/// Monte Carlo localization: a particle filter over robot poses (Dellaert, Fox, Burgard and Thrun 1999;
+/// Thrun, Burgard and Fox, Probabilistic Robotics, Table 8.3), with the number of particles adapted by
+/// KLD-sampling and, if asked for, new particles where the filter has lost its robot. It begins with
+/// particles all over the map's free space and goes on with increments of odometry. Parameters have the names
+/// and defaults of AMCL (Nav2), unless their descriptions say otherwise.
+///
+/// It looks at the latest scan only; the local map just says in which frame a hypothesis is told. Hypotheses
+/// are the particles, those in one cell of pose space (`merge_distance`, `merge_rotation`) told as their
+/// mean, with as much support as their weights are worth in particles. Their quality is the share of the
+/// latest scan's points in contact with the map there (eq. 4 for the scan instead of the local map): weights
+/// say how poses compare, not how good they are. Without a scan there are no hypotheses; the motion is made
+/// up for with the next one.
+///
+/// `collisions` counts particles, `checks` looks at the end of a beam.
+class Mcl final : public Matcher {
+ public:
+  struct Params {
+    int min_particles = 500;
+    int max_particles = 2000;
+    double pf_err = 0.05;
+    double pf_z = 0.99;
+    double recovery_alpha_slow = 0.0;
+    double recovery_alpha_fast = 0.0;
+    int resample_interval = 1;
+    double update_min_d = 0.25;
+    double update_min_a = 0.2;
+    OdometryNoise noise = {};
+    std::string laser_model_type = "likelihood_field";
+    int max_beams = 60;
+    double likelihood_exponent = 1.0;
+    double z_hit = 0.5;
+    double z_short = 0.05;
+    double z_max = 0.05;
+    double z_rand = 0.5;
+    double z_unknown = 0.0;
+    double sigma_hit = 0.2;
+    double lambda_short = 0.1;
+    double laser_likelihood_max_dist = 2.0;
+    double laser_max_range = 100.0;
+    double field_cell = 0.05;
+    double contact_epsilon = 0.10;
+    double merge_distance = 0.25;
+    double merge_rotation = 0.17;
+    int max_hypotheses = 1000;
+  };
+
+  /// Throws ConfigError where the map has no free cell, or is too large for a table of distances or a contact
+  /// grid.
+  Mcl(const Params& params, const StageSetup& setup);
+
+  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
+                                  Rng& rng) override;
+  void reset() override;
+
+ private:
+  /// Beams that are looked at, in the robot's frame.
+  struct Beams {
+    Point origin;
+    Points hits;
+    std::vector<double> ranges;  ///< m; met_nothing for the last ones.
+    Points reach;  ///< Where each beam would be at the largest range, if nothing were in its way.
+  };
+  [[nodiscard]] Beams beams_of(const Scan& scan) const;
+  void begin(Rng& rng);
+  [[nodiscard]] bool is_due(const Pose2& moved) const;
+  void update(const Pose2& moved, const Beams& beams, Rng& rng);
+  void score(const Beams& beams, const MotionBatch& poses, std::size_t size,
+             LikelihoodField::Sums& scores) const;
+  [[nodiscard]] double beam_score(const Beams& beams, const Transform& map_from_robot) const;
+  [[nodiscard]] double term(double likelihood) const;
+  void weigh(std::vector<double>& log_likelihoods);
+  void resample(Rng& rng);
+  [[nodiscard]] std::size_t sample_size(double share_of_new, Rng& rng) const;
+  [[nodiscard]] std::vector<Hypothesis> hypotheses(const LocalMap& local, const Scan& scan,
+                                                   const Pose2& moved) const;
+
+  Params params_;
+  bool is_product_;  ///< Likelihoods of beams are multiplied; else AMCL's sum of cubes.
+  int threads_;
+  std::shared_ptr<const FreeSpace> free_space_;
+  std::shared_ptr<const LikelihoodField> field_;  ///< Null for the beam model.
+  std::shared_ptr<const ClearanceGrid> grid_;     ///< Null for the likelihood field.
+  std::shared_ptr<const ContactIndex> contact_;
+  BeamModelRule beam_rule_;
+
+  std::vector<Pose2> particles_;         ///< map_from_robot as of the last update.
+  std::vector<double> weights_;          ///< One for each; they add up to 1.
+  std::optional<Pose2> odom_from_last_;  ///< Of the last update; none before the first.
+  int updates_ = 0;
+  RecoveryAverages averages_;
+};
+void describe(ParamVisitor& v, Mcl::Params& p);
+
+}  // namespace glocal

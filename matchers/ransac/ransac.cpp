@@ -1,0 +1,131 @@
+#include "matchers/ransac/ransac.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "glocal/parallel.hpp"
+#include "matchers/common/merge.hpp"
+#include "matchers/common/modes.hpp"
+#include "matchers/common/point_pair.hpp"
+
+namespace glocal {
+namespace {
+
+/// Iterations handled together by one thread. Fixed, so that the answer does not depend on the number of
+/// threads.
+constexpr std::size_t iterations_per_chunk = 65536;
+
+Point draw_point(const Points& points, Rng& rng) {
+  return points[rng.below(static_cast<std::uint32_t>(points.size()))];
+}
+
+float distance_between(const Point& a, const Point& b) {
+  return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, Ransac::Params& p) {
+  v.field("iterations", p.iterations,
+          {.doc = "Samples drawn in a step: two points of each map.", .min = 1, .max = 1e9});
+  v.field("tries", p.tries,
+          {.doc = "Times the second point of the map is drawn until it is at the distance of the local two; "
+                  "1 is the textbook's.",
+           .min = 1,
+           .max = 100000});
+  v.field("contact_epsilon", p.contact_epsilon,
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
+           .unit = "m",
+           .above = 0.0});
+  v.field("tolerance", p.tolerance,
+          {.doc = "By how much the two distances of a sample may differ.", .unit = "m", .above = 0.0});
+  v.field("min_distance", p.min_distance,
+          {.doc = "Local points nearer to each other give poor headings and are skipped.",
+           .unit = "m",
+           .above = 0.0});
+  v.field("max_hypotheses", p.max_hypotheses,
+          {.doc = "Where a step has more, those that mean nearly the same pose become one that counts as "
+                  "many.",
+           .min = 100});
+  v.field("refinement_points", p.refinement_points, {.doc = "Points used to refine a pose.", .min = 3});
+  v.field("refinement", p.refinement,
+          {.doc = "How hypotheses are fitted to all points at the end; not without iterations."});
+  v.field("field_cell", p.field_cell,
+          {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
+}
+
+Ransac::Ransac(const Params& params, const StageSetup& setup)
+    : params_(params),
+      setup_(setup),
+      contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
+      field_(distance_field(*setup.map, params.field_cell)) {}
+
+MatchResult Ransac::match(const LocalMap& local, const Observation& /*latest*/, double omega_max, Rng& rng) {
+  if (local.points.empty()) return {};
+  const QualityTest quality(local.points, contact_, ExtrapolationRule{}, omega_max, rng);
+  const Rng draws(rng.next());
+  const auto iterations = static_cast<std::size_t>(params_.iterations);
+  std::vector<MatchResult> chunks((iterations + iterations_per_chunk - 1) / iterations_per_chunk);
+  parallel_for(setup_.threads, chunks.size(), [&](std::size_t i) {
+    const std::size_t begin = i * iterations_per_chunk;
+    chunks[i] = draw(local, quality, std::min(iterations_per_chunk, iterations - begin), draws.stream({i}));
+  });
+  MatchResult result = joined(chunks, static_cast<std::size_t>(params_.max_hypotheses));
+  if (params_.refinement.iterations > 0) refine_all(local, omega_max, result, rng);
+  return result;
+}
+
+MatchResult Ransac::draw(const LocalMap& local, const QualityTest& quality, std::size_t iterations,
+                         Rng rng) const {
+  const Points& map = setup_.map->points();
+  const auto tolerance = static_cast<float>(params_.tolerance);
+  MatchResult found;
+  MotionBatch motions;
+  ContactIndex::BatchColumn starts{};
+  std::size_t size = 0;
+  const auto test = [&] {
+    const QualityTest::Outcome outcome = quality.test(motions, size, starts);
+    found.collisions += size;
+    found.checks += outcome.checks;
+    for (const auto& [i, omega] : outcome.passed) {
+      const Pose2 pose = motions[i].pose();
+      found.hypotheses.push_back({pose, pose * local.local_from_robot, omega});
+    }
+    size = 0;
+  };
+  for (std::size_t i = 0; i < iterations; ++i) {
+    const PointPair pair{draw_point(local.points, rng), draw_point(local.points, rng)};
+    const float length = distance_between(pair[0], pair[1]);
+    if (length < params_.min_distance) continue;
+    const Point first = draw_point(map, rng);
+    for (int k = 0; k < params_.tries; ++k) {
+      const Point second = draw_point(map, rng);
+      if (std::abs(distance_between(first, second) - length) > tolerance) continue;
+      starts[size] = static_cast<std::uint32_t>(rng.next());
+      lay(pair, {first, second}, motions, size++);
+      if (size == MotionBatch::capacity) test();
+      break;
+    }
+  }
+  test();
+  return found;
+}
+
+void Ransac::refine_all(const LocalMap& local, double omega_max, MatchResult& result, Rng& rng) const {
+  const Points anchors = sample_of(local.points, static_cast<std::size_t>(params_.refinement_points), rng);
+  parallel_for(setup_.threads, result.hypotheses.size(), [&](std::size_t i) {
+    Hypothesis& h = result.hypotheses[i];
+    h.map_from_local = refined_pose(*field_, anchors, h.map_from_local, params_.refinement);
+    h.map_from_robot = h.map_from_local * local.local_from_robot;
+    h.quality = contact_->share(local.points, Transform(h.map_from_local));
+  });
+  result.checks += result.hypotheses.size() * local.points.size();
+  std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return h.quality < omega_max; });
+  std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
+}
+
+}  // namespace glocal

@@ -1,0 +1,104 @@
+#include "report/figures/figures_input.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "evaluation/results/pcd.hpp"
+#include "evaluation/results/results_folder.hpp"
+
+namespace glocal::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+  throw ConfigError({{file.string(), 0, 0, why}});
+}
+
+/// How many steps trials.jsonl says that the trial has, at least.
+std::size_t steps_of(const fs::path& folder, std::size_t trial) {
+  std::optional<std::size_t> steps;
+  std::size_t last = 0;
+  const fs::path file = folder / "trials.jsonl";
+  for_each_line(file, [&](const Json& line) {
+    last = line.at("trial");
+    if (last == trial) steps = line.at("steps").get<std::size_t>();
+  });
+  if (!steps) refuse(file, fmt::format("has no trial {}; choose one from 0 to {} with --trial", trial, last));
+  if (*steps == 0) refuse(file, fmt::format("trial {} has no steps; choose another with --trial", trial));
+  return *steps;
+}
+
+void check_number(const Json& json, const char* key) {
+  static_cast<void>(json.at(key).get<double>());
+}
+
+void check_pose(const Json& json, const char* key) {
+  for (const char* axis : {"x", "y", "theta"}) check_number(json.at(key), axis);
+}
+
+/// Throws a std::exception if figures.py could not read the step.
+void check_step(const Json& step) {
+  check_number(step.at("stage_ms"), "match");
+  for (const char* key : {"omega_best", "omega_max", "hypotheses", "clusters"}) check_number(step, key);
+  for (const char* key : {"omega_place", "translation_error_m", "rotation_error_deg"}) {
+    if (step.contains(key)) check_number(step, key);
+  }
+  static_cast<void>(step.at("verdict").get<std::string>());
+  check_pose(step, "local_from_robot");
+  for (const char* key : {"estimate", "reference"}) {
+    if (step.contains(key)) check_pose(step, key);
+  }
+  for (const Json& cluster : step.at("best")) {
+    check_number(cluster, "r");
+    check_pose(cluster, "pose");
+  }
+}
+
+void check_steps(const fs::path& folder, std::size_t trial) {
+  const fs::path file = folder / "steps.jsonl";
+  if (!fs::exists(file)) refuse(file, "is not there; run the experiment again with --set output.steps=true");
+  const std::size_t expected = steps_of(folder, trial);
+  std::size_t found = 0;
+  for_each_line(file, [&](const Json& step) {
+    if (step.at("trial") != trial) return;
+    if (step.at("step") != found) throw std::invalid_argument(fmt::format("step {} is missing", found));
+    check_step(step);
+    ++found;
+  });
+  if (found < expected) {
+    refuse(file,
+           fmt::format("is cut off: it has {} of the {} steps or more of trial {}; run the experiment again",
+                       found, expected, trial));
+  }
+}
+
+void check_point_clouds(const fs::path& folder, std::size_t trial, FaultCollector& faults) {
+  std::vector<fs::path> files;
+  if (const fs::path global = folder / "maps/global.pcd"; fs::exists(global)) files.push_back(global);
+  const fs::path local = folder / fmt::format("maps/trial_{:04}", trial);
+  if (fs::is_directory(local)) {
+    for (const auto& entry : fs::directory_iterator(local)) {
+      if (entry.path().extension() == ".pcd") files.push_back(entry.path());
+    }
+  }
+  for (const fs::path& file : files) {
+    faults.collect([&] { static_cast<void>(read_pcd(file)); });
+  }
+}
+
+}  // namespace
+
+void check_figures_input(const fs::path& folder, std::size_t trial, FaultCollector& faults) {
+  faults.collect([&] { static_cast<void>(read_results(folder)); });  // that it is one, and all of it
+  faults.collect([&] { check_steps(folder, trial); });
+  check_point_clouds(folder, trial, faults);
+}
+
+}  // namespace glocal::app

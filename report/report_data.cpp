@@ -1,0 +1,201 @@
+#include "report/report_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "evaluation/comparison/comparison_writers.hpp"
+#include "evaluation/results/pcd.hpp"
+#include "report/map_points.hpp"
+#include "version.hpp"
+
+namespace glocal {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int format = 1;
+
+Fault fault_of(const fs::path& file, const std::string& what) {
+  return {file.string(), 0, 0, what + "; run the experiment again"};
+}
+
+/// How many recordings of a kind there are: step_0000.pcd, step_0001.pcd …
+std::size_t count_recordings(const fs::path& folder, std::string_view kind) {
+  std::size_t n = 0;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    n += name.starts_with(kind) && name.ends_with(".pcd") ? 1 : 0;
+  }
+  return n;
+}
+
+}  // namespace
+
+Json to_json(const std::map<std::string, Setting>& settings) {
+  Json json = Json::object();
+  for (const auto& [path, setting] : settings) {
+    json[path]["text"] = setting.text;
+    if (setting.identity != setting.text) json[path]["identity"] = setting.identity;
+  }
+  return json;
+}
+
+Json report_head() {
+  return {{"format", format}, {"generator", fmt::format("glocal {} ({})", version, revision())}};
+}
+
+void ReportData::add(const fs::path& folder) {
+  FaultCollector faults;
+  Run run;
+  run.folder = folder;
+  read_head(run, faults);
+  read_trials(run, faults);
+  read_map(run, faults);
+  for (const auto& [number, trial] : run.trials) read_recordings(run, number, faults);
+  faults.report();
+  runs_.push_back(std::move(run));
+  share_limits();
+}
+
+void ReportData::read_head(Run& run, FaultCollector& faults) const {
+  faults.collect([&] {
+    with_json(run.folder / "summary.json", [&](const Json& summary) {
+      run.trials_counted = summary.at("trials").at("count");
+      run.summary = summary;
+    });
+  });
+  std::map<std::string, std::string> hashes;
+  faults.collect([&] {
+    with_json(run.folder / "provenance.json", [&](const Json& provenance) {
+      hashes = provenance.at("inputs_sha256");
+      run.provenance = provenance;
+    });
+  });
+  faults.collect([&] { run.settings = read_settings(run.folder, hashes); });
+}
+
+/// With their steps.
+void ReportData::read_trials(Run& run, FaultCollector& faults) const {
+  const fs::path file = run.folder / "trials.jsonl";
+  const bool is_read = faults.collect([&] {
+    for_each_line(file, [&](const Json& line) {
+      const std::size_t number = line.at("trial");
+      if (!run.trials.try_emplace(number, Trial{.line = line, .least_steps = line.at("steps")}).second)
+        throw std::invalid_argument(fmt::format("trial {} is there already", number));
+    });
+  });
+  if (!is_read) return;
+  if (run.trials_counted && *run.trials_counted != run.trials.size())
+    faults.add(fault_of(file, fmt::format("has {} trials, where summary.json counts {}", run.trials.size(),
+                                          *run.trials_counted)));
+  read_steps(run, faults);
+}
+
+void ReportData::read_steps(Run& run, FaultCollector& faults) const {
+  const auto written = run.settings.find("output.steps");
+  if (written != run.settings.end() && written->second.text == "false") return;
+  const fs::path file = run.folder / "steps.jsonl";
+  for (auto& [number, trial] : run.trials) trial.steps.emplace(limits_.clusters);
+  const bool is_read = faults.collect([&] {
+    for_each_line(file, [&](const Json& line) {
+      const std::size_t number = line.at("trial");
+      const auto trial = run.trials.find(number);
+      if (trial == run.trials.end())
+        throw std::invalid_argument(fmt::format("trials.jsonl has no trial {}", number));
+      trial->second.steps->add(line);
+    });
+  });
+  for (auto& [number, trial] : run.trials) {
+    if (!is_read) {
+      trial.steps.reset();  // how many there are in all is not known
+    } else if (trial.steps->size() < trial.least_steps) {
+      faults.add(fault_of(file, fmt::format("has {} of the {} steps of trial {}", trial.steps->size(),
+                                            trial.least_steps, number)));
+    }
+  }
+}
+
+void ReportData::read_map(Run& run, FaultCollector& faults) {
+  const fs::path file = run.folder / "maps" / "global.pcd";
+  if (!fs::exists(file)) return;
+  faults.collect([&] {
+    Json map = map_points(read_pcd(file));
+    const auto same = std::find(maps_.begin(), maps_.end(), map);
+    run.map = static_cast<std::size_t>(same - maps_.begin());
+    if (same == maps_.end()) maps_.push_back(std::move(map));
+  });
+}
+
+/// Local maps and scans of a trial.
+void ReportData::read_recordings(Run& run, std::size_t number, FaultCollector& faults) {
+  Trial& trial = run.trials.at(number);
+  const fs::path folder = run.folder / "maps" / fmt::format("trial_{:04}", number);
+  const auto read = [&](const char* kind, auto& frames, std::size_t most, std::size_t& trials_with) {
+    const std::size_t found = count_recordings(folder, fmt::format("{}_", kind));
+    if (found == 0) return;
+    frames.emplace(most / ++trials_with);
+    const std::size_t steps = trial.steps ? trial.steps->size() : found;
+    if (found > steps)
+      faults.add(fault_of(folder, fmt::format("steps.jsonl has {} steps of this trial, where there are {} "
+                                              "files {}_NNNN.pcd",
+                                              steps, found, kind)));
+    for (std::size_t step = 0; step < steps; ++step) {
+      faults.collect([&] { frames->add(read_pcd(folder / fmt::format("{}_{:04}.pcd", kind, step))); });
+    }
+  };
+  read("step", trial.local_map, limits_.lives, trials_with_maps_);
+  read("scan", trial.scans, limits_.scan_points, trials_with_scans_);
+}
+
+void ReportData::share_limits() {
+  for (Run& run : runs_) {
+    for (auto& [number, trial] : run.trials) {
+      if (trial.local_map) trial.local_map->keep_at_most(limits_.lives / trials_with_maps_);
+      if (trial.scans) trial.scans->keep_at_most(limits_.scan_points / trials_with_scans_);
+    }
+  }
+}
+
+Json ReportData::to_json(const Run& run, const std::string& name) {
+  Json json = {{"name", name},
+               {"folder", run.folder.string()},
+               {"summary", run.summary},
+               {"provenance", run.provenance},
+               {"settings", glocal::to_json(run.settings)}};
+  if (run.map) json["map"] = *run.map;
+  json["trials"] = Json::array();
+  for (const auto& [number, trial] : run.trials) {
+    Json entry = trial.line;
+    if (trial.steps) entry["columns"] = trial.steps->to_json();
+    if (trial.local_map) entry["local_map"] = glocal::to_json(*trial.local_map);
+    if (trial.scans) entry["scans"] = trial.scans->to_json();
+    json["trials"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json ReportData::to_json(const std::vector<NamedRun>& runs, std::size_t baseline) const {
+  Json json = report_head();
+  json["maps"] = maps_;
+  json["runs"] = Json::array();
+  for (std::size_t i = 0; i < runs_.size(); ++i) json["runs"].push_back(to_json(runs_[i], runs[i].name));
+  if (runs_.size() < 2) return json;
+  try {
+    json["comparison"] = glocal::to_json(compare(runs, baseline));
+  } catch (const ConfigError& error) {
+    const Fault& fault = error.faults().front();
+    json["comparison_refused"] = fmt::format("{}: {}", fault.file, fault.message);
+  }
+  return json;
+}
+
+}  // namespace glocal

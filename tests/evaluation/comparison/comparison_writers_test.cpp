@@ -1,0 +1,105 @@
+#include "evaluation/comparison/comparison_writers.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "evaluation/comparison/comparison_report.hpp"
+#include "evaluation/comparison/runs.hpp"
+
+namespace glocal::test::comparison_writers_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line + ",");
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+TEST(ComparisonCsv, HasARowForEachTest) {
+  const Comparison comparison = compare(slow_and_quick(), 0);
+  const auto rows = cells_of(to_csv(comparison));
+  ASSERT_EQ(rows.size(), 1U + 7U);
+  const auto column = [&](const std::string& name) {
+    const auto at = std::find(rows[0].begin(), rows[0].end(), name);
+    EXPECT_NE(at, rows[0].end()) << name;
+    return static_cast<std::size_t>(at - rows[0].begin());
+  };
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  const auto& right = rows[1];
+  EXPECT_EQ(right[column("variant")], "quick");
+  EXPECT_EQ(right[column("baseline")], "slow");
+  EXPECT_EQ(right[column("measure")], "right");
+  EXPECT_EQ(right[column("starts")], "30");
+  EXPECT_EQ(right[column("baseline_value")], "21");
+  EXPECT_EQ(right[column("variant_value")], "29");
+  EXPECT_EQ(right[column("test")], "mcnemar_exact");
+  EXPECT_EQ(right[column("differing")], "10");
+  EXPECT_EQ(right[column("p")], "0.021484375");
+  EXPECT_EQ(right[column("significant")], "true");
+  const auto& steps = rows[3];
+  EXPECT_EQ(steps[column("measure")], "steps");
+  EXPECT_EQ(steps[column("difference")], "-2");
+  EXPECT_EQ(steps[column("mean_low")], "-2");
+  EXPECT_EQ(steps[column("newcombe_low")], "");
+  EXPECT_EQ(steps[column("test")], "wilcoxon_exact");
+}
+
+TEST(ComparisonCsv, QuotesNames) {
+  std::vector<NamedRun> runs = slow_and_quick();
+  runs[1].name = "a \"quick\", one";
+  EXPECT_THAT(to_csv(compare(runs, 0)), HasSubstr("\"a \"\"quick\"\", one\",slow,right,"));
+}
+
+TEST(ComparisonJson, HoldsWhatTheComparisonHolds) {
+  const Comparison comparison = compare(slow_and_quick(), 0);
+  const nlohmann::ordered_json json = to_json(comparison);
+  EXPECT_EQ(json["starts"], 30);
+  EXPECT_EQ(json["runs"][0]["success_rate"]["value"], 0.7);
+  EXPECT_EQ(json["runs"][0]["medians"]["steps"], 19.0);
+  const auto& pair = json["pairs"][0];
+  EXPECT_EQ(pair["variant"], "quick");
+  EXPECT_EQ(pair["outcomes"][1]["only_baseline"], 9);
+  EXPECT_EQ(pair["outcomes"][1]["significant"], true);
+  EXPECT_EQ(pair["measures"][0]["median_difference"]["value"], -2.0);
+  EXPECT_EQ(pair["measures"][0]["positive_rank_sum"], 0.0);
+}
+
+TEST(ComparisonReport, IsTheSameAsTextAndAsMarkdown) {
+  std::vector<NamedRun> runs = slow_and_quick();
+  runs[1].name = "qu|ck_2";
+  runs[1].results.complete = false;
+  const Comparison comparison = compare(runs, 0);
+  const std::string text = text_report(comparison);
+  EXPECT_THAT(text, HasSubstr("30 starts that all 2 runs have, compared with slow\n"));
+  EXPECT_THAT(text, HasSubstr("  ! qu|ck_2 was interrupted: its later trials are missing.\n"));
+  EXPECT_THAT(text, HasSubstr("  run      right              %, 95 %  wrong"));
+  EXPECT_THAT(text, HasSubstr("  slow        21  70.0 (52.1 to 83.3)      9"));
+  EXPECT_THAT(text, HasSubstr("qu|ck_2 is significantly better than slow in right"));
+  const std::string markdown = markdown_report(comparison);
+  EXPECT_THAT(markdown, HasSubstr("- qu\\|ck\\_2 was interrupted: its later trials are missing.\n"));
+  EXPECT_THAT(markdown, HasSubstr("| run | right | %, 95 % | wrong |"));
+  EXPECT_THAT(markdown, HasSubstr("| slow | 21 | 70.0 (52.1 to 83.3) | 9 |"));
+  EXPECT_THAT(markdown, HasSubstr("| qu\\|ck\\_2 | 29 |"));
+}
+
+TEST(ComparisonReport, KeepsToTheWidthOfATerminal) {
+  std::istringstream lines(text_report(compare(slow_and_quick(), 0)));
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 120U) << line;
+    EXPECT_THAT(line, Not(testing::EndsWith(" ")));
+  }
+}
+
+}  // namespace
+}  // namespace glocal::test::comparison_writers_test

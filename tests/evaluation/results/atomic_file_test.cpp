@@ -1,0 +1,90 @@
+#include "evaluation/results/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "evaluation/results/file_io.hpp"
+#include "files.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal::atomic_file_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::ptrdiff_t entries(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+TEST(AtomicFiles, AppearTogetherWhenCommitted) {
+  const test::TemporaryFolder folder;
+  AtomicFiles files(false);
+  files.add(folder / "sub/a.txt", "first");
+  files.add(folder / "sub/b.txt", "second");
+  EXPECT_FALSE(fs::exists(folder / "sub/a.txt"));
+  files.commit();
+  EXPECT_EQ(content(folder / "sub/a.txt"), "first");
+  EXPECT_EQ(content(folder / "sub/b.txt"), "second");
+  EXPECT_EQ(entries(folder / "sub"), 2);
+}
+
+TEST(AtomicFiles, LeaveNothingWithoutCommit) {
+  const test::TemporaryFolder folder;
+  folder.write("b.txt", "old");
+  {
+    AtomicFiles files(true);
+    files.add(folder / "a.txt", "new");
+    files.add(folder / "b.txt", "new");
+  }
+  EXPECT_EQ(entries(folder / ""), 1);
+  EXPECT_EQ(content(folder / "b.txt"), "old");
+}
+
+TEST(AtomicFiles, ReplaceOnlyWhenAllowed) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.write("a.txt", "old, and longer");
+  AtomicFiles refused(false);
+  EXPECT_EQ(test::config_error(file.parent_path(), [&] { refused.add(file, "new"); }),
+            "a.txt: error: the file exists; choose another name, or replace it with --force");
+  EXPECT_EQ(content(file), "old, and longer");
+  AtomicFiles allowed(true);
+  allowed.add(file, "new");
+  allowed.commit();
+  EXPECT_EQ(content(file), "new");
+}
+
+TEST(AtomicFiles, SayWhyTheyCannotBeWritten) {
+  const test::TemporaryFolder folder;
+  fs::create_directory(folder / "sub");
+  AtomicFiles files(true);
+  EXPECT_EQ(test::config_error((folder / "sub").parent_path(), [&] { files.add(folder / "sub", "x"); }),
+            "sub: error: is a folder; name a file");
+  folder.write("a.txt", "");
+  try {
+    files.add(folder / "a.txt/b.txt", "x");
+    FAIL() << "a file cannot hold files";
+  } catch (const RunError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              (folder / "a.txt/b.txt").string() + ": cannot write: Not a directory");
+  }
+}
+
+TEST(AppendToFile, FailsOnAFullDisk) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  try {
+    append_to_file("/dev/full", "x", "results/steps.jsonl");
+    FAIL() << "nothing fits on this device";
+  } catch (const RunError& error) {
+    EXPECT_STREQ(error.what(), "results/steps.jsonl: cannot write: No space left on device");
+  }
+}
+
+}  // namespace
+}  // namespace glocal::atomic_file_test

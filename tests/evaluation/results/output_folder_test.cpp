@@ -1,0 +1,224 @@
+#include "evaluation/results/output_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <iterator>
+
+#include "files.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal::test::output_folder_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::ptrdiff_t entries(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+template <class Call>
+std::string run_error(Call call) {
+  try {
+    call();
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Files of at most so many bytes, as if the disk were full; the limit before is restored.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    static_cast<void>(std::signal(SIGXFSZ, handler_));
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST(OutputFolder, AppearsWholeWhenCommitted) {
+  const TemporaryFolder folder;
+  {
+    OutputFolder out(folder / "a/results", false);
+    out.append("steps.jsonl", "one\n");
+    out.append("maps/global.pcd", "points");
+    out.append("steps.jsonl", "two\n");
+    EXPECT_FALSE(fs::exists(folder / "a/results"));
+    EXPECT_EQ(out.path(), folder / "a/results");
+    out.commit();
+  }
+  EXPECT_EQ(content(folder / "a/results/steps.jsonl"), "one\ntwo\n");
+  EXPECT_EQ(content(folder / "a/results/maps/global.pcd"), "points");
+  EXPECT_EQ(entries(folder / "a"), 1);
+}
+
+TEST(OutputFolder, LeavesNothingWithoutCommit) {
+  const TemporaryFolder folder;
+  {
+    OutputFolder out(folder / "results", false);
+    out.append("maps/global.pcd", "points");
+  }
+  EXPECT_EQ(entries(folder / ""), 0);
+}
+
+TEST(OutputFolder, AnEmptyFolderIsFree) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "results");
+  OutputFolder out(folder / "results/", false);
+  out.append("a", "1");
+  out.commit();
+  EXPECT_EQ(content(folder / "results/a"), "1");
+}
+
+TEST(OutputFolder, RefusesWhatIsThere) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a.txt", "mine");
+  const fs::path parent = file.parent_path();
+  EXPECT_EQ(
+      config_error(parent.parent_path(), [&] { OutputFolder(parent, false); }),
+      parent.filename().string() +
+          ": error: output: the folder exists and is not empty; choose another one with --out, or replace "
+          "earlier results with --force");
+  EXPECT_EQ(config_error(parent, [&] { OutputFolder(file, true); }),
+            "a.txt: error: output: exists and is not a folder; choose another one with --out");
+  EXPECT_EQ(content(file), "mine");
+  EXPECT_EQ(entries(parent), 1);
+}
+
+TEST(OutputFolder, ReplacesOnlyEarlierResults) {
+  const TemporaryFolder folder;
+  const fs::path parent = (folder / "").parent_path();
+  fs::create_directory(folder / "home");
+  folder.write("home/thesis.tex", "years of work");
+  EXPECT_EQ(config_error(parent, [&] { OutputFolder(folder / "home", true); }),
+            "home: error: output: --force replaces only earlier results, and this folder has no "
+            "provenance.json; choose another one with --out");
+  EXPECT_EQ(content(folder / "home/thesis.tex"), "years of work");
+
+  fs::create_directory(folder / "results");
+  folder.write("results/provenance.json", "old");
+  folder.write("results/old.txt", "old");
+  OutputFolder out(folder / "results", true);
+  out.append("provenance.json", "new");
+  EXPECT_EQ(content(folder / "results/provenance.json"), "old");
+  out.commit();
+  EXPECT_EQ(content(folder / "results/provenance.json"), "new");
+  EXPECT_FALSE(fs::exists(folder / "results/old.txt"));
+  EXPECT_EQ(entries(parent), 2);
+}
+
+TEST(OutputFolder, KeepsResultsThatAppearedMeanwhile) {
+  const TemporaryFolder folder;
+  {
+    OutputFolder out(folder / "results", false);
+    out.append("provenance.json", "later");
+    fs::create_directory(folder / "results");
+    folder.write("results/provenance.json", "sooner");
+    EXPECT_NE(run_error([&] { out.commit(); }), "");
+  }
+  EXPECT_EQ(content(folder / "results/provenance.json"), "sooner");
+  EXPECT_EQ(entries(folder / ""), 1);
+}
+
+TEST(OutputFolder, EarlierResultsComeBackIfNewOnesCannotTakeTheirPlace) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "results");
+  folder.write("results/provenance.json", "old");
+  {
+    OutputFolder out(folder / "results", true);
+    out.append("provenance.json", "new");
+    // A run that ended between the two renames of commit().
+    fs::rename(folder / "results", folder / ".results.replaced");
+  }
+  EXPECT_FALSE(fs::exists(folder / "results"));
+  const OutputFolder out(folder / "results", true);
+  EXPECT_EQ(content(folder / "results/provenance.json"), "old");
+  EXPECT_FALSE(fs::exists(folder / ".results.replaced"));
+}
+
+TEST(OutputFolder, TakesUpWhatWasLeftUnfinished) {
+  const TemporaryFolder folder;
+  {
+    OutputFolder out(folder / "results", false);
+    out.write("a", "1");
+    out.keep_unfinished();
+  }
+  EXPECT_EQ(content(folder / ".results.unfinished/a"), "1");
+  EXPECT_EQ(entries(folder / ""), 1) << "the lock goes with its owner";
+  {
+    OutputFolder out(folder / "results", false, [](const fs::path&) { return true; });
+    out.write("b", "2");
+    out.write("b", "3");
+    out.commit();
+  }
+  EXPECT_EQ(content(folder / "results/a"), "1");
+  EXPECT_EQ(content(folder / "results/b"), "3");
+  EXPECT_EQ(entries(folder / ""), 1);
+}
+
+TEST(OutputFolder, RemovesWhatIsNotTakenUp) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / ".results.unfinished");
+  folder.write(".results.unfinished/a", "1");
+  OutputFolder out(folder / "results", false);
+  out.commit();
+  EXPECT_TRUE(fs::is_empty(folder / "results"));
+}
+
+TEST(OutputFolder, TakesUpResultsThatAreNotComplete) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "results");
+  folder.write("results/a", "1");
+  OutputFolder out(folder / "results", false, [](const fs::path&) { return true; });
+  EXPECT_FALSE(fs::exists(folder / "results"));
+  out.commit();
+  EXPECT_EQ(content(folder / "results/a"), "1");
+}
+
+TEST(OutputFolder, HasOneOwner) {
+  const TemporaryFolder folder;
+  const OutputFolder out(folder / "results", false);
+  EXPECT_EQ(config_error((folder / "").parent_path(), [&] { OutputFolder(folder / "results", true); }),
+            "results: error: output: another run is writing this folder; wait for its end, or choose another "
+            "one with --out");
+  EXPECT_TRUE(fs::exists(out.unfinished()));
+}
+
+TEST(OutputFolder, SaysWhyItCannotBeMade) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a.txt", "");
+  EXPECT_EQ(run_error([&] { OutputFolder(file / "results", false); }),
+            (file / "results").string() + ": cannot write: Not a directory");
+}
+
+TEST(OutputFolder, AFullDiskLeavesNothing) {
+  const TemporaryFolder folder;
+  {
+    OutputFolder out(folder / "results", false);
+    out.append("provenance.json", "small");
+    const FileSizeLimit full(1000);
+    EXPECT_EQ(run_error([&] { out.append("steps.jsonl", std::string(5000, 'x')); }),
+              (folder / "results/steps.jsonl").string() + ": cannot write: File too large");
+  }
+  EXPECT_EQ(entries(folder / ""), 0);
+}
+
+}  // namespace
+}  // namespace glocal::test::output_folder_test

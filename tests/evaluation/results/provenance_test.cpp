@@ -1,0 +1,76 @@
+#include "evaluation/results/provenance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "files.hpp"
+#include "glocal/error.hpp"
+#include "matchers/register.hpp"
+
+namespace glocal::test::provenance_test {
+namespace {
+
+TEST(Sha256, AgreesWithPublishedDigests) {
+  // FIPS 180-4 examples: "abc", nothing, and a million times "a", which is longer than any buffer.
+  const TemporaryFolder folder;
+  EXPECT_EQ(sha256_of_file(folder.write("abc", "abc")),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256_of_file(folder.write("empty", "")),
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256_of_file(folder.write("million", std::string(1000000, 'a'))),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST(Sha256, NamesAFileItCannotRead) {
+  const TemporaryFolder folder;
+  try {
+    static_cast<void>(sha256_of_file(folder / "nothing"));
+    FAIL() << "there is no such file";
+  } catch (const RunError& error) {
+    EXPECT_EQ(std::string(error.what()), (folder / "nothing").string() + ": cannot read");
+  }
+}
+
+TEST(Provenance, SaysWhereResultsComeFrom) {
+  const TemporaryFolder folder;
+  const auto input = folder.write("abc", "abc");
+  Catalog catalog;
+  register_matchers(catalog);
+  FileHashes hashes;
+  const nlohmann::ordered_json json = provenance(catalog, 3, {input}, hashes);
+  for (const char* key : {"version", "revision", "compiler", "host", "cpu"}) {
+    EXPECT_FALSE(json.at(key).get<std::string>().empty()) << key;
+  }
+  EXPECT_EQ(json.at("threads"), 3);
+  ASSERT_EQ(json.at("inputs_sha256").size(), 1U);
+  EXPECT_EQ(json["inputs_sha256"].at(input.string()),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_TRUE(json.at("plugins").empty());
+}
+
+TEST(WhyOtherRun, NamesWhatHasChanged) {
+  const TemporaryFolder folder;
+  const auto input = folder.write("abc", "abc");
+  const auto experiment = folder.write("e.yaml", "first");
+  FileHashes hashes;
+  auto record = provenance(Catalog(), 1, {input, experiment}, hashes);
+  folder.write("effective.yaml", "values");
+  const auto why = [&](const std::string& effective) {
+    folder.write("provenance.json", record.dump());
+    FileHashes now;
+    return why_other_run(input.parent_path(), effective, experiment, now).value_or("");
+  };
+  EXPECT_EQ(why("values"), "");
+  EXPECT_EQ(why("other values"), "it is of other values (effective.yaml)");
+  folder.write("e.yaml", "with a comment");
+  EXPECT_EQ(why("values"), "");
+  folder.write("abc", "abd");
+  EXPECT_EQ(why("values"), input.string() + " has changed since");
+  folder.write("abc", "abc");
+  record["program_sha256"]["library"] = "another";
+  EXPECT_EQ(why("values"), "it is of another build of the program");
+}
+
+}  // namespace
+}  // namespace glocal::test::provenance_test

@@ -1,0 +1,122 @@
+// The journal of a run, and what is put together from it.
+#include "evaluation/results/run_results.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "evaluation/results/records.hpp"
+#include "evaluation/results/writers.hpp"
+#include "files.hpp"
+
+namespace glocal::test::run_results_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+
+std::string content(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// A trial of two steps that was declared rightly in the second; numbers that no short text has.
+TrialRecord trial_record(std::size_t trial) {
+  TrialRecord record;
+  record.trial = trial;
+  record.outcome = Outcome::right;
+  record.steps = 2;
+  record.distance_m = 1.0 / 3.0 + static_cast<double>(trial);
+  record.error = error_of(0.1, 1.0 / 7.0);
+  record.records = {step_record(0, {1, 2, 0.5}), step_record(1, {1, 2, 0.5})};
+  record.records[1].result.stage_ms = {0.1, 1e-17, 2.0 / 3.0, 4.0};
+  record.records[1].result.verdict.kind = VerdictKind::localized;
+  record.records[1].error = error_of(0.1, 1.0 / 7.0);
+  return record;
+}
+
+class RunResultsTest : public testing::Test {
+ protected:
+  /// Runs these trials of four, and leaves the folder as a killed run would.
+  void leave_unfinished(const std::vector<std::size_t>& trials) {
+    OutputFolder folder(path(), false);
+    RunResults results(folder, config_, 4);
+    for (const std::size_t trial : trials) results.finish(trial_record(trial));
+  }
+
+  [[nodiscard]] fs::path path() const { return folder_ / "results"; }
+  [[nodiscard]] fs::path unfinished(const std::string& name = "") const {
+    return folder_ / (".results.unfinished/" + name);
+  }
+
+  static bool take_up(const fs::path& /*folder*/) { return true; }
+
+  std::vector<std::size_t> to_run() {
+    OutputFolder folder(path(), false, take_up);
+    folder.keep_unfinished();
+    return RunResults(folder, config_, 4).to_run();
+  }
+
+  TemporaryFolder folder_;
+  OutputConfig config_;
+};
+
+TEST_F(RunResultsTest, FilesAreInTheOrderOfTrialsWhoeverWroteThem) {
+  leave_unfinished({3, 1});
+  OutputFolder folder(path(), false, take_up);
+  RunResults results(folder, config_, 4);
+  EXPECT_THAT(results.to_run(), ElementsAre(0, 2));
+  results.finish(trial_record(2));
+  results.finish(trial_record(0));
+  Summary summary = results.put_together();
+  folder.commit();
+
+  Summary expected;
+  std::string trials;
+  std::string steps;
+  for (std::size_t trial = 0; trial < 4; ++trial) {
+    const TrialRecord record = trial_record(trial);
+    expected.add(figures_of(record));
+    trials += trial_line(record);
+    steps += step_line(trial, record.records[0]) + step_line(trial, record.records[1]);
+  }
+  EXPECT_EQ(content(path() / "trials.jsonl"), trials);
+  EXPECT_EQ(content(path() / "steps.jsonl"), steps);
+  EXPECT_TRUE(fs::exists(path() / "trajectories/trial_0003_estimate.tum"));
+  auto json = summary.to_json({"a", 1, true, 1, 1.0, 1.0});
+  auto expected_json = expected.to_json({"a", 1, true, 1, 1.0, 1.0});
+  json.erase("peak_rss_mb");
+  expected_json.erase("peak_rss_mb");
+  EXPECT_EQ(json, expected_json);
+  EXPECT_EQ(json["after_declaration"]["steps"], 4);
+}
+
+TEST_F(RunResultsTest, AreWholeWithoutStepLinesToo) {
+  config_.steps = false;
+  leave_unfinished({0, 1, 2, 3});
+  OutputFolder folder(path(), false, take_up);
+  const auto json = RunResults(folder, config_, 4).put_together().to_json({"a", 1, true, 1, 1.0, 1.0});
+  EXPECT_EQ(json["trials"]["right"], 4);
+  EXPECT_EQ(json["stage_ms"]["local_map"]["max"], 1.0);
+  EXPECT_FALSE(fs::exists(unfinished("steps.jsonl")));
+}
+
+TEST_F(RunResultsTest, WhatIsDamagedIsRunAgain) {
+  leave_unfinished({0, 1, 2, 3});
+  EXPECT_THAT(to_run(), ElementsAre());
+  fs::resize_file(unfinished("journal/trial_0000.json"), 100);
+  std::ofstream(unfinished("journal/trial_0001.json")) << "{\"trial\": 1}";
+  fs::remove(unfinished("trajectories/trial_0002_estimate.tum"));
+  EXPECT_THAT(to_run(), ElementsAre(0, 1, 2));
+  // The entry of one trial under the name of another.
+  fs::copy_file(unfinished("journal/trial_0003.json"), unfinished("journal/trial_0000.json"),
+                fs::copy_options::overwrite_existing);
+  EXPECT_THAT(to_run(), ElementsAre(0, 1, 2));
+}
+
+}  // namespace
+}  // namespace glocal::test::run_results_test

@@ -1,0 +1,158 @@
+#include "evaluation/results/writers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "evaluation/results/records.hpp"
+
+namespace glocal::test::writers_test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::vector<std::string> keys(const Json& json) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : json.items()) names.push_back(key);
+  return names;
+}
+
+/// The one line, parsed.
+Json parse_line(const std::string& line) {
+  EXPECT_EQ(line.find('\n'), line.size() - 1);
+  return Json::parse(line);
+}
+
+TEST(StepLine, HasTheKeysOfTheContract) {
+  StepRecord record = step_record(3, {1.5, -2.0, 0.25});
+  record.reference = Pose2{1.0, -2.0, 0.25};
+  record.error = error_of(0.5, 2.0);
+  const Json json = parse_line(step_line(7, record));
+  EXPECT_THAT(keys(json), ::testing::UnorderedElementsAre(
+                              "trial", "step", "stamp", "stage_ms", "local_map_points", "omega_best",
+                              "omega_max", "omega_place", "collisions", "checks", "hypotheses", "clusters",
+                              "best", "verdict", "why", "local_from_robot", "estimate", "reference", "on_map",
+                              "translation_error_m", "rotation_error_deg"));
+  EXPECT_EQ(json["trial"], 7);
+  EXPECT_EQ(json["step"], 3);
+  EXPECT_EQ(json["stamp"], 101.5);
+  EXPECT_EQ(json["stage_ms"],
+            Json::parse(R"({"local_map": 1.0, "match": 2.0, "cluster": 3.0, "rate": 4.0})"));
+  EXPECT_EQ(json["omega_best"], 0.75);
+  EXPECT_EQ(json["omega_max"], 0.5);
+  EXPECT_EQ(json["omega_place"], 0.875);
+  EXPECT_EQ(json["collisions"], 60);
+  EXPECT_EQ(json["checks"], 700);
+  EXPECT_EQ(json["hypotheses"], 4);
+  EXPECT_EQ(json["clusters"], 2);
+  EXPECT_EQ(json["best"], Json::parse(R"([
+      {"pose": {"x": 1.5, "y": -2.0, "theta": 0.25}, "size": 3, "r": 0.6, "r_normalised": 0.75},
+      {"pose": {"x": 9.0, "y": 9.0, "theta": 0.0}, "size": 1, "r": 0.2, "r_normalised": 0.25}])"));
+  EXPECT_EQ(json["verdict"], "searching");
+  EXPECT_EQ(json["why"], "not yet");
+  EXPECT_EQ(json["estimate"], Json::parse(R"({"x": 1.5, "y": -2.0, "theta": 0.25})"));
+  EXPECT_EQ(json["reference"], Json::parse(R"({"x": 1.0, "y": -2.0, "theta": 0.25})"));
+  EXPECT_EQ(json["translation_error_m"], 0.5);
+  EXPECT_DOUBLE_EQ(json["rotation_error_deg"].get<double>(), 2.0);
+}
+
+TEST(StepLine, TellsWhatTheVerdictRestsOn) {
+  StepRecord record = step_record(3, {1.5, -2.0, 0.25});
+  record.result.verdict.belief = Belief{{1.0, 2.0, 0.5}, 0.875, PoseCovariance{1, 2, 3, 4, 5, 6}};
+  record.result.verdict.evidence = {{"margin", 0.25}, {"distance_m", 3.0}};
+  record.nees = 2.5;
+  const Json json = parse_line(step_line(7, record));
+  EXPECT_EQ(json["confidence"], 0.875);
+  EXPECT_EQ(json["covariance"], Json::parse("[1, 2, 3, 4, 5, 6]"));
+  EXPECT_EQ(json["nees"], 2.5);
+  EXPECT_EQ(json["evidence"], Json::parse(R"({"margin": 0.25, "distance_m": 3.0})"));
+  EXPECT_EQ(json["estimate"], Json::parse(R"({"x": 1.0, "y": 2.0, "theta": 0.5})"));  // what is believed
+}
+
+TEST(StepLine, LeavesOutWhatIsNotKnown) {
+  StepRecord record = step_record(0, {});
+  record.result.clusters.clear();
+  record.result.ratings.clear();
+  record.result.omega_place.reset();
+  const Json json = parse_line(step_line(0, record));
+  for (const char* key : {"estimate", "omega_place", "reference", "translation_error_m", "candidates"}) {
+    EXPECT_FALSE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["clusters"], 0);
+  EXPECT_EQ(json["best"], Json::array());
+}
+
+TEST(StepLine, ListsFiftyClustersButCountsAll) {
+  StepRecord record = step_record(0, {});
+  record.result.clusters.assign(51, Cluster{{0}, {}});
+  record.result.ratings.assign(51, Rating{0.1, 0.2});
+  const Json json = parse_line(step_line(0, record));
+  EXPECT_EQ(json["clusters"], 51);
+  EXPECT_EQ(parse_line(step_line(0, record, 51))["best"].size(), 51U);
+  EXPECT_TRUE(parse_line(step_line(0, record, 0))["best"].empty());
+  EXPECT_EQ(json["best"].size(), 50U);
+}
+
+TEST(StepLine, ListsTheCandidatesOfAnAmbiguousVerdict) {
+  StepRecord record = step_record(0, {});
+  record.result.verdict = {VerdictKind::ambiguous, std::nullopt, {{1, 2, 0}, {3, 4, 0.5}}, "two"};
+  const Json json = parse_line(step_line(0, record));
+  EXPECT_EQ(json["verdict"], "ambiguous");
+  EXPECT_EQ(json["candidates"],
+            Json::parse(R"([{"x": 1.0, "y": 2.0, "theta": 0.0}, {"x": 3.0, "y": 4.0, "theta": 0.5}])"));
+}
+
+TEST(TrialLine, HasTheKeysOfTheContract) {
+  TrialRecord trial;
+  trial.trial = 2;
+  trial.start_sample = 30;
+  trial.start_m = 12.5;
+  trial.start_stamp = 99.0;
+  trial.start_reference = Pose2{1, 2, 0};
+  trial.outcome = Outcome::wrong;
+  trial.steps = 5;
+  trial.distance_m = 4.5;
+  trial.pose = Pose2{7, 8, 0.5};
+  trial.error = error_of(3.0, 1.0);
+  trial.why = "found \"it\"\n";
+  const Json json = parse_line(trial_line(trial));
+  EXPECT_THAT(keys(json),
+              ::testing::UnorderedElementsAre("trial", "start", "outcome", "steps", "distance_m", "pose",
+                                              "translation_error_m", "rotation_error_deg", "why"));
+  EXPECT_EQ(json["trial"], 2);
+  EXPECT_EQ(json["start"], Json::parse(R"({"sample": 30, "distance_m": 12.5, "stamp": 99.0,
+                                           "reference": {"x": 1.0, "y": 2.0, "theta": 0.0}})"));
+  EXPECT_EQ(json["outcome"], "wrong");
+  EXPECT_EQ(json["steps"], 5);
+  EXPECT_EQ(json["distance_m"], 4.5);
+  EXPECT_EQ(json["pose"], Json::parse(R"({"x": 7.0, "y": 8.0, "theta": 0.5})"));
+  EXPECT_EQ(json["translation_error_m"], 3.0);
+  EXPECT_EQ(json["why"], "found \"it\"\n");
+}
+
+TEST(TrialLine, AnUndecidedTrialHasNoPose) {
+  const Json json = parse_line(trial_line({}));
+  EXPECT_EQ(json["outcome"], "undecided");
+  EXPECT_FALSE(json.contains("pose"));
+  EXPECT_FALSE(json.contains("translation_error_m"));
+  EXPECT_FALSE(json["start"].contains("reference"));
+}
+
+TEST(Tum, IsOneLineForEachPose) {
+  // Headings of 0, 90 and 180 degrees: the quaternion's z and w are sine and cosine of half of them.
+  TrialRecord trial;
+  for (std::size_t i = 0; i < 3; ++i) {
+    trial.records.push_back(step_record(i, {1.0, -2.5, radians(90.0 * static_cast<double>(i))}));
+  }
+  trial.records[1].result.clusters.clear();
+  trial.records[1].reference = Pose2{0.125, 3.0, radians(90.0)};
+  const Trajectories tum = tum_trajectories(trial);
+  EXPECT_EQ(tum.estimate,
+            "100.000000 1.000000 -2.500000 0 0 0 0.000000000 1.000000000\n"
+            "101.000000 1.000000 -2.500000 0 0 0 1.000000000 0.000000000\n");
+  EXPECT_EQ(tum.reference, "100.500000 0.125000 3.000000 0 0 0 0.707106781 0.707106781\n");
+}
+
+}  // namespace
+}  // namespace glocal::test::writers_test

@@ -1,0 +1,411 @@
+// What is wrong with an experiment file is said with its place, for every kind of fault.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "framework/config/toy_catalog.hpp"
+#include "glocal/error.hpp"
+#include "glocal/experiment.hpp"
+#include "temporary_folder.hpp"
+
+namespace glocal::test::bad_experiment_test {
+namespace {
+
+using testing::ElementsAre;
+using testing::ElementsAreArray;
+using Lines = std::vector<std::string>;
+
+const std::string valid =
+    R"(schema: 1
+name: toy
+seed: 42
+threads: 2
+map:
+  toy_map: {path: map.txt, segments: [[0.0, 0.3]], resolution: 0.05}
+observations: toy_drive
+trials: {every_m: 6.0, max_steps: 60}
+localizer:
+  matcher:
+    ransam: {iterations: 500, contact_epsilon: 0.10}
+evaluation: {max_translation_error: 0.5}
+output: {steps: true, maps: first_trial}
+)";
+
+class ExperimentFile : public testing::Test {
+ protected:
+  ExperimentFile() {
+    register_toys(catalog_);
+    folder_.write("map.txt", "a map");
+  }
+
+  /// The faults as the user sees them, with the temporary folder left out.
+  Lines faults_of(const std::string& text, const std::vector<Override>& overrides = {}) {
+    return faults_of_file(folder_.write("e.yaml", text), overrides);
+  }
+
+  Lines faults_of_file(const std::filesystem::path& file, const std::vector<Override>& overrides = {}) {
+    try {
+      static_cast<void>(read_experiment(file, overrides, catalog_));
+    } catch (const ConfigError& error) {
+      Lines lines;
+      for (const Fault& fault : error.faults()) lines.push_back(without_folder(to_string(fault)));
+      return lines;
+    }
+    return {};
+  }
+
+  std::string without_folder(std::string text) const {
+    const std::string prefix = folder_.path().string() + "/";
+    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix))
+      text.erase(at, prefix.size());
+    return text;
+  }
+
+  Catalog catalog_;
+  TemporaryFolder folder_;
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  if (at == std::string::npos) ADD_FAILURE() << "'" << from << "' is not in the text";
+  return text.replace(at, from.size(), to);
+}
+
+TEST_F(ExperimentFile, ValidIsRead) {
+  const Experiment e = read_experiment(folder_.write("e.yaml", valid), {}, catalog_);
+  EXPECT_EQ(e.name, "toy");
+  EXPECT_EQ(e.seed, 42U);
+  EXPECT_EQ(e.threads, 2);
+  EXPECT_DOUBLE_EQ(e.trials.every_m, 6.0);
+  EXPECT_EQ(e.trials.max_steps, 60);
+  EXPECT_EQ(e.output.maps, "first_trial");
+  EXPECT_EQ(e.localizer.rater.name, "cluster_rating");
+  const auto& matcher = dynamic_cast<const ParamsOf<ToyMatcher::Params>&>(*e.localizer.matcher.params).value;
+  EXPECT_EQ(matcher.iterations, 500);
+  EXPECT_DOUBLE_EQ(matcher.contact_epsilon, 0.1);
+  const auto& map = dynamic_cast<const ParamsOf<ToyMap::Params>&>(*e.map.params).value;
+  EXPECT_EQ(map.path.text, "map.txt");
+  EXPECT_EQ(map.path.resolved, folder_.path() / "map.txt");
+  ASSERT_EQ(map.segments.size(), 1U);
+  EXPECT_DOUBLE_EQ(map.segments[0][1], 0.3);
+}
+
+struct Case {
+  std::string from;
+  std::string to;
+  Lines faults;
+};
+
+TEST_F(ExperimentFile, EachFaultHasItsPlaceAndRule) {
+  const std::vector<Case> cases = {
+      // Keys.
+      {"iterations: 500",
+       "iteration: 500",
+       {"e.yaml:11:14: error: localizer.matcher.ransam: unknown key 'iteration' (did you mean "
+        "'iterations'?)"}},
+      {"seed: 42", "sede: 42", {"e.yaml:3:1: error: unknown key 'sede' (did you mean 'seed'?)"}},
+      {"steps: true",
+       "colour: 1",
+       {"e.yaml:13:10: error: output: unknown key 'colour' (known keys: steps, clusters, maps)"}},
+      {"iterations: 500",
+       "iterations: 1, iterations: 2",
+       {"e.yaml:11:29: error: localizer.matcher.ransam: duplicate key 'iterations' (first in line 11)"}},
+      {"seed: 42", "name: twice", {"e.yaml:3:1: error: duplicate key 'name' (first in line 2)"}},
+      {"iterations: 500",
+       "<<: {iterations: 5}",
+       {"e.yaml:11:14: error: localizer.matcher.ransam: merge keys (<<) are not supported; write the keys "
+        "out"}},
+      {"{steps: true,", "{[1, 2]: true,", {"e.yaml:13:10: error: output: a key must be a word, not a list"}},
+      {"name: toy\n",
+       "",
+       {"e.yaml:1:1: error: missing key 'name': What the experiment is called; results go to a folder of "
+        "this name."}},
+      {"path: map.txt, ", "", {"e.yaml:6:12: error: map.toy_map: missing key 'path': The map's file."}},
+      {"toy_map: {path: map.txt, segments: [[0.0, 0.3]], resolution: 0.05}",
+       "toy_map:",
+       {"e.yaml:6:3: error: map.toy_map: missing key 'path': The map's file."}},
+      // Types.
+      {"seed: 42", "seed: [42]", {"e.yaml:3:7: error: seed: expected a whole number, got a list"}},
+      {"seed: 42", "seed: {a: 1}", {"e.yaml:3:7: error: seed: expected a whole number, got a map"}},
+      {"seed: 42", "seed:", {"e.yaml:3:1: error: seed: expected a whole number, got nothing"}},
+      {"seed: 42", "seed: many", {"e.yaml:3:7: error: seed: expected a whole number, got 'many'"}},
+      {"seed: 42",
+       "seed: \"42\"",
+       {"e.yaml:3:7: error: seed: expected a whole number, got the text '42' (remove the quotes)"}},
+      {"every_m: 6.0", "every_m: far", {"e.yaml:8:19: error: trials: every_m: expected a number, got 'far'"}},
+      {"name: toy", "name: [toy]", {"e.yaml:2:7: error: name: expected text, got a list"}},
+      {"steps: true",
+       "steps: yes",
+       {"e.yaml:13:17: error: output: steps: expected true or false, got 'yes'"}},
+      {"steps: true",
+       "steps: 'true'",
+       {"e.yaml:13:17: error: output: steps: expected true or false, got the text 'true'"}},
+      {"trials: {every_m: 6.0, max_steps: 60}",
+       "trials: 6",
+       {"e.yaml:8:9: error: trials: expected a map (key: value), got '6'"}},
+      {"path: map.txt",
+       "path: [map.txt]",
+       {"e.yaml:6:19: error: map.toy_map: path: expected a path, got a list"}},
+      {"segments: [[0.0, 0.3]]",
+       "segments: 0.3",
+       {"e.yaml:6:38: error: map.toy_map: segments: expected a list, got '0.3'"}},
+      {"segments: [[0.0, 0.3]]",
+       "walls: [3]",
+       {"e.yaml:6:36: error: map.toy_map.walls[0]: expected a map (key: value), got '3'"}},
+      // Whole numbers.
+      {"seed: 42", "seed: 042", {"e.yaml:3:7: error: seed: 042 has a leading zero; write 42"}},
+      {"seed: 42", "seed: 000", {"e.yaml:3:7: error: seed: 000 has a leading zero; write 0"}},
+      {"seed: 42",
+       "seed: 0x2A",
+       {"e.yaml:3:7: error: seed: 0x2A is not a decimal number; write it with the digits 0 to 9"}},
+      {"seed: 42",
+       "seed: 0o52",
+       {"e.yaml:3:7: error: seed: 0o52 is not a decimal number; write it with the digits 0 to 9"}},
+      {"seed: 42",
+       "seed: 4.2",
+       {"e.yaml:3:7: error: seed: 4.2 is not a whole number; write it without point and exponent"}},
+      {"threads: 2",
+       "threads: 1e1",
+       {"e.yaml:4:10: error: threads: 1e1 is not a whole number; write it without point and exponent"}},
+      {"seed: 42", "seed: 1_000", {"e.yaml:3:7: error: seed: expected a whole number, got '1_000'"}},
+      {"seed: 42", "seed: -1", {"e.yaml:3:7: error: seed: -1 is out of range, must be >= 0"}},
+      {"seed: 42",
+       "seed: 18446744073709551616",
+       {"e.yaml:3:7: error: seed: 18446744073709551616 is too large, must be <= 18446744073709551615"}},
+      {"max_steps: 60",
+       "max_steps: 2147483648",
+       {"e.yaml:8:35: error: trials: max_steps: 2147483648 is too large, must be <= 2147483647"}},
+      {"max_steps: 60",
+       "max_steps: -2147483649",
+       {"e.yaml:8:35: error: trials: max_steps: -2147483649 is too small, must be >= -2147483648"}},
+      // Ranges.
+      {"contact_epsilon: 0.10",
+       "contact_epsilon: 0",
+       {"e.yaml:11:48: error: localizer.matcher.ransam: contact_epsilon: 0 is out of range, must be > 0 m"}},
+      {"threads: 2",
+       "threads: 0",
+       {"e.yaml:4:10: error: threads: 0 is out of range, must be >= 1 and <= 256"}},
+      {"threads: 2",
+       "threads: 257",
+       {"e.yaml:4:10: error: threads: 257 is out of range, must be >= 1 and <= 256"}},
+      {"schema: 1", "schema: 2", {"e.yaml:1:9: error: schema: 2 is out of range, must be 1"}},
+      {"0.3]]",
+       "1.5]]",
+       {"e.yaml:6:45: error: map.toy_map: segments[0][1]: 1.5 is out of range, must be >= 0 and <= 1"}},
+      {"0.05", ".nan", {"e.yaml:6:64: error: map.toy_map: resolution: .nan is not a finite number"}},
+      {"0.05", "nan", {"e.yaml:6:64: error: map.toy_map: resolution: nan is not a finite number"}},
+      {"0.05", "-.inf", {"e.yaml:6:64: error: map.toy_map: resolution: -.inf is not a finite number"}},
+      {"0.05", "Infinity", {"e.yaml:6:64: error: map.toy_map: resolution: Infinity is not a finite number"}},
+      {"0.05",
+       "1e999",
+       {"e.yaml:6:64: error: map.toy_map: resolution: 1e999 is too large or too small for a number (64-bit "
+        "floating "
+        "point)"}},
+      {"0.05",
+       "00.05",
+       {"e.yaml:6:64: error: map.toy_map: resolution: 00.05 has a leading zero; write 0.05"}},
+      {"0.05",
+       "0,05",
+       {"e.yaml:6:64: error: map.toy_map: resolution: 0 is out of range, must be > 0 m",
+        "e.yaml:6:66: error: map.toy_map: unknown key '05' (known keys: path, segments, resolution, walls)"}},
+      // Lists.
+      {"[[0.0, 0.3]]", "[]", {"e.yaml:6:38: error: map.toy_map: segments: expected at least 1 item, got 0"}},
+      {"[[0.0, 0.3]]",
+       "[[0.0]]",
+       {"e.yaml:6:39: error: map.toy_map: segments[0]: expected a pair of numbers [a, b], got 1 item"}},
+      {"[[0.0, 0.3]]",
+       "[0.0, 0.3]",
+       {"e.yaml:6:39: error: map.toy_map: segments[0]: expected a pair of numbers [a, b], got '0.0'",
+        "e.yaml:6:44: error: map.toy_map: segments[1]: expected a pair of numbers [a, b], got '0.3'"}},
+      {"segments: [[0.0, 0.3]]",
+       "walls: [{from: [1, 2, 3]}]",
+       {"e.yaml:6:43: error: map.toy_map.walls[0]: from: expected 2 items, got 3"}},
+      {"segments: [[0.0, 0.3]]",
+       "walls: [{}, {}, {}, {}]",
+       {"e.yaml:6:35: error: map.toy_map: walls: expected at most 3 items, got 4"}},
+      // Choices and rules.
+      {"first_trial",
+       "first",
+       {"e.yaml:13:29: error: output: maps: 'first' is not one of none, first_trial, all"}},
+      {"first_trial",
+       "first_trail",
+       {"e.yaml:13:29: error: output: maps: 'first_trail' is not one of none, first_trial, all (did you mean "
+        "'first_trial'?)"}},
+      {"name: toy",
+       "name: a/b",
+       {"e.yaml:2:7: error: name: must be usable as a folder name: at most 100 letters, digits, '_', '-' and "
+        "'.', "
+        "beginning with a letter, a digit or '_'"}},
+      {"every_m: 6.0, ",
+       "",
+       {"e.yaml:8:9: error: trials: exactly one of every_m, starts_m, every_scan and whole must be given"}},
+      {"every_m: 6.0",
+       "every_m: 6.0, whole: true",
+       {"e.yaml:8:9: error: trials: exactly one of every_m, starts_m, every_scan and whole must be given"}},
+      {"observations: toy_drive",
+       "observations: {toy_drive: {max_range: 1, min_range: 2}}",
+       {"e.yaml:7:53: error: observations.toy_drive: min_range: must be less than max_range"}},
+      {"observations: toy_drive",
+       "observations: {toy_drive: {max_range: 0.05}}",
+       {"e.yaml:7:27: error: observations.toy_drive: min_range: must be less than max_range"}},
+      {"observations: toy_drive",
+       "observations: {toy_drive: {max_range: x, min_range: 50}}",
+       {"e.yaml:7:39: error: observations.toy_drive: max_range: expected a number, got 'x'"}},
+      {"observations: toy_drive",
+       "observations: {toy_drive: {noise: {beams: 9}}}",
+       {"e.yaml:7:43: error: observations.toy_drive.noise: beams: 9 is out of range, must be >= 1 and <= 8"}},
+      // Strategies.
+      {"    ransam:",
+       "    ransac:",
+       {"e.yaml:11:5: error: localizer: matcher: unknown matcher 'ransac', did you mean 'ransam'? (there "
+        "are: indexed, "
+        "ransam)"}},
+      {"observations: toy_drive",
+       "observations: carmen",
+       {"e.yaml:7:15: error: observations: unknown observation_source 'carmen' (there are: toy_drive)"}},
+      {"observations: toy_drive",
+       "observations:",
+       {"e.yaml:7:1: error: observations: expected one observation_source, its name or `name: {parameters}`, "
+        "got nothing (there are: toy_drive)"}},
+      {"    ransam: {iterations: 500, contact_epsilon: 0.10}",
+       "    iterations: 500\n    contact_epsilon: 0.1",
+       {"e.yaml:11:5: error: localizer: matcher: expected one matcher, its name or `name: {parameters}`, got "
+        "a map with 2 keys (there are: indexed, ransam)"}},
+      {"ransam: {iterations: 500, contact_epsilon: 0.10}",
+       "ransam: 500",
+       {"e.yaml:11:13: error: localizer.matcher.ransam: expected a map (key: value), got '500'"}},
+      {"ransam: {iterations: 500, contact_epsilon: 0.10}",
+       "indexed: {iterations: 5}",
+       {"e.yaml:11:15: error: localizer.matcher.indexed: unknown key 'iterations' (there are no "
+        "parameters)"}},
+      // Files.
+      {"map.txt", "nowhere.txt", {"e.yaml:6:19: error: map.toy_map: path: no such file: nowhere.txt"}},
+      {"path: map.txt",
+       "path: ''",
+       {"e.yaml:6:19: error: map.toy_map: path: expected a path, got an empty text"}},
+      {"seed: 42", "plugins: [map.txt, a.so]", {"e.yaml:3:20: error: plugins[1]: no such file: a.so"}},
+      // YAML.
+      {"seed: 42",
+       "seed: &s 42",
+       {"e.yaml:3:7: error: seed: anchors are not supported; write the value out where it is needed"}},
+      {"seed: 42\nthreads: 2",
+       "seed: &s 42\nthreads: *s",
+       {"e.yaml:3:7: error: seed: anchors are not supported; write the value out where it is needed",
+        "e.yaml:4:10: error: threads: aliases are not supported; write the value out"}},
+      {"seed: 42",
+       "seed: !!int 42",
+       {"e.yaml:3:7: error: seed: tags are not supported; remove 'tag:yaml.org,2002:int'"}},
+      {"seed: 42",
+       "---\nseed: 42",
+       {"e.yaml:3:1: error: only one document is allowed, and another begins here (by '---', or by wrong "
+        "indentation?)"}},
+      {"threads: 2",
+       "\tthreads: 2",
+       {"e.yaml:4:1: error: not valid YAML: illegal tab when looking for indentation (indent with spaces)"}},
+      {"[[0.0, 0.3]]",
+       "[[0.0, 0.3]",
+       {"e.yaml:6:67: error: not valid YAML: illegal flow end (brackets do not match)"}},
+      {"name: toy",
+       "name: \"toy",
+       {"e.yaml:2:7: error: not valid YAML: the quote that begins here is not closed"}},
+      {"name: toy",
+       "name: 'toy''",
+       {"e.yaml:2:7: error: not valid YAML: the quote that begins here is not closed"}},
+      {"name: toy", "name: ! toy", {"e.yaml:2:7: error: name: tags are not supported; remove '!'"}},
+
+      {"name: toy",
+       " name: toy",
+       {"e.yaml:2:6: error: not valid YAML: illegal map value (check the indentation, and quote text that "
+        "has ': ' in it)"}},
+  };
+  for (const Case& c : cases) {
+    EXPECT_THAT(faults_of(replaced(valid, c.from, c.to)), ElementsAreArray(c.faults)) << c.to;
+  }
+}
+
+TEST_F(ExperimentFile, AllFaultsAreReportedInOneRunSortedByPlace) {
+  std::string text = replaced(valid, "threads: 2", "threads: 0");
+  text = replaced(text, "seed: 42", "seed: x");
+  text = replaced(text, "steps: true", "step: true");
+  text = replaced(text, "iterations: 500", "iterations: 0, iterations: 1");
+  EXPECT_THAT(
+      faults_of(text, {{"map.toy_map.resolution", "-1"}}),
+      ElementsAre(
+          "--set map.toy_map.resolution=-1: error: map.toy_map: resolution: -1 is out of range, must be > 0 "
+          "m",
+          "e.yaml:3:7: error: seed: expected a whole number, got 'x'",
+          "e.yaml:4:10: error: threads: 0 is out of range, must be >= 1 and <= 256",
+          "e.yaml:11:26: error: localizer.matcher.ransam: iterations: 0 is out of range, must be >= 1",
+          "e.yaml:11:29: error: localizer.matcher.ransam: duplicate key 'iterations' (first in line 11)",
+          "e.yaml:13:10: error: output: unknown key 'step' (did you mean 'steps'?)"));
+}
+
+TEST_F(ExperimentFile, FilesThatAreNoConfiguration) {
+  EXPECT_THAT(faults_of(""), ElementsAre("e.yaml: error: the file is empty"));
+  EXPECT_THAT(faults_of("# nothing\n"), ElementsAre("e.yaml: error: the file is empty"));
+  EXPECT_THAT(faults_of("---\n"), ElementsAre("e.yaml: error: the file is empty"));
+  EXPECT_THAT(faults_of("just words"),
+              ElementsAre("e.yaml:1:1: error: expected a map (key: value), got 'just words'"));
+  EXPECT_THAT(faults_of("- a\n- b\n"),
+              ElementsAre("e.yaml:1:1: error: expected a map (key: value), got a list"));
+  EXPECT_THAT(faults_of("name: a\nsee\xff"), ElementsAre("e.yaml:2:4: error: the file is not UTF-8 text"));
+  EXPECT_THAT(faults_of(std::string("name:\0 a", 8)),
+              ElementsAre("e.yaml:1:6: error: the file has a control character (a binary file?)"));
+  EXPECT_THAT(faults_of(std::string((1U << 20U) + 1, ' ')),
+              ElementsAre("e.yaml: error: is larger than 1 MiB: not a configuration file"));
+  EXPECT_THAT(faults_of_file(folder_.path() / "missing.yaml"),
+              ElementsAre("missing.yaml: error: no such file: missing.yaml"));
+  std::filesystem::create_directory(folder_.path() / "folder");
+  EXPECT_THAT(faults_of_file(folder_.path() / "folder"),
+              ElementsAre("folder: error: is a folder, not a file: folder"));
+}
+
+TEST_F(ExperimentFile, NestingIsLimited) {
+  const std::string deep = "a: " + std::string(500000, '[');
+  EXPECT_THAT(faults_of(deep), testing::SizeIs(1));
+  const std::string just_too_deep = "a: " + std::string(32, '[') + std::string(32, ']');
+  EXPECT_THAT(faults_of(just_too_deep), ElementsAre(testing::EndsWith("nested deeper than 32 levels")));
+}
+
+TEST_F(ExperimentFile, DataFolderMustBeKnown) {
+  const std::string text = replaced(valid, "map.txt", "data:map.txt");
+  unsetenv("GLOCAL_DATASETS");
+  EXPECT_THAT(
+      faults_of(text),
+      ElementsAre("e.yaml:6:19: error: map.toy_map: path: 'data:map.txt' needs the environment variable "
+                  "GLOCAL_DATASETS, which is not set; set it to the folder of the data sets"));
+  setenv("GLOCAL_DATASETS", folder_.path().c_str(), 1);
+  EXPECT_THAT(faults_of(text), ElementsAre());
+  EXPECT_THAT(
+      faults_of(replaced(valid, "map.txt", "data:/map.txt")),
+      ElementsAre("e.yaml:6:19: error: map.toy_map: path: expected a relative path after 'data:', got "
+                  "'data:/map.txt'"));
+  EXPECT_THAT(faults_of(replaced(valid, "map.txt", "data:a/b.txt")),
+              ElementsAre("e.yaml:6:19: error: map.toy_map: path: no such file: a/b.txt"));
+  unsetenv("GLOCAL_DATASETS");
+}
+
+TEST_F(ExperimentFile, DefaultThatIsNotRegisteredMustBeReplaced) {
+  Catalog poor;
+  poor.map_sources.add<ToyMap>("toy_map", "A map.");
+  poor.observation_sources.add<ToyDrive>("toy_drive", "A drive.");
+  poor.matchers.add<ToyMatcher>("other", "Matches.");
+  const auto file = folder_.write(
+      "e.yaml",
+      replaced(valid, "localizer:\n  matcher:\n    ransam: {iterations: 500, contact_epsilon: 0.10}\n", ""));
+  try {
+    static_cast<void>(read_experiment(file, {}, poor));
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    ASSERT_EQ(error.faults().size(), 6U);
+    EXPECT_EQ(without_folder(to_string(error.faults()[2])),
+              "e.yaml:1:1: error: localizer: matcher: the default matcher 'ransam' does not exist; name "
+              "another (there are: other)");
+  }
+}
+
+}  // namespace
+}  // namespace glocal::test::bad_experiment_test

@@ -1,0 +1,69 @@
+#include "loading/shared_object.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "temporary_folder.hpp"
+
+namespace glocal::test::shared_object_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path good = fs::path(GLOCAL_TEST_PLUGINS) / "every_kind.so";
+
+std::string why_not(const fs::path& file) {
+  return why_no_shared_object(file).value_or("");
+}
+
+TEST(SharedObject, AWholeOneIsAccepted) {
+  EXPECT_EQ(why_not(good), "");
+}
+
+TEST(SharedObject, APlaceWithoutAFileAFolderAndTextAreNone) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(why_not(folder.path() / "none.so"), HasSubstr("no such file"));
+  EXPECT_THAT(why_not(folder.path()), HasSubstr("folder"));
+  std::ofstream(folder.path() / "text.so") << std::string(1000, 'a');
+  EXPECT_THAT(why_not(folder.path() / "text.so"), HasSubstr("not a shared object"));
+  std::ofstream(folder.path() / "empty.so").flush();
+  EXPECT_THAT(why_not(folder.path() / "empty.so"), HasSubstr("not a shared object"));
+}
+
+TEST(SharedObject, AProgramIsNone) {
+  // A program that may be loaded anywhere has the type of a shared object; an object file has not.
+  const TemporaryFolder folder;
+  fs::copy(good, folder.path() / "other.so");
+  std::fstream file(folder.path() / "other.so", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(16);  // e_type
+  file.put(1);     // ET_REL
+  file.close();
+  EXPECT_THAT(why_not(folder.path() / "other.so"), HasSubstr("not a shared object"));
+}
+
+TEST(SharedObject, OneForAnotherProcessorIsNone) {
+  const TemporaryFolder folder;
+  fs::copy(good, folder.path() / "other.so");
+  std::fstream file(folder.path() / "other.so", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(18);  // e_machine
+  file.put(0x28);  // ARM
+  file.close();
+  EXPECT_THAT(why_not(folder.path() / "other.so"), HasSubstr("another kind of processor"));
+}
+
+TEST(SharedObject, ATruncatedOneIsSeenWhereverItWasCut) {
+  const TemporaryFolder folder;
+  const fs::path cut = folder.path() / "cut.so";
+  const auto size = fs::file_size(good);
+  for (const double share : {0.003, 0.01, 0.2, 0.5}) {
+    fs::copy(good, cut, fs::copy_options::overwrite_existing);
+    fs::resize_file(cut, static_cast<std::uintmax_t>(share * static_cast<double>(size)));
+    EXPECT_NE(why_not(cut), "") << share;
+  }
+}
+
+}  // namespace
+}  // namespace glocal::test::shared_object_test

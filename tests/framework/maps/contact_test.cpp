@@ -1,0 +1,214 @@
+#include "glocal/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "glocal/error.hpp"
+#include "glocal/rng.hpp"
+#include "instruction_sets.hpp"
+#include "test_world.hpp"
+
+namespace glocal::contact_test {
+namespace {
+
+double distance_to_nearest(const Points& points, const Point& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double dx = points.x[i] - p.x;
+    const double dy = points.y[i] - p.y;
+    const double dz = points.z[i] - p.z;
+    least = std::min(least, std::sqrt(dx * dx + dy * dy + dz * dz));
+  }
+  return least;
+}
+
+bool contact(const ContactIndex& index, const Point& p) {
+  Points one;
+  one.push_back(p);
+  return index.count(one, 0, 1, Transform(Pose2{})) == 1;
+}
+
+/// Compares with brute force wherever the distance is not within half a voxel's diagonal of epsilon.
+void expect_as_by_brute_force(const ContactIndex& index, const Points& points, double epsilon,
+                              double half_diagonal, bool spread_z) {
+  Rng rng(11);
+  int in_contact = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Point p{static_cast<float>(rng.uniform(-1.0, 9.0)), static_cast<float>(rng.uniform(-1.0, 10.0)),
+                  spread_z ? static_cast<float>(rng.uniform(-1.0, 2.0)) : 0.0F};
+    const double d = distance_to_nearest(points, p);
+    if (std::abs(d - epsilon) <= half_diagonal + 1e-4) continue;
+    ASSERT_EQ(contact(index, p), d < epsilon) << p.x << ' ' << p.y << ' ' << p.z << " at " << d;
+    in_contact += d < epsilon ? 1 : 0;
+  }
+  EXPECT_GT(in_contact, 100);
+}
+
+TEST(ContactIndex, AgreesWithBruteForceInThePlane) {
+  const double epsilon = 0.1;
+  const Points points = test::small_world_points();
+  expect_as_by_brute_force(BitsetContact(points, epsilon), points, epsilon,
+                           epsilon / 4.0 * std::sqrt(2.0) / 2.0, false);
+  expect_as_by_brute_force(KdTreeContact(points, epsilon), points, epsilon, 0.0, false);
+}
+
+TEST(ContactIndex, AgreesWithBruteForceInSpace) {
+  Points points;
+  Rng rng(3);
+  for (int i = 0; i < 300; ++i) {
+    points.push_back({static_cast<float>(rng.uniform(0.0, 8.0)), static_cast<float>(rng.uniform(0.0, 9.0)),
+                      static_cast<float>(rng.uniform(0.0, 1.0))});
+  }
+  const double epsilon = 0.4;
+  expect_as_by_brute_force(BitsetContact(points, epsilon), points, epsilon,
+                           epsilon / 4.0 * std::sqrt(3.0) / 2.0, true);
+  expect_as_by_brute_force(KdTreeContact(points, epsilon), points, epsilon, 0.0, true);
+}
+
+TEST(BitsetContact, PlanarMapTakesInHeightsWithinEpsilon) {
+  Points points;
+  points.push_back({1.0F, 1.0F, 0.5F});
+  const BitsetContact grid(points, 0.1);
+  EXPECT_TRUE(contact(grid, {1.0F, 1.0F, 0.55F}));
+  EXPECT_FALSE(contact(grid, {1.0F, 1.0F, 0.65F}));
+  EXPECT_FALSE(contact(grid, {1.0F, 1.0F, 0.35F}));
+}
+
+template <class Index>
+class Contact : public ::testing::Test {};
+using Indexes = ::testing::Types<BitsetContact, KdTreeContact>;
+TYPED_TEST_SUITE(Contact, Indexes);
+
+TYPED_TEST(Contact, NothingFarAwayOrNotANumberIsInContact) {
+  const TypeParam index(test::small_world_points(), 0.1);
+  constexpr float huge = 1e15F;
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float value : {huge, -huge, nan, std::numeric_limits<float>::infinity()}) {
+    EXPECT_FALSE(contact(index, {value, 0.0F, 0.0F}));
+    EXPECT_FALSE(contact(index, {0.0F, value, 0.0F}));
+    EXPECT_FALSE(contact(index, {0.0F, 0.0F, value}));
+  }
+}
+
+TYPED_TEST(Contact, AnEmptyMapHasNone) {
+  EXPECT_FALSE(contact(TypeParam(Points{}, 0.1), {0.0F, 0.0F, 0.0F}));
+}
+
+TYPED_TEST(Contact, CountsRunsOfAnyLengthForEveryInstructionSet) {
+  const TypeParam index(test::small_world_points(), 0.1);
+  Rng rng(5);
+  Points points;
+  for (int i = 0; i < 100; ++i) {
+    points.push_back(
+        {static_cast<float>(rng.uniform(-0.3, 0.3)), static_cast<float>(rng.uniform(0, 9)), 0.0F});
+  }
+  const Transform moved(Pose2{0.05, -0.1, 0.02});
+  std::vector<std::size_t> in_contact_before{0};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    in_contact_before.push_back(in_contact_before.back() + (contact(index, moved(points[i])) ? 1 : 0));
+  }
+  EXPECT_GT(in_contact_before.back(), 10U);
+  EXPECT_LT(in_contact_before.back(), 90U);
+  test::with_every_instruction_set([&] {
+    for (std::size_t begin = 0; begin < 20; ++begin) {
+      for (std::size_t n = 0; begin + n <= points.size(); ++n) {
+        ASSERT_EQ(index.count(points, begin, n, moved),
+                  in_contact_before[begin + n] - in_contact_before[begin])
+            << begin << ' ' << n;
+      }
+    }
+  });
+}
+
+TYPED_TEST(Contact, CountAtMostIsNeverLessThanTheCount) {
+  constexpr std::size_t n = 8;
+  const TypeParam index(test::small_world_points(), 0.1);
+  Rng rng(6);
+  Points points;
+  for (int i = 0; i < 100; ++i) {
+    points.push_back(
+        {static_cast<float>(rng.uniform(-0.3, 0.3)), static_cast<float>(rng.uniform(0, 9)), 0.0F});
+  }
+  MotionBatch motions;
+  ContactIndex::BatchColumn begins{};
+  for (std::size_t i = 0; i < MotionBatch::capacity; ++i) {
+    const double theta = i % 2 == 0 ? 0.0 : rng.uniform(-3.0, 3.0);
+    motions.cosine[i] = static_cast<float>(std::cos(theta));
+    motions.sine[i] = static_cast<float>(std::sin(theta));
+    motions.x[i] = static_cast<float>(rng.uniform(-0.3, 0.3));
+    motions.y[i] = i % 50 == 3 ? std::numeric_limits<float>::quiet_NaN() : 0.0F;
+    begins[i] = rng.below(92);
+  }
+  std::optional<ContactIndex::BatchColumn> first;
+  test::with_every_instruction_set([&] {
+    for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{37}, MotionBatch::capacity}) {
+      ContactIndex::BatchColumn at_most{};
+      index.count_at_most(points, n, motions, size, begins, at_most);
+      for (std::size_t i = 0; i < size; ++i) {
+        ASSERT_GE(at_most[i], index.count(points, begins[i], n, motions[i])) << i;
+        ASSERT_LE(at_most[i], n);
+      }
+      if (size < MotionBatch::capacity) continue;
+      if (!first) first = at_most;
+      EXPECT_EQ(at_most, *first);
+    }
+  });
+}
+
+TEST(BitsetContact, CountAtMostTellsWhatIsFarOff) {
+  const BitsetContact index(test::small_world_points(), 0.1);
+  Points points;
+  for (int i = 0; i < 8; ++i) points.push_back({2.0F, 0.0F, 0.0F});
+  MotionBatch motions;
+  motions.cosine.fill(1.0F);
+  motions.y[1] = 1.5F;
+  ContactIndex::BatchColumn at_most{};
+  index.count_at_most(points, 8, motions, 2, {}, at_most);
+  EXPECT_EQ(at_most[0], 8U);
+  EXPECT_EQ(at_most[1], 0U);
+}
+
+TYPED_TEST(Contact, CountingStopsWhereTooFewWereFound) {
+  const TypeParam index(test::small_world_points(), 0.1);
+  Points points;  // three in contact, seven not, ten in contact
+  for (int i = 0; i < 20; ++i) points.push_back({2.0F, i < 3 || i >= 10 ? 0.0F : 2.0F, 0.0F});
+  const Transform identity(Pose2{});
+  const auto count = [&](const std::vector<std::uint32_t>& least) {
+    return index.count_while(points, 0, 20, 8, least, identity);
+  };
+  EXPECT_EQ(count({4, 0, 0}).looked_at, 8U);
+  EXPECT_LT(count({4, 0, 0}).in_contact, 4U);
+  EXPECT_EQ(count({3, 10, 0}).looked_at, 16U);
+  EXPECT_LT(count({3, 10, 0}).in_contact, 10U);
+  EXPECT_EQ(count({3, 9, 20}).looked_at, 20U);
+  EXPECT_EQ(count({3, 9, 20}).in_contact, 13U);
+}
+
+TEST(BitsetContact, RefusesToFillTheMemory) {
+  Points points;
+  points.push_back({0.0F, 0.0F, 0.0F});
+  points.push_back({1e6F, 1e6F, 0.0F});
+  try {
+    const BitsetContact grid(points, 0.01);
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_NE(std::string(e.what()).find("larger contact_epsilon"), std::string::npos) << e.what();
+  }
+}
+
+TEST(ContactIndex, IsSharedByThoseWhoAskForTheSameEpsilon) {
+  const auto map = test::small_world();
+  EXPECT_EQ(contact_index(*map, "bitset", 0.1), contact_index(*map, "bitset", 0.1));
+  EXPECT_NE(contact_index(*map, "bitset", 0.1), contact_index(*map, "bitset", 0.2));
+  EXPECT_NE(contact_index(*map, "bitset", 0.1), contact_index(*map, "kd_tree", 0.1));
+  EXPECT_THROW((void)contact_index(*map, "none", 0.1), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace glocal::contact_test

@@ -1,0 +1,178 @@
+#include "matchers/common/beam_evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "glocal/rng.hpp"
+
+namespace glocal::beam_evidence_test {
+namespace {
+
+/// 4 m x 4 m of free cells with an occupied column from x = 2 to 2.1 m, and unknown ones from x = 3 m on.
+ClearanceGrid grid_with_a_wall() {
+  OccupancyGrid grid{{0.0, 0.0, 0.0}, 0.1, 40, 40, std::vector<Cell>(1600, Cell::free)};
+  for (int row = 0; row < 40; ++row) {
+    grid.cell(20, row) = Cell::occupied;
+    for (int column = 30; column < 40; ++column) grid.cell(column, row) = Cell::unknown;
+  }
+  return ClearanceGrid(grid);
+}
+
+Scan beams_along_x(const std::vector<float>& ranges) {
+  Scan scan;
+  for (const float range : ranges) scan.hits.push_back({range, 0.0F, 0.0F});
+  return scan;
+}
+
+double blocked(const Scan& scan, const Pose2& map_from_local, const BeamRule& rule = {}) {
+  BeamEvidence evidence(rule);
+  LocalMap local;
+  evidence.add(local, scan);
+  return evidence.blocked_share(grid_with_a_wall(), map_from_local);
+}
+
+TEST(BeamEvidence, CountsBeamsThatPassThroughAWall) {
+  // From x = 1 m: 0.9 m ends before the wall, 1.2 m within the margin behind it, 1.5 m and more do not.
+  EXPECT_EQ(blocked(beams_along_x({0.9F}), {1.0, 1.0, 0.0}), 0.0);
+  EXPECT_EQ(blocked(beams_along_x({1.2F}), {1.0, 1.0, 0.0}), 0.0);
+  EXPECT_EQ(blocked(beams_along_x({1.5F}), {1.0, 1.0, 0.0}), 1.0);
+  EXPECT_EQ(blocked(beams_along_x({0.9F, 1.5F, 1.2F, 1.8F}), {1.0, 1.0, 0.0}), 0.5);
+  // The other way there is no wall; nor in unknown cells, nor beyond the grid.
+  EXPECT_EQ(blocked(beams_along_x({0.9F, 5.0F}), {1.0, 1.0, 3.14159}), 0.0);
+  EXPECT_EQ(blocked(beams_along_x({5.0F}), {2.5, 1.0, 0.0}), 0.0);
+}
+
+TEST(ClearanceGrid, BlocksWhatLookingAtEveryHalfCellWouldBlock) {
+  Rng rng(9);
+  OccupancyGrid grid{{1.0, -2.0, 0.4}, 0.1, 60, 50, std::vector<Cell>(3000, Cell::free)};
+  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.01 ? Cell::occupied : Cell::free;
+  const ClearanceGrid clearance(grid);
+  int blocked = 0;
+  int differ = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto point = [&] {
+      return Point{static_cast<float>(rng.uniform(-2.0, 7.0)), static_cast<float>(rng.uniform(-3.0, 6.0)),
+                   0.0F};
+    };
+    const Point from = point();
+    const Point to = point();
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    bool expected = false;
+    for (double t = 0.05; t <= length - 0.3; t += 0.05) {
+      expected = expected || grid.at(from.x + t * (to.x - from.x) / length,
+                                     from.y + t * (to.y - from.y) / length) == Cell::occupied;
+    }
+    blocked += expected ? 1 : 0;
+    differ += expected != clearance.is_blocked(from, to, 0.3) ? 1 : 0;
+  }
+  EXPECT_GT(blocked, 500);
+  // Steps that skip free cells look at other places of those behind: rays that touch a corner may differ.
+  EXPECT_LT(differ, 60);
+}
+
+TEST(ClearanceGrid, TheFirstOccupiedCellIsWhereSmallStepsWouldMeetIt) {
+  Rng rng(11);
+  OccupancyGrid grid{{-1.0, 2.0, -0.3}, 0.1, 70, 60, std::vector<Cell>(4200, Cell::free)};
+  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.02 ? Cell::occupied : Cell::free;
+  const ClearanceGrid clearance(grid);
+  int met = 0;
+  int far_off = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Pose2 centre = grid.centre(static_cast<int>(rng.below(70)), static_cast<int>(rng.below(60)));
+    const double angle = rng.uniform(-3.14, 3.14);
+    const Point from{static_cast<float>(centre.x), static_cast<float>(centre.y), 0.0F};
+    const Point to{static_cast<float>(centre.x + 20.0 * std::cos(angle)),
+                   static_cast<float>(centre.y + 20.0 * std::sin(angle)), 0.0F};
+    double expected = 20.0;
+    for (double t = 0.05; t < expected; t += 0.002) {
+      if (grid.at(from.x + t * std::cos(angle), from.y + t * std::sin(angle)) == Cell::occupied) expected = t;
+    }
+    const double found = clearance.first_occupied(from, to, 0.0).value_or(20.0);
+    // Never before it, and within a step after it, unless only a corner was touched.
+    EXPECT_GT(found, expected - 0.003);
+    met += expected < 20.0 ? 1 : 0;
+    far_off += found > expected + 0.055 ? 1 : 0;
+  }
+  EXPECT_GT(met, 300);
+  EXPECT_LT(far_off, met / 10);
+}
+
+TEST(ClearanceGrid, AMapWithoutAGridBlocksNothing) {
+  EXPECT_FALSE(ClearanceGrid(OccupancyGrid{}).is_blocked({}, {5.0F, 0.0F, 0.0F}, 0.3));
+}
+
+TEST(BeamEvidence, FreeRaysCountToo) {
+  Scan scan;
+  scan.free_ends.push_back({1.8F, 0.0F, 0.0F});
+  EXPECT_EQ(blocked(scan, {1.0, 1.0, 0.0}), 1.0);
+  EXPECT_EQ(blocked({}, {1.0, 1.0, 0.0}), 0.0);
+}
+
+TEST(BeamEvidence, BeamsBeginAtTheSensorWhereTheRobotWas) {
+  BeamEvidence evidence(BeamRule{});
+  LocalMap local;
+  local.local_from_robot = {0.5, 0.0, 0.0};
+  Scan scan = beams_along_x({1.2F});
+  scan.origin = {0.2F, 0.0F, 0.0F};
+  evidence.add(local, scan);
+  // Sensor at 1.7 m, hit at 2.7 m: through the wall. With the local map half a metre back: 2.2 m, within the
+  // margin.
+  EXPECT_EQ(evidence.blocked_share(grid_with_a_wall(), {1.0, 1.0, 0.0}), 1.0);
+  EXPECT_EQ(evidence.blocked_share(grid_with_a_wall(), {0.5, 1.0, 0.0}), 0.0);
+}
+
+TEST(BeamEvidence, OnlyTheLatestScansOfThisLocalMapCount) {
+  BeamEvidence evidence({.scans = 2});
+  LocalMap local;
+  const ClearanceGrid grid = grid_with_a_wall();
+  const Pose2 pose{1.0, 1.0, 0.0};
+  evidence.add(local, beams_along_x({1.8F}));
+  evidence.add(local, beams_along_x({0.5F}));
+  EXPECT_EQ(evidence.blocked_share(grid, pose), 0.5);
+  evidence.add(local, beams_along_x({0.5F}));
+  EXPECT_EQ(evidence.blocked_share(grid, pose), 0.0);
+  evidence.add(local, beams_along_x({1.8F}));
+  local.generation = 1;
+  evidence.add(local, beams_along_x({0.5F}));
+  EXPECT_EQ(evidence.blocked_share(grid, pose), 0.0);
+}
+
+TEST(BeamEvidence, ManyBeamsAreThinnedEvenly) {
+  std::vector<float> ranges(1000, 0.5F);
+  std::fill(ranges.begin(), ranges.begin() + 500, 1.8F);
+  EXPECT_NEAR(blocked(beams_along_x(ranges), {1.0, 1.0, 0.0}, {.beams = 40}), 0.5, 1e-9);
+}
+
+TEST(BeamEvidence, StopsEarlyOnlyAboveWhatIsAskedFor) {
+  BeamEvidence evidence(BeamRule{});
+  LocalMap local;
+  std::vector<float> ranges(20, 0.5F);  // no wall before the margin …
+  std::fill(ranges.begin(), ranges.begin() + 10, 1.8F);
+  evidence.add(local, beams_along_x(ranges));
+  evidence.add(local, beams_along_x(ranges));
+  const auto share = [&](double most) {
+    return evidence.blocked_share(grid_with_a_wall(), {1.0, 1.0, 0.0}, most);
+  };
+  for (const double most : {0.5, 0.6, 1.0}) EXPECT_EQ(share(most), 0.5);  // … for one half
+  for (const double most : {-0.2, 0.0, 0.1, 0.4}) {
+    EXPECT_GT(share(most), most);
+    EXPECT_LT(share(most), 0.5);
+  }
+}
+
+TEST(BeamEvidence, ThePenaltyIsTheWeightedShareUpToTheCap) {
+  const auto penalty = [](const BeamRule& rule) {
+    BeamEvidence evidence(rule);
+    evidence.add({}, beams_along_x({1.8F, 0.5F}));  // one of two goes through the wall
+    return evidence.penalty(grid_with_a_wall(), {1.0, 1.0, 0.0});
+  };
+  EXPECT_DOUBLE_EQ(penalty({.weight = 0.8}), 0.4);
+  EXPECT_DOUBLE_EQ(penalty({.weight = 0.8, .cap = 0.5}), 0.4);
+  EXPECT_DOUBLE_EQ(penalty({.weight = 0.8, .cap = 0.25}), 0.2);
+  EXPECT_EQ(penalty({.weight = 0.0}), 0.0);
+}
+
+}  // namespace
+}  // namespace glocal::beam_evidence_test

@@ -1,0 +1,68 @@
+#include "matchers/common/merge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "glocal/rng.hpp"
+
+namespace glocal::merge_test {
+namespace {
+
+/// Falling quality; groups of poses within 1 cm and 0.2 degrees, every 3 m.
+std::vector<Hypothesis> groups(std::size_t count, std::size_t per_group) {
+  Rng rng(1);
+  std::vector<Hypothesis> hypotheses;
+  const auto n = static_cast<double>(count * per_group);
+  for (std::size_t i = 0; i < count * per_group; ++i) {
+    const auto group = static_cast<double>(i % count);
+    const Pose2 pose{3.0 * group + 0.02 + rng.uniform(0.0, 0.01), -2.0 + 0.02 + rng.uniform(0.0, 0.01),
+                     0.01 + rng.uniform(0.0, 0.003)};
+    hypotheses.push_back({pose, pose, 1.0 - static_cast<double>(i) / n});
+  }
+  return hypotheses;
+}
+
+std::size_t total_support(const std::vector<Hypothesis>& hypotheses) {
+  return std::accumulate(hypotheses.begin(), hypotheses.end(), std::size_t{0},
+                         [](std::size_t sum, const Hypothesis& h) { return sum + h.support; });
+}
+
+TEST(MergeHypotheses, LeavesAloneWhatFits) {
+  std::vector<Hypothesis> hypotheses = groups(20, 5);
+  merge_hypotheses(hypotheses, 100);
+  EXPECT_EQ(hypotheses.size(), 100U);
+  for (const Hypothesis& h : hypotheses) EXPECT_EQ(h.support, 1U);
+}
+
+TEST(MergeHypotheses, KeepsTheBestOfEveryDistinctPose) {
+  std::vector<Hypothesis> hypotheses = groups(20, 500);
+  const std::vector<Hypothesis> before = hypotheses;
+  merge_hypotheses(hypotheses, 100);
+  ASSERT_EQ(hypotheses.size(), 20U);
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    EXPECT_EQ(hypotheses[i].support, 500U);
+    EXPECT_EQ(hypotheses[i].map_from_robot, before[i].map_from_robot);  // the first of a group is its best
+  }
+}
+
+TEST(MergeHypotheses, FitsHoweverSpreadTheyAreAndLosesNoSupport) {
+  Rng rng(2);
+  std::vector<Hypothesis> hypotheses;
+  for (int i = 0; i < 20000; ++i) {
+    const Pose2 pose{rng.uniform(-30.0, 30.0), rng.uniform(-30.0, 30.0), rng.uniform(-3.14, 3.14)};
+    hypotheses.push_back({pose, pose, 1.0 - i / 20000.0});
+  }
+  const std::vector<Hypothesis> before = hypotheses;
+  merge_hypotheses(hypotheses, 1000);
+  EXPECT_LE(hypotheses.size(), 1000U);
+  EXPECT_EQ(total_support(hypotheses), 20000U);
+  EXPECT_TRUE(std::is_sorted(hypotheses.begin(), hypotheses.end(),
+                             [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; }));
+  merge_hypotheses(hypotheses, 8);
+  EXPECT_LE(hypotheses.size(), 8U);
+}
+
+}  // namespace
+}  // namespace glocal::merge_test

@@ -1,0 +1,249 @@
+#include "matchers/indexed_ransam/indexed_ransam.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "test_world.hpp"
+
+namespace glocal::indexed_ransam_test {
+namespace {
+
+using test::local_map_at;
+
+MatchResult match(const IndexedRansam::Params& params, const LocalMap& local, std::uint64_t seed = 1) {
+  IndexedRansam matcher(params, {test::small_world(), 1});
+  Rng rng(seed);
+  return matcher.match(local, {}, 0.1, rng);
+}
+
+TEST(IndexedRansam, FindsThePoseFromAnywhereWithFewDraws) {
+  Rng rng(6);
+  int first = 0;
+  constexpr int places = 40;
+  for (int i = 0; i < places; ++i) {
+    const Pose2 truth = test::somewhere_in_small_world(i, rng);
+    const MatchResult result = match({}, local_map_at(truth, 4.0), static_cast<std::uint64_t>(i));
+    ASSERT_FALSE(result.hypotheses.empty());
+    const Pose2& best = result.hypotheses.front().map_from_robot;
+    if (distance(best, truth) < 0.05 && rotation_between(best, truth) < radians(1.0)) ++first;
+  }
+  // The world looks like itself in places, seen from near by.
+  EXPECT_GE(first, places - 2);
+}
+
+TEST(IndexedRansam, HypothesesAreDistinctPoses) {
+  const IndexedRansam::Params params;
+  const MatchResult result = match(params, local_map_at({2.0, 6.0, -1.0}, 2.5));
+  ASSERT_GT(result.hypotheses.size(), 1U);
+  EXPECT_LE(result.hypotheses.size(), static_cast<std::size_t>(params.modes));
+  for (std::size_t i = 0; i < result.hypotheses.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Pose2& a = result.hypotheses[i].map_from_robot;
+      const Pose2& b = result.hypotheses[k].map_from_robot;
+      EXPECT_TRUE(distance(a, b) >= params.mode.distance || rotation_between(a, b) >= params.mode.rotation);
+    }
+  }
+}
+
+TEST(IndexedRansam, QualityIsContactWhereNothingSpeaksAgainstAPose) {
+  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
+  const auto contact = contact_index(*test::small_world(), "bitset", 0.1);
+  for (const Hypothesis& h : match({.unknown_weight = 0.0}, local).hypotheses) {
+    const std::size_t n = local.points.size();
+    const auto in_contact =
+        static_cast<double>(contact->count(local.points, 0, n, Transform(h.map_from_local)));
+    EXPECT_NEAR(h.quality, in_contact / static_cast<double>(n), 1e-12);
+  }
+}
+
+TEST(IndexedRansam, BlockedBeamsTakeQualityOff) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const LocalMap local = local_map_at(truth, 3.0);
+  Observation through_the_wall;
+  through_the_wall.scan.free_ends.push_back({9.0F, 0.0F, 0.0F});
+  MapData data;
+  data.points = test::small_world_points();
+  data.grid = {{-0.05, -0.05, 0.0}, 0.1, 82, 92, std::vector<Cell>(std::size_t{82} * 92, Cell::free)};
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    data.grid.cell(static_cast<int>((data.points.x[i] + 0.05) / 0.1),
+                   static_cast<int>((data.points.y[i] + 0.05) / 0.1)) = Cell::occupied;
+  }
+  const auto map = std::make_shared<const GlobalMap>(std::move(data));
+  const auto best = [&](const Observation& latest) {
+    IndexedRansam matcher({.beams = {.weight = 0.25}}, {map, 1});
+    Rng rng(1);
+    return matcher.match(local, latest, 0.1, rng).hypotheses.front();
+  };
+  const Hypothesis free = best({});
+  const Hypothesis blocked = best(through_the_wall);
+  EXPECT_LT(distance(free.map_from_robot, truth), 0.05);
+  EXPECT_NEAR(free.quality - blocked.quality, 0.25, 0.02);
+}
+
+TEST(IndexedRansam, TheBestPosesAreCarriedToTheNextStep) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const LocalMap local = local_map_at(truth, 3.0);
+  // Draws in the first step only.
+  IndexedRansam matcher({.iterations = 0, .first_steps = 1}, {test::small_world(), 1});
+  Rng rng(1);
+  ASSERT_FALSE(matcher.match(local, {}, 0.1, rng).hypotheses.empty());
+  const MatchResult second = matcher.match(local, {}, 0.1, rng);
+  EXPECT_EQ(second.collisions, 0U);
+  ASSERT_FALSE(second.hypotheses.empty());
+  EXPECT_LT(distance(second.hypotheses.front().map_from_robot, truth), 0.05);
+  // Another local frame, or a reset: nothing to carry. The first step comes again, with its draws.
+  LocalMap restarted = local;
+  restarted.generation = 1;
+  EXPECT_GT(matcher.match(restarted, {}, 0.1, rng).collisions, 0U);
+  matcher.reset();
+  EXPECT_GT(matcher.match(local, {}, 0.1, rng).collisions, 0U);
+}
+
+TEST(IndexedRansam, LargeLocalMapsDoNotStarveTheDraws) {
+  // Two walls far apart: most pairs of points are longer than any dipole.
+  LocalMap local;
+  test::add_wall(local.points, {{0, 0}, {8, 0}});
+  test::add_wall(local.points, {{100, 0}, {108, 0}});
+  test::add_wall(local.points, {{0, 100}, {8, 100}});
+  local.ends = {local.points.size()};
+  EXPECT_GT(match({.first_iterations = 1000}, local).collisions, 500U);
+}
+
+TEST(IndexedRansam, DrawsEndOnceTheBestPosesStayTheSame) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const LocalMap local = local_map_at(truth, 4.0);
+  const AdaptiveBudget budget{.limit = 100000, .chunk = 100, .stable_modes = 1, .stable_chunks = 4};
+  IndexedRansam matcher({.adaptive = budget}, {test::small_world(), 1});
+  Rng rng(1);
+  const MatchResult first = matcher.match(local, {}, 0.1, rng);
+  ASSERT_FALSE(first.hypotheses.empty());
+  EXPECT_LT(distance(first.hypotheses.front().map_from_robot, truth), 0.05);
+  EXPECT_LT(first.collisions, 5000U);
+  // What was carried on is the best from the beginning: four chunks confirm it, and no more are drawn.
+  const MatchResult second = matcher.match(local, {}, 0.1, rng);
+  EXPECT_GT(second.collisions, 200U);  // a few draws find no partner
+  EXPECT_LE(second.collisions, 400U);
+}
+
+TEST(IndexedRansam, DrawsGoOnToTheLimitWhileNothingIsStable) {
+  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 4.0);
+  // More chunks in a row than there are; and no pose at all, as too much is asked for. The last chunk is cut.
+  const AdaptiveBudget never{.limit = 1050, .chunk = 100, .stable_modes = 1, .stable_chunks = 12};
+  EXPECT_EQ(match({.adaptive = never}, local).collisions,
+            match({.first_iterations = 1050}, local).collisions);
+  LocalMap elsewhere = local;
+  test::add_wall(elsewhere.points, {{100, 0}, {108, 0}, {108, 4}, {100, 4}});
+  const AdaptiveBudget ready{.limit = 1050, .chunk = 100, .stable_modes = 1, .stable_chunks = 1};
+  const MatchResult nothing = match({.adaptive = ready, .min_contact = 1.0}, elsewhere);
+  EXPECT_TRUE(nothing.hypotheses.empty());
+  EXPECT_EQ(nothing.collisions, match({.first_iterations = 1050, .min_contact = 1.0}, elsewhere).collisions);
+}
+
+TEST(IndexedRansam, StableDrawsFindWhatManyDrawsFind) {
+  const AdaptiveBudget budget{.limit = 20000, .chunk = 100, .stable_modes = 5, .stable_chunks = 3};
+  Rng rng(8);
+  std::size_t drawn = 0;
+  for (int i = 0; i < 10; ++i) {
+    const Pose2 truth{rng.uniform(1.0, 7.0), rng.uniform(1.0, 4.0), rng.uniform(-3.14, 3.14)};
+    const LocalMap local = local_map_at(truth, 4.0);
+    const MatchResult stable = match({.adaptive = budget}, local);
+    const MatchResult many = match({.first_iterations = 20000}, local);
+    const Pose2& best = many.hypotheses.front().map_from_robot;
+    EXPECT_LT(distance(stable.hypotheses.front().map_from_robot, best), 0.05);
+    EXPECT_LT(rotation_between(stable.hypotheses.front().map_from_robot, best), radians(1.0));
+    drawn += stable.collisions;
+  }
+  EXPECT_LT(drawn, 10U * 5000U);
+}
+
+/// Round pillars 10 cm thick, too thin to have a normal, some 2 m apart from each other in 16 m x 16 m.
+Points pillars() {
+  Rng rng(3);
+  Points points;
+  std::vector<Point> middles;
+  while (middles.size() < 45) {
+    const Point middle{static_cast<float>(rng.uniform(0.0, 16.0)), static_cast<float>(rng.uniform(0.0, 16.0)),
+                       0.0F};
+    const bool is_near = std::any_of(middles.begin(), middles.end(), [&](const Point& other) {
+      return std::hypot(other.x - middle.x, other.y - middle.y) < 1.0F;
+    });
+    if (is_near) continue;
+    middles.push_back(middle);
+    for (int i = 0; i < 8; ++i) {
+      const float angle = 0.7854F * static_cast<float>(i);
+      points.push_back({middle.x + 0.05F * std::cos(angle), middle.y + 0.05F * std::sin(angle), 0.0F});
+    }
+  }
+  return points;
+}
+
+TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWhereDipolesCannot) {
+  MapData data;
+  data.points = pillars();
+  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 180, 180, std::vector<Cell>(std::size_t{180} * 180, Cell::free)};
+  const auto map = std::make_shared<const GlobalMap>(std::move(data));
+  Rng rng(9);
+  for (int place = 0; place < 10; ++place) {
+    const Pose2 truth{rng.uniform(5.0, 11.0), rng.uniform(5.0, 11.0), rng.uniform(-3.14, 3.14)};
+    LocalMap local;
+    local.points = test::seen_from(map->points(), truth, 5.0);
+    local.ends = {local.points.size()};
+    const auto answer = [&](const char* relation, int threads) {
+      IndexedRansam matcher({.relation = relation}, {map, threads});
+      Rng draws(static_cast<std::uint64_t>(place));
+      return matcher.match(local, {}, 0.5, draws).hypotheses;
+    };
+    for (const char* relation : {"triangle", "auto"}) {
+      const std::vector<Hypothesis> found = answer(relation, 1);
+      ASSERT_FALSE(found.empty()) << relation;
+      EXPECT_LT(distance(found.front().map_from_robot, truth), 0.05) << relation;
+      EXPECT_LT(rotation_between(found.front().map_from_robot, truth), radians(1.0)) << relation;
+      const std::vector<Hypothesis> parallel = answer(relation, 2);
+      ASSERT_EQ(found.size(), parallel.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].map_from_robot, parallel[i].map_from_robot);
+        EXPECT_EQ(found[i].quality, parallel[i].quality);
+      }
+    }
+    EXPECT_TRUE(answer("dipole", 1).empty());
+  }
+}
+
+TEST(IndexedRansam, AnExactSearchFindsWhatDrawsDoNot) {
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const LocalMap local = local_map_at(truth, 3.0);
+  // No pose is ever clear, and nothing is ever drawn.
+  IndexedRansam::Params params{.iterations = 0, .first_iterations = 0};
+  params.exact_search = {.after_steps = 2, .margin = 1.0};
+  IndexedRansam matcher(params, {test::small_world(), 1});
+  Rng rng(1);
+  const auto match = [&](const LocalMap& map) { return matcher.match(map, {}, 0.1, rng).hypotheses; };
+  EXPECT_TRUE(match(local).empty());
+  const auto found = match(local);
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(distance(found.front().map_from_robot, truth), 0.05);
+  // A reset, or another local frame, begins the count anew.
+  matcher.reset();
+  EXPECT_TRUE(match(local).empty());
+  LocalMap restarted = local;
+  restarted.generation = 1;
+  EXPECT_TRUE(match(restarted).empty());
+  EXPECT_FALSE(match(restarted).empty());
+}
+
+TEST(IndexedRansam, AClearBestPoseNeedsNoExactSearch) {
+  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
+  IndexedRansam::Params params{.iterations = 0};
+  params.exact_search = {.after_steps = 1, .margin = 0.0};
+  IndexedRansam matcher(params, {test::small_world(), 1});
+  Rng rng(1);
+  for (int i = 0; i < 3; ++i) (void)matcher.match(local, {}, 0.1, rng);
+  (void)matcher.match(local, {}, 0.1, rng);
+  EXPECT_EQ(matcher.match(local, {}, 0.1, rng).collisions, 0U);
+}
+
+}  // namespace
+}  // namespace glocal::indexed_ransam_test

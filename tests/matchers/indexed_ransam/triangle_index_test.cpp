@@ -1,0 +1,201 @@
+#include "matchers/indexed_ransam/triangle_index.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "bench/plain.hpp"
+#include "files.hpp"
+#include "glocal/rng.hpp"
+#include "test_world.hpp"
+
+namespace glocal::triangle_index_test {
+namespace {
+
+constexpr std::size_t no_limit = 100'000'000;
+
+Points scattered(int n, double side) {
+  Rng rng(5);
+  Points points;
+  for (int i = 0; i < n; ++i) {
+    points.push_back(
+        {static_cast<float>(rng.uniform(0.0, side)), static_cast<float>(rng.uniform(0.0, side)), 0.0F});
+  }
+  return points;
+}
+
+Triple sorted(Triple triple) {
+  std::sort(triple.begin(), triple.end());
+  return triple;
+}
+
+/// All triangles of the points by their relation, found one by one.
+std::map<Relation, std::set<Triple>> all_triangles(const Points& points, const TriangleRule& rule) {
+  std::map<Relation, std::set<Triple>> result;
+  const auto n = static_cast<std::uint32_t>(points.size());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = i + 1; j < n; ++j) {
+      for (std::uint32_t k = j + 1; k < n; ++k) {
+        if (const auto t = plain::canonical_triangle(points, {i, j, k}, rule)) {
+          result[t->relation].insert({i, j, k});
+        }
+      }
+    }
+  }
+  return result;
+}
+
+TEST(TriangleIndex, HoldsEachAdmittedTriangleOnceUnderItsRelation) {
+  const Points points = scattered(70, 9.0);
+  const TriangleRule rule{.cell = 0.4, .min_side = 0.5, .min_height = 0.3, .max_side = 5.0};
+  const auto expected = all_triangles(points, rule);
+  std::size_t triangles = 0;
+  const TriangleIndex index(points, rule, no_limit);
+  for (const auto& [relation, of_relation] : expected) {
+    const auto found = index.find(relation);
+    std::set<Triple> distinct;
+    for (const Triple& t : found) distinct.insert(sorted(t));
+    EXPECT_EQ(distinct, of_relation);
+    EXPECT_EQ(found.size(), of_relation.size());
+    triangles += of_relation.size();
+    EXPECT_EQ(index.find(relation + 1).empty(), !expected.contains(relation + 1));
+  }
+  EXPECT_EQ(index.size(), triangles);
+  EXPECT_GT(triangles, 5'000U);
+  EXPECT_GE(index.memory_bytes(), 12 * triangles);
+  EXPECT_TRUE(index.find(0).empty());
+  EXPECT_TRUE(index.find(std::numeric_limits<Relation>::max()).empty());
+}
+
+TEST(TriangleIndex, APartnerLiesWithinACellOfTheTriangleLaidOnIt) {
+  // Sides differ by less than a cell, so no corner is off by more, as long as triangles are not flat.
+  const TriangleRule rule{.cell = 0.1, .min_side = 2.3, .min_height = 2.0, .max_side = 3.0};
+  const Points map = scattered(300, 8.0);
+  const TriangleIndex index(map, rule, no_limit);
+  const Points local = test::moved(map, {3.0, -7.0, 1.234});
+  Rng rng(2);
+  std::size_t partners = 0;
+  while (partners < 2000) {
+    const Triple drawn = plain::draw(local, rng);
+    const auto triangle = plain::canonical_triangle(local, drawn, rule);
+    if (!triangle) continue;
+    for (const Triple& partner : index.find(triangle->relation)) {
+      TripleBatch from;
+      TripleBatch to;
+      from.add(drawn);
+      to.add(partner);
+      MotionBatch motions;
+      least_squares_motions(local, from, map, to, motions);
+      for (const std::uint32_t i : drawn) {
+        const Point p = motions[0](local[i]);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t k : partner) {
+          nearest = std::min(nearest, std::hypot(double{p.x} - map.x[k], double{p.y} - map.y[k]));
+        }
+        EXPECT_LT(nearest, 0.1);
+      }
+      ++partners;
+    }
+  }
+}
+
+TEST(TriangleIndex, ATriangleFindsItselfWhereverItHasBeenMovedTo) {
+  const TriangleRule rule{.cell = 0.1, .min_side = 0.5, .min_height = 0.3, .max_side = 4.0};
+  const Points map = scattered(60, 8.0);
+  const TriangleIndex index(map, rule, no_limit);
+  const Points local = test::moved(map, {3.0, -7.0, 1.234});
+  int all = 0;
+  int found = 0;
+  for (const auto& [relation, triangles] : all_triangles(local, rule)) {
+    for (const Triple& triangle : triangles) {
+      const auto partners = index.find(relation);
+      ++all;
+      found += std::any_of(partners.begin(), partners.end(),
+                           [&](const Triple& t) { return sorted(t) == triangle; })
+                   ? 1
+                   : 0;
+    }
+  }
+  // Rounding moves a few over a cell's edge.
+  EXPECT_GT(all, 1'000);
+  EXPECT_GT(found, 0.999 * all);
+}
+
+TEST(TriangleIndex, OfTooManyAnEvenShareIsKeptTheSameForAnyNumberOfThreads) {
+  const TriangleRule rule{.cell = 0.2, .min_side = 0.5, .min_height = 0.3, .max_side = 5.0};
+  const Points points = scattered(200, 9.0);
+  const std::size_t all = TriangleIndex(points, rule, no_limit).size();
+  // Candidates that are too long or too flat take part in the draw, so somewhat fewer are kept.
+  constexpr std::size_t most = 20'000;
+  const TriangleIndex one(points, rule, most);
+  ASSERT_GT(all, 5 * most);
+  EXPECT_LE(one.size(), most);
+  EXPECT_GT(one.size(), most / 2);
+  EXPECT_EQ(one.saved({}), TriangleIndex(points, rule, most, 2).saved({}));
+  EXPECT_EQ(one.saved({}), TriangleIndex(points, rule, most, 5).saved({}));
+  // Each kind of triangle keeps the same share: compare those with a long and with a short longest side.
+  std::size_t kept_long = 0;
+  std::size_t all_long = 0;
+  for (const auto& [relation, triangles] : all_triangles(points, rule)) {
+    if (relation >> (2 * relation_side_bits) < 20) continue;  // a longest side below 4 m
+    all_long += triangles.size();
+    kept_long += one.find(relation).size();
+  }
+  const double share = static_cast<double>(one.size()) / static_cast<double>(all);
+  EXPECT_NEAR(static_cast<double>(kept_long) / static_cast<double>(all_long), share, 0.05 * share);
+}
+
+TEST(TriangleIndex, TooFewPointsHaveNoTriangle) {
+  for (const int n : {0, 1, 2}) {
+    const TriangleIndex index(scattered(n, 1.0), {}, 1000);
+    EXPECT_EQ(index.size(), 0U);
+    EXPECT_TRUE(index.find(1).empty());
+  }
+}
+
+class SavedTriangles : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::filesystem::path write(const std::vector<Relation>& relations,
+                                            const std::vector<std::uint32_t>& begins,
+                                            const std::vector<Triple>& triangles) const {
+    const std::vector<float> zeros(10, 0.0F);
+    return folder_.write("a.index",
+                         saved_index(TriangleIndex::kind, {},
+                                     {std::as_bytes(std::span(zeros)), std::as_bytes(std::span(zeros)),
+                                      std::as_bytes(std::span(relations)), std::as_bytes(std::span(begins)),
+                                      std::as_bytes(std::span(triangles))}));
+  }
+  [[nodiscard]] static std::string fault_of(const std::filesystem::path& file) {
+    return test::config_error("", [&] { const TriangleIndex index(SavedIndex(file, {})); });
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(SavedTriangles, AreTheSameAsBefore) {
+  const TriangleIndex built(scattered(100, 8.0), {.max_side = 4.0}, 20'000);
+  const std::string bytes = built.saved({});
+  const TriangleIndex again(SavedIndex(folder_.write("a.index", bytes), {}));
+  EXPECT_GT(again.size(), 1'000U);
+  EXPECT_EQ(again.points(), built.points());
+  EXPECT_EQ(again.saved({}), bytes);
+}
+
+TEST_F(SavedTriangles, ThatCannotBeAreRefused) {
+  using ::testing::HasSubstr;
+  ASSERT_EQ(fault_of(write({3, 7}, {0, 1, 2}, {{0, 1, 2}, {7, 8, 9}})), "");
+  EXPECT_THAT(fault_of(write({7, 3}, {0, 1, 2}, {{0, 1, 2}, {7, 8, 9}})), HasSubstr("not in order"));
+  EXPECT_THAT(fault_of(write({3, 7}, {0, 2}, {{0, 1, 2}, {7, 8, 9}})), HasSubstr("do not fit together"));
+  EXPECT_THAT(fault_of(write({3, 7}, {0, 3, 2}, {{0, 1, 2}, {7, 8, 9}})), HasSubstr("bins overlap"));
+  EXPECT_THAT(fault_of(write({3, 7}, {0, 1, 2}, {{0, 1, 2}, {7, 8, 10}})), HasSubstr("does not have"));
+  EXPECT_THAT(fault_of(folder_.write("b.index", saved_index("dipoles", {}, {}))),
+              HasSubstr("the index is one of dipoles instead of triangles; build it anew"));
+}
+
+}  // namespace
+}  // namespace glocal::triangle_index_test

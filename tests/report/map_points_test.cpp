@@ -1,0 +1,53 @@
+#include "report/map_points.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "report/point_sets.hpp"
+
+namespace glocal::test::map_points_test {
+namespace {
+
+TEST(MapPoints, AreSortedAndEachThereOnce) {
+  EXPECT_EQ(map_points(points_at({{2, 0}, {1, 0.5F}, {2.0001F, 0}, {1, -0.5F}})).dump(),
+            R"({"x":[1000,1000,2000],"y":[-500,500,0],"spacing_m":1})");
+}
+
+TEST(MapPoints, OnAGridLieItsSpacingApart) {
+  Points points;
+  for (int i = 0; i < 100; ++i) {
+    points.push_back({0.03F * static_cast<float>(i), 7.0F, 0.0F});
+    points.push_back({5.0F, 0.03F * static_cast<float>(i), 0.0F});
+  }
+  EXPECT_EQ(map_points(points)["spacing_m"], 0.03);
+}
+
+TEST(MapPoints, AnywhereLieTheMedianDistanceApart) {
+  std::mt19937 random(2);
+  std::vector<std::pair<float, float>> at;
+  for (int i = 0; i < 301; ++i)
+    at.emplace_back(0.001F * static_cast<float>(random() % 9000),
+                    0.001F * static_cast<float>(random() % 9000));
+  std::vector<double> nearest;
+  for (const auto& [x, y] : at) {
+    double least = 1e9;
+    for (const auto& [other_x, other_y] : at) {
+      if (x != other_x || y != other_y)
+        least = std::min(least, std::hypot(double{x} - other_x, double{y} - other_y));
+    }
+    nearest.push_back(least);
+  }
+  std::sort(nearest.begin(), nearest.end());
+  EXPECT_NEAR(map_points(points_at(at))["spacing_m"].get<double>(), nearest[150], 1e-6);
+}
+
+TEST(MapPoints, OfNoneOrOneAreNothingApart) {
+  EXPECT_EQ(map_points({}).dump(), R"({"x":[],"y":[],"spacing_m":0})");
+  EXPECT_EQ(map_points(points_at({{1, 1}})).dump(), R"({"x":[1000],"y":[1000],"spacing_m":0})");
+}
+
+}  // namespace
+}  // namespace glocal::test::map_points_test

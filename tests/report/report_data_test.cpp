@@ -1,0 +1,239 @@
+#include "report/report_data.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "evaluation/results/pcd.hpp"
+#include "evaluation/results/records.hpp"
+#include "evaluation/results/writers.hpp"
+#include "files.hpp"
+#include "report/point_sets.hpp"
+
+namespace glocal::test::report_data_test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Folders as glocal run leaves them: trial 0 of three steps with local maps and scans, trial 1 of one step.
+class ReportDataTest : public testing::Test {
+ protected:
+  ReportDataTest() { write_run("a"); }
+
+  void write(const std::string& name, const std::string& content) const {
+    fs::create_directories((folder_ / name).parent_path());
+    folder_.write(name, content);
+  }
+
+  void write_run(const std::string& name, double first_start_m = 0.0) const {
+    write(name + "/summary.json",
+          R"({"name": "lab", "seed": 7, "complete": true, "trials": {"count": 2, "right": 1}})");
+    write(name + "/provenance.json",
+          R"({"host": "h", "cpu": "c", "threads": 2, "inputs_sha256": {"/lab.log": "abc"}})");
+    write(name + "/effective.yaml",
+          "seed: 7\nmap:\n  carmen_log:\n    path: \"/lab.log\"\noutput:\n  steps: true\n");
+    write(name + "/trials.jsonl", trial(0, 3, first_start_m) + trial(1, 1, first_start_m + 5.0));
+    write(name + "/steps.jsonl", step(0, 0) + step(0, 1) + step(0, 2) + step(1, 0));
+    write(name + "/maps/global.pcd", pcd(points_at({{0, 0}, {0.05F, 0}, {0.1F, 0}})));
+    for (int i = 0; i < 3; ++i) {
+      const auto x = static_cast<float>(i);
+      write(fmt::format("{}/maps/trial_0000/step_000{}.pcd", name, i), pcd(points_at({{9, 9}, {x, 1}})));
+      write(fmt::format("{}/maps/trial_0000/scan_000{}.pcd", name, i), pcd(points_at({{x, -1}})));
+    }
+  }
+
+  static std::string trial(std::size_t number, std::size_t steps, double start_m) {
+    TrialRecord record;
+    record.trial = number;
+    record.start_m = start_m;
+    record.steps = steps;
+    record.why = "a </script> & b";
+    return trial_line(record);
+  }
+
+  static std::string step(std::size_t trial, std::size_t number) {
+    return step_line(trial, step_record(number, {1.0, 2.0, 0.5}));
+  }
+
+  [[nodiscard]] Json data(const std::vector<std::string>& names, const ReportLimits& limits = {}) const {
+    ReportData data(limits);
+    std::vector<NamedRun> runs;
+    for (const std::string& name : names) {
+      data.add(folder_ / name);
+      runs.push_back({name, read_results(folder_ / name)});
+    }
+    return data.to_json(runs, 0);
+  }
+
+  /// All that is said of a folder.
+  [[nodiscard]] std::vector<std::string> faults(const std::string& name = "a") const {
+    std::vector<std::string> said;
+    try {
+      ReportData({}).add(folder_ / name);
+    } catch (const ConfigError& error) {
+      for (const Fault& fault : error.faults())
+        said.push_back(fs::relative(fault.file, folder_ / "").string() +
+                       to_string(fault).substr(fault.file.size()));
+    }
+    return said;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReportDataTest, IsAllThatTheRunLeft) {
+  const Json json = data({"a"});
+  EXPECT_EQ(json["format"], 1);
+  EXPECT_THAT(json["generator"].get<std::string>(), testing::StartsWith("glocal "));
+  EXPECT_EQ(json["maps"], Json::parse(R"([{"x": [0, 50, 100], "y": [0, 0, 0], "spacing_m": 0.05}])"));
+  EXPECT_FALSE(json.contains("comparison"));
+  EXPECT_FALSE(json.contains("comparison_refused"));
+  ASSERT_EQ(json["runs"].size(), 1U);
+  const Json& run = json["runs"][0];
+  EXPECT_EQ(run["name"], "a");
+  EXPECT_EQ(run["folder"], (folder_ / "a").string());
+  EXPECT_EQ(run["summary"]["seed"], 7);
+  EXPECT_EQ(run["provenance"]["inputs_sha256"]["/lab.log"], "abc");
+  EXPECT_EQ(run["settings"], Json::parse(R"({"map.carmen_log.path": {"text": "/lab.log", "identity": "abc"},
+                                             "output.steps": {"text": "true"}, "seed": {"text": "7"}})"));
+  EXPECT_EQ(run["map"], 0);
+  ASSERT_EQ(run["trials"].size(), 2U);
+  const Json& first = run["trials"][0];
+  EXPECT_EQ(first["steps"], 3);
+  EXPECT_EQ(first["why"], "a </script> & b");
+  EXPECT_EQ(first["columns"]["step"], Json::parse("[0, 1, 2]"));
+  EXPECT_EQ(first["local_map"], Json::parse(R"({"steps": [0, 1, 2], "x": [0, 1000, 2000, 9000],
+      "y": [1000, 1000, 1000, 9000], "from": [0, 1, 2, 0], "to": [1, 2, 3, 3]})"));
+  EXPECT_EQ(first["scans"], Json::parse(R"({"steps": [0, 1, 2], "first": [0, 1, 2, 3], "x": [0, 1000, 2000],
+      "y": [-1000, -1000, -1000]})"));
+  const Json& second = run["trials"][1];
+  EXPECT_EQ(second["trial"], 1);
+  EXPECT_EQ(second["columns"]["step"], Json::parse("[0]"));
+  EXPECT_FALSE(second.contains("local_map"));
+  EXPECT_FALSE(second.contains("scans"));
+}
+
+TEST_F(ReportDataTest, DoesWithoutWhatWasNotRecorded) {
+  write("a/effective.yaml", "output: {steps: false}\n");
+  fs::remove(folder_ / "a/steps.jsonl");
+  for (int i = 0; i < 3; ++i) fs::remove(folder_ / fmt::format("a/maps/trial_0000/scan_000{}.pcd", i));
+  Json trial = data({"a"})["runs"][0]["trials"][0];
+  EXPECT_FALSE(trial.contains("columns"));
+  EXPECT_FALSE(trial.contains("scans"));
+  EXPECT_EQ(trial["local_map"]["steps"], Json::parse("[0, 1, 2]"));
+  fs::remove_all(folder_ / "a/maps");
+  const Json run = data({"a"})["runs"][0];
+  EXPECT_FALSE(run.contains("map"));
+  EXPECT_FALSE(run["trials"][0].contains("local_map"));
+}
+
+TEST_F(ReportDataTest, TakesARunThatWasInterrupted) {
+  write("a/summary.json", R"({"name": "lab", "seed": 7, "complete": false, "trials": {"count": 1}})");
+  write("a/trials.jsonl", trial(1, 1, 5.0));
+  write("a/steps.jsonl", step(1, 0));
+  const Json trials = data({"a"})["runs"][0]["trials"];
+  ASSERT_EQ(trials.size(), 1U);
+  EXPECT_EQ(trials[0]["trial"], 1);
+}
+
+TEST_F(ReportDataTest, TakesATrialThatFailedInItsFirstStep) {
+  write("a/trials.jsonl", trial(0, 3, 0.0) + trial(1, 0, 5.0));
+  write("a/steps.jsonl", step(0, 0) + step(0, 1) + step(0, 2));
+  EXPECT_EQ(data({"a"})["runs"][0]["trials"][1]["columns"]["step"], Json::array());
+}
+
+TEST_F(ReportDataTest, HasEachMapOnce) {
+  write_run("b");
+  write_run("c");
+  write("c/maps/global.pcd", pcd(points_at({{0, 0}, {0.06F, 0}})));
+  const Json json = data({"a", "b", "c"});
+  ASSERT_EQ(json["maps"].size(), 2U);
+  EXPECT_EQ(json["runs"][1]["map"], 0);
+  EXPECT_EQ(json["runs"][2]["map"], 1);
+}
+
+TEST_F(ReportDataTest, ComparesRunsOrSaysWhyNot) {
+  write_run("b");
+  write_run("elsewhere", 2.5);
+  const Json json = data({"a", "b"});
+  EXPECT_EQ(json["comparison"]["baseline"], "a");
+  EXPECT_EQ(json["comparison"]["starts"], 2);
+  EXPECT_FALSE(json.contains("comparison_refused"));
+  const Json refused = data({"a", "elsewhere"});
+  EXPECT_FALSE(refused.contains("comparison"));
+  EXPECT_THAT(refused["comparison_refused"].get<std::string>(), HasSubstr("none of its 2 starts"));
+}
+
+TEST_F(ReportDataTest, SharesItsLimitsAmongAllTrialsWithMaps) {
+  write_run("b");
+  // 4 lives and 3 points of scans each.
+  EXPECT_EQ(data({"a", "b"}, {.lives = 8, .scan_points = 6})["runs"][0]["trials"][0]["scans"]["steps"].size(),
+            3U);
+  const Json json = data({"a", "b"}, {.clusters = 1, .lives = 7, .scan_points = 5});
+  for (const Json& run : json["runs"]) {
+    EXPECT_EQ(run["trials"][0]["local_map"]["steps"], Json::parse("[0, 2]"));
+    EXPECT_EQ(run["trials"][0]["scans"]["steps"], Json::parse("[0, 2]"));
+    EXPECT_EQ(run["trials"][0]["columns"]["best"]["first"], Json::parse("[0, 1, 2, 3]"));
+  }
+}
+
+TEST_F(ReportDataTest, FindsEveryFaultOfAFolder) {
+  write("a/summary.json", "{");
+  write("a/provenance.json", "[]");
+  write("a/effective.yaml", "a: [\n");
+  write("a/steps.jsonl", step(0, 0) + step(0, 2));
+  write("a/maps/global.pcd", "points");
+  fs::remove(folder_ / "a/maps/trial_0000/scan_0001.pcd");
+  EXPECT_THAT(
+      faults(),
+      ElementsAre(HasSubstr("a/effective.yaml:"), HasSubstr("a/maps/global.pcd: error: is no PCD file"),
+                  HasSubstr("a/maps/trial_0000/scan_0001.pcd: error: cannot be read"),
+                  HasSubstr("a/provenance.json: error: is not as glocal run leaves it"),
+                  AllOf(HasSubstr("a/steps.jsonl:2: error:"), HasSubstr("where step 1 belongs")),
+                  HasSubstr("a/summary.json: error: is not as glocal run leaves it")));
+}
+
+TEST_F(ReportDataTest, FindsWhatWasCutOff) {
+  write("a/steps.jsonl", step(0, 0) + step(0, 1) + step(1, 0));
+  EXPECT_THAT(
+      faults(),
+      ElementsAre(HasSubstr("a/maps/trial_0000: error: steps.jsonl has 2 steps of this trial, where there "
+                            "are 3 files scan_NNNN.pcd"),
+                  HasSubstr("where there are 3 files step_NNNN.pcd"),
+                  HasSubstr("a/steps.jsonl: error: has 2 of the 3 steps of trial 0; run")));
+  write("a/steps.jsonl", step(0, 0) + step(0, 1).substr(0, 200));
+  EXPECT_THAT(faults(), testing::Contains(HasSubstr("a/steps.jsonl:2: error: is no line of results")));
+  write_run("a");
+  write("a/trials.jsonl", trial(0, 3, 0.0));
+  EXPECT_THAT(faults(),
+              ElementsAre(HasSubstr("trials.jsonl has no trial 1"),
+                          HasSubstr("a/trials.jsonl: error: has 1 trials, where summary.json counts 2")));
+  write_run("a");
+  fs::remove(folder_ / "a/steps.jsonl");
+  EXPECT_THAT(faults(), testing::Contains(HasSubstr("a/steps.jsonl: error: cannot be read")));
+  write_run("a");
+  fs::resize_file(folder_ / "a/maps/trial_0000/step_0001.pcd", 200);
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("a/maps/trial_0000/step_0001.pcd: error: has")));
+}
+
+TEST_F(ReportDataTest, RefusesATrialThatIsThereTwice) {
+  write("a/trials.jsonl", trial(0, 3, 0.0) + trial(0, 1, 5.0));
+  EXPECT_THAT(faults(),
+              testing::Contains(AllOf(HasSubstr("a/trials.jsonl:2"), HasSubstr("trial 0 is there already"))));
+}
+
+TEST_F(ReportDataTest, RefusesAFolderOfSomethingElse) {
+  fs::create_directory(folder_ / "empty");
+  const std::vector<std::string> said = faults("empty");
+  EXPECT_EQ(said.size(), 4U);
+  for (const std::string& fault : said)
+    EXPECT_THAT(fault, HasSubstr("name a folder that glocal run has left"));
+}
+
+}  // namespace
+}  // namespace glocal::test::report_data_test
