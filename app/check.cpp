@@ -21,13 +21,13 @@ struct CheckOptions {
 
 void check(const std::string& file, const ExperimentOptions& options, Context& context) {
   std::vector<Variant> variants = options.read_variants(file, context);
-  Preparer preparer(context.catalog, [](const std::string& text) { spdlog::warn(text); });
-  static_cast<void>(count_trials(variants, preparer, context.catalog));
+  ExperimentLoader loader(context.catalog, [](const std::string& text) { spdlog::warn(text); });
+  static_cast<void>(count_trials(variants, loader, context.catalog));
   Experiment& first = variants.front().experiment;
-  Prepared& prepared = preparer.prepare(first);
-  static_cast<void>(make_localizer(first, context.catalog, prepared));
-  fmt::print("{}: ok, {} map points, {} observations, {} trials{}\n", file, prepared.map->points().size(),
-             prepared.drive.samples.size(), prepared.starts.size(),
+  LoadedExperiment& loaded = loader.load(first);
+  static_cast<void>(make_localizer(first, context.catalog, loaded));
+  fmt::print("{}: ok, {} map points, {} observations, {} trials{}\n", file, loaded.map->points().size(),
+             loaded.drive.samples.size(), loaded.starts.size(),
              variants.size() > 1 ? fmt::format(" of each of {} variants", variants.size()) : "");
 }
 

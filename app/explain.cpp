@@ -38,14 +38,14 @@ struct Replayed {
 };
 
 Replayed replay(const ExplainOptions& options, const Experiment& experiment, const Catalog& catalog,
-                Prepared& prepared) {
-  if (options.trial >= prepared.starts.size()) {
-    refuse(options.folder, fmt::format("there is no trial {}: the last one is {}", options.trial,
-                                       prepared.starts.size() - 1));
+                LoadedExperiment& loaded) {
+  if (options.trial >= loaded.starts.size()) {
+    refuse(options.folder,
+           fmt::format("there is no trial {}: the last one is {}", options.trial, loaded.starts.size() - 1));
   }
-  const std::size_t start = prepared.starts[options.trial];
+  const std::size_t start = loaded.starts[options.trial];
   const std::size_t index = start + options.step;
-  const auto& samples = prepared.drive.samples;
+  const auto& samples = loaded.drive.samples;
   const bool runs_so_far = options.step < step_limit(experiment.trials) && index < samples.size() &&
                            samples[index].segment == samples[start].segment;
   if (!runs_so_far)
@@ -53,7 +53,7 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
   if (!samples[index].map_from_robot)
     refuse(options.folder, "the observations have no reference pose to compare with");
 
-  Localizer localizer = make_localizer(experiment, catalog, prepared);
+  Localizer localizer = make_localizer(experiment, catalog, loaded);
   localizer.reset(options.trial);
   StepResult result;
   for (std::size_t i = start; i <= index; ++i) {
@@ -64,7 +64,7 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
     result = localizer.step(samples[i].observation);
   }
   return {std::move(result), localizer.local_map(), *samples[index].map_from_robot,
-          prepared.drive.path_m[index] - prepared.drive.path_m[start]};
+          loaded.drive.path_m[index] - loaded.drive.path_m[start]};
 }
 
 /// The experiment in which every pose that is drawn passes. Its steps have the same local maps and random
@@ -141,15 +141,15 @@ void explain(const ExplainOptions& options, Context& context) {
   }
   const Experiment experiment = ExperimentOptions{}.read(file, context);
   const EvaluationConfig& limits = experiment.evaluation;
-  Prepared prepared =
-      prepare(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
-  const Replayed step = replay(options, experiment, context.catalog, prepared);
+  LoadedExperiment loaded =
+      load_experiment(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
+  const Replayed step = replay(options, experiment, context.catalog, loaded);
   const StepResult& result = step.result;
   const Pose2& truth = step.map_from_robot;
 
   const auto contact =
-      contact_index(*prepared.map, "bitset", experiment.localizer.unknown_place.contact_epsilon);
-  const DistanceField field(prepared.map->points());
+      contact_index(*loaded.map, "bitset", experiment.localizer.unknown_place.contact_epsilon);
+  const DistanceField field(loaded.map->points());
   const Pose2 map_from_local = truth * inverse(step.local.local_from_robot);
   const Pose2 fitted = refined_pose(field, step.local.points, map_from_local, {.iterations = 30}) *
                        step.local.local_from_robot;
@@ -165,7 +165,7 @@ void explain(const ExplainOptions& options, Context& context) {
     if (hypothesis < std::ssize(result.hypotheses)) return lost_after_matcher(result, cluster);
     if (!agree(fitted, truth, limits))
       return "unclear: the local map does not fit where the reference says it was";
-    const Replayed open = replay(options, without_threshold(experiment), context.catalog, prepared);
+    const Replayed open = replay(options, without_threshold(experiment), context.catalog, loaded);
     return lost_by_matcher(open.result.hypotheses, step, limits);
   };
 

@@ -47,22 +47,22 @@ void add_trials(const std::filesystem::path& folder, Findings& findings) {
   });
 }
 
-/// From trial number n the n-th of its steps with a belief, counted round and round.
+/// From trial number n the n-th of its steps with an estimate, counted round and round.
 void add_steps(const std::filesystem::path& folder, const EvaluationConfig& limits, Findings& findings) {
-  struct Belief {
+  struct PoseEstimate {
     double confidence;
     bool is_right;
   };
-  std::map<std::size_t, std::vector<Belief>> trials;
+  std::map<std::size_t, std::vector<PoseEstimate>> trials;
   for_each_line(folder / "steps.jsonl", [&](const Json& step) {
     if (!step.contains("confidence") || !step.contains("translation_error_m")) return;
     const bool is_right = step.at("translation_error_m") <= limits.max_translation_error &&
                           step.at("rotation_error_deg") <= limits.max_rotation_error_deg;
     trials[step.at("trial")].push_back({step.at("confidence"), is_right});
   });
-  for (const auto& [trial, beliefs] : trials) {
-    const Belief& belief = beliefs[trial % beliefs.size()];
-    findings.believed.add(belief.confidence, belief.is_right);
+  for (const auto& [trial, estimates] : trials) {
+    const PoseEstimate& estimate = estimates[trial % estimates.size()];
+    findings.believed.add(estimate.confidence, estimate.is_right);
   }
 }
 

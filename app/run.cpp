@@ -79,7 +79,7 @@ class Runner {
         context_(context),
         live_(live),
         out_(std::move(out)),
-        preparer_(context.catalog, [](const std::string& text) { spdlog::warn(text); }) {}
+        loader_(context.catalog, [](const std::string& text) { spdlog::warn(text); }) {}
 
   /// The summaries of the variants that an earlier run has finished; they are taken out of the list. Throws
   /// ConfigError for results of other runs that are in the way.
@@ -99,7 +99,7 @@ class Runner {
   Context& context_;
   LiveRun* live_;  ///< Null if nobody may watch.
   fs::path out_;
-  Preparer preparer_;
+  ExperimentLoader loader_;
   FileHashes hashes_;
 };
 
@@ -149,7 +149,7 @@ void Runner::note_trials(const std::vector<Variant>& variants) const {
 std::vector<Summarised> Runner::run(std::vector<Variant>& variants) {
   note_trials(variants);
   std::size_t trials = 0;
-  for (const std::size_t n : count_trials(variants, preparer_, context_.catalog)) trials += n;
+  for (const std::size_t n : count_trials(variants, loader_, context_.catalog)) trials += n;
   Progress progress(!options_.quiet, trials);
   std::vector<Summarised> summaries;
   for (Variant& variant : variants) {
@@ -163,12 +163,12 @@ std::vector<Summarised> Runner::run(std::vector<Variant>& variants) {
 Json Runner::run_one(Variant& variant, Progress& progress) {
   Experiment& experiment = variant.experiment;
   const Catalog& catalog = context_.catalog;
-  Prepared& prepared = preparer_.prepare(experiment);
-  prepared.inputs.insert(fs::absolute(options_.experiment.file));
-  prepared.inputs.insert(context_.plugins.loaded().begin(), context_.plugins.loaded().end());
+  LoadedExperiment& loaded = loader_.load(experiment);
+  loaded.inputs.insert(fs::absolute(options_.experiment.file));
+  loaded.inputs.insert(context_.plugins.loaded().begin(), context_.plugins.loaded().end());
   const auto start = std::chrono::steady_clock::now();
   std::vector<Localizer> localizers;
-  localizers.push_back(make_localizer(experiment, catalog, prepared));
+  localizers.push_back(make_localizer(experiment, catalog, loaded));
   const double map_index_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
@@ -182,25 +182,25 @@ Json Runner::run_one(Variant& variant, Progress& progress) {
   if (declined)
     spdlog::warn("{}: starts afresh: what an earlier run has left unfinished is dropped, as {}",
                  folder.path().string(), *declined);
-  RunResults results(folder, experiment.output, prepared.starts.size());
-  const std::size_t trials = prepared.starts.size();
+  RunResults results(folder, experiment.output, loaded.starts.size());
+  const std::size_t trials = loaded.starts.size();
   const std::size_t before = trials - results.to_run().size();
   if (before > 0 && !options_.quiet)
     spdlog::info("{}: goes on where an earlier run has stopped: {} of {} trials are finished",
                  folder.path().string(), before, trials);
   progress.skip(before);
   folder.write("effective.yaml", effective_yaml(experiment, catalog));
-  Json origin = provenance(catalog, experiment.threads, prepared.inputs, hashes_);
+  Json origin = provenance(catalog, experiment.threads, loaded.inputs, hashes_);
   origin["jobs"] = options_.jobs;
   folder.write("provenance.json", origin.dump(2) + "\n");
-  if (experiment.output.maps != "none") folder.write("maps/global.pcd", pcd(prepared.map->points()));
+  if (experiment.output.maps != "none") folder.write("maps/global.pcd", pcd(loaded.map->points()));
 
   while (localizers.size() < std::min(static_cast<std::size_t>(options_.jobs), results.to_run().size()))
-    localizers.push_back(make_localizer(experiment, catalog, prepared));
+    localizers.push_back(make_localizer(experiment, catalog, loaded));
   const double steps =
-      static_cast<double>(std::min(prepared.drive.samples.size(), step_limit(experiment.trials)));
+      static_cast<double>(std::min(loaded.drive.samples.size(), step_limit(experiment.trials)));
   const auto on_step = [&](std::size_t trial, const StepRecord& record, const Localizer& now) {
-    const Sample& sample = prepared.drive.samples[prepared.starts[trial] + record.result.step];
+    const Sample& sample = loaded.drive.samples[loaded.starts[trial] + record.result.step];
     results.step(trial, record, sample.observation.scan, now);
     progress.step(trial, record.result.step, static_cast<double>(record.result.step) / steps,
                   to_string(record.result.verdict.kind));
@@ -215,13 +215,13 @@ Json Runner::run_one(Variant& variant, Progress& progress) {
   };
   if (live_ != nullptr)
     live_->begin(variant.name, folder.path(), read_settings(folder.unfinished(), origin["inputs_sha256"]),
-                 prepared);
-  const bool complete = run_trials(localizers, experiment, prepared, results.to_run(),
+                 loaded);
+  const bool complete = run_trials(localizers, experiment, loaded, results.to_run(),
                                    {on_step, on_done, [] { return interrupted.load(); }});
 
-  Json summary = results.put_together().to_json({experiment.name, experiment.seed, complete,
-                                                 prepared.map->points().size(), prepared.map_build_ms,
-                                                 map_index_ms, localizers.front().map_index()});
+  Json summary =
+      results.put_together().to_json({experiment.name, experiment.seed, complete, loaded.map->points().size(),
+                                      loaded.map_build_ms, map_index_ms, localizers.front().map_index()});
   folder.write("summary.json", summary.dump(2) + "\n");
   folder.commit();
   // Only now: a run that is killed before goes on with it.

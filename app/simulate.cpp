@@ -49,7 +49,7 @@ StrategyChoice recorded_map() {
 
 StrategyChoice recorded_drive(const LaserParams& laser) {
   auto params = std::make_unique<ParamsOf<LogParams>>();
-  params->value = trust_in(laser);
+  params->value = scan_limits(laser);
   params->value.path = beside("drive.log");
   return {"carmen_log", std::move(params)};
 }

@@ -17,13 +17,13 @@
 namespace glocal::bench {
 namespace {
 
-/// A first match of the local maps of so many key frames, at every fifth start.
+/// A first match of the local maps of so many keyframes, at every fifth start.
 template <class Kind>
 void match(benchmark::State& state, const Scene& s, const typename Kind::Params& params, double omega_max) {
-  Kind matcher(params, {s.prepared.map, 1});
+  Kind matcher(params, {s.loaded.map, 1});
   std::vector<LocalMap> locals;
-  for (std::size_t i = 0; i < s.prepared.starts.size(); i += 5) {
-    locals.push_back(local_map_at(s, s.prepared.starts[i], static_cast<std::size_t>(state.range(0))));
+  for (std::size_t i = 0; i < s.loaded.starts.size(); i += 5) {
+    locals.push_back(local_map_at(s, s.loaded.starts[i], static_cast<std::size_t>(state.range(0))));
   }
   Rng rng(1);
   for ([[maybe_unused]] auto _ : state) {
@@ -37,12 +37,12 @@ void match(benchmark::State& state, const Scene& s, const typename Kind::Params&
 
 /// A local map's features among those of the whole map; the share of the ten nearest that are found.
 void nearest(benchmark::State& state, const Scene& s, const std::optional<HashRule>& hashing) {
-  const Surfaces surfaces = surfaces_of(*s.prepared.map, {});
-  const FeatureIndex all(surfaces, {}, std::nullopt, 1);
-  const FeatureIndex index(surfaces, {}, hashing, 1);
-  const LocalMap local = local_map_at(s, s.prepared.starts.front(), 10);
+  const OrientedPoints oriented_points = oriented_points_of(*s.loaded.map, {});
+  const FeatureIndex all(oriented_points, {}, std::nullopt, 1);
+  const FeatureIndex index(oriented_points, {}, hashing, 1);
+  const LocalMap local = local_map_at(s, s.loaded.starts.front(), 10);
   std::vector<std::uint32_t> drawn;
-  const Surfaces seen = surfaces_of(local, SurfaceRule{});
+  const OrientedPoints seen = oriented_points_of(local, OrientedPointRule{});
   for (std::uint32_t i = 0; i < seen.size(); i += 20) drawn.push_back(i);
   const FeatureVectors features = shape_contexts(seen, drawn, {});
   for ([[maybe_unused]] auto _ : state) {

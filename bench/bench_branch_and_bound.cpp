@@ -27,26 +27,26 @@ void tiles(benchmark::State& state, const Scene& s) {
     points.push_back(static_cast<int>(rng.below(201)) - 100, static_cast<int>(rng.below(201)) - 100);
   }
   TileCounts counts;
-  std::size_t checks = 0;
+  std::size_t points_tested = 0;
   for ([[maybe_unused]] auto _ : state) {
-    checks = 0;
+    points_tested = 0;
     for (int row = 0; row < pyramid.frame().rows; row += TileCounts::rows) {
       for (int column = 0; column < pyramid.frame().columns; column += TileCounts::columns) {
-        checks += pyramid.count(0, points, column, row, 0, counts);
+        points_tested += pyramid.count(0, points, column, row, 0, counts);
       }
     }
   }
-  state.counters["per_look"] = time_per_item(static_cast<double>(checks));
+  state.counters["per_look"] = time_per_item(static_cast<double>(points_tested));
 }
 
-/// Local maps of so many key frames; so many poses searched for.
+/// Local maps of so many keyframes; so many poses searched for.
 void match(benchmark::State& state, const Scene& s) {
-  BranchAndBound matcher({.max_poses = static_cast<int>(state.range(1))}, {s.prepared.map, 1});
+  BranchAndBound matcher({.max_poses = static_cast<int>(state.range(1))}, {s.loaded.map, 1});
   const auto step = static_cast<std::size_t>(state.range(0));
   std::vector<LocalMap> locals;
-  for (std::size_t i = 0; i < s.prepared.starts.size(); i += 5) {
-    const std::size_t start = s.prepared.starts[i];
-    if (start + step < s.prepared.drive.samples.size()) locals.push_back(local_map_at(s, start, step));
+  for (std::size_t i = 0; i < s.loaded.starts.size(); i += 5) {
+    const std::size_t start = s.loaded.starts[i];
+    if (start + step < s.loaded.drive.samples.size()) locals.push_back(local_map_at(s, start, step));
   }
   Rng rng(1);
   for ([[maybe_unused]] auto _ : state) {

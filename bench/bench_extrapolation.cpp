@@ -51,7 +51,7 @@ Proposals proposals_at(std::size_t step) {
   Proposals result{local_map_at(simulation(), 0, step), {}, {}, {}};
   const Points& map = simulation().map();
   const Points& local = result.local.points;
-  result.contact = contact_index(*simulation().prepared.map, "bitset", epsilon);
+  result.contact = contact_index(*simulation().loaded.map, "bitset", epsilon);
 
   Rng rng(1);
   std::unordered_map<Relation, Triple> table;
@@ -95,11 +95,11 @@ void give_up(benchmark::State& state, const ExtrapolationRule& rule, double thre
   const QualityTest test(p.local.points, p.contact, rule, threshold, rng);
   ContactIndex::BatchColumn starts;
   for (std::uint32_t& start : starts) start = static_cast<std::uint32_t>(rng.next());
-  std::size_t checks = 0;
+  std::size_t points_tested = 0;
   std::size_t tested = 0;
   for ([[maybe_unused]] auto _ : state) {
     const auto outcome = test.test(p.wrong[tested++ % p.wrong.size()], MotionBatch::capacity, starts);
-    checks += outcome.checks;
+    points_tested += outcome.points_tested;
   }
 
   std::size_t good = 0;
@@ -109,8 +109,8 @@ void give_up(benchmark::State& state, const ExtrapolationRule& rule, double thre
     kept += test.test(batch, MotionBatch::capacity, starts).passed.size();
   }
   state.counters["per_pose"] = time_per_item(MotionBatch::capacity);
-  state.counters["checks"] =
-      static_cast<double>(checks) / static_cast<double>(tested * MotionBatch::capacity);
+  state.counters["points_tested"] =
+      static_cast<double>(points_tested) / static_cast<double>(tested * MotionBatch::capacity);
   state.counters["good"] = static_cast<double>(good);
   state.counters["lost"] = good == 0 ? 0.0 : static_cast<double>(good - kept) / static_cast<double>(good);
   state.counters["local_points"] = static_cast<double>(p.local.points.size());

@@ -256,7 +256,7 @@ void kind(benchmark::State& state) {
   TriangleRule rule_now = rule;
   rule_now.cell = static_cast<double>(state.range(0)) / 100.0;
   rule_now.max_side = std::min(rule.max_side, largest_side(rule_now.cell));
-  std::size_t collisions = 0;
+  std::size_t proposals = 0;
   std::size_t right = 0;
   Rng rng(1);
   for ([[maybe_unused]] auto _ : state) {
@@ -270,13 +270,13 @@ void kind(benchmark::State& state) {
       if (!triangle) continue;
       const auto partner = table.find(triangle->relation);
       if (partner == table.end()) continue;
-      ++collisions;
+      ++proposals;
       const Transform motion =
           plain::least_squares_motion(local.points, triangle->triple, map, partner->second);
       if (is_right(motion.pose(), local.local_from_robot, truth)) ++right;
     }
   }
-  state.counters["collisions"] = per_iteration(collisions);
+  state.counters["proposals"] = per_iteration(proposals);
   state.counters["right"] = per_iteration(right);
 }
 
@@ -290,18 +290,18 @@ void match(benchmark::State& state) {
                  .min_side = rule.min_side,
                  .min_height = rule.min_height,
                  .neighbour_cells = state.range(1) != 0},
-                {simulation().prepared.map, 1});
+                {simulation().loaded.map, 1});
   Rng rng(1);
-  std::size_t collisions = 0;
+  std::size_t proposals = 0;
   std::size_t right = 0;
   for ([[maybe_unused]] auto _ : state) {
     const MatchResult result = ransam.match(local, {}, omega_max, rng);
-    collisions += result.collisions;
+    proposals += result.proposals;
     for (const Hypothesis& h : result.hypotheses) {
       if (is_right(h.map_from_local, local.local_from_robot, truth)) ++right;
     }
   }
-  state.counters["collisions"] = per_iteration(collisions);
+  state.counters["proposals"] = per_iteration(proposals);
   state.counters["right"] = per_iteration(right);
 }
 

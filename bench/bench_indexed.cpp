@@ -12,35 +12,36 @@
 #include "glocal/contact.hpp"
 #include "glocal/distance_field.hpp"
 #include "matchers/common/beam_evidence.hpp"
-#include "matchers/common/surfaces.hpp"
-#include "matchers/indexed_ransam/dipole_index.hpp"
+#include "matchers/common/oriented_points.hpp"
 #include "matchers/indexed_ransam/indexed_ransam.hpp"
+#include "matchers/indexed_ransam/oriented_pair_index.hpp"
 #include "matchers/indexed_ransam/saved_index.hpp"
 #include "matchers/indexed_ransam/triangle_index.hpp"
 
 namespace glocal::bench {
 namespace {
 
-void surfaces(benchmark::State& state, const Scene& s) {
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(surfaces_of(*s.prepared.map, SurfaceRule{}));
+void oriented_points(benchmark::State& state, const Scene& s) {
+  for ([[maybe_unused]] auto _ : state)
+    benchmark::DoNotOptimize(oriented_points_of(*s.loaded.map, OrientedPointRule{}));
 }
 
 /// With so many threads.
-void dipoles(benchmark::State& state, const Scene& s) {
-  const Surfaces found = surfaces_of(*s.prepared.map, {});
+void pairs(benchmark::State& state, const Scene& s) {
+  const OrientedPoints found = oriented_points_of(*s.loaded.map, {});
   std::size_t bytes = 0;
   std::size_t n = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const DipoleIndex index(found, {}, static_cast<int>(state.range(0)));
+    const OrientedPairIndex index(found, {}, static_cast<int>(state.range(0)));
     bytes = index.memory_bytes();
     n = index.size();
   }
-  state.counters["dipoles"] = static_cast<double>(n);
+  state.counters["oriented_pairs"] = static_cast<double>(n);
   state.counters["MB"] = static_cast<double>(bytes) / 1e6;
 }
 
 void triangles(benchmark::State& state, const Scene& s) {
-  const Points found = thinned(s.map(), 0.1);
+  const Points found = voxel_downsampled(s.map(), 0.1);
   std::size_t bytes = 0;
   std::size_t n = 0;
   for ([[maybe_unused]] auto _ : state) {
@@ -53,23 +54,25 @@ void triangles(benchmark::State& state, const Scene& s) {
   state.counters["MB"] = static_cast<double>(bytes) / 1e6;
 }
 
-/// Reading the dipoles from a file instead.
-void saved_dipoles(benchmark::State& state, const Scene& s) {
-  const IndexOrigin origin{digest_of(*s.prepared.map), "all defaults"};
+/// Reading the oriented point pairs from a file instead.
+void saved_pairs(benchmark::State& state, const Scene& s) {
+  const IndexOrigin origin{digest_of(*s.loaded.map), "all defaults"};
   const auto file = std::filesystem::temp_directory_path() / "glocal_bench_indexed.index";
-  std::ofstream(file, std::ios::binary) << DipoleIndex(surfaces_of(*s.prepared.map, {}), {}).saved(origin);
+  std::ofstream(file, std::ios::binary)
+      << OrientedPairIndex(oriented_points_of(*s.loaded.map, {}), {}).saved(origin);
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(DipoleIndex(SavedIndex(file, {digest_of(*s.prepared.map), "all defaults"}), {}));
+    benchmark::DoNotOptimize(
+        OrientedPairIndex(SavedIndex(file, {digest_of(*s.loaded.map), "all defaults"}), {}));
   }
   std::filesystem::remove(file);
 }
 
-/// Motions that dipoles of a local map propose, as IndexedRansam draws them.
+/// Motions that oriented point pairs of a local map propose, as IndexedRansam draws them.
 std::vector<MotionBatch> proposals(const Scene& s, const LocalMap& local, std::size_t batches) {
-  const DipoleIndex index(surfaces_of(*s.prepared.map, {}), {});
-  const Surfaces surfaces = surfaces_of(local, SurfaceRule{});
-  const auto n = static_cast<std::uint32_t>(surfaces.size());
-  const auto pose_of = [](const Surfaces& from, const DipoleIndex::Dipole& d) {
+  const OrientedPairIndex index(oriented_points_of(*s.loaded.map, {}), {});
+  const OrientedPoints oriented_points = oriented_points_of(local, OrientedPointRule{});
+  const auto n = static_cast<std::uint32_t>(oriented_points.size());
+  const auto pose_of = [](const OrientedPoints& from, const OrientedPairIndex::OrientedPair& d) {
     return Pose2{0.5 * (from.x[d.first] + from.x[d.second]), 0.5 * (from.y[d.first] + from.y[d.second]),
                  std::atan2(from.y[d.second] - from.y[d.first], from.x[d.second] - from.x[d.first])};
   };
@@ -77,11 +80,11 @@ std::vector<MotionBatch> proposals(const Scene& s, const LocalMap& local, std::s
   std::vector<MotionBatch> result(batches);
   for (MotionBatch& motions : result) {
     for (std::size_t i = 0; i < MotionBatch::capacity;) {
-      const DipoleIndex::Dipole dipole{rng.below(n), rng.below(n)};
-      const auto partners = index.find(surfaces, dipole);
+      const OrientedPairIndex::OrientedPair pair{rng.below(n), rng.below(n)};
+      const auto partners = index.find(oriented_points, pair);
       if (partners.empty()) continue;
       const auto& partner = partners[rng.below(static_cast<std::uint32_t>(partners.size()))];
-      const Transform t(pose_of(index.surfaces(), partner) * inverse(pose_of(surfaces, dipole)));
+      const Transform t(pose_of(index.oriented_points(), partner) * inverse(pose_of(oriented_points, pair)));
       motions.cosine[i] = t.cosine();
       motions.sine[i] = t.sine();
       motions.x[i] = t.x();
@@ -96,11 +99,11 @@ std::vector<MotionBatch> proposals(const Scene& s, const LocalMap& local, std::s
 /// IndexedRansam does. `third_point`: another point of the local map must be in contact (Winkelbach et al.
 /// 2006). Or both. `kept` is the share of poses with a contact of 0.2 or more that are not lost.
 void looks(benchmark::State& state, const Scene& s, bool third_point, bool coarse) {
-  const LocalMap local = local_map_at(s, s.prepared.starts.front(), static_cast<std::size_t>(state.range(0)));
+  const LocalMap local = local_map_at(s, s.loaded.starts.front(), static_cast<std::size_t>(state.range(0)));
   Points sample;
   for (std::size_t i = 0; i < 128; ++i) sample.push_back(local.points[(i * 7919) % local.points.size()]);
   const std::vector<MotionBatch> all = proposals(s, local, 6);
-  const auto contact = contact_index(*s.prepared.map, "bitset", 0.1);
+  const auto contact = contact_index(*s.loaded.map, "bitset", 0.1);
   std::size_t passed = 0;
   const auto look = [&] {
     passed = 0;
@@ -135,14 +138,14 @@ void distances(benchmark::State& state, const Scene& s) {
 }
 
 void clearances(benchmark::State& state, const Scene& s) {
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(ClearanceGrid(s.prepared.map->grid()));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(ClearanceGrid(s.loaded.map->grid()));
 }
 
-/// One match of a local map of so many key frames, as the first one of a drive.
+/// One match of a local map of so many keyframes, as the first one of a drive.
 void first_match(benchmark::State& state, const Scene& s) {
-  IndexedRansam matcher({}, {s.prepared.map, 1});
+  IndexedRansam matcher({}, {s.loaded.map, 1});
   std::vector<LocalMap> locals;
-  for (const std::size_t start : s.prepared.starts) {
+  for (const std::size_t start : s.loaded.starts) {
     locals.push_back(local_map_at(s, start, static_cast<std::size_t>(state.range(0))));
   }
   Rng rng(1);
@@ -158,12 +161,12 @@ void first_match(benchmark::State& state, const Scene& s) {
 /// From a pose a little off, with a hundred points.
 void refinement(benchmark::State& state, const Scene& s) {
   const DistanceField field(s.map());
-  const std::size_t start = s.prepared.starts.front();
+  const std::size_t start = s.loaded.starts.front();
   const LocalMap local = local_map_at(s, start, 10);
   Points points;
   for (std::size_t i = 0; i < 100; ++i) points.push_back(local.points[i * local.points.size() / 100]);
   const Pose2 map_from_local =
-      s.prepared.drive.samples[start + 10].map_from_robot.value() * inverse(local.local_from_robot);
+      s.loaded.drive.samples[start + 10].map_from_robot.value() * inverse(local.local_from_robot);
   const Pose2 off = map_from_local * Pose2{0.1, -0.1, 0.05};
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(refined_pose(field, points, off, {}));
 }
@@ -175,10 +178,10 @@ void register_all() {
     return benchmark::RegisterBenchmark(name.c_str(), [run, &s](benchmark::State& state) { run(state, s); })
         ->Unit(benchmark::kMillisecond);
   };
-  add("build/surfaces", surfaces);
-  add("build/dipoles", dipoles)->Arg(1)->Arg(2);
+  add("build/oriented_points", oriented_points);
+  add("build/oriented_pairs", pairs)->Arg(1)->Arg(2);
   add("build/triangles", triangles)->Arg(1)->Arg(2);
-  add("load/dipoles", saved_dipoles);
+  add("load/oriented_pairs", saved_pairs);
   add("look/none", [](auto& state, const Scene& scene) { looks(state, scene, false, false); })
       ->Arg(0)
       ->Arg(20);

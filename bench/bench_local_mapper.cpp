@@ -1,4 +1,4 @@
-// Time of scan_matching and bounded per key frame: it must not grow with the drive.
+// Time of scan_matching and bounded per keyframe: it must not grow with the drive.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -63,7 +63,7 @@ std::vector<Observation> drive(int keyframes) {
   return observations;
 }
 
-/// The last 20 key frames (5 m) of a drive of so many metres.
+/// The last 20 keyframes (5 m) of a drive of so many metres.
 template <class Mapper>
 void last_keyframes_of_a_drive(benchmark::State& state) {
   constexpr std::size_t measured = 20;

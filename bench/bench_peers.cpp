@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t steps = 20;
 
-/// The local map a robot has after some key frames from each start of the experiment.
+/// The local map a robot has after some keyframes from each start of the experiment.
 struct Task {
   LocalMap local;
   Pose2 map_from_robot;  ///< The truth.
@@ -23,9 +23,9 @@ struct Task {
 
 std::vector<Task> tasks(const Scene& scene) {
   std::vector<Task> result;
-  for (const std::size_t start : scene.prepared.starts) {
+  for (const std::size_t start : scene.loaded.starts) {
     result.push_back({local_map_at(scene, start, steps),
-                      scene.prepared.drive.samples[start + steps].map_from_robot.value()});
+                      scene.loaded.drive.samples[start + steps].map_from_robot.value()});
   }
   return result;
 }
@@ -43,7 +43,7 @@ void peer(benchmark::State& state, const StrategyChoice& choice, const Catalog& 
   constexpr double omega_max = 0.3;
   const Scene& s = scene("intel");
   const std::vector<Task> all = tasks(s);
-  const auto matcher = catalog.matchers.make(choice, {s.prepared.map, 1});
+  const auto matcher = catalog.matchers.make(choice, {s.loaded.map, 1});
   Rng rng(1);
   std::size_t right = 0;
   for ([[maybe_unused]] auto _ : state) {

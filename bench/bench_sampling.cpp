@@ -44,16 +44,16 @@ void match_after_20_steps(benchmark::State& state) {
   const LocalMap local = local_map_at(simulation(), 0, step);
   Ransam::Params params{.contact_epsilon = 0.05, .relation_cell = 0.15, .min_side = 0.6, .min_height = 0.3};
   params.local_radius = static_cast<double>(state.range(0)) / 10.0;
-  Ransam ransam(params, {simulation().prepared.map, 1});
+  Ransam ransam(params, {simulation().loaded.map, 1});
   Rng rng(1);
-  std::size_t collisions = 0;
+  std::size_t proposals = 0;
   std::size_t hypotheses = 0;
   for ([[maybe_unused]] auto _ : state) {
     const MatchResult result = ransam.match(local, {}, omega_max, rng);
-    collisions += result.collisions;
+    proposals += result.proposals;
     hypotheses += result.hypotheses.size();
   }
-  state.counters["collisions"] = per_iteration(collisions);
+  state.counters["proposals"] = per_iteration(proposals);
   state.counters["hypotheses"] = per_iteration(hypotheses);
 }
 

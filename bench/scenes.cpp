@@ -22,7 +22,7 @@ Scene load(const std::string& name) {
   Scene scene;
   scene.experiment =
       read_experiment(GLOCAL_SOURCE_DIR "/configs/experiments/" + name + ".yaml", {}, catalog());
-  scene.prepared = prepare(scene.experiment, catalog(), [](const std::string&) {});
+  scene.loaded = load_experiment(scene.experiment, catalog(), [](const std::string&) {});
   return scene;
 }
 
@@ -59,14 +59,13 @@ std::unique_ptr<Matcher> make_matcher(const Scene& scene, std::shared_ptr<const 
 
 LocalMap local_map_at(const Scene& scene, std::size_t start, std::size_t step) {
   const auto mapper =
-      catalog().local_mappers.make(scene.experiment.localizer.local_mapper, {scene.prepared.map, 1});
-  for (std::size_t i = start; i <= start + step; ++i)
-    mapper->add(scene.prepared.drive.samples[i].observation);
+      catalog().local_mappers.make(scene.experiment.localizer.local_mapper, {scene.loaded.map, 1});
+  for (std::size_t i = start; i <= start + step; ++i) mapper->add(scene.loaded.drive.samples[i].observation);
   return mapper->map();
 }
 
 Pose2 true_map_from_local(const Scene& scene, std::size_t start, std::size_t step, const LocalMap& local) {
-  return scene.prepared.drive.samples[start + step].map_from_robot.value() * inverse(local.local_from_robot);
+  return scene.loaded.drive.samples[start + step].map_from_robot.value() * inverse(local.local_from_robot);
 }
 
 std::shared_ptr<const GlobalMap> tiled_map(int n) {

@@ -17,9 +17,9 @@ namespace glocal::bench {
 /// An experiment with its map, drive and starts loaded.
 struct Scene {
   Experiment experiment;
-  Prepared prepared;
+  LoadedExperiment loaded;
 
-  [[nodiscard]] const Points& map() const { return prepared.map->points(); }
+  [[nodiscard]] const Points& map() const { return loaded.map->points(); }
 };
 
 /// configs/experiments/NAME.yaml, loaded once. Experiments on recorded drives need GLOCAL_DATASETS.

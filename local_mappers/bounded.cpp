@@ -23,10 +23,10 @@ void Bounded::reset() {
 }
 
 void Bounded::add(const Observation& observation) {
-  const int generation = map().generation;
+  const int epoch = map().epoch;
   const Pose2 last = map().local_from_robot;
   LocalScan scan = matching_.place(observation);
-  if (map().generation != generation) window_.clear();
+  if (map().epoch != epoch) window_.clear();
   const double way = window_.empty() ? 0.0 : window_.back().way + distance(last, map().local_from_robot);
   window_.push_back({std::move(scan), way});
   if (!is_too_long()) {

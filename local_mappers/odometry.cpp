@@ -3,13 +3,13 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, Odometry::Params& p) {
-  describe(v, p.thinning);
+  describe(v, p.voxels);
   v.field("normals", p.normals, {.doc = "Normals of a scan."});
 }
 
 // Nobody asks for the nearest point or for likelihoods: a point stamps its own cell only.
 Odometry::Odometry(const Params& params)
-    : params_(params), map_(params.thinning, 0, params.thinning.resolution) {}
+    : params_(params), map_(params.voxels, 0, params.voxels.resolution) {}
 
 void Odometry::add(const Observation& observation) {
   if (!odom_from_local_) odom_from_local_ = observation.odom_from_robot;

@@ -6,16 +6,16 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "local_mappers/scan_normals.hpp"
-#include "local_mappers/thinned_map.hpp"
+#include "local_mappers/voxel_map.hpp"
 
 namespace glocal {
 
 /// Believes odometry: no scan corrects it. What scan matching is worth shows beside this. The map starts anew
-/// (the next generation) when the robot leaves what the grid can hold.
+/// (the next epoch) when the robot leaves what the grid can hold.
 class Odometry final : public LocalMapper {
  public:
   struct Params {
-    ThinningParams thinning = {};
+    VoxelParams voxels = {};
     ScanNormalParams normals = {};
   };
 
@@ -27,7 +27,7 @@ class Odometry final : public LocalMapper {
 
  private:
   Params params_;
-  ThinnedMap map_;
+  VoxelMap map_;
   std::optional<Pose2> odom_from_local_;  ///< Where the map was begun; none before the first observation.
 };
 void describe(ParamVisitor& v, Odometry::Params& p);

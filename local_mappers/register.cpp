@@ -1,7 +1,7 @@
 #include "local_mappers/register.hpp"
 
 #include "local_mappers/bounded.hpp"
-#include "local_mappers/key_frames.hpp"
+#include "local_mappers/keyframes.hpp"
 #include "local_mappers/odometry.hpp"
 #include "local_mappers/scan_matching.hpp"
 
@@ -13,7 +13,7 @@ void register_local_mappers(Catalog& catalog) {
       "Searches around odometry, then refines point to line against the map of all scans so far.");
   catalog.local_mappers.add<Bounded>("bounded",
                                      "Scan matching against a map of the last scans or metres only.");
-  catalog.local_mappers.add<KeyFrames>("key_frames",
+  catalog.local_mappers.add<Keyframes>("keyframes",
                                        "Scan matching that registers only scans that bring something new.");
   catalog.local_mappers.add<Odometry>("odometry", "Scans joined by odometry alone.");
 }

@@ -5,7 +5,7 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, ScanMatching::Params& p) {
-  describe(v, p.thinning);
+  describe(v, p.voxels);
   v.field("likelihood_sigma", p.likelihood_sigma,
           {.doc = "Standard deviation of a hit around a point of the map, in the search.",
            .unit = "m",
@@ -42,33 +42,33 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
                   "robot by odometry and adds no points.",
            .min = 0.0,
            .max = 1.0});
-  v.field("max_seen_through", p.max_seen_through,
+  v.field("max_free_space_violation", p.max_free_space_violation,
           {.doc = "Nor does one fit of which more lies where the latest scans saw through, or which saw "
                   "through more "
                   "of what they met: the robot was carried away.",
            .min = 0.0,
            .max = 1.0});
-  v.field("sight", p.sight, {.doc = "How scans are compared for that."});
+  v.field("free_space_check", p.free_space_check, {.doc = "How scans are compared for that."});
   v.field(
       "restart_after", p.restart_after,
       {.doc =
            "Observations in a row that do not fit before a new local map is started with the last of them.",
        .min = 1});
-  v.require(cells_in(p.refinement.gate, p.thinning.resolution) <= PointGrid::max_reach, "refinement",
+  v.require(cells_in(p.refinement.gate, p.voxels.resolution) <= PointGrid::max_reach, "refinement",
             "gate must be at most 11 times resolution");
 }
 
 ScanMatching::ScanMatching(const Params& params)
     : params_(params),
-      map_(params.thinning,
-           std::min(cells_in(params.refinement.gate, params.thinning.resolution), PointGrid::max_reach),
+      map_(params.voxels,
+           std::min(cells_in(params.refinement.gate, params.voxels.resolution), PointGrid::max_reach),
            params.likelihood_sigma),
-      sights_(params.sight) {}
+      free_space_check_(params.free_space_check) {}
 
 void ScanMatching::reset() {
   map_.reset();
   last_odom_from_robot_.reset();
-  sights_.clear();
+  free_space_check_.clear();
   misfits_ = 0;
 }
 
@@ -85,11 +85,11 @@ LocalScan ScanMatching::place(const Observation& observation) {
   map_.move_robot(match(observation.scan, normals, predicted));
   if (!map_.holds_robot() || misfits_ >= params_.restart_after) {
     map_.start_over();
-    sights_.clear();
+    free_space_check_.clear();
     misfits_ = 0;
   }
   if (misfits_ > misfits_before) return {};
-  sights_.add(observation.scan, map().local_from_robot);
+  free_space_check_.add(observation.scan, map().local_from_robot);
   return {hits, normals, map().local_from_robot};
 }
 
@@ -104,7 +104,9 @@ Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& 
   const SearchResult found = search(scan.hits, predicted);
   const bool fits = found.likelihood >= params_.min_fit;
   const Pose2 refined = fits ? refine(scan, normals, found.local_from_robot, predicted) : predicted;
-  misfits_ = fits && sights_.seen_through(scan, refined) <= params_.max_seen_through ? 0 : misfits_ + 1;
+  misfits_ = fits && free_space_check_.violation(scan, refined) <= params_.max_free_space_violation
+                 ? 0
+                 : misfits_ + 1;
   return misfits_ > 0 ? predicted : refined;
 }
 

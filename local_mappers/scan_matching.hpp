@@ -6,10 +6,10 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "local_mappers/correlative_search.hpp"
+#include "local_mappers/free_space_check.hpp"
 #include "local_mappers/line_registration.hpp"
 #include "local_mappers/scan_normals.hpp"
-#include "local_mappers/sight.hpp"
-#include "local_mappers/thinned_map.hpp"
+#include "local_mappers/voxel_map.hpp"
 
 namespace glocal {
 
@@ -17,12 +17,12 @@ namespace glocal {
 /// against the points of the local map. Time per observation does not grow with the drive; memory grows with
 /// the area seen only.
 ///
-/// Matching is planar; heights are kept. The map starts anew (the next generation) when `restart_after`
+/// Matching is planar; heights are kept. The map starts anew (the next epoch) when `restart_after`
 /// observations in a row do not fit it, or when the robot leaves what the grid can hold.
 class ScanMatching final : public LocalMapper {
  public:
   struct Params {
-    ThinningParams thinning;
+    VoxelParams voxels;
     double likelihood_sigma = 0.1;
     ScanNormalParams normals;
     CorrelativeSearchParams search;
@@ -34,8 +34,8 @@ class ScanMatching final : public LocalMapper {
     double max_correction = 0.6;
     double max_correction_angle = 0.6;
     double min_fit = 0.15;
-    double max_seen_through = 0.15;
-    SightParams sight;
+    double max_free_space_violation = 0.15;
+    FreeSpaceCheckParams free_space_check;
     int restart_after = 2;
   };
 
@@ -66,8 +66,8 @@ class ScanMatching final : public LocalMapper {
   [[nodiscard]] SearchResult search(const Points& hits, const Pose2& predicted) const;
 
   Params params_;
-  ThinnedMap map_;
-  LatestSights sights_;
+  VoxelMap map_;
+  FreeSpaceCheck free_space_check_;
   std::optional<Pose2> last_odom_from_robot_;
   int misfits_ = 0;  ///< Observations in a row that did not fit.
 };

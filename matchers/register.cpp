@@ -15,9 +15,9 @@ void register_matchers(Catalog& catalog) {
       "branch_and_bound", "Exact search of a grid of poses, by upper bounds for whole blocks of them.");
   catalog.matchers.add<Exhaustive>("exhaustive", "Every pose of a grid, each judged by eq. 4.",
                                    {.contact = ContactChoice(catalog.contact_indexes)});
-  catalog.matchers.add<IndexedRansam>(
-      "indexed_ransam",
-      "Random sample matching of dipoles over an index of the map; refined, carried on, checked by beams.");
+  catalog.matchers.add<IndexedRansam>("indexed_ransam",
+                                      "Random sample matching of oriented point pairs over an index of the "
+                                      "map; refined, carried on, checked by beams.");
   catalog.matchers.add<IRansac>(
       "iransac", "Incremental, preemptive random sample consensus over features of the map, hashed or not.");
   catalog.matchers.add<Mcl>(

@@ -12,23 +12,23 @@ namespace glocal {
 struct FollowedPose {
   Pose2 map_from_robot;
   Pose2 local_from_robot;
-  int generation = 0;
+  int epoch = 0;
   double stamp = 0.0;  ///< s
 
   static FollowedPose of(const StepResult& step, const Pose2& map_from_robot) {
-    return {map_from_robot, step.local_from_robot, step.local_map_generation, step.stamp};
+    return {map_from_robot, step.local_from_robot, step.local_map_epoch, step.stamp};
   }
 
   /// Where it is by a later step: moved by the local motion. None in another local frame.
   [[nodiscard]] std::optional<Pose2> expected_in(const StepResult& step) const {
-    if (generation != step.local_map_generation) return std::nullopt;
+    if (epoch != step.local_map_epoch) return std::nullopt;
     return map_from_robot * (inverse(local_from_robot) * step.local_from_robot);
   }
 
   /// How fast the robot has turned since, rad/s; 0 where no time has passed, or in another local frame.
   [[nodiscard]] double turn_rate_to(const StepResult& step) const {
     const double seconds = step.stamp - stamp;
-    return seconds > 0.0 && generation == step.local_map_generation
+    return seconds > 0.0 && epoch == step.local_map_epoch
                ? rotation_between(local_from_robot, step.local_from_robot) / seconds
                : 0.0;
   }

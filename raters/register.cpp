@@ -28,7 +28,8 @@ void register_raters(Catalog& catalog) {
   catalog.verdict_rules.add<ConsecutiveRating>(
       "consecutive_rating", "The same cluster rated highly in consecutive steps (Section IV).");
   catalog.verdict_rules.add<StagedMargin>(
-      "staged_margin", "The best pose leads its rivals for long enough: the clearer, the sooner.");
+      "staged_margin",
+      "The best pose keeps its margin over all rivals for long enough: the clearer, the sooner.");
 }
 
 }  // namespace glocal

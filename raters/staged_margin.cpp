@@ -17,17 +17,18 @@ void describe(ParamVisitor& v, StagedMargin::Stage& p) {
 }
 
 void describe(ParamVisitor& v, StagedMargin::Confidence& p) {
-  v.field("bias", p.bias, {.doc = "Log odds that the best pose is right when it has no lead at all."});
-  v.field("margin", p.margin, {.doc = "What a lead adds to them, times the lead."});
+  v.field("bias", p.bias, {.doc = "Log odds that the best pose is right when it has no margin at all."});
+  v.field("margin", p.margin, {.doc = "What a margin adds to them, times the margin."});
   v.field(
       "steps", p.steps,
       {.doc = "What time adds to them, times the logarithm of the number of steps in which the best pose has "
               "been the same."});
-  v.field("most", p.most,
-          {.doc = "However clear the lead is, the confidence stays below this: what lies off the map has no "
-                  "hypothesis.",
-           .max = 1.0,
-           .above = 0.0});
+  v.field(
+      "most", p.most,
+      {.doc = "However clear the margin is, the confidence stays below this: what lies off the map has no "
+              "hypothesis.",
+       .max = 1.0,
+       .above = 0.0});
 }
 
 void describe(ParamVisitor& v, StagedMargin::Params& p) {
@@ -54,12 +55,12 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
        .above = 0.0});
   v.field("steady_steps", p.steady_steps, {.doc = "Steps it must not have turned faster in.", .min = 1});
   v.field(
-      "max_conflict", p.max_conflict,
+      "max_free_space_violation", p.max_free_space_violation,
       {.doc = "Nothing is declared where more of the points lie in space known to be free; where the matcher "
               "tells.",
        .min = 0.0,
        .max = 1.0});
-  v.field("confidence", p.confidence, {.doc = "How the lead becomes a probability (logistic)."});
+  v.field("confidence", p.confidence, {.doc = "How the margin becomes a probability (logistic)."});
   v.field(
       "spread_margin", p.spread_margin,
       {.doc =
@@ -79,7 +80,7 @@ void StagedMargin::reset() {
 }
 
 void StagedMargin::begin_anew() {
-  leads_.assign(params_.stages.size(), {});
+  kept_.assign(params_.stages.size(), {});
   steps_ = 0;
   distance_ = 0.0;
   is_declared_ = false;
@@ -100,21 +101,21 @@ Verdict StagedMargin::judge(const StepResult& step) {
   ++steps_;
   distance_ += driven;
 
-  const double lead = margin(step);
-  const bool is_clear = reaches_a_stage(lead, driven);
-  const std::optional<double>& conflict = step.hypotheses.front().conflict;
-  const bool is_consistent = !conflict || *conflict <= params_.max_conflict;
+  const double margin = margin_of(step);
+  const bool is_clear = reaches_a_stage(margin, driven);
+  const std::optional<double>& violation = step.hypotheses.front().free_space_violation;
+  const bool is_consistent = !violation || *violation <= params_.max_free_space_violation;
   if (is_steady(turn_rate_deg) && is_clear && is_consistent) is_declared_ = true;
-  const bool is_lead_lost =
-      std::all_of(leads_.begin(), leads_.end(), [](const Lead& kept) { return kept.steps == 0; });
-  if (is_lead_lost) is_declared_ = false;
-  Verdict verdict = is_declared_ ? localized(step, lead) : undecided(step, lead);
-  verdict.belief = {pose, confidence(lead), covariance(step.hypotheses)};
-  verdict.evidence = {{"margin", lead},
+  const bool is_margin_lost =
+      std::all_of(kept_.begin(), kept_.end(), [](const Kept& kept) { return kept.steps == 0; });
+  if (is_margin_lost) is_declared_ = false;
+  Verdict verdict = is_declared_ ? localized(step, margin) : undecided(step, margin);
+  verdict.estimate = {pose, confidence(margin), covariance(step.hypotheses)};
+  verdict.evidence = {{"margin", margin},
                       {"steps", static_cast<double>(steps_)},
                       {"distance_m", distance_},
                       {"turn_rate_deg", turn_rate_deg}};
-  if (conflict) verdict.evidence.push_back({"conflict", *conflict});
+  if (violation) verdict.evidence.push_back({"free_space_violation", *violation});
   return verdict;
 }
 
@@ -129,31 +130,31 @@ bool StagedMargin::is_steady(double turn_rate_deg) {
 }
 
 /// Counts a step for each stage, and says whether one is reached.
-bool StagedMargin::reaches_a_stage(double lead_now, double driven) {
+bool StagedMargin::reaches_a_stage(double margin_now, double driven) {
   bool reached = false;
   for (std::size_t i = 0; i < params_.stages.size(); ++i) {
     const Stage& stage = params_.stages[i];
-    Lead& lead = leads_[i];
-    if (lead_now < stage.margin) {
-      lead = {};
+    Kept& kept = kept_[i];
+    if (margin_now < stage.margin) {
+      kept = {};
       continue;
     }
-    lead.distance += lead.steps > 0 ? driven : 0.0;
-    ++lead.steps;
-    reached = reached || (lead.steps >= stage.steps && lead.distance >= stage.distance);
+    kept.distance += kept.steps > 0 ? driven : 0.0;
+    ++kept.steps;
+    reached = reached || (kept.steps >= stage.steps && kept.distance >= stage.distance);
   }
   return reached;
 }
 
-Verdict StagedMargin::localized(const StepResult& step, double lead) const {
+Verdict StagedMargin::localized(const StepResult& step, double margin) const {
   return {VerdictKind::localized,
           step.hypotheses.front().map_from_robot,
           {},
-          fmt::format("better by {:.2f} than any other pose, and the best in {} steps over {:.1f} m", lead,
+          fmt::format("better by {:.2f} than any other pose, and the best in {} steps over {:.1f} m", margin,
                       steps_, distance_)};
 }
 
-Verdict StagedMargin::undecided(const StepResult& step, double lead) const {
+Verdict StagedMargin::undecided(const StepResult& step, double margin) const {
   std::vector<Pose2> poses = candidates(step);
   const std::size_t n = poses.size();
   if (n >= 2 && n <= static_cast<std::size_t>(params_.max_candidates)) {
@@ -163,13 +164,13 @@ Verdict StagedMargin::undecided(const StepResult& step, double lead) const {
   return {VerdictKind::searching,
           std::nullopt,
           {},
-          fmt::format("the best pose is better by {:.2f} only, and the best in {} steps", lead, steps_)};
+          fmt::format("the best pose is better by {:.2f} only, and the best in {} steps", margin, steps_)};
 }
 
-/// A logistic model of the lead and of how long the best pose has been the same.
-double StagedMargin::confidence(double lead) const {
+/// A logistic model of the margin and of how long the best pose has been the same.
+double StagedMargin::confidence(double margin) const {
   const Confidence& c = params_.confidence;
-  return c.most / (1.0 + std::exp(-(c.bias + c.margin * lead + c.steps * std::log(steps_))));
+  return c.most / (1.0 + std::exp(-(c.bias + c.margin * margin + c.steps * std::log(steps_))));
 }
 
 /// The best hypothesis' own, and the spread of those near it that are about as good.
@@ -204,7 +205,7 @@ bool StagedMargin::are_rivals(const Pose2& a, const Pose2& b) const {
 }
 
 /// Poses below Omega_max are not among the hypotheses: without a rival there, the best one may still have it.
-double StagedMargin::margin(const StepResult& step) const {
+double StagedMargin::margin_of(const StepResult& step) const {
   const Hypothesis& best = step.hypotheses.front();
   const auto rival = std::find_if(step.hypotheses.begin(), step.hypotheses.end(), [&](const Hypothesis& h) {
     return are_rivals(h.map_from_robot, best.map_from_robot);

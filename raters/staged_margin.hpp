@@ -12,14 +12,14 @@ namespace glocal {
 
 /// Localized once the best hypothesis has been clearly better than every rival, a pose far from it, for long
 /// enough: the clearer, the sooner. The best hypothesis must stay the same, moved by the local motion;
-/// another best one, a step without any, or another local map begins anew. That, or a lead below every
+/// another best one, a step without any, or another local map begins anew. That, or a margin below every
 /// stage's, takes the verdict back.
 ///
 /// Believes in the best hypothesis, with a confidence by a logistic model and the covariance of the matcher,
 /// widened by hypotheses near it that are about as good.
 class StagedMargin final : public VerdictRule {
  public:
-  /// A lead in quality of at least `margin`, kept for so many steps and so far.
+  /// A margin in quality of at least `margin`, kept for so many steps and so far.
   struct Stage {
     double margin = 0.3;
     int steps = 3;
@@ -40,37 +40,37 @@ class StagedMargin final : public VerdictRule {
     double same_rotation_deg = 15.0;
     double max_turn_rate_deg = 60.0;
     int steady_steps = 3;
-    double max_conflict = 0.4;
+    double max_free_space_violation = 0.4;
     double spread_margin = 0.05;
     Confidence confidence = {};
     double candidate_margin = 0.10;
     int max_candidates = 10;
   };
 
-  explicit StagedMargin(const Params& params) : params_(params), leads_(params.stages.size()) {}
+  explicit StagedMargin(const Params& params) : params_(params), kept_(params.stages.size()) {}
   [[nodiscard]] Verdict judge(const StepResult& step) override;
   void reset() override;
 
  private:
   /// How long a stage's margin has been kept.
-  struct Lead {
+  struct Kept {
     int steps = 0;
     double distance = 0.0;
   };
   void begin_anew();
-  [[nodiscard]] double margin(const StepResult& step) const;
-  [[nodiscard]] bool reaches_a_stage(double lead_now, double driven);
+  [[nodiscard]] double margin_of(const StepResult& step) const;
+  [[nodiscard]] bool reaches_a_stage(double margin_now, double driven);
   [[nodiscard]] bool is_steady(double turn_rate_deg);
-  [[nodiscard]] Verdict localized(const StepResult& step, double lead) const;
-  [[nodiscard]] Verdict undecided(const StepResult& step, double lead) const;
-  [[nodiscard]] double confidence(double lead) const;
+  [[nodiscard]] Verdict localized(const StepResult& step, double margin) const;
+  [[nodiscard]] Verdict undecided(const StepResult& step, double margin) const;
+  [[nodiscard]] double confidence(double margin) const;
   [[nodiscard]] std::optional<PoseCovariance> covariance(const std::vector<Hypothesis>& hypotheses) const;
   [[nodiscard]] bool continues(const StepResult& step) const;
   [[nodiscard]] std::vector<Pose2> candidates(const StepResult& step) const;
   [[nodiscard]] bool are_rivals(const Pose2& a, const Pose2& b) const;
 
   Params params_;
-  std::vector<Lead> leads_;  ///< One for each stage.
+  std::vector<Kept> kept_;  ///< One for each stage.
   std::optional<FollowedPose> best_;
   int steps_ = 0;             ///< In which the best pose has been the same.
   double distance_ = 0.0;     ///< m; driven in these.

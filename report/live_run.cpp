@@ -38,12 +38,12 @@ Json latest_scan(const Points& hits, std::size_t step) {
   return of_step(frames.to_json(), step);
 }
 
-TrialRecord started(std::size_t trial, const Prepared& prepared) {
+TrialRecord started(std::size_t trial, const LoadedExperiment& loaded) {
   TrialRecord record;
   record.trial = trial;
-  record.start_sample = prepared.starts[trial];
-  record.start_m = prepared.drive.path_m[record.start_sample];
-  const Sample& start = prepared.drive.samples[record.start_sample];
+  record.start_sample = loaded.starts[trial];
+  record.start_m = loaded.drive.path_m[record.start_sample];
+  const Sample& start = loaded.drive.samples[record.start_sample];
   record.start_stamp = start.observation.stamp;
   record.start_reference = start.map_from_robot;
   return record;
@@ -52,15 +52,15 @@ TrialRecord started(std::size_t trial, const Prepared& prepared) {
 }  // namespace
 
 void LiveRun::begin(const std::string& variant, const std::filesystem::path& folder,
-                    const std::map<std::string, Setting>& settings, const Prepared& prepared) {
-  auto map = std::make_shared<const Json>(map_points(prepared.map->points()));
+                    const std::map<std::string, Setting>& settings, const LoadedExperiment& loaded) {
+  auto map = std::make_shared<const Json>(map_points(loaded.map->points()));
   Json values = to_json(settings);
   const std::lock_guard lock(mutex_);
   variant_ = variant;
   folder_ = folder.string();
   settings_ = std::move(values);
   map_ = std::move(map);
-  prepared_ = &prepared;
+  loaded_ = &loaded;
   running_.clear();
   finished_.clear();
   ++version_;
@@ -69,12 +69,12 @@ void LiveRun::begin(const std::string& variant, const std::filesystem::path& fol
 void LiveRun::step(std::size_t trial, const StepRecord& record, const Points& local_map,
                    const RunProgress& progress) {
   const Json line = step_json(trial, record, clusters);
-  const std::size_t sample = prepared_->starts[trial] + record.result.step;
+  const std::size_t sample = loaded_->starts[trial] + record.result.step;
   Points latest = local_map;
-  Points hits = prepared_->drive.samples[sample].observation.scan.hits;
+  Points hits = loaded_->drive.samples[sample].observation.scan.hits;
   const std::lock_guard lock(mutex_);
   const auto [running, is_first] = running_.try_emplace(trial);
-  if (is_first) running->second.start = start_json(started(trial, *prepared_));
+  if (is_first) running->second.start = start_json(started(trial, *loaded_));
   running->second.columns.add(line);
   running->second.step = record.result.step;
   running->second.local_map = std::move(latest);

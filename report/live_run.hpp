@@ -28,9 +28,9 @@ class LiveRun {
  public:
   explicit LiveRun(std::string experiment) : experiment_(std::move(experiment)) {}
 
-  /// Another variant runs from now on, into this folder. `prepared` must stay until the variant's last step.
+  /// Another variant runs from now on, into this folder. `loaded` must stay until the variant's last step.
   void begin(const std::string& variant, const std::filesystem::path& folder,
-             const std::map<std::string, Setting>& settings, const Prepared& prepared);
+             const std::map<std::string, Setting>& settings, const LoadedExperiment& loaded);
   /// To be called after each step of a trial.
   void step(std::size_t trial, const StepRecord& record, const Points& local_map,
             const RunProgress& progress);
@@ -72,7 +72,7 @@ class LiveRun {
   std::string experiment_, variant_, folder_;
   nlohmann::ordered_json settings_ = nlohmann::ordered_json::object();
   std::shared_ptr<const nlohmann::ordered_json> map_;
-  const Prepared* prepared_ = nullptr;
+  const LoadedExperiment* loaded_ = nullptr;
   std::map<std::size_t, RunningTrial> running_;
   std::map<std::size_t, FinishedTrial> finished_;
   RunProgress progress_;

@@ -49,14 +49,14 @@ CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
   return scan;
 }
 
-LogParams trust_in(const LaserParams& laser) {
-  LogParams trust;
-  trust.keyframe_distance = 0.0;
-  trust.keyframe_angle = 0.0;
-  trust.min_range = 1e-6;  // 0 says nothing
-  trust.max_range = laser.max_range;
-  trust.free_range = laser.max_range;
-  return trust;
+LogParams scan_limits(const LaserParams& laser) {
+  LogParams limits;
+  limits.keyframe_distance = 0.0;
+  limits.keyframe_angle = 0.0;
+  limits.min_range = 1e-6;  // 0 says nothing
+  limits.max_range = laser.max_range;
+  limits.free_range = laser.max_range;
+  return limits;
 }
 
 }  // namespace glocal

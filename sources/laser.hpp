@@ -35,6 +35,6 @@ using RayDistance = std::function<double(const Position& origin, const Position&
 
 /// How a log of such scans is to be read: every scan is used, and what a simulated laser does not see within
 /// its range is not there.
-[[nodiscard]] LogParams trust_in(const LaserParams& laser);
+[[nodiscard]] LogParams scan_limits(const LaserParams& laser);
 
 }  // namespace glocal

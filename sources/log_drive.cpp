@@ -29,7 +29,7 @@ std::vector<CarmenScan> of_laser(std::vector<CarmenScan> scans, const std::strin
   return scans;
 }
 
-bool is_key_frame(const CarmenScan& last, const CarmenScan& scan, const LogParams& params) {
+bool is_keyframe(const CarmenScan& last, const CarmenScan& scan, const LogParams& params) {
   return distance(last.odom_from_robot, scan.odom_from_robot) >= params.keyframe_distance ||
          rotation_between(last.odom_from_robot, scan.odom_from_robot) >= params.keyframe_angle;
 }
@@ -40,7 +40,7 @@ std::string share_text(double share) {
   return text;
 }
 
-/// Key frames of the scans on [from, to[ of the path; the very end of the path belongs to a segment that ends
+/// Keyframes of the scans on [from, to[ of the path; the very end of the path belongs to a segment that ends
 /// at 1.
 std::vector<LogFrame> pick_segment(const std::vector<CarmenScan>& scans, const std::vector<double>& lengths,
                                    int segment, const LogParams& params) {
@@ -49,7 +49,7 @@ std::vector<LogFrame> pick_segment(const std::vector<CarmenScan>& scans, const s
   std::vector<LogFrame> frames;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const bool inside = lengths[i] >= from * total && (lengths[i] < to * total || to >= 1.0);
-    if (inside && (frames.empty() || is_key_frame(scans[frames.back().scan], scans[i], params))) {
+    if (inside && (frames.empty() || is_keyframe(scans[frames.back().scan], scans[i], params))) {
       frames.push_back({i, segment});
     }
   }

@@ -1,4 +1,4 @@
-// The parts of a log that are used: segments of the driven path, thinned to key frames, as scans in the
+// The parts of a log that are used: segments of the driven path, thinned to keyframes, as scans in the
 // robot's frame.
 #pragma once
 
@@ -40,7 +40,7 @@ struct LogDrive {
   std::vector<LogFrame> frames;
 };
 
-/// Reads a log and picks its key frames. Throws ConfigError for an unusable log, a log without the wanted
+/// Reads a log and picks its keyframes. Throws ConfigError for an unusable log, a log without the wanted
 /// laser, or a segment without scans.
 [[nodiscard]] LogDrive read_log_drive(const LogParams& params);
 

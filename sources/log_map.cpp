@@ -147,7 +147,7 @@ Point point_of(const OccupancyGrid& grid, int column, int row, const Count& coun
           static_cast<float>(grid.map_from_grid.y + row * grid.resolution) + dy, 0.0F};
 }
 
-std::vector<Pose2> thinned_path(const std::vector<PlacedScan>& placed) {
+std::vector<Pose2> sparse_path(const std::vector<PlacedScan>& placed) {
   std::vector<Pose2> path;
   for (const PlacedScan& p : placed) {
     if (path.empty() || distance(path.back(), p.map_from_robot) >= path_spacing)
@@ -204,7 +204,7 @@ MapData LogMap::load() {
     throw ConfigError(
         {{file, 0, 0, "its map has no occupied cell; lower min_hits or min_hit_share, or use more scans"}});
   }
-  map.path = thinned_path(placed);
+  map.path = sparse_path(placed);
   return map;
 }
 

@@ -98,7 +98,7 @@ RandomScans::RandomScans(const Params& params, const SourceSetup& setup)
     : params_(params),
       grid_(RosMap(params.map, setup).load().grid),
       clear_cells_(clear_cells(grid_, params.clearance)),
-      trust_(trust_in(params.laser)),
+      scan_limits_(scan_limits(params.laser)),
       rng_(setup.seed) {
   if (!clear_cells_.empty()) return;
   throw ConfigError({{params.map.path.resolved.string(), 0, 0,
@@ -127,7 +127,7 @@ std::optional<Sample> RandomScans::next() {
   };
   const CarmenScan scan =
       simulated_scan(params_.laser, map_from_robot, distance_to_cells, rng_.stream({laser_stream, next_}));
-  const Observation observation{static_cast<double>(next_), robot_scan(scan, trust_), {}};
+  const Observation observation{static_cast<double>(next_), robot_scan(scan, scan_limits_), {}};
   return Sample{observation, map_from_robot, static_cast<int>(next_++)};
 }
 

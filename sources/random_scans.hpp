@@ -43,7 +43,7 @@ class RandomScans final : public ObservationSource {
   Params params_;
   OccupancyGrid grid_;
   std::vector<std::size_t> clear_cells_;  ///< Indexes of the cells a pose may lie in.
-  LogParams trust_;
+  LogParams scan_limits_;
   Rng rng_;
   std::size_t next_ = 0;
 };

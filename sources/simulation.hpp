@@ -20,7 +20,7 @@ class Simulation final : public ObservationSource {
   [[nodiscard]] std::optional<Sample> next() override;
 
  private:
-  LogParams trust_;
+  LogParams scan_limits_;
   DriveSimulator simulator_;
 };
 

@@ -32,9 +32,9 @@ Json to_json(const PoseCovariance& c) {
   return {c.xx, c.xy, c.xt, c.yy, c.yt, c.tt};
 }
 
-void add_belief(Json& json, const Belief& belief, const std::optional<double>& nees) {
-  json["confidence"] = belief.confidence;
-  if (belief.covariance) json["covariance"] = to_json(*belief.covariance);
+void add_estimate(Json& json, const PoseEstimate& estimate, const std::optional<double>& nees) {
+  json["confidence"] = estimate.confidence;
+  if (estimate.covariance) json["covariance"] = to_json(*estimate.covariance);
   if (nees) json["nees"] = *nees;
 }
 
@@ -63,8 +63,8 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
                {"omega_best", step.omega_best},
                {"omega_max", step.omega_max}};
   if (step.omega_place) json["omega_place"] = *step.omega_place;
-  json["collisions"] = step.collisions;
-  json["checks"] = step.checks;
+  json["proposals"] = step.proposals;
+  json["points_tested"] = step.points_tested;
   json["hypotheses"] = record.hypotheses;
   json["clusters"] = step.clusters.size();
   json["best"] = best_clusters(step, most_clusters);
@@ -83,7 +83,7 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
     json["on_map"] = record.on_map;
   }
   if (record.error) add_error(json, *record.error);
-  if (step.verdict.belief) add_belief(json, *step.verdict.belief, record.nees);
+  if (step.verdict.estimate) add_estimate(json, *step.verdict.estimate, record.nees);
   return json;
 }
 
@@ -105,7 +105,7 @@ std::string trial_line(const TrialRecord& trial) {
                {"distance_m", trial.distance_m}};
   if (trial.pose) json["pose"] = to_json(*trial.pose);
   if (trial.error) add_error(json, *trial.error);
-  if (trial.belief) add_belief(json, *trial.belief, trial.nees);
+  if (trial.estimate) add_estimate(json, *trial.estimate, trial.nees);
   json["why"] = trial.why;
   return json.dump() + "\n";
 }

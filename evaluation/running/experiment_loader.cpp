@@ -12,22 +12,22 @@
 
 namespace glocal {
 
-Prepared prepare(const Experiment& experiment, const Catalog& catalog, const Warn& warn) {
-  Prepared prepared;
+LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog, const Warn& warn) {
+  LoadedExperiment loaded;
   const SourceSetup setup{
       .seed = experiment.seed, .warn = warn, .note_input = [&](const std::filesystem::path& file) {
-        prepared.inputs.insert(file);
+        loaded.inputs.insert(file);
       }};
   const auto start = std::chrono::steady_clock::now();
-  prepared.map = std::make_shared<const GlobalMap>(catalog.map_sources.make(experiment.map, setup)->load());
-  prepared.map_build_ms =
+  loaded.map = std::make_shared<const GlobalMap>(catalog.map_sources.make(experiment.map, setup)->load());
+  loaded.map_build_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  prepared.drive = read_drive(*catalog.observation_sources.make(experiment.observations, setup));
-  prepared.starts = trial_starts(experiment.trials, prepared.drive, *prepared.map);
-  return prepared;
+  loaded.drive = read_drive(*catalog.observation_sources.make(experiment.observations, setup));
+  loaded.starts = trial_starts(experiment.trials, loaded.drive, *loaded.map);
+  return loaded;
 }
 
-Prepared& Preparer::prepare(Experiment& experiment) {
+LoadedExperiment& ExperimentLoader::load(Experiment& experiment) {
   Experiment sources = default_experiment();
   sources.seed = experiment.seed;
   sources.map = experiment.map;
@@ -36,36 +36,36 @@ Prepared& Preparer::prepare(Experiment& experiment) {
   std::string wanted = effective_yaml(sources, catalog_);
   if (wanted != sources_) {
     sources_.clear();
-    prepared_ = glocal::prepare(experiment, catalog_, warn_);
+    loaded_ = load_experiment(experiment, catalog_, warn_);
     sources_ = std::move(wanted);
-    source_inputs_ = prepared_.inputs;
+    source_inputs_ = loaded_.inputs;
   } else {
-    const GlobalMap& map = *prepared_.map;
-    prepared_.map =
+    const GlobalMap& map = *loaded_.map;
+    loaded_.map =
         std::make_shared<const GlobalMap>(MapData{map.points(), map.normals(), map.grid(), map.path()});
-    prepared_.inputs = source_inputs_;
+    loaded_.inputs = source_inputs_;
   }
-  return prepared_;
+  return loaded_;
 }
 
-Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, Prepared& prepared) {
+Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, LoadedExperiment& loaded) {
   const StageSetup setup{
-      .map = prepared.map,
-      .threads = experiment.threads,
-      .note_input = [&](const std::filesystem::path& file) { prepared.inputs.insert(file); }};
+      .map = loaded.map, .threads = experiment.threads, .note_input = [&](const std::filesystem::path& file) {
+        loaded.inputs.insert(file);
+      }};
   return {experiment.localizer, catalog, setup, experiment.seed};
 }
 
-std::vector<std::size_t> count_trials(std::vector<Variant>& variants, Preparer& preparer,
+std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,
                                       const Catalog& catalog) {
   std::vector<std::size_t> trials;
   std::set<Fault> seen;  // Many variants may have the same fault.
   std::vector<Fault> faults;
   for (Variant& variant : variants) {
     try {
-      Prepared& prepared = preparer.prepare(variant.experiment);
-      trials.push_back(prepared.starts.size());
-      if (variants.size() > 1) static_cast<void>(make_localizer(variant.experiment, catalog, prepared));
+      LoadedExperiment& loaded = loader.load(variant.experiment);
+      trials.push_back(loaded.starts.size());
+      if (variants.size() > 1) static_cast<void>(make_localizer(variant.experiment, catalog, loaded));
     } catch (const ConfigError& error) {
       for (Fault fault : error.faults()) {
         if (!seen.insert(fault).second) continue;
@@ -79,8 +79,9 @@ std::vector<std::size_t> count_trials(std::vector<Variant>& variants, Preparer& 
   return trials;
 }
 
-bool run_trials(std::vector<Localizer>& localizers, const Experiment& experiment, const Prepared& prepared,
-                const std::vector<std::size_t>& trials, const RunCallbacks& callbacks) {
+bool run_trials(std::vector<Localizer>& localizers, const Experiment& experiment,
+                const LoadedExperiment& loaded, const std::vector<std::size_t>& trials,
+                const RunCallbacks& callbacks) {
   std::atomic<std::size_t> next{0};
   std::atomic<bool> stopped{false};
   std::vector<std::exception_ptr> errors(localizers.size());
@@ -89,8 +90,8 @@ bool run_trials(std::vector<Localizer>& localizers, const Experiment& experiment
       callbacks.step(trial, record, now);
     };
     const auto stop = [&] { return stopped || callbacks.stop(); };
-    const auto record = run_trial(localizer, prepared.drive, *prepared.map, experiment, trial,
-                                  prepared.starts[trial], {step, stop});
+    const auto record = run_trial(localizer, loaded.drive, *loaded.map, experiment, trial,
+                                  loaded.starts[trial], {step, stop});
     if (record) {
       callbacks.done(*record);
     } else {

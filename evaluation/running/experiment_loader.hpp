@@ -19,7 +19,7 @@
 namespace glocal {
 
 /// What an experiment needs besides its configuration; shared read-only by all trials.
-struct Prepared {
+struct LoadedExperiment {
   std::shared_ptr<const GlobalMap> map;
   double map_build_ms = 0.0;
   Drive drive;
@@ -28,35 +28,36 @@ struct Prepared {
 };
 
 /// Loads map and drive and finds the starts. Throws ConfigError.
-[[nodiscard]] Prepared prepare(const Experiment& experiment, const Catalog& catalog, const Warn& warn);
+[[nodiscard]] LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog,
+                                               const Warn& warn);
 
 /// Prepares one experiment after the other: map and drive are loaded again only where seed, map, observations
 /// or trials are others than those of the one before.
-class Preparer {
+class ExperimentLoader {
  public:
-  Preparer(const Catalog& catalog, Warn warn) : catalog_(catalog), warn_(std::move(warn)) {}
+  ExperimentLoader(const Catalog& catalog, Warn warn) : catalog_(catalog), warn_(std::move(warn)) {}
 
   /// Good until the next call. The map has no index yet, so that the time to build what the experiment looks
   /// up in it is its own.
-  Prepared& prepare(Experiment& experiment);
+  LoadedExperiment& load(Experiment& experiment);
 
  private:
   const Catalog& catalog_;
   Warn warn_;
   std::string sources_;                            ///< What is loaded, as YAML.
   std::set<std::filesystem::path> source_inputs_;  ///< Without those of the stages.
-  Prepared prepared_;
+  LoadedExperiment loaded_;
 };
 
 /// The localizer of an experiment on its map; files that its stages read are added to the inputs. Throws
 /// ConfigError.
 [[nodiscard]] Localizer make_localizer(const Experiment& experiment, const Catalog& catalog,
-                                       Prepared& prepared);
+                                       LoadedExperiment& loaded);
 
 /// Prepares every variant and, if there are several, makes its localizer: whatever one of them cannot work
 /// with shows before the first is run. Tells how many trials each has. Throws ConfigError with the faults of
 /// all.
-[[nodiscard]] std::vector<std::size_t> count_trials(std::vector<Variant>& variants, Preparer& preparer,
+[[nodiscard]] std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,
                                                     const Catalog& catalog);
 
 /// What to do while trials run side by side: calls come from several threads at once, those about one trial
@@ -70,7 +71,8 @@ struct RunCallbacks {
 /// Runs the trials of these numbers in their order, as many at once as there are localizers (all of the
 /// experiment); false if stopped before the last. An exception of a callback ends all trials and is thrown
 /// here.
-bool run_trials(std::vector<Localizer>& localizers, const Experiment& experiment, const Prepared& prepared,
-                const std::vector<std::size_t>& trials, const RunCallbacks& callbacks);
+bool run_trials(std::vector<Localizer>& localizers, const Experiment& experiment,
+                const LoadedExperiment& loaded, const std::vector<std::size_t>& trials,
+                const RunCallbacks& callbacks);
 
 }  // namespace glocal

@@ -76,7 +76,7 @@ class WindowRun {
       mapper_.add(observation);
       add_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       const LocalMap& map = mapper_.map();
-      if (next_ == first_) generation_ = map.generation;
+      if (next_ == first_) epoch_ = map.epoch;
       cells_.add(observation.scan.hits, map.local_from_robot);
     }
   }
@@ -84,7 +84,7 @@ class WindowRun {
   /// After the last observation.
   [[nodiscard]] PoseError error() const {
     const std::size_t last = next_ - 1;
-    if (mapper_.map().generation != generation_) {
+    if (mapper_.map().epoch != epoch_) {
       return {drive_.path_m[last] - drive_.path_m[first_], std::numbers::pi};
     }
     const Pose2 first_from_last =
@@ -99,7 +99,7 @@ class WindowRun {
   LocalMapper& mapper_;
   std::size_t first_;
   std::size_t next_;
-  int generation_ = 0;
+  int epoch_ = 0;
   CellCounter cells_;
 };
 

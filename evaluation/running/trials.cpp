@@ -20,9 +20,10 @@ StepRecord make_record(StepResult result, const Sample& sample, const GlobalMap&
     record.on_map = map.grid().at(record.reference->x, record.reference->y) != Cell::unknown;
     if (const auto estimate = record.result.estimate())
       record.error = pose_error(*estimate, *record.reference);
-    const auto& belief = record.result.verdict.belief;
-    if (belief && belief->covariance)
-      record.nees = normalised_error_squared(belief->map_from_robot, *record.reference, *belief->covariance);
+    const auto& estimate = record.result.verdict.estimate;
+    if (estimate && estimate->covariance)
+      record.nees =
+          normalised_error_squared(estimate->map_from_robot, *record.reference, *estimate->covariance);
   }
   return record;
 }
@@ -39,7 +40,7 @@ void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfi
   trial.pose = record.result.verdict.map_from_robot;
   if (record.reference) trial.error = pose_error(*trial.pose, *record.reference);
   trial.outcome = judge(trial.error, limits);
-  trial.belief = record.result.verdict.belief;
+  trial.estimate = record.result.verdict.estimate;
   trial.nees = record.nees;
 }
 

@@ -1,5 +1,5 @@
 // Localizes a robot with the map and the strategies of an experiment file. Each line of standard input is one
-// key frame: the odometry pose (x and y in m, heading in rad), then the ranges of a 180 degree laser from
+// keyframe: the odometry pose (x and y in m, heading in rad), then the ranges of a 180 degree laser from
 // right to left (m; 8 m and more: nothing seen).
 #include <cmath>
 #include <glocal/builtin.hpp>

@@ -79,8 +79,8 @@ std::shared_ptr<const ClearanceGrid> clearance_grid(const GlobalMap& map) {
 }
 
 void BeamEvidence::add(const LocalMap& local, const Scan& scan) {
-  if (local.generation != generation_) scans_.clear();
-  generation_ = local.generation;
+  if (local.epoch != epoch_) scans_.clear();
+  epoch_ = local.epoch;
   const Transform local_from_robot(local.local_from_robot);
   Beams beams{local_from_robot(scan.origin), {}};
   const std::size_t all = scan.hits.size() + scan.free_ends.size();

@@ -89,7 +89,7 @@ class BeamEvidence {
   };
   BeamRule rule_;
   std::deque<Beams> scans_;
-  int generation_ = 0;  ///< Of the local map whose frame they are in.
+  int epoch_ = 0;  ///< Of the local map whose frame they are in.
 };
 
 }  // namespace glocal

@@ -39,8 +39,8 @@ MatchResult joined(const std::vector<MatchResult>& chunks, std::size_t most) {
   MatchResult result;
   for (const MatchResult& chunk : chunks) {
     result.hypotheses.insert(result.hypotheses.end(), chunk.hypotheses.begin(), chunk.hypotheses.end());
-    result.collisions += chunk.collisions;
-    result.checks += chunk.checks;
+    result.proposals += chunk.proposals;
+    result.points_tested += chunk.points_tested;
   }
   std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });

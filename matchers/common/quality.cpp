@@ -77,12 +77,12 @@ QualityTest::Outcome QualityTest::test(const MotionBatch& map_from_local, std::s
   Outcome outcome;
   for (std::size_t i = 0; i < size; ++i) {
     if (at_most[i] < least_.front()) {
-      outcome.checks += batch_;
+      outcome.points_tested += batch_;
       continue;
     }
     const auto [in_contact, looked_at] =
         contact_->count_while(shuffled_, begins[i], size_, batch_, least_, map_from_local[i]);
-    outcome.checks += looked_at;
+    outcome.points_tested += looked_at;
     if (looked_at < size_ || in_contact < least_.back()) continue;
     outcome.passed.push_back({i, static_cast<double>(in_contact) / static_cast<double>(size_)});  // eq. 4
   }

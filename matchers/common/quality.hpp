@@ -47,8 +47,8 @@ class QualityTest {
     double quality;     ///< Omega
   };
   struct Outcome {
-    std::vector<Passed> passed;  ///< In the order of the poses.
-    std::size_t checks = 0;      ///< Points looked at.
+    std::vector<Passed> passed;     ///< In the order of the poses.
+    std::size_t points_tested = 0;  ///< Points looked at.
   };
   /// Tests the first `size` poses of a batch. `starts` (any numbers) pick where in the order each begins.
   [[nodiscard]] Outcome test(const MotionBatch& map_from_local, std::size_t size,

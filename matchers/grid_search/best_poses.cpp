@@ -52,7 +52,7 @@ void BestPoses::add(const std::vector<FoundPoses>& found) {
       if (pose.in_contact >= least_) glocal::add(best_, cell, pose);
     }
     tested_ += rotation.tested;
-    checks_ += rotation.checks;
+    points_tested_ += rotation.points_tested;
   }
   raise();
 }

@@ -24,9 +24,9 @@ struct GridSearchResult {
     Pose2 map_from_local;
     std::size_t in_contact = 0;  ///< Points.
   };
-  std::vector<Pose> poses;  ///< Falling contact.
-  std::size_t tested = 0;   ///< Grid poses whose points were counted.
-  std::size_t checks = 0;   ///< Looks at a point; what one look serves depends on the search.
+  std::vector<Pose> poses;        ///< Falling contact.
+  std::size_t tested = 0;         ///< Grid poses whose points were counted.
+  std::size_t points_tested = 0;  ///< Looks at a point; what one look serves depends on the search.
 };
 
 /// A pose of a PoseGrid.
@@ -63,7 +63,7 @@ void add(BestOfCells& best, const RobotCell& cell, const GridPose& pose);
 struct FoundPoses {
   BestOfCells best;
   std::size_t tested = 0;  ///< See GridSearchResult.
-  std::size_t checks = 0;
+  std::size_t points_tested = 0;
 };
 
 /// The best poses so far, and what a pose must reach to become one of them.
@@ -81,7 +81,7 @@ class BestPoses {
   /// The best first; map_from_local of a grid pose is `pose_of(pose)`.
   template <class PoseOf>
   [[nodiscard]] GridSearchResult result(PoseOf pose_of) const {
-    GridSearchResult result{.poses = {}, .tested = tested_, .checks = checks_};
+    GridSearchResult result{.poses = {}, .tested = tested_, .points_tested = points_tested_};
     for (const GridPose& pose : poses()) result.poses.push_back({pose_of(pose), pose.in_contact});
     return result;
   }
@@ -93,7 +93,7 @@ class BestPoses {
   std::size_t most_;
   std::size_t least_;
   BestOfCells best_;
-  std::size_t tested_ = 0, checks_ = 0;
+  std::size_t tested_ = 0, points_tested_ = 0;
 };
 
 }  // namespace glocal

@@ -13,10 +13,10 @@ namespace glocal {
 /// centre is within contact_epsilon of a point of the map. That differs from eq. 4 only for points whose
 /// distance is within half a cell's diagonal of contact_epsilon. Exact means: among all poses of the grid
 /// that bring any point and the share Omega_max into contact, none that is better than the best hypothesis
-/// has been missed, and each is within 2 mode_distance and 2 mode_rotation of a hypothesis at least as good;
-/// up to max_poses (search_grid).
+/// has been missed, and each is within 2 candidate_distance and 2 candidate_rotation of a hypothesis at least
+/// as good; up to max_poses (search_grid).
 ///
-/// `checks` counts looks at a point, each of which serves 512 neighbouring translations; `collisions` the
+/// `points_tested` counts looks at a point, each of which serves 512 neighbouring translations; `proposals` the
 /// poses of the grid whose points were counted.
 class BranchAndBound final : public GridMatcher {
  public:

@@ -49,12 +49,12 @@ class Candidates {
     const ContactIndex::BatchColumn begins{};
     contact_.count_at_most(points_, n, motions_, size_, begins, at_most_);
     found.tested += size_;
-    found.checks += size_ * n;
+    found.points_tested += size_ * n;
     for (std::size_t i = 0; i < size_; ++i) {
       if (at_most_[i] < least_) continue;
       const auto [in_contact, looked_at] =
           contact_.count_while(points_, 0, n, batch, least_after_, motions_[i]);
-      found.checks += looked_at;
+      found.points_tested += looked_at;
       if (in_contact < least_) continue;
       poses_[i].in_contact = in_contact;
       glocal::add(found.best, robots.of(poses_[i]), poses_[i]);

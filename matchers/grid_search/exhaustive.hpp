@@ -14,11 +14,11 @@ namespace glocal {
 /// contact of its points where they really lie (Omega, eq. 4). Slow, and with nothing in it that could go
 /// wrong: what other matchers are measured by, on small maps.
 ///
-/// Of the poses, the best max_poses become modes, one in each cell of mode_distance and mode_rotation. A pose
-/// is left as soon as too few points remain to make it one of them; no pose is skipped by guess. With
-/// `contact: kd_tree` quality is exact, with `bitset` up to half a voxel.
+/// Of the poses, the best max_poses become candidates, one in each cell of candidate_distance and
+/// candidate_rotation. A pose is left as soon as too few points remain to make it one of them; no pose is
+/// skipped by guess. With `contact: kd_tree` quality is exact, with `bitset` up to half a voxel.
 ///
-/// `checks` counts looks at a point; `collisions` the poses of the grid, all of which are tested.
+/// `points_tested` counts looks at a point; `proposals` the poses of the grid, all of which are tested.
 class Exhaustive final : public GridMatcher {
  public:
   struct Params {

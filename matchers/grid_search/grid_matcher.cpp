@@ -27,11 +27,11 @@ void describe(ParamVisitor& v, GridMatching& p) {
            .min = 0,
            .max = static_cast<double>(TileCounts::most_points)});
   v.field("max_poses", p.max_poses,
-          {.doc = "Poses searched for: the best, one in each cell of mode_distance (its diagonal) and "
-                  "mode_rotation. Fewer take less time.",
+          {.doc = "Poses searched for: the best, one in each cell of candidate_distance (its diagonal) and "
+                  "candidate_rotation. Fewer take less time.",
            .min = 1,
            .max = 100000});
-  describe(v, p.mode);
+  describe(v, p.candidate);
   v.field("refinement", p.refinement,
           {.doc = "How poses are refined on the distance field; without iterations they stay on the grid."});
   v.field("field_cell", p.field_cell,
@@ -41,7 +41,7 @@ void describe(ParamVisitor& v, GridMatching& p) {
 GridMatcher::GridMatcher(const GridMatching& params, const GlobalMap& map,
                          std::shared_ptr<const ContactIndex> contact)
     : params_(params),
-      refiner_(params.mode, static_cast<std::size_t>(params.max_poses), params.refinement,
+      refiner_(params.candidate, static_cast<std::size_t>(params.max_poses), params.refinement,
                distance_field(map, params.field_cell), std::move(contact)) {}
 
 MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
@@ -54,25 +54,25 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
   const GridSearchResult found = search(sample, local.local_from_robot,
                                         {.min_quality = omega_max,
                                          .min_rotation_step = params_.min_rotation_step,
-                                         .distance = params_.mode.distance,
-                                         .rotation = params_.mode.rotation,
+                                         .distance = params_.candidate.distance,
+                                         .rotation = params_.candidate.rotation,
                                          .max_poses = static_cast<std::size_t>(params_.max_poses)});
-  result.collisions = found.tested;
-  result.checks = found.checks;
-  std::vector<Mode> modes;
+  result.proposals = found.tested;
+  result.points_tested = found.points_tested;
+  std::vector<Candidate> candidates;
   for (const GridSearchResult::Pose& pose : found.poses) {
-    modes.push_back(
+    candidates.push_back(
         {pose.map_from_local, static_cast<double>(pose.in_contact) / static_cast<double>(sample.size())});
   }
-  modes = refiner_.distinct(std::move(modes), local.local_from_robot);
+  candidates = refiner_.distinct(std::move(candidates), local.local_from_robot);
   if (params_.refinement.iterations > 0) {
-    result.checks += modes.size() * local.points.size();
-    modes = refiner_.refined(std::move(modes), local.local_from_robot, sample, local.points);
+    result.points_tested += candidates.size() * local.points.size();
+    candidates = refiner_.refined(std::move(candidates), local.local_from_robot, sample, local.points);
   }
-  for (const Mode& mode : modes) {
-    if (mode.quality < omega_max) break;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.quality < omega_max) break;
     result.hypotheses.push_back(
-        {mode.map_from_local, mode.map_from_local * local.local_from_robot, mode.quality});
+        {candidate.map_from_local, candidate.map_from_local * local.local_from_robot, candidate.quality});
   }
   return result;
 }

@@ -7,7 +7,7 @@
 #include "glocal/distance_field.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
-#include "matchers/common/modes.hpp"
+#include "matchers/common/candidates.hpp"
 #include "matchers/grid_search/best_poses.hpp"
 
 namespace glocal {
@@ -19,7 +19,7 @@ struct GridMatching {
   double min_rotation_step = 0.005;
   int max_points = 200;
   int max_poses = 50;
-  ModeRule mode = {};
+  CandidateRule candidate = {};
   PoseRefinement refinement = {};
   double field_cell = 0.05;
 };
@@ -29,9 +29,10 @@ void describe(ParamVisitor& v, GridMatching& p);
 /// middle and moves it by whole cells (PoseGrid). A local map of more than max_points is searched for by a
 /// sample of them.
 ///
-/// Hypotheses are the distinct poses (modes) of what was found. Refined ones, as they are by default, have
-/// left the grid, and are as good as all points say (Omega, eq. 4); without iterations of refinement they are
-/// poses of the grid, with its quality. A pose that only refinement would bring over Omega_max is not found.
+/// Hypotheses are the distinct poses (candidates) of what was found. Refined ones, as they are by default,
+/// have left the grid, and are as good as all points say (Omega, eq. 4); without iterations of refinement
+/// they are poses of the grid, with its quality. A pose that only refinement would bring over Omega_max is
+/// not found.
 class GridMatcher : public Matcher {
  public:
   /// `contact` judges refined poses. Throws ConfigError where the map is too large for a distance field.
@@ -46,7 +47,7 @@ class GridMatcher : public Matcher {
                                                 const GridSearchRule& rule) const = 0;
 
   GridMatching params_;
-  ModeRefiner refiner_;
+  CandidateRefiner refiner_;
 };
 
 }  // namespace glocal

@@ -79,7 +79,7 @@ class RotationSearch {
   }
 
   void count(int level, int column, int row, std::size_t least) {
-    found_.checks += pyramid_.count(level, points_, column, row, least, counts_);
+    found_.points_tested += pyramid_.count(level, points_, column, row, least, counts_);
     if (level == 0) found_.tested += std::size_t{TileCounts::columns} * TileCounts::rows;
   }
 

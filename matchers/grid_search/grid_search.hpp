@@ -15,7 +15,7 @@ namespace glocal {
 /// Where there would be more than max_poses, these are the best of them (any, where several are equally good
 /// as the last). As soon as so many are known, nothing that does not beat the last of them is searched.
 ///
-/// `checks` counts looks at a point, each of which serves the 512 nodes of a tile.
+/// `points_tested` counts looks at a point, each of which serves the 512 nodes of a tile.
 /// All rotations are searched depth first from the top of the pyramid, those that look best in a first look
 /// before the others. The answer does not depend on the number of threads.
 [[nodiscard]] GridSearchResult search_grid(const ContactPyramid& pyramid, const Points& points,

@@ -14,11 +14,11 @@
 namespace glocal {
 namespace {
 
-SurfaceRule surface_rule(const IndexedRansam::Params& p) {
-  return {.thinning = p.thinning, .radius = p.normal_radius};
+OrientedPointRule oriented_point_rule(const IndexedRansam::Params& p) {
+  return {.voxel_size = p.voxel_size, .radius = p.normal_radius};
 }
 
-DipoleRule dipole_rule(const IndexedRansam::Params& p) {
+OrientedPairRule pair_rule(const IndexedRansam::Params& p) {
   return {.min_length = p.min_length,
           .max_length = p.max_length,
           .length_cell = p.length_cell,
@@ -36,10 +36,10 @@ TriangleRule triangle_rule(const IndexedRansam::Params& p) {
 /// What the index depends on, besides the map.
 std::string index_key(const IndexedRansam::Params& p) {
   return fmt::format(
-      "relation {}, min_surfaces {}, min_length {}, max_length {}, length_cell {}, angle_cells {}, "
-      "min_height {}, max_entries {}, thinning {}, normal_radius {}",
-      p.relation, p.min_surfaces, p.min_length, p.max_length, p.length_cell, p.angle_cells, p.min_height,
-      p.max_entries, p.thinning, p.normal_radius);
+      "relation {}, min_oriented_share {}, min_length {}, max_length {}, length_cell {}, angle_cells {}, "
+      "min_height {}, max_entries {}, voxel_size {}, normal_radius {}",
+      p.relation, p.min_oriented_share, p.min_length, p.max_length, p.length_cell, p.angle_cells,
+      p.min_height, p.max_entries, p.voxel_size, p.normal_radius);
 }
 
 IndexOrigin index_origin(const IndexedRansam::Params& p, const GlobalMap& map) {
@@ -52,37 +52,39 @@ RelationIndex read_index(const IndexedRansam::Params& p, const GlobalMap& map) {
   const bool triangles =
       p.relation == "triangle" || (p.relation == "auto" && saved.kind() == TriangleIndex::kind);
   if (triangles) return TriangleIndex(saved);
-  return DipoleIndex(saved, dipole_rule(p));
+  return OrientedPairIndex(saved, pair_rule(p));
 }
 
 RelationIndex build_index(const IndexedRansam::Params& p, const GlobalMap& map, int threads) {
-  const bool triangles = p.relation == "triangle" ||
-                         (p.relation == "auto" && share_of_surfaces(map, surface_rule(p)) < p.min_surfaces);
+  const bool triangles =
+      p.relation == "triangle" ||
+      (p.relation == "auto" && share_of_oriented_points(map, oriented_point_rule(p)) < p.min_oriented_share);
   if (triangles) {
-    return TriangleIndex(thinned(map.points(), p.thinning), triangle_rule(p),
+    return TriangleIndex(voxel_downsampled(map.points(), p.voxel_size), triangle_rule(p),
                          static_cast<std::size_t>(p.max_entries), threads);
   }
-  return DipoleIndex(surfaces_of(map, surface_rule(p)), dipole_rule(p), threads);
+  return OrientedPairIndex(oriented_points_of(map, oriented_point_rule(p)), pair_rule(p), threads);
 }
 
 /// Two points drawn until their distance is in range: in a large local map most pairs are too far apart.
 /// Given up after some tries.
-DipoleIndex::Dipole draw_dipole(const Surfaces& s, double min_length, double max_length, Rng& rng) {
+OrientedPairIndex::OrientedPair draw_pair(const OrientedPoints& s, double min_length, double max_length,
+                                          Rng& rng) {
   constexpr int most_tries = 32;
   const auto n = static_cast<std::uint32_t>(s.size());
-  DipoleIndex::Dipole dipole{};
+  OrientedPairIndex::OrientedPair pair{};
   for (int i = 0; i < most_tries; ++i) {
-    dipole = {rng.below(n), rng.below(n)};
-    const float dx = s.x[dipole.second] - s.x[dipole.first];
-    const float dy = s.y[dipole.second] - s.y[dipole.first];
+    pair = {rng.below(n), rng.below(n)};
+    const float dx = s.x[pair.second] - s.x[pair.first];
+    const float dy = s.y[pair.second] - s.y[pair.first];
     const double squared = dx * dx + dy * dy;
     if (squared >= min_length * min_length && squared < max_length * max_length) break;
   }
-  return dipole;
+  return pair;
 }
 
-PointPair ends_of(const Surfaces& s, const DipoleIndex::Dipole& dipole) {
-  return {Point{s.x[dipole.first], s.y[dipole.first]}, Point{s.x[dipole.second], s.y[dipole.second]}};
+PointPair ends_of(const OrientedPoints& s, const OrientedPairIndex::OrientedPair& pair) {
+  return {Point{s.x[pair.first], s.y[pair.first]}, Point{s.x[pair.second], s.y[pair.second]}};
 }
 
 /// Share of the points for which a condition holds where a pose puts them.
@@ -117,18 +119,23 @@ void describe(ParamVisitor& v, IndexedRansam::ExactSearch& p) {
 
 void describe(ParamVisitor& v, AdaptiveBudget& p) {
   v.field("limit", p.limit,
-          {.doc = "Dipoles drawn in a step at most; 0 draws as many as iterations and first_iterations say.",
+          {.doc = "Oriented point pairs drawn in a step at most; 0 draws as many as iterations and "
+                  "first_iterations say.",
            .min = 0,
            .max = 10e6});
-  v.field("chunk", p.chunk,
-          {.doc = "Dipoles drawn between looks at the best distinct poses.", .min = 1, .max = 10e6});
-  v.field("stable_modes", p.stable_modes, {.doc = "So many of the best must stay the same …", .min = 1});
+  v.field(
+      "chunk", p.chunk,
+      {.doc = "Oriented point pairs drawn between looks at the best distinct poses.", .min = 1, .max = 10e6});
+  v.field("stable_candidates", p.stable_candidates,
+          {.doc = "So many of the best must stay the same …", .min = 1});
   v.field("stable_chunks", p.stable_chunks, {.doc = "… over so many chunks in a row.", .min = 1});
 }
 
 void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("iterations", p.iterations,
-          {.doc = "Dipoles or triangles drawn from the local map in a step.", .min = 0, .max = 10e6});
+          {.doc = "Oriented point pairs or triangles drawn from the local map in a step.",
+           .min = 0,
+           .max = 10e6});
   v.field("first_iterations", p.first_iterations,
           {.doc = "The same in the first steps, when nothing is carried yet.", .min = 0, .max = 10e6});
   v.field("first_steps", p.first_steps, {.doc = "How many steps those are.", .min = 0});
@@ -143,11 +150,12 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .max = 1.0});
   v.field("contact_points", p.contact_points,
           {.doc = "Points looked at for that.", .min = 16, .max = 100000});
-  v.field("modes", p.modes, {.doc = "Distinct poses that are refined and judged.", .min = 1, .max = 10000});
+  v.field("candidates", p.candidates,
+          {.doc = "Distinct poses that are refined and judged.", .min = 1, .max = 10000});
   v.field("best", p.best, {.doc = "Of these, the best that become hypotheses.", .min = 1, .max = 10000});
   v.field("carried", p.carried,
           {.doc = "Of those, the best that go on to the next step.", .min = 0, .max = 10000});
-  describe(v, p.mode);
+  describe(v, p.candidate);
   v.field("refinement", p.refinement, {.doc = "How poses are refined on the distance field."});
   v.field("uncertainty", p.uncertainty, {.doc = "What the covariance of a hypothesis is made from."});
   v.field("field_cell", p.field_cell,
@@ -156,16 +164,20 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("unknown_weight", p.unknown_weight,
           {.doc = "What the share of points in unknown cells adds to the quality.", .min = 0.0, .max = 1.0});
   v.field("min_length", p.min_length,
-          {.doc = "Shortest dipole, or side of a triangle.", .unit = "m", .above = 0.0});
+          {.doc = "Shortest oriented point pair, or side of a triangle.", .unit = "m", .above = 0.0});
   v.field("max_length", p.max_length,
-          {.doc = "Longest dipole, or side of a triangle.", .unit = "m", .max = 100.0, .above = 0.0});
+          {.doc = "Longest oriented point pair, or side of a triangle.",
+           .unit = "m",
+           .max = 100.0,
+           .above = 0.0});
   v.require(p.max_length > p.min_length, "max_length", "must be above min_length");
   v.field("length_cell", p.length_cell,
-          {.doc = "Dipoles in a bin, or sides of triangles, differ in length by less.",
+          {.doc = "Oriented point pairs in a bin, or sides of triangles, differ in length by less.",
            .unit = "m",
            .min = 0.01});
-  v.field("angle_cells", p.angle_cells,
-          {.doc = "Bins of each of a dipole's two angles in a full turn.", .min = 4, .max = 360});
+  v.field(
+      "angle_cells", p.angle_cells,
+      {.doc = "Bins of each of an oriented point pair's two angles in a full turn.", .min = 4, .max = 360});
   constexpr double most_bins = 16e6;
   v.require((p.max_length - p.min_length) / p.length_cell * p.angle_cells * p.angle_cells <= most_bins,
             "length_cell",
@@ -173,8 +185,8 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("relation", p.relation,
           {.doc = "What is drawn and sorted: two points with their normals, three points, or three where few "
                   "have normals.",
-           .choices = {"dipole", "triangle", "auto"}});
-  v.field("min_surfaces", p.min_surfaces,
+           .choices = {"oriented_pair", "triangle", "auto"}});
+  v.field("min_oriented_share", p.min_oriented_share,
           {.doc = "Share of the map's points that have a normal, below which auto takes triangles.",
            .min = 0.0,
            .max = 1.0});
@@ -182,18 +194,21 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
           {.doc = "Flatter triangles give poor poses: the height over the longest side.",
            .unit = "m",
            .min = 0.0});
-  v.field("max_entries", p.max_entries,
-          {.doc = "Of more dipoles (8 bytes each) or triangles (12 to 20 bytes) an even share is kept.",
-           .min = 1000,
-           .max = 100e6});
   v.field(
-      "thinning", p.thinning,
-      {.doc = "The map gives one point to dipoles in each square of this side.", .unit = "m", .min = 0.01});
+      "max_entries", p.max_entries,
+      {.doc =
+           "Of more oriented point pairs (8 bytes each) or triangles (12 to 20 bytes) an even share is kept.",
+       .min = 1000,
+       .max = 100e6});
+  v.field("voxel_size", p.voxel_size,
+          {.doc = "The map gives one point to oriented point pairs in each square of this side.",
+           .unit = "m",
+           .min = 0.01});
   v.field("normal_radius", p.normal_radius,
-          {.doc = "Neighbourhood that gives a point's normal; at most twice the thinning.",
+          {.doc = "Neighbourhood that gives a point's normal; at most twice the voxel_size.",
            .unit = "m",
            .above = 0.0});
-  v.require(p.normal_radius <= 2.0 * p.thinning, "normal_radius", "must be at most twice the thinning");
+  v.require(p.normal_radius <= 2.0 * p.voxel_size, "normal_radius", "must be at most twice the voxel_size");
   v.field("index_file", p.index_file,
           {.doc = "Index of the map as glocal map index saves it, to be read instead of built.",
            .may_be_missing = true});
@@ -209,7 +224,8 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       map_(setup.map),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
       field_(distance_field(*setup.map, params.field_cell)),
-      refiner_(params.mode, static_cast<std::size_t>(params.modes), params.refinement, field_, contact_),
+      refiner_(params.candidate, static_cast<std::size_t>(params.candidates), params.refinement, field_,
+               contact_),
       clearance_(clearance_grid(*setup.map)),
       pyramid_(params.exact_search.after_steps > 0
                    ? contact_pyramid(*setup.map, params.exact_search.cell, params.contact_epsilon)
@@ -237,7 +253,7 @@ std::string IndexedRansam::saved_index() const {
 void IndexedRansam::reset() {
   beams_.clear();
   carried_.clear();
-  generation_ = 0;
+  epoch_ = 0;
   steps_ = 0;
   undecided_ = 0;
 }
@@ -246,118 +262,126 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
                                  Rng& rng) {
   MatchResult result;
   if (local.points.empty()) return result;
-  if (local.generation != generation_) reset();
-  generation_ = local.generation;
+  if (local.epoch != epoch_) reset();
+  epoch_ = local.epoch;
   beams_.add(local, latest.scan);
 
   const Points sample = sample_of(local.points, static_cast<std::size_t>(params_.contact_points), rng);
-  std::vector<Mode> modes;
-  for (const Mode& mode : carried_) {
-    modes.push_back({mode.map_from_local, contact_->share(sample, Transform(mode.map_from_local))});
+  std::vector<Candidate> candidates;
+  for (const Candidate& candidate : carried_) {
+    candidates.push_back(
+        {candidate.map_from_local, contact_->share(sample, Transform(candidate.map_from_local))});
   }
   const LocalPoints points = points_to_draw(local);
   if (params_.adaptive.limit > 0) {
-    draw_until_stable(points, sample, local.local_from_robot, rng, modes, result);
+    draw_until_stable(points, sample, local.local_from_robot, rng, candidates, result);
   } else {
     const int draws = steps_++ < params_.first_steps ? params_.first_iterations : params_.iterations;
-    draw(points, sample, static_cast<std::size_t>(draws), rng, modes, result);
+    draw(points, sample, static_cast<std::size_t>(draws), rng, candidates, result);
   }
-  std::vector<Mode> best = settled(modes, local, sample, result);
+  std::vector<Candidate> best = settled(candidates, local, sample, result);
   undecided_ = is_clear(best) ? 0 : undecided_ + 1;
   if (pyramid_ && undecided_ >= params_.exact_search.after_steps) {
-    search_exactly(sample, local.local_from_robot, modes, result);
-    best = settled(modes, local, sample, result);
+    search_exactly(sample, local.local_from_robot, candidates, result);
+    best = settled(candidates, local, sample, result);
     undecided_ = 0;
   }
   carried_ = {best.begin(), best.begin() + std::min(std::ssize(best), std::ptrdiff_t{params_.carried})};
-  for (const Mode& mode : best) {
-    if (mode.quality < omega_max) break;
-    result.hypotheses.push_back(hypothesis(mode, local, sample));
+  for (const Candidate& candidate : best) {
+    if (candidate.quality < omega_max) break;
+    result.hypotheses.push_back(hypothesis(candidate, local, sample));
   }
   return result;
 }
 
-/// The best of the modes, refined; `modes` keeps the distinct ones.
-std::vector<Mode> IndexedRansam::settled(std::vector<Mode>& modes, const LocalMap& local,
-                                         const Points& sample, MatchResult& result) const {
-  modes = refiner_.refined(std::move(modes), local.local_from_robot, sample, sample);
-  result.checks += modes.size() * local.points.size();
-  return judged(modes, local, sample);
+/// The best of the candidates, refined; `candidates` keeps the distinct ones.
+std::vector<Candidate> IndexedRansam::settled(std::vector<Candidate>& candidates, const LocalMap& local,
+                                              const Points& sample, MatchResult& result) const {
+  candidates = refiner_.refined(std::move(candidates), local.local_from_robot, sample, sample);
+  result.points_tested += candidates.size() * local.points.size();
+  return judged(candidates, local, sample);
 }
 
-bool IndexedRansam::is_clear(const std::vector<Mode>& best) const {
+bool IndexedRansam::is_clear(const std::vector<Candidate>& best) const {
   if (best.empty()) return false;
   return best.size() == 1 || best[0].quality - best[1].quality >= params_.exact_search.margin;
 }
 
-Hypothesis IndexedRansam::hypothesis(const Mode& mode, const LocalMap& local, const Points& sample) const {
-  const Pose2 map_from_robot = mode.map_from_local * local.local_from_robot;
-  return {.map_from_local = mode.map_from_local,
+Hypothesis IndexedRansam::hypothesis(const Candidate& candidate, const LocalMap& local,
+                                     const Points& sample) const {
+  const Pose2 map_from_robot = candidate.map_from_local * local.local_from_robot;
+  return {.map_from_local = candidate.map_from_local,
           .map_from_robot = map_from_robot,
-          .quality = std::min(mode.quality, 1.0),
-          .covariance = pose_covariance(*field_, sample, mode.map_from_local, map_from_robot,
+          .quality = std::min(candidate.quality, 1.0),
+          .covariance = pose_covariance(*field_, sample, candidate.map_from_local, map_from_robot,
                                         params_.refinement.kernel, params_.uncertainty),
-          .conflict = conflict_share(sample, mode.map_from_local)};
+          .free_space_violation = free_space_violation(sample, candidate.map_from_local)};
 }
 
-/// Dipoles are drawn from surfaces, triangles from points.
+/// Oriented point pairs are drawn from oriented points, triangles from points.
 IndexedRansam::LocalPoints IndexedRansam::points_to_draw(const LocalMap& local) const {
-  if (std::holds_alternative<TriangleIndex>(*index_)) return thinned(local.points, params_.thinning);
-  return surfaces_of(local, surface_rule(params_));
+  if (std::holds_alternative<TriangleIndex>(*index_))
+    return voxel_downsampled(local.points, params_.voxel_size);
+  return oriented_points_of(local, oriented_point_rule(params_));
 }
 
 void IndexedRansam::draw(const LocalPoints& points, const Points& sample, std::size_t draws, Rng& rng,
-                         std::vector<Mode>& modes, MatchResult& result) const {
+                         std::vector<Candidate>& candidates, MatchResult& result) const {
   if (const auto* triangles = std::get_if<TriangleIndex>(index_.get())) {
-    draw_triangles(*triangles, std::get<Points>(points), sample, draws, rng, modes, result);
+    draw_triangles(*triangles, std::get<Points>(points), sample, draws, rng, candidates, result);
   } else {
-    draw_dipoles(std::get<DipoleIndex>(*index_), std::get<Surfaces>(points), sample, draws, rng, modes,
-                 result);
+    draw_pairs(std::get<OrientedPairIndex>(*index_), std::get<OrientedPoints>(points), sample, draws, rng,
+               candidates, result);
   }
 }
 
-void IndexedRansam::draw_dipoles(const DipoleIndex& index, const Surfaces& surfaces, const Points& sample,
-                                 std::size_t draws, Rng& rng, std::vector<Mode>& modes,
-                                 MatchResult& result) const {
-  const auto n = static_cast<std::uint32_t>(surfaces.size());
+void IndexedRansam::draw_pairs(const OrientedPairIndex& index, const OrientedPoints& oriented_points,
+                               const Points& sample, std::size_t draws, Rng& rng,
+                               std::vector<Candidate>& candidates, MatchResult& result) const {
+  const auto n = static_cast<std::uint32_t>(oriented_points.size());
   if (n < 2) return;
   MotionBatch motions;
   std::size_t size = 0;
   for (std::size_t i = 0; i < draws; ++i) {
-    const DipoleIndex::Dipole dipole = draw_dipole(surfaces, params_.min_length, params_.max_length, rng);
-    const auto partners = index.find(surfaces, dipole);
+    const OrientedPairIndex::OrientedPair pair =
+        draw_pair(oriented_points, params_.min_length, params_.max_length, rng);
+    const auto partners = index.find(oriented_points, pair);
     if (partners.empty()) continue;
-    const DipoleIndex::Dipole& partner = partners[rng.below(static_cast<std::uint32_t>(partners.size()))];
-    lay(ends_of(surfaces, dipole), ends_of(index.surfaces(), partner), motions, size++);
+    const OrientedPairIndex::OrientedPair& partner =
+        partners[rng.below(static_cast<std::uint32_t>(partners.size()))];
+    lay(ends_of(oriented_points, pair), ends_of(index.oriented_points(), partner), motions, size++);
     if (size < MotionBatch::capacity) continue;
-    test(motions, size, sample, modes, result);
+    test(motions, size, sample, candidates, result);
     size = 0;
   }
-  test(motions, size, sample, modes, result);
+  test(motions, size, sample, candidates, result);
 }
 
-/// A mode that fresh draws make better stays the same one; another one among the best begins the count anew.
+/// A candidate that fresh draws make better stays the same one; another one among the best begins the count
+/// anew.
 void IndexedRansam::draw_until_stable(const LocalPoints& points, const Points& sample,
-                                      const Pose2& local_from_robot, Rng& rng, std::vector<Mode>& modes,
-                                      MatchResult& result) const {
+                                      const Pose2& local_from_robot, Rng& rng,
+                                      std::vector<Candidate>& candidates, MatchResult& result) const {
   const AdaptiveBudget& budget = params_.adaptive;
   const auto best_of = [&] {
     std::vector<Pose2> robots;
-    for (std::size_t i = 0; i < std::min(modes.size(), static_cast<std::size_t>(budget.stable_modes)); ++i)
-      robots.push_back(modes[i].map_from_local * local_from_robot);
+    for (std::size_t i = 0;
+         i < std::min(candidates.size(), static_cast<std::size_t>(budget.stable_candidates)); ++i)
+      robots.push_back(candidates[i].map_from_local * local_from_robot);
     return robots;
   };
-  modes = refiner_.distinct(std::move(modes), local_from_robot);
+  candidates = refiner_.distinct(std::move(candidates), local_from_robot);
   std::vector<Pose2> before = best_of();
   for (int drawn = 0, stable = 0; drawn < budget.limit && stable < budget.stable_chunks;) {
     const int draws = std::min(budget.chunk, budget.limit - drawn);
-    draw(points, sample, static_cast<std::size_t>(draws), rng, modes, result);
+    draw(points, sample, static_cast<std::size_t>(draws), rng, candidates, result);
     drawn += draws;
-    modes = refiner_.distinct(std::move(modes), local_from_robot);
+    candidates = refiner_.distinct(std::move(candidates), local_from_robot);
     const std::vector<Pose2> best = best_of();
     const auto was_there = [&](const Pose2& robot) {
-      return std::any_of(before.begin(), before.end(),
-                         [&](const Pose2& other) { return is_same_mode(robot, other, params_.mode); });
+      return std::any_of(before.begin(), before.end(), [&](const Pose2& other) {
+        return is_same_candidate(robot, other, params_.candidate);
+      });
     };
     const bool same =
         !best.empty() && best.size() == before.size() && std::all_of(best.begin(), best.end(), was_there);
@@ -368,7 +392,7 @@ void IndexedRansam::draw_until_stable(const LocalPoints& points, const Points& s
 
 /// The second and third point near the first, as in the map's triangles: farther ones would have no partner.
 void IndexedRansam::draw_triangles(const TriangleIndex& index, const Points& points, const Points& sample,
-                                   std::size_t draws, Rng& rng, std::vector<Mode>& modes,
+                                   std::size_t draws, Rng& rng, std::vector<Candidate>& candidates,
                                    MatchResult& result) const {
   const TriangleRule rule = triangle_rule(params_);
   const TripleSampler sampler(points, rule.max_side);
@@ -396,12 +420,12 @@ void IndexedRansam::draw_triangles(const TriangleIndex& index, const Points& poi
       to.add(partners[rng.below(static_cast<std::uint32_t>(partners.size()))]);
     }
     least_squares_motions(points, from, index.points(), to, motions);
-    test(motions, from.size, sample, modes, result);
+    test(motions, from.size, sample, candidates, result);
   }
 }
 
 void IndexedRansam::test(const MotionBatch& motions, std::size_t size, const Points& sample,
-                         std::vector<Mode>& modes, MatchResult& result) const {
+                         std::vector<Candidate>& candidates, MatchResult& result) const {
   // A cheap look at 16 points spares most wrong poses the closer one. To ask for contact of one more point
   // instead, as Winkelbach et al. do, is no faster and loses more poses; both is slower than this alone
   // (bench_indexed, look).
@@ -410,38 +434,38 @@ void IndexedRansam::test(const MotionBatch& motions, std::size_t size, const Poi
   ContactIndex::BatchColumn begins{};
   ContactIndex::BatchColumn at_most{};
   contact_->count_at_most(sample, looked_at, motions, size, begins, at_most);
-  result.collisions += size;
+  result.proposals += size;
   for (std::size_t i = 0; i < size; ++i) {
     // Even the coarse look is below what is asked for.
     if (static_cast<double>(at_most[i]) < params_.min_contact * static_cast<double>(looked_at)) {
-      result.checks += looked_at;
+      result.points_tested += looked_at;
       continue;
     }
-    result.checks += sample.size();
+    result.points_tested += sample.size();
     const double share = contact_->share(sample, motions[i]);
-    if (share >= params_.min_contact) modes.push_back({motions[i].pose(), share});
+    if (share >= params_.min_contact) candidates.push_back({motions[i].pose(), share});
   }
 }
 
 /// Adds the best poses of the whole map, where draws did not settle the matter.
 void IndexedRansam::search_exactly(const Points& sample, const Pose2& local_from_robot,
-                                   std::vector<Mode>& modes, MatchResult& result) const {
+                                   std::vector<Candidate>& candidates, MatchResult& result) const {
   const GridSearchResult found =
       search_grid(*pyramid_, sample, local_from_robot,
                   {.min_quality = params_.min_contact,
                    .min_rotation_step = params_.exact_search.min_rotation_step,
-                   .distance = params_.mode.distance,
-                   .rotation = params_.mode.rotation,
+                   .distance = params_.candidate.distance,
+                   .rotation = params_.candidate.rotation,
                    .max_poses = static_cast<std::size_t>(params_.exact_search.max_poses)},
                   threads_);
   for (const GridSearchResult::Pose& pose : found.poses) {
-    modes.push_back({pose.map_from_local, contact_->share(sample, Transform(pose.map_from_local))});
+    candidates.push_back({pose.map_from_local, contact_->share(sample, Transform(pose.map_from_local))});
   }
-  result.collisions += found.tested;
-  result.checks += found.checks;
+  result.proposals += found.tested;
+  result.points_tested += found.points_tested;
 }
 
-double IndexedRansam::conflict_share(const Points& sample, const Pose2& map_from_local) const {
+double IndexedRansam::free_space_violation(const Points& sample, const Pose2& map_from_local) const {
   return share_where(sample, map_from_local, [&](const Point& p) {
     return map_->grid().at(p.x, p.y) == Cell::free && field_->at(p.x, p.y).distance > params_.contact_epsilon;
   });
@@ -453,23 +477,24 @@ double IndexedRansam::unknown_share(const Points& sample, const Pose2& map_from_
                      [&](const Point& p) { return map_->grid().at(p.x, p.y) == Cell::unknown; });
 }
 
-/// The best modes by their quality, which falls. Beams take most of the time, and only take quality off:
-/// modes are looked at in the order of what they could reach, until no other one can be among the best.
-std::vector<Mode> IndexedRansam::judged(const std::vector<Mode>& modes, const LocalMap& local,
-                                        const Points& sample) const {
-  const auto better = [](const Mode& a, const Mode& b) { return a.quality > b.quality; };
-  std::vector<Mode> at_most;
-  for (const Mode& mode : modes) {
-    at_most.push_back(
-        {mode.map_from_local, contact_->share(local.points, Transform(mode.map_from_local)) +
-                                  params_.unknown_weight * unknown_share(sample, mode.map_from_local)});
+/// The best candidates by their quality, which falls. Beams take most of the time, and only take quality off:
+/// candidates are looked at in the order of what they could reach, until no other one can be among the best.
+std::vector<Candidate> IndexedRansam::judged(const std::vector<Candidate>& candidates, const LocalMap& local,
+                                             const Points& sample) const {
+  const auto better = [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; };
+  std::vector<Candidate> at_most;
+  for (const Candidate& candidate : candidates) {
+    at_most.push_back({candidate.map_from_local,
+                       contact_->share(local.points, Transform(candidate.map_from_local)) +
+                           params_.unknown_weight * unknown_share(sample, candidate.map_from_local)});
   }
   std::stable_sort(at_most.begin(), at_most.end(), better);
   const auto most = static_cast<std::size_t>(params_.best);
-  std::vector<Mode> best;
-  for (const Mode& mode : at_most) {
-    if (best.size() == most && best.back().quality >= mode.quality) break;
-    const Mode now{mode.map_from_local, mode.quality - beams_.penalty(*clearance_, mode.map_from_local)};
+  std::vector<Candidate> best;
+  for (const Candidate& candidate : at_most) {
+    if (best.size() == most && best.back().quality >= candidate.quality) break;
+    const Candidate now{candidate.map_from_local,
+                        candidate.quality - beams_.penalty(*clearance_, candidate.map_from_local)};
     best.insert(std::upper_bound(best.begin(), best.end(), now, better), now);
     if (best.size() > most) best.pop_back();
   }

@@ -62,7 +62,7 @@ class SavedIndex {
   /// another version or byte order, or of another origin.
   SavedIndex(std::filesystem::path file, const IndexOrigin& origin);
 
-  /// What is in it: "dipoles".
+  /// What is in it: "oriented point pairs".
   [[nodiscard]] std::string kind() const { return text(1); }
 
   /// Throws ConfigError if there is no such section.

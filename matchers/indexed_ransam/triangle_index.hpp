@@ -13,8 +13,8 @@
 namespace glocal {
 
 /// The paper's relation (eq. 1) of all triangles that the rule admits, sorted once for a map and read by all;
-/// if there are more than max_entries, an even share of them. For places where surfaces have no direction:
-/// pillars, trees.
+/// if there are more than max_entries, an even share of them. For places where oriented points have no
+/// direction: pillars, trees.
 class TriangleIndex {
  public:
   static constexpr const char* kind = "triangles";

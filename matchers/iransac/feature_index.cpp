@@ -18,10 +18,10 @@ constexpr std::uint64_t hash_seed = 1;
 
 }  // namespace
 
-FeatureIndex::FeatureIndex(Surfaces surfaces, const ShapeContextRule& rule,
+FeatureIndex::FeatureIndex(OrientedPoints oriented_points, const ShapeContextRule& rule,
                            const std::optional<HashRule>& hashing, int threads)
-    : surfaces_(std::move(surfaces)),
-      vectors_(shape_contexts(surfaces_, all_of(surfaces_.size()), rule, threads)) {
+    : oriented_points_(std::move(oriented_points)),
+      vectors_(shape_contexts(oriented_points_, all_of(oriented_points_.size()), rule, threads)) {
   if (hashing) hashed_.emplace(vectors_, *hashing, Rng(hash_seed));
 }
 
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> FeatureIndex::nearest(const float* vector, std::size_
 }
 
 std::size_t FeatureIndex::memory_bytes() const {
-  return vectors_.values.size() * sizeof(float) + surfaces_.size() * 3 * sizeof(float) +
+  return vectors_.values.size() * sizeof(float) + oriented_points_.size() * 3 * sizeof(float) +
          (hashed_ ? hashed_->memory_bytes() : 0);
 }
 

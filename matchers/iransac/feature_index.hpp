@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "matchers/common/surfaces.hpp"
+#include "matchers/common/oriented_points.hpp"
 #include "matchers/iransac/hashed_vectors.hpp"
 #include "matchers/iransac/shape_context.hpp"
 
@@ -17,16 +17,16 @@ class FeatureIndex {
  public:
   /// With hashing, only what it finds is compared with a vector; without, all of them are. (A kd-tree is
   /// slower than that: vectors have a hundred dimensions and more, and all are about as far apart.)
-  FeatureIndex(Surfaces surfaces, const ShapeContextRule& rule, const std::optional<HashRule>& hashing,
-               int threads);
+  FeatureIndex(OrientedPoints oriented_points, const ShapeContextRule& rule,
+               const std::optional<HashRule>& hashing, int threads);
 
-  [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
+  [[nodiscard]] const OrientedPoints& oriented_points() const { return oriented_points_; }
   /// Numbers of the surface points whose vectors are nearest, at most so many, the nearest first.
   [[nodiscard]] std::vector<std::uint32_t> nearest(const float* vector, std::size_t most) const;
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  Surfaces surfaces_;
+  OrientedPoints oriented_points_;
   FeatureVectors vectors_;
   std::optional<HashedVectors> hashed_;
 };

@@ -16,34 +16,34 @@
 namespace glocal {
 namespace {
 
-SurfaceRule surface_rule(const IRansac::Params& p) {
-  return {.thinning = p.thinning, .radius = p.normal_radius};
+OrientedPointRule oriented_point_rule(const IRansac::Params& p) {
+  return {.voxel_size = p.voxel_size, .radius = p.normal_radius};
 }
 
 std::string index_key(const IRansac::Params& p) {
   const ShapeContextRule& s = p.shape_context;
   const std::string hashing =
       p.lsh ? fmt::format("{} {} {}", p.hashing.tables, p.hashing.projections, p.hashing.bucket_width) : "";
-  return fmt::format("{} {} {} {} {} {} {}", p.thinning, p.normal_radius, s.radius, s.nearest, s.rings,
+  return fmt::format("{} {} {} {} {} {} {}", p.voxel_size, p.normal_radius, s.radius, s.nearest, s.rings,
                      s.sectors, hashing);
 }
 
-Point point_of(const Surfaces& s, std::uint32_t i) {
+Point point_of(const OrientedPoints& s, std::uint32_t i) {
   return {s.x[i], s.y[i]};
 }
 
 /// One surface in each square of this side and each quarter turn of directions: as many for their length as
 /// the map has, and both sides of a wall.
-Surfaces thinned(const Surfaces& surfaces, double side) {
+OrientedPoints voxel_downsampled(const OrientedPoints& oriented_points, double side) {
   std::set<std::array<int, 3>> taken;
-  Surfaces result;
+  OrientedPoints result;
   const auto number = [](double value, double size) { return static_cast<int>(std::floor(value / size)); };
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+  for (std::size_t i = 0; i < oriented_points.size(); ++i) {
     const bool is_new = taken
-                            .insert({number(surfaces.x[i], side), number(surfaces.y[i], side),
-                                     number(surfaces.angle[i], std::numbers::pi / 2.0)})
+                            .insert({number(oriented_points.x[i], side), number(oriented_points.y[i], side),
+                                     number(oriented_points.angle[i], std::numbers::pi / 2.0)})
                             .second;
-    if (is_new) result.add(surfaces.x[i], surfaces.y[i], surfaces.angle[i]);
+    if (is_new) result.add(oriented_points.x[i], oriented_points.y[i], oriented_points.angle[i]);
   }
   return result;
 }
@@ -62,7 +62,7 @@ struct PairShape {
   double first_angle;
   double second_angle;
 
-  PairShape(const Surfaces& s, std::uint32_t first, std::uint32_t second) {
+  PairShape(const OrientedPoints& s, std::uint32_t first, std::uint32_t second) {
     const double dx = s.x[second] - s.x[first];
     const double dy = s.y[second] - s.y[first];
     const double direction = std::atan2(dy, dx);
@@ -89,7 +89,7 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
                   "them with all."});
   v.field("hashing", p.hashing, {.doc = "How they are hashed."});
   v.field("shape_context", p.shape_context, {.doc = "What makes a feature."});
-  v.field("thinning", p.thinning,
+  v.field("voxel_size", p.voxel_size,
           {.doc = "Features and what makes them: one point in each square of this side.",
            .unit = "m",
            .min = 0.01});
@@ -118,7 +118,7 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
            .unit = "m",
            .above = 0.0});
   v.field("best", p.best, {.doc = "Distinct poses that become hypotheses.", .min = 1, .max = 10000});
-  describe(v, p.mode);
+  describe(v, p.candidate);
   v.field("refinement", p.refinement, {.doc = "How poses are refined on the distance field."});
   v.field("field_cell", p.field_cell,
           {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
@@ -128,63 +128,64 @@ IRansac::IRansac(const Params& params, const StageSetup& setup)
     : params_(params),
       threads_(setup.threads),
       contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
-      refiner_(params.mode, static_cast<std::size_t>(params.pool), params.refinement,
+      refiner_(params.candidate, static_cast<std::size_t>(params.pool), params.refinement,
                distance_field(*setup.map, params.field_cell), contact_) {
   const auto begin = std::chrono::steady_clock::now();
   index_ = setup.map->index<FeatureIndex>(index_key(params), [&] {
-    return FeatureIndex(surfaces_of(*setup.map, surface_rule(params)), params.shape_context,
+    return FeatureIndex(oriented_points_of(*setup.map, oriented_point_rule(params)), params.shape_context,
                         params.lsh ? std::optional(params.hashing) : std::nullopt, setup.threads);
   });
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-  map_index_ = {index_->surfaces().size(), index_->memory_bytes(), took.count()};
+  map_index_ = {index_->oriented_points().size(), index_->memory_bytes(), took.count()};
 }
 
 MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/, double omega_max, Rng& rng) {
-  if (local.generation != generation_) pool_.clear();
-  generation_ = local.generation;
+  if (local.epoch != epoch_) pool_.clear();
+  epoch_ = local.epoch;
   MatchResult result;
   if (local.points.empty()) return result;
 
   const std::size_t carried = pool_.size();
   propose(local, rng);
-  result.collisions = pool_.size() - carried;
+  result.proposals = pool_.size() - carried;
   const Points shuffled = sample_of(local.points, local.points.size(), rng);
   const Points latest = latest_points(local);
-  result.checks =
+  result.points_tested =
       preempt(pool_, *contact_, shuffled, sample_of(latest, latest.size(), rng),
               {static_cast<std::size_t>(params_.block), static_cast<std::size_t>(params_.pool)}, threads_);
 
-  std::vector<Mode> modes;
-  for (const ScoredPose& pose : pool_) modes.push_back({pose.map_from_local, pose.score()});
-  modes = refiner_.refined(std::move(modes), local.local_from_robot, shuffled, local.points);
-  result.checks += modes.size() * local.points.size();
+  std::vector<Candidate> candidates;
+  for (const ScoredPose& pose : pool_) candidates.push_back({pose.map_from_local, pose.score()});
+  candidates = refiner_.refined(std::move(candidates), local.local_from_robot, shuffled, local.points);
+  result.points_tested += candidates.size() * local.points.size();
   pool_.clear();
-  for (const Mode& mode : modes) {
+  for (const Candidate& candidate : candidates) {
     const auto n = static_cast<double>(local.points.size());
-    pool_.push_back(
-        {mode.map_from_local, static_cast<std::size_t>(std::lround(mode.quality * n)), local.points.size()});
-    if (mode.quality < omega_max || result.hypotheses.size() == static_cast<std::size_t>(params_.best))
+    pool_.push_back({candidate.map_from_local, static_cast<std::size_t>(std::lround(candidate.quality * n)),
+                     local.points.size()});
+    if (candidate.quality < omega_max || result.hypotheses.size() == static_cast<std::size_t>(params_.best))
       continue;
     result.hypotheses.push_back(
-        {mode.map_from_local, mode.map_from_local * local.local_from_robot, mode.quality});
+        {candidate.map_from_local, candidate.map_from_local * local.local_from_robot, candidate.quality});
   }
   return result;
 }
 
 /// Adds fresh hypotheses to the pool.
 void IRansac::propose(const LocalMap& local, Rng& rng) {
-  const Surfaces surfaces = thinned(surfaces_of(local, surface_rule(params_)), params_.thinning);
+  const OrientedPoints oriented_points =
+      voxel_downsampled(oriented_points_of(local, oriented_point_rule(params_)), params_.voxel_size);
   const std::vector<std::uint32_t> drawn =
-      draw_numbers(static_cast<std::size_t>(params_.features), surfaces.size(), rng);
+      draw_numbers(static_cast<std::size_t>(params_.features), oriented_points.size(), rng);
   if (drawn.size() < 2) return;
-  const FeatureVectors features = shape_contexts(surfaces, drawn, params_.shape_context, threads_);
+  const FeatureVectors features = shape_contexts(oriented_points, drawn, params_.shape_context, threads_);
   std::vector<std::vector<std::uint32_t>> matches(drawn.size());
   parallel_for(threads_, drawn.size(), [&](std::size_t i) {
     matches[i] = index_->nearest(features[i], static_cast<std::size_t>(params_.matches));
   });
 
   const auto any = [&](std::size_t n) { return rng.below(static_cast<std::uint32_t>(n)); };
-  const Surfaces& map = index_->surfaces();
+  const OrientedPoints& map = index_->oriented_points();
   const double angle = radians(params_.angle_tolerance_deg);
   MotionBatch motion;
   int proposed = 0;
@@ -194,10 +195,10 @@ void IRansac::propose(const LocalMap& local, Rng& rng) {
     if (matches[first].empty() || matches[second].empty()) continue;
     const std::uint32_t map_first = matches[first][any(matches[first].size())];
     const std::uint32_t map_second = matches[second][any(matches[second].size())];
-    const PairShape pair(surfaces, drawn[first], drawn[second]);
+    const PairShape pair(oriented_points, drawn[first], drawn[second]);
     if (pair.length < params_.min_distance) continue;
     if (!pair.is_like(PairShape(map, map_first, map_second), params_.tolerance, angle)) continue;
-    lay({point_of(surfaces, drawn[first]), point_of(surfaces, drawn[second])},
+    lay({point_of(oriented_points, drawn[first]), point_of(oriented_points, drawn[second])},
         {point_of(map, map_first), point_of(map, map_second)}, motion, 0);
     pool_.push_back({motion[0].pose()});
     ++proposed;

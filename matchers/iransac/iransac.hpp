@@ -10,7 +10,7 @@
 #include "glocal/distance_field.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
-#include "matchers/common/modes.hpp"
+#include "matchers/common/candidates.hpp"
 #include "matchers/iransac/feature_index.hpp"
 #include "matchers/iransac/preemption.hpp"
 
@@ -29,7 +29,7 @@ namespace glocal {
 /// pair of matches counts, contact (eq. 4) as the score of an observation, and that the best distinct poses
 /// are refined and judged by all points before they become hypotheses.
 ///
-/// `collisions` counts fresh poses that entered the preemption, `checks` looks at a point.
+/// `proposals` counts fresh poses that entered the preemption, `points_tested` looks at a point.
 class IRansac final : public Matcher {
  public:
   struct Params {
@@ -38,7 +38,7 @@ class IRansac final : public Matcher {
     bool lsh = false;
     HashRule hashing = {};
     ShapeContextRule shape_context = {};
-    double thinning = 0.1;
+    double voxel_size = 0.1;
     double normal_radius = 0.2;
     int draws = 20000;
     int fresh = 1000;
@@ -49,7 +49,7 @@ class IRansac final : public Matcher {
     int pool = 100;
     double contact_epsilon = 0.10;
     int best = 10;
-    ModeRule mode = {};
+    CandidateRule candidate = {};
     PoseRefinement refinement = {};
     double field_cell = 0.05;
   };
@@ -68,11 +68,11 @@ class IRansac final : public Matcher {
   Params params_;
   int threads_;
   std::shared_ptr<const ContactIndex> contact_;
-  ModeRefiner refiner_;
+  CandidateRefiner refiner_;
   std::shared_ptr<const FeatureIndex> index_;
   MapIndexInfo map_index_;
   std::vector<ScoredPose> pool_;
-  int generation_ = 0;  ///< Of the local map in whose frame the pool is.
+  int epoch_ = 0;  ///< Of the local map in whose frame the pool is.
 };
 void describe(ParamVisitor& v, IRansac::Params& p);
 

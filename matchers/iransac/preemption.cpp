@@ -22,7 +22,7 @@ std::size_t preempt(std::vector<ScoredPose>& hypotheses, const ContactIndex& con
   for (const ScoredPose& pose : hypotheses) {
     candidates.push_back({pose, pose.looked_at == 0 ? &all : &latest});
   }
-  std::size_t checks = 0;
+  std::size_t points_tested = 0;
   const std::size_t most = std::max(all.size(), latest.size());
   for (std::size_t begin = 0; begin < most; begin += rule.block) {
     parallel_for(threads, candidates.size(), [&](std::size_t i) {
@@ -32,7 +32,7 @@ std::size_t preempt(std::vector<ScoredPose>& hypotheses, const ContactIndex& con
       pose.in_contact += contact.count(*points, begin, n, Transform(pose.map_from_local));
       pose.looked_at += n;
     });
-    checks += candidates.size() * rule.block;
+    points_tested += candidates.size() * rule.block;
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.pose.score() > b.pose.score(); });
     const std::size_t left =
@@ -43,7 +43,7 @@ std::size_t preempt(std::vector<ScoredPose>& hypotheses, const ContactIndex& con
   }
   hypotheses.clear();
   for (const Candidate& candidate : candidates) hypotheses.push_back(candidate.pose);
-  return checks;
+  return points_tested;
 }
 
 }  // namespace glocal

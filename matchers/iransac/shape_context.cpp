@@ -115,31 +115,32 @@ float squared_distance(const float* a, const float* b, std::size_t dimensions) {
   return sum_over(dimensions, [&](std::size_t i) { return (a[i] - b[i]) * (a[i] - b[i]); });
 }
 
-FeatureVectors shape_contexts(const Surfaces& surfaces, const std::vector<std::uint32_t>& of,
+FeatureVectors shape_contexts(const OrientedPoints& oriented_points, const std::vector<std::uint32_t>& of,
                               const ShapeContextRule& rule, int threads) {
   FeatureVectors result;
   result.dimensions = 2 * static_cast<std::size_t>(rule.rings) * static_cast<std::size_t>(rule.sectors);
   result.values.resize(of.size() * result.dimensions);
   // A surface has the same direction seen from its back: angles are doubled.
   std::vector<std::array<float, 2>> directions;
-  for (const float angle : surfaces.angle) {
+  for (const float angle : oriented_points.angle) {
     directions.push_back({std::cos(2.0F * angle), std::sin(2.0F * angle)});
   }
-  const Squares squares(surfaces.x, surfaces.y, rule.radius);
+  const Squares squares(oriented_points.x, oriented_points.y, rule.radius);
   parallel_for(threads, of.size(), [&](std::size_t i) {
     const std::uint32_t at = of[i];
-    const float normal_x = std::cos(surfaces.angle[at]);
-    const float normal_y = std::sin(surfaces.angle[at]);
+    const float normal_x = std::cos(oriented_points.angle[at]);
+    const float normal_y = std::sin(oriented_points.angle[at]);
     const auto radius = static_cast<float>(rule.radius);
     Histogram histogram(rule, &result.values[i * result.dimensions]);
-    squares.near(surfaces.x[at], surfaces.y[at], [&](std::uint32_t other) {
-      const float dx = surfaces.x[other] - surfaces.x[at];
-      const float dy = surfaces.y[other] - surfaces.y[at];
+    squares.near(oriented_points.x[at], oriented_points.y[at], [&](std::uint32_t other) {
+      const float dx = oriented_points.x[other] - oriented_points.x[at];
+      const float dy = oriented_points.y[other] - oriented_points.y[at];
       const float along = normal_x * dx + normal_y * dy;
       const float across = normal_x * dy - normal_y * dx;
       const float distance = std::sqrt(dx * dx + dy * dy);
       if (distance == 0.0F || distance > radius || along < 0.0F) return;
-      const bool faces = std::cos(surfaces.angle[other]) * dx + std::sin(surfaces.angle[other]) * dy < 0.0F;
+      const bool faces =
+          std::cos(oriented_points.angle[other]) * dx + std::sin(oriented_points.angle[other]) * dy < 0.0F;
       if (faces) histogram.add(distance, std::atan2(across, along), directions[other]);
     });
     histogram.normalise(directions[at]);

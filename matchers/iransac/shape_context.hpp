@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "glocal/params.hpp"
-#include "matchers/common/surfaces.hpp"
+#include "matchers/common/oriented_points.hpp"
 
 namespace glocal {
 
@@ -31,18 +31,19 @@ struct FeatureVectors {
 [[nodiscard]] float dot(const float* a, const float* b, std::size_t dimensions);
 [[nodiscard]] float squared_distance(const float* a, const float* b, std::size_t dimensions);
 
-/// Shape contexts (Belongie, Malik and Puzicha 2002) of some points among surfaces, by their numbers,
+/// Shape contexts (Belongie, Malik and Puzicha 2002) of some points among oriented points, by their numbers,
 /// generalised as by Mori, Belongie and Malik 2005: a bin holds not how many points lie in it, but the sum of
-/// their surfaces' directions, so that a wall seen along differs from one seen across. Directions are
+/// their oriented points' directions, so that a wall seen along differs from one seen across. Directions are
 /// relative to the point's normal, as bearings are: the vector stays the same when all points are moved by
 /// one rigid motion.
 ///
-/// Ours: only what lies on the free side of the point's surface counts, and only surfaces that face the
-/// point, since a robot seldom sees more of them; a point between the middles of two bins is shared out
+/// Ours: only what lies on the free side of the point's surface counts, and only oriented points that face
+/// the point, since a robot seldom sees more of them; a point between the middles of two bins is shared out
 /// between both; a bin's vector gets the square root of its length, so that one long wall does not drown all
 /// others. Each has two numbers for a bin, and length 1; or 0, where a point has no neighbours. The same for
 /// any number of threads.
-[[nodiscard]] FeatureVectors shape_contexts(const Surfaces& surfaces, const std::vector<std::uint32_t>& of,
+[[nodiscard]] FeatureVectors shape_contexts(const OrientedPoints& oriented_points,
+                                            const std::vector<std::uint32_t>& of,
                                             const ShapeContextRule& rule, int threads = 1);
 
 }  // namespace glocal

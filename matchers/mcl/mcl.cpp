@@ -117,10 +117,10 @@ MatchResult Mcl::match(const LocalMap& local, const Observation& latest, double 
   if (latest.scan.hits.empty()) return result;
   if (particles_.empty()) begin(rng);
   Pose2 moved = odom_from_last_ ? inverse(*odom_from_last_) * latest.odom_from_robot : Pose2{};
-  result.collisions = particles_.size();
+  result.proposals = particles_.size();
   if (!odom_from_last_ || is_due(moved)) {
     const Beams beams = beams_of(latest.scan);
-    result.checks = particles_.size() * beams.ranges.size();
+    result.points_tested = particles_.size() * beams.ranges.size();
     update(moved, beams, rng);
     odom_from_last_ = latest.odom_from_robot;
     moved = {};

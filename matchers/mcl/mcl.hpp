@@ -32,7 +32,7 @@ namespace glocal {
 /// say how poses compare, not how good they are. Without a scan there are no hypotheses; the motion is made
 /// up for with the next one.
 ///
-/// `collisions` counts particles, `checks` looks at the end of a beam.
+/// `proposals` counts particles, `points_tested` looks at the end of a beam.
 class Mcl final : public Matcher {
  public:
   struct Params {

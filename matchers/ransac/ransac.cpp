@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "glocal/parallel.hpp"
+#include "matchers/common/candidates.hpp"
 #include "matchers/common/merge.hpp"
-#include "matchers/common/modes.hpp"
 #include "matchers/common/point_pair.hpp"
 
 namespace glocal {
@@ -88,8 +88,8 @@ MatchResult Ransac::draw(const LocalMap& local, const QualityTest& quality, std:
   std::size_t size = 0;
   const auto test = [&] {
     const QualityTest::Outcome outcome = quality.test(motions, size, starts);
-    found.collisions += size;
-    found.checks += outcome.checks;
+    found.proposals += size;
+    found.points_tested += outcome.points_tested;
     for (const auto& [i, omega] : outcome.passed) {
       const Pose2 pose = motions[i].pose();
       found.hypotheses.push_back({pose, pose * local.local_from_robot, omega});
@@ -122,7 +122,7 @@ void Ransac::refine_all(const LocalMap& local, double omega_max, MatchResult& re
     h.map_from_robot = h.map_from_local * local.local_from_robot;
     h.quality = contact_->share(local.points, Transform(h.map_from_local));
   });
-  result.checks += result.hypotheses.size() * local.points.size();
+  result.points_tested += result.hypotheses.size() * local.points.size();
   std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return h.quality < omega_max; });
   std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });

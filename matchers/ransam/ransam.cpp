@@ -223,8 +223,8 @@ void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_s
     starts[i] = static_cast<std::uint32_t>(mix64(local_triples.numbers[i]));
   }
   const QualityTest::Outcome outcome = quality.test(motions, local_triples.size, starts);
-  found.collisions += local_triples.size;
-  found.checks += outcome.checks;
+  found.proposals += local_triples.size;
+  found.points_tested += outcome.points_tested;
   for (const auto& [i, omega] : outcome.passed) {
     const Pose2 pose = motions[i].pose();
     found.hypotheses.push_back({pose, pose * local.local_from_robot, omega});

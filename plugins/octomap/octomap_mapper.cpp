@@ -35,8 +35,8 @@ OctomapMapper::OctomapMapper(const Params& params, const StageSetup& setup)
 void OctomapMapper::add(const Observation& observation) {
   poses_->add(observation);
   const LocalMap& inner = poses_->map();
-  if (inner.generation != map_.generation) start_over();
-  map_.generation = inner.generation;
+  if (inner.epoch != map_.epoch) start_over();
+  map_.epoch = inner.epoch;
   map_.local_from_robot = inner.local_from_robot;
   cast_rays(observation.scan, map_.local_from_robot);
   ++observations_;
@@ -46,7 +46,7 @@ void OctomapMapper::add(const Observation& observation) {
 void OctomapMapper::reset() {
   poses_->reset();
   start_over();
-  map_.generation = poses_->map().generation;
+  map_.epoch = poses_->map().epoch;
 }
 
 void OctomapMapper::start_over() {

@@ -39,7 +39,7 @@ class OctomapMapper final : public LocalMapper {
  private:
   struct Voxel {
     octomap::OcTreeKey key;
-    std::size_t observation;           ///< Which one of this generation hit it first.
+    std::size_t observation;           ///< Which one of this epoch hit it first.
     double x = 0.0, y = 0.0, z = 0.0;  ///< Sums over all hits, m.
     double hits = 0.0;
   };
@@ -52,7 +52,7 @@ class OctomapMapper final : public LocalMapper {
   octomap::OcTree tree_;
   std::vector<Voxel> voxels_;  ///< All that were ever hit, in this order.
   std::unordered_map<octomap::OcTreeKey, std::size_t, octomap::OcTreeKey::KeyHash> voxel_of_;
-  std::size_t observations_ = 0;  ///< Of this generation.
+  std::size_t observations_ = 0;  ///< Of this epoch.
   LocalMap map_;
 };
 void describe(ParamVisitor& v, OctomapMapper::Params& p);

@@ -125,8 +125,8 @@ MatchResult PclIcp::match(const LocalMap& local, const Observation& /*latest*/, 
   MatchResult result;
   result.hypotheses =
       rated(aligner_.align(local.points, promising, params_.fine, threads_), local, *contact_, omega_max);
-  result.collisions = starts.size();
-  result.checks = (starts.size() + promising.size()) * local.points.size();
+  result.proposals = starts.size();
+  result.points_tested = (starts.size() + promising.size()) * local.points.size();
   return result;
 }
 

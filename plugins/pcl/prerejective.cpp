@@ -114,8 +114,8 @@ MatchResult PclPrerejective::match(const LocalMap& local, const Observation& /*l
   const std::vector<Pose2> refined = aligner_.align(local.points, found, params_.refinement, 1);
   MatchResult result;
   result.hypotheses = rated(refined, local, *contact_, omega_max);
-  result.collisions = refined.size();
-  result.checks = refined.size() * local.points.size();
+  result.proposals = refined.size();
+  result.points_tested = refined.size() * local.points.size();
   return result;
 }
 

@@ -108,12 +108,12 @@ class Run:
         self.steps = read_steps(self.folder / "steps.jsonl", trial)
         # A local map's frame is the robot's pose where it was started: there again, and it has started over.
         origin = (0, 0, 0)
-        generation, last = 0, origin
+        epoch, last = 0, origin
         for step in self.steps:
             now = pose(step["local_from_robot"])
             if now == origin and last != origin:
-                generation += 1
-            step["generation"], last = generation, now
+                epoch += 1
+            step["epoch"], last = epoch, now
 
     def with_verdict(self, verdict, key):
         """Steps with this verdict that have `key`."""
@@ -288,7 +288,7 @@ def marks(run, last, anchor):
     """
 
     def local_from_robot(step):
-        if step["generation"] == last["generation"]:
+        if step["epoch"] == last["epoch"]:
             return pose(step["local_from_robot"])
         if not anchor or "reference" not in step:
             return None
@@ -323,7 +323,7 @@ def on_global_map(run, step, anchor):
 def last_localized(run):
     """The last localized step that has the final local map; None without."""
     steps = run.with_verdict("localized", "estimate")
-    return steps[-1] if steps and steps[-1]["generation"] == run.steps[-1]["generation"] else None
+    return steps[-1] if steps and steps[-1]["epoch"] == run.steps[-1]["epoch"] else None
 
 
 def last_map_on_global(run):
@@ -336,7 +336,7 @@ def last_map_on_global(run):
 def last_map(run):
     """Fig. 5 (c): the final local map in its own frame, with the path driven in it."""
     last = run.steps[-1]
-    path = [pose(step["local_from_robot"]) for step in run.steps if step["generation"] == last["generation"]]
+    path = [pose(step["local_from_robot"]) for step in run.steps if step["epoch"] == last["epoch"]]
     return Picture(foreground=run.local_map(last), path=path, marks=marks(run, last, last_localized(run)))
 
 

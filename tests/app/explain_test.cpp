@@ -82,7 +82,7 @@ TEST_F(ExplainCommand, MakesTheStepAgain) {
 
 TEST_F(ExplainCommand, NeverDrawn) {
   run_lab("--set localizer.matcher.ransam.iterations=1");
-  EXPECT_EQ(recorded(0)["collisions"], 0);
+  EXPECT_EQ(recorded(0)["proposals"], 0);
   EXPECT_THAT(explained(0), HasSubstr("hypothesis  none of 0"));
   EXPECT_THAT(lost(0), HasSubstr("never drawn"));
 }

@@ -69,7 +69,8 @@ void expect_step(const Json& columns, const Json& line) {
   EXPECT_EQ(columns["step"][i], i);
   EXPECT_EQ(columns["stamp"][i], line["stamp"]);
   for (const auto& [stage, ms] : line["stage_ms"].items()) expect_near(columns[stage + "_ms"][i], ms, stage);
-  for (const char* key : {"local_map_points", "collisions", "checks", "hypotheses", "clusters", "verdict"})
+  for (const char* key :
+       {"local_map_points", "proposals", "points_tested", "hypotheses", "clusters", "verdict"})
     EXPECT_EQ(columns[key][i], line[key]) << key;
   for (const char* key : {"omega_best", "omega_max"}) expect_near(columns[key][i], line[key], key);
   for (const char* key : {"omega_place", "translation_error_m", "rotation_error_deg", "confidence"}) {

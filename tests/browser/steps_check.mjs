@@ -19,7 +19,7 @@ export async function checkNumbers(page, step) {
   assertShown(await fact(page, "Ω′"), step.omega_place, `${at} omega_place`);
   assert.equal(number(await fact(page, "clusters")), step.clusters, at);
   assert.equal(number(await fact(page, "hypotheses")), step.hypotheses, at);
-  assert.equal(number(await fact(page, "collisions")), step.collisions, at);
+  assert.equal(number(await fact(page, "proposals")), step.proposals, at);
   assertShown((await told(page, "match_ms")).replace(" ms", ""), step.stage_ms.match, `${at} match_ms`);
   assertShown(await told(page, "omega_best"), step.omega_best, `${at} curve of omega_best`);
   assert.equal(number(await told(page, "clusters")), step.clusters, at);

@@ -76,14 +76,14 @@ TEST_F(Stages, LocalMappersPlaceTheFirstObservationAtTheOrigin) {
   });
 }
 
-TEST_F(Stages, LocalMappersKeepTheIndexesOfAGenerationAndMoveOnWithoutHits) {
+TEST_F(Stages, LocalMappersKeepTheIndexesOfAnEpochAndMoveOnWithoutHits) {
   for_each(catalog_.local_mappers, [&](const StrategyChoice& choice) {
     const auto mapper = catalog_.local_mappers.make(choice, setup());
     mapper->add(observation(seen(0.0)));
     const LocalMap before = mapper->map();
     mapper->add(observation(seen(0.3), 0.3));
     const LocalMap after = mapper->map();
-    ASSERT_EQ(after.generation, before.generation);
+    ASSERT_EQ(after.epoch, before.epoch);
     ASSERT_GE(after.points.size(), before.points.size());
     // A mapper may refine a point, but not give its index to another one.
     for (std::size_t i = 0; i < before.points.size(); ++i) {
@@ -186,8 +186,8 @@ TEST_F(Stages, MatchersAnswerAlikeForAnyNumberOfThreadsAndAfterAReset) {
     const MatchResult again = answer(*one);
     EXPECT_TRUE(equal(first.hypotheses, parallel.hypotheses));
     EXPECT_TRUE(equal(first.hypotheses, again.hypotheses));
-    EXPECT_EQ(first.collisions, parallel.collisions);
-    EXPECT_EQ(first.checks, parallel.checks);
+    EXPECT_EQ(first.proposals, parallel.proposals);
+    EXPECT_EQ(first.points_tested, parallel.points_tested);
   });
 }
 

@@ -76,7 +76,7 @@ class Contract : public ::testing::Test {
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };
     for (const char* stage : {"local_mapper/scan_matching",
                               "local_mapper/bounded",
-                              "local_mapper/key_frames",
+                              "local_mapper/keyframes",
                               "local_mapper/odometry",
                               "contact_index/bitset",
                               "contact_index/kd_tree",

@@ -143,18 +143,18 @@ TEST(Bounded, ObservationsWithoutHitsCountToo) {
   mapper.add(at(3.0, {{1.01F, 0.01F, 0}}));
   EXPECT_THAT(mapper.map().ends, ElementsAre(0U, 1U));
   EXPECT_NEAR(mapper.map().points.x[0], 4.01F, 1e-5F);
-  EXPECT_EQ(mapper.map().generation, 0);
+  EXPECT_EQ(mapper.map().epoch, 0);
 }
 
 TEST(Bounded, ForgetsTheWindowWithTheMap) {
   Bounded mapper({.scans = 100, .distance = 0.0});
   for (const Observation& observation : test::kidnapping().observations) mapper.add(observation);
   // Ten observations, one that does not fit, and a new map from the second of those on.
-  EXPECT_EQ(mapper.map().generation, 1);
+  EXPECT_EQ(mapper.map().epoch, 1);
   EXPECT_EQ(mapper.map().ends.size(), 3U);
   mapper.reset();
   mapper.add(at(5.0, {{1.01F, 0.01F, 0}}));
-  EXPECT_EQ(mapper.map().generation, 0);
+  EXPECT_EQ(mapper.map().epoch, 0);
   EXPECT_THAT(mapper.map().ends, ElementsAre(1U));
 }
 

@@ -57,15 +57,15 @@ TEST(Odometry, StartsAnewWhenTheRobotLeavesTheGrid) {
   Odometry mapper({});
   mapper.add(at(0.0, {{1.01F, 0.01F, 0}}));
   mapper.add(at(700.0, {{1.01F, 0.01F, 0}}));
-  EXPECT_EQ(mapper.map().generation, 0);
+  EXPECT_EQ(mapper.map().epoch, 0);
   mapper.add(at(900.0, {{1.01F, 0.01F, 0}}));
-  EXPECT_EQ(mapper.map().generation, 1);
+  EXPECT_EQ(mapper.map().epoch, 1);
   EXPECT_EQ(mapper.map().local_from_robot, Pose2{});
   EXPECT_THAT(mapper.map().ends, ElementsAre(1U));
   mapper.add(at(901.0, {{1.01F, 0.01F, 0}}));
   EXPECT_NEAR(mapper.map().local_from_robot.x, 1.0, 1e-9);
   mapper.reset();
-  EXPECT_EQ(mapper.map().generation, 0);
+  EXPECT_EQ(mapper.map().epoch, 0);
 }
 
 }  // namespace

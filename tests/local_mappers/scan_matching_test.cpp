@@ -41,7 +41,7 @@ TEST(ScanMatching, ExactScansGiveThePoseInSpiteOfBadOdometry) {
   const WorstError worst = worst_error(mapper, drive(test::furnished_room(), circle(120), {}, bad_odometry));
   EXPECT_LT(worst.translation, 0.03);
   EXPECT_LT(worst.rotation, radians(0.3));
-  EXPECT_EQ(mapper.map().generation, 0);
+  EXPECT_EQ(mapper.map().epoch, 0);
 }
 
 TEST(ScanMatching, NoisyScansGiveThePoseInSpiteOfBadOdometry) {
@@ -139,7 +139,7 @@ TEST(ScanMatching, TheSameDriveGivesTheSameMapAlsoAfterAReset) {
   EXPECT_EQ(first.map().normals, second.map().normals);
   EXPECT_EQ(first.map().local_from_robot, second.map().local_from_robot);
   EXPECT_EQ(first.map().ends, second.map().ends);
-  EXPECT_EQ(first.map().generation, second.map().generation);
+  EXPECT_EQ(first.map().epoch, second.map().epoch);
 }
 
 TEST(ScanMatching, RegisteredPointsKeepTheirIndexAndStayInTheirCell) {
@@ -163,14 +163,14 @@ TEST(ScanMatching, StartsANewMapWhenObservationsStopFitting) {
   ScanMatching::Params params;
   params.restart_after = 3;
   ScanMatching mapper(params);
-  std::vector<int> generations;
+  std::vector<int> epochs;
   std::vector<std::size_t> sizes;
   for (const Observation& observation : kidnapped.observations) {
     mapper.add(observation);
-    generations.push_back(mapper.map().generation);
+    epochs.push_back(mapper.map().epoch);
     sizes.push_back(mapper.map().points.size());
   }
-  EXPECT_THAT(std::vector(generations.begin() + 9, generations.end()), ElementsAre(0, 0, 0, 1, 1));
+  EXPECT_THAT(std::vector(epochs.begin() + 9, epochs.end()), ElementsAre(0, 0, 0, 1, 1));
   // What does not fit leaves the old map as it was.
   EXPECT_EQ(sizes[10], sizes[9]);
   EXPECT_EQ(sizes[11], sizes[9]);
@@ -179,7 +179,7 @@ TEST(ScanMatching, StartsANewMapWhenObservationsStopFitting) {
   EXPECT_NEAR(mapper.map().local_from_robot.x, 0.0, 1e-3);
   EXPECT_NEAR(mapper.map().local_from_robot.theta, 0.0, 1e-3);
   mapper.reset();
-  EXPECT_EQ(mapper.map().generation, 0);
+  EXPECT_EQ(mapper.map().epoch, 0);
 }
 
 /// Two corridors with the same walls and other boxes along them.
@@ -205,16 +205,16 @@ TEST(ScanMatching, StartsANewMapWhereBeamsPassThroughWhatWasThere) {
 
   ScanMatching mapper({});
   ScanMatching::Params anything;
-  anything.max_seen_through = 1.0;
+  anything.max_free_space_violation = 1.0;
   ScanMatching credulous(anything);
   for (const Observation& observation : kidnapped.observations) {
-    EXPECT_EQ(mapper.map().generation, 0);
+    EXPECT_EQ(mapper.map().epoch, 0);
     mapper.add(observation);
     credulous.add(observation);
   }
-  EXPECT_EQ(mapper.map().generation, 1);
+  EXPECT_EQ(mapper.map().epoch, 1);
   EXPECT_EQ(mapper.map().ends.size(), 1U);
-  EXPECT_EQ(credulous.map().generation, 0);  // the walls fit
+  EXPECT_EQ(credulous.map().epoch, 0);  // the walls fit
 }
 
 TEST(ScanMatching, ASingleMisfitIsForgiven) {
@@ -223,7 +223,7 @@ TEST(ScanMatching, ASingleMisfitIsForgiven) {
   drive.observations.push_back(drive.observations[9]);
   ScanMatching mapper({});
   for (const Observation& observation : drive.observations) mapper.add(observation);
-  EXPECT_EQ(mapper.map().generation, 0);
+  EXPECT_EQ(mapper.map().epoch, 0);
   EXPECT_EQ(mapper.map().ends.size(), 12U);
 }
 
@@ -232,13 +232,13 @@ TEST(ScanMatching, LeavesOutHitsBeyondItsSquareAndStartsAnewWhenTheRobotLeavesIt
   mapper.add(at(0.0, {{1.01F, 0.01F, 0}, {1e6F, 0, 0}, {0, -1e30F, 0}, {900, 0, 0}}));
   EXPECT_EQ(mapper.map().points.size(), 1U);
   mapper.add(at(700.0, {{1.01F, 0.01F, 0}}));
-  EXPECT_EQ(mapper.map().generation, 0);
+  EXPECT_EQ(mapper.map().epoch, 0);
   mapper.add(at(900.0, {{1.01F, 0.01F, 0}}));
-  EXPECT_EQ(mapper.map().generation, 1);
+  EXPECT_EQ(mapper.map().epoch, 1);
   EXPECT_EQ(mapper.map().local_from_robot, Pose2{});
   EXPECT_THAT(mapper.map().ends, ElementsAre(1U));
   mapper.add(at(1e300, {{1.01F, 0.01F, 0}}));
-  EXPECT_EQ(mapper.map().generation, 2);
+  EXPECT_EQ(mapper.map().epoch, 2);
 }
 
 TEST(ScanMatching, MemoryDoesNotGrowInARoomThatIsKnown) {
@@ -275,14 +275,14 @@ TEST(ScanMatching, AnObservationTouchesNoMoreTilesHoweverLongTheDrive) {
     }
     before = mapper.grid().tiles();
   }
-  EXPECT_EQ(mapper.map().generation, 0);
+  EXPECT_EQ(mapper.map().epoch, 0);
   const Pose2 truth{0.25 * 299, 0.0, 0.0};
   EXPECT_LT(distance(mapper.map().local_from_robot, truth), 1.5);
 }
 
 TEST(ScanMatching, MemoryIsLimited) {
   ScanMatching::Params params;
-  params.thinning.memory_mb = 1;
+  params.voxels.memory_mb = 1;
   ScanMatching mapper(params);
   for (int i = 0; i < 200; ++i) mapper.add(at(4.0 * i, {{1.0F, 0, 0}}));
   EXPECT_LE(mapper.grid().tiles() * PointGrid::tile_bytes(), 1000000U);

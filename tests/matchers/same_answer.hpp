@@ -16,8 +16,8 @@ inline void expect_same_answer(const MatchResult& one, const MatchResult& other)
     EXPECT_EQ(one.hypotheses[i].quality, other.hypotheses[i].quality);
     EXPECT_EQ(one.hypotheses[i].support, other.hypotheses[i].support);
   }
-  EXPECT_EQ(one.collisions, other.collisions);
-  EXPECT_EQ(one.checks, other.checks);
+  EXPECT_EQ(one.proposals, other.proposals);
+  EXPECT_EQ(one.points_tested, other.points_tested);
 }
 
 }  // namespace glocal::test

@@ -12,10 +12,10 @@ struct Rated {
 };
 
 /// A step with clusters at these robot poses.
-StepResult step(const std::vector<Rated>& rated, const Pose2& local_from_robot = {}, int generation = 0) {
+StepResult step(const std::vector<Rated>& rated, const Pose2& local_from_robot = {}, int epoch = 0) {
   StepResult result;
   result.local_from_robot = local_from_robot;
-  result.local_map_generation = generation;
+  result.local_map_epoch = epoch;
   double sum = 0.0;
   for (const Rated& one : rated) sum += one.r;
   for (const Rated& one : rated) {

@@ -12,11 +12,11 @@ const Pose2 here{3.0, 4.0, 0.5};
 const Pose2 there{8.0, 1.0, 2.0};
 
 /// A step with the best pose `here` and a rival, after a drive of `driven` metres straight on.
-StepResult step(double best, double rival, double driven = 0.0, int generation = 0) {
+StepResult step(double best, double rival, double driven = 0.0, int epoch = 0) {
   StepResult result;
   result.omega_max = 0.1;
   result.local_from_robot = {driven, 0.0, 0.0};
-  result.local_map_generation = generation;
+  result.local_map_epoch = epoch;
   const Pose2 ahead{driven, 0.0, 0.0};
   result.hypotheses.push_back({here, here * ahead, best});
   result.hypotheses.push_back({there, there * ahead, rival});
@@ -40,7 +40,7 @@ TEST(StagedMargin, ASmallerLeadMustLastLongerAndOverSomeWay) {
     for (int i = 1; i <= 10 && declared_in == 0; ++i) {
       if (rule.judge(step(0.9, 0.68, each * i)).kind == VerdictKind::localized) declared_in = i;
     }
-    // The way counts from the first step with the lead: seven times 0.3 m, or four times 0.6 m.
+    // The way counts from the first step with the margin: seven times 0.3 m, or four times 0.6 m.
     EXPECT_EQ(declared_in, each < 0.5 ? 8 : 5) << each;
   }
 }
@@ -82,7 +82,7 @@ TEST(StagedMargin, PosesNearTheBestAreNoRivals) {
   StagedMargin rule({});
   StepResult near = step(0.9, 0.88);
   near.hypotheses[1].map_from_robot = here * Pose2{0.5, 0.0, radians(20.0)};
-  // The only rivals can be below Omega_max: a lead of 0.8.
+  // The only rivals can be below Omega_max: a margin of 0.8.
   for (int i = 0; i < 2; ++i) (void)rule.judge(near);
   EXPECT_EQ(rule.judge(near).kind, VerdictKind::localized);
   // Turned by more than 30 degrees, it is one.
@@ -128,25 +128,25 @@ TEST(StagedMargin, ARobotThatTurnsFastIsNotDeclaredUntilSomeStepsLater) {
             (std::vector{searching, searching, searching, searching, searching, searching, localized}));
 }
 
-TEST(StagedMargin, AConflictWithFreeSpaceForbidsADeclaration) {
-  StagedMargin rule({.max_conflict = 0.4});
-  StepResult conflicting = step(0.9, 0.5);
-  conflicting.hypotheses.front().conflict = 0.41;
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(rule.judge(conflicting).kind, VerdictKind::searching) << i;
-  conflicting.hypotheses.front().conflict = 0.39;
-  EXPECT_EQ(rule.judge(conflicting).kind, VerdictKind::localized);
+TEST(StagedMargin, AViolationOfFreeSpaceForbidsADeclaration) {
+  StagedMargin rule({.max_free_space_violation = 0.4});
+  StepResult violating = step(0.9, 0.5);
+  violating.hypotheses.front().free_space_violation = 0.41;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(rule.judge(violating).kind, VerdictKind::searching) << i;
+  violating.hypotheses.front().free_space_violation = 0.39;
+  EXPECT_EQ(rule.judge(violating).kind, VerdictKind::localized);
 }
 
 TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
   StagedMargin rule({.confidence = {.bias = -1.0, .margin = 10.0, .steps = 2.0, .most = 0.9}});
   Verdict verdict = rule.judge(step(0.9, 0.7));
-  ASSERT_TRUE(verdict.belief);
-  EXPECT_EQ(verdict.belief->map_from_robot, here);
+  ASSERT_TRUE(verdict.estimate);
+  EXPECT_EQ(verdict.estimate->map_from_robot, here);
   // Log odds -1 + 10 * 0.2 = 1, then 1 + 2 ln 2.
-  EXPECT_NEAR(verdict.belief->confidence, 0.9 * 0.731059, 1e-6);
+  EXPECT_NEAR(verdict.estimate->confidence, 0.9 * 0.731059, 1e-6);
   verdict = rule.judge(step(0.9, 0.7));
-  EXPECT_NEAR(verdict.belief->confidence, 0.9 * 0.915776, 1e-6);
-  EXPECT_EQ(rule.judge({}).belief, std::nullopt);
+  EXPECT_NEAR(verdict.estimate->confidence, 0.9 * 0.915776, 1e-6);
+  EXPECT_EQ(rule.judge({}).estimate, std::nullopt);
 }
 
 TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
@@ -154,12 +154,12 @@ TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
   StagedMargin rule({.spread_margin = 0.05});
   StepResult one = step(0.9, 0.2);
   one.hypotheses[0].covariance = own;
-  EXPECT_EQ(rule.judge(one).belief->covariance, own);
+  EXPECT_EQ(rule.judge(one).estimate->covariance, own);
   // A second one of the same quality, 0.2 m to the left in the map's y and turned by 0.1: half the weight.
   one.hypotheses.insert(one.hypotheses.begin() + 1, one.hypotheses[0]);
   one.hypotheses[1].map_from_robot.y += 0.2;
   one.hypotheses[1].map_from_robot.theta += 0.1;
-  const auto wide = rule.judge(one).belief->covariance;
+  const auto wide = rule.judge(one).estimate->covariance;
   ASSERT_TRUE(wide);
   EXPECT_NEAR(wide->xx, 0.01, 1e-12);
   EXPECT_NEAR(wide->yy, 0.04 + 0.5 * 0.04, 1e-12);

@@ -14,26 +14,26 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Six samples, two trials: the first begins at sample 1, the second at sample 4.
-Prepared two_starts() {
-  Prepared prepared;
+LoadedExperiment two_starts() {
+  LoadedExperiment loaded;
   MapData map;
   map.points = points_at({{0, 0}, {0.5F, 0}});
-  prepared.map = std::make_shared<const GlobalMap>(std::move(map));
+  loaded.map = std::make_shared<const GlobalMap>(std::move(map));
   for (int i = 0; i < 6; ++i) {
     Sample sample;
     sample.observation.stamp = 10.0 + i;
     sample.observation.scan.hits = points_at({{static_cast<float>(i), 2}});
     sample.map_from_robot = Pose2{0.5 * i, 0.0, 0.0};
-    prepared.drive.samples.push_back(sample);
-    prepared.drive.path_m.push_back(0.5 * i);
+    loaded.drive.samples.push_back(sample);
+    loaded.drive.path_m.push_back(0.5 * i);
   }
-  prepared.starts = {1, 4};
-  return prepared;
+  loaded.starts = {1, 4};
+  return loaded;
 }
 
 class LiveRunTest : public testing::Test {
  protected:
-  void begin() { live_.begin("mine", "results/mine", {{"seed", {"7", "7"}}}, prepared_); }
+  void begin() { live_.begin("mine", "results/mine", {{"seed", {"7", "7"}}}, loaded_); }
 
   void step(std::size_t trial, std::size_t number, const Points& local_map = {}) {
     live_.step(trial, step_record(number, {1, 2, 3}), local_map, {.finished = 0, .trials = 2});
@@ -42,7 +42,7 @@ class LiveRunTest : public testing::Test {
   void finish(std::size_t trial, std::size_t steps) {
     TrialRecord record;
     record.trial = trial;
-    record.start_sample = prepared_.starts[trial];
+    record.start_sample = loaded_.starts[trial];
     record.steps = steps;
     record.outcome = Outcome::right;
     live_.finish(record, {.finished = 1, .trials = 2, .remaining_s = 1.5});
@@ -50,7 +50,7 @@ class LiveRunTest : public testing::Test {
 
   [[nodiscard]] Json data() { return live_.news()->data; }
 
-  Prepared prepared_ = two_starts();
+  LoadedExperiment loaded_ = two_starts();
   LiveRun live_{"lab"};
 };
 
@@ -115,7 +115,7 @@ TEST_F(LiveRunTest, ForgetsAVariantWhenTheNextBegins) {
   step(0, 0);
   finish(0, 1);
   step(1, 0);
-  live_.begin("yours", "results/yours", {}, prepared_);
+  live_.begin("yours", "results/yours", {}, loaded_);
   const Json json = data();
   EXPECT_EQ(json["live"]["variant"], "yours");
   EXPECT_EQ(json["runs"][0]["trials"], Json::array());
@@ -135,8 +135,8 @@ TEST_F(LiveRunTest, TellsOnlyWhatIsNew) {
 
 TEST_F(LiveRunTest, KeepsNoMoreStepsThanItCanTell) {
   begin();
-  prepared_.starts.assign(3, 0);
-  prepared_.drive.samples.resize(4000);
+  loaded_.starts.assign(3, 0);
+  loaded_.drive.samples.resize(4000);
   for (std::size_t trial = 0; trial < 3; ++trial) {
     for (std::size_t i = 0; i < 4000; ++i) step(trial, i);
     finish(trial, 4000);

@@ -46,7 +46,7 @@ std::vector<double> stamps(const std::vector<Sample>& samples) {
   return out;
 }
 
-TEST(CarmenLog, TakesKeyFramesByDistance) {
+TEST(CarmenLog, TakesKeyframesByDistance) {
   const test::TemporaryFolder folder;
   LogParams params = params_for(folder.write("a.log", straight_drive(11)));
   EXPECT_THAT(stamps(read_all(params)), ElementsAre(0, 3, 6, 9));
@@ -54,7 +54,7 @@ TEST(CarmenLog, TakesKeyFramesByDistance) {
   EXPECT_EQ(read_all(params).size(), 11U);
 }
 
-TEST(CarmenLog, TakesKeyFramesByAngle) {
+TEST(CarmenLog, TakesKeyframesByAngle) {
   const test::TemporaryFolder folder;
   std::string log;
   for (int i = 0; i < 8; ++i) log += flaser(0.0, 3.0 + 0.15 * i, i);  // Across pi.

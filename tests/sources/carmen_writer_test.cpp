@@ -48,7 +48,7 @@ TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
   std::string lines;
   while (const auto scan = simulator.next()) lines += carmen_lines(*scan);
 
-  LogParams log = trust_in(params.laser);
+  LogParams log = scan_limits(params.laser);
   log.path = test::file_path(folder.write("drive.log", lines));
   CarmenLog recorded(log, setup);
   Simulation simulated(params, setup);

@@ -22,7 +22,7 @@ struct Hypothesis {
   std::optional<PoseCovariance> covariance = {};
   /// Share of the points that lie where the map is known to be free, away from anything; where the matcher
   /// knows it.
-  std::optional<double> conflict = {};
+  std::optional<double> free_space_violation = {};
 };
 
 /// Hypotheses that mean the same robot pose.

@@ -19,7 +19,7 @@ struct LocalMap {
   std::vector<std::size_t> ends;
   /// Counts up whenever the mapper starts over with a new frame; poses in the old frame mean nothing any
   /// more.
-  int generation = 0;
+  int epoch = 0;
 };
 
 }  // namespace glocal

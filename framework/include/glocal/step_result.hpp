@@ -22,7 +22,7 @@ enum class VerdictKind {
 [[nodiscard]] const char* to_string(VerdictKind kind);
 
 /// The pose a verdict rule holds most likely, declared or not.
-struct Belief {
+struct PoseEstimate {
   Pose2 map_from_robot;
   double confidence = 0.0;  ///< Probability that it is right, in [0, 1].
   std::optional<PoseCovariance> covariance = {};
@@ -36,11 +36,11 @@ struct Evidence {
 
 struct Verdict {
   VerdictKind kind = VerdictKind::searching;
-  std::optional<Pose2> map_from_robot;  ///< Set when localized.
-  std::vector<Pose2> candidates;        ///< Robot poses, best first; set when ambiguous.
-  std::string why;                      ///< One sentence for a person.
-  std::optional<Belief> belief = {};    ///< None where the rule has none.
-  std::vector<Evidence> evidence = {};  ///< For whoever studies the rule.
+  std::optional<Pose2> map_from_robot;        ///< Set when localized.
+  std::vector<Pose2> candidates;              ///< Robot poses, best first; set when ambiguous.
+  std::string why;                            ///< One sentence for a person.
+  std::optional<PoseEstimate> estimate = {};  ///< None where the rule has none.
+  std::vector<Evidence> evidence = {};        ///< For whoever studies the rule.
 };
 
 /// Wall-clock time of each stage, ms.
@@ -57,14 +57,14 @@ struct StepResult {
   std::size_t step = 0;  ///< Counts from 0 in each trial.
   double stamp = 0.0;
   Pose2 local_from_robot;
-  int local_map_generation = 0;
+  int local_map_epoch = 0;
   std::size_t local_map_points = 0;
 
   double omega_max = 0.0;             ///< Threshold applied in this step (eq. 9 gives the next one).
   double omega_best = 0.0;            ///< Quality of the best hypothesis; 0 without any.
   std::optional<double> omega_place;  ///< Omega' (eq. 10); none before the first hypothesis.
-  std::size_t collisions = 0;         ///< Relations found on both sides: hypotheses before any quality test.
-  std::size_t checks = 0;             ///< Single points tested for contact.
+  std::size_t proposals = 0;          ///< Relations found on both sides: hypotheses before any quality test.
+  std::size_t points_tested = 0;      ///< Single points tested for contact.
 
   std::vector<Hypothesis> hypotheses;  ///< Falling quality.
   std::vector<Cluster> clusters;       ///< Falling rating.
@@ -74,7 +74,7 @@ struct StepResult {
 
   /// Robot pose the verdict rule believes in, else that of the best-rated cluster; declared or not.
   [[nodiscard]] std::optional<Pose2> estimate() const {
-    if (verdict.belief) return verdict.belief->map_from_robot;
+    if (verdict.estimate) return verdict.estimate->map_from_robot;
     return clusters.empty() ? std::nullopt : std::optional(clusters.front().map_from_robot);
   }
 };

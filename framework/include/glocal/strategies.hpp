@@ -44,7 +44,7 @@ struct MapFile {
 
 /// Joins observations into a local map.
 /// Contract: the first observation of a map is placed at the local frame's origin; an observation without
-/// hits only moves the robot; points keep their order until the generation changes, though some may go.
+/// hits only moves the robot; points keep their order until the epoch changes, though some may go.
 class LocalMapper {
  public:
   virtual ~LocalMapper() = default;
@@ -57,8 +57,8 @@ class LocalMapper {
 
 struct MatchResult {
   std::vector<Hypothesis> hypotheses;  ///< All with quality >= omega_max, falling quality.
-  std::size_t collisions = 0;          ///< Poses proposed before any quality test.
-  std::size_t checks = 0;              ///< Single points tested for contact.
+  std::size_t proposals = 0;           ///< Poses proposed before any quality test.
+  std::size_t points_tested = 0;       ///< Single points tested for contact.
 };
 
 /// What a matcher looks things up in, made once from the map.

@@ -37,7 +37,7 @@ class UnknownPlaceMonitor {
  private:
   struct Best {
     Pose2 map_from_local;
-    int generation;
+    int epoch;
   };
   UnknownPlaceParams params_;
   std::shared_ptr<const ContactIndex> contact_;

@@ -61,7 +61,7 @@ StepResult Localizer::step(const Observation& observation) {
     return local_mapper_->map();
   });
   result.local_from_robot = local.local_from_robot;
-  result.local_map_generation = local.generation;
+  result.local_map_epoch = local.epoch;
   result.local_map_points = local.points.size();
 
   result.omega_max = threshold_policy_->omega_max();
@@ -70,8 +70,8 @@ StepResult Localizer::step(const Observation& observation) {
     return matcher_->match(local, observation, result.omega_max, matching_rng);
   });
   result.hypotheses = std::move(match.hypotheses);
-  result.collisions = match.collisions;
-  result.checks = match.checks;
+  result.proposals = match.proposals;
+  result.points_tested = match.points_tested;
   result.omega_best = result.hypotheses.empty() ? 0.0 : result.hypotheses.front().quality;
   threshold_policy_->update(result.hypotheses);
   result.omega_place = unknown_place_.update(local, result.hypotheses);

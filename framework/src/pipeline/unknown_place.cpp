@@ -17,8 +17,8 @@ UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params, const
 
 std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
                                                   const std::vector<Hypothesis>& hypotheses) {
-  if (!hypotheses.empty()) best_ = Best{hypotheses.front().map_from_local, local.generation};
-  if (!best_ || best_->generation != local.generation) return std::nullopt;
+  if (!hypotheses.empty()) best_ = Best{hypotheses.front().map_from_local, local.epoch};
+  if (!best_ || best_->epoch != local.epoch) return std::nullopt;
 
   const Transform map_from_local(best_->map_from_local);
   double sum_of_shares = 0.0;

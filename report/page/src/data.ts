@@ -30,8 +30,8 @@ export interface Steps {
   omega_best: number[];
   omega_max: number[];
   omega_place: Column;
-  collisions: number[];
-  checks: number[];
+  proposals: number[];
+  points_tested: number[];
   hypotheses: number[];
   clusters: number[];
   verdict: VerdictKind[];

@@ -84,7 +84,7 @@ function facts(steps: Steps, step: number): HTMLElement {
     ["error", error == null ? "–" : `${fixed(error, 3)} m, ${fixed(steps.rotation_error_deg[step], 2)}°`],
     ...(confidence == null ? [] : [["confidence", percent(confidence)] as [string, string]]),
     ["hypotheses", count(steps.hypotheses[step])],
-    ["collisions", count(steps.collisions[step])],
+    ["proposals", count(steps.proposals[step])],
     ["clusters", count(steps.clusters[step])],
     ["local map", `${count(steps.local_map_points[step])} points`],
     ["time", `${fixed(stepTime(steps, step), 1)} ms, matching ${fixed(steps.match_ms[step], 1)} ms`],

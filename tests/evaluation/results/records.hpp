@@ -15,8 +15,8 @@ inline StepRecord step_record(std::size_t step, const Pose2& pose) {
   record.result.omega_max = 0.5;
   record.result.omega_best = 0.75;
   record.result.omega_place = 0.875;
-  record.result.collisions = 60;
-  record.result.checks = 700;
+  record.result.proposals = 60;
+  record.result.points_tested = 700;
   record.result.clusters = {{{0, 2, 3}, pose}, {{1}, {9.0, 9.0, 0.0}}};
   record.result.ratings = {{0.6, 0.75}, {0.2, 0.25}};
   record.result.verdict = {VerdictKind::searching, std::nullopt, {}, "not yet"};

@@ -31,9 +31,9 @@ TEST(StepLine, HasTheKeysOfTheContract) {
   const Json json = parse_line(step_line(7, record));
   EXPECT_THAT(keys(json), ::testing::UnorderedElementsAre(
                               "trial", "step", "stamp", "stage_ms", "local_map_points", "omega_best",
-                              "omega_max", "omega_place", "collisions", "checks", "hypotheses", "clusters",
-                              "best", "verdict", "why", "local_from_robot", "estimate", "reference", "on_map",
-                              "translation_error_m", "rotation_error_deg"));
+                              "omega_max", "omega_place", "proposals", "points_tested", "hypotheses",
+                              "clusters", "best", "verdict", "why", "local_from_robot", "estimate",
+                              "reference", "on_map", "translation_error_m", "rotation_error_deg"));
   EXPECT_EQ(json["trial"], 7);
   EXPECT_EQ(json["step"], 3);
   EXPECT_EQ(json["stamp"], 101.5);
@@ -42,8 +42,8 @@ TEST(StepLine, HasTheKeysOfTheContract) {
   EXPECT_EQ(json["omega_best"], 0.75);
   EXPECT_EQ(json["omega_max"], 0.5);
   EXPECT_EQ(json["omega_place"], 0.875);
-  EXPECT_EQ(json["collisions"], 60);
-  EXPECT_EQ(json["checks"], 700);
+  EXPECT_EQ(json["proposals"], 60);
+  EXPECT_EQ(json["points_tested"], 700);
   EXPECT_EQ(json["hypotheses"], 4);
   EXPECT_EQ(json["clusters"], 2);
   EXPECT_EQ(json["best"], Json::parse(R"([
@@ -59,7 +59,7 @@ TEST(StepLine, HasTheKeysOfTheContract) {
 
 TEST(StepLine, TellsWhatTheVerdictRestsOn) {
   StepRecord record = step_record(3, {1.5, -2.0, 0.25});
-  record.result.verdict.belief = Belief{{1.0, 2.0, 0.5}, 0.875, PoseCovariance{1, 2, 3, 4, 5, 6}};
+  record.result.verdict.estimate = PoseEstimate{{1.0, 2.0, 0.5}, 0.875, PoseCovariance{1, 2, 3, 4, 5, 6}};
   record.result.verdict.evidence = {{"margin", 0.25}, {"distance_m", 3.0}};
   record.nees = 2.5;
   const Json json = parse_line(step_line(7, record));

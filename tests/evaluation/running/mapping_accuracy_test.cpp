@@ -22,7 +22,7 @@ class OdometryMapper final : public LocalMapper {
 
   void add(const Observation& observation) override {
     if (seen_++ == 0) first_ = observation.odom_from_robot;
-    if (seen_ > new_map_after_) map_.generation = 1;
+    if (seen_ > new_map_after_) map_.epoch = 1;
     map_.local_from_robot = inverse(first_) * observation.odom_from_robot;
   }
   [[nodiscard]] const LocalMap& map() const override { return map_; }

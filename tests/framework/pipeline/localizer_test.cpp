@@ -85,7 +85,7 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
   script_->local.points.push_back({});
   script_->local.ends = {2};
   script_->local.local_from_robot = {1, 2, 0.5};
-  script_->local.generation = 3;
+  script_->local.epoch = 3;
   give({{{}, {1, 0, 0}, 0.9}, {{}, {2, 0, 0}, 0.4}}, {0.5, 0.6});
   script_->judge = [](const StepResult&) {
     return Verdict{VerdictKind::ambiguous, std::nullopt, {{2, 0, 0}, {1, 0, 0}}, "two"};
@@ -94,12 +94,12 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
   const StepResult result = localizer.step({12.5, {}, {}});
   EXPECT_EQ(result.stamp, 12.5);
   EXPECT_EQ(result.local_from_robot, (Pose2{1, 2, 0.5}));
-  EXPECT_EQ(result.local_map_generation, 3);
+  EXPECT_EQ(result.local_map_epoch, 3);
   EXPECT_EQ(result.local_map_points, 2U);
   EXPECT_EQ(result.omega_best, 0.9);
   EXPECT_EQ(result.omega_place, 1.0);
-  EXPECT_EQ(result.collisions, 70U);
-  EXPECT_EQ(result.checks, 900U);
+  EXPECT_EQ(result.proposals, 70U);
+  EXPECT_EQ(result.points_tested, 900U);
   EXPECT_EQ(result.hypotheses.size(), 2U);
   EXPECT_EQ(result.verdict.kind, VerdictKind::ambiguous);
   EXPECT_THAT(result.verdict.candidates, ElementsAre(Pose2{2, 0, 0}, Pose2{1, 0, 0}));

@@ -76,7 +76,7 @@ TEST(UnknownPlace, APoseInTheFrameOfAnEarlierLocalMapMeansNothing) {
   UnknownPlaceMonitor monitor({}, map);
   LocalMap local = observed({{on}});
   EXPECT_EQ(monitor.update(local, {{pose, {}, 0.9}}), 1.0);
-  local.generation = 1;
+  local.epoch = 1;
   EXPECT_EQ(monitor.update(local, {}), std::nullopt);
   EXPECT_EQ(monitor.update(local, {{{}, {}, 0.9}}), 0.0);
   EXPECT_EQ(monitor.update(local, {}), 0.0);

@@ -134,7 +134,7 @@ TEST(BeamEvidence, OnlyTheLatestScansOfThisLocalMapCount) {
   evidence.add(local, beams_along_x({0.5F}));
   EXPECT_EQ(evidence.blocked_share(grid, pose), 0.0);
   evidence.add(local, beams_along_x({1.8F}));
-  local.generation = 1;
+  local.epoch = 1;
   evidence.add(local, beams_along_x({0.5F}));
   EXPECT_EQ(evidence.blocked_share(grid, pose), 0.0);
 }

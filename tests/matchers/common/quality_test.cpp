@@ -23,7 +23,7 @@ Points points_with_contact(std::size_t n, std::size_t good) {
 
 struct Answer {
   std::optional<double> quality;
-  std::size_t checks;
+  std::size_t points_tested;
 };
 
 /// The test of the pose that moves nothing.
@@ -32,7 +32,7 @@ Answer test_identity(const QualityTest& test, std::uint32_t start) {
   motions.cosine[0] = 1.0F;
   const QualityTest::Outcome outcome = test.test(motions, 1, {start});
   return {outcome.passed.empty() ? std::nullopt : std::optional(outcome.passed.front().quality),
-          outcome.checks};
+          outcome.points_tested};
 }
 
 TEST(QualityTest, IsTheShareOfPointsInContact) {
@@ -42,7 +42,7 @@ TEST(QualityTest, IsTheShareOfPointsInContact) {
     const auto outcome = test_identity(test, start << 25U);
     ASSERT_TRUE(outcome.quality);
     EXPECT_DOUBLE_EQ(*outcome.quality, 0.75);  // eq. 4
-    EXPECT_EQ(outcome.checks, 40U);
+    EXPECT_EQ(outcome.points_tested, 40U);
   }
 }
 
@@ -59,7 +59,7 @@ TEST(QualityTest, PosesOfABatchAreJudgedEachByItself) {
     EXPECT_EQ(outcome.passed[i].index, 3 * i);
     EXPECT_DOUBLE_EQ(outcome.passed[i].quality, 0.75);
   }
-  EXPECT_EQ(outcome.checks, 34U * 40U + 66U * 8U);
+  EXPECT_EQ(outcome.points_tested, 34U * 40U + 66U * 8U);
 }
 
 TEST(QualityTest, TheThresholdItselfIsEnough) {
@@ -79,7 +79,7 @@ TEST(QualityTest, GivesUpAtTheBoundOfEquation5) {
     const ExtrapolationRule rule{.batch = 8, .confidence_z = 1.96};
     return test_identity(QualityTest(points_with_contact(400, 0), contact_of_world(), rule, threshold, rng),
                          0)
-        .checks;
+        .points_tested;
   };
   EXPECT_EQ(checks(0.35), 8U);
   EXPECT_EQ(checks(0.34), 16U);

@@ -82,7 +82,8 @@ TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGri
     for (std::size_t k = 0; k < i; ++k) {
       const Pose2& a = found[i].map_from_robot;
       const Pose2& b = found[k].map_from_robot;
-      EXPECT_TRUE(distance(a, b) >= params.mode.distance || rotation_between(a, b) >= params.mode.rotation);
+      EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
+                  rotation_between(a, b) >= params.candidate.rotation);
     }
   }
 }

@@ -38,12 +38,13 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
   const IndexedRansam::Params params;
   const MatchResult result = match(params, local_map_at({2.0, 6.0, -1.0}, 2.5));
   ASSERT_GT(result.hypotheses.size(), 1U);
-  EXPECT_LE(result.hypotheses.size(), static_cast<std::size_t>(params.modes));
+  EXPECT_LE(result.hypotheses.size(), static_cast<std::size_t>(params.candidates));
   for (std::size_t i = 0; i < result.hypotheses.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const Pose2& a = result.hypotheses[i].map_from_robot;
       const Pose2& b = result.hypotheses[k].map_from_robot;
-      EXPECT_TRUE(distance(a, b) >= params.mode.distance || rotation_between(a, b) >= params.mode.rotation);
+      EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
+                  rotation_between(a, b) >= params.candidate.rotation);
     }
   }
 }
@@ -91,59 +92,59 @@ TEST(IndexedRansam, TheBestPosesAreCarriedToTheNextStep) {
   Rng rng(1);
   ASSERT_FALSE(matcher.match(local, {}, 0.1, rng).hypotheses.empty());
   const MatchResult second = matcher.match(local, {}, 0.1, rng);
-  EXPECT_EQ(second.collisions, 0U);
+  EXPECT_EQ(second.proposals, 0U);
   ASSERT_FALSE(second.hypotheses.empty());
   EXPECT_LT(distance(second.hypotheses.front().map_from_robot, truth), 0.05);
   // Another local frame, or a reset: nothing to carry. The first step comes again, with its draws.
   LocalMap restarted = local;
-  restarted.generation = 1;
-  EXPECT_GT(matcher.match(restarted, {}, 0.1, rng).collisions, 0U);
+  restarted.epoch = 1;
+  EXPECT_GT(matcher.match(restarted, {}, 0.1, rng).proposals, 0U);
   matcher.reset();
-  EXPECT_GT(matcher.match(local, {}, 0.1, rng).collisions, 0U);
+  EXPECT_GT(matcher.match(local, {}, 0.1, rng).proposals, 0U);
 }
 
 TEST(IndexedRansam, LargeLocalMapsDoNotStarveTheDraws) {
-  // Two walls far apart: most pairs of points are longer than any dipole.
+  // Two walls far apart: most pairs of points are longer than any oriented point pair.
   LocalMap local;
   test::add_wall(local.points, {{0, 0}, {8, 0}});
   test::add_wall(local.points, {{100, 0}, {108, 0}});
   test::add_wall(local.points, {{0, 100}, {8, 100}});
   local.ends = {local.points.size()};
-  EXPECT_GT(match({.first_iterations = 1000}, local).collisions, 500U);
+  EXPECT_GT(match({.first_iterations = 1000}, local).proposals, 500U);
 }
 
 TEST(IndexedRansam, DrawsEndOnceTheBestPosesStayTheSame) {
   const Pose2 truth{5.5, 2.5, 0.7};
   const LocalMap local = local_map_at(truth, 4.0);
-  const AdaptiveBudget budget{.limit = 100000, .chunk = 100, .stable_modes = 1, .stable_chunks = 4};
+  const AdaptiveBudget budget{.limit = 100000, .chunk = 100, .stable_candidates = 1, .stable_chunks = 4};
   IndexedRansam matcher({.adaptive = budget}, {test::small_world(), 1});
   Rng rng(1);
   const MatchResult first = matcher.match(local, {}, 0.1, rng);
   ASSERT_FALSE(first.hypotheses.empty());
   EXPECT_LT(distance(first.hypotheses.front().map_from_robot, truth), 0.05);
-  EXPECT_LT(first.collisions, 5000U);
+  EXPECT_LT(first.proposals, 5000U);
   // What was carried on is the best from the beginning: four chunks confirm it, and no more are drawn.
   const MatchResult second = matcher.match(local, {}, 0.1, rng);
-  EXPECT_GT(second.collisions, 200U);  // a few draws find no partner
-  EXPECT_LE(second.collisions, 400U);
+  EXPECT_GT(second.proposals, 200U);  // a few draws find no partner
+  EXPECT_LE(second.proposals, 400U);
 }
 
 TEST(IndexedRansam, DrawsGoOnToTheLimitWhileNothingIsStable) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 4.0);
   // More chunks in a row than there are; and no pose at all, as too much is asked for. The last chunk is cut.
-  const AdaptiveBudget never{.limit = 1050, .chunk = 100, .stable_modes = 1, .stable_chunks = 12};
-  EXPECT_EQ(match({.adaptive = never}, local).collisions,
-            match({.first_iterations = 1050}, local).collisions);
+  const AdaptiveBudget never{.limit = 1050, .chunk = 100, .stable_candidates = 1, .stable_chunks = 12};
+  EXPECT_EQ(match({.adaptive = never}, local).proposals,
+            match({.first_iterations = 1050}, local).proposals);
   LocalMap elsewhere = local;
   test::add_wall(elsewhere.points, {{100, 0}, {108, 0}, {108, 4}, {100, 4}});
-  const AdaptiveBudget ready{.limit = 1050, .chunk = 100, .stable_modes = 1, .stable_chunks = 1};
+  const AdaptiveBudget ready{.limit = 1050, .chunk = 100, .stable_candidates = 1, .stable_chunks = 1};
   const MatchResult nothing = match({.adaptive = ready, .min_contact = 1.0}, elsewhere);
   EXPECT_TRUE(nothing.hypotheses.empty());
-  EXPECT_EQ(nothing.collisions, match({.first_iterations = 1050, .min_contact = 1.0}, elsewhere).collisions);
+  EXPECT_EQ(nothing.proposals, match({.first_iterations = 1050, .min_contact = 1.0}, elsewhere).proposals);
 }
 
 TEST(IndexedRansam, StableDrawsFindWhatManyDrawsFind) {
-  const AdaptiveBudget budget{.limit = 20000, .chunk = 100, .stable_modes = 5, .stable_chunks = 3};
+  const AdaptiveBudget budget{.limit = 20000, .chunk = 100, .stable_candidates = 5, .stable_chunks = 3};
   Rng rng(8);
   std::size_t drawn = 0;
   for (int i = 0; i < 10; ++i) {
@@ -154,7 +155,7 @@ TEST(IndexedRansam, StableDrawsFindWhatManyDrawsFind) {
     const Pose2& best = many.hypotheses.front().map_from_robot;
     EXPECT_LT(distance(stable.hypotheses.front().map_from_robot, best), 0.05);
     EXPECT_LT(rotation_between(stable.hypotheses.front().map_from_robot, best), radians(1.0));
-    drawn += stable.collisions;
+    drawn += stable.proposals;
   }
   EXPECT_LT(drawn, 10U * 5000U);
 }
@@ -180,7 +181,7 @@ Points pillars() {
   return points;
 }
 
-TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWhereDipolesCannot) {
+TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWherePairsCannot) {
   MapData data;
   data.points = pillars();
   data.grid = {{-1.0, -1.0, 0.0}, 0.1, 180, 180, std::vector<Cell>(std::size_t{180} * 180, Cell::free)};
@@ -208,7 +209,7 @@ TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWhereDipolesCannot) {
         EXPECT_EQ(found[i].quality, parallel[i].quality);
       }
     }
-    EXPECT_TRUE(answer("dipole", 1).empty());
+    EXPECT_TRUE(answer("oriented point pair", 1).empty());
   }
 }
 
@@ -229,7 +230,7 @@ TEST(IndexedRansam, AnExactSearchFindsWhatDrawsDoNot) {
   matcher.reset();
   EXPECT_TRUE(match(local).empty());
   LocalMap restarted = local;
-  restarted.generation = 1;
+  restarted.epoch = 1;
   EXPECT_TRUE(match(restarted).empty());
   EXPECT_FALSE(match(restarted).empty());
 }
@@ -242,7 +243,7 @@ TEST(IndexedRansam, AClearBestPoseNeedsNoExactSearch) {
   Rng rng(1);
   for (int i = 0; i < 3; ++i) (void)matcher.match(local, {}, 0.1, rng);
   (void)matcher.match(local, {}, 0.1, rng);
-  EXPECT_EQ(matcher.match(local, {}, 0.1, rng).collisions, 0U);
+  EXPECT_EQ(matcher.match(local, {}, 0.1, rng).proposals, 0U);
 }
 
 }  // namespace

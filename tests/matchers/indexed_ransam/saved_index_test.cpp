@@ -9,7 +9,7 @@
 
 #include "files.hpp"
 #include "glocal/rng.hpp"
-#include "matchers/indexed_ransam/dipole_index.hpp"
+#include "matchers/indexed_ransam/oriented_pair_index.hpp"
 #include "test_world.hpp"
 
 namespace glocal::test::saved_index_test {
@@ -118,14 +118,14 @@ TEST(MapDigest, DependsOnEveryPointAndEveryCell) {
   EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.grid.map_from_grid.x = 0.0; }));
 }
 
-/// A dipole index of a hundred points, and files of it.
-class SavedDipoles : public ::testing::Test {
+/// An oriented point pair index of a hundred points, and files of it.
+class SavedOrientedPairs : public ::testing::Test {
  protected:
-  SavedDipoles() : built_(surfaces(), {}) {}
+  SavedOrientedPairs() : built_(oriented_points(), {}) {}
 
-  static Surfaces surfaces() {
+  static OrientedPoints oriented_points() {
     Rng rng(4);
-    Surfaces result;
+    OrientedPoints result;
     for (int i = 0; i < 100; ++i) {
       result.add(static_cast<float>(rng.uniform(0.0, 8.0)), static_cast<float>(rng.uniform(0.0, 8.0)),
                  static_cast<float>(rng.uniform(-3.0, 3.0)));
@@ -133,37 +133,37 @@ class SavedDipoles : public ::testing::Test {
     return result;
   }
 
-  [[nodiscard]] DipoleIndex read(const std::string& bytes) const {
-    return {SavedIndex(folder_.write("a.index", bytes), origin), DipoleRule{}};
+  [[nodiscard]] OrientedPairIndex read(const std::string& bytes) const {
+    return {SavedIndex(folder_.write("a.index", bytes), origin), OrientedPairRule{}};
   }
 
-  /// What is wrong with an index of these bins and dipoles.
+  /// What is wrong with an index of these bins and oriented point pairs.
   [[nodiscard]] std::string fault_of(const std::vector<std::uint32_t>& begins,
-                                     const std::vector<DipoleIndex::Dipole>& dipoles,
+                                     const std::vector<OrientedPairIndex::OrientedPair>& pairs,
                                      std::size_t angles = 100) const {
-    const Surfaces s = surfaces();
+    const OrientedPoints s = oriented_points();
     const std::string bytes =
-        saved_index(DipoleIndex::kind, origin,
+        saved_index(OrientedPairIndex::kind, origin,
                     {std::as_bytes(std::span(s.x)), std::as_bytes(std::span(s.y)),
                      std::as_bytes(std::span(s.angle).first(angles)), std::as_bytes(std::span(begins)),
-                     std::as_bytes(std::span(dipoles))});
+                     std::as_bytes(std::span(pairs))});
     return config_error("", [&] { (void)read(bytes); });
   }
 
   TemporaryFolder folder_;
-  DipoleIndex built_;
+  OrientedPairIndex built_;
 };
 
-TEST_F(SavedDipoles, AreTheSameAsBefore) {
+TEST_F(SavedOrientedPairs, AreTheSameAsBefore) {
   const std::string bytes = built_.saved(origin);
-  const DipoleIndex again = read(bytes);
+  const OrientedPairIndex again = read(bytes);
   EXPECT_EQ(again.size(), built_.size());
   EXPECT_EQ(again.memory_bytes(), built_.memory_bytes());
   EXPECT_EQ(again.saved(origin), bytes);
   std::size_t partners = 0;
   for (std::uint32_t i = 0; i + 1 < 100; ++i) {
-    const auto one = built_.find(built_.surfaces(), {i, i + 1});
-    const auto other = again.find(again.surfaces(), {i, i + 1});
+    const auto one = built_.find(built_.oriented_points(), {i, i + 1});
+    const auto other = again.find(again.oriented_points(), {i, i + 1});
     ASSERT_EQ(one.size(), other.size());
     EXPECT_TRUE(std::equal(one.begin(), one.end(), other.begin(), [](const auto& a, const auto& b) {
       return a.first == b.first && a.second == b.second;
@@ -173,11 +173,11 @@ TEST_F(SavedDipoles, AreTheSameAsBefore) {
   EXPECT_GT(partners, 50U);
 }
 
-TEST_F(SavedDipoles, WhoseBinsOrPointsCannotBeAreRefused) {
+TEST_F(SavedOrientedPairs, WhoseBinsOrPointsCannotBeAreRefused) {
   // 55 lengths of 0.1 m and twice 24 angles, and the end of the last bin.
   std::vector<std::uint32_t> begins(55U * 24U * 24U + 1U, 1);
   begins.front() = 0;
-  const std::vector<DipoleIndex::Dipole> one = {{0, 99}};
+  const std::vector<OrientedPairIndex::OrientedPair> one = {{0, 99}};
   ASSERT_EQ(fault_of(begins, one), "");
   EXPECT_THAT(fault_of(begins, {{0, 100}}), HasSubstr("names points that it does not have"));
   EXPECT_THAT(fault_of(begins, {{100, 0}}), HasSubstr("names points that it does not have"));

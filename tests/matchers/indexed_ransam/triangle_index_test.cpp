@@ -193,8 +193,8 @@ TEST_F(SavedTriangles, ThatCannotBeAreRefused) {
   EXPECT_THAT(fault_of(write({3, 7}, {0, 2}, {{0, 1, 2}, {7, 8, 9}})), HasSubstr("do not fit together"));
   EXPECT_THAT(fault_of(write({3, 7}, {0, 3, 2}, {{0, 1, 2}, {7, 8, 9}})), HasSubstr("bins overlap"));
   EXPECT_THAT(fault_of(write({3, 7}, {0, 1, 2}, {{0, 1, 2}, {7, 8, 10}})), HasSubstr("does not have"));
-  EXPECT_THAT(fault_of(folder_.write("b.index", saved_index("dipoles", {}, {}))),
-              HasSubstr("the index is one of dipoles instead of triangles; build it anew"));
+  EXPECT_THAT(fault_of(folder_.write("b.index", saved_index("oriented point pairs", {}, {}))),
+              HasSubstr("the index is one of oriented point pairs instead of triangles; build it anew"));
 }
 
 }  // namespace

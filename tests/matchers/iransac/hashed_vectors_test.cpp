@@ -97,20 +97,20 @@ TEST(HashedVectors, NeverReturnsWhatSharesNoBucket) {
 /// The nearest among what is hashed alike are some of the nearest of all, in the same order.
 TEST(FeatureIndex, HashingOnlyLeavesFeaturesOut) {
   Rng rng(5);
-  Surfaces surfaces;
+  OrientedPoints oriented_points;
   for (int i = 0; i < 300; ++i) {
-    surfaces.add(static_cast<float>(rng.uniform(0.0, 9.0)), static_cast<float>(rng.uniform(0.0, 9.0)),
-                 static_cast<float>(rng.uniform(-3.0, 3.0)));
+    oriented_points.add(static_cast<float>(rng.uniform(0.0, 9.0)), static_cast<float>(rng.uniform(0.0, 9.0)),
+                        static_cast<float>(rng.uniform(-3.0, 3.0)));
   }
-  const FeatureIndex all(surfaces, {}, std::nullopt, 1);
-  const FeatureIndex hashed(surfaces, {}, HashRule{}, 1);
-  const FeatureVectors features = shape_contexts(surfaces, {7, 70}, {});
+  const FeatureIndex all(oriented_points, {}, std::nullopt, 1);
+  const FeatureIndex hashed(oriented_points, {}, HashRule{}, 1);
+  const FeatureVectors features = shape_contexts(oriented_points, {7, 70}, {});
   for (std::size_t i = 0; i < features.size(); ++i) {
     const auto exact = all.nearest(features[i], 300);
     ASSERT_EQ(exact.size(), 300U);
     EXPECT_EQ(exact.front(), i == 0 ? 7U : 70U);  // itself
     for (std::size_t k = 1; k < exact.size(); ++k) {
-      const FeatureVectors two = shape_contexts(surfaces, {exact[k - 1], exact[k]}, {});
+      const FeatureVectors two = shape_contexts(oriented_points, {exact[k - 1], exact[k]}, {});
       EXPECT_LE(squared_distance(features[i], two[0], two.dimensions),
                 squared_distance(features[i], two[1], two.dimensions) + 1e-5F);
     }

@@ -51,13 +51,13 @@ INSTANTIATE_TEST_SUITE_P(IRansac, IRansacWithOrWithoutHashing, ::testing::Bool()
 class IRansacPool : public ::testing::Test {
  protected:
   /// A step that finds the pose, then one that draws nothing.
-  MatchResult second_step(bool reset_between, int generation) {
+  MatchResult second_step(bool reset_between, int epoch) {
     IRansac matcher({}, {test::small_world(), 1});
     Rng rng(2);
     LocalMap local = local_map_at(truth_, 5.0);
     EXPECT_TRUE(is_right(matcher.match(local, {}, 0.5, rng), truth_));
     if (reset_between) matcher.reset();
-    local.generation = generation;
+    local.epoch = epoch;
     local.local_from_robot = {0.3, 0.0, 0.1};  // the robot has moved on in its local map
     // Too few points for a feature, let alone two.
     Points few;
@@ -71,7 +71,7 @@ class IRansacPool : public ::testing::Test {
 
 TEST_F(IRansacPool, IsCarriedAlongByTheLocalMotion) {
   const MatchResult found = second_step(false, 0);
-  EXPECT_EQ(found.collisions, 0U);
+  EXPECT_EQ(found.proposals, 0U);
   ASSERT_FALSE(found.hypotheses.empty());
   bool any = false;
   for (const Hypothesis& h : found.hypotheses) {

@@ -40,7 +40,7 @@ class PreemptionInSmallWorld : public ::testing::Test {
 
 TEST_F(PreemptionInSmallWorld, LooksAtAsManyAsTheScheduleLeaves) {
   ASSERT_GT(all_.size(), 64U);
-  const std::size_t checks = preempt(poses_, *contact_, all_, {}, {.block = 16, .fewest = 20}, 1);
+  const std::size_t points_tested = preempt(poses_, *contact_, all_, {}, {.block = 16, .fewest = 20}, 1);
   // 300, 150, 75, 37 hypotheses look at a block each; then 20 are left, as 18 would be fewer.
   EXPECT_EQ(checks, 16U * (300 + 150 + 75 + 37));
   ASSERT_EQ(poses_.size(), 20U);

@@ -86,15 +86,15 @@ TEST_P(MclModels, ConvergesFromAnywhereAndTracks) {
     const Observation observation = observation_at(pose);
     Rng rng(step++);
     result = matcher.match(local_map_of(observation), observation, 0.0, rng);
-    EXPECT_TRUE(step > 1 || result.collisions == 8000U);
+    EXPECT_TRUE(step > 1 || result.proposals == 8000U);
   }
   ASSERT_FALSE(result.hypotheses.empty());
   const Hypothesis best = heaviest(result.hypotheses);
   EXPECT_LT(distance(best.map_from_robot, truth), 0.25);
   EXPECT_LT(rotation_between(best.map_from_robot, truth), radians(6.0));
   // KLD-sampling needs few particles where they agree.
-  EXPECT_LT(result.collisions, 1500U);
-  EXPECT_GE(result.collisions, 500U);
+  EXPECT_LT(result.proposals, 1500U);
+  EXPECT_GE(result.proposals, 500U);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MclModels,
@@ -129,8 +129,8 @@ TEST(Mcl, SupportAddsUpToTheParticles) {
   Rng rng(1);
   (void)matcher.match(local_map_of(observation), observation, 0.0, rng);
   const MatchResult second = matcher.match(local_map_of(observation), observation, 0.0, rng);
-  // `collisions` are those before resampling; as the world is small, there may be fewer after it.
-  EXPECT_LE(total_support(second.hypotheses), second.collisions);
+  // `proposals` are those before resampling; as the world is small, there may be fewer after it.
+  EXPECT_LE(total_support(second.hypotheses), second.proposals);
   EXPECT_GE(total_support(second.hypotheses), 500U);
 }
 
@@ -173,11 +173,11 @@ TEST(Mcl, ASmallMotionMovesTheAnswerButIsNoUpdate) {
   };
   const Pose2 before = heaviest(match(start).hypotheses).map_from_robot;
   const MatchResult result = match(start * little);
-  EXPECT_EQ(result.checks, 0U);
+  EXPECT_EQ(result.points_tested, 0U);
   const Pose2 expected = before * little;
   EXPECT_TRUE(std::any_of(result.hypotheses.begin(), result.hypotheses.end(),
                           [&](const Hypothesis& h) { return distance(h.map_from_robot, expected) < 1e-9; }));
-  EXPECT_GT(match(start * little * little).checks, 0U);
+  EXPECT_GT(match(start * little * little).points_tested, 0U);
 }
 
 /// Share of the particles within 1 m of a pose.

@@ -74,15 +74,15 @@ TEST(Ransac, TestsSamplesWhoseDistancesAgree) {
   const double expected =
       0.5 * iterations * static_cast<double>(agree) / static_cast<double>(map.size() * map.size());
   const MatchResult result = match({.iterations = iterations, .tolerance = tolerance}, local, 1.0);
-  EXPECT_NEAR(static_cast<double>(result.collisions), expected, 5.0 * std::sqrt(expected));
+  EXPECT_NEAR(static_cast<double>(result.proposals), expected, 5.0 * std::sqrt(expected));
 }
 
 TEST(Ransac, MoreTriesTestMoreSamples) {
   const LocalMap local = local_map_at({2.0, 2.0, 0.5}, 5.0);
   const MatchResult once = match({.iterations = 2000}, local);
   const MatchResult often = match({.iterations = 2000, .tries = 1000}, local);
-  EXPECT_GT(often.collisions, 5 * once.collisions);
-  EXPECT_LE(often.collisions, 2000U);
+  EXPECT_GT(often.proposals, 5 * once.proposals);
+  EXPECT_LE(often.proposals, 2000U);
 }
 
 TEST(Ransac, QualityIsTheContactOfAllPoints) {

@@ -49,8 +49,8 @@ TEST(Ransam, HypothesesAreWhatTheContractSays) {
   const double omega_max = 0.6;
   const MatchResult result = match({.iterations = 50000}, local, omega_max);
   ASSERT_GT(result.hypotheses.size(), 10U);
-  EXPECT_GE(result.collisions, result.hypotheses.size());
-  EXPECT_GE(result.checks, result.hypotheses.size() * local.points.size());
+  EXPECT_GE(result.proposals, result.hypotheses.size());
+  EXPECT_GE(result.points_tested, result.hypotheses.size() * local.points.size());
   double last = 1.0;
   for (const Hypothesis& h : result.hypotheses) {
     EXPECT_GE(h.quality, omega_max);
@@ -130,9 +130,9 @@ TEST(Ransam, ASecondMatchDoesNotDependOnTheFirst) {
   Rng rng(1);
   const MatchResult second = used.match(local, {}, 0.6, rng);
   const MatchResult fresh = match(params, local, 0.6);
-  EXPECT_EQ(second.collisions, fresh.collisions);
+  EXPECT_EQ(second.proposals, fresh.proposals);
   ASSERT_EQ(second.hypotheses.size(), fresh.hypotheses.size());
-  EXPECT_EQ(second.checks, fresh.checks);
+  EXPECT_EQ(second.points_tested, fresh.points_tested);
 }
 
 TEST(Ransam, LocalDrawsGiveMoreCorrectHypothesesOnALargeMap) {
@@ -168,7 +168,7 @@ TEST(Ransam, BitsAndKdTreeFindTheSamePoses) {
   };
   const MatchResult bits = best("bitset");
   const MatchResult tree = best("kd_tree");
-  EXPECT_EQ(bits.collisions, tree.collisions);
+  EXPECT_EQ(bits.proposals, tree.proposals);
   EXPECT_LT(distance(bits.hypotheses.front().map_from_robot, tree.hypotheses.front().map_from_robot), 0.1);
   // Every hypothesis of the exact index has the quality brute force finds.
   for (std::size_t i = 0; i < std::min<std::size_t>(50, tree.hypotheses.size()); ++i) {
@@ -258,7 +258,7 @@ TEST(Ransam, BeamsThroughAWallTakeQualityOff) {
 
   // 0.2 times three in four, in the second room only: unknown cells stop no beam.
   const MatchResult weighed = match_in_three_rooms(0.2, three_beams_of_four());
-  EXPECT_EQ(weighed.collisions, contact.collisions);
+  EXPECT_EQ(weighed.proposals, contact.proposals);
   EXPECT_EQ(in_room(0, weighed), in_room(0, contact));
   EXPECT_EQ(in_room(2, weighed), in_room(2, contact));
   double last = 1.0;
@@ -288,7 +288,7 @@ TEST(Ransam, BeamsThroughAWallTakeQualityOff) {
 }
 
 void expect_same(const MatchResult& a, const MatchResult& b) {
-  EXPECT_EQ(a.checks, b.checks);
+  EXPECT_EQ(a.points_tested, b.points_tested);
   ASSERT_EQ(a.hypotheses.size(), b.hypotheses.size());
   for (std::size_t i = 0; i < a.hypotheses.size(); ++i) {
     EXPECT_EQ(a.hypotheses[i].map_from_local, b.hypotheses[i].map_from_local);
@@ -314,7 +314,7 @@ TEST(Ransam, BeamsOfEarlierStepsCountUntilTheLocalFrameChanges) {
   EXPECT_GT(wrong_room({}), 0);
   EXPECT_EQ(wrong_room(three_beams_of_four()), 0);
   EXPECT_EQ(wrong_room({}), 0);
-  local.generation = 1;
+  local.epoch = 1;
   EXPECT_GT(wrong_room({}), 0);
   EXPECT_EQ(wrong_room(three_beams_of_four()), 0);
   ransam.reset();

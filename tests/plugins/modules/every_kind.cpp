@@ -62,7 +62,7 @@ class LastScan final : public LocalMapper {
   explicit LastScan(const Params& /*params*/) {}
   void add(const Observation& observation) override {
     map_.points = observation.scan.hits;
-    ++map_.generation;
+    ++map_.epoch;
   }
   const LocalMap& map() const override { return map_; }
   void reset() override { map_ = {}; }

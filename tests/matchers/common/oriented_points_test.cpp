@@ -1,4 +1,4 @@
-#include "matchers/common/surfaces.hpp"
+#include "matchers/common/oriented_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -49,48 +49,48 @@ GlobalMap walls(const std::vector<std::vector<std::pair<double, double>>>& lines
   return GlobalMap(std::move(data));
 }
 
-TEST(Surfaces, NormalsPointToTheFreeSide) {
+TEST(OrientedPoints, NormalsPointToTheFreeSide) {
   for (const bool left : {true, false}) {
     const GlobalMap map = wall(left, !left);
-    const Surfaces surfaces = surfaces_of(map, {});
-    EXPECT_NEAR(static_cast<double>(surfaces.size()), 40.0, 1.0);  // one every 0.1 m
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-      EXPECT_NEAR(surfaces.x[i], 2.025, 1e-5);
-      EXPECT_LT(turned(surfaces.angle[i], left ? std::numbers::pi : 0.0), 1e-3);
+    const OrientedPoints oriented_points = oriented_points_of(map, {});
+    EXPECT_NEAR(static_cast<double>(oriented_points.size()), 40.0, 1.0);  // one every 0.1 m
+    for (std::size_t i = 0; i < oriented_points.size(); ++i) {
+      EXPECT_NEAR(oriented_points.x[i], 2.025, 1e-5);
+      EXPECT_LT(turned(oriented_points.angle[i], left ? std::numbers::pi : 0.0), 1e-3);
     }
   }
 }
 
-TEST(Surfaces, AWallThatIsFreeOnBothSidesOrOnNoneCountsTwice) {
-  EXPECT_NEAR(static_cast<double>(surfaces_of(wall(true, true), {}).size()), 80.0, 2.0);
-  EXPECT_NEAR(static_cast<double>(surfaces_of(wall(false, false), {}).size()), 80.0, 2.0);
+TEST(OrientedPoints, AWallThatIsFreeOnBothSidesOrOnNoneCountsTwice) {
+  EXPECT_NEAR(static_cast<double>(oriented_points_of(wall(true, true), {}).size()), 80.0, 2.0);
+  EXPECT_NEAR(static_cast<double>(oriented_points_of(wall(false, false), {}).size()), 80.0, 2.0);
 }
 
-TEST(Surfaces, AtACornerEachWallKeepsItsOwnNormal) {
+TEST(OrientedPoints, AtACornerEachWallKeepsItsOwnNormal) {
   // The walls x = 0 and y = 0, up to 2 m long: seen from inside (x, y > 0), normals are 0 and 90 degrees;
   // from outside, 180 and -90 degrees.
   for (const bool inside : {true, false}) {
     const GlobalMap map = walls({{{0.025, 2.025}, {0.025, 0.025}, {2.025, 0.025}}}, [&](double x, double y) {
       return inside ? x > 0.05 && y > 0.05 && x < 3.0 && y < 3.0 : x < 0.0 || y < 0.0;
     });
-    const Surfaces surfaces = surfaces_of(map, {});
+    const OrientedPoints oriented_points = oriented_points_of(map, {});
     // One every 0.1 m of 4 m; the corner itself may have one more or less.
-    EXPECT_NEAR(static_cast<double>(surfaces.size()), 40.0, 1.0);
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-      const double off_upright = turned(surfaces.angle[i], inside ? 0.0 : std::numbers::pi);
-      const double off_level = turned(surfaces.angle[i], (inside ? 0.5 : -0.5) * std::numbers::pi);
-      if (surfaces.y[i] > 0.1F) {
-        EXPECT_LT(off_upright, radians(2.0)) << "at y " << surfaces.y[i];
+    EXPECT_NEAR(static_cast<double>(oriented_points.size()), 40.0, 1.0);
+    for (std::size_t i = 0; i < oriented_points.size(); ++i) {
+      const double off_upright = turned(oriented_points.angle[i], inside ? 0.0 : std::numbers::pi);
+      const double off_level = turned(oriented_points.angle[i], (inside ? 0.5 : -0.5) * std::numbers::pi);
+      if (oriented_points.y[i] > 0.1F) {
+        EXPECT_LT(off_upright, radians(2.0)) << "at y " << oriented_points.y[i];
       }
-      if (surfaces.x[i] > 0.1F) {
-        EXPECT_LT(off_level, radians(2.0)) << "at x " << surfaces.x[i];
+      if (oriented_points.x[i] > 0.1F) {
+        EXPECT_LT(off_level, radians(2.0)) << "at x " << oriented_points.x[i];
       }
       EXPECT_LT(std::min(off_upright, off_level), radians(10.0));
     }
   }
 }
 
-TEST(Surfaces, ASlantedCornerInCellsKeepsItsNormals) {
+TEST(OrientedPoints, ASlantedCornerInCellsKeepsItsNormals) {
   // Two walls at right angles, turned by 30 degrees and cut into cells: points at the cells' centres.
   const Pose2 turn{1.0, 0.0, radians(30.0)};
   Points exact;
@@ -103,10 +103,11 @@ TEST(Surfaces, ASlantedCornerInCellsKeepsItsNormals) {
                    static_cast<int>((walls_in_map.y[i] + 1.0F) / 0.05F)) = Cell::occupied;
   }
   data.points = occupied_centres(data.grid);
-  const Surfaces surfaces = surfaces_of(GlobalMap(std::move(data)), {});
-  EXPECT_GT(surfaces.size(), 60U);  // some 36 cells of 0.1 m, free on both sides
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const Pose2 at = inverse(turn) * Pose2{surfaces.x[i], surfaces.y[i], surfaces.angle[i]};
+  const OrientedPoints oriented_points = oriented_points_of(GlobalMap(std::move(data)), {});
+  EXPECT_GT(oriented_points.size(), 60U);  // some 36 cells of 0.1 m, free on both sides
+  for (std::size_t i = 0; i < oriented_points.size(); ++i) {
+    const Pose2 at =
+        inverse(turn) * Pose2{oriented_points.x[i], oriented_points.y[i], oriented_points.angle[i]};
     // Up to half a turn: the wall's other side is free too.
     const auto off = [&](double direction) {
       return std::min(turned(static_cast<float>(at.theta), direction),
@@ -121,34 +122,34 @@ TEST(Surfaces, ASlantedCornerInCellsKeepsItsNormals) {
   }
 }
 
-TEST(Surfaces, BothSidesOfAThinWallPointAwayFromEachOther) {
+TEST(OrientedPoints, BothSidesOfAThinWallPointAwayFromEachOther) {
   for (const double apart : {0.15, 0.2, 0.25, 0.3}) {
     const double other = 0.025 + apart;
     const GlobalMap map = walls({{{0.025, 0.025}, {0.025, 2.025}}, {{other, 0.025}, {other, 2.025}}},
                                 [&](double x, double) { return x < 0.0 || x > other + 0.025; });
-    const Surfaces surfaces = surfaces_of(map, {});
-    EXPECT_NEAR(static_cast<double>(surfaces.size()), 40.0, 2.0) << apart;
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-      const bool left = std::abs(surfaces.x[i] - 0.025F) < 0.03F;
-      EXPECT_LT(turned(surfaces.angle[i], left ? std::numbers::pi : 0.0), radians(2.0)) << apart;
+    const OrientedPoints oriented_points = oriented_points_of(map, {});
+    EXPECT_NEAR(static_cast<double>(oriented_points.size()), 40.0, 2.0) << apart;
+    for (std::size_t i = 0; i < oriented_points.size(); ++i) {
+      const bool left = std::abs(oriented_points.x[i] - 0.025F) < 0.03F;
+      EXPECT_LT(turned(oriented_points.angle[i], left ? std::numbers::pi : 0.0), radians(2.0)) << apart;
     }
   }
 }
 
-TEST(Surfaces, AWallOfOneCellBetweenTwoRoomsCountsOnceForEach) {
+TEST(OrientedPoints, AWallOfOneCellBetweenTwoRoomsCountsOnceForEach) {
   const GlobalMap map = walls({{{2.025, 0.025}, {2.025, 4.025}}}, [](double, double) { return true; });
-  const Surfaces surfaces = surfaces_of(map, {});
-  EXPECT_NEAR(static_cast<double>(surfaces.size()), 80.0, 2.0);
-  const auto to_the_right = std::count_if(surfaces.angle.begin(), surfaces.angle.end(),
+  const OrientedPoints oriented_points = oriented_points_of(map, {});
+  EXPECT_NEAR(static_cast<double>(oriented_points.size()), 80.0, 2.0);
+  const auto to_the_right = std::count_if(oriented_points.angle.begin(), oriented_points.angle.end(),
                                           [](float angle) { return turned(angle, 0.0) < radians(1.0); });
-  const auto to_the_left = std::count_if(surfaces.angle.begin(), surfaces.angle.end(), [](float angle) {
-    return turned(angle, std::numbers::pi) < radians(1.0);
-  });
+  const auto to_the_left =
+      std::count_if(oriented_points.angle.begin(), oriented_points.angle.end(),
+                    [](float angle) { return turned(angle, std::numbers::pi) < radians(1.0); });
   EXPECT_EQ(to_the_right, to_the_left);
-  EXPECT_EQ(static_cast<std::size_t>(to_the_right + to_the_left), surfaces.size());
+  EXPECT_EQ(static_cast<std::size_t>(to_the_right + to_the_left), oriented_points.size());
 }
 
-TEST(Surfaces, WhatIsNoLineHasNoNormal) {
+TEST(OrientedPoints, WhatIsNoLineHasNoNormal) {
   MapData data;
   for (int i = 0; i < 8; ++i) {
     for (int k = 0; k < 8; ++k)
@@ -156,48 +157,48 @@ TEST(Surfaces, WhatIsNoLineHasNoNormal) {
   }
   data.points.push_back({5.0F, 5.0F, 0.0F});
   data.grid = {{}, 0.1, 1, 1, {Cell::unknown}};
-  const Surfaces surfaces = surfaces_of(GlobalMap(std::move(data)), {});
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    EXPECT_LT(surfaces.x[i], 1.0) << "a single point";
-    const bool inside =
-        surfaces.x[i] > 0.1F && surfaces.x[i] < 0.25F && surfaces.y[i] > 0.1F && surfaces.y[i] < 0.25F;
-    EXPECT_FALSE(inside) << surfaces.x[i] << " " << surfaces.y[i];
+  const OrientedPoints oriented_points = oriented_points_of(GlobalMap(std::move(data)), {});
+  for (std::size_t i = 0; i < oriented_points.size(); ++i) {
+    EXPECT_LT(oriented_points.x[i], 1.0) << "a single point";
+    const bool inside = oriented_points.x[i] > 0.1F && oriented_points.x[i] < 0.25F &&
+                        oriented_points.y[i] > 0.1F && oriented_points.y[i] < 0.25F;
+    EXPECT_FALSE(inside) << oriented_points.x[i] << " " << oriented_points.y[i];
   }
 }
 
-TEST(Surfaces, TheirShareIsThatOfThePlacesWithANormal) {
+TEST(OrientedPoints, TheirShareIsThatOfThePlacesWithANormal) {
   MapData data;
   test::add_wall(data.points, {{0.025, 0.025}, {3.025, 0.025}});  // 30 squares of 0.1 m
   for (int i = 0; i < 10; ++i) data.points.push_back({0.05F, 2.0F + static_cast<float>(i), 0.0F});  // alone
   data.grid = {{}, 0.1, 1, 1, {Cell::unknown}};
   const GlobalMap map(std::move(data));
-  EXPECT_NEAR(share_of_surfaces(map, {}), 0.75, 1e-9);
-  const Points places = thinned(map.points(), 0.1);
+  EXPECT_NEAR(share_of_oriented_points(map, {}), 0.75, 1e-9);
+  const Points places = voxel_downsampled(map.points(), 0.1);
   ASSERT_EQ(places.size(), 40U);
   EXPECT_NEAR(places.x[0], 0.05, 1e-6);  // of 0.025 and 0.075
   EXPECT_NEAR(places.y[0], 0.025, 1e-6);
 }
 
-TEST(Surfaces, ALocalMapsOwnNormalsAreTakenAndZeroOnesLeftOut) {
+TEST(OrientedPoints, ALocalMapsOwnNormalsAreTakenAndZeroOnesLeftOut) {
   LocalMap local;
   local.points.push_back({1.0F, 2.0F, 0.0F});
   local.points.push_back({3.0F, 4.0F, 0.0F});
   local.normals.push_back({0.0F, 0.0F, 0.0F});
   local.normals.push_back({0.0F, -1.0F, 0.0F});
-  const Surfaces surfaces = surfaces_of(local, {});
-  ASSERT_EQ(surfaces.size(), 1U);
-  EXPECT_EQ(surfaces.x[0], 3.0F);
-  EXPECT_NEAR(surfaces.angle[0], -std::numbers::pi / 2.0, 1e-6);
+  const OrientedPoints oriented_points = oriented_points_of(local, {});
+  ASSERT_EQ(oriented_points.size(), 1U);
+  EXPECT_EQ(oriented_points.x[0], 3.0F);
+  EXPECT_NEAR(oriented_points.angle[0], -std::numbers::pi / 2.0, 1e-6);
 }
 
-TEST(Surfaces, ALocalMapWithoutNormalsGetsBothDirections) {
+TEST(OrientedPoints, ALocalMapWithoutNormalsGetsBothDirections) {
   LocalMap local;
   test::add_wall(local.points, {{0.025, 0.0}, {0.025, 2.0}});
-  const Surfaces surfaces = surfaces_of(local, {});
-  EXPECT_NEAR(static_cast<double>(surfaces.size()), 40.0, 2.0);
-  const auto to_the_right = std::count_if(surfaces.angle.begin(), surfaces.angle.end(),
+  const OrientedPoints oriented_points = oriented_points_of(local, {});
+  EXPECT_NEAR(static_cast<double>(oriented_points.size()), 40.0, 2.0);
+  const auto to_the_right = std::count_if(oriented_points.angle.begin(), oriented_points.angle.end(),
                                           [](float angle) { return turned(angle, 0.0) < 1e-3; });
-  EXPECT_EQ(2 * static_cast<std::size_t>(to_the_right), surfaces.size());
+  EXPECT_EQ(2 * static_cast<std::size_t>(to_the_right), oriented_points.size());
 }
 
 }  // namespace

@@ -9,11 +9,11 @@
 
 namespace glocal {
 
-/// Matches every scan as scan_matching does, but registers only key frames: observations made `distance` or
-/// `angle` away from the last key frame, or of which less than `overlap` lies on the map. The others only
+/// Matches every scan as scan_matching does, but registers only keyframes: observations made `distance` or
+/// `angle` away from the last keyframe, or of which less than `overlap` lies on the map. The others only
 /// move the robot. Fewer scans to blur the map, and less to do where the robot stands or observations come
 /// fast.
-class KeyFrames final : public LocalMapper {
+class Keyframes final : public LocalMapper {
  public:
   struct Params {
     double distance = 0.5;
@@ -23,21 +23,21 @@ class KeyFrames final : public LocalMapper {
     ScanMatching::Params matching = {};
   };
 
-  explicit KeyFrames(const Params& params) : params_(params), matching_(params.matching) {}
+  explicit Keyframes(const Params& params) : params_(params), matching_(params.matching) {}
 
   void add(const Observation& observation) override;
   [[nodiscard]] const LocalMap& map() const override { return matching_.map(); }
   void reset() override;
 
  private:
-  [[nodiscard]] bool is_key_frame(const Points& hits) const;
+  [[nodiscard]] bool is_keyframe(const Points& hits) const;
   /// Share of hits (local frame) that have a point of the map near.
   [[nodiscard]] double overlap(const Points& hits) const;
 
   Params params_;
   ScanMatching matching_;
-  std::optional<Pose2> local_from_last_;  ///< The robot at the last key frame of this generation.
+  std::optional<Pose2> local_from_last_;  ///< The robot at the last keyframe of this epoch.
 };
-void describe(ParamVisitor& v, KeyFrames::Params& p);
+void describe(ParamVisitor& v, Keyframes::Params& p);
 
 }  // namespace glocal

@@ -1,4 +1,4 @@
-// Points with the direction in which the free side lies: what dipoles are made of.
+// Points with the direction in which the free side lies: what oriented point pairs are made of.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace glocal {
 
-/// Points on surfaces in the plane.
-struct Surfaces {
+/// Points of the plane with the normals of the surfaces they lie on.
+struct OrientedPoints {
   std::vector<float> x;      ///< m
   std::vector<float> y;      ///< m
   std::vector<float> angle;  ///< rad; of the unit normal that points to the free side.
@@ -23,9 +23,9 @@ struct Surfaces {
   }
 };
 
-struct SurfaceRule {
-  double thinning = 0.1;  ///< m; one point in each square of this side.
-  double radius = 0.2;    ///< m; neighbours that give the normal.
+struct OrientedPointRule {
+  double voxel_size = 0.1;  ///< m; one point in each square of this side.
+  double radius = 0.2;      ///< m; neighbours that give the normal.
   /// Standard deviation across the surface, as a share of that along it, from which there is no normal.
   double max_roughness = 0.4;
 };
@@ -33,16 +33,16 @@ struct SurfaceRule {
 /// The map's: normals by principal components of what lies on one line with a point, turned to the free
 /// cells; a wall that is free on both sides gives two points, one that is free on neither as well. Where a
 /// wall's two sides are on the map, 0.15 m apart or more, each has its own normal.
-[[nodiscard]] Surfaces surfaces_of(const GlobalMap& map, const SurfaceRule& rule);
+[[nodiscard]] OrientedPoints oriented_points_of(const GlobalMap& map, const OrientedPointRule& rule);
 
 /// The local map's: where it has normals, those; they point to where the sensor was. Else by principal
 /// components, in both directions.
-[[nodiscard]] Surfaces surfaces_of(const LocalMap& local, const SurfaceRule& rule);
+[[nodiscard]] OrientedPoints oriented_points_of(const LocalMap& local, const OrientedPointRule& rule);
 
-/// The share of a map's thinned points that have a normal, in [0, 1].
-[[nodiscard]] double share_of_surfaces(const GlobalMap& map, const SurfaceRule& rule);
+/// The share of a map's downsampled points that have a normal, in [0, 1].
+[[nodiscard]] double share_of_oriented_points(const GlobalMap& map, const OrientedPointRule& rule);
 
 /// The middle of the points in each square of this side (m); z is 0.
-[[nodiscard]] Points thinned(const Points& points, double side);
+[[nodiscard]] Points voxel_downsampled(const Points& points, double side);
 
 }  // namespace glocal

@@ -1,4 +1,4 @@
-#include "local_mappers/sight.hpp"
+#include "local_mappers/free_space_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,9 +30,9 @@ TEST(RangeProfile, TellsWhatWasMetFromWhatWasSeenThroughAndWhatWasHidden) {
   hits.push_back({-3.8F, 0.0F, 0.0F});  // 4.8 m: met, within the margin
   hits.push_back({1.0F, 5.2F, 0.0F});   // 5.2 m: met as well
   hits.push_back({7.0F, 0.0F, 0.0F});   // 6 m: behind what was met
-  const RangeProfile::Sight sight = profile.look_at(hits, {}, 0.3);
-  EXPECT_EQ(sight.seen_through, 2U);
-  EXPECT_EQ(sight.met, 2U);
+  const RangeProfile::Seen seen = profile.look_at(hits, {}, 0.3);
+  EXPECT_EQ(seen.violation, 2U);
+  EXPECT_EQ(seen.met, 2U);
 }
 
 TEST(RangeProfile, LooksAtHitsWhereTheirRobotWas) {
@@ -41,7 +41,7 @@ TEST(RangeProfile, LooksAtHitsWhereTheirRobotWas) {
   hits.push_back({1.0F, 0.0F, 0.0F});
   // The other robot stood at (0, 4) and looked along y: its hit is at (0, 5).
   EXPECT_EQ(profile.look_at(hits, {0.0, 4.0, radians(90)}, 0.3).met, 1U);
-  EXPECT_EQ(profile.look_at(hits, {0.0, 2.0, radians(90)}, 0.3).seen_through, 1U);
+  EXPECT_EQ(profile.look_at(hits, {0.0, 2.0, radians(90)}, 0.3).violation, 1U);
 }
 
 TEST(RangeProfile, SaysNothingOfDirectionsItDidNotLookIn) {
@@ -54,59 +54,59 @@ TEST(RangeProfile, SaysNothingOfDirectionsItDidNotLookIn) {
   hits.push_back({3.0F, 0.0F, 0.0F});   // on the way of free beams
   hits.push_back({0.0F, 3.0F, 0.0F});   // beside
   hits.push_back({-3.0F, 0.0F, 0.0F});  // behind
-  const RangeProfile::Sight sight = RangeProfile(ahead).look_at(hits, {}, 0.3);
-  EXPECT_EQ(sight.seen_through, 1U);
-  EXPECT_EQ(sight.met, 0U);
+  const RangeProfile::Seen seen = RangeProfile(ahead).look_at(hits, {}, 0.3);
+  EXPECT_EQ(seen.violation, 1U);
+  EXPECT_EQ(seen.met, 0U);
 }
 
-struct Sights {
+struct FreeSpace {
   Rng rng{7};
   std::vector<test::Wall> walls = test::furnished_room();
-  LatestSights latest{SightParams{}};
+  FreeSpaceCheck latest{FreeSpaceCheckParams{}};
 
   [[nodiscard]] Scan scan_at(const Pose2& pose) { return test::scan_from(walls, pose, {.noise = 0.02}, rng); }
 };
 
-TEST(LatestSights, ADriveThroughARoomIsInAccordWithItself) {
-  Sights sights;
+TEST(FreeSpaceCheck, ADriveThroughARoomIsInAccordWithItself) {
+  FreeSpace sights;
   for (int i = 0; i < 30; ++i) {
     const Pose2 pose{1.0 + 0.2 * i, 1.5, 0.05 * i};
     const Scan scan = sights.scan_at(pose);
-    EXPECT_LT(sights.latest.seen_through(scan, pose), 0.05) << i;
+    EXPECT_LT(sights.latest.violation(scan, pose), 0.05) << i;
     sights.latest.add(scan, pose);
   }
 }
 
-TEST(LatestSights, AScanFromElsewhereIsNot) {
-  Sights sights;
+TEST(FreeSpaceCheck, AScanFromElsewhereIsNot) {
+  FreeSpace sights;
   const Pose2 before{2.0, 1.5, 0.0};
   sights.latest.add(sights.scan_at(before), before);
   for (const Pose2& truth : {Pose2{10.5, 7.0, 3.0}, Pose2{6.5, 8.5, -1.57}, Pose2{2.0, 6.5, 1.57}}) {
-    EXPECT_GT(sights.latest.seen_through(sights.scan_at(truth), before), 0.3) << truth.x;
+    EXPECT_GT(sights.latest.violation(sights.scan_at(truth), before), 0.3) << truth.x;
   }
 }
 
-TEST(LatestSights, SaysNothingFromTooFewHits) {
-  LatestSights latest({.min_hits = 3});
+TEST(FreeSpaceCheck, SaysNothingFromTooFewHits) {
+  FreeSpaceCheck latest({.min_hits = 3});
   latest.add(circle_around({}, 5.0F), {});
   Scan scan;
   scan.origin = {0.0F, 0.0F, 0.0F};
   scan.hits.push_back({1.0F, 0.0F, 0.0F});
   // One hit of this scan is seen through, and it could have seen one or two of the other's, behind its own.
-  EXPECT_EQ(latest.seen_through(scan, {}), 0.0);
+  EXPECT_EQ(latest.violation(scan, {}), 0.0);
   scan.hits.push_back({0.0F, 1.0F, 0.0F});
   scan.hits.push_back({-1.0F, 0.0F, 0.0F});
-  EXPECT_EQ(latest.seen_through(scan, {}), 1.0);
+  EXPECT_EQ(latest.violation(scan, {}), 1.0);
 }
 
-TEST(LatestSights, ForgetsOldScans) {
-  LatestSights latest({.scans = 1});
+TEST(FreeSpaceCheck, ForgetsOldScans) {
+  FreeSpaceCheck latest({.scans = 1});
   latest.add(circle_around({}, 5.0F), {});
-  EXPECT_EQ(latest.seen_through(circle_around({}, 2.0F), {}), 1.0);
+  EXPECT_EQ(latest.violation(circle_around({}, 2.0F), {}), 1.0);
   latest.add(circle_around({}, 2.0F), {});
-  EXPECT_EQ(latest.seen_through(circle_around({}, 2.0F), {}), 0.0);
+  EXPECT_EQ(latest.violation(circle_around({}, 2.0F), {}), 0.0);
   latest.clear();
-  EXPECT_EQ(latest.seen_through(circle_around({}, 5.0F), {}), 0.0);
+  EXPECT_EQ(latest.violation(circle_around({}, 5.0F), {}), 0.0);
 }
 
 }  // namespace

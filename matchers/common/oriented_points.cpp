@@ -1,4 +1,4 @@
-#include "matchers/common/surfaces.hpp"
+#include "matchers/common/oriented_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -127,12 +127,12 @@ Line best_line_through(float x, float y, const std::vector<std::pair<float, floa
 
 /// Angle of the normal, up to half a turn, by the principal components of the neighbours on one line with the
 /// point; none where there is no line, or less than `fewest_on_line` of them are on it: clutter.
-std::optional<float> normal_angle(const Cells& cells, float x, float y, const SurfaceRule& rule) {
+std::optional<float> normal_angle(const Cells& cells, float x, float y, const OrientedPointRule& rule) {
   constexpr std::size_t fewest = 3;
   constexpr double fewest_on_line = 0.45;
   std::vector<std::pair<float, float>> points;
   cells.near(x, y, rule.radius, [&](float px, float py) { points.emplace_back(px, py); });
-  const double reach = rule.thinning / 2.0;
+  const double reach = rule.voxel_size / 2.0;
   Line line = best_line_through(x, y, points, reach);
   // Twice: the point itself may be at the edge of a rough wall.
   for (int i = 0; i < 2; ++i) line = fitted_line(points, line, reach);
@@ -160,8 +160,8 @@ Point middle_of(const Points& points, const std::vector<std::uint32_t>& members)
 
 /// Calls add(x, y, angle) for the middle of each cell where there is a normal; how many cells there are.
 template <class Add>
-std::size_t for_each_thinned(const Points& points, const SurfaceRule& rule, Add add) {
-  const Cells cells(points, rule.thinning);
+std::size_t for_each_voxel(const Points& points, const OrientedPointRule& rule, Add add) {
+  const Cells cells(points, rule.voxel_size);
   for (const auto& members : cells.all()) {
     const Point p = middle_of(points, members);
     if (const auto angle = normal_angle(cells, p.x, p.y, rule)) add(p.x, p.y, *angle);
@@ -186,9 +186,9 @@ bool is_free_side(const OccupancyGrid& grid, float x, float y, float angle) {
 
 }  // namespace
 
-Surfaces surfaces_of(const GlobalMap& map, const SurfaceRule& rule) {
-  Surfaces result;
-  for_each_thinned(map.points(), rule, [&](float x, float y, float angle) {
+OrientedPoints oriented_points_of(const GlobalMap& map, const OrientedPointRule& rule) {
+  OrientedPoints result;
+  for_each_voxel(map.points(), rule, [&](float x, float y, float angle) {
     const bool this_side = is_free_side(map.grid(), x, y, angle);
     const bool other_side = is_free_side(map.grid(), x, y, angle + pi);
     if (this_side || !other_side) result.add(x, y, wrapped(angle));
@@ -197,29 +197,29 @@ Surfaces surfaces_of(const GlobalMap& map, const SurfaceRule& rule) {
   return result;
 }
 
-Surfaces surfaces_of(const LocalMap& local, const SurfaceRule& rule) {
-  Surfaces result;
+OrientedPoints oriented_points_of(const LocalMap& local, const OrientedPointRule& rule) {
+  OrientedPoints result;
   for (std::size_t i = 0; i < local.normals.size(); ++i) {
     const Point normal = local.normals[i];
     if (normal.x == 0.0F && normal.y == 0.0F) continue;
     result.add(local.points.x[i], local.points.y[i], std::atan2(normal.y, normal.x));
   }
   if (!local.normals.empty()) return result;
-  for_each_thinned(local.points, rule, [&](float x, float y, float angle) {
+  for_each_voxel(local.points, rule, [&](float x, float y, float angle) {
     result.add(x, y, wrapped(angle));
     result.add(x, y, wrapped(angle + pi));
   });
   return result;
 }
 
-double share_of_surfaces(const GlobalMap& map, const SurfaceRule& rule) {
+double share_of_oriented_points(const GlobalMap& map, const OrientedPointRule& rule) {
   std::size_t with_normal = 0;
   const std::size_t all =
-      for_each_thinned(map.points(), rule, [&](float /*x*/, float /*y*/, float /*angle*/) { ++with_normal; });
+      for_each_voxel(map.points(), rule, [&](float /*x*/, float /*y*/, float /*angle*/) { ++with_normal; });
   return static_cast<double>(with_normal) / static_cast<double>(all);
 }
 
-Points thinned(const Points& points, double side) {
+Points voxel_downsampled(const Points& points, double side) {
   const Cells cells(points, side);
   Points result;
   for (const auto& members : cells.all()) result.push_back(middle_of(points, members));

@@ -1,4 +1,4 @@
-#include "local_mappers/thinned_map.hpp"
+#include "local_mappers/voxel_map.hpp"
 
 #include <cmath>
 #include <utility>
@@ -26,7 +26,7 @@ Point average_normal(const Point& mean, float n, const Point& normal) {
 
 }  // namespace
 
-void describe(ParamVisitor& v, ThinningParams& p) {
+void describe(ParamVisitor& v, VoxelParams& p) {
   v.field("resolution", p.resolution,
           {.doc = "Side of the cells that thin the map, and of those that index it.",
            .unit = "m",
@@ -53,15 +53,15 @@ LocalScan::LocalScan(const Points& robot_hits, const Points& robot_normals, cons
   }
 }
 
-ThinnedMap::ThinnedMap(const ThinningParams& params, int reach, double sigma)
+VoxelMap::VoxelMap(const VoxelParams& params, int reach, double sigma)
     : params_(params), grid_(params.resolution, reach, sigma, tiles_in(params.memory_mb)) {}
 
-bool ThinnedMap::holds_robot() const {
+bool VoxelMap::holds_robot() const {
   const Pose2& robot = map_.local_from_robot;
   return grid_.contains(static_cast<float>(robot.x), static_cast<float>(robot.y));
 }
 
-void ThinnedMap::clear() {
+void VoxelMap::clear() {
   map_.points.clear();
   map_.normals.clear();
   map_.ends.clear();
@@ -70,18 +70,18 @@ void ThinnedMap::clear() {
   grid_.clear();
 }
 
-void ThinnedMap::start_over() {
+void VoxelMap::start_over() {
   clear();
   map_.local_from_robot = {};
-  ++map_.generation;
+  ++map_.epoch;
 }
 
-void ThinnedMap::reset() {
+void VoxelMap::reset() {
   start_over();
-  map_.generation = 0;
+  map_.epoch = 0;
 }
 
-void ThinnedMap::add(const LocalScan& scan) {
+void VoxelMap::add(const LocalScan& scan) {
   for (std::size_t i = 0; i < scan.hits.size(); ++i) {
     const Point p = scan.hits[i];
     if (grid_.contains(p.x, p.y)) add_hit(p, scan.normals[i]);
@@ -89,7 +89,7 @@ void ThinnedMap::add(const LocalScan& scan) {
   map_.ends.push_back(map_.points.size());
 }
 
-void ThinnedMap::add_hit(const Point& p, const Point& normal) {
+void VoxelMap::add_hit(const Point& p, const Point& normal) {
   const GridCell cell = grid_.cell(p.x, p.y);
   const int found = find_point(cell, p.z);
   if (found != PointGrid::none) {
@@ -99,7 +99,7 @@ void ThinnedMap::add_hit(const Point& p, const Point& normal) {
   }
 }
 
-int ThinnedMap::find_point(GridCell cell, float z) const {
+int VoxelMap::find_point(GridCell cell, float z) const {
   const auto layer = [this](float height) {
     return std::floor(height / static_cast<float>(params_.resolution));
   };
@@ -111,7 +111,7 @@ int ThinnedMap::find_point(GridCell cell, float z) const {
   return i;
 }
 
-void ThinnedMap::append_point(GridCell cell, const Point& p, const Point& normal) {
+void VoxelMap::append_point(GridCell cell, const Point& p, const Point& normal) {
   const std::size_t index = map_.points.size();
   if (index >= PointGrid::max_points) return;
   const int first = grid_.inside(cell);
@@ -128,7 +128,7 @@ void ThinnedMap::append_point(GridCell cell, const Point& p, const Point& normal
   next_above_.push_back(next);
 }
 
-void ThinnedMap::average_into(std::size_t index, const Point& p, const Point& normal) {
+void VoxelMap::average_into(std::size_t index, const Point& p, const Point& normal) {
   if (hits_[index] >= params_.cell_hits) return;
   const auto n = static_cast<float>(hits_[index]++);
   const Point mean = map_.points[index];

@@ -1,4 +1,4 @@
-#include "local_mappers/sight.hpp"
+#include "local_mappers/free_space_check.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ std::size_t direction(float x, float y) {
 
 }  // namespace
 
-void describe(ParamVisitor& v, SightParams& p) {
+void describe(ParamVisitor& v, FreeSpaceCheckParams& p) {
   v.field("scans", p.scans, {.doc = "Latest scans that a new one is compared with.", .min = 1, .max = 100});
   v.field("margin", p.margin,
           {.doc = "A beam that went on for less than this behind a hit may have met the same thing.",
@@ -48,11 +48,11 @@ RangeProfile::RangeProfile(const Scan& scan) : origin_(scan.origin), ranges_(dir
   }
 }
 
-RangeProfile::Sight RangeProfile::look_at(const Points& hits, const Pose2& here_from_hits,
-                                          double margin) const {
+RangeProfile::Seen RangeProfile::look_at(const Points& hits, const Pose2& here_from_hits,
+                                         double margin) const {
   const Transform transform(here_from_hits);
   const auto tolerance = static_cast<float>(margin);
-  Sight sight;
+  Seen seen;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Point p = transform(hits[i]);
     const float x = p.x - origin_.x;
@@ -64,18 +64,18 @@ RangeProfile::Sight RangeProfile::look_at(const Points& hits, const Pose2& here_
     const auto [nearest, farthest] = std::minmax_element(around.begin(), around.end());
     const float range = std::hypot(x, y);
     if (*nearest == 0.0F || range > *farthest + tolerance) continue;
-    ++(range < *nearest - tolerance ? sight.seen_through : sight.met);
+    ++(range < *nearest - tolerance ? seen.violation : seen.met);
   }
-  return sight;
+  return seen;
 }
 
-double LatestSights::seen_through(const Scan& scan, const Pose2& local_from_robot) const {
+double FreeSpaceCheck::violation(const Scan& scan, const Pose2& local_from_robot) const {
   const RangeProfile now(scan);
   std::size_t through = 0;
   std::size_t all = 0;
-  const auto count = [&](const RangeProfile::Sight& sight) {
-    through += sight.seen_through;
-    all += sight.seen_through + sight.met;
+  const auto count = [&](const RangeProfile::Seen& seen) {
+    through += seen.violation;
+    all += seen.violation + seen.met;
   };
   for (const PlacedScan& before : scans_) {
     const Pose2 before_from_now = inverse(before.local_from_robot) * local_from_robot;
@@ -86,7 +86,7 @@ double LatestSights::seen_through(const Scan& scan, const Pose2& local_from_robo
   return static_cast<double>(through) / static_cast<double>(all);
 }
 
-void LatestSights::add(const Scan& scan, const Pose2& local_from_robot) {
+void FreeSpaceCheck::add(const Scan& scan, const Pose2& local_from_robot) {
   scans_.push_back({local_from_robot, scan.hits, RangeProfile(scan)});
   if (scans_.size() > static_cast<std::size_t>(params_.scans)) scans_.pop_front();
 }

@@ -1,4 +1,4 @@
-#include "matchers/indexed_ransam/dipole_index.hpp"
+#include "matchers/indexed_ransam/oriented_pair_index.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,28 +15,29 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Surfaces scattered(int n, double side) {
+OrientedPoints scattered(int n, double side) {
   Rng rng(11);
-  Surfaces surfaces;
+  OrientedPoints oriented_points;
   for (int i = 0; i < n; ++i) {
-    surfaces.add(static_cast<float>(rng.uniform(0.0, side)), static_cast<float>(rng.uniform(0.0, side)),
-                 static_cast<float>(rng.uniform(-pi, pi)));
+    oriented_points.add(static_cast<float>(rng.uniform(0.0, side)),
+                        static_cast<float>(rng.uniform(0.0, side)), static_cast<float>(rng.uniform(-pi, pi)));
   }
-  return surfaces;
+  return oriented_points;
 }
 
-Surfaces moved(const Surfaces& surfaces, const Pose2& pose) {
-  Surfaces result;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const Pose2 p = pose * Pose2{surfaces.x[i], surfaces.y[i], surfaces.angle[i]};
+OrientedPoints moved(const OrientedPoints& oriented_points, const Pose2& pose) {
+  OrientedPoints result;
+  for (std::size_t i = 0; i < oriented_points.size(); ++i) {
+    const Pose2 p = pose * Pose2{oriented_points.x[i], oriented_points.y[i], oriented_points.angle[i]};
     result.add(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.theta));
   }
   return result;
 }
 
-std::set<std::pair<std::uint32_t, std::uint32_t>> pairs(std::span<const DipoleIndex::Dipole> dipoles) {
+std::set<std::pair<std::uint32_t, std::uint32_t>> pairs(
+    std::span<const OrientedPairIndex::OrientedPair> pairs) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> result;
-  for (const auto& d : dipoles) result.emplace(d.first, d.second);
+  for (const auto& d : pairs) result.emplace(d.first, d.second);
   return result;
 }
 
@@ -44,32 +45,32 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> pairs(std::span<const DipoleIn
 struct Seen {
   double length, first, second;
 };
-Seen seen(const Surfaces& s, std::uint32_t a, std::uint32_t b) {
+Seen seen(const OrientedPoints& s, std::uint32_t a, std::uint32_t b) {
   const double dx = s.x[b] - s.x[a];
   const double dy = s.y[b] - s.y[a];
   const double direction = std::atan2(dy, dx);
   return {std::hypot(dx, dy), wrap_angle(s.angle[a] - direction), wrap_angle(s.angle[b] - direction)};
 }
 
-TEST(DipoleIndex, HoldsEveryOrderedPairInRange) {
-  const Surfaces surfaces = scattered(200, 12.0);
+TEST(OrientedPairIndex, HoldsEveryOrderedPairInRange) {
+  const OrientedPoints oriented_points = scattered(200, 12.0);
   std::size_t expected = 0;
   for (std::uint32_t a = 0; a < 200; ++a) {
     for (std::uint32_t b = 0; b < 200; ++b) {
-      const double length =
-          std::hypot(double{surfaces.x[a]} - surfaces.x[b], double{surfaces.y[a]} - surfaces.y[b]);
+      const double length = std::hypot(double{oriented_points.x[a]} - oriented_points.x[b],
+                                       double{oriented_points.y[a]} - oriented_points.y[b]);
       if (a != b && length >= 0.5 && length < 6.0) ++expected;
     }
   }
-  const DipoleIndex index(surfaces, {});
+  const OrientedPairIndex index(oriented_points, {});
   EXPECT_EQ(index.size(), expected);
   EXPECT_GE(index.memory_bytes(), 8 * expected);
 }
 
-TEST(DipoleIndex, ADipoleFindsItselfWhereverItHasBeenMovedTo) {
-  const Surfaces map = scattered(150, 10.0);
-  const DipoleIndex index(map, {});
-  const Surfaces local = moved(map, {3.0, -7.0, 1.234});
+TEST(OrientedPairIndex, APairFindsItselfWhereverItHasBeenMovedTo) {
+  const OrientedPoints map = scattered(150, 10.0);
+  const OrientedPairIndex index(map, {});
+  const OrientedPoints local = moved(map, {3.0, -7.0, 1.234});
   int found = 0;
   int all = 0;
   for (std::uint32_t a = 0; a < 150; ++a) {
@@ -84,9 +85,9 @@ TEST(DipoleIndex, ADipoleFindsItselfWhereverItHasBeenMovedTo) {
   EXPECT_GT(found, 0.999 * all);
 }
 
-TEST(DipoleIndex, PartnersAreAlike) {
-  const Surfaces map = scattered(150, 10.0);
-  const DipoleIndex index(map, {});
+TEST(OrientedPairIndex, PartnersAreAlike) {
+  const OrientedPoints map = scattered(150, 10.0);
+  const OrientedPairIndex index(map, {});
   std::size_t partners = 0;
   for (std::uint32_t a = 0; a < 150; a += 3) {
     for (std::uint32_t b = 0; b < 150; b += 5) {
@@ -103,46 +104,46 @@ TEST(DipoleIndex, PartnersAreAlike) {
   EXPECT_GT(partners, 500U);
 }
 
-TEST(DipoleIndex, OfTooManyAnEvenShareIsKeptTheSameEachTime) {
-  const Surfaces surfaces = scattered(400, 10.0);
-  DipoleRule rule;
-  const std::size_t all = DipoleIndex(surfaces, rule).size();
+TEST(OrientedPairIndex, OfTooManyAnEvenShareIsKeptTheSameEachTime) {
+  const OrientedPoints oriented_points = scattered(400, 10.0);
+  OrientedPairRule rule;
+  const std::size_t all = OrientedPairIndex(oriented_points, rule).size();
   rule.max_entries = 10'000;
   ASSERT_GT(all, 3 * rule.max_entries);
-  const DipoleIndex one(surfaces, rule);
-  const DipoleIndex other(surfaces, rule);
+  const OrientedPairIndex one(oriented_points, rule);
+  const OrientedPairIndex other(oriented_points, rule);
   EXPECT_NEAR(static_cast<double>(one.size()), 10'000.0, 500.0);
   EXPECT_EQ(one.size(), other.size());
   std::size_t from_first_half = 0;
   for (std::uint32_t a = 0; a < 400; ++a) {
     for (std::uint32_t b = 0; b < 400; ++b) {
-      const auto found = pairs(one.find(surfaces, {a, b}));
-      EXPECT_EQ(found, pairs(other.find(surfaces, {a, b})));
+      const auto found = pairs(one.find(oriented_points, {a, b}));
+      EXPECT_EQ(found, pairs(other.find(oriented_points, {a, b})));
       if (found.contains({a, b}) && a < 200) ++from_first_half;
     }
   }
   EXPECT_NEAR(static_cast<double>(from_first_half) / static_cast<double>(one.size()), 0.5, 0.05);
 }
 
-TEST(DipoleIndex, IsTheSameForAnyNumberOfThreads) {
-  const Surfaces surfaces = scattered(500, 15.0);
-  const DipoleRule rule{.max_entries = 20'000};
-  const std::string one = DipoleIndex(surfaces, rule, 1).saved({});
+TEST(OrientedPairIndex, IsTheSameForAnyNumberOfThreads) {
+  const OrientedPoints oriented_points = scattered(500, 15.0);
+  const OrientedPairRule rule{.max_entries = 20'000};
+  const std::string one = OrientedPairIndex(oriented_points, rule, 1).saved({});
   EXPECT_GT(one.size(), 8 * std::size_t{19'000});
-  EXPECT_EQ(one, DipoleIndex(surfaces, rule, 2).saved({}));
-  EXPECT_EQ(one, DipoleIndex(surfaces, rule, 5).saved({}));
+  EXPECT_EQ(one, OrientedPairIndex(oriented_points, rule, 2).saved({}));
+  EXPECT_EQ(one, OrientedPairIndex(oriented_points, rule, 5).saved({}));
 }
 
-TEST(DipoleIndex, ShortAndLongOnesHaveNoPartnersAndNothingIsAnAnswer) {
-  Surfaces two;
+TEST(OrientedPairIndex, ShortAndLongOnesHaveNoPartnersAndNothingIsAnAnswer) {
+  OrientedPoints two;
   two.add(0.0F, 0.0F, 0.0F);
   two.add(0.3F, 0.0F, 0.0F);
   two.add(9.0F, 0.0F, 0.0F);
-  const DipoleIndex index(two, {});
+  const OrientedPairIndex index(two, {});
   EXPECT_TRUE(index.find(two, {0, 1}).empty());
   EXPECT_TRUE(index.find(two, {0, 2}).empty());
   EXPECT_TRUE(index.find(two, {0, 0}).empty());
-  EXPECT_EQ(DipoleIndex({}, {}).size(), 0U);
+  EXPECT_EQ(OrientedPairIndex({}, {}).size(), 0U);
 }
 
 }  // namespace

@@ -12,13 +12,13 @@
 
 namespace glocal {
 
-/// Parameters of any local mapper that thins its points, among its own.
-struct ThinningParams {
+/// Parameters of any local mapper that downsamples its points, among its own.
+struct VoxelParams {
   double resolution = 0.05;
   int cell_hits = 3;
   int memory_mb = 256;
 };
-void describe(ParamVisitor& v, ThinningParams& p);
+void describe(ParamVisitor& v, VoxelParams& p);
 
 /// Cells of this side that cover so many metres.
 [[nodiscard]] int cells_in(double metres, double resolution);
@@ -34,13 +34,13 @@ struct LocalScan {
   LocalScan() = default;
 };
 
-/// A local map thinned in cells of `resolution` (cubes, for hits at different heights); a cell's point is the
-/// mean of its first `cell_hits` hits. Hits outside of what the grid can hold (800 m from where the map
-/// began, with cells of 5 cm) or beyond `memory_mb` are left out.
-class ThinnedMap {
+/// A local map downsampled to voxels of `resolution` (cubes, for hits at different heights); a cell's point
+/// is the mean of its first `cell_hits` hits. Hits outside of what the grid can hold (800 m from where the
+/// map began, with cells of 5 cm) or beyond `memory_mb` are left out.
+class VoxelMap {
  public:
   /// `reach` (cells) and `sigma` (m) are the grid's.
-  ThinnedMap(const ThinningParams& params, int reach, double sigma);
+  VoxelMap(const VoxelParams& params, int reach, double sigma);
 
   [[nodiscard]] const LocalMap& map() const { return map_; }
   /// Index of the points.
@@ -53,7 +53,7 @@ class ThinnedMap {
   void add(const LocalScan& scan);
   /// Forgets all observations, but neither frame nor robot.
   void clear();
-  /// Begins the next generation, with the robot at the origin.
+  /// Begins the next epoch, with the robot at the origin.
   void start_over();
   /// Begins the first one.
   void reset();
@@ -65,7 +65,7 @@ class ThinnedMap {
   void append_point(GridCell cell, const Point& p, const Point& normal);
   void average_into(std::size_t index, const Point& p, const Point& normal);
 
-  ThinningParams params_;
+  VoxelParams params_;
   PointGrid grid_;
   LocalMap map_;
   std::vector<std::uint8_t> hits_;        ///< Hits averaged in each point so far.

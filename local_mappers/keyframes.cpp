@@ -1,12 +1,12 @@
-#include "local_mappers/key_frames.hpp"
+#include "local_mappers/keyframes.hpp"
 
 #include <cmath>
 
 namespace glocal {
 
-void describe(ParamVisitor& v, KeyFrames::Params& p) {
+void describe(ParamVisitor& v, Keyframes::Params& p) {
   v.field("distance", p.distance,
-          {.doc = "An observation is a key frame this far from the last one …", .unit = "m", .min = 0.0});
+          {.doc = "An observation is a keyframe this far from the last one …", .unit = "m", .min = 0.0});
   v.field("angle", p.angle, {.doc = "… or turned by so much …", .unit = "rad", .min = 0.0});
   v.field("overlap", p.overlap,
           {.doc = "… or if less than this share of its hits lies on the map; 0: not used.",
@@ -21,16 +21,16 @@ void describe(ParamVisitor& v, KeyFrames::Params& p) {
             "must be at most refinement's gate");
 }
 
-void KeyFrames::reset() {
+void Keyframes::reset() {
   matching_.reset();
   local_from_last_.reset();
 }
 
-void KeyFrames::add(const Observation& observation) {
-  const int generation = map().generation;
+void Keyframes::add(const Observation& observation) {
+  const int epoch = map().epoch;
   const LocalScan scan = matching_.place(observation);
-  if (map().generation != generation) local_from_last_.reset();
-  if (!is_key_frame(scan.hits)) {
+  if (map().epoch != epoch) local_from_last_.reset();
+  if (!is_keyframe(scan.hits)) {
     matching_.insert({});
     return;
   }
@@ -38,7 +38,7 @@ void KeyFrames::add(const Observation& observation) {
   matching_.insert(scan);
 }
 
-bool KeyFrames::is_key_frame(const Points& hits) const {
+bool Keyframes::is_keyframe(const Points& hits) const {
   if (hits.empty()) return false;
   if (!local_from_last_) return true;
   const Pose2& robot = map().local_from_robot;
@@ -46,7 +46,7 @@ bool KeyFrames::is_key_frame(const Points& hits) const {
          rotation_between(*local_from_last_, robot) >= params_.angle || overlap(hits) < params_.overlap;
 }
 
-double KeyFrames::overlap(const Points& hits) const {
+double Keyframes::overlap(const Points& hits) const {
   std::size_t near = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const int found = matching_.grid().nearest(hits.x[i], hits.y[i]);

@@ -16,41 +16,43 @@
 namespace glocal {
 
 /// A pose of the local map, and how good it looks so far.
-struct Mode {
+struct Candidate {
   Pose2 map_from_local;
   double quality = 0.0;
 };
 
-/// When two robot poses are one mode, both nearer and turned by less; and how many points refine one.
-struct ModeRule {
+/// When two robot poses are one candidate, both nearer and turned by less; and how many points refine one.
+struct CandidateRule {
   double distance = 0.4;  ///< m
   double rotation = 0.2;  ///< rad
   int refinement_points = 50;
 };
 /// Among the fields of a matcher, not in a group of their own.
-void describe(ParamVisitor& v, ModeRule& p);
+void describe(ParamVisitor& v, CandidateRule& p);
 
-[[nodiscard]] inline bool is_same_mode(const Pose2& a, const Pose2& b, const ModeRule& rule) {
+[[nodiscard]] inline bool is_same_candidate(const Pose2& a, const Pose2& b, const CandidateRule& rule) {
   return distance(a, b) < rule.distance && rotation_between(a, b) < rule.rotation;
 }
 
-/// Makes few modes of many poses.
-class ModeRefiner {
+/// Makes few candidates of many poses.
+class CandidateRefiner {
  public:
-  /// Of more than `most` modes the best are kept.
-  ModeRefiner(const ModeRule& rule, std::size_t most, const PoseRefinement& refinement,
-              std::shared_ptr<const DistanceField> field, std::shared_ptr<const ContactIndex> contact);
+  /// Of more than `most` candidates the best are kept.
+  CandidateRefiner(const CandidateRule& rule, std::size_t most, const PoseRefinement& refinement,
+                   std::shared_ptr<const DistanceField> field, std::shared_ptr<const ContactIndex> contact);
 
   /// The best first, leaving out those that only repeat a better one: the same robot pose.
-  [[nodiscard]] std::vector<Mode> distinct(std::vector<Mode> modes, const Pose2& local_from_robot) const;
+  [[nodiscard]] std::vector<Candidate> distinct(std::vector<Candidate> candidates,
+                                                const Pose2& local_from_robot) const;
 
   /// The distinct ones, each refined by the first points of `sample` and judged anew by the contact of
   /// `points`; distinct again, as some may have become one.
-  [[nodiscard]] std::vector<Mode> refined(std::vector<Mode> modes, const Pose2& local_from_robot,
-                                          const Points& sample, const Points& points) const;
+  [[nodiscard]] std::vector<Candidate> refined(std::vector<Candidate> candidates,
+                                               const Pose2& local_from_robot, const Points& sample,
+                                               const Points& points) const;
 
  private:
-  ModeRule rule_;
+  CandidateRule rule_;
   std::size_t most_;
   PoseRefinement refinement_;
   std::shared_ptr<const DistanceField> field_;
