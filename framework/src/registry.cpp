@@ -14,6 +14,11 @@ const StrategyInfo* RegistryBase::find(std::string_view name) const {
   return it == infos_.end() ? nullptr : &it->second;
 }
 
+const std::string* RegistryBase::renamed(std::string_view formerly) const {
+  const auto it = renamed_.find(formerly);
+  return it == renamed_.end() ? nullptr : &it->second;
+}
+
 StrategyChoice RegistryBase::choose(std::string_view name) const {
   const StrategyInfo* info = find(name);
   if (info == nullptr) throw std::out_of_range("no " + kind_ + " '" + std::string(name) + "'");

@@ -14,35 +14,35 @@ std::size_t left_after(std::size_t hypotheses, std::size_t observations, std::si
 
 std::size_t preempt(std::vector<ScoredPose>& hypotheses, const ContactIndex& contact, const Points& all,
                     const Points& latest, const PreemptionRule& rule, int threads) {
-  struct Candidate {
+  struct Contender {
     ScoredPose pose;
     const Points* points;
   };
-  std::vector<Candidate> candidates;
+  std::vector<Contender> contenders;
   for (const ScoredPose& pose : hypotheses) {
-    candidates.push_back({pose, pose.looked_at == 0 ? &all : &latest});
+    contenders.push_back({pose, pose.looked_at == 0 ? &all : &latest});
   }
   std::size_t points_tested = 0;
   const std::size_t most = std::max(all.size(), latest.size());
   for (std::size_t begin = 0; begin < most; begin += rule.block) {
-    parallel_for(threads, candidates.size(), [&](std::size_t i) {
-      auto& [pose, points] = candidates[i];
+    parallel_for(threads, contenders.size(), [&](std::size_t i) {
+      auto& [pose, points] = contenders[i];
       if (begin >= points->size()) return;
       const std::size_t n = std::min(rule.block, points->size() - begin);
       pose.in_contact += contact.count(*points, begin, n, Transform(pose.map_from_local));
       pose.looked_at += n;
     });
-    points_tested += candidates.size() * rule.block;
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.pose.score() > b.pose.score(); });
+    points_tested += contenders.size() * rule.block;
+    std::stable_sort(contenders.begin(), contenders.end(),
+                     [](const Contender& a, const Contender& b) { return a.pose.score() > b.pose.score(); });
     const std::size_t left =
         std::max(rule.fewest, left_after(hypotheses.size(), begin + rule.block, rule.block));
-    if (left < candidates.size())
-      candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(left), candidates.end());
-    if (candidates.size() <= rule.fewest) break;
+    if (left < contenders.size())
+      contenders.erase(contenders.begin() + static_cast<std::ptrdiff_t>(left), contenders.end());
+    if (contenders.size() <= rule.fewest) break;
   }
   hypotheses.clear();
-  for (const Candidate& candidate : candidates) hypotheses.push_back(candidate.pose);
+  for (const Contender& contender : contenders) hypotheses.push_back(contender.pose);
   return points_tested;
 }
 

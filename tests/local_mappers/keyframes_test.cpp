@@ -7,7 +7,7 @@
 
 #include "local_mappers/drives.hpp"
 
-namespace glocal::key_frames_test {
+namespace glocal::keyframes_test {
 namespace {
 
 using test::at;
@@ -83,4 +83,4 @@ TEST(Keyframes, TheFirstOneOfANewMapIsOne) {
 }
 
 }  // namespace
-}  // namespace glocal::key_frames_test
+}  // namespace glocal::keyframes_test

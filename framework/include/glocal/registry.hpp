@@ -40,6 +40,13 @@ class RegistryBase {
   /// The strategy with all its defaults. Throws std::out_of_range if there is none.
   [[nodiscard]] StrategyChoice choose(std::string_view name) const;
 
+  /// Notes that a strategy had another name before.
+  void note_renamed(std::string formerly, std::string now) {
+    renamed_.emplace(std::move(formerly), std::move(now));
+  }
+  /// What a strategy is called now that had this name before; null if there is none.
+  [[nodiscard]] const std::string* renamed(std::string_view formerly) const;
+
   /// Who registers from now on; named in StrategyInfo::origin and in messages.
   void set_origin(std::string origin) { origin_ = std::move(origin); }
 
@@ -51,6 +58,7 @@ class RegistryBase {
   std::string kind_;
   std::string origin_ = "glocal";
   std::map<std::string, StrategyInfo, std::less<>> infos_;
+  std::map<std::string, std::string, std::less<>> renamed_;
 };
 
 /// Makes strategies of one kind. `Setup` is what they may use when they are made.

@@ -1,5 +1,6 @@
 #include "config/field_docs.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -24,6 +25,8 @@ constexpr FieldType type_of<std::uint64_t> = FieldType::unsigned_whole;
 template <>
 constexpr FieldType type_of<double> = FieldType::number;
 template <>
+constexpr FieldType type_of<std::optional<double>> = FieldType::number_or_auto;
+template <>
 constexpr FieldType type_of<std::string> = FieldType::text;
 template <>
 constexpr FieldType type_of<FilePath> = FieldType::path;
@@ -43,6 +46,9 @@ constexpr FieldType type_of<ListedChanges> = FieldType::listed_changes;
 template <class T>
 Json to_json_value(const T& value) {
   return value;
+}
+Json to_json_value(const std::optional<double>& value) {
+  return value ? Json(*value) : Json("auto");
 }
 Json to_json_value(const FilePath& value) {
   return value.text;
@@ -109,6 +115,22 @@ StructDoc document(AnyParams& params) {
   return documenter.take();
 }
 
+std::vector<std::string> to_tune(const StructDoc& doc) {
+  std::vector<std::string> names;
+  for (const FieldDoc& field : doc.fields) {
+    if (field.info.audience == Audience::tuner) names.push_back(field.name);
+    for (const StructDoc& inner : field.inner) {
+      for (const std::string& name : to_tune(inner)) names.push_back(field.name + "." + name);
+    }
+  }
+  return names;
+}
+
+bool has_expert_fields(const StructDoc& doc) {
+  return std::any_of(doc.fields.begin(), doc.fields.end(),
+                     [](const FieldDoc& field) { return field.info.audience == Audience::expert; });
+}
+
 std::string type_name(const FieldDoc& field) {
   switch (field.type) {
     case FieldType::boolean:
@@ -118,6 +140,8 @@ std::string type_name(const FieldDoc& field) {
       return "whole number";
     case FieldType::number:
       return "number";
+    case FieldType::number_or_auto:
+      return "number or auto";
     case FieldType::text:
       return "text";
     case FieldType::path:
@@ -147,7 +171,8 @@ std::string type_name(const FieldDoc& field) {
 std::string default_text(const FieldDoc& field) {
   if (field.info.required) return "required";
   if (field.default_value.is_null()) return "";
-  if (field.type == FieldType::strategy) return field.default_value.get<std::string>();
+  const bool is_word = field.type == FieldType::number_or_auto && field.default_value.is_string();
+  if (field.type == FieldType::strategy || is_word) return field.default_value.get<std::string>();
   // Doubles without the ".0" that JSON gives them.
   if (field.default_value.is_number_float()) return to_yaml(field.default_value.get<double>());
   return field.default_value.dump();

@@ -15,6 +15,7 @@ enum class FieldType {
   whole,
   unsigned_whole,
   number,
+  number_or_auto,
   text,
   path,
   numbers,
@@ -52,6 +53,11 @@ struct StructDoc {
 
 /// The struct's present values are the defaults.
 [[nodiscard]] StructDoc document(AnyParams& params);
+
+/// The fields to tune first, by their names; those of a group by their paths.
+[[nodiscard]] std::vector<std::string> to_tune(const StructDoc& doc);
+/// Whether there are fields for experts, apart from those within groups.
+[[nodiscard]] bool has_expert_fields(const StructDoc& doc);
 
 /// "whole number", "list of paths" …
 [[nodiscard]] std::string type_name(const FieldDoc& field);

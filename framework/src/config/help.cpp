@@ -6,24 +6,50 @@
 
 #include "config/experiment_params.hpp"
 #include "config/field_docs.hpp"
+#include "config/nearest.hpp"
 
 namespace glocal {
 namespace {
 
-void write_struct(const StructDoc& doc, std::size_t indent, std::string& text) {
-  const std::string margin(indent, ' ');
+void write_field(const FieldDoc& field, std::size_t indent, std::string& text);
+
+/// The fields for some of the readers.
+void write_fields(const StructDoc& doc, bool for_experts, std::size_t indent, std::string& text) {
   for (const FieldDoc& field : doc.fields) {
-    std::string facts = type_name(field);
-    const std::string allowed = allowed_text(field);
-    if (!allowed.empty()) facts += " (" + allowed + ")";
-    const std::string value = default_text(field);
-    if (!value.empty()) facts += field.info.required ? ", required" : ", default " + value;
-    text += fmt::format("{0}{1}: {2}\n{0}    {3}\n", margin, field.name, facts, field.info.doc.text);
-    for (const StructDoc& inner : field.inner) write_struct(inner, indent + 4, text);
+    if ((field.info.audience == Audience::expert) == for_experts) write_field(field, indent, text);
   }
+}
+
+void write_rules(const StructDoc& doc, const std::string& margin, std::string& text) {
   for (const RuleDoc& rule : doc.rules) {
     text += margin + "Rule: " + (rule.field.empty() ? "" : rule.field + " ") + rule.rule + ".\n";
   }
+}
+
+void write_field(const FieldDoc& field, std::size_t indent, std::string& text) {
+  const std::string margin(indent, ' ');
+  std::string facts = type_name(field);
+  const std::string allowed = allowed_text(field);
+  if (!allowed.empty()) facts += " (" + allowed + ")";
+  const std::string value = default_text(field);
+  if (!value.empty()) facts += field.info.required ? ", required" : ", default " + value;
+  text += fmt::format("{0}{1}: {2}\n{0}    {3}\n", margin, field.name, facts, field.info.doc.text);
+  for (const StructDoc& inner : field.inner) {
+    write_fields(inner, false, indent + 4, text);
+    write_fields(inner, true, indent + 4, text);
+    write_rules(inner, margin + "    ", text);
+  }
+}
+
+/// What to tune first, the fields for everyone, and those for experts behind them.
+void write_struct(const StructDoc& doc, std::size_t indent, std::string& text) {
+  const std::string margin(indent, ' ');
+  const std::vector<std::string> first = to_tune(doc);
+  if (!first.empty()) text += margin + "Tune first: " + join(first) + ".\n\n";
+  write_fields(doc, false, indent, text);
+  if (has_expert_fields(doc)) text += "\n" + margin + "For experts:\n\n";
+  write_fields(doc, true, indent, text);
+  write_rules(doc, margin, text);
 }
 
 std::string strategy_help(const StrategyInfo& info, const RegistryBase& registry) {

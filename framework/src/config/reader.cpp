@@ -1,6 +1,7 @@
 #include "config/reader.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -71,13 +72,21 @@ class MapReader final : public UniformVisitor<MapReader> {
     refuse(entry == nullptr ? map_->place : entry->value.place, std::string(field), std::string(rule));
   }
 
+  void removed(std::string_view name, std::string_view advice) override {
+    gone_[std::string(name)] = "was removed: " + std::string(advice);
+  }
+
   /// To be called after all fields were visited.
   void report_unknown_keys() {
     for (const YamlEntry& entry : map_->entries) {
       if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-      const std::string help =
-          known_.empty() ? " (there are no parameters)" : suggestion(entry.key, known_, "known keys");
-      faults_->push_back(fault_at(entry.place, about(path_, "unknown key '" + entry.key + "'" + help)));
+      const std::string key = "key '" + entry.key + "'";
+      const auto gone = gone_.find(entry.key);
+      const std::string fault = gone != gone_.end() ? key + " " + gone->second
+                                : known_.empty()
+                                    ? "unknown " + key + " (there are no parameters)"
+                                    : "unknown " + key + suggestion(entry.key, known_, "known keys");
+      faults_->push_back(fault_at(entry.place, about(path_, fault)));
     }
   }
 
@@ -117,6 +126,7 @@ class MapReader final : public UniformVisitor<MapReader> {
   /// must be given.
   const YamlNode* take(std::string_view name, const FieldInfo& info) {
     known_.emplace_back(name);
+    note_former_name(name, info);
     const YamlEntry* entry = find_entry(*map_, name);
     if (entry != nullptr && entry->value.kind != NodeKind::invalid) return &entry->value;
     if (entry != nullptr || info.required) refused_.emplace_back(name);
@@ -125,6 +135,15 @@ class MapReader final : public UniformVisitor<MapReader> {
                                                                 "': " + std::string(info.doc.text))));
     }
     return nullptr;
+  }
+
+  void note_former_name(std::string_view name, const FieldInfo& info) {
+    const std::string_view formerly = info.formerly;
+    if (formerly.empty()) return;
+    // What was in radians is in degrees now.
+    const bool is_turned = name.ends_with("_deg") && !formerly.ends_with("_deg");
+    gone_[std::string(formerly)] =
+        "is called '" + std::string(name) + "' now" + (is_turned ? ", and is in degrees" : "");
   }
 
   void refuse(const Place& place, const std::string& what, const std::string& message) {
@@ -209,6 +228,11 @@ class MapReader final : public UniformVisitor<MapReader> {
       return;
     }
     const std::string& chosen = is_map ? node.entries.front().key : node.text;
+    if (const std::string* now = registry.renamed(chosen)) {
+      refuse(is_map ? node.entries.front().place : node.place, std::string(name),
+             "the " + registry.kind() + " '" + chosen + "' is called '" + *now + "' now");
+      return;
+    }
     if (registry.find(chosen) == nullptr) {
       const auto near = nearest(chosen, names_of(registry));
       refuse(is_map ? node.entries.front().place : node.place, std::string(name),
@@ -232,6 +256,7 @@ class MapReader final : public UniformVisitor<MapReader> {
   std::string path_;
   std::vector<Fault>* faults_;
   std::vector<std::string> known_;
+  std::map<std::string, std::string> gone_;  ///< What became of keys of earlier versions.
   std::vector<std::string> refused_;
 };
 

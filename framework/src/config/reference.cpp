@@ -6,6 +6,7 @@
 
 #include "config/experiment_params.hpp"
 #include "config/field_docs.hpp"
+#include "config/nearest.hpp"
 
 namespace glocal {
 namespace {
@@ -24,30 +25,46 @@ std::string code(const std::string& text) {
   return text.empty() ? "" : "`" + text + "`";
 }
 
-void write_rows(const StructDoc& doc, const std::string& prefix, std::string& rows, std::string& rules) {
+/// The rows of a struct's fields for everyone, and those for experts, with what is in them.
+struct Rows {
+  std::string everyone;
+  std::string experts;
+  std::string rules;
+};
+
+void write_rows(const StructDoc& doc, const std::string& prefix, bool within_experts, Rows& rows) {
   for (const FieldDoc& field : doc.fields) {
     const std::string key = prefix + field.name;
     const std::string value = default_text(field);
-    rows += fmt::format("| `{}` | {} | {} | {} | {} |\n", key, cell(type_name(field)),
-                        field.info.required ? "required" : code(value), cell(allowed_text(field)),
-                        cell(field.info.doc.text));
+    const bool for_experts = within_experts || field.info.audience == Audience::expert;
+    (for_experts ? rows.experts : rows.everyone) += fmt::format(
+        "| `{}` | {} | {} | {} | {} |\n", key, cell(type_name(field)),
+        field.info.required ? "required" : code(value), cell(allowed_text(field)), cell(field.info.doc.text));
     const std::string inner_prefix = key + (field.type == FieldType::list ? "[]." : ".");
-    for (const StructDoc& inner : field.inner) write_rows(inner, inner_prefix, rows, rules);
+    for (const StructDoc& inner : field.inner) write_rows(inner, inner_prefix, for_experts, rows);
   }
   for (const RuleDoc& rule : doc.rules) {
     const std::string subject =
         rule.field.empty() ? prefix.substr(0, prefix.size() - 1) : prefix + rule.field;
-    rules += "- " + (subject.empty() ? "" : "`" + subject + "`: ") + rule.rule + ".\n";
+    rows.rules += "- " + (subject.empty() ? "" : "`" + subject + "`: ") + rule.rule + ".\n";
   }
+}
+
+std::string tune_first(const StructDoc& doc) {
+  std::vector<std::string> names = to_tune(doc);
+  for (std::string& name : names) name = code(name);
+  return names.empty() ? "" : "Tune first: " + join(names) + ".\n\n";
 }
 
 std::string table(const StructDoc& doc) {
   if (doc.fields.empty()) return "No parameters.\n";
-  std::string rows;
-  std::string rules;
-  write_rows(doc, "", rows, rules);
-  return "| key | type | default | allowed | meaning |\n|---|---|---|---|---|\n" + rows +
-         (rules.empty() ? "" : "\nRules:\n\n" + rules);
+  constexpr const char* head = "| key | type | default | allowed | meaning |\n|---|---|---|---|---|\n";
+  Rows rows;
+  write_rows(doc, "", false, rows);
+  std::string text = tune_first(doc);
+  if (!rows.everyone.empty()) text += head + rows.everyone;
+  if (!rows.experts.empty()) text += "\nFor experts:\n\n" + std::string(head) + rows.experts;
+  return text + (rows.rules.empty() ? "" : "\nRules:\n\n" + rows.rules);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace glocal {
 namespace {
 
 constexpr std::string_view data_prefix = "data:";
+constexpr std::string_view automatic = "auto";
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -217,9 +218,24 @@ Refusal take_value(const YamlNode& node, const FieldInfo& info, double& value) {
   return std::nullopt;
 }
 
+Refusal take_value(const YamlNode& node, const FieldInfo& info, std::optional<double>& value) {
+  if (node.kind == NodeKind::scalar && !node.quoted && node.text == automatic) {
+    value.reset();
+    return std::nullopt;
+  }
+  if (auto refusal = check_notation(node, "a number or auto")) return refusal;
+  double number = 0.0;
+  if (auto refusal = take_value(node, info, number)) return refusal;
+  value = number;
+  return std::nullopt;
+}
+
 Refusal take_value(const YamlNode& node, const FieldInfo& info, std::string& value) {
   if (node.kind != NodeKind::scalar) return "expected text, got " + name_of(node);
   const auto& choices = info.choices;
+  for (const FormerChoice& former : info.former_choices) {
+    if (node.text == former.name) return "'" + node.text + "' is called '" + former.now + "' now";
+  }
   if (!choices.empty() && std::find(choices.begin(), choices.end(), node.text) == choices.end()) {
     const auto near = nearest(node.text, choices);
     return "'" + node.text + "' is not one of " + join(choices) +
@@ -285,6 +301,10 @@ std::string to_yaml(double value) {
   std::array<char, 32> buffer;
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
+}
+
+std::string to_yaml(const std::optional<double>& value) {
+  return value ? to_yaml(*value) : std::string(automatic);
 }
 
 std::string to_yaml(std::string_view value) {

@@ -21,6 +21,8 @@ using Refusal = std::optional<std::string>;
 [[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, int& value);
 [[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, std::uint64_t& value);
 [[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, double& value);
+/// A number, or `auto`.
+[[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, std::optional<double>& value);
 [[nodiscard]] Refusal take_value(const YamlNode& node, const FieldInfo& info, std::string& value);
 /// Paths are relative to the folder of the node's origin; `data:` stands for the folder in GLOCAL_DATASETS.
 /// The file must be there, unless the path is empty and not required.
@@ -39,6 +41,8 @@ using Refusal = std::optional<std::string>;
 [[nodiscard]] std::string to_yaml(std::uint64_t value);
 /// The shortest text that reads back as the same number. Finite numbers only.
 [[nodiscard]] std::string to_yaml(double value);
+/// `auto` for none.
+[[nodiscard]] std::string to_yaml(const std::optional<double>& value);
 /// Quoted unless it is a plain word.
 [[nodiscard]] std::string to_yaml(std::string_view value);
 /// `data:` paths as written, all others absolute.

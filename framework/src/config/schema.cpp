@@ -72,6 +72,8 @@ Json type_schema(const FieldDoc& field) {
       return whole_schema(info, 0.0, std::numeric_limits<double>::infinity());
     case FieldType::number:
       return number_schema("number", info);
+    case FieldType::number_or_auto:
+      return {{"anyOf", {number_schema("number", info), {{"const", "auto"}}}}};
     case FieldType::text:
       return text_schema(info);
     case FieldType::path:

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ class UniformVisitor : public ParamVisitor {
     self().value(name, v, info);
   }
   void field(std::string_view name, double& v, const FieldInfo& info) final { self().value(name, v, info); }
+  void field(std::string_view name, std::optional<double>& v, const FieldInfo& info) final {
+    self().value(name, v, info);
+  }
   void field(std::string_view name, std::string& v, const FieldInfo& info) final {
     self().value(name, v, info);
   }

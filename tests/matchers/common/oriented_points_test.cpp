@@ -10,7 +10,7 @@
 
 #include "test_world.hpp"
 
-namespace glocal::surfaces_test {
+namespace glocal::oriented_points_test {
 namespace {
 
 /// A straight wall along x = 2 with free cells on the chosen sides of it.
@@ -202,4 +202,4 @@ TEST(OrientedPoints, ALocalMapWithoutNormalsGetsBothDirections) {
 }
 
 }  // namespace
-}  // namespace glocal::surfaces_test
+}  // namespace glocal::oriented_points_test

@@ -98,15 +98,15 @@ std::vector<std::size_t> contacts_of(const GridSearchResult& result) {
 
 Problem small_world_problem(const Pose2& map_from_robot) {
   // Every fourth point of the world's walls will do for cells of 20 cm.
-  const auto thinned = [](const Points& points) {
+  const auto every_fourth = [](const Points& points) {
     Points few;
     for (std::size_t i = 0; i < points.size(); i += 4) few.push_back(points[i]);
     return few;
   };
   const Pose2 local_from_robot{0.7, -0.4, 1.0};
   const Points seen = test::seen_from(test::small_world_points(), map_from_robot, 2.5);
-  return {voxel_downsampled(test::small_world_points()),
-          voxel_downsampled(test::moved(seen, local_from_robot)), local_from_robot};
+  return {every_fourth(test::small_world_points()),
+          every_fourth(test::moved(seen, local_from_robot)), local_from_robot};
 }
 
 Problem random_problem(std::uint64_t seed) {

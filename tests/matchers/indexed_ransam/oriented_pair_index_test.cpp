@@ -10,7 +10,7 @@
 #include "glocal/pose2.hpp"
 #include "glocal/rng.hpp"
 
-namespace glocal::dipole_index_test {
+namespace glocal::oriented_pair_index_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -147,4 +147,4 @@ TEST(OrientedPairIndex, ShortAndLongOnesHaveNoPartnersAndNothingIsAnAnswer) {
 }
 
 }  // namespace
-}  // namespace glocal::dipole_index_test
+}  // namespace glocal::oriented_pair_index_test

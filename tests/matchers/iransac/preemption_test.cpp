@@ -42,7 +42,7 @@ TEST_F(PreemptionInSmallWorld, LooksAtAsManyAsTheScheduleLeaves) {
   ASSERT_GT(all_.size(), 64U);
   const std::size_t points_tested = preempt(poses_, *contact_, all_, {}, {.block = 16, .fewest = 20}, 1);
   // 300, 150, 75, 37 hypotheses look at a block each; then 20 are left, as 18 would be fewer.
-  EXPECT_EQ(checks, 16U * (300 + 150 + 75 + 37));
+  EXPECT_EQ(points_tested, 16U * (300 + 150 + 75 + 37));
   ASSERT_EQ(poses_.size(), 20U);
   EXPECT_EQ(poses_.front().map_from_local, truth_);
   EXPECT_EQ(poses_.front().in_contact, 64U);
