@@ -55,7 +55,7 @@ void merge(benchmark::State& state) {
   std::size_t left = 0;
   for ([[maybe_unused]] auto _ : state) {
     std::vector<Hypothesis> hypotheses = flood;
-    merge_hypotheses(hypotheses, static_cast<std::size_t>(state.range(0)));
+    merge_hypotheses(hypotheses, {}, static_cast<std::size_t>(state.range(0)));
     left = hypotheses.size();
   }
   state.counters["left"] = static_cast<double>(left);

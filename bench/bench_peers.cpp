@@ -32,7 +32,7 @@ std::vector<Task> tasks(const Scene& scene) {
 
 bool is_right(const MatchResult& result, const Task& task, const EvaluationConfig& limits) {
   if (result.hypotheses.empty()) return false;
-  const Pose2& pose = result.hypotheses.front().map_from_robot;
+  const Pose2 pose = result.hypotheses.front().map_from_local * task.local.local_from_robot;
   return distance(pose, task.map_from_robot) <= limits.max_translation_error &&
          rotation_between(pose, task.map_from_robot) <= radians(limits.max_rotation_error_deg);
 }

@@ -71,8 +71,7 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
   }
   for (const Candidate& candidate : candidates) {
     if (candidate.quality < omega_max) break;
-    result.hypotheses.push_back(
-        {candidate.map_from_local, candidate.map_from_local * local.local_from_robot, candidate.quality});
+    result.hypotheses.push_back({.map_from_local = candidate.map_from_local, .quality = candidate.quality});
   }
   return result;
 }

@@ -165,8 +165,7 @@ MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/,
                      local.points.size()});
     if (candidate.quality < omega_max || result.hypotheses.size() == static_cast<std::size_t>(params_.best))
       continue;
-    result.hypotheses.push_back(
-        {candidate.map_from_local, candidate.map_from_local * local.local_from_robot, candidate.quality});
+    result.hypotheses.push_back({.map_from_local = candidate.map_from_local, .quality = candidate.quality});
   }
   return result;
 }

@@ -273,7 +273,6 @@ std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan,
     const Pose2 map_from_robot = heap.mean() * moved;
     const auto support = std::lround(heap.weight * static_cast<double>(particles_.size()));
     found.push_back({.map_from_local = map_from_robot * robot_from_local,
-                     .map_from_robot = map_from_robot,
                      .quality = contact_->share(scan.hits, Transform(map_from_robot)),
                      .support = static_cast<std::size_t>(std::max(1L, support))});
   }

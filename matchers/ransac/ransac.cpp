@@ -73,7 +73,8 @@ MatchResult Ransac::match(const LocalMap& local, const Observation& /*latest*/, 
     const std::size_t begin = i * iterations_per_chunk;
     chunks[i] = draw(local, quality, std::min(iterations_per_chunk, iterations - begin), draws.stream({i}));
   });
-  MatchResult result = joined(chunks, static_cast<std::size_t>(params_.max_hypotheses));
+  MatchResult result =
+      joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.max_hypotheses));
   if (params_.refinement.iterations > 0) refine_all(local, omega_max, result, rng);
   return result;
 }
@@ -90,10 +91,8 @@ MatchResult Ransac::draw(const LocalMap& local, const QualityTest& quality, std:
     const QualityTest::Outcome outcome = quality.test(motions, size, starts);
     found.proposals += size;
     found.points_tested += outcome.points_tested;
-    for (const auto& [i, omega] : outcome.passed) {
-      const Pose2 pose = motions[i].pose();
-      found.hypotheses.push_back({pose, pose * local.local_from_robot, omega});
-    }
+    for (const auto& [i, omega] : outcome.passed)
+      found.hypotheses.push_back({.map_from_local = motions[i].pose(), .quality = omega});
     size = 0;
   };
   for (std::size_t i = 0; i < iterations; ++i) {
@@ -119,7 +118,6 @@ void Ransac::refine_all(const LocalMap& local, double omega_max, MatchResult& re
   parallel_for(setup_.threads, result.hypotheses.size(), [&](std::size_t i) {
     Hypothesis& h = result.hypotheses[i];
     h.map_from_local = refined_pose(*field_, anchors, h.map_from_local, params_.refinement);
-    h.map_from_robot = h.map_from_local * local.local_from_robot;
     h.quality = contact_->share(local.points, Transform(h.map_from_local));
   });
   result.points_tested += result.hypotheses.size() * local.points.size();

@@ -146,7 +146,7 @@ MatchResult Ransam::match(const LocalMap& local, const Observation& latest, doub
     if (clearance_) ask_beams(chunks[i].hypotheses, omega_max);
   });
 
-  return joined(chunks, static_cast<std::size_t>(params_.max_hypotheses));
+  return joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.max_hypotheses));
 }
 
 std::size_t Ransam::chunk_count() const {
@@ -225,10 +225,8 @@ void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_s
   const QualityTest::Outcome outcome = quality.test(motions, local_triples.size, starts);
   found.proposals += local_triples.size;
   found.points_tested += outcome.points_tested;
-  for (const auto& [i, omega] : outcome.passed) {
-    const Pose2 pose = motions[i].pose();
-    found.hypotheses.push_back({pose, pose * local.local_from_robot, omega});
-  }
+  for (const auto& [i, omega] : outcome.passed)
+    found.hypotheses.push_back({.map_from_local = motions[i].pose(), .quality = omega});
 }
 
 void Ransam::ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) const {

@@ -37,7 +37,7 @@ TEST_F(Pcl, BothMatchersFindThePose) {
   for (const char* name : {"pcl_icp", "pcl_prerejective"}) {
     const MatchResult result = match(name, glocal::test::local_map_at(truth, reach));
     ASSERT_FALSE(result.hypotheses.empty()) << name;
-    const Pose2& best = result.hypotheses.front().map_from_robot;
+    const Pose2& best = result.hypotheses.front().map_from_local;
     EXPECT_LT(distance(best, truth), 0.03) << name;
     EXPECT_LT(rotation_between(best, truth), radians(1.0)) << name;
     EXPECT_GT(result.hypotheses.front().quality, 0.98) << name;
@@ -52,7 +52,7 @@ TEST_F(Pcl, AnotherOriginOfTheLocalMapChangesNothing) {
   local.local_from_robot = local_from_robot;
   const MatchResult result = match("pcl_icp", local);
   ASSERT_FALSE(result.hypotheses.empty());
-  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.03);
+  EXPECT_LT(distance(result.hypotheses.front().map_from_local * local_from_robot, truth), 0.03);
 }
 
 TEST_F(Pcl, KdTreesOfPclAndOfNanoflannAgreePointByPoint) {
@@ -84,7 +84,7 @@ TEST_F(Pcl, RansamTakesPclsKdTree) {
   Rng rng(1);
   const MatchResult result = matcher->match(glocal::test::local_map_at(truth, reach), {}, 0.8, rng);
   ASSERT_FALSE(result.hypotheses.empty());
-  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.1);
+  EXPECT_LT(distance(result.hypotheses.front().map_from_local, truth), 0.1);
 }
 
 TEST_F(Pcl, AMapWithoutFreeSpaceIsRefused) {

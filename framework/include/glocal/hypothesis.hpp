@@ -13,7 +13,9 @@ namespace glocal {
 /// A proposed pose of the local map in the global map (the paper's H).
 struct Hypothesis {
   Pose2 map_from_local;
-  Pose2 map_from_robot;
+  /// map_from_local * local_from_robot. The localizer sets it; matchers leave it alone, so that the two cannot
+  /// disagree.
+  Pose2 map_from_robot = {};
   double quality = 0.0;  ///< Omega (eq. 4): share of local map points in contact with the map, in [0, 1].
   /// How many proposals it stands for, where a matcher merged those that mean nearly the same pose. Counts as
   /// a weight wherever hypotheses are counted or averaged.

@@ -56,7 +56,8 @@ class LocalMapper {
 };
 
 struct MatchResult {
-  std::vector<Hypothesis> hypotheses;  ///< All with quality >= omega_max, falling quality.
+  /// All with quality >= omega_max, falling quality; map_from_robot is not yet set.
+  std::vector<Hypothesis> hypotheses;
   std::size_t proposals = 0;           ///< Poses proposed before any quality test.
   std::size_t points_tested = 0;       ///< Single points tested for contact.
 };

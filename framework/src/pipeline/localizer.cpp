@@ -70,6 +70,7 @@ StepResult Localizer::step(const Observation& observation) {
     return matcher_->match(local, observation, result.omega_max, matching_rng);
   });
   result.hypotheses = std::move(match.hypotheses);
+  for (Hypothesis& h : result.hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
   result.proposals = match.proposals;
   result.points_tested = match.points_tested;
   result.omega_best = result.hypotheses.empty() ? 0.0 : result.hypotheses.front().quality;

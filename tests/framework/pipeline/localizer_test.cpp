@@ -64,7 +64,7 @@ TEST_F(LocalizerTest, TheThresholdOfAStepIsTheOneBeforeItsUpdate) {
 }
 
 TEST_F(LocalizerTest, ClustersFollowTheirRatingsDownwardsAndEqualOnesKeepTheirOrder) {
-  give({{{}, {1, 0, 0}, 0.9}, {{}, {2, 0, 0}, 0.8}, {{}, {3, 0, 0}, 0.7}, {{}, {4, 0, 0}, 0.6}},
+  give({{{1, 0, 0}, {}, 0.9}, {{2, 0, 0}, {}, 0.8}, {{3, 0, 0}, {}, 0.7}, {{4, 0, 0}, {}, 0.6}},
        {0.2, 0.5, 0.2, 0.9});
   std::vector<double> judged;
   script_->judge = [&](const StepResult& step) {
@@ -86,7 +86,7 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
   script_->local.ends = {2};
   script_->local.local_from_robot = {1, 2, 0.5};
   script_->local.epoch = 3;
-  give({{{}, {1, 0, 0}, 0.9}, {{}, {2, 0, 0}, 0.4}}, {0.5, 0.6});
+  give({{{}, {}, 0.9}, {{2, 0, 0}, {}, 0.4}}, {0.5, 0.6});
   script_->judge = [](const StepResult&) {
     return Verdict{VerdictKind::ambiguous, std::nullopt, {{2, 0, 0}, {1, 0, 0}}, "two"};
   };
@@ -105,6 +105,20 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
   EXPECT_THAT(result.verdict.candidates, ElementsAre(Pose2{2, 0, 0}, Pose2{1, 0, 0}));
 }
 
+TEST_F(LocalizerTest, TheRobotIsWhereAHypothesisPutsItsLocalMap) {
+  script_->local.local_from_robot = {3, 0, 0};
+  const Hypothesis mistaken{{1, 2, radians(90.0)}, {7, 7, 7}, 0.9};  // whatever a matcher says of it
+  give({mistaken}, {0.5});
+  Localizer localizer = make();
+  const StepResult result = localizer.step({});
+  ASSERT_EQ(result.hypotheses.size(), 1U);
+  const Pose2& robot = result.hypotheses.front().map_from_robot;
+  EXPECT_NEAR(robot.x, 1.0, 1e-12);
+  EXPECT_NEAR(robot.y, 5.0, 1e-12);
+  EXPECT_NEAR(robot.theta, radians(90.0), 1e-12);
+  EXPECT_EQ(result.clusters.front().map_from_robot, robot);
+}
+
 TEST_F(LocalizerTest, AStepWithoutHypothesesHasNoBest) {
   Localizer localizer = make();
   const StepResult result = localizer.step({});
@@ -117,7 +131,7 @@ TEST_F(LocalizerTest, AnUnknownPlaceOverridesTheVerdict) {
   // One of eight points is on the map.
   for (int i = 0; i < 8; ++i) script_->local.points.push_back({static_cast<float>(i), 0.0F, 0.0F});
   script_->local.ends = {8};
-  give({{{}, {1, 0, 0}, 0.9}}, {0.5});
+  give({{{}, {}, 0.9}}, {0.5});
   script_->judge = [](const StepResult&) {
     return Verdict{VerdictKind::localized, Pose2{1, 0, 0}, {{1, 0, 0}}, "sure"};
   };

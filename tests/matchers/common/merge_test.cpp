@@ -19,7 +19,7 @@ std::vector<Hypothesis> groups(std::size_t count, std::size_t per_group) {
     const auto group = static_cast<double>(i % count);
     const Pose2 pose{3.0 * group + 0.02 + rng.uniform(0.0, 0.01), -2.0 + 0.02 + rng.uniform(0.0, 0.01),
                      0.01 + rng.uniform(0.0, 0.003)};
-    hypotheses.push_back({pose, pose, 1.0 - static_cast<double>(i) / n});
+    hypotheses.push_back({.map_from_local = pose, .quality = 1.0 - static_cast<double>(i) / n});
   }
   return hypotheses;
 }
@@ -31,7 +31,7 @@ std::size_t total_support(const std::vector<Hypothesis>& hypotheses) {
 
 TEST(MergeHypotheses, LeavesAloneWhatFits) {
   std::vector<Hypothesis> hypotheses = groups(20, 5);
-  merge_hypotheses(hypotheses, 100);
+  merge_hypotheses(hypotheses, {}, 100);
   EXPECT_EQ(hypotheses.size(), 100U);
   for (const Hypothesis& h : hypotheses) EXPECT_EQ(h.support, 1U);
 }
@@ -39,12 +39,22 @@ TEST(MergeHypotheses, LeavesAloneWhatFits) {
 TEST(MergeHypotheses, KeepsTheBestOfEveryDistinctPose) {
   std::vector<Hypothesis> hypotheses = groups(20, 500);
   const std::vector<Hypothesis> before = hypotheses;
-  merge_hypotheses(hypotheses, 100);
+  merge_hypotheses(hypotheses, {}, 100);
   ASSERT_EQ(hypotheses.size(), 20U);
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     EXPECT_EQ(hypotheses[i].support, 500U);
-    EXPECT_EQ(hypotheses[i].map_from_robot, before[i].map_from_robot);  // the first of a group is its best
+    EXPECT_EQ(hypotheses[i].map_from_local, before[i].map_from_local);  // the first of a group is its best
   }
+}
+
+TEST(MergeHypotheses, PosesAreDistinctWhereTheRobotIsNotTheLocalFrame) {
+  // 300 m from the local origin, what is turned by half a degree is far off.
+  const Pose2 local_from_robot{300.0, 0.0, 0.0};
+  std::vector<Hypothesis> hypotheses;
+  for (int i = 0; i < 20; ++i)
+    hypotheses.push_back({.map_from_local = {0.02, 0.02, radians(0.5 * (i % 2))}, .quality = 1.0});
+  merge_hypotheses(hypotheses, local_from_robot, 10);
+  EXPECT_EQ(hypotheses.size(), 2U);
 }
 
 TEST(MergeHypotheses, FitsHoweverSpreadTheyAreAndLosesNoSupport) {
@@ -52,15 +62,15 @@ TEST(MergeHypotheses, FitsHoweverSpreadTheyAreAndLosesNoSupport) {
   std::vector<Hypothesis> hypotheses;
   for (int i = 0; i < 20000; ++i) {
     const Pose2 pose{rng.uniform(-30.0, 30.0), rng.uniform(-30.0, 30.0), rng.uniform(-3.14, 3.14)};
-    hypotheses.push_back({pose, pose, 1.0 - i / 20000.0});
+    hypotheses.push_back({.map_from_local = pose, .quality = 1.0 - i / 20000.0});
   }
   const std::vector<Hypothesis> before = hypotheses;
-  merge_hypotheses(hypotheses, 1000);
+  merge_hypotheses(hypotheses, {}, 1000);
   EXPECT_LE(hypotheses.size(), 1000U);
   EXPECT_EQ(total_support(hypotheses), 20000U);
   EXPECT_TRUE(std::is_sorted(hypotheses.begin(), hypotheses.end(),
                              [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; }));
-  merge_hypotheses(hypotheses, 8);
+  merge_hypotheses(hypotheses, {}, 8);
   EXPECT_LE(hypotheses.size(), 8U);
 }
 

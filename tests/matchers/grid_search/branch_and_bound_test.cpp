@@ -44,7 +44,7 @@ TEST(BranchAndBound, FindsThePoseFromAnywhere) {
     const Pose2 truth = test::somewhere_in_small_world(i, rng);
     const MatchResult result = match({}, local_map_at(truth, 4.0));
     ASSERT_FALSE(result.hypotheses.empty());
-    const Pose2& best = result.hypotheses.front().map_from_robot;
+    const Pose2& best = result.hypotheses.front().map_from_local;
     if (distance(best, truth) < 0.05 && rotation_between(best, truth) < radians(1.0)) ++first;
   }
   // The world looks like itself in places, seen from near by.
@@ -60,8 +60,8 @@ TEST(BranchAndBound, FindsAllPosesOfASymmetricWorld) {
   ASSERT_EQ(found.size(), 2U);
   for (const Pose2& expected : {truth, turned}) {
     EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const Hypothesis& h) {
-      return distance(h.map_from_robot, expected) < 0.05 &&
-             rotation_between(h.map_from_robot, expected) < 0.02;
+      return distance(h.map_from_local, expected) < 0.05 &&
+             rotation_between(h.map_from_local, expected) < 0.02;
     }));
   }
 }
@@ -80,8 +80,8 @@ TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGri
     EXPECT_GE(found[i].quality, near->share(local.points, pose));
     EXPECT_LE(found[i].quality, far->share(local.points, pose));
     for (std::size_t k = 0; k < i; ++k) {
-      const Pose2& a = found[i].map_from_robot;
-      const Pose2& b = found[k].map_from_robot;
+      const Pose2& a = found[i].map_from_local;
+      const Pose2& b = found[k].map_from_local;
       EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
                   rotation_between(a, b) >= params.candidate.rotation);
     }
@@ -121,7 +121,7 @@ TEST(BranchAndBound, AThresholdOfOneAsksForAllPoints) {
   const Pose2 truth{2.0, 2.0, 0.0};
   const auto all = match({.refinement = on_the_grid}, local_map_at(truth, 2.5), 1.0).hypotheses;
   ASSERT_FALSE(all.empty());
-  EXPECT_LT(distance(all.front().map_from_robot, truth), 0.2);
+  EXPECT_LT(distance(all.front().map_from_local, truth), 0.2);
   LocalMap off = local_map_at(truth, 2.5);
   off.points.push_back({2.5F, 2.5F, 0.0F});  // nothing stands there
   EXPECT_TRUE(match({.max_points = 0, .refinement = on_the_grid}, off, 1.0).hypotheses.empty());

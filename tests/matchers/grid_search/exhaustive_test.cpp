@@ -124,8 +124,8 @@ TEST_P(BesideBranchAndBound, TheSamePoseIsBestOnceRefined) {
   ASSERT_FALSE(bounded.empty());
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all.front().quality, bounded.front().quality);
-  EXPECT_LT(distance(all.front().map_from_robot, bounded.front().map_from_robot), 0.01);
-  EXPECT_LT(rotation_between(all.front().map_from_robot, bounded.front().map_from_robot), 0.01);
+  EXPECT_LT(distance(all.front().map_from_local, bounded.front().map_from_local), 0.01);
+  EXPECT_LT(rotation_between(all.front().map_from_local, bounded.front().map_from_local), 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(SmallWorld, BesideBranchAndBound, ::testing::Range(0, 4));

@@ -27,7 +27,7 @@ TEST(IndexedRansam, FindsThePoseFromAnywhereWithFewDraws) {
     const Pose2 truth = test::somewhere_in_small_world(i, rng);
     const MatchResult result = match({}, local_map_at(truth, 4.0), static_cast<std::uint64_t>(i));
     ASSERT_FALSE(result.hypotheses.empty());
-    const Pose2& best = result.hypotheses.front().map_from_robot;
+    const Pose2& best = result.hypotheses.front().map_from_local;
     if (distance(best, truth) < 0.05 && rotation_between(best, truth) < radians(1.0)) ++first;
   }
   // The world looks like itself in places, seen from near by.
@@ -41,8 +41,8 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
   EXPECT_LE(result.hypotheses.size(), static_cast<std::size_t>(params.candidates));
   for (std::size_t i = 0; i < result.hypotheses.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      const Pose2& a = result.hypotheses[i].map_from_robot;
-      const Pose2& b = result.hypotheses[k].map_from_robot;
+      const Pose2& a = result.hypotheses[i].map_from_local;
+      const Pose2& b = result.hypotheses[k].map_from_local;
       EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
                   rotation_between(a, b) >= params.candidate.rotation);
     }
@@ -80,7 +80,7 @@ TEST(IndexedRansam, BlockedBeamsTakeQualityOff) {
   };
   const Hypothesis free = best({});
   const Hypothesis blocked = best(through_the_wall);
-  EXPECT_LT(distance(free.map_from_robot, truth), 0.05);
+  EXPECT_LT(distance(free.map_from_local, truth), 0.05);
   EXPECT_NEAR(free.quality - blocked.quality, 0.25, 0.02);
 }
 
@@ -94,7 +94,7 @@ TEST(IndexedRansam, TheBestPosesAreCarriedToTheNextStep) {
   const MatchResult second = matcher.match(local, {}, 0.1, rng);
   EXPECT_EQ(second.proposals, 0U);
   ASSERT_FALSE(second.hypotheses.empty());
-  EXPECT_LT(distance(second.hypotheses.front().map_from_robot, truth), 0.05);
+  EXPECT_LT(distance(second.hypotheses.front().map_from_local, truth), 0.05);
   // Another local frame, or a reset: nothing to carry. The first step comes again, with its draws.
   LocalMap restarted = local;
   restarted.epoch = 1;
@@ -121,7 +121,7 @@ TEST(IndexedRansam, DrawsEndOnceTheBestPosesStayTheSame) {
   Rng rng(1);
   const MatchResult first = matcher.match(local, {}, 0.1, rng);
   ASSERT_FALSE(first.hypotheses.empty());
-  EXPECT_LT(distance(first.hypotheses.front().map_from_robot, truth), 0.05);
+  EXPECT_LT(distance(first.hypotheses.front().map_from_local, truth), 0.05);
   EXPECT_LT(first.proposals, 5000U);
   // What was carried on is the best from the beginning: four chunks confirm it, and no more are drawn.
   const MatchResult second = matcher.match(local, {}, 0.1, rng);
@@ -152,9 +152,9 @@ TEST(IndexedRansam, StableDrawsFindWhatManyDrawsFind) {
     const LocalMap local = local_map_at(truth, 4.0);
     const MatchResult stable = match({.adaptive = budget}, local);
     const MatchResult many = match({.first_iterations = 20000}, local);
-    const Pose2& best = many.hypotheses.front().map_from_robot;
-    EXPECT_LT(distance(stable.hypotheses.front().map_from_robot, best), 0.05);
-    EXPECT_LT(rotation_between(stable.hypotheses.front().map_from_robot, best), radians(1.0));
+    const Pose2& best = many.hypotheses.front().map_from_local;
+    EXPECT_LT(distance(stable.hypotheses.front().map_from_local, best), 0.05);
+    EXPECT_LT(rotation_between(stable.hypotheses.front().map_from_local, best), radians(1.0));
     drawn += stable.proposals;
   }
   EXPECT_LT(drawn, 10U * 5000U);
@@ -200,12 +200,12 @@ TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWherePairsCannot) {
     for (const char* relation : {"triangle", "auto"}) {
       const std::vector<Hypothesis> found = answer(relation, 1);
       ASSERT_FALSE(found.empty()) << relation;
-      EXPECT_LT(distance(found.front().map_from_robot, truth), 0.05) << relation;
-      EXPECT_LT(rotation_between(found.front().map_from_robot, truth), radians(1.0)) << relation;
+      EXPECT_LT(distance(found.front().map_from_local, truth), 0.05) << relation;
+      EXPECT_LT(rotation_between(found.front().map_from_local, truth), radians(1.0)) << relation;
       const std::vector<Hypothesis> parallel = answer(relation, 2);
       ASSERT_EQ(found.size(), parallel.size());
       for (std::size_t i = 0; i < found.size(); ++i) {
-        EXPECT_EQ(found[i].map_from_robot, parallel[i].map_from_robot);
+        EXPECT_EQ(found[i].map_from_local, parallel[i].map_from_local);
         EXPECT_EQ(found[i].quality, parallel[i].quality);
       }
     }
@@ -225,7 +225,7 @@ TEST(IndexedRansam, AnExactSearchFindsWhatDrawsDoNot) {
   EXPECT_TRUE(match(local).empty());
   const auto found = match(local);
   ASSERT_FALSE(found.empty());
-  EXPECT_LT(distance(found.front().map_from_robot, truth), 0.05);
+  EXPECT_LT(distance(found.front().map_from_local, truth), 0.05);
   // A reset, or another local frame, begins the count anew.
   matcher.reset();
   EXPECT_TRUE(match(local).empty());

@@ -38,7 +38,7 @@ TEST(Ransac, FindsThePose) {
     const Pose2 truth = test::somewhere_in_small_world(i, rng);
     const auto found = match({.iterations = 300000}, local_map_at(truth, 5.0)).hypotheses;
     if (found.empty()) continue;
-    const Pose2& best = found.front().map_from_robot;
+    const Pose2& best = found.front().map_from_local;
     if (distance(best, truth) < 0.05 && rotation_between(best, truth) < radians(1.0)) ++right;
   }
   EXPECT_GE(right, places - 1);

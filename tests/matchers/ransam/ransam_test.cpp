@@ -40,8 +40,8 @@ TEST(Ransam, FindsThePose) {
   const Pose2 truth{5.5, 2.5, 0.7};
   const MatchResult result = match({.iterations = 50000}, local_map_at(truth, 3.0), 0.8);
   ASSERT_FALSE(result.hypotheses.empty());
-  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.1);  // epsilon
-  EXPECT_LT(rotation_between(result.hypotheses.front().map_from_robot, truth), radians(2.0));
+  EXPECT_LT(distance(result.hypotheses.front().map_from_local, truth), 0.1);  // epsilon
+  EXPECT_LT(rotation_between(result.hypotheses.front().map_from_local, truth), radians(2.0));
 }
 
 TEST(Ransam, HypothesesAreWhatTheContractSays) {
@@ -99,15 +99,6 @@ TEST(Ransam, AgreesWithExhaustiveSearch) {
   }
 }
 
-TEST(Ransam, TheRobotIsWhereTheLocalMapSays) {
-  LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
-  local.local_from_robot = {1.0, -0.5, 0.3};
-  const MatchResult result = match({.iterations = 20000}, local, 0.7);
-  ASSERT_FALSE(result.hypotheses.empty());
-  for (const Hypothesis& h : result.hypotheses)
-    EXPECT_EQ(h.map_from_robot, h.map_from_local * local.local_from_robot);
-}
-
 TEST(Ransam, TheNumberOfThreadsChangesNothing) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
   // So many draws that threads fill the table in two rounds; and a few near ones.
@@ -153,7 +144,7 @@ TEST(Ransam, LocalDrawsGiveMoreCorrectHypothesesOnALargeMap) {
     Rng match_rng(1);
     const MatchResult result = ransam.match(local_map_at(truth, 3.0), {}, 0.7, match_rng);
     return std::count_if(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
-      return distance(h.map_from_robot, truth) < 0.3 && rotation_between(h.map_from_robot, truth) < 0.2;
+      return distance(h.map_from_local, truth) < 0.3 && rotation_between(h.map_from_local, truth) < 0.2;
     });
   };
   EXPECT_GT(correct(1.5), 2 * correct(0.0));
@@ -169,7 +160,7 @@ TEST(Ransam, BitsAndKdTreeFindTheSamePoses) {
   const MatchResult bits = best("bitset");
   const MatchResult tree = best("kd_tree");
   EXPECT_EQ(bits.proposals, tree.proposals);
-  EXPECT_LT(distance(bits.hypotheses.front().map_from_robot, tree.hypotheses.front().map_from_robot), 0.1);
+  EXPECT_LT(distance(bits.hypotheses.front().map_from_local, tree.hypotheses.front().map_from_local), 0.1);
   // Every hypothesis of the exact index has the quality brute force finds.
   for (std::size_t i = 0; i < std::min<std::size_t>(50, tree.hypotheses.size()); ++i) {
     const Hypothesis& h = tree.hypotheses[i];
@@ -183,7 +174,7 @@ TEST(Ransam, NeighbouringCellsGiveMoreCorrectHypotheses) {
     const MatchResult result =
         match({.iterations = 50000, .neighbour_cells = neighbour_cells}, local_map_at(truth, 3.0), 0.7);
     return std::count_if(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
-      return distance(h.map_from_robot, truth) < 0.3 && rotation_between(h.map_from_robot, truth) < 0.2;
+      return distance(h.map_from_local, truth) < 0.3 && rotation_between(h.map_from_local, truth) < 0.2;
     });
   };
   EXPECT_GT(correct(true), 2 * correct(false));
@@ -194,7 +185,7 @@ TEST(Ransam, WaldsTestFindsThePoseToo) {
   const MatchResult result =
       match({.iterations = 50000, .extrapolation = "wald"}, local_map_at(truth, 3.0), 0.8);
   ASSERT_FALSE(result.hypotheses.empty());
-  EXPECT_LT(distance(result.hypotheses.front().map_from_robot, truth), 0.1);  // epsilon
+  EXPECT_LT(distance(result.hypotheses.front().map_from_local, truth), 0.1);  // epsilon
 }
 
 TEST(Ransam, AFloodIsMergedWithoutLosingItsPoses) {
@@ -205,8 +196,8 @@ TEST(Ransam, AFloodIsMergedWithoutLosingItsPoses) {
   EXPECT_LE(merged.hypotheses.size(), 2000U);
   for (const Hypothesis& h : all.hypotheses) {
     ASSERT_TRUE(std::any_of(merged.hypotheses.begin(), merged.hypotheses.end(), [&](const Hypothesis& m) {
-      return distance(h.map_from_robot, m.map_from_robot) < 0.6 &&
-             rotation_between(h.map_from_robot, m.map_from_robot) < 0.3;
+      return distance(h.map_from_local, m.map_from_local) < 0.6 &&
+             rotation_between(h.map_from_local, m.map_from_local) < 0.3;
     }));
   }
 }
@@ -247,7 +238,7 @@ MatchResult match_in_three_rooms(double blocked_weight, const Observation& lates
 std::ptrdiff_t in_room(int room, const MatchResult& result) {
   const Pose2 there{in_first_room.x + 20.0 * room, in_first_room.y, in_first_room.theta};
   return std::count_if(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
-    return distance(h.map_from_robot, there) < 0.3 && rotation_between(h.map_from_robot, there) < 0.1;
+    return distance(h.map_from_local, there) < 0.3 && rotation_between(h.map_from_local, there) < 0.1;
   });
 }
 
@@ -271,14 +262,14 @@ TEST(Ransam, BeamsThroughAWallTakeQualityOff) {
         std::find_if(contact.hypotheses.begin(), contact.hypotheses.end(),
                      [&](const Hypothesis& other) { return other.map_from_local == h.map_from_local; });
     ASSERT_NE(same, contact.hypotheses.end());
-    const bool through_the_wall = h.map_from_robot.x > 20.0 && h.map_from_robot.x < 30.0;
+    const bool through_the_wall = h.map_from_local.x > 20.0 && h.map_from_local.x < 30.0;
     EXPECT_NEAR(same->quality - h.quality, through_the_wall ? 0.15 : 0.0, 1e-12);
     less += through_the_wall ? 1 : 0;
   }
   // Those that still reach the threshold are left, and no other.
   const auto enough =
       std::count_if(contact.hypotheses.begin(), contact.hypotheses.end(), [](const Hypothesis& h) {
-        return h.map_from_robot.x > 20.0 && h.map_from_robot.x < 30.0 && h.quality - 0.15 >= 0.8;
+        return h.map_from_local.x > 20.0 && h.map_from_local.x < 30.0 && h.quality - 0.15 >= 0.8;
       });
   EXPECT_EQ(less, enough);
   EXPECT_GT(enough, 0);
