@@ -91,6 +91,11 @@ std::string text_of(const Pose2& pose) {
   return fmt::format("x {:.2f} m, y {:.2f} m, heading {:.1f} deg", pose.x, pose.y, degrees(pose.theta));
 }
 
+/// What a hypothesis is ranked by, and its contact.
+std::string worth(double score, double quality) {
+  return fmt::format("score {:.2f} (Omega {:.2f})", score, quality);
+}
+
 /// "no 3 of 10, 0.12 m and 0.8 deg off", or that there is none; `at` is its index.
 template <class Items>
 std::string rank_text(const Items& items, std::ptrdiff_t at, const Pose2& truth) {
@@ -115,10 +120,11 @@ std::string lost_by_matcher(const std::vector<Hypothesis>& drawn, const Replayed
   const std::ptrdiff_t near = first_right(drawn, step.map_from_robot, limits);
   if (near == std::ssize(drawn))
     return "never drawn: no pose near the reference is proposed, even without a threshold";
-  const double quality = drawn[static_cast<std::size_t>(near)].quality;
-  return fmt::format("rejected: the best pose drawn near the reference has quality {:.2f}, {}", quality,
-                     quality < step.result.omega_max ? "less than the threshold"
-                                                     : "but was given up before all points were looked at");
+  const Hypothesis& best = drawn[static_cast<std::size_t>(near)];
+  return fmt::format(
+      "rejected: the best pose drawn near the reference has {}, {}", worth(best.score, best.quality),
+      best.score < step.result.omega_max ? "less than the threshold"
+                                         : "but was given up before all points were looked at");
 }
 
 /// What became of the hypotheses near the truth.
@@ -177,7 +183,8 @@ void explain(const ExplainOptions& options, Context& context) {
       "off)\n",
       100.0 * at_truth, 100.0 * near_truth, distance(fitted, truth),
       degrees(rotation_between(fitted, truth)));
-  fmt::print("  threshold   {:.2f}; best quality {:.2f}\n", result.omega_max, result.omega_best);
+  fmt::print("  threshold   {:.2f}; best {}\n", result.omega_max,
+             worth(result.score_best, result.omega_best));
   fmt::print("  hypothesis  {}\n", rank_text(result.hypotheses, hypothesis, truth));
   fmt::print("  cluster     {}\n", rank_text(result.clusters, cluster, truth));
   fmt::print("  verdict     {}: {}\n", to_string(result.verdict.kind), result.verdict.why);

@@ -27,10 +27,10 @@ std::vector<Hypothesis> around(std::size_t poses, std::size_t hypotheses) {
     const Pose2& centre = centres[i % poses];
     const Pose2 pose{centre.x + rng.normal(0.03), centre.y + rng.normal(0.03),
                      wrap_angle(centre.theta + rng.normal(radians(2.0)))};
-    result.push_back({pose, pose, rng.uniform(0.6, 1.0)});
+    result.push_back({.map_from_local = pose, .map_from_robot = pose, .score = rng.uniform(0.6, 1.0)});
   }
   std::stable_sort(result.begin(), result.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
   return result;
 }
 

@@ -23,8 +23,8 @@ void BestFraction::update(const std::vector<Hypothesis>& hypotheses) {
     omega_max_ *= params_.empty_share;
     return;
   }
-  const double quality = std::clamp(hypotheses.front().quality, 0.0, 1.0);
-  best_ = params_.best == "so_far" ? std::max(best_, quality) : quality;
+  const double score = std::clamp(hypotheses.front().score, 0.0, 1.0);
+  best_ = params_.best == "so_far" ? std::max(best_, score) : score;
   omega_max_ = params_.fraction * best_;
 }
 

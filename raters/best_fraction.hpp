@@ -7,9 +7,9 @@
 
 namespace glocal {
 
-/// Omega_max as a fraction of the best quality, of the last step or so far: how good the best pose is depends
+/// Omega_max as a fraction of the best score, of the last step or so far: how good the best pose is depends
 /// on how well map and world agree, and a wrong pose is judged against that. A step without hypotheses leaves
-/// a share of the best quality and of the threshold.
+/// a share of the best score and of the threshold.
 class BestFraction final : public ThresholdPolicy {
  public:
   struct Params {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "raters/mean_quality.hpp"
+#include "raters/mean_score.hpp"
 
 namespace glocal {
 
@@ -12,11 +12,11 @@ void describe_cluster_quality(ParamVisitor& v, std::string& quality) {
            .choices = {"best", "mean"}});
 }
 
-double cluster_quality(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
-                       const std::string& quality) {
-  if (quality == "mean") return std::clamp(mean_quality(hypotheses, cluster.members), 0.0, 1.0);
+double cluster_score(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
+                     const std::string& quality) {
+  if (quality == "mean") return std::clamp(mean_score(hypotheses, cluster.members), 0.0, 1.0);
   double best = 0.0;
-  for (const std::size_t i : cluster.members) best = std::max(best, hypotheses[i].quality);
+  for (const std::size_t i : cluster.members) best = std::max(best, hypotheses[i].score);
   return std::min(best, 1.0);
 }
 

@@ -11,8 +11,8 @@ namespace glocal {
 /// The parameter `quality` of raters that go by it: "best" or "mean".
 void describe_cluster_quality(ParamVisitor& v, std::string& quality);
 
-/// Quality of a cluster's best hypothesis, or their mean weighted with support; in [0, 1].
-[[nodiscard]] double cluster_quality(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
-                                     const std::string& quality);
+/// Score of a cluster's best hypothesis, or their mean weighted with support; in [0, 1].
+[[nodiscard]] double cluster_score(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
+                                   const std::string& quality);
 
 }  // namespace glocal

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "raters/mean_quality.hpp"
+#include "raters/mean_score.hpp"
 #include "raters/normalise.hpp"
 
 namespace glocal {
@@ -50,14 +50,14 @@ double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothe
   const double max_variance_rotation = params_.max_variance_rotation_deg2 * degree * degree;
   double support = 0.0;
   for (const std::size_t i : cluster.members) support += static_cast<double>(hypotheses[i].support);
-  const double quality = mean_quality(hypotheses, cluster.members);
+  const double score = mean_score(hypotheses, cluster.members);
 
   const double share = support / all_support;
   const double variance = std::max(cluster.variance_x, cluster.variance_y);
   const double narrow = std::max(0.0, 1.0 - variance / params_.max_variance_translation);
   const double straight = std::max(0.0, 1.0 - cluster.variance_theta / max_variance_rotation);
   const std::vector<double>& alpha = params_.weights;
-  return alpha[0] * share + alpha[1] * narrow + alpha[2] * straight + alpha[3] * quality;
+  return alpha[0] * share + alpha[1] * narrow + alpha[2] * straight + alpha[3] * score;
 }
 
 }  // namespace glocal

@@ -5,7 +5,7 @@
 
 namespace glocal {
 
-/// The paper's ratings: r from size, spread and mean quality (eq. 7), and r normalised over the step's
+/// The paper's ratings: r from size, spread and mean score (eq. 7), and r normalised over the step's
 /// clusters (eq. 8).
 class ClusterRating final : public Rater {
  public:

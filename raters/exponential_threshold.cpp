@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "raters/mean_quality.hpp"
+#include "raters/mean_score.hpp"
 
 namespace glocal {
 
@@ -15,7 +15,7 @@ void describe(ParamVisitor& v, ExponentialThreshold::Params& p) {
 }
 
 void ExponentialThreshold::update(const std::vector<Hypothesis>& hypotheses) {
-  omega_max_ += params_.weight * (mean_quality(hypotheses) - omega_max_);
+  omega_max_ += params_.weight * (mean_score(hypotheses) - omega_max_);
   omega_max_ = std::clamp(omega_max_, 0.0, 1.0);
 }
 

@@ -1,4 +1,4 @@
-#include "raters/mean_quality.hpp"
+#include "raters/mean_score.hpp"
 
 namespace glocal {
 namespace {
@@ -9,7 +9,7 @@ struct Mean {
   double weight = 0.0;
 
   void add(const Hypothesis& h) {
-    sum += static_cast<double>(h.support) * h.quality;
+    sum += static_cast<double>(h.support) * h.score;
     weight += static_cast<double>(h.support);
   }
   [[nodiscard]] double value() const { return weight > 0.0 ? sum / weight : 0.0; }
@@ -17,13 +17,13 @@ struct Mean {
 
 }  // namespace
 
-double mean_quality(const std::vector<Hypothesis>& hypotheses) {
+double mean_score(const std::vector<Hypothesis>& hypotheses) {
   Mean mean;
   for (const Hypothesis& h : hypotheses) mean.add(h);
   return mean.value();
 }
 
-double mean_quality(const std::vector<Hypothesis>& hypotheses, std::span<const std::size_t> members) {
+double mean_score(const std::vector<Hypothesis>& hypotheses, std::span<const std::size_t> members) {
   Mean mean;
   for (const std::size_t i : members) mean.add(hypotheses[i]);
   return mean.value();

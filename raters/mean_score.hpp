@@ -1,4 +1,4 @@
-// Quality of several hypotheses together.
+// Score of several hypotheses together.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace glocal {
 
-/// Mean quality of hypotheses, each counted as often as its support says; 0 without any.
-[[nodiscard]] double mean_quality(const std::vector<Hypothesis>& hypotheses);
+/// Mean score of hypotheses, each counted as often as its support says; 0 without any.
+[[nodiscard]] double mean_score(const std::vector<Hypothesis>& hypotheses);
 
 /// The same of some of them.
-[[nodiscard]] double mean_quality(const std::vector<Hypothesis>& hypotheses,
-                                  std::span<const std::size_t> members);
+[[nodiscard]] double mean_score(const std::vector<Hypothesis>& hypotheses,
+                                std::span<const std::size_t> members);
 
 }  // namespace glocal

@@ -16,7 +16,7 @@ std::vector<Rating> QualityOnly::rate(const std::vector<Cluster>& clusters,
   constexpr double least = 1e-6;  // r is above 0
   std::vector<Rating> ratings;
   for (const Cluster& cluster : clusters) {
-    ratings.push_back({.r = std::max(least, cluster_quality(cluster, hypotheses, params_.quality))});
+    ratings.push_back({.r = std::max(least, cluster_score(cluster, hypotheses, params_.quality))});
   }
   normalise(ratings);
   return ratings;

@@ -7,7 +7,7 @@
 
 namespace glocal {
 
-/// A cluster is rated by the quality of its best hypothesis, or by the mean of all: where a matcher gives one
+/// A cluster is rated by the score of its best hypothesis, or by the mean of all: where a matcher gives one
 /// hypothesis for each pose, the size of clusters says nothing. Normalised by eq. 8.
 class QualityOnly final : public Rater {
  public:

@@ -5,17 +5,17 @@
 namespace glocal {
 namespace {
 
-/// The least quality such that hypotheses of at most that quality have a share `quantile` of all support.
-/// They come in falling quality, and are not empty.
-double quality_at(double quantile, const std::vector<Hypothesis>& hypotheses) {
+/// The least score such that hypotheses of at most that score have a share `quantile` of all support.
+/// They come in falling score, and are not empty.
+double score_at(double quantile, const std::vector<Hypothesis>& hypotheses) {
   double all = 0.0;
   for (const Hypothesis& h : hypotheses) all += static_cast<double>(h.support);
   double so_far = 0.0;
   for (auto h = hypotheses.rbegin(); h != hypotheses.rend(); ++h) {
     so_far += static_cast<double>(h->support);
-    if (so_far >= quantile * all) return h->quality;
+    if (so_far >= quantile * all) return h->score;
   }
-  return hypotheses.front().quality;
+  return hypotheses.front().score;
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ void describe(ParamVisitor& v, QuantileThreshold::Params& p) {
 
 void QuantileThreshold::update(const std::vector<Hypothesis>& hypotheses) {
   omega_max_ = hypotheses.empty() ? params_.empty_share * omega_max_
-                                  : std::clamp(quality_at(params_.quantile, hypotheses), 0.0, 1.0);
+                                  : std::clamp(score_at(params_.quantile, hypotheses), 0.0, 1.0);
 }
 
 }  // namespace glocal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "raters/mean_quality.hpp"
+#include "raters/mean_score.hpp"
 
 namespace glocal {
 
@@ -28,7 +28,7 @@ double SlidingWindow::omega_max() const {
 
 void SlidingWindow::update(const std::vector<Hypothesis>& hypotheses) {
   means_.pop_front();
-  means_.push_back(mean_quality(hypotheses));
+  means_.push_back(mean_score(hypotheses));
 }
 
 void SlidingWindow::reset() {

@@ -7,7 +7,7 @@
 
 namespace glocal {
 
-/// Omega_max as the mean, over a sliding window of steps, of each step's mean hypothesis quality (eq. 9).
+/// Omega_max as the mean, over a sliding window of steps, of each step's mean hypothesis score (eq. 9).
 /// Steps before the first count as `initial`. A step without hypotheses counts as 0: every hypothesis lies
 /// above the threshold of its step, so only empty steps let the threshold fall.
 class SlidingWindow final : public ThresholdPolicy {

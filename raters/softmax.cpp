@@ -21,8 +21,8 @@ std::vector<Rating> Softmax::rate(const std::vector<Cluster>& clusters,
                                   const std::vector<Hypothesis>& hypotheses) {
   std::vector<Rating> ratings;
   for (const Cluster& cluster : clusters) {
-    const double quality = cluster_quality(cluster, hypotheses, params_.quality);
-    ratings.push_back({.r = std::exp(params_.beta * (quality - 1.0))});
+    const double score = cluster_score(cluster, hypotheses, params_.quality);
+    ratings.push_back({.r = std::exp(params_.beta * (score - 1.0))});
   }
   normalise(ratings);
   return ratings;

@@ -7,8 +7,8 @@
 
 namespace glocal {
 
-/// r = exp(beta (quality - 1)), so that the normalised ratings (eq. 8) are the softmax of beta times the
-/// qualities (Bridle 1990): what counts are differences in quality, and one clearly better cluster outweighs
+/// r = exp(beta (score - 1)), so that the normalised ratings (eq. 8) are the softmax of beta times the
+/// scores (Bridle 1990): what counts are differences in score, and one clearly better cluster outweighs
 /// many others. With beta = n log(1 / eta) that is a posterior over poses in which each of n points that has
 /// no contact is eta times as likely as one that has.
 class Softmax final : public Rater {

@@ -181,7 +181,7 @@ std::optional<PoseCovariance> StagedMargin::covariance(const std::vector<Hypothe
   double weights = 0.0;
   for (const Hypothesis& h : hypotheses) {
     if (are_rivals(h.map_from_robot, best.map_from_robot)) continue;
-    const double weight = std::exp((h.quality - best.quality) / params_.spread_margin);
+    const double weight = std::exp((h.score - best.score) / params_.spread_margin);
     const double x = h.map_from_robot.x - best.map_from_robot.x;
     const double y = h.map_from_robot.y - best.map_from_robot.y;
     const double t = wrap_angle(h.map_from_robot.theta - best.map_from_robot.theta);
@@ -210,7 +210,7 @@ double StagedMargin::margin_of(const StepResult& step) const {
   const auto rival = std::find_if(step.hypotheses.begin(), step.hypotheses.end(), [&](const Hypothesis& h) {
     return are_rivals(h.map_from_robot, best.map_from_robot);
   });
-  return best.quality - (rival == step.hypotheses.end() ? step.omega_max : rival->quality);
+  return best.score - (rival == step.hypotheses.end() ? step.omega_max : rival->score);
 }
 
 bool StagedMargin::continues(const StepResult& step) const {
@@ -219,11 +219,11 @@ bool StagedMargin::continues(const StepResult& step) const {
                               params_.same_rotation_deg);
 }
 
-/// The best pose and its rivals of about the same quality, each a rival of the others.
+/// The best pose and its rivals of about the same score, each a rival of the others.
 std::vector<Pose2> StagedMargin::candidates(const StepResult& step) const {
   std::vector<Pose2> poses;
   for (const Hypothesis& h : step.hypotheses) {
-    if (h.quality < step.hypotheses.front().quality - params_.candidate_margin) break;
+    if (h.score < step.hypotheses.front().score - params_.candidate_margin) break;
     const bool repeats = std::any_of(
         poses.begin(), poses.end(), [&](const Pose2& other) { return !are_rivals(h.map_from_robot, other); });
     if (!repeats) poses.push_back(h.map_from_robot);

@@ -19,7 +19,7 @@ namespace glocal {
 /// widened by hypotheses near it that are about as good.
 class StagedMargin final : public VerdictRule {
  public:
-  /// A margin in quality of at least `margin`, kept for so many steps and so far.
+  /// A margin in score of at least `margin`, kept for so many steps and so far.
   struct Stage {
     double margin = 0.3;
     int steps = 3;

@@ -15,8 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array stages = {"local_map", "match", "cluster", "rate"};
-constexpr std::array numbers = {"local_map_points", "omega_best", "omega_max", "proposals",
-                                "points_tested",    "hypotheses", "clusters"};
+constexpr std::array numbers = {"local_map_points", "omega_best",    "score_best", "omega_max",
+                                "proposals",        "points_tested", "hypotheses", "clusters"};
 constexpr std::array optional_numbers = {"omega_place", "translation_error_m", "rotation_error_deg",
                                          "confidence"};
 constexpr std::array poses = {"estimate", "reference", "local_from_robot"};

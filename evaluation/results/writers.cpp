@@ -61,6 +61,7 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
                  {"rate", step.stage_ms.rate}}},
                {"local_map_points", step.local_map_points},
                {"omega_best", step.omega_best},
+               {"score_best", step.score_best},
                {"omega_max", step.omega_max}};
   if (step.omega_place) json["omega_place"] = *step.omega_place;
   json["proposals"] = step.proposals;

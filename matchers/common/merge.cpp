@@ -45,7 +45,7 @@ MatchResult joined(const std::vector<MatchResult>& chunks, const Pose2& local_fr
     result.points_tested += chunk.points_tested;
   }
   std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
   merge_hypotheses(result.hypotheses, local_from_robot, most);
   return result;
 }

@@ -41,8 +41,9 @@ void describe(ParamVisitor& v, GridMatching& p) {
 GridMatcher::GridMatcher(const GridMatching& params, const GlobalMap& map,
                          std::shared_ptr<const ContactIndex> contact)
     : params_(params),
+      contact_(std::move(contact)),
       refiner_(params.candidate, static_cast<std::size_t>(params.max_poses), params.refinement,
-               distance_field(map, params.field_cell), std::move(contact)) {}
+               distance_field(map, params.field_cell), contact_) {}
 
 MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
                                Rng& rng) {
@@ -71,7 +72,10 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
   }
   for (const Candidate& candidate : candidates) {
     if (candidate.quality < omega_max) break;
-    result.hypotheses.push_back({.map_from_local = candidate.map_from_local, .quality = candidate.quality});
+    result.hypotheses.push_back(
+        {.map_from_local = candidate.map_from_local,
+         .quality = contact_->share(local.points, Transform(candidate.map_from_local)),
+         .score = candidate.quality});
   }
   return result;
 }

@@ -30,12 +30,12 @@ void describe(ParamVisitor& v, GridMatching& p);
 /// sample of them.
 ///
 /// Hypotheses are the distinct poses (candidates) of what was found. Refined ones, as they are by default,
-/// have left the grid, and are as good as all points say (Omega, eq. 4); without iterations of refinement
-/// they are poses of the grid, with its quality. A pose that only refinement would bring over Omega_max is
-/// not found.
+/// have left the grid, and are scored by what all points say (Omega, eq. 4); without iterations of refinement
+/// they are poses of the grid, scored by it. A pose that only refinement would bring over Omega_max is not
+/// found.
 class GridMatcher : public Matcher {
  public:
-  /// `contact` judges refined poses. Throws ConfigError where the map is too large for a distance field.
+  /// `contact` judges hypotheses. Throws ConfigError where the map is too large for a distance field.
   GridMatcher(const GridMatching& params, const GlobalMap& map, std::shared_ptr<const ContactIndex> contact);
 
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
@@ -47,6 +47,7 @@ class GridMatcher : public Matcher {
                                                 const GridSearchRule& rule) const = 0;
 
   GridMatching params_;
+  std::shared_ptr<const ContactIndex> contact_;
   CandidateRefiner refiner_;
 };
 

@@ -311,7 +311,8 @@ Hypothesis IndexedRansam::hypothesis(const Candidate& candidate, const LocalMap&
                                      const Points& sample) const {
   const Pose2 map_from_robot = candidate.map_from_local * local.local_from_robot;
   return {.map_from_local = candidate.map_from_local,
-          .quality = std::min(candidate.quality, 1.0),
+          .quality = contact_->share(local.points, Transform(candidate.map_from_local)),
+          .score = std::min(candidate.quality, 1.0),
           .covariance = pose_covariance(*field_, sample, candidate.map_from_local, map_from_robot,
                                         params_.refinement.kernel, params_.uncertainty),
           .free_space_violation = free_space_violation(sample, candidate.map_from_local)};

@@ -37,7 +37,7 @@ struct AdaptiveBudget {
 /// partners. The best distinct poses are refined before they are judged, carried to the next step beside
 /// fresh ones, and judged by contact, by beams through walls, and by what the map does not show.
 ///
-/// Hypotheses are the best distinct poses (candidates); their quality is contact (Omega, eq. 4) less
+/// Hypotheses are the best distinct poses (candidates); their score is contact (Omega, eq. 4) less
 /// `blocked_weight` times the share of blocked beams, plus `unknown_weight` times the share of points in
 /// unknown cells.
 class IndexedRansam final : public Matcher {

@@ -165,7 +165,7 @@ MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/,
                      local.points.size()});
     if (candidate.quality < omega_max || result.hypotheses.size() == static_cast<std::size_t>(params_.best))
       continue;
-    result.hypotheses.push_back({.map_from_local = candidate.map_from_local, .quality = candidate.quality});
+    result.hypotheses.push_back(Hypothesis::by_contact(candidate.map_from_local, candidate.quality));
   }
   return result;
 }

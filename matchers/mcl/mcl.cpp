@@ -126,8 +126,7 @@ MatchResult Mcl::match(const LocalMap& local, const Observation& latest, double 
     moved = {};
   }
   if (local.points.empty()) return result;
-  result.hypotheses = hypotheses(local, latest.scan, moved);
-  std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return h.quality < omega_max; });
+  result.hypotheses = hypotheses(local, latest.scan, moved, omega_max);
   return result;
 }
 
@@ -263,7 +262,8 @@ std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
   return n;
 }
 
-std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan, const Pose2& moved) const {
+std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan, const Pose2& moved,
+                                        double omega_max) const {
   const std::vector<Heap> heaps =
       heaps_of(particles_, weights_, {params_.merge_distance, params_.merge_rotation},
                static_cast<std::size_t>(params_.max_hypotheses));
@@ -271,13 +271,17 @@ std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan,
   std::vector<Hypothesis> found;
   for (const Heap& heap : heaps) {
     const Pose2 map_from_robot = heap.mean() * moved;
+    const double score = contact_->share(scan.hits, Transform(map_from_robot));
+    if (score < omega_max) continue;
+    const Pose2 map_from_local = map_from_robot * robot_from_local;
     const auto support = std::lround(heap.weight * static_cast<double>(particles_.size()));
-    found.push_back({.map_from_local = map_from_robot * robot_from_local,
-                     .quality = contact_->share(scan.hits, Transform(map_from_robot)),
+    found.push_back({.map_from_local = map_from_local,
+                     .quality = contact_->share(local.points, Transform(map_from_local)),
+                     .score = score,
                      .support = static_cast<std::size_t>(std::max(1L, support))});
   }
   std::stable_sort(found.begin(), found.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
   return found;
 }
 

@@ -25,12 +25,12 @@ namespace glocal {
 /// particles all over the map's free space and goes on with increments of odometry. Parameters have the names
 /// and defaults of AMCL (Nav2), unless their descriptions say otherwise.
 ///
-/// It looks at the latest scan only; the local map just says in which frame a hypothesis is told. Hypotheses
-/// are the particles, those in one cell of pose space (`merge_distance`, `merge_rotation`) told as their
-/// mean, with as much support as their weights are worth in particles. Their quality is the share of the
-/// latest scan's points in contact with the map there (eq. 4 for the scan instead of the local map): weights
-/// say how poses compare, not how good they are. Without a scan there are no hypotheses; the motion is made
-/// up for with the next one.
+/// It looks at the latest scan only; the local map just says in which frame a hypothesis is told, and how
+/// good it is by eq. 4. Hypotheses are the particles, those in one cell of pose space (`merge_distance`,
+/// `merge_rotation`) told as their mean, with as much support as their weights are worth in particles. Their
+/// score is the share of the latest scan's points in contact with the map there (eq. 4 for the scan instead
+/// of the local map): weights say how poses compare, not how good they are. Without a scan there are no
+/// hypotheses; the motion is made up for with the next one.
 ///
 /// `proposals` counts particles, `points_tested` looks at the end of a beam.
 class Mcl final : public Matcher {
@@ -93,7 +93,7 @@ class Mcl final : public Matcher {
   void resample(Rng& rng);
   [[nodiscard]] std::size_t sample_size(double share_of_new, Rng& rng) const;
   [[nodiscard]] std::vector<Hypothesis> hypotheses(const LocalMap& local, const Scan& scan,
-                                                   const Pose2& moved) const;
+                                                   const Pose2& moved, double omega_max) const;
 
   Params params_;
   bool is_product_;  ///< Likelihoods of beams are multiplied; else AMCL's sum of cubes.

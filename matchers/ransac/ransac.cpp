@@ -92,7 +92,7 @@ MatchResult Ransac::draw(const LocalMap& local, const QualityTest& quality, std:
     found.proposals += size;
     found.points_tested += outcome.points_tested;
     for (const auto& [i, omega] : outcome.passed)
-      found.hypotheses.push_back({.map_from_local = motions[i].pose(), .quality = omega});
+      found.hypotheses.push_back(Hypothesis::by_contact(motions[i].pose(), omega));
     size = 0;
   };
   for (std::size_t i = 0; i < iterations; ++i) {
@@ -119,11 +119,12 @@ void Ransac::refine_all(const LocalMap& local, double omega_max, MatchResult& re
     Hypothesis& h = result.hypotheses[i];
     h.map_from_local = refined_pose(*field_, anchors, h.map_from_local, params_.refinement);
     h.quality = contact_->share(local.points, Transform(h.map_from_local));
+    h.score = h.quality;
   });
   result.points_tested += result.hypotheses.size() * local.points.size();
-  std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return h.quality < omega_max; });
+  std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return h.score < omega_max; });
   std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
 }
 
 }  // namespace glocal

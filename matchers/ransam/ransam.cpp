@@ -226,13 +226,13 @@ void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_s
   found.proposals += local_triples.size;
   found.points_tested += outcome.points_tested;
   for (const auto& [i, omega] : outcome.passed)
-    found.hypotheses.push_back({.map_from_local = motions[i].pose(), .quality = omega});
+    found.hypotheses.push_back(Hypothesis::by_contact(motions[i].pose(), omega));
 }
 
 void Ransam::ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) const {
   for (Hypothesis& h : hypotheses)
-    h.quality -= beams_.penalty(*clearance_, h.map_from_local, h.quality - omega_max);
-  std::erase_if(hypotheses, [&](const Hypothesis& h) { return h.quality < omega_max; });
+    h.score -= beams_.penalty(*clearance_, h.map_from_local, h.score - omega_max);
+  std::erase_if(hypotheses, [&](const Hypothesis& h) { return h.score < omega_max; });
 }
 
 }  // namespace glocal

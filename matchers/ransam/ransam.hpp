@@ -26,7 +26,7 @@ namespace glocal {
 /// without changing the answer.
 ///
 /// Beyond the paper, `blocked_weight` times the share of beams that would have passed through walls may be
-/// taken off the quality of what reached Omega_max; what falls below it is dropped. Contact alone cannot tell
+/// taken off the score of what reached Omega_max; what falls below it is dropped. Contact alone cannot tell
 /// two places apart that differ by a wall in one of them.
 class Ransam final : public Matcher {
  public:

@@ -88,10 +88,10 @@ std::vector<Hypothesis> rated(const std::vector<Pose2>& poses, const LocalMap& l
   std::vector<Hypothesis> hypotheses;
   for (const Pose2& pose : poses) {
     const double omega = contact.share(local.points, Transform(pose));
-    if (omega >= omega_max) hypotheses.push_back({.map_from_local = pose, .quality = omega});
+    if (omega >= omega_max) hypotheses.push_back(Hypothesis::by_contact(pose, omega));
   }
   std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; });
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
   return hypotheses;
 }
 

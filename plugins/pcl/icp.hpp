@@ -39,7 +39,7 @@ class IcpAligner {
   Tree::Ptr tree_;
 };
 
-/// Those of the poses (map_from_local) that reach a quality, by falling quality; equal ones keep their order.
+/// Those of the poses (map_from_local) that reach an Omega, by falling Omega; equal ones keep their order.
 [[nodiscard]] std::vector<Hypothesis> rated(const std::vector<Pose2>& poses, const LocalMap& local,
                                             const ContactIndex& contact, double omega_max);
 

@@ -68,7 +68,7 @@ METADATA = {  # without dates: the same results give the same bytes
     "png": {"Software": MAKER},
 }
 # What each step must have.
-NEEDED = set("trial step stage_ms omega_best omega_max hypotheses clusters best verdict local_from_robot".split())
+NEEDED = set("trial step stage_ms omega_best score_best omega_max hypotheses clusters best verdict local_from_robot".split())
 
 
 class LeftOut(Exception):
@@ -177,6 +177,7 @@ class Curve:
     value: object  # a function of a step; None is a gap
     top: float = None  # of the axis; as the values are, without
     is_logarithmic: bool = False
+    beside: object = None  # another curve, dotted, in the same axes
 
 
 def error(key, factor):
@@ -184,10 +185,27 @@ def error(key, factor):
     return lambda step: factor * step[key] if step["verdict"] == "localized" and key in step else None
 
 
+def of_best(key):
+    return lambda step: step[key] if step["hypotheses"] else None
+
+
+def score_where_other(step):
+    """What the matcher ranks by, where that is not Omega."""
+    return None if step["score_best"] == step["omega_best"] else of_best("score_best")(step)
+
+
 # One list for each panel, (a) to (f).
 CURVES = [
     [Curve("match", "time of a match (ms)", lambda step: step["stage_ms"]["match"])],
-    [Curve("omega_best", "$\\Omega_{best}$", lambda step: step["omega_best"] if step["hypotheses"] else None, 1.03)],
+    [
+        Curve(
+            "omega_best",
+            "$\\Omega_{best}$",
+            of_best("omega_best"),
+            1.03,
+            beside=Curve("score_best", "score", score_where_other),
+        )
+    ],
     [Curve("omega_max", "$\\Omega_{max}$", lambda step: step["omega_max"], 1.03)],
     [Curve("omega_place", OMEGA_PLACE, lambda step: step.get("omega_place"), 1.03)],
     [
@@ -198,14 +216,20 @@ CURVES = [
 ]
 
 
+def plot_values(axes, curve, run, i, **line):
+    values = [curve.value(step) for step in run.steps]
+    values = [math.nan if value is None else value for value in values]
+    steps = [step["step"] for step in run.steps]
+    axes.plot(steps, values, gid=f"{curve.name}_{i}", color=COLOURS[i % len(COLOURS)], **line)
+
+
 def draw_curve(axes, curve, runs):
     for i, run in enumerate(runs):
-        values = [curve.value(step) for step in run.steps]
-        values = [math.nan if value is None else value for value in values]
-        line = {"color": COLOURS[i % len(COLOURS)], "linestyle": DASHES[i % len(DASHES)], "label": run.label}
-        steps = [step["step"] for step in run.steps]
+        line = {"linestyle": DASHES[i % len(DASHES)], "label": run.label}
         # With dots, for what lies alone between two gaps.
-        axes.plot(steps, values, gid=f"{curve.name}_{i}", marker="o", markersize=1.2, markeredgewidth=0, **line)
+        plot_values(axes, curve, run, i, marker="o", markersize=1.2, markeredgewidth=0, **line)
+        if curve.beside and any(curve.beside.value(step) is not None for step in run.steps):
+            plot_values(axes, curve.beside, run, i, linestyle=":")
         first = run.first_localized()
         if curve.name == "clusters" and first:
             axes.axvline(first["step"], gid=f"localized_{i}", color=BLACK, linestyle=line["linestyle"], linewidth=0.6)

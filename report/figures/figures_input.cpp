@@ -46,7 +46,8 @@ void check_pose(const Json& json, const char* key) {
 /// Throws a std::exception if figures.py could not read the step.
 void check_step(const Json& step) {
   check_number(step.at("stage_ms"), "match");
-  for (const char* key : {"omega_best", "omega_max", "hypotheses", "clusters"}) check_number(step, key);
+  for (const char* key : {"omega_best", "score_best", "omega_max", "hypotheses", "clusters"})
+    check_number(step, key);
   for (const char* key : {"omega_place", "translation_error_m", "rotation_error_deg"}) {
     if (step.contains(key)) check_number(step, key);
   }

@@ -94,8 +94,8 @@ TEST_F(ExplainCommand, DrawnButRejected) {
   // The same draws, but more is asked for than the best of them has.
   run_lab_again("--set localizer.threshold_policy.fixed.omega_max=1.0");
   EXPECT_EQ(recorded(0)["hypotheses"], 0);
-  EXPECT_THAT(lost(0), HasSubstr(fmt::format("rejected: the best pose drawn near the reference has quality "
-                                             "{:.2f}, less than the threshold",
+  EXPECT_THAT(lost(0), HasSubstr(fmt::format("rejected: the best pose drawn near the reference has score "
+                                             "{0:.2f} (Omega {0:.2f}), less than the threshold",
                                              best)));
 }
 
@@ -110,7 +110,7 @@ TEST_F(ExplainCommand, DrawnButGivenUpEarly) {
   // Without a margin eq. 5 gives up whatever misses the threshold after a single point.
   run_lab_again(few + " --set localizer.matcher.ransam.extrapolation_z=0");
   EXPECT_EQ(recorded(0)["hypotheses"], 0);
-  EXPECT_THAT(lost(0), HasSubstr(fmt::format("has quality {:.2f}, but was given up", best)));
+  EXPECT_THAT(lost(0), HasSubstr(fmt::format("has score {0:.2f} (Omega {0:.2f}), but was given up", best)));
 }
 
 TEST_F(ExplainCommand, ClusteredAway) {
@@ -162,9 +162,9 @@ TEST_F(ExplainCommand, NumbersAreThoseOfTheRun) {
     const json step = recorded(i);
     const json& reference = step["reference"];
     const std::string text = explained(i);
-    EXPECT_THAT(text,
-                HasSubstr(fmt::format("threshold   {:.2f}; best quality {:.2f}",
-                                      step["omega_max"].get<double>(), step["omega_best"].get<double>())));
+    EXPECT_THAT(text, HasSubstr(fmt::format("threshold   {:.2f}; best score {:.2f} (Omega {:.2f})",
+                                            step["omega_max"].get<double>(), step["score_best"].get<double>(),
+                                            step["omega_best"].get<double>())));
     EXPECT_THAT(text, HasSubstr(fmt::format("reference   x {:.2f} m, y {:.2f} m",
                                             reference["x"].get<double>(), reference["y"].get<double>())));
     EXPECT_THAT(text, HasSubstr(fmt::format("verdict     {}: {}", step["verdict"].get<std::string>(),

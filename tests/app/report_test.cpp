@@ -72,7 +72,8 @@ void expect_step(const Json& columns, const Json& line) {
   for (const char* key :
        {"local_map_points", "proposals", "points_tested", "hypotheses", "clusters", "verdict"})
     EXPECT_EQ(columns[key][i], line[key]) << key;
-  for (const char* key : {"omega_best", "omega_max"}) expect_near(columns[key][i], line[key], key);
+  for (const char* key : {"omega_best", "score_best", "omega_max"})
+    expect_near(columns[key][i], line[key], key);
   for (const char* key : {"omega_place", "translation_error_m", "rotation_error_deg", "confidence"}) {
     if (line.contains(key)) {
       expect_near(columns[key][i], line[key], key);

@@ -14,7 +14,7 @@ using Groups = std::vector<std::vector<std::size_t>>;
 
 inline Hypothesis at(double x, double y, double theta_deg, std::size_t support = 1) {
   return {
-      .map_from_local = {}, .map_from_robot = {x, y, radians(theta_deg)}, .quality = 0.7, .support = support};
+      .map_from_local = {}, .map_from_robot = {x, y, radians(theta_deg)}, .score = 0.7, .support = support};
 }
 
 /// The members of each cluster, in the order of their first ones.

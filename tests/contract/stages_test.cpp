@@ -45,7 +45,7 @@ std::vector<Hypothesis> hypotheses() {
   std::vector<Hypothesis> result;
   for (int i = 0; i < 30; ++i) {
     const Pose2 pose{5.0 * (i % 3) + rng.normal(0.02), rng.normal(0.02), wrap_angle(3.1 + rng.normal(0.02))};
-    result.push_back({pose, pose, 0.9 - 0.01 * i});
+    result.push_back({.map_from_local = pose, .map_from_robot = pose, .score = 0.9 - 0.01 * i});
   }
   return result;
 }
@@ -64,7 +64,7 @@ std::vector<Cluster> clusters() {
 
 bool equal(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Hypothesis& p, const Hypothesis& q) {
-    return p.map_from_local == q.map_from_local && p.quality == q.quality;
+    return p.map_from_local == q.map_from_local && p.quality == q.quality && p.score == q.score;
   });
 }
 
@@ -166,7 +166,7 @@ TEST_F(Stages, ContactIndexesCountWhatIsClearlyInContactAndNothingElse) {
   });
 }
 
-TEST_F(Stages, MatchersKeepToTheThresholdInFallingQuality) {
+TEST_F(Stages, MatchersKeepToTheThresholdInFallingScore) {
   for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
     const auto matcher = catalog_.matchers.make(choice, setup());
     Rng rng(1);
@@ -174,9 +174,28 @@ TEST_F(Stages, MatchersKeepToTheThresholdInFallingQuality) {
     ASSERT_FALSE(found.empty());
     double last = 1.0;
     for (const Hypothesis& h : found) {
-      EXPECT_GE(h.quality, 0.5);
-      EXPECT_LE(h.quality, last);
-      last = h.quality;
+      EXPECT_GE(h.score, 0.5);
+      EXPECT_LE(h.score, last);
+      last = h.score;
+    }
+  });
+}
+
+// Exactly so up to what a contact index may be wrong by.
+TEST_F(Stages, TheQualityOfAHypothesisIsTheContactOfTheLocalMap) {
+  const LocalMap local = local_map();
+  for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
+    const auto matcher = catalog_.matchers.make(choice, setup());
+    const double epsilon = contact_epsilon(choice.name);
+    const KdTreeContact surely(map_->points(), 0.8 * epsilon);
+    const KdTreeContact perhaps(map_->points(), 1.2 * epsilon);
+    Rng rng(1);
+    const auto found = matcher->match(local, observation(seen_by_robot()), 0.3, rng).hypotheses;
+    ASSERT_FALSE(found.empty());
+    for (const Hypothesis& h : found) {
+      const Transform map_from_local(h.map_from_local);
+      EXPECT_GE(h.quality, surely.share(local.points, map_from_local));
+      EXPECT_LE(h.quality, perhaps.share(local.points, map_from_local));
     }
   });
 }

@@ -14,6 +14,7 @@ inline void expect_same_answer(const MatchResult& one, const MatchResult& other)
   for (std::size_t i = 0; i < one.hypotheses.size(); ++i) {
     EXPECT_EQ(one.hypotheses[i].map_from_local, other.hypotheses[i].map_from_local);
     EXPECT_EQ(one.hypotheses[i].quality, other.hypotheses[i].quality);
+    EXPECT_EQ(one.hypotheses[i].score, other.hypotheses[i].score);
     EXPECT_EQ(one.hypotheses[i].support, other.hypotheses[i].support);
   }
   EXPECT_EQ(one.proposals, other.proposals);

@@ -2,36 +2,36 @@
 
 #include <gtest/gtest.h>
 
-#include "raters/with_qualities.hpp"
+#include "raters/with_scores.hpp"
 
 namespace glocal::best_fraction_test {
 namespace {
 
-using test::with_qualities;
+using test::with_scores;
 
 TEST(BestFraction, OfTheLastStep) {
   BestFraction threshold({.fraction = 0.5, .best = "last_step", .initial = 0.45});
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.45);
-  threshold.update(with_qualities({0.8, 0.6}));
+  threshold.update(with_scores({0.8, 0.6}));
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.4);
-  threshold.update(with_qualities({0.6}));
+  threshold.update(with_scores({0.6}));
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.3);
 }
 
 TEST(BestFraction, OfTheBestSoFar) {
   BestFraction threshold({.fraction = 0.5, .best = "so_far", .empty_share = 0.5, .initial = 0.45});
-  threshold.update(with_qualities({0.8, 0.6}));
-  threshold.update(with_qualities({0.6}));
+  threshold.update(with_scores({0.8, 0.6}));
+  threshold.update(with_scores({0.6}));
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.4);
   threshold.update({});  // 0.8 counts as 0.4 now
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.2);
-  threshold.update(with_qualities({0.3}));
+  threshold.update(with_scores({0.3}));
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.2);
-  threshold.update(with_qualities({0.5}));
+  threshold.update(with_scores({0.5}));
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.25);
   threshold.reset();
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.45);
-  threshold.update(with_qualities({0.1}));
+  threshold.update(with_scores({0.1}));
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.05);
 }
 

@@ -5,13 +5,13 @@
 namespace glocal::cluster_rating_test {
 namespace {
 
-Hypothesis with_quality(double quality) {
-  return {{}, {}, quality};
+Hypothesis with_score(double score) {
+  return {.map_from_local = {}, .score = score};
 }
 
 TEST(ClusterRating, Equation7ByHand) {
-  const std::vector<Hypothesis> hypotheses = {with_quality(0.9), with_quality(0.7), with_quality(0.6),
-                                              with_quality(0.5)};
+  const std::vector<Hypothesis> hypotheses = {with_score(0.9), with_score(0.7), with_score(0.6),
+                                              with_score(0.5)};
   // Half the largest variance along y, a fifth of the largest variance of heading.
   const double rotation = 10.0 * radians(1.0) * radians(1.0);
   const std::vector<Cluster> clusters = {{{0, 1, 2}, {}, 0.0003, 0.0015, rotation}, {{3}, {}, 0.0, 0.0, 0.0}};
@@ -29,14 +29,14 @@ TEST(ClusterRating, Equation7ByHand) {
 
 TEST(ClusterRating, StaysAboveZeroHoweverWideTheCluster) {
   ClusterRating rater({});
-  const auto ratings = rater.rate({{{0}, {}, 100.0, 100.0, 9.0}}, {with_quality(0.5)});
+  const auto ratings = rater.rate({{{0}, {}, 100.0, 100.0, 9.0}}, {with_score(0.5)});
   EXPECT_NEAR(ratings[0].r, 0.5 + 0.35 * 0.5, 1e-12);
   EXPECT_DOUBLE_EQ(ratings[0].r_normalised, 1.0);
 }
 
 TEST(ClusterRating, TheBestPossibleIsOne) {
   ClusterRating rater({});
-  EXPECT_DOUBLE_EQ(rater.rate({{{0}, {}, 0.0, 0.0, 0.0}}, {with_quality(1.0)})[0].r, 1.0);
+  EXPECT_DOUBLE_EQ(rater.rate({{{0}, {}, 0.0, 0.0, 0.0}}, {with_score(1.0)})[0].r, 1.0);
 }
 
 TEST(ClusterRating, FirstStepRatingsOfFigure4a) {
@@ -44,7 +44,7 @@ TEST(ClusterRating, FirstStepRatingsOfFigure4a) {
   std::vector<Hypothesis> hypotheses;
   std::vector<Cluster> clusters;
   for (std::size_t i = 0; i < 800; ++i) {
-    hypotheses.push_back(with_quality(0.6 + 0.2 * static_cast<double>(i) / 800.0));
+    hypotheses.push_back(with_score(0.6 + 0.2 * static_cast<double>(i) / 800.0));
     clusters.push_back({{i}, {}, 0.0, 0.0, 0.0});
   }
   ClusterRating rater({});

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "raters/with_qualities.hpp"
+#include "raters/with_scores.hpp"
 
 namespace glocal::sliding_window_test {
 namespace {
 
-using test::with_qualities;
+using test::with_scores;
 
 TEST(SlidingWindow, StartsAtTheInitialThreshold) {
   EXPECT_DOUBLE_EQ(SlidingWindow({.window = 10, .initial = 0.6}).omega_max(), 0.6);
@@ -15,13 +15,13 @@ TEST(SlidingWindow, StartsAtTheInitialThreshold) {
 
 TEST(SlidingWindow, Equation9ByHand) {
   SlidingWindow threshold({.window = 4, .initial = 0.5});
-  threshold.update(with_qualities({0.6, 0.8}));  // step mean 0.7
+  threshold.update(with_scores({0.6, 0.8}));  // step mean 0.7
   EXPECT_NEAR(threshold.omega_max(), (3 * 0.5 + 0.7) / 4, 1e-12);
-  threshold.update(with_qualities({0.9}));
-  threshold.update(with_qualities({0.8}));
-  threshold.update(with_qualities({0.6}));
+  threshold.update(with_scores({0.9}));
+  threshold.update(with_scores({0.8}));
+  threshold.update(with_scores({0.6}));
   EXPECT_NEAR(threshold.omega_max(), (0.7 + 0.9 + 0.8 + 0.6) / 4, 1e-12);
-  threshold.update(with_qualities({1.0}));  // 0.7 leaves the window
+  threshold.update(with_scores({1.0}));  // 0.7 leaves the window
   EXPECT_NEAR(threshold.omega_max(), (0.9 + 0.8 + 0.6 + 1.0) / 4, 1e-12);
 }
 

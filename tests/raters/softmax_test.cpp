@@ -11,11 +11,11 @@ namespace {
 
 using test::qualities;
 using test::two_clusters;
-using test::with_qualities;
+using test::with_scores;
 
 TEST(Softmax, ByHand) {
   Softmax rater({.beta = 10.0});
-  const auto ratings = rater.rate(two_clusters, with_qualities(qualities));
+  const auto ratings = rater.rate(two_clusters, with_scores(qualities));
   EXPECT_NEAR(ratings[0].r, std::exp(-3.0), 1e-12);
   EXPECT_NEAR(ratings[1].r, std::exp(-2.0), 1e-12);
   EXPECT_NEAR(ratings[0].r_normalised, 1.0 / (1.0 + std::exp(1.0)), 1e-12);
@@ -24,17 +24,17 @@ TEST(Softmax, ByHand) {
 
 TEST(Softmax, OfMeans) {
   Softmax rater({.beta = 10.0, .quality = "mean"});
-  const auto ratings = rater.rate(two_clusters, with_qualities(qualities));
+  const auto ratings = rater.rate(two_clusters, with_scores(qualities));
   EXPECT_NEAR(ratings[0].r_normalised, 1.0 / (1.0 + std::exp(-1.0)), 1e-12);
 }
 
 TEST(Softmax, IsANumberAtItsLimits) {
   Softmax steep({.beta = 500.0});
-  const auto ratings = steep.rate(two_clusters, with_qualities({0.0, 0.0, 0.0, 0.0, 0.0}));
+  const auto ratings = steep.rate(two_clusters, with_scores({0.0, 0.0, 0.0, 0.0, 0.0}));
   EXPECT_GT(ratings[0].r, 0.0);
   EXPECT_DOUBLE_EQ(ratings[0].r_normalised, 0.5);
   Softmax flat({.beta = 0.0});
-  EXPECT_DOUBLE_EQ(flat.rate(two_clusters, with_qualities(qualities))[0].r_normalised, 0.5);
+  EXPECT_DOUBLE_EQ(flat.rate(two_clusters, with_scores(qualities))[0].r_normalised, 0.5);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ StepResult step(double best, double rival, double driven = 0.0, int epoch = 0) {
   result.local_from_robot = {driven, 0.0, 0.0};
   result.local_map_epoch = epoch;
   const Pose2 ahead{driven, 0.0, 0.0};
-  result.hypotheses.push_back({here, here * ahead, best});
-  result.hypotheses.push_back({there, there * ahead, rival});
+  result.hypotheses.push_back({.map_from_local = here, .map_from_robot = here * ahead, .score = best});
+  result.hypotheses.push_back({.map_from_local = there, .map_from_robot = there * ahead, .score = rival});
   return result;
 }
 
@@ -155,7 +155,7 @@ TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
   StepResult one = step(0.9, 0.2);
   one.hypotheses[0].covariance = own;
   EXPECT_EQ(rule.judge(one).estimate->covariance, own);
-  // A second one of the same quality, 0.2 m to the left in the map's y and turned by 0.1: half the weight.
+  // A second one of the same score, 0.2 m to the left in the map's y and turned by 0.1: half the weight.
   one.hypotheses.insert(one.hypotheses.begin() + 1, one.hypotheses[0]);
   one.hypotheses[1].map_from_robot.y += 0.2;
   one.hypotheses[1].map_from_robot.theta += 0.1;

@@ -1,7 +1,7 @@
 // Two clusters that are rated differently by their best hypothesis and by the mean.
 #pragma once
 
-#include "raters/with_qualities.hpp"
+#include "raters/with_scores.hpp"
 
 namespace glocal::test {
 

@@ -1,4 +1,4 @@
-// Hypotheses of which only the quality matters.
+// Hypotheses of which only the score matters.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 namespace glocal::test {
 
 /// In the order given, which should be falling.
-inline std::vector<Hypothesis> with_qualities(const std::vector<double>& qualities) {
+inline std::vector<Hypothesis> with_scores(const std::vector<double>& scores) {
   std::vector<Hypothesis> hypotheses;
-  for (const double quality : qualities) hypotheses.push_back({{}, {}, quality});
+  for (const double score : scores) hypotheses.push_back({.map_from_local = {}, .score = score});
   return hypotheses;
 }
 

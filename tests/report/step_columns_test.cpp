@@ -60,7 +60,8 @@ TEST(StepColumns, HaveAValueForEachStep) {
   EXPECT_EQ(columns_of({first, second, third}), Json::parse(R"({
     "step": [0, 1, 2], "stamp": [100.0, 100.5, 101.0],
     "local_map_ms": [1, 1, 1], "match_ms": [2, 2, 2], "cluster_ms": [3, 3, 3], "rate_ms": [4, 4, 4],
-    "local_map_points": [40, 40, 40], "omega_best": [0.75, 0.75, 0.75], "omega_max": [0.5, 0.5, 0.5],
+    "local_map_points": [40, 40, 40], "omega_best": [0.75, 0.75, 0.75], "score_best": [0.625, 0.625, 0.625],
+    "omega_max": [0.5, 0.5, 0.5],
     "proposals": [60, 60, 60], "points_tested": [700, 700, 700], "hypotheses": [4, 4, 4], "clusters": [2, 0, 2],
     "omega_place": [0.875, null, 0.875],
     "translation_error_m": [0.5, null, null], "rotation_error_deg": [2, null, null], "confidence": [null, null, 0.75],
@@ -126,7 +127,7 @@ TEST(StepColumns, WantWhatEachLineHas) {
   const Json whole = line_of(step_record(0, {}));
   EXPECT_EQ(fault(whole), "");
   for (const char* key :
-       {"step", "stamp", "stage_ms", "local_map_points", "omega_best", "omega_max", "proposals",
+       {"step", "stamp", "stage_ms", "local_map_points", "omega_best", "score_best", "omega_max", "proposals",
         "points_tested", "hypotheses", "clusters", "best", "verdict", "why", "local_from_robot"}) {
     Json line = whole;
     line[key] = "text";

@@ -13,10 +13,12 @@ namespace glocal {
 /// A proposed pose of the local map in the global map (the paper's H).
 struct Hypothesis {
   Pose2 map_from_local;
-  /// map_from_local * local_from_robot. The localizer sets it; matchers leave it alone, so that the two cannot
-  /// disagree.
+  /// map_from_local * local_from_robot. The localizer sets it; matchers leave it alone, so that the two
+  /// cannot disagree.
   Pose2 map_from_robot = {};
   double quality = 0.0;  ///< Omega (eq. 4): share of local map points in contact with the map, in [0, 1].
+  /// What its matcher ranks it by, in [0, 1]: Omega, unless more speaks for or against a pose than contact.
+  double score = 0.0;
   /// How many proposals it stands for, where a matcher merged those that mean nearly the same pose. Counts as
   /// a weight wherever hypotheses are counted or averaged.
   std::size_t support = 1;
@@ -25,6 +27,11 @@ struct Hypothesis {
   /// Share of the points that lie where the map is known to be free, away from anything; where the matcher
   /// knows it.
   std::optional<double> free_space_violation = {};
+
+  /// Ranked by contact alone, as in the paper.
+  [[nodiscard]] static Hypothesis by_contact(const Pose2& map_from_local, double omega) {
+    return {.map_from_local = map_from_local, .quality = omega, .score = omega};
+  }
 };
 
 /// Hypotheses that mean the same robot pose.

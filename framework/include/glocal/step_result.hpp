@@ -61,12 +61,13 @@ struct StepResult {
   std::size_t local_map_points = 0;
 
   double omega_max = 0.0;             ///< Threshold applied in this step (eq. 9 gives the next one).
-  double omega_best = 0.0;            ///< Quality of the best hypothesis; 0 without any.
+  double omega_best = 0.0;            ///< Quality (Omega) of the best hypothesis; 0 without any.
+  double score_best = 0.0;            ///< Its score, which omega_max is asked of; 0 without any.
   std::optional<double> omega_place;  ///< Omega' (eq. 10); none before the first hypothesis.
-  std::size_t proposals = 0;          ///< Relations found on both sides: hypotheses before any quality test.
+  std::size_t proposals = 0;          ///< Relations found on both sides: poses before any of them was judged.
   std::size_t points_tested = 0;      ///< Single points tested for contact.
 
-  std::vector<Hypothesis> hypotheses;  ///< Falling quality.
+  std::vector<Hypothesis> hypotheses;  ///< Falling score.
   std::vector<Cluster> clusters;       ///< Falling rating.
   std::vector<Rating> ratings;         ///< One for each cluster.
   Verdict verdict;

@@ -56,10 +56,10 @@ class LocalMapper {
 };
 
 struct MatchResult {
-  /// All with quality >= omega_max, falling quality; map_from_robot is not yet set.
+  /// All with score >= omega_max, falling score; map_from_robot is not yet set.
   std::vector<Hypothesis> hypotheses;
-  std::size_t proposals = 0;           ///< Poses proposed before any quality test.
-  std::size_t points_tested = 0;       ///< Single points tested for contact.
+  std::size_t proposals = 0;      ///< Poses proposed before any of them was judged.
+  std::size_t points_tested = 0;  ///< Single points tested for contact.
 };
 
 /// What a matcher looks things up in, made once from the map.
@@ -70,8 +70,9 @@ struct MapIndexInfo {
 };
 
 /// Proposes poses of a local map in the global map.
-/// Contract: the answer does not depend on the number of threads; every hypothesis has quality >= omega_max;
-/// falling quality; no hypothesis is a valid answer (always so for an empty local map).
+/// Contract: the answer does not depend on the number of threads; the quality of a hypothesis is Omega (eq.
+/// 4), whatever its score; every hypothesis has score >= omega_max; falling score; no hypothesis is a valid
+/// answer (always so for an empty local map).
 class Matcher {
  public:
   virtual ~Matcher() = default;
@@ -99,7 +100,7 @@ class Rater {
                                                  const std::vector<Hypothesis>& hypotheses) = 0;
 };
 
-/// Says which quality a hypothesis must reach.
+/// Says which score a hypothesis must reach.
 /// Contract: omega_max() is in [0, 1], and changes only in update() and reset().
 class ThresholdPolicy {
  public:

@@ -73,7 +73,10 @@ StepResult Localizer::step(const Observation& observation) {
   for (Hypothesis& h : result.hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
   result.proposals = match.proposals;
   result.points_tested = match.points_tested;
-  result.omega_best = result.hypotheses.empty() ? 0.0 : result.hypotheses.front().quality;
+  if (!result.hypotheses.empty()) {
+    result.omega_best = result.hypotheses.front().quality;
+    result.score_best = result.hypotheses.front().score;
+  }
   threshold_policy_->update(result.hypotheses);
   result.omega_place = unknown_place_.update(local, result.hypotheses);
 

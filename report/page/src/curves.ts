@@ -12,16 +12,29 @@ interface Curve {
   title: string;
   unit: string;
   values: (steps: Steps) => Column;
-  /** Drawn dashed, on an axis to the right. */
-  second?: { unit: string; values: (steps: Steps) => Column };
+  /** Drawn dashed; on an axis to the right, unless it shares that on the left. */
+  second?: { name?: string; unit: string; side: "left" | "right"; values: (steps: Steps) => Column };
   range?: [number, number];
   whole?: boolean;
   log: boolean;
 }
 
+/** What the matcher ranks by, where that is not Ω. */
+function scoreWhereOther(steps: Steps): Column {
+  return steps.score_best.map((score, i) => (score === steps.omega_best[i] ? null : score));
+}
+
 const curves: Curve[] = [
   { id: "match_ms", title: "Time per match", unit: "ms", values: (s) => s.match_ms, log: false },
-  { id: "omega_best", title: "Best quality Ω", unit: "", values: (s) => s.omega_best, range: [0, 1], log: false },
+  {
+    id: "omega_best",
+    title: "Best quality Ω",
+    unit: "",
+    values: (s) => s.omega_best,
+    second: { name: "score", unit: "", side: "left", values: scoreWhereOther },
+    range: [0, 1],
+    log: false,
+  },
   { id: "omega_max", title: "Threshold Ω max", unit: "", values: (s) => s.omega_max, range: [0, 1], log: false },
   { id: "omega_place", title: "Known place Ω′", unit: "", values: (s) => s.omega_place, range: [0, 1], log: false },
   {
@@ -29,7 +42,7 @@ const curves: Curve[] = [
     title: "Error",
     unit: "m",
     values: (s) => s.translation_error_m,
-    second: { unit: "°", values: (s) => s.rotation_error_deg },
+    second: { unit: "°", side: "right", values: (s) => s.rotation_error_deg },
     log: true,
   },
   { id: "clusters", title: "Clusters", unit: "", whole: true, values: (s) => s.clusters, log: true },
@@ -164,13 +177,13 @@ class Panel {
     const { second } = curve;
     if (second) {
       for (const s of shown)
-        lines.push({ ...line(s), dash: [3, 3], width: 1.25, side: "right", values: padded(second.values(s.steps)) });
+        lines.push({ ...line(s), dash: [3, 3], width: 1.25, side: second.side, values: padded(second.values(s.steps)) });
     }
     this.drawn = chart(this.target, {
       x,
       lines,
       xLabel: "",
-      labels: [curve.unit, second ? `${second.unit} (dashed)` : ""],
+      labels: [curve.unit, second?.side === "right" ? `${second.unit} (dashed)` : ""],
       logY: curve.log,
       range: curve.range,
       height: 150,
@@ -188,8 +201,12 @@ class Panel {
     const number = this.curve.whole ? count : significant;
     const told = (values: Column, unit: string): string => `${number(values[step])}${unit && ` ${unit}`}`;
     const texts = steps && steps.step.length > 0 ? [told(this.curve.values(steps), this.curve.unit)] : [];
-    if (steps && texts.length > 0 && this.curve.second)
-      texts.push(told(this.curve.second.values(steps), this.curve.second.unit));
+    const { second } = this.curve;
+    if (steps && texts.length > 0 && second) {
+      const values = second.values(steps);
+      if (!second.name) texts.push(told(values, second.unit));
+      else if (values[step] != null) texts.push(`${second.name} (dashed) ${told(values, second.unit)}`);
+    }
     replace(this.value, texts.join(", "));
     this.placeCursor();
   }

@@ -28,6 +28,7 @@ export interface Steps {
   rate_ms: number[];
   local_map_points: number[];
   omega_best: number[];
+  score_best: number[];
   omega_max: number[];
   omega_place: Column;
   proposals: number[];

@@ -77,8 +77,11 @@ function verdict(steps: Steps, step: number): HTMLElement {
 function facts(steps: Steps, step: number): HTMLElement {
   const error = steps.translation_error_m[step];
   const confidence = steps.confidence[step];
+  const omega = steps.omega_best[step];
+  const score = steps.score_best[step];
   const all: [string, string][] = [
-    ["Ω best", significant(steps.omega_best[step])],
+    ["Ω best", significant(omega)],
+    ...(score === omega ? [] : [["score best", significant(score)] as [string, string]]),
     ["Ω max", significant(steps.omega_max[step])],
     ["Ω′", significant(steps.omega_place[step])],
     ["error", error == null ? "–" : `${fixed(error, 3)} m, ${fixed(steps.rotation_error_deg[step], 2)}°`],

@@ -14,6 +14,7 @@ inline StepRecord step_record(std::size_t step, const Pose2& pose) {
   record.result.local_from_robot = {1.0, 2.0, 0.5};
   record.result.omega_max = 0.5;
   record.result.omega_best = 0.75;
+  record.result.score_best = 0.625;
   record.result.omega_place = 0.875;
   record.result.proposals = 60;
   record.result.points_tested = 700;

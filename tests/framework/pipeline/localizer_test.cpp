@@ -86,7 +86,8 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
   script_->local.ends = {2};
   script_->local.local_from_robot = {1, 2, 0.5};
   script_->local.epoch = 3;
-  give({{{}, {}, 0.9}, {{2, 0, 0}, {}, 0.4}}, {0.5, 0.6});
+  give({{.map_from_local = {}, .quality = 0.9, .score = 0.7}, Hypothesis::by_contact({2, 0, 0}, 0.4)},
+       {0.5, 0.6});
   script_->judge = [](const StepResult&) {
     return Verdict{VerdictKind::ambiguous, std::nullopt, {{2, 0, 0}, {1, 0, 0}}, "two"};
   };
@@ -97,6 +98,7 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
   EXPECT_EQ(result.local_map_epoch, 3);
   EXPECT_EQ(result.local_map_points, 2U);
   EXPECT_EQ(result.omega_best, 0.9);
+  EXPECT_EQ(result.score_best, 0.7);
   EXPECT_EQ(result.omega_place, 1.0);
   EXPECT_EQ(result.proposals, 70U);
   EXPECT_EQ(result.points_tested, 900U);
@@ -123,6 +125,7 @@ TEST_F(LocalizerTest, AStepWithoutHypothesesHasNoBest) {
   Localizer localizer = make();
   const StepResult result = localizer.step({});
   EXPECT_EQ(result.omega_best, 0.0);
+  EXPECT_EQ(result.score_best, 0.0);
   EXPECT_EQ(result.omega_place, std::nullopt);
   EXPECT_EQ(result.estimate(), std::nullopt);
 }

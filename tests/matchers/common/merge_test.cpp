@@ -10,7 +10,7 @@
 namespace glocal::merge_test {
 namespace {
 
-/// Falling quality; groups of poses within 1 cm and 0.2 degrees, every 3 m.
+/// Falling score; groups of poses within 1 cm and 0.2 degrees, every 3 m.
 std::vector<Hypothesis> groups(std::size_t count, std::size_t per_group) {
   Rng rng(1);
   std::vector<Hypothesis> hypotheses;
@@ -19,7 +19,7 @@ std::vector<Hypothesis> groups(std::size_t count, std::size_t per_group) {
     const auto group = static_cast<double>(i % count);
     const Pose2 pose{3.0 * group + 0.02 + rng.uniform(0.0, 0.01), -2.0 + 0.02 + rng.uniform(0.0, 0.01),
                      0.01 + rng.uniform(0.0, 0.003)};
-    hypotheses.push_back({.map_from_local = pose, .quality = 1.0 - static_cast<double>(i) / n});
+    hypotheses.push_back({.map_from_local = pose, .score = 1.0 - static_cast<double>(i) / n});
   }
   return hypotheses;
 }
@@ -52,7 +52,7 @@ TEST(MergeHypotheses, PosesAreDistinctWhereTheRobotIsNotTheLocalFrame) {
   const Pose2 local_from_robot{300.0, 0.0, 0.0};
   std::vector<Hypothesis> hypotheses;
   for (int i = 0; i < 20; ++i)
-    hypotheses.push_back({.map_from_local = {0.02, 0.02, radians(0.5 * (i % 2))}, .quality = 1.0});
+    hypotheses.push_back({.map_from_local = {0.02, 0.02, radians(0.5 * (i % 2))}, .score = 1.0});
   merge_hypotheses(hypotheses, local_from_robot, 10);
   EXPECT_EQ(hypotheses.size(), 2U);
 }
@@ -62,14 +62,14 @@ TEST(MergeHypotheses, FitsHoweverSpreadTheyAreAndLosesNoSupport) {
   std::vector<Hypothesis> hypotheses;
   for (int i = 0; i < 20000; ++i) {
     const Pose2 pose{rng.uniform(-30.0, 30.0), rng.uniform(-30.0, 30.0), rng.uniform(-3.14, 3.14)};
-    hypotheses.push_back({.map_from_local = pose, .quality = 1.0 - i / 20000.0});
+    hypotheses.push_back({.map_from_local = pose, .score = 1.0 - i / 20000.0});
   }
   const std::vector<Hypothesis> before = hypotheses;
   merge_hypotheses(hypotheses, {}, 1000);
   EXPECT_LE(hypotheses.size(), 1000U);
   EXPECT_EQ(total_support(hypotheses), 20000U);
   EXPECT_TRUE(std::is_sorted(hypotheses.begin(), hypotheses.end(),
-                             [](const Hypothesis& a, const Hypothesis& b) { return a.quality > b.quality; }));
+                             [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; }));
   merge_hypotheses(hypotheses, {}, 8);
   EXPECT_LE(hypotheses.size(), 8U);
 }

@@ -77,8 +77,8 @@ TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGri
   const auto far = contact_index(*test::small_world(), "kd_tree", params.contact_epsilon + blur);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Transform pose(found[i].map_from_local);
-    EXPECT_GE(found[i].quality, near->share(local.points, pose));
-    EXPECT_LE(found[i].quality, far->share(local.points, pose));
+    EXPECT_GE(found[i].score, near->share(local.points, pose));
+    EXPECT_LE(found[i].score, far->share(local.points, pose));
     for (std::size_t k = 0; k < i; ++k) {
       const Pose2& a = found[i].map_from_local;
       const Pose2& b = found[k].map_from_local;
@@ -103,7 +103,7 @@ TEST(BranchAndBound, OnePointFitsAllAlongTheWalls) {
   one.push_back({1.0F, 0.0F, 0.0F});
   const auto found = match({.max_poses = 10, .refinement = on_the_grid}, local_of(one), 1.0).hypotheses;
   ASSERT_FALSE(found.empty());
-  for (const Hypothesis& h : found) EXPECT_EQ(h.quality, 1.0);
+  for (const Hypothesis& h : found) EXPECT_EQ(h.score, 1.0);
 }
 
 TEST(BranchAndBound, AMapOfOnePointTouchesOnePointOfMany) {
@@ -113,7 +113,7 @@ TEST(BranchAndBound, AMapOfOnePointTouchesOnePointOfMany) {
   for (int i = 0; i < 10; ++i) spread.push_back({static_cast<float>(i), 0.0F, 0.0F});
   const auto found = match({.refinement = on_the_grid}, local_of(spread), 0.0, map_of(dot)).hypotheses;
   ASSERT_FALSE(found.empty());
-  EXPECT_DOUBLE_EQ(found.front().quality, 0.1);
+  EXPECT_DOUBLE_EQ(found.front().score, 0.1);
   EXPECT_TRUE(match({.refinement = on_the_grid}, local_of(spread), 0.11, map_of(dot)).hypotheses.empty());
 }
 
@@ -132,7 +132,7 @@ TEST(BranchAndBound, WithoutAThresholdAnyContactIsEnough) {
       match({.max_poses = 30, .refinement = on_the_grid}, local_map_at({2.0, 2.0, 0.0}, 2.5), 0.0).hypotheses;
   ASSERT_FALSE(found.empty());
   EXPECT_LE(found.size(), 30U);
-  EXPECT_GT(found.back().quality, 0.0);
+  EXPECT_GT(found.back().score, 0.0);
 }
 
 TEST(BranchAndBound, AnEmptyLocalMapFitsNowhere) {

@@ -81,9 +81,9 @@ TEST(Exhaustive, FindsTheBestPoseOfAllOfTheGrid) {
                                     .contact = "kd_tree"};
     const auto found = match<Exhaustive>(params, local, 0.1, map_of(map)).hypotheses;
     ASSERT_FALSE(found.empty());
-    EXPECT_EQ(found.front().quality, best);
+    EXPECT_EQ(found.front().score, best);
     for (const Hypothesis& h : found) {
-      EXPECT_EQ(h.quality, omega(map, local.points, h.map_from_local, epsilon));
+      EXPECT_EQ(h.score, omega(map, local.points, h.map_from_local, epsilon));
     }
   }
 }
@@ -103,7 +103,7 @@ class BesideBranchAndBound : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(BesideBranchAndBound, TheBestPosesAreEquallyGood) {
-  const auto best_of = [](const MatchResult& result) { return result.hypotheses.front().quality; };
+  const auto best_of = [](const MatchResult& result) { return result.hypotheses.front().score; };
   const GridMatching grid{.contact_epsilon = 0.3, .cell = 0.15, .max_points = 60, .refinement = on_the_grid};
   const double bounded = best_of(match<BranchAndBound>(grid, local_, 0.3, test::small_world()));
   // A cell is in contact as its centre is, which is half a diagonal of a cell nearer or farther than the

@@ -49,18 +49,21 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
   }
 }
 
-TEST(IndexedRansam, QualityIsContactWhereNothingSpeaksAgainstAPose) {
+TEST(IndexedRansam, TheScoreIsContactWhereNothingSpeaksAgainstAPose) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
   const auto contact = contact_index(*test::small_world(), "bitset", 0.1);
-  for (const Hypothesis& h : match({.unknown_weight = 0.0}, local).hypotheses) {
+  const auto found = match({.unknown_weight = 0.0}, local).hypotheses;
+  ASSERT_FALSE(found.empty());
+  for (const Hypothesis& h : found) {
     const std::size_t n = local.points.size();
     const auto in_contact =
         static_cast<double>(contact->count(local.points, 0, n, Transform(h.map_from_local)));
     EXPECT_NEAR(h.quality, in_contact / static_cast<double>(n), 1e-12);
+    EXPECT_EQ(h.score, h.quality);
   }
 }
 
-TEST(IndexedRansam, BlockedBeamsTakeQualityOff) {
+TEST(IndexedRansam, BlockedBeamsLowerTheScoreAndLeaveTheQuality) {
   const Pose2 truth{5.5, 2.5, 0.7};
   const LocalMap local = local_map_at(truth, 3.0);
   Observation through_the_wall;
@@ -81,7 +84,8 @@ TEST(IndexedRansam, BlockedBeamsTakeQualityOff) {
   const Hypothesis free = best({});
   const Hypothesis blocked = best(through_the_wall);
   EXPECT_LT(distance(free.map_from_local, truth), 0.05);
-  EXPECT_NEAR(free.quality - blocked.quality, 0.25, 0.02);
+  EXPECT_NEAR(free.score - blocked.score, 0.25, 0.02);
+  EXPECT_NEAR(free.quality, blocked.quality, 0.02);
 }
 
 TEST(IndexedRansam, TheBestPosesAreCarriedToTheNextStep) {
@@ -133,8 +137,7 @@ TEST(IndexedRansam, DrawsGoOnToTheLimitWhileNothingIsStable) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 4.0);
   // More chunks in a row than there are; and no pose at all, as too much is asked for. The last chunk is cut.
   const AdaptiveBudget never{.limit = 1050, .chunk = 100, .stable_candidates = 1, .stable_chunks = 12};
-  EXPECT_EQ(match({.adaptive = never}, local).proposals,
-            match({.first_iterations = 1050}, local).proposals);
+  EXPECT_EQ(match({.adaptive = never}, local).proposals, match({.first_iterations = 1050}, local).proposals);
   LocalMap elsewhere = local;
   test::add_wall(elsewhere.points, {{100, 0}, {108, 0}, {108, 4}, {100, 4}});
   const AdaptiveBudget ready{.limit = 1050, .chunk = 100, .stable_candidates = 1, .stable_chunks = 1};
@@ -207,6 +210,7 @@ TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWherePairsCannot) {
       for (std::size_t i = 0; i < found.size(); ++i) {
         EXPECT_EQ(found[i].map_from_local, parallel[i].map_from_local);
         EXPECT_EQ(found[i].quality, parallel[i].quality);
+        EXPECT_EQ(found[i].score, parallel[i].score);
       }
     }
     EXPECT_TRUE(answer("oriented point pair", 1).empty());

@@ -113,8 +113,9 @@ TEST(Mcl, HypothesesAreTheParticlesInTheFrameOfTheLocalMap) {
     const Hypothesis& h = found[i];
     const Pose2 robot = h.map_from_local * local.local_from_robot;
     // The grid of contacts blurs what the tree knows exactly.
-    EXPECT_NEAR(h.quality, contact->share(observation.scan.hits, Transform(robot)), 0.15);
-    EXPECT_LE(h.quality, found[i == 0 ? 0 : i - 1].quality);
+    EXPECT_NEAR(h.score, contact->share(observation.scan.hits, Transform(robot)), 0.15);
+    EXPECT_NEAR(h.quality, contact->share(local.points, Transform(h.map_from_local)), 0.15);
+    EXPECT_LE(h.score, found[i == 0 ? 0 : i - 1].score);
   }
   EXPECT_LE(total_support(found), 8000U);
 }
