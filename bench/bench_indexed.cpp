@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "bench/scenes.hpp"
+#include "glocal/clearance_grid.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/distance_field.hpp"
-#include "matchers/common/beam_evidence.hpp"
 #include "matchers/common/oriented_points.hpp"
 #include "matchers/indexed_ransam/indexed_ransam.hpp"
 #include "matchers/indexed_ransam/oriented_pair_index.hpp"

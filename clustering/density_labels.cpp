@@ -21,7 +21,7 @@ class DensityLabels {
         weights_(weights),
         radius_(radius),
         min_weight_(min_weight),
-        cells_(poses, radius.translation / std::numbers::sqrt2, parts_of_a_turn(radius.rotation)),
+        cells_(poses, {radius.translation / std::numbers::sqrt2, parts_of_a_turn(radius.rotation)}),
         cores_(cells_.size()),
         sets_(poses.size()) {}
 

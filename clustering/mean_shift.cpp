@@ -96,8 +96,8 @@ Shift mean_shift(const Pose2& pose, const Climbers& all, const PoseCells& cells,
 std::vector<Pose2> modes_of(const Climbers& climbers, const Kernel& kernel, int max_iterations) {
   constexpr double still = 1e-3;  // bandwidths
   // Nothing counts that is more than one cell away.
-  const PoseCells cells(climbers.poses, kernel.reach() * kernel.bandwidth.translation,
-                        wide_parts_of_a_turn(kernel.reach() * kernel.bandwidth.rotation));
+  const PoseCells cells(climbers.poses, {kernel.reach() * kernel.bandwidth.translation,
+                                         wide_parts_of_a_turn(kernel.reach() * kernel.bandwidth.rotation)});
   std::vector<Pose2> modes = climbers.poses;
   for (Pose2& mode : modes) {
     for (int i = 0; i < max_iterations; ++i) {
@@ -128,8 +128,8 @@ void describe(ParamVisitor& v, MeanShift::Params& p) {
 std::vector<Cluster> MeanShift::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
   const Kernel kernel{params_.kernel == "flat", {params_.bandwidth, radians(params_.bandwidth_rotation_deg)}};
   const std::vector<Pose2> poses = robot_poses(hypotheses);
-  const PoseCells together(poses, 0.25 * kernel.bandwidth.translation,
-                           parts_of_a_turn(0.25 * kernel.bandwidth.rotation));
+  const PoseCells together(
+      poses, {0.25 * kernel.bandwidth.translation, parts_of_a_turn(0.25 * kernel.bandwidth.rotation)});
   const Climbers climbers = gather(together, poses, supports(hypotheses));
   const std::vector<Pose2> modes = modes_of(climbers, kernel, params_.max_iterations);
   // Without a least weight, poses near each other are simply linked.

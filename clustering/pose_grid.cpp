@@ -18,8 +18,8 @@ void describe(ParamVisitor& v, PoseGridClusterer::Params& p) {
 }
 
 std::vector<Cluster> PoseGridClusterer::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
-  const PoseCells cells(robot_poses(hypotheses), params_.cell,
-                        parts_of_a_turn(radians(params_.cell_rotation_deg)));
+  const std::vector<Pose2> poses = robot_poses(hypotheses);
+  const PoseCells cells(poses, {params_.cell, parts_of_a_turn(radians(params_.cell_rotation_deg))});
   DisjointSets sets(cells.size());
   for (std::size_t c = 0; params_.joined && c < cells.size(); ++c) {
     cells.visit_near(cells.cell(c), 1, 1, [&](std::size_t other) {

@@ -4,10 +4,39 @@
 #include <numbers>
 #include <numeric>
 
+#include "glocal/rng.hpp"
+
 namespace glocal {
 
-PoseCells::PoseCells(std::span<const Pose2> poses, double side, int turns)
-    : side_(side), turns_(turns), order_(poses.size()) {
+std::size_t PoseCellHash::operator()(const PoseCell& cell) const {
+  std::uint64_t hash = 0;
+  for (const std::int64_t part : {cell.turn, cell.row, cell.column})
+    hash = mix64(hash ^ static_cast<std::uint64_t>(part));
+  return hash;
+}
+
+int parts_of_a_turn(double width_rad) {
+  // Not one part more for the rounding of a width that divides the turn.
+  return static_cast<int>(std::ceil(2.0 * std::numbers::pi / width_rad - 1e-9));
+}
+
+int square_parts_of_a_turn(double width_rad) {
+  return 4 * parts_of_a_turn(4.0 * width_rad);
+}
+
+int wide_parts_of_a_turn(double width_rad) {
+  return std::max(1, static_cast<int>(2.0 * std::numbers::pi / width_rad));
+}
+
+PoseCell PoseBinning::cell_of(const Pose2& pose) const {
+  const double width = 2.0 * std::numbers::pi / turns;
+  const auto turn = static_cast<std::int64_t>(std::floor(pose.theta / width + 0.5));
+  return {(turn + turns) % turns, static_cast<std::int64_t>(std::floor(pose.y / side)),
+          static_cast<std::int64_t>(std::floor(pose.x / side))};
+}
+
+PoseCells::PoseCells(std::span<const Pose2> poses, const PoseBinning& binning)
+    : binning_(binning), order_(poses.size()) {
   std::vector<PoseCell> cells(poses.size());
   std::transform(poses.begin(), poses.end(), cells.begin(), [this](const Pose2& p) { return cell_of(p); });
   std::iota(order_.begin(), order_.end(), std::size_t{0});
@@ -20,22 +49,6 @@ PoseCells::PoseCells(std::span<const Pose2> poses, double side, int turns)
     starts_.push_back(i);
   }
   starts_.push_back(order_.size());
-}
-
-PoseCell PoseCells::cell_of(const Pose2& pose) const {
-  const double width = 2.0 * std::numbers::pi / static_cast<double>(turns_);
-  const auto turn = static_cast<std::int64_t>(std::floor(pose.theta / width + 0.5));
-  return {(turn + turns_) % turns_, static_cast<std::int64_t>(std::floor(pose.y / side_)),
-          static_cast<std::int64_t>(std::floor(pose.x / side_))};
-}
-
-int parts_of_a_turn(double width_rad) {
-  // Not one part more for the rounding of a width that divides the turn.
-  return static_cast<int>(std::ceil(2.0 * std::numbers::pi / width_rad - 1e-9));
-}
-
-int wide_parts_of_a_turn(double width_rad) {
-  return std::max(1, static_cast<int>(2.0 * std::numbers::pi / width_rad));
 }
 
 }  // namespace glocal

@@ -1,7 +1,8 @@
 #include "matchers/common/beam_evidence.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
+
+#include "glocal/beams.hpp"
 
 namespace glocal {
 
@@ -21,75 +22,13 @@ void describe(ParamVisitor& v, BeamRule& p) {
           {.doc = "Before its hit a beam may touch occupied cells for this far.", .unit = "m", .min = 0.0});
 }
 
-ClearanceGrid::ClearanceGrid(const OccupancyGrid& grid)
-    : grid_from_map_(inverse(grid.map_from_grid)),
-      resolution_(static_cast<float>(grid.resolution)),
-      width_(grid.width),
-      height_(grid.height),
-      clearance_(grid.cells.size()) {
-  constexpr int most = 255;
-  const auto at = [&](int column, int row) -> int {
-    const bool inside = column >= 0 && row >= 0 && column < width_ && row < height_;
-    return inside ? clearance_[index(column, row)] : most;
-  };
-  const auto lower = [&](int column, int row, int neighbour) {
-    std::uint8_t& cell = clearance_[index(column, row)];
-    cell = static_cast<std::uint8_t>(std::min<int>(cell, std::min(neighbour + 1, most)));
-  };
-  for (std::size_t i = 0; i < clearance_.size(); ++i)
-    clearance_[i] = grid.cells[i] == Cell::occupied ? 0 : most;
-  // Two passes over the neighbours already visited give the chessboard distance (Rosenfeld and Pfaltz 1966).
-  for (int row = 0; row < height_; ++row) {
-    for (int column = 0; column < width_; ++column) {
-      for (int d = -1; d <= 1; ++d) lower(column, row, at(column + d, row - 1));
-      lower(column, row, at(column - 1, row));
-    }
-  }
-  for (int row = height_ - 1; row >= 0; --row) {
-    for (int column = width_ - 1; column >= 0; --column) {
-      for (int d = -1; d <= 1; ++d) lower(column, row, at(column + d, row + 1));
-      lower(column, row, at(column + 1, row));
-    }
-  }
-}
-
-std::optional<double> ClearanceGrid::first_occupied(const Point& from, const Point& to, double margin) const {
-  const Point a = grid_from_map_(from);
-  const Point b = grid_from_map_(to);
-  const float dx = b.x - a.x;
-  const float dy = b.y - a.y;
-  const float length = std::sqrt(dx * dx + dy * dy);
-  if (clearance_.empty() || !(length > 0.0F)) return std::nullopt;
-  const float scale = 1.0F / resolution_;
-  const float end = (length - static_cast<float>(margin)) * scale;
-  for (float t = 0.5F; t <= end;) {
-    const float column = a.x * scale + t * dx / length;
-    const float row = a.y * scale + t * dy / length;
-    const bool inside = column >= 0.0F && row >= 0.0F && column < static_cast<float>(width_) &&
-                        row < static_cast<float>(height_);
-    const int clearance = inside ? clearance_[index(static_cast<int>(column), static_cast<int>(row))] : 1;
-    if (clearance == 0) return t * resolution_;
-    t += std::max(0.5F, static_cast<float>(clearance - 1));
-  }
-  return std::nullopt;
-}
-
-std::shared_ptr<const ClearanceGrid> clearance_grid(const GlobalMap& map) {
-  return map.index<ClearanceGrid>("", [&] { return ClearanceGrid(map.grid()); });
-}
-
 void BeamEvidence::add(const LocalMap& local, const Scan& scan) {
   if (local.epoch != epoch_) scans_.clear();
   epoch_ = local.epoch;
   const Transform local_from_robot(local.local_from_robot);
   Beams beams{local_from_robot(scan.origin), {}};
-  const std::size_t all = scan.hits.size() + scan.free_ends.size();
-  const std::size_t n = std::min(all, static_cast<std::size_t>(rule_.beams));
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = k * all / n;
-    beams.ends.push_back(
-        local_from_robot(i < scan.hits.size() ? scan.hits[i] : scan.free_ends[i - scan.hits.size()]));
-  }
+  for (const Beam& beam : some_beams(scan, static_cast<std::size_t>(rule_.beams)))
+    beams.ends.push_back(local_from_robot(beam.end));
   scans_.push_back(std::move(beams));
   if (scans_.size() > static_cast<std::size_t>(rule_.scans)) scans_.pop_front();
 }

@@ -2,62 +2,25 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <vector>
 
-#include "glocal/global_map.hpp"
+#include "glocal/clearance_grid.hpp"
 #include "glocal/local_map.hpp"
 #include "glocal/observation.hpp"
-#include "glocal/occupancy_grid.hpp"
 #include "glocal/params.hpp"
 
 namespace glocal {
 
 /// Parameters of any matcher that asks beams, among its own.
 struct BeamRule {
-  double weight = 0.0;  ///< What the share of blocked beams takes off a pose's quality.
+  double weight = 0.0;  ///< What the share of blocked beams takes off a pose's score.
   double cap = 1.0;     ///< A larger share counts as this one.
   int scans = 5;        ///< The latest ones count.
   int beams = 40;       ///< Of each, spread evenly.
   double margin = 0.3;  ///< m; the last part of a beam before its hit, where a wall may well be.
 };
 void describe(ParamVisitor& v, BeamRule& p);
-
-/// For each cell of a grid, how many rows or columns away the nearest occupied one is (0: it is occupied
-/// itself), up to 255: so far a ray may go without looking.
-class ClearanceGrid {
- public:
-  explicit ClearanceGrid(const OccupancyGrid& grid);
-
-  /// The first occupied cell on the way between two points (m, in the map's frame), but for the last `margin`
-  /// (m) of it: how far that is from the first point (m), none if there is no such cell. It is looked at
-  /// every half cell. What lies beyond the grid is not occupied: a map without a grid blocks nothing.
-  [[nodiscard]] std::optional<double> first_occupied(const Point& from, const Point& to, double margin) const;
-
-  /// Whether there is one.
-  [[nodiscard]] bool is_blocked(const Point& from, const Point& to, double margin) const {
-    return first_occupied(from, to, margin).has_value();
-  }
-
- private:
-  [[nodiscard]] std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(column);
-  }
-
-  Transform grid_from_map_;
-  float resolution_;
-  int width_, height_;
-  std::vector<std::uint8_t> clearance_;
-};
-
-/// That of a map, shared by all who ask for it.
-[[nodiscard]] std::shared_ptr<const ClearanceGrid> clearance_grid(const GlobalMap& map);
 
 /// Beams of the latest scans in the local frame. Only cells known to be occupied stop a beam; unknown ones
 /// say nothing.
@@ -69,7 +32,7 @@ class BeamEvidence {
   void add(const LocalMap& local, const Scan& scan);
   void clear() { scans_.clear(); }
 
-  /// What blocked beams take off the quality of a pose. Where that is more than `most`, beams need not all be
+  /// What blocked beams take off the score of a pose. Where that is more than `most`, beams need not all be
   /// looked at: the answer is then above `most` too.
   [[nodiscard]] double penalty(const ClearanceGrid& grid, const Pose2& map_from_local,
                                double most = std::numeric_limits<double>::infinity()) const {

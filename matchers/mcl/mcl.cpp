@@ -6,11 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <unordered_map>
 #include <unordered_set>
 
+#include "glocal/beams.hpp"
 #include "glocal/parallel.hpp"
 #include "matchers/common/pose_cell.hpp"
+#include "matchers/mcl/heaps.hpp"
 
 namespace glocal {
 namespace {
@@ -23,41 +24,6 @@ constexpr PoseCellSize kld_bin{.metres = 0.5, .radians = radians(10.0)};
 
 double cube(double value) {
   return value * value * value;
-}
-
-/// Particles of one cell.
-struct Heap {
-  double weight = 0.0, x = 0.0, y = 0.0, cosine = 0.0, sine = 0.0;
-
-  void add(const Pose2& pose, double w) {
-    weight += w;
-    x += w * pose.x;
-    y += w * pose.y;
-    cosine += w * std::cos(pose.theta);
-    sine += w * std::sin(pose.theta);
-  }
-  [[nodiscard]] Pose2 mean() const { return {x / weight, y / weight, std::atan2(sine, cosine)}; }
-};
-
-/// Particles by cells, the heaviest `most` of these first.
-std::vector<Heap> heaps_of(const std::vector<Pose2>& particles, const std::vector<double>& weights,
-                           const PoseCellSize& size, std::size_t most) {
-  std::vector<Heap> heaps;
-  std::unordered_map<std::uint64_t, std::size_t> heap_of_cell;
-  std::size_t heap = 0;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    // Copies of a particle follow each other.
-    if (i == 0 || !(particles[i] == particles[i - 1])) {
-      const auto [it, is_new] = heap_of_cell.try_emplace(pose_cell(particles[i], size), heaps.size());
-      if (is_new) heaps.emplace_back();
-      heap = it->second;
-    }
-    heaps[heap].add(particles[i], weights[i]);
-  }
-  std::stable_sort(heaps.begin(), heaps.end(),
-                   [](const Heap& a, const Heap& b) { return a.weight > b.weight; });
-  heaps.resize(std::min(heaps.size(), most));
-  return heaps;
 }
 
 LikelihoodFieldRule field_rule(const Mcl::Params& p) {
@@ -142,21 +108,15 @@ bool Mcl::is_due(const Pose2& moved) const {
          std::abs(moved.theta) >= params_.update_min_a;
 }
 
-/// An even choice of all beams.
 Mcl::Beams Mcl::beams_of(const Scan& scan) const {
-  const std::size_t all = scan.hits.size() + scan.free_ends.size();
-  const std::size_t n = std::min(all, static_cast<std::size_t>(params_.max_beams));
   Beams beams{.origin = scan.origin, .hits = {}, .ranges = {}, .reach = {}};
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = k * all / n;
-    const bool is_hit = i < scan.hits.size();
-    const Point end = is_hit ? scan.hits[i] : scan.free_ends[i - scan.hits.size()];
-    if (is_hit) beams.hits.push_back(end);
-    const float dx = end.x - scan.origin.x;
-    const float dy = end.y - scan.origin.y;
+  for (const Beam& beam : some_beams(scan, static_cast<std::size_t>(params_.max_beams))) {
+    if (beam.is_hit) beams.hits.push_back(beam.end);
+    const float dx = beam.end.x - scan.origin.x;
+    const float dy = beam.end.y - scan.origin.y;
     const float range = std::hypot(dx, dy);
     const float stretch = range > 0.0F ? static_cast<float>(params_.laser_max_range) / range : 0.0F;
-    beams.ranges.push_back(is_hit ? double{range} : met_nothing);
+    beams.ranges.push_back(beam.is_hit ? double{range} : met_nothing);
     beams.reach.push_back({scan.origin.x + stretch * dx, scan.origin.y + stretch * dy, scan.origin.z});
   }
   return beams;

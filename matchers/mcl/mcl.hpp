@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "glocal/catalog.hpp"
+#include "glocal/clearance_grid.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
-#include "matchers/common/beam_evidence.hpp"
 #include "matchers/mcl/beam_model.hpp"
 #include "matchers/mcl/free_space.hpp"
 #include "matchers/mcl/likelihood_field.hpp"

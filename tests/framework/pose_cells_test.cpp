@@ -16,7 +16,7 @@ TEST(PoseCells, VisitsEachCellNearOnce) {
   std::vector<Pose2> poses;
   for (const Hypothesis& h : test::crowded(500, rng)) poses.push_back(h.map_from_robot);
   for (const int turns : {1, 2, 3, 4, 5, 36}) {
-    const PoseCells cells(poses, 0.1, turns);
+    const PoseCells cells(poses, {0.1, turns});
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const PoseCell& at = cells.cell(c);
       std::multiset<std::size_t> expected;
@@ -42,7 +42,7 @@ TEST(PoseCells, HoldEachPoseWhereItBelongs) {
   Rng rng(4);
   std::vector<Pose2> poses;
   for (const Hypothesis& h : test::crowded(300, rng)) poses.push_back(h.map_from_robot);
-  const PoseCells cells(poses, 0.1, 24);
+  const PoseCells cells(poses, {0.1, 24});
   std::size_t held = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     EXPECT_TRUE(std::is_sorted(cells.members(c).begin(), cells.members(c).end()));
@@ -52,10 +52,35 @@ TEST(PoseCells, HoldEachPoseWhereItBelongs) {
   EXPECT_EQ(held, poses.size());
 }
 
+TEST(PoseBinning, TheTurnOfACellFollowsOnItselfAndRightAnglesAreInTheMiddle) {
+  const PoseBinning binning{0.5, 8};
+  const PoseCell south = binning.cell_of({0.1, 0.1, radians(180)});
+  EXPECT_EQ(south, (PoseCell{4, 0, 0}));
+  for (const double theta_deg : {159.0, 170.0, 179.9, -179.9, -170.0, -159.0})
+    EXPECT_EQ(binning.cell_of({0.1, 0.1, radians(theta_deg)}), south) << theta_deg;
+  EXPECT_EQ(binning.cell_of({0.1, 0.1, radians(156.0)}).turn, 3);
+  EXPECT_EQ(binning.cell_of({0.1, 0.1, radians(-156.0)}).turn, 5);
+  EXPECT_EQ(binning.cell_of({0.1, 0.1, radians(-22.0)}).turn, 0);
+  EXPECT_EQ(binning.cell_of({-0.1, 1.6, 0.0}), (PoseCell{0, 3, -1}));
+}
+
+TEST(PoseCellHash, TellsNeighboursApart) {
+  std::set<std::size_t> hashes;
+  for (int turn = 0; turn < 10; ++turn) {
+    for (int row = -10; row < 10; ++row) {
+      for (int column = -10; column < 10; ++column) hashes.insert(PoseCellHash{}({turn, row, column}));
+    }
+  }
+  EXPECT_EQ(hashes.size(), 4000U);
+}
+
 TEST(PartsOfATurn, AreNarrowOrWideEnough) {
   EXPECT_EQ(parts_of_a_turn(radians(30)), 12);
   EXPECT_EQ(parts_of_a_turn(radians(29)), 13);
   EXPECT_EQ(parts_of_a_turn(radians(180)), 2);
+  EXPECT_EQ(square_parts_of_a_turn(radians(30)), 12);
+  EXPECT_EQ(square_parts_of_a_turn(radians(29)), 16);
+  EXPECT_EQ(square_parts_of_a_turn(radians(400)), 4);
   EXPECT_EQ(wide_parts_of_a_turn(radians(29)), 12);
   EXPECT_EQ(wide_parts_of_a_turn(radians(400)), 1);
 }

@@ -24,12 +24,31 @@ struct PoseCell {
   }
 };
 
-/// Square cells times equal parts of a full turn; only those that hold poses take memory.
+/// For hash tables of cells.
+struct PoseCellHash {
+  [[nodiscard]] std::size_t operator()(const PoseCell& cell) const;
+};
+
+/// Into how many equal parts of at most `width_rad` a full turn falls.
+[[nodiscard]] int parts_of_a_turn(double width_rad);
+/// The same, but a multiple of four: right angles then lie in the middle of their parts.
+[[nodiscard]] int square_parts_of_a_turn(double width_rad);
+/// Into how many equal parts of at least `width_rad`; at least 1.
+[[nodiscard]] int wide_parts_of_a_turn(double width_rad);
+
+/// Which cell a pose belongs to: squares times equal parts of a full turn. Multiples of the side lie at
+/// borders of cells, but headings of multiples of 2 pi / turns in their middle: buildings have right angles.
+struct PoseBinning {
+  double side = 1.0;  ///< m
+  int turns = 1;      ///< Parts of a full turn, at least 1.
+
+  [[nodiscard]] PoseCell cell_of(const Pose2& pose) const;
+};
+
+/// Those of some poses' cells that hold any: only they take memory.
 class PoseCells {
  public:
-  /// `side`: m; `turns`: parts of a full turn, at least 1. Multiples of the side lie at borders of cells, but
-  /// headings of multiples of 2 pi / turns in their middle: buildings have right angles.
-  PoseCells(std::span<const Pose2> poses, double side, int turns);
+  PoseCells(std::span<const Pose2> poses, const PoseBinning& binning);
 
   /// How many cells hold poses; they are numbered from 0 on.
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
@@ -39,15 +58,16 @@ class PoseCells {
     return std::span(order_).subspan(starts_[number], starts_[number + 1] - starts_[number]);
   }
   /// Where a pose belongs.
-  [[nodiscard]] PoseCell cell_of(const Pose2& pose) const;
+  [[nodiscard]] PoseCell cell_of(const Pose2& pose) const { return binning_.cell_of(pose); }
 
   /// Calls visit(number) for each cell with poses that is at most `reach` rows and columns and `turn_reach`
   /// turns away, in a fixed order, until it returns false.
   template <class Visit>
   void visit_near(const PoseCell& centre, int reach, int turn_reach, Visit visit) const {
-    const std::int64_t around = std::min<std::int64_t>(turns_, 2 * turn_reach + 1);
+    const std::int64_t turns = binning_.turns;
+    const std::int64_t around = std::min<std::int64_t>(turns, 2 * turn_reach + 1);
     for (std::int64_t k = 0; k < around; ++k) {
-      const std::int64_t turn = (centre.turn - turn_reach + k + 2 * turns_) % turns_;
+      const std::int64_t turn = (centre.turn - turn_reach + k + 2 * turns) % turns;
       for (std::int64_t row = centre.row - reach; row <= centre.row + reach; ++row) {
         const PoseCell last{turn, row, centre.column + reach};
         const PoseCell first{turn, row, centre.column - reach};
@@ -60,16 +80,10 @@ class PoseCells {
   }
 
  private:
-  double side_;
-  std::int64_t turns_;
+  PoseBinning binning_;
   std::vector<std::size_t> order_;   ///< Poses, cell by cell.
   std::vector<PoseCell> cells_;      ///< Ascending.
   std::vector<std::size_t> starts_;  ///< Where each begins in order_; one more at the end.
 };
-
-/// Into how many equal parts of at most `width_rad` a full turn falls.
-[[nodiscard]] int parts_of_a_turn(double width_rad);
-/// Into how many equal parts of at least `width_rad`; at least 1.
-[[nodiscard]] int wide_parts_of_a_turn(double width_rad);
 
 }  // namespace glocal

@@ -1,0 +1,72 @@
+#include "glocal/clearance_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "glocal/rng.hpp"
+
+namespace glocal::clearance_grid_test {
+namespace {
+
+TEST(ClearanceGrid, BlocksWhatLookingAtEveryHalfCellWouldBlock) {
+  Rng rng(9);
+  OccupancyGrid grid{{1.0, -2.0, 0.4}, 0.1, 60, 50, std::vector<Cell>(3000, Cell::free)};
+  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.01 ? Cell::occupied : Cell::free;
+  const ClearanceGrid clearance(grid);
+  int blocked = 0;
+  int differ = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto point = [&] {
+      return Point{static_cast<float>(rng.uniform(-2.0, 7.0)), static_cast<float>(rng.uniform(-3.0, 6.0)),
+                   0.0F};
+    };
+    const Point from = point();
+    const Point to = point();
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    bool expected = false;
+    for (double t = 0.05; t <= length - 0.3; t += 0.05) {
+      expected = expected || grid.at(from.x + t * (to.x - from.x) / length,
+                                     from.y + t * (to.y - from.y) / length) == Cell::occupied;
+    }
+    blocked += expected ? 1 : 0;
+    differ += expected != clearance.is_blocked(from, to, 0.3) ? 1 : 0;
+  }
+  EXPECT_GT(blocked, 500);
+  // Steps that skip free cells look at other places of those behind: rays that touch a corner may differ.
+  EXPECT_LT(differ, 60);
+}
+
+TEST(ClearanceGrid, TheFirstOccupiedCellIsWhereSmallStepsWouldMeetIt) {
+  Rng rng(11);
+  OccupancyGrid grid{{-1.0, 2.0, -0.3}, 0.1, 70, 60, std::vector<Cell>(4200, Cell::free)};
+  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.02 ? Cell::occupied : Cell::free;
+  const ClearanceGrid clearance(grid);
+  int met = 0;
+  int far_off = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Pose2 centre = grid.centre(static_cast<int>(rng.below(70)), static_cast<int>(rng.below(60)));
+    const double angle = rng.uniform(-3.14, 3.14);
+    const Point from{static_cast<float>(centre.x), static_cast<float>(centre.y), 0.0F};
+    const Point to{static_cast<float>(centre.x + 20.0 * std::cos(angle)),
+                   static_cast<float>(centre.y + 20.0 * std::sin(angle)), 0.0F};
+    double expected = 20.0;
+    for (double t = 0.05; t < expected; t += 0.002) {
+      if (grid.at(from.x + t * std::cos(angle), from.y + t * std::sin(angle)) == Cell::occupied) expected = t;
+    }
+    const double found = clearance.first_occupied(from, to, 0.0).value_or(20.0);
+    // Never before it, and within a step after it, unless only a corner was touched.
+    EXPECT_GT(found, expected - 0.003);
+    met += expected < 20.0 ? 1 : 0;
+    far_off += found > expected + 0.055 ? 1 : 0;
+  }
+  EXPECT_GT(met, 300);
+  EXPECT_LT(far_off, met / 10);
+}
+
+TEST(ClearanceGrid, AMapWithoutAGridBlocksNothing) {
+  EXPECT_FALSE(ClearanceGrid(OccupancyGrid{}).is_blocked({}, {5.0F, 0.0F, 0.0F}, 0.3));
+}
+
+}  // namespace
+}  // namespace glocal::clearance_grid_test
