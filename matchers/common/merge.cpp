@@ -1,25 +1,22 @@
 #include "matchers/common/merge.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <unordered_map>
 
-#include "matchers/common/pose_cell.hpp"
+#include "glocal/pose_cells.hpp"
 
 namespace glocal {
 namespace {
-
-constexpr PoseCellSize finest{.metres = 0.05, .radians = radians(2.0)};
 
 /// The best of each cell.
 std::vector<Hypothesis> merged(const std::vector<Hypothesis>& hypotheses, const Pose2& local_from_robot,
                                double scale) {
   std::vector<Hypothesis> best;
-  const PoseCellSize size{scale * finest.metres, scale * finest.radians};
-  std::unordered_map<std::uint64_t, std::size_t> place_of_cell;
+  const PoseBinning binning{scale * 0.05, square_parts_of_a_turn(scale * radians(2.0))};
+  std::unordered_map<PoseCell, std::size_t, PoseCellHash> place_of_cell;
   place_of_cell.reserve(hypotheses.size());
   for (const Hypothesis& hypothesis : hypotheses) {
-    const std::uint64_t cell = pose_cell(hypothesis.map_from_local * local_from_robot, size);
+    const PoseCell cell = binning.cell_of(hypothesis.map_from_local * local_from_robot);
     const auto [it, is_new] = place_of_cell.try_emplace(cell, best.size());
     if (is_new) {
       best.push_back(hypothesis);

@@ -27,18 +27,14 @@ std::size_t least_in_contact(double share, std::size_t points) {
 RobotCells::RobotCells(const Pose2& robot_at_zero, double cell, const GridSearchRule& rule)
     : robot_at_zero_(robot_at_zero),
       cell_(cell),
-      side_(rule.distance / std::numbers::sqrt2),
-      turn_(rule.rotation) {}
+      binning_{rule.distance / std::numbers::sqrt2, square_parts_of_a_turn(rule.rotation)} {}
 
-RobotCell RobotCells::of(const GridPose& pose) const {
-  const auto number = [](double value, double size) {
-    return static_cast<std::int32_t>(std::floor(value / size));
-  };
-  return {number(robot_at_zero_.theta, turn_), number(robot_at_zero_.y + cell_ * pose.row, side_),
-          number(robot_at_zero_.x + cell_ * pose.column, side_)};
+PoseCell RobotCells::of(const GridPose& pose) const {
+  return binning_.cell_of(
+      {robot_at_zero_.x + cell_ * pose.column, robot_at_zero_.y + cell_ * pose.row, robot_at_zero_.theta});
 }
 
-void add(BestOfCells& best, const RobotCell& cell, const GridPose& pose) {
+void add(BestOfCells& best, const PoseCell& cell, const GridPose& pose) {
   const auto [place, is_new] = best.try_emplace(cell, pose);
   if (!is_new && is_better(pose, place->second)) place->second = pose;
 }

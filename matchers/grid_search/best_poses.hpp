@@ -1,13 +1,12 @@
 // The best poses of a search of a grid: one in each cell of robot poses.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <vector>
 
 #include "glocal/pose2.hpp"
+#include "glocal/pose_cells.hpp"
 
 namespace glocal {
 
@@ -37,9 +36,8 @@ struct GridPose {
   int column = 0;
 };
 
-/// A cell of robot poses.
-using RobotCell = std::array<std::int32_t, 3>;
-using BestOfCells = std::map<RobotCell, GridPose>;
+/// By cells of robot poses.
+using BestOfCells = std::map<PoseCell, GridPose>;
 
 /// The cells that the robot is in at the poses of one rotation of a grid.
 class RobotCells {
@@ -47,17 +45,17 @@ class RobotCells {
   /// `robot_at_zero`: the robot in the map before any translation; `cell`: what translations are multiples of
   /// (m).
   RobotCells(const Pose2& robot_at_zero, double cell, const GridSearchRule& rule);
-  [[nodiscard]] RobotCell of(const GridPose& pose) const;
+  [[nodiscard]] PoseCell of(const GridPose& pose) const;
 
  private:
   Pose2 robot_at_zero_;
   double cell_;
-  double side_, turn_;  ///< Of a cell of robot poses.
+  PoseBinning binning_;  ///< Of robot poses.
 };
 
 /// Keeps the better of a cell's poses: more contact; then the first in the grid, so that the order of the
 /// search does not matter.
-void add(BestOfCells& best, const RobotCell& cell, const GridPose& pose);
+void add(BestOfCells& best, const PoseCell& cell, const GridPose& pose);
 
 /// What has been found in one rotation of a grid.
 struct FoundPoses {

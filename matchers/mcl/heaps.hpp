@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "glocal/pose2.hpp"
-#include "matchers/common/pose_cell.hpp"
+#include "glocal/pose_cells.hpp"
 
 namespace glocal {
 
@@ -27,7 +27,7 @@ struct Heap {
 
 /// Particles by cells, the heaviest `most` of these first.
 [[nodiscard]] std::vector<Heap> heaps_of(const std::vector<Pose2>& particles,
-                                         const std::vector<double>& weights, const PoseCellSize& size,
+                                         const std::vector<double>& weights, const PoseBinning& binning,
                                          std::size_t most);
 
 }  // namespace glocal

@@ -10,7 +10,6 @@
 
 #include "glocal/beams.hpp"
 #include "glocal/parallel.hpp"
-#include "matchers/common/pose_cell.hpp"
 #include "matchers/mcl/heaps.hpp"
 
 namespace glocal {
@@ -20,7 +19,7 @@ namespace {
 enum Stream : std::uint64_t { beginning, moving, resampling };
 
 /// Bins of KLD-sampling, as in AMCL.
-constexpr PoseCellSize kld_bin{.metres = 0.5, .radians = radians(10.0)};
+constexpr PoseBinning kld_bins{.side = 0.5, .turns = 36};
 
 double cube(double value) {
   return value * value * value;
@@ -208,13 +207,13 @@ std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
   // Draws are sorted: steps of the golden ratio take them from everywhere.
   std::size_t step = static_cast<std::size_t>(0.618 * static_cast<double>(most)) + 1;
   while (std::gcd(step, most) != 1) ++step;
-  std::unordered_set<std::uint64_t> bins;
+  std::unordered_set<PoseCell, PoseCellHash> bins;
   double asked_for = 1.0;
   std::size_t n = 0;
   while (n < most && (n < least || static_cast<double>(n) < asked_for)) {
     const bool is_new = rng.uniform() < share_of_new;
     const Pose2 pose = is_new ? free_space_->draw(rng) : particles_[draws[n * step % most]];
-    if (bins.insert(pose_cell(pose, kld_bin)).second)
+    if (bins.insert(kld_bins.cell_of(pose)).second)
       asked_for = kld_sample_size(bins.size(), params_.pf_err, params_.pf_z);
     if (asked_for >= static_cast<double>(most)) return most;
     ++n;
@@ -225,7 +224,7 @@ std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
 std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan, const Pose2& moved,
                                         double omega_max) const {
   const std::vector<Heap> heaps =
-      heaps_of(particles_, weights_, {params_.merge_distance, params_.merge_rotation},
+      heaps_of(particles_, weights_, {params_.merge_distance, square_parts_of_a_turn(params_.merge_rotation)},
                static_cast<std::size_t>(params_.max_hypotheses));
   const Pose2 robot_from_local = inverse(local.local_from_robot);
   std::vector<Hypothesis> found;

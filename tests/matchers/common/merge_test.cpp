@@ -47,6 +47,16 @@ TEST(MergeHypotheses, KeepsTheBestOfEveryDistinctPose) {
   }
 }
 
+TEST(MergeHypotheses, HeadingsOnBothSidesOf180DegreesAreOnePose) {
+  std::vector<Hypothesis> hypotheses;
+  for (int i = 0; i < 20; ++i) {
+    const double theta = radians(i % 2 == 0 ? 179.5 : -179.5);
+    hypotheses.push_back({.map_from_local = {0.02, 0.02, theta}, .score = 1.0});
+  }
+  merge_hypotheses(hypotheses, {}, 10);
+  EXPECT_EQ(hypotheses.size(), 1U);
+}
+
 TEST(MergeHypotheses, PosesAreDistinctWhereTheRobotIsNotTheLocalFrame) {
   // 300 m from the local origin, what is turned by half a degree is far off.
   const Pose2 local_from_robot{300.0, 0.0, 0.0};

@@ -76,12 +76,15 @@ std::vector<GridPose> brute_force(const Problem& problem, const ContactPyramid& 
 std::vector<std::size_t> best_of_cells(const std::vector<GridPose>& poses, const Pose2& local_from_robot,
                                        const GridSearchRule& rule) {
   std::map<std::tuple<int, int, int>, std::size_t> best;
+  // As many parts of a right angle as are at most so wide; headings are rounded to the nearest.
+  const int quarter = static_cast<int>(std::ceil(std::numbers::pi / 2.0 / rule.rotation));
   for (const GridPose& pose : poses) {
     const Pose2 robot = pose.map_from_local * local_from_robot;
     const auto number = [](double value, double size) { return static_cast<int>(std::floor(value / size)); };
     const double side = rule.distance / std::numbers::sqrt2;
-    std::size_t& most =
-        best[{number(robot.x, side), number(robot.y, side), number(robot.theta, rule.rotation)}];
+    const auto nearest = static_cast<int>(std::lround(robot.theta / (std::numbers::pi / 2.0) * quarter));
+    const int turn = nearest == -2 * quarter ? 2 * quarter : nearest;  // both are 180 degrees
+    std::size_t& most = best[{number(robot.x, side), number(robot.y, side), turn}];
     most = std::max(most, pose.in_contact);
   }
   std::vector<std::size_t> contacts;
@@ -105,8 +108,8 @@ Problem small_world_problem(const Pose2& map_from_robot) {
   };
   const Pose2 local_from_robot{0.7, -0.4, 1.0};
   const Points seen = test::seen_from(test::small_world_points(), map_from_robot, 2.5);
-  return {every_fourth(test::small_world_points()),
-          every_fourth(test::moved(seen, local_from_robot)), local_from_robot};
+  return {every_fourth(test::small_world_points()), every_fourth(test::moved(seen, local_from_robot)),
+          local_from_robot};
 }
 
 Problem random_problem(std::uint64_t seed) {
