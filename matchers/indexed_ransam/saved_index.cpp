@@ -22,7 +22,7 @@ constexpr std::array<char, 8> magic = {'g', 'l', 'o', 'c', 'a', 'l', 'i', 'x'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
 /// Counts up when the format changes, or what goes into an index of the same map and rule.
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t alignment = 64;
 
 /// The file begins with this; then come the places of all sections, and the sections: first the texts of rule

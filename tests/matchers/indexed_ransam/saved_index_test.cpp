@@ -60,6 +60,8 @@ TEST_F(SavedIndexFile, SaysWhatIsWrongWithItAndHowToBuildItAnew) {
   std::swap(reversed[9], reversed[10]);
   std::string newer = good;
   newer[12] = 9;
+  std::string older = good;
+  older[12] = 1;
   const std::vector<std::pair<std::string, std::string>> cases = {
       {fault_of(""),
        "a.index: error: the index cannot be read: the file is empty; build it anew: glocal map "
@@ -67,7 +69,8 @@ TEST_F(SavedIndexFile, SaysWhatIsWrongWithItAndHowToBuildItAnew) {
       {fault_of("schema: 1\nname: not an index, but a file that is long enough to be one\n"),
        "this is not an index of a map"},
       {fault_of(reversed), "saved on a machine of another byte order"},
-      {fault_of(newer), "has version 9 of the format; this program reads version 1"},
+      {fault_of(newer), "has version 9 of the format; this program reads version 2"},
+      {fault_of(older), "has version 1 of the format; this program reads version 2"},
       {fault_of(good.substr(0, good.size() - 1)), "is not whole: the file has"},
       {fault_of(good + "x"), "is not whole: the file has"},
       {fault_of(good, {78, origin.rule}), "belongs to another map"},
