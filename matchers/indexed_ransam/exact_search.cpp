@@ -1,0 +1,50 @@
+#include "matchers/indexed_ransam/exact_search.hpp"
+
+#include "matchers/grid_search/grid_search.hpp"
+
+namespace glocal {
+
+void describe(ParamVisitor& v, ExactSearchRule& p) {
+  v.field("after_steps", p.after_steps,
+          {.doc = "In the last of so many steps in a row without a clear best pose; 0 never searches.",
+           .min = 0});
+  v.field("margin", p.margin,
+          {.doc = "A best pose is clear if no other is within this of its quality.", .min = 0.0, .max = 1.0});
+  v.field("cell", p.cell,
+          {.doc = "Translations are multiples of this; at most contact_epsilon.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0});
+  v.field("min_rotation_step", p.min_rotation_step,
+          {.doc = "Rotations differ by what moves the farthest point by one cell, but by this at least.",
+           .unit = "rad",
+           .min = 0.0001,
+           .max = 0.1});
+  v.field("max_poses", p.max_poses, {.doc = "Poses it adds at most.", .min = 1, .max = 10000});
+}
+
+ExactSearch::ExactSearch(const ExactSearchRule& rule, const CandidateRule& candidate, double min_contact,
+                         const GlobalMap& map, double contact_epsilon, int threads)
+    : rule_(rule),
+      grid_{.min_quality = min_contact,
+            .min_rotation_step = rule.min_rotation_step,
+            .distance = candidate.distance,
+            .rotation = candidate.rotation,
+            .max_poses = static_cast<std::size_t>(rule.max_poses)},
+      pyramid_(rule.after_steps > 0 ? contact_pyramid(map, rule.cell, contact_epsilon) : nullptr),
+      threads_(threads) {}
+
+bool ExactSearch::is_due(const std::vector<Hypothesis>& best) {
+  const bool is_clear =
+      best.size() == 1 || (best.size() > 1 && best[0].score - best[1].score >= rule_.margin);
+  undecided_ = is_clear ? 0 : undecided_ + 1;
+  if (!pyramid_ || undecided_ < rule_.after_steps) return false;
+  undecided_ = 0;
+  return true;
+}
+
+GridSearchResult ExactSearch::search(const Points& points, const Pose2& local_from_robot) const {
+  return search_grid(*pyramid_, points, local_from_robot, grid_, threads_);
+}
+
+}  // namespace glocal

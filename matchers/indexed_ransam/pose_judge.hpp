@@ -1,0 +1,62 @@
+// How good a pose is, by all that is known of it.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "glocal/clearance_grid.hpp"
+#include "glocal/contact.hpp"
+#include "glocal/distance_field.hpp"
+#include "glocal/global_map.hpp"
+#include "glocal/hypothesis.hpp"
+#include "glocal/local_map.hpp"
+#include "glocal/observation.hpp"
+#include "matchers/common/beam_evidence.hpp"
+#include "matchers/common/candidates.hpp"
+
+namespace glocal {
+
+struct JudgeRule {
+  BeamRule beams = {.weight = 1.0, .cap = 0.3};
+  double unknown_weight = 0.1;  ///< What the share of points in unknown cells adds to the score.
+  std::size_t most = 10;        ///< Poses that are left.
+  double contact_epsilon = 0.10;
+  double kernel = 0.15;  ///< m; of the refinement that led to a pose.
+  PoseUncertainty uncertainty = {};
+};
+
+/// Judges poses by the contact of all points of the local map (Omega, eq. 4), by beams through walls, and by
+/// what the map does not show: a score is Omega less the weighted share of blocked beams, plus the weighted
+/// share of points in unknown cells.
+class PoseJudge {
+ public:
+  PoseJudge(const JudgeRule& rule, std::shared_ptr<const GlobalMap> map,
+            std::shared_ptr<const ContactIndex> contact, std::shared_ptr<const DistanceField> field);
+
+  /// Takes in the beams of a scan, made where the robot is now; forget() forgets them all.
+  void take_in(const LocalMap& local, const Scan& scan) { beams_.add(local, scan); }
+  void forget() { beams_.clear(); }
+
+  /// The best of the candidates, by falling score, which may be above 1. `sample` are some of the local map's
+  /// points.
+  [[nodiscard]] std::vector<Hypothesis> best_of(const std::vector<Candidate>& candidates,
+                                                const LocalMap& local, const Points& sample) const;
+
+  /// What a matcher tells of a pose: a score of at most 1, how uncertain the pose is, and how much of the
+  /// local map lies in space known to be free.
+  [[nodiscard]] Hypothesis told(Hypothesis judged, const LocalMap& local, const Points& sample) const;
+
+ private:
+  [[nodiscard]] double unknown_share(const Points& sample, const Pose2& map_from_local) const;
+  [[nodiscard]] double free_space_violation(const Points& sample, const Pose2& map_from_local) const;
+
+  JudgeRule rule_;
+  std::shared_ptr<const GlobalMap> map_;
+  std::shared_ptr<const ContactIndex> contact_;
+  std::shared_ptr<const DistanceField> field_;
+  std::shared_ptr<const ClearanceGrid> clearance_;
+  BeamEvidence beams_;
+};
+
+}  // namespace glocal

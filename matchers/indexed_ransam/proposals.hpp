@@ -1,0 +1,22 @@
+// Poses proposed by what a local map and the known one have in common.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "glocal/local_map.hpp"
+#include "glocal/points.hpp"
+#include "glocal/rng.hpp"
+#include "matchers/indexed_ransam/relation_index.hpp"
+
+namespace glocal {
+
+/// Takes the first `size` poses of a batch.
+using TakePoses = std::function<void(const MotionBatch& map_from_local, std::size_t size)>;
+
+/// Draws so many oriented point pairs or triangles from the local map, whichever the index has; lays each on
+/// one of those in the map that are like it, picked at random; and hands on the poses that this gives.
+void propose(const RelationIndex& index, const RelationRule& rule, const LocalMap& local, std::size_t draws,
+             Rng& rng, const TakePoses& take);
+
+}  // namespace glocal

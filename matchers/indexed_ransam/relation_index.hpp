@@ -1,0 +1,42 @@
+// What is the same in a local map and in the known one however they lie, sorted once for the known one:
+// oriented point pairs, or triangles.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "glocal/global_map.hpp"
+#include "matchers/common/oriented_points.hpp"
+#include "matchers/common/triangle.hpp"
+#include "matchers/indexed_ransam/oriented_pair_index.hpp"
+#include "matchers/indexed_ransam/triangle_index.hpp"
+
+namespace glocal {
+
+using RelationIndex = std::variant<OrientedPairIndex, TriangleIndex>;
+
+/// What an index depends on, besides the map.
+struct RelationRule {
+  std::string relation = "auto";    ///< Or "oriented_pair", or "triangle".
+  double min_oriented_share = 0.3;  ///< auto: triangles where fewer of the map's places have a normal.
+  OrientedPointRule points = {};
+  OrientedPairRule pairs = {};
+  double min_height = 0.3;  ///< m; of triangles, which have the lengths of pairs.
+
+  [[nodiscard]] TriangleRule triangles() const;
+};
+
+/// The index of a map, shared by all who ask for it: read from a file, or built where the path is empty.
+/// Throws ConfigError where the file is not the index of this map and this rule.
+[[nodiscard]] std::shared_ptr<const RelationIndex> relation_index(const GlobalMap& map,
+                                                                  const RelationRule& rule,
+                                                                  const std::filesystem::path& file,
+                                                                  int threads);
+
+/// The content of a file with the index of this map and this rule.
+[[nodiscard]] std::string saved_index(const RelationIndex& index, const GlobalMap& map,
+                                      const RelationRule& rule);
+
+}  // namespace glocal

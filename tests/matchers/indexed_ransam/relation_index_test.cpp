@@ -1,0 +1,66 @@
+#include "matchers/indexed_ransam/relation_index.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "files.hpp"
+#include "glocal/error.hpp"
+#include "test_world.hpp"
+
+namespace glocal::relation_index_test {
+namespace {
+
+/// A wall, and single points that have no direction.
+std::shared_ptr<const GlobalMap> wall_and_poles() {
+  MapData data;
+  test::add_wall(data.points, {{0, 0}, {4, 0}});
+  for (int i = 0; i < 20; ++i)
+    data.points.push_back({static_cast<float>(i % 5), 2.0F + static_cast<float>(i / 5), 0.0F});
+  return std::make_shared<const GlobalMap>(std::move(data));
+}
+
+bool has_triangles(const RelationIndex& index) {
+  return std::holds_alternative<TriangleIndex>(index);
+}
+
+TEST(RelationIndex, TakesTrianglesWhereTooFewPlacesHaveANormal) {
+  const auto map = wall_and_poles();
+  const double share = share_of_oriented_points(*map, {});
+  ASSERT_GT(share, 0.5);
+  ASSERT_LT(share, 0.9);
+  EXPECT_FALSE(has_triangles(*relation_index(*map, {.min_oriented_share = share}, {}, 1)));
+  EXPECT_TRUE(has_triangles(*relation_index(*map, {.min_oriented_share = share + 1e-6}, {}, 1)));
+  EXPECT_FALSE(
+      has_triangles(*relation_index(*map, {.relation = "oriented_pair", .min_oriented_share = 1.0}, {}, 1)));
+  EXPECT_TRUE(
+      has_triangles(*relation_index(*map, {.relation = "triangle", .min_oriented_share = 0.0}, {}, 1)));
+}
+
+TEST(RelationIndex, IsSharedByAllWhoAskForTheSame) {
+  const auto map = test::small_world();
+  const auto one = relation_index(*map, {}, {}, 1);
+  EXPECT_EQ(relation_index(*map, {}, {}, 2), one);
+  EXPECT_NE(relation_index(*map, {.pairs = {.max_length = 5.0}}, {}, 1), one);
+}
+
+TEST(RelationIndex, ComesBackFromAFile) {
+  const test::TemporaryFolder folder;
+  const auto map = wall_and_poles();
+  // 1.0: `auto` has chosen triangles, and the file remembers.
+  for (const double min_oriented_share : {0.0, 1.0}) {
+    const RelationRule rule{.min_oriented_share = min_oriented_share};
+    const auto built = relation_index(*map, rule, {}, 1);
+    const std::string file = folder.write("index", saved_index(*built, *map, rule));
+    const auto read = relation_index(*map, rule, file, 1);
+    EXPECT_EQ(has_triangles(*read), has_triangles(*built));
+    EXPECT_EQ(saved_index(*read, *map, rule), saved_index(*built, *map, rule));
+    RelationRule other = rule;
+    other.min_height = 0.5;
+    EXPECT_THROW((void)relation_index(*map, other, file, 1), ConfigError);
+  }
+}
+
+}  // namespace
+}  // namespace glocal::relation_index_test

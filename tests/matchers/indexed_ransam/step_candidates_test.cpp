@@ -1,0 +1,77 @@
+#include "matchers/indexed_ransam/step_candidates.hpp"
+
+#include <gtest/gtest.h>
+
+#include "glocal/rng.hpp"
+#include "test_world.hpp"
+
+namespace glocal::step_candidates_test {
+namespace {
+
+const Pose2 truth{5.5, 2.5, 0.7};
+
+/// A batch with a pose at the truth and others all over the world.
+MotionBatch poses(std::size_t size) {
+  Rng rng(4);
+  MotionBatch batch;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Transform t(i == 3 ? truth
+                             : Pose2{rng.uniform(0.0, 8.0), rng.uniform(0.0, 9.0), rng.uniform(-3.1, 3.1)});
+    batch.cosine[i] = t.cosine();
+    batch.sine[i] = t.sine();
+    batch.x[i] = t.x();
+    batch.y[i] = t.y();
+  }
+  return batch;
+}
+
+class StepCandidatesTest : public testing::Test {
+ protected:
+  std::shared_ptr<const GlobalMap> map_ = test::small_world();
+  std::shared_ptr<const ContactIndex> contact_ = contact_index(*map_, "bitset", 0.1);
+  Rng rng_{1};
+  Points sample_ = sample_of(test::seen_from(map_->points(), truth, 3.0), 128, rng_);
+};
+
+TEST_F(StepCandidatesTest, AreThePosesWithEnoughContact) {
+  const MotionBatch batch = poses(200);
+  for (const double least : {0.0, 0.2, 0.6}) {
+    StepCandidates candidates(*contact_, sample_, least);
+    candidates.test(batch, 200);
+    // The cheap look spares the closer one where even it is below the least, and loses next to nothing.
+    std::size_t expected = 0;
+    for (std::size_t i = 0; i < 200; ++i) expected += contact_->share(sample_, batch[i]) >= least ? 1 : 0;
+    EXPECT_LE(candidates.all().size(), expected);
+    EXPECT_GE(static_cast<double>(candidates.all().size()), 0.9 * static_cast<double>(expected)) << least;
+    for (const Candidate& candidate : candidates.all()) {
+      EXPECT_GE(candidate.quality, least);
+      EXPECT_EQ(candidate.quality, contact_->share(sample_, Transform(candidate.map_from_local)));
+    }
+    EXPECT_EQ(candidates.tested(), 200U);
+    EXPECT_LE(candidates.points_tested(), 200U * sample_.size());
+    EXPECT_GE(candidates.points_tested(), 200U * 16U);
+  }
+}
+
+TEST_F(StepCandidatesTest, KeepWhatIsAddedWhateverItsContact) {
+  StepCandidates candidates(*contact_, sample_, 0.9);
+  candidates.add({-50.0, 0.0, 0.0});
+  ASSERT_EQ(candidates.all().size(), 1U);
+  EXPECT_EQ(candidates.all().front().quality, 0.0);
+  EXPECT_EQ(candidates.tested(), 0U);
+}
+
+TEST_F(StepCandidatesTest, AreDistinctAndFitBetterOnceRefined) {
+  StepCandidates candidates(*contact_, sample_, 0.2);
+  candidates.add(truth * Pose2{0.08, -0.05, 0.03});
+  candidates.add(truth * Pose2{-0.06, 0.04, -0.02});
+  candidates.add({1.0, 8.0, 1.0});
+  const CandidateRefiner refiner({}, 10, {}, distance_field(*map_, 0.05), contact_);
+  candidates.refine(refiner, {});
+  ASSERT_EQ(candidates.all().size(), 2U);
+  EXPECT_LT(distance(candidates.all().front().map_from_local, truth), 0.01);
+  EXPECT_GT(candidates.all().front().quality, 0.99);
+}
+
+}  // namespace
+}  // namespace glocal::step_candidates_test
