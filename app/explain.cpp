@@ -154,7 +154,7 @@ void explain(const ExplainOptions& options, Context& context) {
   const Pose2& truth = step.map_from_robot;
 
   const auto contact =
-      contact_index(*loaded.map, "bitset", experiment.localizer.unknown_place.contact_epsilon);
+      contact_index(*loaded.map, "bitset", contact_epsilon_on(*loaded.map, experiment.localizer));
   const DistanceField field(loaded.map->points());
   const Pose2 map_from_local = truth * inverse(step.local.local_from_robot);
   const Pose2 fitted = refined_pose(field, step.local.points, map_from_local, {.iterations = 30}) *

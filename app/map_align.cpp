@@ -40,7 +40,7 @@ std::optional<Alignment> align_maps(const std::shared_ptr<const GlobalMap>& map,
         refined_pose(DistanceField(map->points()), centred,
                      result.hypotheses.front().map_from_local * other_from_middle, {.iterations = 100});
     const Pose2 map_from_other = map_from_middle * inverse(other_from_middle);
-    const auto contact = contact_index(*map, params.contact, params.contact_epsilon);
+    const auto contact = contact_index(*map, params.contact, params.contact_epsilon.value());
     return Alignment{map_from_other, contact->share(other, Transform(map_from_other))};
   }
   return std::nullopt;

@@ -189,7 +189,7 @@ Json Runner::run_one(Variant& variant, Progress& progress) {
     spdlog::info("{}: goes on where an earlier run has stopped: {} of {} trials are finished",
                  folder.path().string(), before, trials);
   progress.skip(before);
-  folder.write("effective.yaml", effective_yaml(experiment, catalog));
+  folder.write("effective.yaml", effective_yaml(experiment, catalog, *loaded.map));
   Json origin = provenance(catalog, experiment.threads, loaded.inputs, hashes_);
   origin["jobs"] = options_.jobs;
   folder.write("provenance.json", origin.dump(2) + "\n");

@@ -7,12 +7,21 @@ namespace glocal {
 
 void describe(ParamVisitor& v, Dbscan::Params& p) {
   v.field("radius", p.radius,
-          {.doc = "Hypotheses are near each other up to this distance (Eps) …", .unit = "m", .min = 0.001});
+          {.doc = "Hypotheses can be near each other only up to this distance (Eps).",
+           .unit = "m",
+           .min = 0.001,
+           .audience = Audience::tuner});
   v.field("radius_rotation_deg", p.radius_rotation_deg,
-          {.doc = "… if they are turned by no more than this.", .unit = "deg", .min = 0.01, .max = 180.0});
-  v.field("min_support", p.min_support,
-          {.doc = "A hypothesis with so many near it, itself included, is a core of a cluster (MinPts).",
-           .min = 1});
+          {.doc = "Hypotheses can be near each other only if they are turned by no more than this.",
+           .unit = "deg",
+           .min = 0.01,
+           .max = 180.0,
+           .audience = Audience::tuner});
+  v.field(
+      "min_support", p.min_support,
+      {.doc =
+           "A hypothesis is a core of a cluster if so many hypotheses are near it, itself included (MinPts).",
+       .min = 1});
 }
 
 std::vector<Cluster> Dbscan::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {

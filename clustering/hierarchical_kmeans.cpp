@@ -127,11 +127,19 @@ std::size_t split(Items items, const Pose2& mean, const Metric& metric, int max_
 
 void describe(ParamVisitor& v, HierarchicalKmeans::Params& p) {
   v.field("max_variance_translation", p.max_variance_translation,
-          {.doc = "A cluster whose variance along x or y is larger is split.", .unit = "m^2", .above = 0.0});
+          {.doc = "A cluster whose variance along x or y is larger is split.",
+           .unit = "m^2",
+           .above = 0.0,
+           .audience = Audience::tuner});
   v.field("max_variance_rotation_deg2", p.max_variance_rotation_deg2,
-          {.doc = "A cluster whose variance of heading is larger is split.", .unit = "deg^2", .above = 0.0});
+          {.doc = "A cluster whose variance of heading is larger is split.",
+           .unit = "deg^2",
+           .above = 0.0,
+           .audience = Audience::tuner});
   v.field("max_iterations", p.max_iterations,
-          {.doc = "Rounds of assignment in each split; most end by themselves after a few.", .min = 1});
+          {.doc = "Rounds of assignment in each split; most end by themselves after a few.",
+           .min = 1,
+           .audience = Audience::expert});
 }
 
 Cluster make_cluster(const std::vector<Hypothesis>& hypotheses, std::vector<std::size_t> members) {

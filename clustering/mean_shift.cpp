@@ -117,12 +117,24 @@ void describe(ParamVisitor& v, MeanShift::Params& p) {
       {.doc = "How hypotheses count: all alike within the bandwidths, or as a normal distribution cut off "
               "at three of them.",
        .choices = {"gaussian", "flat"}});
-  v.field("bandwidth", p.bandwidth,
-          {.doc = "Unit of distance; standard deviation of the gaussian.", .unit = "m", .min = 0.001});
+  v.field(
+      "bandwidth", p.bandwidth,
+      {.doc =
+           "Unit of distance: the standard deviation of the gaussian kernel, or the radius of the flat one.",
+       .unit = "m",
+       .min = 0.001,
+       .audience = Audience::tuner});
   v.field("bandwidth_rotation_deg", p.bandwidth_rotation_deg,
-          {.doc = "Unit of rotation.", .unit = "deg", .min = 0.01, .max = 60.0});
+          {.doc = "Unit of rotation: as bandwidth, for the heading.",
+           .unit = "deg",
+           .min = 0.01,
+           .max = 60.0,
+           .audience = Audience::tuner});
   v.field("max_iterations", p.max_iterations,
-          {.doc = "Steps of a climb; most end by themselves before.", .min = 1, .max = 100000});
+          {.doc = "Steps of a climb; most end by themselves before.",
+           .min = 1,
+           .max = 100000,
+           .audience = Audience::expert});
 }
 
 std::vector<Cluster> MeanShift::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {

@@ -7,14 +7,20 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, PoseGridClusterer::Params& p) {
-  v.field("cell", p.cell, {.doc = "Side of a cell; its multiples are borders.", .unit = "m", .min = 0.001});
-  v.field(
-      "cell_rotation_deg", p.cell_rotation_deg,
-      {.doc = "Widest a cell may be in heading: a full turn falls into equal ones, the first centred at 0.",
-       .unit = "deg",
-       .min = 0.01,
-       .max = 360.0});
-  v.field("joined", p.joined, {.doc = "Whether neighbouring cells are one cluster, and so on."});
+  v.field("cell", p.cell,
+          {.doc = "Side of a cell; its multiples are borders.",
+           .unit = "m",
+           .min = 0.001,
+           .audience = Audience::tuner});
+  v.field("cell_rotation_deg", p.cell_rotation_deg,
+          {.doc = "Largest width of a cell in heading: a full turn is cut into equal parts, of which the "
+                  "first is centred at 0.",
+           .unit = "deg",
+           .min = 0.01,
+           .max = 360.0});
+  v.field("joined", p.joined,
+          {.doc = "Whether cells that touch, directly or through others, are one cluster.",
+           .audience = Audience::tuner});
 }
 
 std::vector<Cluster> PoseGridClusterer::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {

@@ -8,6 +8,10 @@ set_target_properties(glocal_app PROPERTIES EXPORT_NAME program)
 install(TARGETS glocal_app EXPORT glocal_targets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY framework/include/glocal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT glocal_targets FILE glocalTargets.cmake NAMESPACE glocal:: DESTINATION ${package_dir})
+# Builds what is installed, and nothing else.
+get_property(package_plugins GLOBAL PROPERTY GLOCAL_PACKAGE_PLUGINS)
+add_custom_target(installed DEPENDS glocal glocal_builtin glocal_evaluation glocal_app ${package_plugins})
+
 install(FILES cmake/glocal_add_plugin.cmake cmake/plugin_exports.map DESTINATION ${package_dir})
 # The program finds its library wherever both have been put.
 file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})

@@ -5,14 +5,17 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, Bounded::Params& p) {
-  v.field(
-      "scans", p.scans,
-      {.doc = "The map is made of so many observations, the last ones; 0: not used.", .min = 0, .max = 1e6});
+  v.field("scans", p.scans,
+          {.doc = "The map is made of the last observations, so many of them; 0 sets no such limit.",
+           .min = 0,
+           .max = 1e6,
+           .audience = Audience::tuner});
   v.field("distance", p.distance,
-          {.doc = "… and of those made since so much way; 0: not used. A robot that stands still then fills "
-                  "the map without end where scans is not used either.",
+          {.doc = "The map is made of the observations of the last way of this length; 0 sets no such limit, "
+                  "and then a robot that stands still fills the map unless scans is set.",
            .unit = "m",
-           .min = 0.0});
+           .min = 0.0,
+           .audience = Audience::tuner});
   v.require(p.scans > 0 || p.distance > 0.0, "scans", "either scans or distance must be above 0");
   describe(v, p.matching);
 }

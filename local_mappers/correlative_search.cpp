@@ -136,13 +136,18 @@ void describe(ParamVisitor& v, CorrelativeSearchParams& p) {
            .unit = "m",
            .min = 0.0,
            .max = 10.0});
-  v.field("rotation", p.rotation,
+  v.field("rotation_deg", p.rotation_deg,
           {.doc = "Largest rotation tried from the one odometry predicts.",
-           .unit = "rad",
+           .unit = "deg",
            .min = 0.0,
-           .max = 3.2});
-  v.field("rotation_step", p.rotation_step,
-          {.doc = "Step between rotations tried.", .unit = "rad", .min = 0.001, .max = 1.0});
+           .max = 180.0,
+           .formerly = "rotation"});
+  v.field("rotation_step_deg", p.rotation_step_deg,
+          {.doc = "Step between rotations tried.",
+           .unit = "deg",
+           .min = 0.05,
+           .max = 60.0,
+           .formerly = "rotation_step"});
   v.field("points", p.points,
           {.doc = "Hits of a scan used in the search, spread evenly over its beams.",
            .min = 1,
@@ -158,9 +163,10 @@ SearchResult correlative_search(const PointGrid& grid, const Points& hits, const
                                 const CorrelativeSearchParams& params) {
   if (hits.empty()) return {predicted, 0.0};
   Search search(grid, spread_hits(hits, params.points), predicted, params);
-  const int turns = static_cast<int>(std::lround(params.rotation / params.rotation_step));
+  const int turns = static_cast<int>(std::lround(params.rotation_deg / params.rotation_step_deg));
   for (int turn = -turns; turn <= turns; ++turn) {
-    search.try_rotation(turn * params.rotation_step, params.odometry_penalty * square_share(turn, turns));
+    search.try_rotation(turn * radians(params.rotation_step_deg),
+                        params.odometry_penalty * square_share(turn, turns));
   }
   return search.best();
 }

@@ -26,7 +26,8 @@ void describe(ParamVisitor& v, FreeSpaceCheckParams& p) {
           {.doc = "A beam that went on for less than this behind a hit may have met the same thing.",
            .unit = "m",
            .min = 0.0});
-  v.field("min_hits", p.min_hits, {.doc = "With fewer hits in sight nothing is said.", .min = 1});
+  v.field("min_hits", p.min_hits,
+          {.doc = "Scans with fewer hits in common view are not compared.", .min = 1});
 }
 
 RangeProfile::RangeProfile(const Scan& scan) : origin_(scan.origin), ranges_(directions, 0.0F) {

@@ -6,16 +6,28 @@ namespace glocal {
 
 void describe(ParamVisitor& v, Keyframes::Params& p) {
   v.field("distance", p.distance,
-          {.doc = "An observation is a keyframe this far from the last one …", .unit = "m", .min = 0.0});
-  v.field("angle", p.angle, {.doc = "… or turned by so much …", .unit = "rad", .min = 0.0});
-  v.field("overlap", p.overlap,
-          {.doc = "… or if less than this share of its hits lies on the map; 0: not used.",
-           .min = 0.0,
-           .max = 1.0});
-  v.field("overlap_distance", p.overlap_distance,
-          {.doc = "A hit lies on the map if a point is that near; at most refinement's gate.",
+          {.doc = "An observation is a keyframe once the robot has moved this far since the last one.",
            .unit = "m",
-           .above = 0.0});
+           .min = 0.0,
+           .audience = Audience::tuner});
+  v.field("angle_deg", p.angle_deg,
+          {.doc = "An observation is a keyframe once the robot has turned by this much since the last one.",
+           .unit = "deg",
+           .min = 0.0,
+           .audience = Audience::tuner,
+           .formerly = "angle"});
+  v.field("overlap", p.overlap,
+          {.doc = "An observation is a keyframe if less than this share of its hits lies on the map; 0 never "
+                  "makes one for that.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.field("overlap_distance", p.overlap_distance,
+          {.doc = "A hit lies on the map if a point of the map is at most this far away; at most the gate of "
+                  "the refinement.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::expert});
   describe(v, p.matching);
   v.require(p.overlap_distance <= p.matching.refinement.gate, "overlap_distance",
             "must be at most refinement's gate");
@@ -43,7 +55,8 @@ bool Keyframes::is_keyframe(const Points& hits) const {
   if (!local_from_last_) return true;
   const Pose2& robot = map().local_from_robot;
   return distance(*local_from_last_, robot) >= params_.distance ||
-         rotation_between(*local_from_last_, robot) >= params_.angle || overlap(hits) < params_.overlap;
+         rotation_between(*local_from_last_, robot) >= radians(params_.angle_deg) ||
+         overlap(hits) < params_.overlap;
 }
 
 double Keyframes::overlap(const Points& hits) const {

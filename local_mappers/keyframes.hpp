@@ -10,14 +10,14 @@
 namespace glocal {
 
 /// Matches every scan as scan_matching does, but registers only keyframes: observations made `distance` or
-/// `angle` away from the last keyframe, or of which less than `overlap` lies on the map. The others only
+/// `angle_deg` away from the last keyframe, or of which less than `overlap` lies on the map. The others only
 /// move the robot. Fewer scans to blur the map, and less to do where the robot stands or observations come
 /// fast.
 class Keyframes final : public LocalMapper {
  public:
   struct Params {
     double distance = 0.5;
-    double angle = 0.35;
+    double angle_deg = 20.0;
     double overlap = 0.6;
     double overlap_distance = 0.1;
     ScanMatching::Params matching = {};

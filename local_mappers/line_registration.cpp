@@ -58,11 +58,12 @@ void describe(ParamVisitor& v, LineRegistrationParams& p) {
            .above = 0.0});
   v.field("kernel_share", p.kernel_share,
           {.doc = "Scale of the Geman-McClure kernel, as a share of the gate.", .max = 10.0, .above = 0.0});
-  v.field("max_normal_angle", p.max_normal_angle,
+  v.field("max_normal_angle_deg", p.max_normal_angle_deg,
           {.doc = "Largest angle between the normals of a hit and its point of the map.",
-           .unit = "rad",
+           .unit = "deg",
            .min = 0.0,
-           .max = 3.2});
+           .max = 180.0,
+           .formerly = "max_normal_angle"});
   v.field("pointwise_weight", p.pointwise_weight,
           {.doc = "Weight of matches without normals, which count point to point; others have weight 1.",
            .min = 0.0,
@@ -82,7 +83,7 @@ NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Poin
   const Transform rotation({0.0, 0.0, local_from_robot.theta});
   const Point robot = transform({});
   const auto gate_squared = static_cast<float>(params.gate * params.gate);
-  const auto min_cosine = static_cast<float>(std::cos(params.max_normal_angle));
+  const auto min_cosine = static_cast<float>(std::cos(radians(params.max_normal_angle_deg)));
   NormalSums sums(params.gate * params.kernel_share);
   int matches = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -4,7 +4,7 @@ namespace glocal {
 
 void describe(ParamVisitor& v, Odometry::Params& p) {
   describe(v, p.voxels);
-  v.field("normals", p.normals, {.doc = "Normals of a scan."});
+  v.field("normals", p.normals, {.doc = "Normals of a scan.", .audience = Audience::expert});
 }
 
 // Nobody asks for the nearest point or for likelihoods: a point stamps its own cell only.

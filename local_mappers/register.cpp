@@ -15,6 +15,7 @@ void register_local_mappers(Catalog& catalog) {
                                      "Scan matching against a map of the last scans or metres only.");
   catalog.local_mappers.add<Keyframes>("keyframes",
                                        "Scan matching that registers only scans that bring something new.");
+  catalog.local_mappers.note_renamed("key_frames", "keyframes");
   catalog.local_mappers.add<Odometry>("odometry", "Scans joined by odometry alone.");
 }
 

@@ -9,51 +9,71 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
   v.field("likelihood_sigma", p.likelihood_sigma,
           {.doc = "Standard deviation of a hit around a point of the map, in the search.",
            .unit = "m",
-           .above = 0.0});
-  v.field("normals", p.normals, {.doc = "Normals of a scan."});
-  v.field("search", p.search, {.doc = "Search around odometry."});
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("normals", p.normals, {.doc = "Normals of a scan.", .audience = Audience::expert});
+  v.field("search", p.search, {.doc = "Search around odometry.", .audience = Audience::expert});
   v.field("wide_search", p.wide_search,
-          {.doc = "Search in place of the first where that finds nothing that fits well: wheels slip, logs "
-                  "have jumps."});
+          {.doc = "Search that follows where the first finds nothing that fits well: wheels slip, and logs "
+                  "have jumps.",
+           .audience = Audience::expert});
+  v.field("wide_search_below", p.wide_search_below,
+          {.doc = "The wide search is tried where the mean likelihood of the first search is below this, and "
+                  "its own result must reach it.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
   v.field(
-      "wide_search_below", p.wide_search_below,
-      {.doc =
-           "Mean likelihood of the first search below which the wide one is tried; its result must reach it.",
+      "wide_search_gain", p.wide_search_gain,
+      {.doc = "The result of the wide search must be more likely than that of the first one by this much.",
        .min = 0.0,
-       .max = 1.0});
-  v.field("wide_search_gain", p.wide_search_gain,
-          {.doc = "By how much more likely than the first search's its result must be to be taken.",
-           .min = 0.0,
-           .max = 1.0});
-  v.field("refinement", p.refinement, {.doc = "Point-to-line registration after the search."});
+       .max = 1.0,
+       .audience = Audience::expert});
+  v.field("refinement", p.refinement,
+          {.doc = "Point-to-line registration after the search.", .audience = Audience::expert});
   v.field("min_matches", p.min_matches,
-          {.doc = "With fewer matched hits odometry is kept.", .min = 3, .max = 100000});
+          {.doc = "With fewer matched hits odometry is kept.",
+           .min = 3,
+           .max = 100000,
+           .audience = Audience::expert});
   v.field("max_correction", p.max_correction,
-          {.doc = "If refinement moves farther from where the search ended, odometry is kept.",
+          {.doc = "Odometry is kept if the refinement moves the robot farther than this from where the "
+                  "search ended.",
            .unit = "m",
-           .min = 0.0});
-  v.field("max_correction_angle", p.max_correction_angle,
-          {.doc = "If refinement moves farther from where the search ended, odometry is kept.",
-           .unit = "rad",
-           .min = 0.0});
+           .min = 0.0,
+           .audience = Audience::expert});
+  v.field("max_correction_angle_deg", p.max_correction_angle_deg,
+          {.doc = "Odometry is kept if the refinement turns the robot by more than this from where the "
+                  "search ended.",
+           .unit = "deg",
+           .min = 0.0,
+           .audience = Audience::expert,
+           .formerly = "max_correction_angle"});
   v.field("min_fit", p.min_fit,
-          {.doc = "An observation whose mean likelihood stays below this after the search does not fit; it "
-                  "moves the "
-                  "robot by odometry and adds no points.",
+          {.doc = "An observation fits only if its mean likelihood after the search reaches this. One that "
+                  "does not fit moves the robot by odometry and adds no points.",
            .min = 0.0,
-           .max = 1.0});
-  v.field("max_free_space_violation", p.max_free_space_violation,
-          {.doc = "Nor does one fit of which more lies where the latest scans saw through, or which saw "
-                  "through more "
-                  "of what they met: the robot was carried away.",
-           .min = 0.0,
-           .max = 1.0});
-  v.field("free_space_check", p.free_space_check, {.doc = "How scans are compared for that."});
+           .max = 1.0,
+           .audience = Audience::tuner});
+  v.field(
+      "max_free_space_violation", p.max_free_space_violation,
+      {.doc =
+           "An observation fits only if the share of free-space violations stays below this: hits where the "
+           "latest scans saw free space, or the other way round. More means that the robot was carried away.",
+       .min = 0.0,
+       .max = 1.0,
+       .audience = Audience::tuner,
+       .formerly = "max_seen_through"});
+  v.field("free_space_check", p.free_space_check,
+          {.doc = "How scans are compared to find free-space violations.",
+           .audience = Audience::expert,
+           .formerly = "sight"});
   v.field(
       "restart_after", p.restart_after,
       {.doc =
            "Observations in a row that do not fit before a new local map is started with the last of them.",
-       .min = 1});
+       .min = 1,
+       .audience = Audience::expert});
   v.require(cells_in(p.refinement.gate, p.voxels.resolution) <= PointGrid::max_reach, "refinement",
             "gate must be at most 11 times resolution");
 }
@@ -113,9 +133,10 @@ Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& 
 Pose2 ScanMatching::refine(const Scan& scan, const Points& normals, const Pose2& found,
                            const Pose2& predicted) const {
   const Registration refined = register_scan(grid(), map(), scan.hits, normals, found, params_.refinement);
-  const bool sound = refined.matches >= params_.min_matches &&
-                     distance(refined.local_from_robot, found) <= params_.max_correction &&
-                     rotation_between(refined.local_from_robot, found) <= params_.max_correction_angle;
+  const bool sound =
+      refined.matches >= params_.min_matches &&
+      distance(refined.local_from_robot, found) <= params_.max_correction &&
+      rotation_between(refined.local_from_robot, found) <= radians(params_.max_correction_angle_deg);
   return sound ? refined.local_from_robot : predicted;
 }
 

@@ -28,14 +28,22 @@ Point average_normal(const Point& mean, float n, const Point& normal) {
 
 void describe(ParamVisitor& v, VoxelParams& p) {
   v.field("resolution", p.resolution,
-          {.doc = "Side of the cells that thin the map, and of those that index it.",
+          {.doc = "Side of the voxels that hold one point each.",
            .unit = "m",
            .max = 1.0,
-           .above = 0.001});
+           .above = 0.001,
+           .audience = Audience::tuner});
   v.field("cell_hits", p.cell_hits,
-          {.doc = "A cell's point is the mean of so many of its first hits.", .min = 1, .max = 100});
+          {.doc = "The point of a voxel is the mean of its first hits, so many of them.",
+           .min = 1,
+           .max = 100,
+           .audience = Audience::expert});
   v.field("memory_mb", p.memory_mb,
-          {.doc = "Memory the index of the points may take.", .unit = "MB", .min = 1, .max = 65536});
+          {.doc = "Memory the index of the points may take.",
+           .unit = "MB",
+           .min = 1,
+           .max = 65536,
+           .audience = Audience::expert});
 }
 
 int cells_in(double metres, double resolution) {

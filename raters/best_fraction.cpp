@@ -6,15 +6,20 @@ namespace glocal {
 
 void describe(ParamVisitor& v, BestFraction::Params& p) {
   v.field("fraction", p.fraction,
-          {.doc = "Omega_max is this fraction of the best quality.", .min = 0.0, .max = 1.0});
+          {.doc = "Omega_max is this fraction of the best score.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::tuner});
   v.field("best", p.best,
-          {.doc = "Which quality that is: the best of the last step, or the best so far.",
+          {.doc = "Which score is the best: that of the last step, or the best so far.",
            .choices = {"last_step", "so_far"}});
   v.field("empty_share", p.empty_share,
-          {.doc = "What a step without hypotheses leaves of the best quality and of Omega_max.",
+          {.doc = "A step without hypotheses leaves this share of the best score and of Omega_max.",
            .min = 0.0,
-           .max = 0.999});
-  v.field("initial", p.initial, {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0});
+           .max = 0.999,
+           .audience = Audience::expert});
+  v.field("initial", p.initial,
+          {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0, .audience = Audience::tuner});
 }
 
 void BestFraction::update(const std::vector<Hypothesis>& hypotheses) {

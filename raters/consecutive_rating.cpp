@@ -8,24 +8,37 @@ namespace glocal {
 
 void describe(ParamVisitor& v, ConsecutiveRating::Params& p) {
   v.field("min_rating", p.min_rating,
-          {.doc = "The normalised rating (eq. 8) must be larger than this.", .min = 0.0, .max = 1.0});
-  v.field("consecutive", p.consecutive, {.doc = "In so many consecutive steps.", .min = 1});
+          {.doc = "The normalised rating (eq. 8) must be larger than this.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::tuner});
+  v.field("consecutive", p.consecutive,
+          {.doc = "Number of consecutive steps in which the same cluster must be rated so highly.",
+           .min = 1,
+           .audience = Audience::tuner});
   v.field("same_distance", p.same_distance,
-          {.doc = "A cluster is the same as the last step's if its robot pose, moved by the local motion, is "
-                  "nearer.",
+          {.doc = "A cluster is the same as in the last step only if its robot pose, moved by the local "
+                  "motion, is nearer than this.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("same_rotation_deg", p.same_rotation_deg,
-          {.doc = "… and turned by less.", .unit = "deg", .max = 180.0, .above = 0.0});
+          {.doc = "A cluster is the same as in the last step only if its robot pose, moved by the local "
+                  "motion, is turned by less than this.",
+           .unit = "deg",
+           .max = 180.0,
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("candidate_share", p.candidate_share,
           {.doc = "A cluster is a candidate if its rating (eq. 7) is at least this share of the best one's.",
            .min = 0.0,
-           .max = 1.0});
+           .max = 1.0,
+           .audience = Audience::expert});
   v.field("max_candidates", p.max_candidates,
-          {.doc = "The verdict is ambiguous with at least two and at most so many distinct candidate poses; "
-                  "with more, "
-                  "nothing can be said yet.",
-           .min = 2});
+          {.doc = "The verdict is ambiguous with two to so many distinct candidate poses; with more it is "
+                  "searching.",
+           .min = 2,
+           .audience = Audience::expert});
 }
 
 Verdict ConsecutiveRating::judge(const StepResult& step) {

@@ -10,8 +10,10 @@ void describe(ParamVisitor& v, ExponentialThreshold::Params& p) {
   v.field("weight", p.weight,
           {.doc = "Share of the latest step; 2 / (n + 1) is about as slow as a window of n steps.",
            .max = 1.0,
-           .above = 0.0});
-  v.field("initial", p.initial, {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0});
+           .above = 0.0,
+           .audience = Audience::tuner});
+  v.field("initial", p.initial,
+          {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0, .audience = Audience::tuner});
 }
 
 void ExponentialThreshold::update(const std::vector<Hypothesis>& hypotheses) {

@@ -22,7 +22,7 @@ class FixedThreshold final : public ThresholdPolicy {
 };
 
 inline void describe(ParamVisitor& v, FixedThreshold::Params& p) {
-  v.field("omega_max", p.omega_max, {.doc = "Quality a hypothesis must reach.", .min = 0.0, .max = 1.0});
+  v.field("omega_max", p.omega_max, {.doc = "Score a hypothesis must reach.", .min = 0.0, .max = 1.0});
 }
 
 }  // namespace glocal

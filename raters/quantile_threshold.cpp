@@ -22,13 +22,18 @@ double score_at(double quantile, const std::vector<Hypothesis>& hypotheses) {
 
 void describe(ParamVisitor& v, QuantileThreshold::Params& p) {
   v.field("quantile", p.quantile,
-          {.doc = "Share of the last step's hypotheses, by support, that Omega_max is to be above; 0 is the "
-                  "worst one's quality, 1 the best one's.",
+          {.doc = "Share of the last step's hypotheses, by support, that Omega_max leaves behind: 0 is the "
+                  "lowest score, 1 the best.",
            .min = 0.0,
-           .max = 1.0});
+           .max = 1.0,
+           .audience = Audience::tuner});
   v.field("empty_share", p.empty_share,
-          {.doc = "What a step without hypotheses leaves of Omega_max.", .min = 0.0, .max = 0.999});
-  v.field("initial", p.initial, {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0});
+          {.doc = "A step without hypotheses leaves this share of Omega_max.",
+           .min = 0.0,
+           .max = 0.999,
+           .audience = Audience::expert});
+  v.field("initial", p.initial,
+          {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0, .audience = Audience::tuner});
 }
 
 void QuantileThreshold::update(const std::vector<Hypothesis>& hypotheses) {

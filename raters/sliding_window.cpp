@@ -8,13 +8,15 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, SlidingWindow::Params& p) {
-  v.field("window", p.window, {.doc = "Steps averaged (tau in eq. 9).", .min = 1, .max = 100000});
+  v.field("window", p.window,
+          {.doc = "Steps averaged (tau in eq. 9).", .min = 1, .max = 100000, .audience = Audience::tuner});
   v.field(
       "initial", p.initial,
       {.doc =
            "Omega_max before the first step: about 0.6 in a world that is as the map says, 0.5 on real logs.",
        .min = 0.0,
-       .max = 1.0});
+       .max = 1.0,
+       .audience = Audience::tuner});
 }
 
 SlidingWindow::SlidingWindow(const Params& params) : params_(params) {

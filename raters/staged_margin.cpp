@@ -8,69 +8,94 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, StagedMargin::Stage& p) {
-  v.field("margin", p.margin,
-          {.doc = "Quality of the best hypothesis less that of its best rival, at least.",
-           .min = 0.0,
-           .max = 1.0});
-  v.field("steps", p.steps, {.doc = "In so many consecutive steps.", .min = 1});
-  v.field("distance", p.distance, {.doc = "And over this way.", .unit = "m", .min = 0.0});
+  v.field(
+      "margin", p.margin,
+      {.doc = "Score of the best hypothesis less that of its best rival, at least.", .min = 0.0, .max = 1.0});
+  v.field("steps", p.steps,
+          {.doc = "Number of consecutive steps in which the margin must be kept.", .min = 1});
+  v.field("distance", p.distance,
+          {.doc = "Way the robot must drive while the margin is kept.", .unit = "m", .min = 0.0});
 }
 
 void describe(ParamVisitor& v, StagedMargin::Confidence& p) {
   v.field("bias", p.bias, {.doc = "Log odds that the best pose is right when it has no margin at all."});
-  v.field("margin", p.margin, {.doc = "What a margin adds to them, times the margin."});
-  v.field(
-      "steps", p.steps,
-      {.doc = "What time adds to them, times the logarithm of the number of steps in which the best pose has "
-              "been the same."});
-  v.field(
-      "most", p.most,
-      {.doc = "However clear the margin is, the confidence stays below this: what lies off the map has no "
-              "hypothesis.",
-       .max = 1.0,
-       .above = 0.0});
+  v.field("margin", p.margin, {.doc = "Log odds that a margin of 1 adds."});
+  v.field("steps", p.steps,
+          {.doc = "Log odds that time adds, for each natural logarithm of the number of steps in which the "
+                  "best pose has been the same."});
+  v.field("most", p.most,
+          {.doc = "Upper limit of the confidence, however clear the margin is: a place off the map has no "
+                  "hypothesis.",
+           .max = 1.0,
+           .above = 0.0});
 }
 
 void describe(ParamVisitor& v, StagedMargin::Params& p) {
-  v.field("stages", p.stages, {.doc = "Any of them is enough.", .min_items = 1, .max_items = 100});
+  v.field("stages", p.stages,
+          {.doc = "Margins to be kept for a while; any one of them is enough for a declaration.",
+           .min_items = 1,
+           .max_items = 100,
+           .audience = Audience::tuner});
   v.field("rival_distance", p.rival_distance,
-          {.doc = "A hypothesis is a rival of the best one if it is farther away than this.",
+          {.doc = "A hypothesis is a rival of the best one if it is farther away than this, or turned by "
+                  "more than rival_rotation_deg.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("rival_rotation_deg", p.rival_rotation_deg,
-          {.doc = "… or turned by more.", .unit = "deg", .max = 180.0, .above = 0.0});
+          {.doc = "A hypothesis is a rival of the best one if it is turned by more than this, or farther "
+                  "away than rival_distance.",
+           .unit = "deg",
+           .max = 180.0,
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("same_distance", p.same_distance,
-          {.doc = "The best hypothesis is the same as in the last step if its robot pose, moved by the local "
-                  "motion, is "
-                  "nearer.",
+          {.doc = "The best hypothesis is the same as in the last step only if its robot pose, moved by the "
+                  "local motion, is nearer than this.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("same_rotation_deg", p.same_rotation_deg,
-          {.doc = "… and turned by less.", .unit = "deg", .max = 180.0, .above = 0.0});
-  v.field(
-      "max_turn_rate_deg", p.max_turn_rate_deg,
-      {.doc = "Nothing is declared while the robot turns faster: scans are smeared then, and stamps are not "
-              "exact enough for the heading.",
-       .unit = "deg/s",
-       .above = 0.0});
-  v.field("steady_steps", p.steady_steps, {.doc = "Steps it must not have turned faster in.", .min = 1});
-  v.field(
-      "max_free_space_violation", p.max_free_space_violation,
-      {.doc = "Nothing is declared where more of the points lie in space known to be free; where the matcher "
-              "tells.",
-       .min = 0.0,
-       .max = 1.0});
-  v.field("confidence", p.confidence, {.doc = "How the margin becomes a probability (logistic)."});
-  v.field(
-      "spread_margin", p.spread_margin,
-      {.doc =
-           "A hypothesis near the best one, of a quality lower by this, counts 1/e of it in the covariance.",
-       .above = 0.0});
-  v.field("candidate_margin", p.candidate_margin,
-          {.doc = "The verdict is ambiguous if rivals are so near in quality to the best hypothesis.",
+          {.doc = "The best hypothesis is the same as in the last step only if its robot pose, moved by the "
+                  "local motion, is turned by less than this.",
+           .unit = "deg",
+           .max = 180.0,
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("max_turn_rate_deg", p.max_turn_rate_deg,
+          {.doc = "Nothing is declared while the robot turns faster than this: scans are smeared then, and "
+                  "time stamps are not exact enough for the heading.",
+           .unit = "deg/s",
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("steady_steps", p.steady_steps,
+          {.doc = "Number of steps since the robot last turned faster than max_turn_rate_deg, before "
+                  "anything is declared.",
+           .min = 1,
+           .audience = Audience::expert});
+  v.field("max_free_space_violation", p.max_free_space_violation,
+          {.doc = "Nothing is declared if a larger share of the points lies in space known to be free, where "
+                  "the matcher tells that share.",
            .min = 0.0,
-           .max = 1.0});
-  v.field("max_candidates", p.max_candidates, {.doc = "With more, nothing can be said yet.", .min = 2});
+           .max = 1.0,
+           .audience = Audience::tuner,
+           .formerly = "max_conflict"});
+  v.field("confidence", p.confidence,
+          {.doc = "Logistic model that makes a probability of the margin.", .audience = Audience::expert});
+  v.field("spread_margin", p.spread_margin,
+          {.doc = "In the covariance, a hypothesis near the best one counts 1/e where its score is lower by "
+                  "this much.",
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("candidate_margin", p.candidate_margin,
+          {.doc = "The verdict is ambiguous if the score of a rival is within this of the best one.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::tuner});
+  v.field("max_candidates", p.max_candidates,
+          {.doc = "The verdict is ambiguous with two to so many candidate poses; with more it is searching.",
+           .min = 2,
+           .audience = Audience::expert});
 }
 
 void StagedMargin::reset() {

@@ -92,7 +92,8 @@ void describe(ParamVisitor& v, OdometryParams& p) {
 }
 
 void describe(ParamVisitor& v, Kidnapping& p) {
-  v.field("after_m", p.after_m, {.doc = "Way driven until then.", .unit = "m", .min = 0.0, .required = true});
+  v.field("after_m", p.after_m,
+          {.doc = "Way driven before the robot is carried away.", .unit = "m", .min = 0.0, .required = true});
   v.field("to", p.to,
           {.doc = "Where the robot is put down, [x, y]; from there it drives to the nearest way point.",
            .unit = "m",
@@ -100,17 +101,18 @@ void describe(ParamVisitor& v, Kidnapping& p) {
            .max_items = 2,
            .required = true});
   v.field("heading_deg", p.heading_deg,
-          {.doc = "Where it looks then.", .unit = "deg", .min = -360.0, .max = 360.0});
+          {.doc = "Heading of the robot where it is put down.", .unit = "deg", .min = -360.0, .max = 360.0});
 }
 
 void describe(ParamVisitor& v, DriveParams& p) {
   v.field("world", p.world, {.doc = "File that describes the world and the drive.", .required = true});
   v.field("tour_legs", p.tour_legs,
-          {.doc = "The drive takes so many ways from way point to way point at random: each pair of "
-                  "consecutive way points is a way, both ways, and ways meet where way points are equal. 0: "
-                  "the way points as they are listed.",
+          {.doc = "Number of ways of a random tour: each pair of consecutive way points is a way in both "
+                  "directions, and ways meet where way points are equal. 0 drives the way points as they are "
+                  "listed.",
            .min = 0,
-           .max = 100000});
+           .max = 100000,
+           .audience = Audience::expert});
   v.field("kidnappings", p.kidnappings,
           {.doc = "Where the robot is carried away, between two observations and unnoticed by odometry."});
   v.field("step_length", p.step_length,
@@ -118,9 +120,13 @@ void describe(ParamVisitor& v, DriveParams& p) {
   v.field("step_turn_deg", p.step_turn_deg,
           {.doc = "Largest turn from observation to observation.", .unit = "deg", .min = 0.1, .max = 180.0});
   v.field("step_seconds", p.step_seconds,
-          {.doc = "Time from observation to observation, in which people walk on.", .unit = "s", .min = 0.0});
+          {.doc = "Time from observation to observation, in which people walk on.",
+           .unit = "s",
+           .min = 0.0,
+           .audience = Audience::expert});
   v.field("laser", p.laser, {.doc = "The range finder."});
-  v.field("odometry", p.odometry, {.doc = "How badly the robot's own motion is measured."});
+  v.field("odometry", p.odometry,
+          {.doc = "How badly the robot's own motion is measured.", .audience = Audience::expert});
   v.require(std::is_sorted(p.kidnappings.begin(), p.kidnappings.end(),
                            [](const Kidnapping& a, const Kidnapping& b) { return a.after_m < b.after_m; }),
             "kidnappings", "must be in rising order of after_m");

@@ -11,18 +11,32 @@ void describe(ParamVisitor& v, LaserParams& p) {
           {.doc = "Angle between the first ray and the last.", .unit = "deg", .max = 360.0, .above = 0.0});
   v.field("step_deg", p.step_deg,
           {.doc = "Angle from ray to ray.", .unit = "deg", .min = 0.01, .max = 360.0});
-  v.field("max_range", p.max_range, {.doc = "What is farther away is not seen.", .unit = "m", .above = 0.0});
+  v.field("max_range", p.max_range,
+          {.doc = "Range of the laser: what is farther away is not seen.", .unit = "m", .above = 0.0});
   v.field("noise", p.noise, {.doc = "Standard deviation of a reading.", .unit = "m", .min = 0.0});
   v.field("outliers", p.outliers,
-          {.doc = "Share of readings that are anything between 0 and max_range.", .min = 0.0, .max = 1.0});
-  v.field(
-      "x", p.x,
-      {.doc = "Where the laser is in the robot's frame, forwards.", .unit = "m", .min = -5.0, .max = 5.0});
-  v.field(
-      "y", p.y,
-      {.doc = "Where the laser is in the robot's frame, to the left.", .unit = "m", .min = -5.0, .max = 5.0});
+          {.doc = "Share of readings that are anything between 0 and max_range.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.field("x", p.x,
+          {.doc = "Where the laser is in the robot's frame, forwards.",
+           .unit = "m",
+           .min = -5.0,
+           .max = 5.0,
+           .audience = Audience::expert});
+  v.field("y", p.y,
+          {.doc = "Where the laser is in the robot's frame, to the left.",
+           .unit = "m",
+           .min = -5.0,
+           .max = 5.0,
+           .audience = Audience::expert});
   v.field("yaw_deg", p.yaw_deg,
-          {.doc = "Where the laser looks in the robot's frame.", .unit = "deg", .min = -360.0, .max = 360.0});
+          {.doc = "Where the laser looks in the robot's frame.",
+           .unit = "deg",
+           .min = -360.0,
+           .max = 360.0,
+           .audience = Audience::expert});
   v.require(p.step_deg <= p.fov_deg, "step_deg", "must not be above fov_deg");
 }
 
@@ -52,7 +66,7 @@ CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
 LogParams scan_limits(const LaserParams& laser) {
   LogParams limits;
   limits.keyframe_distance = 0.0;
-  limits.keyframe_angle = 0.0;
+  limits.keyframe_angle_deg = 0.0;
   limits.min_range = 1e-6;  // 0 says nothing
   limits.max_range = laser.max_range;
   limits.free_range = laser.max_range;

@@ -31,7 +31,7 @@ std::vector<CarmenScan> of_laser(std::vector<CarmenScan> scans, const std::strin
 
 bool is_keyframe(const CarmenScan& last, const CarmenScan& scan, const LogParams& params) {
   return distance(last.odom_from_robot, scan.odom_from_robot) >= params.keyframe_distance ||
-         rotation_between(last.odom_from_robot, scan.odom_from_robot) >= params.keyframe_angle;
+         rotation_between(last.odom_from_robot, scan.odom_from_robot) >= radians(params.keyframe_angle_deg);
 }
 
 std::string share_text(double share) {
@@ -69,30 +69,41 @@ void describe(ParamVisitor& v, LogParams& p) {
            .max = 1.0,
            .min_items = 1});
   v.field("keyframe_distance", p.keyframe_distance,
-          {.doc = "A scan is used when odometry has moved this far since the last one used, or turned by "
-                  "keyframe_angle; 0: every scan is.",
+          {.doc = "A scan is used once odometry has moved this far since the last one used, or turned by "
+                  "keyframe_angle_deg; 0 uses every scan.",
            .unit = "m",
-           .min = 0.0});
-  v.field("keyframe_angle", p.keyframe_angle,
-          {.doc = "A scan is used when odometry has turned this much since the last one used, or moved by "
-                  "keyframe_distance; 0: every scan is.",
-           .unit = "rad",
-           .min = 0.0});
+           .min = 0.0,
+           .audience = Audience::tuner});
+  v.field("keyframe_angle_deg", p.keyframe_angle_deg,
+          {.doc = "A scan is used once odometry has turned this much since the last one used, or moved by "
+                  "keyframe_distance; 0 uses every scan.",
+           .unit = "deg",
+           .min = 0.0,
+           .formerly = "keyframe_angle"});
   v.field("max_range", p.max_range,
-          {.doc = "Readings from here on count as no return.", .unit = "m", .above = 0.0});
+          {.doc = "Readings from here on count as no return.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::tuner});
   v.field("min_range", p.min_range,
           {.doc = "Readings below this are dropped: dirt on the glass, or the robot itself.",
            .unit = "m",
-           .min = 0.0});
+           .min = 0.0,
+           .audience = Audience::expert});
   v.field("free_range", p.free_range,
           {.doc = "How far the way of a reading without return is taken to be free (at most max_range); 0: "
                   "not at all. The "
                   "default is what a Sick LMS 200 is rated for on dark surfaces.",
            .unit = "m",
-           .min = 0.0});
-  v.field(
-      "laser_yaw", p.laser_yaw,
-      {.doc = "Correction added to the direction of every reading.", .unit = "rad", .min = -3.2, .max = 3.2});
+           .min = 0.0,
+           .audience = Audience::expert});
+  v.field("laser_yaw_deg", p.laser_yaw_deg,
+          {.doc = "Correction added to the direction of every reading.",
+           .unit = "deg",
+           .min = -180.0,
+           .max = 180.0,
+           .audience = Audience::expert,
+           .formerly = "laser_yaw"});
   v.require(ascending(p.segments), "segments",
             "each must be [from, to] with from < to, in rising order and without overlap");
   v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
@@ -140,7 +151,8 @@ Scan robot_scan(const CarmenScan& scan, const LogParams& params) {
     const double range = scan.ranges[i];
     const bool no_return = !std::isfinite(range) || range < 0.0 || range >= max_range;
     if (no_return ? free_range <= 0.0 : range < params.min_range) continue;
-    const double angle = scan.start_angle + static_cast<double>(i) * scan.angle_step + params.laser_yaw;
+    const double angle =
+        scan.start_angle + static_cast<double>(i) * scan.angle_step + radians(params.laser_yaw_deg);
     const double reach = no_return ? free_range : range;
     const Point end = robot_from_laser(
         {static_cast<float>(reach * std::cos(angle)), static_cast<float>(reach * std::sin(angle)), 0.0F});

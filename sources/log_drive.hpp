@@ -20,11 +20,11 @@ struct LogParams {
   std::string laser = "front";
   std::vector<std::array<double, 2>> segments{{0.0, 1.0}};
   double keyframe_distance = 0.25;
-  double keyframe_angle = 0.2;
+  double keyframe_angle_deg = 11.46;
   double max_range = 20.0;
   double min_range = 0.1;
   double free_range = 8.0;
-  double laser_yaw = 0.0;
+  double laser_yaw_deg = 0.0;
 };
 void describe(ParamVisitor& v, LogParams& p);
 

@@ -160,24 +160,28 @@ std::vector<Pose2> sparse_path(const std::vector<PlacedScan>& placed) {
 
 LogMap::Params::Params() {
   log.keyframe_distance = 0.0;
-  log.keyframe_angle = 0.0;
+  log.keyframe_angle_deg = 0.0;
 }
 
 void describe(ParamVisitor& v, LogMap::Params& p) {
   describe(v, p.log);
-  v.field("resolution", p.resolution, {.doc = "Side of a cell.", .unit = "m", .max = 10.0, .above = 0.0});
+  v.field("resolution", p.resolution,
+          {.doc = "Side of a cell.", .unit = "m", .max = 10.0, .above = 0.0, .audience = Audience::tuner});
   v.field("min_hits", p.min_hits,
-          {.doc = "A cell is occupied if at least so many readings end in it …", .min = 1});
+          {.doc = "A cell is occupied only if at least so many readings end in it.",
+           .min = 1,
+           .audience = Audience::tuner});
   v.field("min_hit_share", p.min_hit_share,
-          {.doc = "… and they are at least this share of the rays that reach the cell: people leave hits "
-                  "too, but are "
-                  "passed by more rays later.",
+          {.doc = "A cell is occupied only if the readings that end in it are at least this share of the "
+                  "rays that reach it: people leave hits, but more rays pass there later.",
            .min = 0.0,
-           .max = 1.0});
+           .max = 1.0,
+           .audience = Audience::expert});
   v.field("points", p.points,
           {.doc = "Where an occupied cell's point lies: at the mean of its hits, closer to the wall, or at "
                   "the centre.",
-           .choices = {"mean", "centre"}});
+           .choices = {"mean", "centre"},
+           .audience = Audience::expert});
 }
 
 LogMap::LogMap(const Params& params, const SourceSetup& setup) : params_(params) {

@@ -85,12 +85,14 @@ void describe(ParamVisitor& v, RandomScans::Params& p) {
           {.doc = "Poses are at least so far away from every cell that is not free.",
            .unit = "m",
            .min = 0.0,
-           .max = 5.0});
+           .max = 5.0,
+           .audience = Audience::expert});
   v.field("max_unknown", p.max_unknown,
-          {.doc = "Farthest a ray may go through unknown cells to reach an occupied one: walls have blurred "
-                  "rims. Of rays that go farther there is no reading.",
+          {.doc = "Farthest a ray may go through unknown cells before it reaches an occupied one, as walls "
+                  "have blurred rims. A ray that goes farther gives no reading.",
            .unit = "m",
-           .min = 0.0});
+           .min = 0.0,
+           .audience = Audience::expert});
   v.field("laser", p.laser, {.doc = "The range finder. Rays end where they enter an occupied cell."});
 }
 

@@ -140,15 +140,18 @@ void describe(ParamVisitor& v, Rectangle& p) {
 void describe(ParamVisitor& v, RoundThing& p) {
   v.field("centre", p.centre, coordinates("[x, y]", 2, 2));
   v.field("radius", p.radius,
-          {.doc = "Of the outline.", .unit = "m", .max = lengths, .above = 0.0, .required = true});
+          {.doc = "Radius of the outline.", .unit = "m", .max = lengths, .above = 0.0, .required = true});
   describe_presence(v, p.presence);
 }
 
 void describe(ParamVisitor& v, Walker& p) {
   v.field("points", p.points, coordinates("Way points, [x, y] each.", 1));
-  v.field("speed", p.speed, {.doc = "How fast.", .unit = "m/s", .min = 0.0});
+  v.field("speed", p.speed, {.doc = "Speed of the walker.", .unit = "m/s", .min = 0.0});
   v.field("radius", p.radius,
-          {.doc = "Of the legs, as a laser sees them together.", .unit = "m", .max = lengths, .above = 0.0});
+          {.doc = "Radius of the legs, as a laser sees them together.",
+           .unit = "m",
+           .max = lengths,
+           .above = 0.0});
 }
 
 void describe(ParamVisitor& v, UnmappedArea& p) {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "evaluation/results/file_io.hpp"
@@ -47,6 +48,14 @@ Json program_sha256(FileHashes& hashes) {
   return {{"program", hashes.of("/proc/self/exe")},
           {"library", hashes.of(object_of(&revision))},
           {"evaluation", hashes.of(object_of(&sha256_of_file))}};
+}
+
+/// Comments tell what follows from the map; they are no values.
+std::string without_comments(const std::string& yaml) {
+  std::string text;
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) text += line.substr(0, line.find("  # ")) + "\n";
+  return text;
 }
 
 }  // namespace
@@ -96,7 +105,8 @@ Json provenance(const Catalog& catalog, int threads, const std::set<std::filesys
 
 std::optional<std::string> why_other_run(const std::filesystem::path& folder, const std::string& effective,
                                          const std::filesystem::path& experiment_file, FileHashes& hashes) {
-  if (content_of(folder / "effective.yaml") != effective) return "it is of other values (effective.yaml)";
+  if (without_comments(content_of(folder / "effective.yaml")) != without_comments(effective))
+    return "it is of other values (effective.yaml)";
   const auto record = Json::parse(content_of(folder / "provenance.json"), nullptr, false);
   const auto text_at = [&](const char* key) {
     return record.is_object() ? record.value(key, Json()) : Json();

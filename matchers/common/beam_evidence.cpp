@@ -8,18 +8,30 @@ namespace glocal {
 
 void describe(ParamVisitor& v, BeamRule& p) {
   v.field("blocked_weight", p.weight,
-          {.doc = "What the share of beams through occupied cells takes off the quality.", .min = 0.0});
-  v.field(
-      "blocked_cap", p.cap,
-      {.doc =
-           "A larger share counts as this one: a door that was open, or a shelf that has gone, blocks many "
-           "beams at once.",
-       .min = 0.0,
-       .max = 1.0});
-  v.field("beam_scans", p.scans, {.doc = "Latest scans whose beams are looked at.", .min = 1, .max = 1000});
-  v.field("beams", p.beams, {.doc = "Beams of each.", .min = 1, .max = 10000});
+          {.doc = "What the share of beams through occupied cells takes off the score.",
+           .min = 0.0,
+           .audience = Audience::tuner});
+  v.field("blocked_cap", p.cap,
+          {.doc = "Largest share of blocked beams that counts: a door that was open, or a shelf that has "
+                  "gone, blocks many beams at once.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.field("beam_scans", p.scans,
+          {.doc = "Number of the latest scans whose beams are looked at.",
+           .min = 1,
+           .max = 1000,
+           .audience = Audience::expert});
+  v.field("beams", p.beams,
+          {.doc = "Number of beams of each scan that are looked at.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::expert});
   v.field("beam_margin", p.margin,
-          {.doc = "Before its hit a beam may touch occupied cells for this far.", .unit = "m", .min = 0.0});
+          {.doc = "Length of a beam before its hit in which it may touch occupied cells.",
+           .unit = "m",
+           .min = 0.0,
+           .audience = Audience::expert});
 }
 
 void BeamEvidence::add(const LocalMap& local, const Scan& scan) {

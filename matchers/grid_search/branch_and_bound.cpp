@@ -5,9 +5,10 @@
 namespace glocal {
 
 BranchAndBound::BranchAndBound(const Params& params, const StageSetup& setup)
-    : GridMatcher(params, *setup.map, contact_index(*setup.map, "bitset", params.contact_epsilon)),
+    : GridMatcher(params, *setup.map,
+                  contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       threads_(setup.threads),
-      pyramid_(contact_pyramid(*setup.map, params.cell, params.contact_epsilon)) {}
+      pyramid_(contact_pyramid(*setup.map, params.cell, setup.epsilon(params.contact_epsilon))) {}
 
 GridSearchResult BranchAndBound::search(const Points& points, const Pose2& local_from_robot,
                                         const GridSearchRule& rule) const {

@@ -16,8 +16,8 @@ namespace glocal {
 /// has been missed, and each is within 2 candidate_distance and 2 candidate_rotation of a hypothesis at least
 /// as good; up to max_poses (search_grid).
 ///
-/// `points_tested` counts looks at a point, each of which serves 512 neighbouring translations; `proposals` the
-/// poses of the grid whose points were counted.
+/// `points_tested` counts looks at a point, each of which serves 512 neighbouring translations; `proposals`
+/// the poses of the grid whose points were counted.
 class BranchAndBound final : public GridMatcher {
  public:
   using Params = GridMatching;

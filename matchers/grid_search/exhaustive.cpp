@@ -82,10 +82,10 @@ void describe(ParamVisitor& v, Exhaustive::Params& p) {
 
 Exhaustive::Exhaustive(const Params& params, const StageSetup& setup)
     : GridMatcher(params.grid, *setup.map,
-                  contact_index(*setup.map, params.contact, params.grid.contact_epsilon)),
+                  contact_index(*setup.map, params.contact, setup.epsilon(params.grid.contact_epsilon))),
       threads_(setup.threads),
-      frame_(cell_frame(setup.map->points(), params.grid.cell, params.grid.contact_epsilon)),
-      contact_(contact_index(*setup.map, params.contact, params.grid.contact_epsilon)) {}
+      frame_(cell_frame(setup.map->points(), params.grid.cell, setup.epsilon(params.grid.contact_epsilon))),
+      contact_(contact_index(*setup.map, params.contact, setup.epsilon(params.grid.contact_epsilon))) {}
 
 GridSearchResult Exhaustive::search(const Points& points, const Pose2& local_from_robot,
                                     const GridSearchRule& rule) const {

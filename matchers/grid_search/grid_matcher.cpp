@@ -8,34 +8,44 @@ namespace glocal {
 
 void describe(ParamVisitor& v, GridMatching& p) {
   v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
+                  "of the localizer.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("cell", p.cell,
           {.doc = "Translations are multiples of this; at most contact_epsilon.",
            .unit = "m",
            .min = 0.01,
-           .max = 1.0});
-  v.require(p.cell <= p.contact_epsilon, "cell", "must be at most contact_epsilon");
+           .max = 1.0,
+           .audience = Audience::tuner});
+  v.require(!p.contact_epsilon || p.cell <= *p.contact_epsilon, "cell", "must be at most contact_epsilon");
   v.field("min_rotation_step", p.min_rotation_step,
           {.doc = "Rotations differ by what moves the farthest point by one cell, but by this at least.",
            .unit = "rad",
            .min = 0.0001,
            .max = 0.1});
   v.field("max_points", p.max_points,
-          {.doc = "Of more points of the local map a random sample is searched for; 0 takes all.",
+          {.doc = "A local map of more points is searched for by a random sample of so many; 0 takes all.",
            .min = 0,
-           .max = static_cast<double>(TileCounts::most_points)});
+           .max = static_cast<double>(TileCounts::most_points),
+           .audience = Audience::tuner});
   v.field("max_poses", p.max_poses,
-          {.doc = "Poses searched for: the best, one in each cell of candidate_distance (its diagonal) and "
-                  "candidate_rotation. Fewer take less time.",
+          {.doc = "Number of poses searched for: the best, one in each cell of candidate_distance (its "
+                  "diagonal) and candidate_rotation_deg. Fewer take less time.",
            .min = 1,
-           .max = 100000});
+           .max = 100000,
+           .audience = Audience::tuner});
   describe(v, p.candidate);
   v.field("refinement", p.refinement,
-          {.doc = "How poses are refined on the distance field; without iterations they stay on the grid."});
+          {.doc = "How poses are refined on the distance field; without iterations they stay on the grid.",
+           .audience = Audience::expert});
   v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
+          {.doc = "Side of a cell of the distance field.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0,
+           .audience = Audience::expert});
 }
 
 GridMatcher::GridMatcher(const GridMatching& params, const GlobalMap& map,

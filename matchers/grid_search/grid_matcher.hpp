@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "glocal/catalog.hpp"
 #include "glocal/contact.hpp"
@@ -14,7 +15,7 @@ namespace glocal {
 
 /// Which grid of poses is searched, and what becomes of the poses found.
 struct GridMatching {
-  double contact_epsilon = 0.10;
+  std::optional<double> contact_epsilon = {};
   double cell = 0.05;
   double min_rotation_step = 0.005;
   int max_points = 200;

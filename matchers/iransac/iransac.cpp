@@ -81,53 +81,89 @@ struct PairShape {
 
 void describe(ParamVisitor& v, IRansac::Params& p) {
   v.field("features", p.features,
-          {.doc = "Features of the local map that are looked up in a step.", .min = 2, .max = 100000});
+          {.doc = "Features of the local map that are looked up in a step.",
+           .min = 2,
+           .max = 100000,
+           .audience = Audience::tuner});
   v.field("matches", p.matches,
-          {.doc = "Map features taken for each: those most alike.", .min = 1, .max = 10000});
+          {.doc = "Number of map features taken for each local feature: those most alike.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::tuner});
   v.field("lsh", p.lsh,
           {.doc = "Look features up by locality-sensitive hashing, which misses some, instead of comparing "
-                  "them with all."});
-  v.field("hashing", p.hashing, {.doc = "How they are hashed."});
-  v.field("shape_context", p.shape_context, {.doc = "What makes a feature."});
-  v.field("voxel_size", p.voxel_size,
-          {.doc = "Features and what makes them: one point in each square of this side.",
-           .unit = "m",
-           .min = 0.01});
+                  "them with all.",
+           .audience = Audience::tuner});
+  v.field("hashing", p.hashing,
+          {.doc = "How features are hashed where lsh is set.", .audience = Audience::expert});
+  v.field("shape_context", p.shape_context, {.doc = "What makes a feature.", .audience = Audience::expert});
+  v.field(
+      "voxel_size", p.voxel_size,
+      {.doc = "Side of the squares that give one point each, for features and for what features are made of.",
+       .unit = "m",
+       .min = 0.01,
+       .audience = Audience::expert,
+       .formerly = "thinning"});
   v.field("normal_radius", p.normal_radius,
-          {.doc = "Neighbours that give a point's normal.", .unit = "m", .above = 0.0});
-  v.field("draws", p.draws, {.doc = "Pairs of matches drawn in a step.", .min = 0, .max = 100e6});
+          {.doc = "Neighbours that give a point's normal.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("draws", p.draws,
+          {.doc = "Pairs of matches drawn in a step.", .min = 0, .max = 100e6, .audience = Audience::expert});
   v.field("fresh", p.fresh,
-          {.doc = "Of these, the first so many that fit become hypotheses.", .min = 0, .max = 1e6});
+          {.doc = "Number of fitting pairs that become hypotheses: the first ones of a step.",
+           .min = 0,
+           .max = 1e6,
+           .audience = Audience::expert});
   v.field("min_distance", p.min_distance,
           {.doc = "Features nearer to each other give poor headings and are no pair.",
            .unit = "m",
-           .above = 0.0});
-  v.field(
-      "tolerance", p.tolerance,
-      {.doc = "By how much the distances of a pair on both sides may differ.", .unit = "m", .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("tolerance", p.tolerance,
+          {.doc = "By how much the distances of a pair on both sides may differ.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("angle_tolerance_deg", p.angle_tolerance_deg,
-          {.doc = "By how much its normals may.", .unit = "deg", .max = 180.0, .above = 0.0});
+          {.doc = "By how much the normals of a pair may differ on both sides.",
+           .unit = "deg",
+           .max = 180.0,
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("block", p.block,
           {.doc = "Observations after which half of the hypotheses are given up (B of Nister 2003).",
            .min = 1,
-           .max = 100000});
+           .max = 100000,
+           .audience = Audience::expert});
   v.field("pool", p.pool,
-          {.doc = "Hypotheses left by preemption, and carried to the next step.", .min = 1, .max = 100000});
+          {.doc = "Hypotheses left by preemption, and carried to the next step.",
+           .min = 1,
+           .max = 100000,
+           .audience = Audience::expert});
   v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
+                  "of the localizer.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("best", p.best, {.doc = "Distinct poses that become hypotheses.", .min = 1, .max = 10000});
   describe(v, p.candidate);
-  v.field("refinement", p.refinement, {.doc = "How poses are refined on the distance field."});
+  v.field("refinement", p.refinement,
+          {.doc = "How poses are refined on the distance field.", .audience = Audience::expert});
   v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
+          {.doc = "Side of a cell of the distance field.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0,
+           .audience = Audience::expert});
 }
 
 IRansac::IRansac(const Params& params, const StageSetup& setup)
     : params_(params),
       threads_(setup.threads),
-      contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
+      contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       refiner_(params.candidate, static_cast<std::size_t>(params.pool), params.refinement,
                distance_field(*setup.map, params.field_cell), contact_) {
   const auto begin = std::chrono::steady_clock::now();

@@ -47,7 +47,7 @@ class IRansac final : public Matcher {
     double angle_tolerance_deg = 20.0;
     int block = 16;
     int pool = 100;
-    double contact_epsilon = 0.10;
+    std::optional<double> contact_epsilon = {};
     int best = 10;
     CandidateRule candidate = {};
     PoseRefinement refinement = {};

@@ -57,7 +57,7 @@ Mcl::Mcl(const Params& params, const StageSetup& setup)
       is_product_(params.laser_model_type.ends_with("_prob")),
       threads_(setup.threads),
       free_space_(free_space(*setup.map)),
-      contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
+      contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       beam_rule_(beam_rule(params)),
       averages_(params.recovery_alpha_slow, params.recovery_alpha_fast) {
   if (params.laser_model_type.starts_with("beam")) {
@@ -245,27 +245,35 @@ std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan,
 }
 
 void describe(ParamVisitor& v, Mcl::Params& p) {
-  v.field("min_particles", p.min_particles, {.doc = "Particles at least.", .min = 1, .max = 10e6});
+  v.field("min_particles", p.min_particles, {.doc = "Smallest number of particles.", .min = 1, .max = 10e6});
   v.field("max_particles", p.max_particles,
-          {.doc = "Particles at most, and at the start.", .min = 1, .max = 10e6});
+          {.doc = "Largest number of particles, and the number at the start.",
+           .min = 1,
+           .max = 10e6,
+           .audience = Audience::tuner});
   v.require(p.min_particles <= p.max_particles, "min_particles", "must be at most max_particles");
   v.field("pf_err", p.pf_err,
           {.doc = "KLD-sampling: largest error between the particles and what they stand for (epsilon of Fox "
                   "2003).",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("pf_z", p.pf_z,
           {.doc = "KLD-sampling: upper standard normal quantile of the probability that the error is smaller "
                   "(z of Fox 2003; 0.99, AMCL's default, means 84 %).",
-           .min = 0.0});
+           .min = 0.0,
+           .audience = Audience::expert});
   v.field("recovery_alpha_slow", p.recovery_alpha_slow,
-          {.doc = "Rate of the slow average of the mean likelihood, of which new particles depend; 0 adds "
-                  "none. AMCL's manual proposes 0.001.",
+          {.doc = "Rate of the slow average of the mean likelihood. Random particles are added while the "
+                  "fast average is below the slow one; 0 adds none. AMCL's manual proposes 0.001.",
            .min = 0.0,
            .max = 1.0});
   v.field("recovery_alpha_fast", p.recovery_alpha_fast,
-          {.doc = "Rate of the fast one; 0 adds none. AMCL's manual proposes 0.1.", .min = 0.0, .max = 1.0});
+          {.doc = "Rate of the fast average of the mean likelihood; 0 adds no random particles. AMCL's "
+                  "manual proposes 0.1.",
+           .min = 0.0,
+           .max = 1.0});
   v.field("resample_interval", p.resample_interval,
-          {.doc = "Updates between resamplings.", .min = 1, .max = 1000});
+          {.doc = "Updates between resamplings.", .min = 1, .max = 1000, .audience = Audience::expert});
   v.field("update_min_d", p.update_min_d,
           {.doc = "An observation counts if the robot has driven so far since the last one that did; 0 lets "
                   "all count.",
@@ -278,48 +286,70 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
       {.doc = "How likely a scan is: by beams in the occupancy grid, or by how far their ends are from the "
               "map's points. With _prob the likelihoods of its beams are multiplied, without it is 1 and "
               "the sum of their cubes, as in AMCL.",
-       .choices = {"beam", "beam_prob", "likelihood_field", "likelihood_field_prob"}});
+       .choices = {"beam", "beam_prob", "likelihood_field", "likelihood_field_prob"},
+       .audience = Audience::tuner});
   v.field("max_beams", p.max_beams, {.doc = "Beams of a scan that are looked at.", .min = 1, .max = 100000});
   v.field("likelihood_exponent", p.likelihood_exponent,
-          {.doc = "With _prob: the product is raised to this power, since beams err alike (Probabilistic "
-                  "Robotics, Section 6.3.4). Not in AMCL.",
+          {.doc = "For models with _prob: the product of likelihoods is raised to this power, since beams "
+                  "err alike (Probabilistic Robotics, Section 6.3.4). Not in AMCL.",
            .max = 1.0,
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("z_hit", p.z_hit, {.doc = "Weight of beams that meet what the map says.", .min = 0.0, .max = 1.0});
   v.field("z_short", p.z_short,
-          {.doc = "Weight of beams that meet something before it; beam models only, as are z_max and "
-                  "lambda_short.",
+          {.doc = "Weight of beams that meet something before what the map says; for beam models only.",
            .min = 0.0,
            .max = 1.0});
-  v.field("z_max", p.z_max, {.doc = "Weight of beams that meet nothing.", .min = 0.0, .max = 1.0});
+  v.field("z_max", p.z_max,
+          {.doc = "Weight of beams that meet nothing; for beam models only.", .min = 0.0, .max = 1.0});
   v.field("z_rand", p.z_rand,
           {.doc = "Weight of beams that meet anything anywhere.", .max = 1.0, .above = 0.0});
-  v.field(
-      "z_unknown", p.z_unknown,
-      {.doc = "Likelihood fields: a beam that ends in an unknown cell is worth this weight at least, spread "
-              "over laser_max_range; with z_rand and less there, beams into the unknown count as misses. "
-              "Probabilistic Robotics, Section 6.4, has 1; AMCL knows of no unknown cells.",
-       .min = 0.0,
-       .max = 1.0});
-  v.field("sigma_hit", p.sigma_hit, {.doc = "Standard deviation of a hit.", .unit = "m", .above = 0.0});
+  v.field("z_unknown", p.z_unknown,
+          {.doc = "Least weight of a beam that ends in an unknown cell, spread over laser_max_range; for "
+                  "likelihood fields only. With z_rand or less, beams into the unknown count as misses. "
+                  "Probabilistic Robotics, Section 6.4, has 1; AMCL knows of no unknown cells.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.field("sigma_hit", p.sigma_hit,
+          {.doc = "Standard deviation of a hit.", .unit = "m", .above = 0.0, .audience = Audience::tuner});
   v.field("lambda_short", p.lambda_short,
-          {.doc = "Rate at which too short beams get rarer with their range.", .unit = "1/m", .above = 0.0});
-  v.field(
-      "laser_likelihood_max_dist", p.laser_likelihood_max_dist,
-      {.doc = "Larger distances from the map count as this one.", .unit = "m", .max = 20.0, .above = 0.0});
-  v.field("laser_max_range", p.laser_max_range,
-          {.doc = "Range over which z_rand is spread.", .unit = "m", .above = 0.0});
-  v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the likelihood field.", .unit = "m", .min = 0.01, .max = 1.0});
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point of the scan is in contact with the map (epsilon of eq. 4).",
+          {.doc = "Rate at which too short beams get rarer with their range; for beam models only.",
+           .unit = "1/m",
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("laser_likelihood_max_dist", p.laser_likelihood_max_dist,
+          {.doc = "Distance from the map at which the likelihood stops falling.",
            .unit = "m",
-           .above = 0.0});
+           .max = 20.0,
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("laser_max_range", p.laser_max_range,
+          {.doc = "Range of the laser, over which z_rand is spread.", .unit = "m", .above = 0.0});
+  v.field("field_cell", p.field_cell,
+          {.doc = "Side of a cell of the likelihood field.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.field("contact_epsilon", p.contact_epsilon,
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
+                  "of the localizer.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("merge_distance", p.merge_distance,
-          {.doc = "Particles in a cell of this side are one hypothesis …", .unit = "m", .min = 0.001});
+          {.doc = "Particles are one hypothesis if they lie in the same cell of this side and of "
+                  "merge_rotation_deg.",
+           .unit = "m",
+           .min = 0.001,
+           .audience = Audience::expert});
   v.field("merge_rotation", p.merge_rotation, {.doc = "… and of this angle.", .unit = "rad", .min = 0.001});
   v.field("max_hypotheses", p.max_hypotheses,
-          {.doc = "Of more, the heaviest are told.", .min = 1, .max = 1000000});
+          {.doc = "Largest number of hypotheses; the heaviest are kept.",
+           .min = 1,
+           .max = 1000000,
+           .audience = Audience::expert});
 }
 
 }  // namespace glocal

@@ -59,7 +59,7 @@ class Mcl final : public Matcher {
     double laser_likelihood_max_dist = 2.0;
     double laser_max_range = 100.0;
     double field_cell = 0.05;
-    double contact_epsilon = 0.10;
+    std::optional<double> contact_epsilon = {};
     double merge_distance = 0.25;
     double merge_rotation = 0.17;
     int max_hypotheses = 1000;

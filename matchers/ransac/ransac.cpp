@@ -30,37 +30,54 @@ float distance_between(const Point& a, const Point& b) {
 
 void describe(ParamVisitor& v, Ransac::Params& p) {
   v.field("iterations", p.iterations,
-          {.doc = "Samples drawn in a step: two points of each map.", .min = 1, .max = 1e9});
+          {.doc = "Samples drawn in a step: two points of each map.",
+           .min = 1,
+           .max = 1e9,
+           .audience = Audience::tuner});
   v.field("tries", p.tries,
           {.doc = "Times the second point of the map is drawn until it is at the distance of the local two; "
                   "1 is the textbook's.",
            .min = 1,
-           .max = 100000});
+           .max = 100000,
+           .audience = Audience::expert});
   v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
+                  "of the localizer.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("tolerance", p.tolerance,
-          {.doc = "By how much the two distances of a sample may differ.", .unit = "m", .above = 0.0});
+          {.doc = "By how much the two distances of a sample may differ.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::tuner});
   v.field("min_distance", p.min_distance,
           {.doc = "Local points nearer to each other give poor headings and are skipped.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("max_hypotheses", p.max_hypotheses,
-          {.doc = "Where a step has more, those that mean nearly the same pose become one that counts as "
-                  "many.",
-           .min = 100});
-  v.field("refinement_points", p.refinement_points, {.doc = "Points used to refine a pose.", .min = 3});
+          {.doc = "Of more hypotheses than this, those that mean nearly the same pose become one, which "
+                  "counts as many.",
+           .min = 100,
+           .audience = Audience::expert});
+  v.field("refinement_points", p.refinement_points,
+          {.doc = "Points used to refine a pose.", .min = 3, .audience = Audience::expert});
   v.field("refinement", p.refinement,
-          {.doc = "How hypotheses are fitted to all points at the end; not without iterations."});
+          {.doc = "How hypotheses are fitted to all points at the end; not without iterations.",
+           .audience = Audience::expert});
   v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
+          {.doc = "Side of a cell of the distance field.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0,
+           .audience = Audience::expert});
 }
 
 Ransac::Ransac(const Params& params, const StageSetup& setup)
     : params_(params),
       setup_(setup),
-      contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
+      contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       field_(distance_field(*setup.map, params.field_cell)) {}
 
 MatchResult Ransac::match(const LocalMap& local, const Observation& /*latest*/, double omega_max, Rng& rng) {

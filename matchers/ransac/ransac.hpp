@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "glocal/catalog.hpp"
 #include "glocal/contact.hpp"
@@ -29,7 +30,7 @@ class Ransac final : public Matcher {
   struct Params {
     int iterations = 5000000;
     int tries = 1;
-    double contact_epsilon = 0.10;
+    std::optional<double> contact_epsilon = {};
     double tolerance = 0.10;
     double min_distance = 1.0;
     int max_hypotheses = 1000;

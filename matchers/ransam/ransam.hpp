@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,7 @@ class Ransam final : public Matcher {
  public:
   struct Params {
     int iterations = 200000;
-    double contact_epsilon = 0.10;
+    std::optional<double> contact_epsilon = {};
     double relation_cell = 0.10;
     double min_side = 0.3;
     double min_height = 0.1;

@@ -54,11 +54,12 @@ void describe(ParamVisitor& v, OctomapMap::Params& p) {
   v.field("path", p.path, {.doc = "A .bt or .ot file of OctoMap.", .required = true});
   v.field("min_height", p.min_height,
           {.doc = "Voxels whose centre is lower are left out.", .unit = "m", .min = -1000.0, .max = 1000.0});
-  v.field("max_height", p.max_height,
-          {.doc = "So are those whose centre is higher: a planar laser sees a band around its own height.",
-           .unit = "m",
-           .min = -1000.0,
-           .max = 1000.0});
+  v.field(
+      "max_height", p.max_height,
+      {.doc = "Voxels whose centre is higher are left out: a planar laser sees a band around its own height.",
+       .unit = "m",
+       .min = -1000.0,
+       .max = 1000.0});
   v.require(p.min_height < p.max_height, "max_height", "must be above min_height");
   v.field("occupied_above", p.occupied_above,
           {.doc = "Probability above which a voxel is occupied; .bt files know only yes and no.",
@@ -71,12 +72,13 @@ void describe(ParamVisitor& v, OctomapMap::Params& p) {
   v.field("points", p.points,
           {.doc = "Points of the map: the plan's occupied cells, or every occupied voxel in space.",
            .choices = {"plan", "space"}});
-  v.field("map_from_tree", p.map_from_tree,
-          {.doc = "Pose of the tree's frame in the map's: x, y (m), yaw (rad).",
+  v.field("tree_pose", p.tree_pose,
+          {.doc = "Pose of the tree's frame in the map's: x, y (m), yaw (deg).",
            .min = -1e6,
            .max = 1e6,
            .min_items = 3,
-           .max_items = 3});
+           .max_items = 3,
+           .formerly = "map_from_tree"});
 }
 
 OctomapMap::OctomapMap(const Params& params, const SourceSetup& setup) : params_(params) {
@@ -95,8 +97,8 @@ MapData OctomapMap::load() {
 
   MapData map;
   OccupancyGrid& grid = map.grid;
-  const Pose2 map_from_tree{params_.map_from_tree[0], params_.map_from_tree[1],
-                            wrap_angle(params_.map_from_tree[2])};
+  const Pose2 map_from_tree{params_.tree_pose[0], params_.tree_pose[1],
+                            wrap_angle(radians(params_.tree_pose[2]))};
   const double side = tree->getResolution();
   const auto corner = [&](int key) {
     return tree->keyToCoord(static_cast<octomap::key_type>(key)) - side / 2.0;

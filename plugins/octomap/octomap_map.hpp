@@ -20,7 +20,7 @@ class OctomapMap final : public MapSource {
     double occupied_above = 0.5;
     int min_voxels = 1;
     std::string points = "plan";
-    std::vector<double> map_from_tree = {0.0, 0.0, 0.0};
+    std::vector<double> tree_pose = {0.0, 0.0, 0.0};
   };
 
   OctomapMap(const Params& params, const SourceSetup& setup);

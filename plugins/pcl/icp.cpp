@@ -51,9 +51,11 @@ void describe(ParamVisitor& v, PclIcp::Params& p) {
           {.doc = "Poses that go on to the fine level: those with the most contact.", .min = 1});
   v.field("fine", p.fine, {.doc = "ICP from what the coarse level found."});
   v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
+                  "of the localizer.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
 }
 
 IcpAligner::IcpAligner(const Points& map_points) : map_(cloud(map_points)), tree_(std::make_shared<Tree>()) {
@@ -99,7 +101,7 @@ PclIcp::PclIcp(const Params& params, const StageSetup& setup)
     : params_(params),
       threads_(setup.threads),
       map_from_robot_starts_(starts_on(setup.map->grid(), params.start_spacing, params.start_headings)),
-      contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
+      contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       aligner_(setup.map->points()) {
   if (!map_from_robot_starts_.empty()) return;
   throw ConfigError(

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "clouds.hpp"
@@ -53,7 +54,7 @@ class PclIcp final : public Matcher {
     IcpParams coarse{.points = 100, .iterations = 10, .max_distance = 2.0};
     int keep = 30;
     IcpParams fine{.points = 500, .iterations = 30, .max_distance = 0.5};
-    double contact_epsilon = 0.10;
+    std::optional<double> contact_epsilon = {};
   };
 
   /// Throws ConfigError if no start has free space in the map.

@@ -54,13 +54,15 @@ std::shared_ptr<PclPrerejective::Features> features(const Cloud::Ptr& points,
 
 void describe(ParamVisitor& v, PclPrerejective::Params& p) {
   v.field("runs", p.runs, {.doc = "Independent searches in a step; each gives one pose at most.", .min = 1});
-  v.field("iterations", p.iterations, {.doc = "Triples drawn in each.", .min = 1});
+  v.field("iterations", p.iterations,
+          {.doc = "Triples drawn in each search.", .min = 1, .audience = Audience::tuner});
   v.field("normal_radius", p.normal_radius,
           {.doc = "Neighbourhood that gives a point's normal.", .unit = "m", .above = 0.0});
   v.field("feature_radius", p.feature_radius,
           {.doc = "Neighbourhood that gives a point's feature; must be larger.", .unit = "m", .above = 0.0});
-  v.field("candidates", p.candidates,
-          {.doc = "A point's partner is drawn from so many with the nearest features.", .min = 1});
+  v.field(
+      "candidates", p.candidates,
+      {.doc = "Number of points with the nearest features from which a point's partner is drawn.", .min = 1});
   v.field("similarity", p.similarity,
           {.doc = "Triples whose sides are less alike (shorter by longer one) are rejected.",
            .min = 0.0,
@@ -71,9 +73,11 @@ void describe(ParamVisitor& v, PclPrerejective::Params& p) {
           {.doc = "Share of inliers a pose needs.", .min = 0.0, .max = 1.0});
   v.field("refinement", p.refinement, {.doc = "ICP from the poses found."});
   v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
+                  "of the localizer.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.require(p.feature_radius > p.normal_radius, "feature_radius", "must be above normal_radius");
 }
 
@@ -81,7 +85,7 @@ PclPrerejective::PclPrerejective(const Params& params, const StageSetup& setup)
     : params_(params),
       map_(cloud(setup.map->points())),
       map_features_(features(map_, params)),
-      contact_(contact_index(*setup.map, "bitset", params.contact_epsilon)),
+      contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       aligner_(setup.map->points()) {}
 
 MatchResult PclPrerejective::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,

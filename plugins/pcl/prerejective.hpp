@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "clouds.hpp"
 #include "glocal/catalog.hpp"
@@ -31,7 +32,7 @@ class PclPrerejective final : public Matcher {
     double inlier_distance = 0.20;
     double inlier_fraction = 0.3;
     IcpParams refinement{.points = 500, .iterations = 20, .max_distance = 0.5};
-    double contact_epsilon = 0.10;
+    std::optional<double> contact_epsilon = {};
   };
   using Features = pcl::PointCloud<pcl::FPFHSignature33>;
 

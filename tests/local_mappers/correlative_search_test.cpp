@@ -41,8 +41,11 @@ class CorrelativeSearch : public ::testing::Test {
   Rng rng{1};
   Points hits = test::scan_from(test::furnished_room(), {2, 2, 0.3}, {.beams = 181}, rng).hits;
   PointGrid grid = grid_of(hits);
-  CorrelativeSearchParams params{
-      .translation = 0.1, .rotation = 0.15, .rotation_step = 0.0175, .points = 200, .odometry_penalty = 0.0};
+  CorrelativeSearchParams params{.translation = 0.1,
+                                 .rotation_deg = 9.0,
+                                 .rotation_step_deg = 1.0,
+                                 .points = 200,
+                                 .odometry_penalty = 0.0};
 };
 
 TEST_F(CorrelativeSearch, FindsAScanInItself) {
@@ -82,7 +85,7 @@ TEST_F(CorrelativeSearch, ThePenaltyHoldsOdometryWhereHitsSayNothing) {
 
 TEST_F(CorrelativeSearch, WithoutARangeItOnlyRates) {
   params.translation = 0.0;
-  params.rotation = 0.0;
+  params.rotation_deg = 0.0;
   const Pose2 predicted{0.07, -0.08, 0.06};
   const SearchResult found = correlative_search(grid, hits, predicted, params);
   EXPECT_EQ(found.local_from_robot, predicted);

@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 // With so few hits odometry is kept.
 
 TEST(Keyframes, RegistersWhenTheRobotHasMovedFarEnough) {
-  Keyframes mapper({.distance = 0.5, .angle = 1.0, .overlap = 0.0});
+  Keyframes mapper({.distance = 0.5, .angle_deg = 60.0, .overlap = 0.0});
   // Each hit is new; keyframes are at 0, 0.6 and 1.1 m.
   for (const double x : {0.0, 0.3, 0.4, 0.6, 1.0, 1.1}) mapper.add(at(x, {{1.01F, 0.01F, 0}}));
   EXPECT_THAT(mapper.map().ends, ElementsAre(1U, 1U, 1U, 2U, 2U, 3U));
@@ -25,7 +25,7 @@ TEST(Keyframes, RegistersWhenTheRobotHasMovedFarEnough) {
 }
 
 TEST(Keyframes, RegistersWhenTheRobotHasTurnedEnough) {
-  Keyframes mapper({.distance = 10.0, .angle = 0.35, .overlap = 0.0});
+  Keyframes mapper({.distance = 10.0, .angle_deg = 20.0, .overlap = 0.0});
   for (const double theta : {0.0, 0.2, 0.34, -0.34, -0.4, -0.1, 0.0}) {
     Observation observation = at(0.0, {{2.01F, 0.01F, 0}});
     observation.odom_from_robot.theta = theta;
@@ -35,7 +35,7 @@ TEST(Keyframes, RegistersWhenTheRobotHasTurnedEnough) {
 }
 
 TEST(Keyframes, RegistersWhatTheMapDoesNotShow) {
-  Keyframes mapper({.distance = 10.0, .angle = 3.0, .overlap = 0.5, .overlap_distance = 0.1});
+  Keyframes mapper({.distance = 10.0, .angle_deg = 170.0, .overlap = 0.5, .overlap_distance = 0.1});
   mapper.add(at(0.0, {{1, 0, 0}, {1, 1, 0}, {1, 2, 0}, {1, 3, 0}}));
   // Two of four within 10 cm of a point, one 15 cm away, one far from all: just enough.
   mapper.add(at(0.0, {{1.08F, 0, 0}, {1, 1.08F, 0}, {1, 2.15F, 0}, {5, 5, 0}}));
@@ -74,7 +74,7 @@ TEST(Keyframes, FollowsTheRobotWithAThirdOfTheScans) {
 }
 
 TEST(Keyframes, TheFirstOneOfANewMapIsOne) {
-  Keyframes mapper({.distance = 100.0, .angle = 3.0, .overlap = 0.0});
+  Keyframes mapper({.distance = 100.0, .angle_deg = 170.0, .overlap = 0.0});
   for (const Observation& observation : test::kidnapping().observations) mapper.add(observation);
   EXPECT_EQ(mapper.map().epoch, 1);
   ASSERT_EQ(mapper.map().ends.size(), 3U);

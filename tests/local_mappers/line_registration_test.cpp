@@ -59,7 +59,7 @@ TEST(LineRegistration, MatchesNeedTheGateAndTheNormals) {
   ASSERT_TRUE(world.grid.insert(world.grid.cell(2.0F, 0.0F), 0));
   Points hits;
   hits.push_back({2.2F, 0.0F, 0.0F});
-  const LineRegistrationParams params{.gate = 0.25, .max_normal_angle = radians(60)};
+  const LineRegistrationParams params{.gate = 0.25, .max_normal_angle_deg = 60.0};
   const auto matches = [&](double normal_angle, double robot_x) {
     Points normals;
     normals.push_back(

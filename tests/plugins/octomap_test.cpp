@@ -96,7 +96,7 @@ TEST_F(Octomap, ALargeLeafIsTakenApart) {
 }
 
 TEST_F(Octomap, TheTreeCanLieAnywhereInTheMap) {
-  const MapData map = load(bt_file({{.x = 32778}}, 0.1), "map_from_tree: [2.0, 3.0, 1.5707963267948966]\n");
+  const MapData map = load(bt_file({{.x = 32778}}, 0.1), "tree_pose: [2.0, 3.0, 90.0]\n");
   // (1.05, 0.05), turned to (-0.05, 1.05).
   EXPECT_NEAR(map.points.x[0], 1.95, 1e-5);
   EXPECT_NEAR(map.points.y[0], 4.05, 1e-5);

@@ -128,7 +128,7 @@ TEST(CarmenLog, PlacesTheLaserOnTheRobotAndCorrectsItsYaw) {
   EXPECT_NEAR(scan.hits[0].y, -1.0, 1e-6);
   EXPECT_NEAR(scan.hits[1].x, 3.5, 1e-6);
   EXPECT_NEAR(scan.hits[1].y, 0.0, 1e-6);
-  params.laser_yaw = half_pi;
+  params.laser_yaw_deg = 90.0;
   scan = read_all(params).front().observation.scan;
   EXPECT_NEAR(scan.hits[0].x, 1.5, 1e-6);
   EXPECT_NEAR(scan.hits[0].y, 0.0, 1e-6);

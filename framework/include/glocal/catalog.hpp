@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "glocal/contact.hpp"
@@ -29,8 +30,14 @@ struct SourceSetup {
 struct StageSetup {
   std::shared_ptr<const GlobalMap> map;
   int threads = 1;
+  double contact_epsilon = 0.10;  ///< m; said once for all stages.
   /// To be called with every file read while the stage is made, for the record of a run's inputs.
   std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
+
+  /// The epsilon of eq. 4 (m) for a stage that may have one of its own.
+  [[nodiscard]] double epsilon(const std::optional<double>& own) const {
+    return own.value_or(contact_epsilon);
+  }
 };
 
 struct Catalog {

@@ -89,5 +89,8 @@ struct Variant {
 
 /// The experiment as YAML with every value, defaulted or not; reading it again gives the same experiment.
 [[nodiscard]] std::string effective_yaml(Experiment& experiment, const Catalog& catalog);
+/// The same with comments on what follows from the map.
+[[nodiscard]] std::string effective_yaml(Experiment& experiment, const Catalog& catalog,
+                                         const GlobalMap& map);
 
 }  // namespace glocal

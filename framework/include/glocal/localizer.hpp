@@ -13,6 +13,8 @@ namespace glocal {
 
 /// Which strategy does each stage. Defaults are the paper's method.
 struct LocalizerConfig {
+  /// m; epsilon of eq. 4 for all stages without one of their own. None: twice the map's resolution.
+  std::optional<double> contact_epsilon = {};
   StrategyChoice local_mapper;
   StrategyChoice matcher;
   StrategyChoice clusterer;
@@ -22,12 +24,16 @@ struct LocalizerConfig {
   UnknownPlaceParams unknown_place;
 };
 
+/// The epsilon of eq. 4 (m) that the localizer's stages take on this map: as configured, or else twice the
+/// side of the map's cells.
+[[nodiscard]] double contact_epsilon_on(const GlobalMap& map, const LocalizerConfig& config);
+
 /// Finds out where a robot is, one observation after the other.
 class Localizer {
  public:
-  /// `seed` fixes all random numbers; throws ConfigError where a strategy cannot work with this map.
-  Localizer(const LocalizerConfig& config, const Catalog& catalog, const StageSetup& setup,
-            std::uint64_t seed);
+  /// `seed` fixes all random numbers; contact_epsilon of the setup is overruled by that of `config`; throws
+  /// ConfigError where a strategy cannot work with this map.
+  Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup, std::uint64_t seed);
 
   [[nodiscard]] StepResult step(const Observation& observation);
 

@@ -14,13 +14,14 @@ namespace glocal {
 struct UnknownPlaceParams {
   int window = 10;
   double max_contact = 0.2;
-  double contact_epsilon = 0.1;
+  std::optional<double> contact_epsilon = {};
 };
 void describe(ParamVisitor& v, UnknownPlaceParams& p);
 
 class UnknownPlaceMonitor {
  public:
-  UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map);
+  /// `contact_epsilon` (m) is that of the localizer, for parameters without one.
+  UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map, double contact_epsilon);
 
   /// Omega' of eq. 10: the mean, over the last `window` observations that registered points, of the share of
   /// these points in contact with the map under the best hypothesis. A step without hypotheses is judged by

@@ -1,5 +1,7 @@
 #include "glocal/experiment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -25,6 +27,13 @@ struct LocalizerSection {
 
 void describe(ParamVisitor& v, LocalizerSection& s) {
   LocalizerConfig& c = *s.config;
+  v.field(
+      "contact_epsilon", c.contact_epsilon,
+      {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4), for all stages that "
+              "have none of their own; auto is twice the map's resolution.",
+       .unit = "m",
+       .above = 0.0,
+       .audience = Audience::tuner});
   v.strategy("local_mapper", c.local_mapper, s.catalog->local_mappers,
              {.doc = "Joins scans into the local map."});
   v.strategy("matcher", c.matcher, s.catalog->matchers,
@@ -250,6 +259,18 @@ std::string effective_yaml(Experiment& experiment, const Catalog& catalog) {
   ExperimentParams params(experiment, catalog);
   return "# Every value of the experiment, defaulted or not: running this file gives the same results.\n" +
          write_yaml(params);
+}
+
+std::string effective_yaml(Experiment& experiment, const Catalog& catalog, const GlobalMap& map) {
+  std::string text = effective_yaml(experiment, catalog);
+  // That of the localizer: no other key of this name is indented so little.
+  constexpr std::string_view automatic = "\n  contact_epsilon: auto";
+  const std::size_t at = text.find(automatic);
+  if (at != std::string::npos) {
+    text.insert(at + automatic.size(), fmt::format("  # {:.3g} m here, twice the map's resolution",
+                                                   contact_epsilon_on(map, experiment.localizer)));
+  }
+  return text;
 }
 
 }  // namespace glocal

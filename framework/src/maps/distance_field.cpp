@@ -130,9 +130,10 @@ void describe(ParamVisitor& v, PoseUncertainty& p) {
   v.field("point_deviation", p.point_deviation,
           {.doc = "Deviation of a point from the map, at least.", .unit = "m", .above = 0.0});
   v.field("correlated_points", p.correlated_points,
-          {.doc = "So many points err alike, and count as one.", .min = 1.0});
+          {.doc = "Number of neighbouring points that err alike, and so count as one.", .min = 1.0});
   v.field("drift", p.drift, {.doc = "Deviation of the robot in its local map.", .unit = "m", .min = 0.0});
-  v.field("drift_deg", p.drift_deg, {.doc = "The same of its heading.", .unit = "deg", .min = 0.0});
+  v.field("drift_deg", p.drift_deg,
+          {.doc = "Deviation of the robot's heading in its local map.", .unit = "deg", .min = 0.0});
 }
 
 }  // namespace glocal

@@ -39,17 +39,24 @@ void sort_by_rating(std::vector<Cluster>& clusters, std::vector<Rating>& ratings
 
 }  // namespace
 
-Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, const StageSetup& setup,
+double contact_epsilon_on(const GlobalMap& map, const LocalizerConfig& config) {
+  const double resolution = map.grid().resolution;
+  return config.contact_epsilon.value_or(resolution > 0.0 ? 2.0 * resolution : StageSetup{}.contact_epsilon);
+}
+
+Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup,
                      std::uint64_t seed)
-    : local_mapper_(catalog.local_mappers.make(config.local_mapper, setup)),
-      matcher_(catalog.matchers.make(config.matcher, setup)),
-      clusterer_(catalog.clusterers.make(config.clusterer, setup)),
-      rater_(catalog.raters.make(config.rater, setup)),
-      threshold_policy_(catalog.threshold_policies.make(config.threshold_policy, setup)),
-      verdict_rule_(catalog.verdict_rules.make(config.verdict_rule, setup)),
-      unknown_place_(config.unknown_place, *setup.map),
+    : unknown_place_(config.unknown_place, *setup.map, contact_epsilon_on(*setup.map, config)),
       seed_(seed),
-      trial_(seed_.stream({0})) {}
+      trial_(seed_.stream({0})) {
+  setup.contact_epsilon = contact_epsilon_on(*setup.map, config);
+  local_mapper_ = catalog.local_mappers.make(config.local_mapper, setup);
+  matcher_ = catalog.matchers.make(config.matcher, setup);
+  clusterer_ = catalog.clusterers.make(config.clusterer, setup);
+  rater_ = catalog.raters.make(config.rater, setup);
+  threshold_policy_ = catalog.threshold_policies.make(config.threshold_policy, setup);
+  verdict_rule_ = catalog.verdict_rules.make(config.verdict_rule, setup);
+}
 
 StepResult Localizer::step(const Observation& observation) {
   StepResult result;

@@ -3,17 +3,27 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, UnknownPlaceParams& p) {
-  v.field("window", p.window, {.doc = "Observations averaged (tau' in eq. 10).", .min = 1});
+  v.field("window", p.window,
+          {.doc = "Number of observations that are averaged (tau' in eq. 10).",
+           .min = 1,
+           .audience = Audience::expert});
   v.field("max_contact", p.max_contact,
           {.doc = "The verdict is unknown_place while Omega' (eq. 10) is below this; 0 switches it off.",
            .min = 0.0,
-           .max = 1.0});
+           .max = 1.0,
+           .audience = Audience::tuner});
   v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map.", .unit = "m", .above = 0.0});
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
+                  "of the localizer.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::expert});
 }
 
-UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map)
-    : params_(params), contact_(contact_index(map, "bitset", params.contact_epsilon)) {}
+UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map,
+                                         double contact_epsilon)
+    : params_(params),
+      contact_(contact_index(map, "bitset", params.contact_epsilon.value_or(contact_epsilon))) {}
 
 std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
                                                   const std::vector<Hypothesis>& hypotheses) {

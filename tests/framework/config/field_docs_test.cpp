@@ -40,6 +40,32 @@ A map from nowhere.
             "indexed (matcher, from glocal)\nMatches nothing, faster.\n\n  No parameters.\n");
 }
 
+TEST_F(FieldDocs, WhatToTuneComesFirstAndWhatIsForExpertsLast) {
+  EXPECT_EQ(help("ransam", catalog_).value_or(""), R"(ransam (matcher, from glocal)
+Matches nothing.
+
+  Tune first: iterations.
+
+  iterations: whole number (>= 1), default 200000
+      Draws on each side.
+  contact_epsilon: number (> 0 m), default 0.1
+      Distance in contact.
+
+  For experts:
+
+  patience: number or auto (> 0 s), default auto
+      How long it waits.
+)");
+  EXPECT_THAT(parameter_reference(catalog_),
+              HasSubstr("Tune first: `iterations`.\n\n"
+                        "| key | type | default | allowed | meaning |\n|---|---|---|---|---|\n"
+                        "| `iterations` | whole number | `200000` | >= 1 | Draws on each side. |\n"
+                        "| `contact_epsilon` | number | `0.1` | > 0 m | Distance in contact. |\n\n"
+                        "For experts:\n\n"
+                        "| key | type | default | allowed | meaning |\n|---|---|---|---|---|\n"
+                        "| `patience` | number or auto | `auto` | > 0 s | How long it waits. |\n"));
+}
+
 TEST_F(FieldDocs, HelpTellsRulesChoicesAndUnsignedBounds) {
   const std::string text = help("toy_drive", catalog_).value_or("");
   EXPECT_THAT(text, HasSubstr("  mode: text (fast, slow), default \"fast\"\n"));

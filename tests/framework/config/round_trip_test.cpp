@@ -130,11 +130,13 @@ trials:
   min_steps: 1
   within_map_m: 0
 localizer:
+  contact_epsilon: auto
   local_mapper: scan_matching
   matcher:
     ransam:
       iterations: 200000
       contact_epsilon: 0.1
+      patience: auto
   clusterer: hierarchical_kmeans
   rater: cluster_rating
   threshold_policy: sliding_window
@@ -148,6 +150,24 @@ localizer:
   EXPECT_THAT(written,
               testing::EndsWith("evaluation:\n  max_translation_error: 0.5\n  max_rotation_error_deg: 10\n"
                                 "output:\n  steps: true\n  clusters: 50\n  maps: first_trial\n"));
+}
+
+TEST_F(RoundTrip, WhatFollowsFromTheMapIsAComment) {
+  const std::string given =
+      "schema: 1\nname: toy\nmap: {toy_map: {path: map.txt}}\nobservations: toy_drive\n"
+      "trials: {whole: true}\n";
+  Experiment e = read("e.yaml", given);
+  MapData data;
+  data.grid.resolution = 0.03;
+  const GlobalMap map(std::move(data));
+  const std::string written = effective_yaml(e, catalog_, map);
+  EXPECT_THAT(written,
+              testing::HasSubstr("\nlocalizer:\n  contact_epsilon: auto  # 0.06 m here, twice the map's "
+                                 "resolution\n  local_mapper: scan_matching\n"));
+  Experiment again = read("again.yaml", written);
+  EXPECT_EQ(effective_yaml(again, catalog_), effective_yaml(e, catalog_));
+  e.localizer.contact_epsilon = 0.05;
+  EXPECT_EQ(effective_yaml(e, catalog_, map), effective_yaml(e, catalog_));
 }
 
 TEST_F(RoundTrip, ListItemsOfStructsAreBlocks) {

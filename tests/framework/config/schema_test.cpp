@@ -34,6 +34,9 @@ class Validator {
     if (key == "const") return value == rule;
     if (key == "enum") return std::find(rule.begin(), rule.end(), value) != rule.end();
     if (key == "not") return !accepts(rule, value);
+    if (key == "anyOf") {
+      return std::any_of(rule.begin(), rule.end(), [&](const Json& form) { return accepts(form, value); });
+    }
     if (key == "oneOf") {
       return std::count_if(rule.begin(), rule.end(),
                            [&](const Json& form) { return accepts(form, value); }) == 1;
@@ -122,6 +125,8 @@ TEST_F(SchemaTest, AcceptsWhatTheReaderAccepts) {
   EXPECT_TRUE(accepts("/localizer/matcher", "indexed"));
   EXPECT_TRUE(accepts("/localizer/matcher", {{"indexed", nullptr}}));
   EXPECT_TRUE(accepts("/localizer/matcher", {{"ransam", Json::object()}}));
+  EXPECT_TRUE(accepts("/localizer/matcher", {{"ransam", {{"patience", "auto"}}}}));
+  EXPECT_TRUE(accepts("/localizer/matcher", {{"ransam", {{"patience", 2.5}}}}));
   EXPECT_TRUE(accepts("/map/toy_map/segments", Json::parse("[[0, 0.5], [0.7, 1]]")));
   EXPECT_TRUE(accepts("/map/toy_map/walls", Json::parse("[{}, {\"height\": 2}]")));
   EXPECT_TRUE(accepts("/seed", 18446744073709551615ULL));
@@ -147,6 +152,8 @@ TEST_F(SchemaTest, RefusesWhatTheReaderRefuses) {
   EXPECT_FALSE(accepts("/map/toy_map/segments", Json::parse("[[0]]")));
   EXPECT_FALSE(accepts("/map/toy_map/walls", Json::parse("[{}, {}, {}, {}]")));
   EXPECT_FALSE(accepts("/map/toy_map/walls", Json::parse("[{\"heigth\": 1}]")));
+  EXPECT_FALSE(accepts("/localizer/matcher", {{"ransam", {{"patience", "soon"}}}}));
+  EXPECT_FALSE(accepts("/localizer/matcher", {{"ransam", {{"patience", 0}}}}));
   EXPECT_FALSE(accepts("/localizer/matcher", "ransac"));
   EXPECT_FALSE(accepts("/localizer/matcher", {{"ransam", {{"iteration", 5}}}}));
   EXPECT_FALSE(accepts("/localizer/matcher", {{"ransam", nullptr}, {"indexed", nullptr}}));

@@ -95,7 +95,8 @@ void describe(ParamVisitor& v, ToyDrive::Params& p) {
   v.field("max_range", p.max_range, {.doc = "Farthest reading.", .unit = "m", .min = 0.0});
   v.require(p.min_range < p.max_range, "min_range", "must be less than max_range");
   v.field("label", p.label, {.doc = "Any text."});
-  v.field("mode", p.mode, {.doc = "How to drive.", .choices = {"fast", "slow"}});
+  v.field("mode", p.mode,
+          {.doc = "How to drive.", .choices = {"fast", "slow"}, .former_choices = {{"crawling", "slow"}}});
   v.field("loop", p.loop, {.doc = "Whether to start again."});
   v.field("salt", p.salt, {.doc = "Added to the seed."});
   v.field("tags", p.tags, {.doc = "Words."});
@@ -106,8 +107,16 @@ void describe(ParamVisitor& v, ToyDrive::Params& p) {
 }
 
 void describe(ParamVisitor& v, ToyMatcher::Params& p) {
-  v.field("iterations", p.iterations, {.doc = "Draws on each side.", .min = 1.0});
+  v.field("iterations", p.iterations,
+          {.doc = "Draws on each side.", .min = 1.0, .audience = Audience::tuner});
   v.field("contact_epsilon", p.contact_epsilon, {.doc = "Distance in contact.", .unit = "m", .above = 0.0});
+  v.field("patience", p.patience,
+          {.doc = "How long it waits.",
+           .unit = "s",
+           .above = 0.0,
+           .audience = Audience::expert,
+           .formerly = "temper"});
+  v.removed("luck", "there is none; raise iterations");
 }
 
 void register_toys(Catalog& c) {
@@ -116,6 +125,7 @@ void register_toys(Catalog& c) {
   c.local_mappers.add<ToyMapper>("scan_matching", "Joins nothing.");
   c.matchers.add<ToyMatcher>("ransam", "Matches nothing.");
   c.matchers.add<ToyIndexed>("indexed", "Matches nothing, faster.");
+  c.matchers.note_renamed("ransack", "ransam");
   c.clusterers.add<ToyClusterer>("hierarchical_kmeans", "Groups nothing.");
   c.raters.add<ToyRater>("cluster_rating", "Rates nothing.");
   c.threshold_policies.add<ToyPolicy>("sliding_window", "Asks for one half.");

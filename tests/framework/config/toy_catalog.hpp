@@ -58,6 +58,7 @@ struct ToyMatcher final : Matcher {
   struct Params {
     int iterations = 200000;
     double contact_epsilon = 0.1;
+    std::optional<double> patience = {};
   };
   explicit ToyMatcher(const Params& params);
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,

@@ -143,7 +143,14 @@ inline LocalizerConfig follow(const std::shared_ptr<Script>& script) {
     params->value.script = script;
     return StrategyChoice{"fake", std::move(params)};
   };
-  return {stage(), stage(), stage(), stage(), stage(), stage(), {.max_contact = 0.0}};
+  return {.contact_epsilon = {},
+          .local_mapper = stage(),
+          .matcher = stage(),
+          .clusterer = stage(),
+          .rater = stage(),
+          .threshold_policy = stage(),
+          .verdict_rule = stage(),
+          .unknown_place = {.max_contact = 0.0}};
 }
 
 /// A map with one point, at the origin, and no grid.

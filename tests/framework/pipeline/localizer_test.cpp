@@ -201,5 +201,38 @@ TEST_F(LocalizerTest, ATrialDrawsTheSameNumbersWheneverItRuns) {
   EXPECT_EQ(draws(other, 2), fifth);
 }
 
+/// Writes down the contact_epsilon that it is made with.
+class EpsilonWitness final : public Clusterer {
+ public:
+  struct Params {
+    std::shared_ptr<double> seen;
+  };
+  EpsilonWitness(const Params& params, const StageSetup& setup) { *params.seen = setup.contact_epsilon; }
+  [[nodiscard]] std::vector<Cluster> cluster(const std::vector<Hypothesis>& /*hypotheses*/,
+                                             Rng& /*rng*/) override {
+    return {};
+  }
+};
+void describe(ParamVisitor& /*v*/, EpsilonWitness::Params& /*p*/) {}
+
+TEST_F(LocalizerTest, ContactEpsilonIsSaidOnceOrFollowsFromTheMap) {
+  const auto seen = std::make_shared<double>(0.0);
+  catalog_.clusterers.add<EpsilonWitness>("witness", "Writes down what it is made with.", {seen});
+  LocalizerConfig config = follow(script_);
+  config.clusterer = catalog_.clusterers.choose("witness");
+  const auto epsilon_on = [&](double resolution) {
+    MapData data;
+    data.points.push_back({0.0F, 0.0F, 0.0F});
+    data.grid.resolution = resolution;
+    const Localizer made(config, catalog_, {std::make_shared<const GlobalMap>(std::move(data)), 1}, 1);
+    return *seen;
+  };
+  EXPECT_DOUBLE_EQ(epsilon_on(0.05), 0.10);
+  EXPECT_DOUBLE_EQ(epsilon_on(0.02), 0.04);
+  EXPECT_DOUBLE_EQ(epsilon_on(0.0), 0.10);  // a map without a grid
+  config.contact_epsilon = 0.25;
+  EXPECT_DOUBLE_EQ(epsilon_on(0.05), 0.25);
+}
+
 }  // namespace
 }  // namespace glocal::test::localizer_test

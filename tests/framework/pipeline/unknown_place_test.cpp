@@ -30,7 +30,7 @@ LocalMap observed(const std::vector<std::vector<Point>>& observations) {
 }
 
 double omega_place(int window, const LocalMap& local) {
-  UnknownPlaceMonitor monitor({.window = window, .contact_epsilon = 0.1}, four_points());
+  UnknownPlaceMonitor monitor({.window = window, .contact_epsilon = 0.1}, four_points(), 1.0);
   return monitor.update(local, {{pose, {}, 0.9}}).value_or(-1.0);
 }
 
@@ -55,7 +55,7 @@ TEST(UnknownPlace, ObservationsWithoutPointsDoNotCount) {
 
 TEST(UnknownPlace, IsJudgedByTheBestHypothesis) {
   const GlobalMap map = four_points();
-  UnknownPlaceMonitor monitor({}, map);
+  UnknownPlaceMonitor monitor({}, map, 0.1);
   const LocalMap local = observed({{{0.0F, 0.0F, 0.0F}, {0.0F, 3.0F, 0.0F}}});
   // Turned by a quarter both points are met, unturned one of them is.
   EXPECT_EQ(monitor.update(local, {{pose, {}, 0.9}, {{}, {}, 0.9}}), 1.0);
@@ -64,7 +64,7 @@ TEST(UnknownPlace, IsJudgedByTheBestHypothesis) {
 
 TEST(UnknownPlace, AStepWithoutHypothesesIsJudgedByTheLastBest) {
   const GlobalMap map = four_points();
-  UnknownPlaceMonitor monitor({}, map);
+  UnknownPlaceMonitor monitor({}, map, 0.1);
   EXPECT_EQ(monitor.update(observed({{on}}), {}), std::nullopt);
   EXPECT_EQ(monitor.update(observed({{on}}), {{pose, {}, 0.9}}), 1.0);
   EXPECT_EQ(monitor.update(observed({{on}, {off}}), {}), 0.5);
@@ -73,7 +73,7 @@ TEST(UnknownPlace, AStepWithoutHypothesesIsJudgedByTheLastBest) {
 
 TEST(UnknownPlace, APoseInTheFrameOfAnEarlierLocalMapMeansNothing) {
   const GlobalMap map = four_points();
-  UnknownPlaceMonitor monitor({}, map);
+  UnknownPlaceMonitor monitor({}, map, 0.1);
   LocalMap local = observed({{on}});
   EXPECT_EQ(monitor.update(local, {{pose, {}, 0.9}}), 1.0);
   local.epoch = 1;
@@ -84,7 +84,7 @@ TEST(UnknownPlace, APoseInTheFrameOfAnEarlierLocalMapMeansNothing) {
 
 TEST(UnknownPlace, ForgetsTheBestWhenReset) {
   const GlobalMap map = four_points();
-  UnknownPlaceMonitor monitor({}, map);
+  UnknownPlaceMonitor monitor({}, map, 0.1);
   EXPECT_EQ(monitor.update(observed({{on}}), {{pose, {}, 0.9}}), 1.0);
   monitor.reset();
   EXPECT_EQ(monitor.update(observed({{on}}), {}), std::nullopt);
@@ -92,12 +92,12 @@ TEST(UnknownPlace, ForgetsTheBestWhenReset) {
 
 TEST(UnknownPlace, IsUnknownBelowTheLimitOnly) {
   const GlobalMap map = four_points();
-  const UnknownPlaceMonitor monitor({.max_contact = 0.2}, map);
+  const UnknownPlaceMonitor monitor({.max_contact = 0.2}, map, 0.1);
   EXPECT_FALSE(monitor.is_unknown(std::nullopt));
   EXPECT_TRUE(monitor.is_unknown(0.0));
   EXPECT_TRUE(monitor.is_unknown(0.199));
   EXPECT_FALSE(monitor.is_unknown(0.2));
-  const UnknownPlaceMonitor off_switched({.max_contact = 0.0}, map);
+  const UnknownPlaceMonitor off_switched({.max_contact = 0.0}, map, 0.1);
   EXPECT_FALSE(off_switched.is_unknown(0.0));
 }
 

@@ -68,13 +68,13 @@ TEST(BranchAndBound, FindsAllPosesOfASymmetricWorld) {
 
 TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGrid) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
-  const BranchAndBound::Params params{.refinement = on_the_grid};
+  const BranchAndBound::Params params{.contact_epsilon = 0.1, .refinement = on_the_grid};
   const auto found = match(params, local).hypotheses;
   ASSERT_GT(found.size(), 1U);
   // Half a diagonal of a cell nearer or farther than epsilon is all that the grid can be wrong by.
   const double blur = params.cell / std::sqrt(2.0) + 1e-4;
-  const auto near = contact_index(*test::small_world(), "kd_tree", params.contact_epsilon - blur);
-  const auto far = contact_index(*test::small_world(), "kd_tree", params.contact_epsilon + blur);
+  const auto near = contact_index(*test::small_world(), "kd_tree", *params.contact_epsilon - blur);
+  const auto far = contact_index(*test::small_world(), "kd_tree", *params.contact_epsilon + blur);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Transform pose(found[i].map_from_local);
     EXPECT_GE(found[i].score, near->share(local.points, pose));

@@ -113,8 +113,8 @@ TEST_P(BesideBranchAndBound, TheBestPosesAreEquallyGood) {
     params.grid.contact_epsilon = epsilon;
     return best_of(match<Exhaustive>(params, local_, 0.3, test::small_world()));
   };
-  EXPECT_GE(bounded, at(grid.contact_epsilon - grid.cell));
-  EXPECT_LE(bounded, at(grid.contact_epsilon + 2.0 * grid.cell));
+  EXPECT_GE(bounded, at(*grid.contact_epsilon - grid.cell));
+  EXPECT_LE(bounded, at(*grid.contact_epsilon + 2.0 * grid.cell));
 }
 
 TEST_P(BesideBranchAndBound, TheSamePoseIsBestOnceRefined) {
