@@ -179,6 +179,7 @@ class DocsExamples : public CommandLine {
     if (command.starts_with("reliability ")) return "reliability --help";
     if (command.starts_with("compare ")) return "compare --help";
     if (command.starts_with("report ")) return "report --help";
+    if (command.starts_with("summarize ")) return "summarize --help";
     if (command.starts_with("figures ")) return "figures --help";
     if (!command.starts_with("run ") && !command.starts_with("mapping ")) return command;
     std::string check = "check";
@@ -280,12 +281,16 @@ TEST_F(DocsExamples, WhatCompareWritesIsDescribed) {
 }
 
 TEST(DocsStrategy, IsShownAsItIsCompiledHere) {
-  const std::vector<Block> shown = blocks_of(root / "README.md", "cpp");
+  const fs::path example = root / "tests/docs/example/raters";
+  const std::vector<Block> shown = blocks_of(root / "docs/writing-a-strategy.md", "cpp");
   for (const char* file : {"share_of_best.hpp", "share_of_best.cpp"}) {
-    const std::string code = read(root / "tests/docs/example/raters" / file);
+    const std::string code = read(example / file);
     EXPECT_TRUE(std::any_of(shown.begin(), shown.end(), [&](const Block& b) { return b.text == code; }))
         << file;
   }
+  const std::vector<Block> excerpts = blocks_of(root / "README.md", "cpp");
+  ASSERT_EQ(excerpts.size(), 1U);
+  EXPECT_NE(read(example / "share_of_best.cpp").find(excerpts.front().text), std::string::npos);
 }
 
 TEST(DocsStrategy, DoesWhatItSays) {

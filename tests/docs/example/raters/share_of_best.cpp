@@ -5,9 +5,10 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, ShareOfBest::Params& p) {
-  v.field("share", p.share,
-          {.doc = "Share of the last step's best quality that is asked for.", .min = 0.0, .max = 1.0});
-  v.field("least", p.least, {.doc = "What is asked for in any case.", .min = 0.0, .max = 1.0});
+  v.field(
+      "share", p.share,
+      {.doc = "Share of the last step's best score that a hypothesis must reach.", .min = 0.0, .max = 1.0});
+  v.field("least", p.least, {.doc = "Omega_max is at least this.", .min = 0.0, .max = 1.0});
 }
 
 double ShareOfBest::omega_max() const {
@@ -15,7 +16,7 @@ double ShareOfBest::omega_max() const {
 }
 
 void ShareOfBest::update(const std::vector<Hypothesis>& hypotheses) {
-  best_ = hypotheses.empty() ? 0.0 : hypotheses.front().quality;
+  best_ = hypotheses.empty() ? 0.0 : hypotheses.front().score;
 }
 
 }  // namespace glocal

@@ -5,8 +5,7 @@
 
 namespace glocal {
 
-/// Omega_max as a share of the best quality of the last step. A step without hypotheses lets it fall to
-/// `least`.
+/// Omega_max is a share of the best score of the last step. After a step without hypotheses it is `least`.
 class ShareOfBest final : public ThresholdPolicy {
  public:
   struct Params {
@@ -21,7 +20,7 @@ class ShareOfBest final : public ThresholdPolicy {
 
  private:
   Params params_;
-  double best_ = 0.0;  ///< Best quality of the last step.
+  double best_ = 0.0;  ///< Best score of the last step.
 };
 void describe(ParamVisitor& v, ShareOfBest::Params& p);
 
