@@ -40,6 +40,7 @@ struct StageSetup {
   }
 };
 
+/// One registry for each kind of strategy.
 struct Catalog {
   Registry<MapSource, SourceSetup> map_sources{"map_source"};
   Registry<ObservationSource, SourceSetup> observation_sources{"observation_source"};

@@ -32,6 +32,7 @@ class ContactIndex {
   [[nodiscard]] virtual std::size_t count(const Points& points, std::size_t begin, std::size_t n,
                                           const Transform& map_from_points) const = 0;
 
+  /// What count_while() found.
   struct Count {
     std::size_t in_contact = 0;  ///< Where it stopped early: only that it is less than asked for.
     std::size_t looked_at = 0;
@@ -65,6 +66,7 @@ struct ContactSetup {
   double epsilon = 0.0;                ///< m
 };
 
+/// All contact indexes by name.
 using ContactIndexes = Registry<ContactIndex, ContactSetup>;
 
 /// The map's points dilated by epsilon, one bit per voxel of side epsilon / 4 (half a cell of a map whose

@@ -20,6 +20,7 @@ class DistanceField {
   /// Throws ConfigError if it would need more than 1 GiB.
   explicit DistanceField(const Points& points, double resolution = 0.05, double reach = 0.5);
 
+  /// The field at a place.
   struct Value {
     float distance = 0.0F;  ///< m
     float dx = 0.0F;        ///< Its derivatives; 0 where the field is cut off.
@@ -63,6 +64,7 @@ inline DistanceField::Value DistanceField::at(float x, float y) const {
 /// That of a map, with cells of this side (m), shared by all who ask for it.
 [[nodiscard]] std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell);
 
+/// How a pose is refined on the field.
 struct PoseRefinement {
   int iterations = 12;
   double kernel = 0.15;  ///< m; points at this distance count a quarter (Geman-McClure).
@@ -74,6 +76,7 @@ void describe(ParamVisitor& v, PoseRefinement& p);
 [[nodiscard]] Pose2 refined_pose(const DistanceField& field, const Points& points,
                                  const Pose2& map_from_points, const PoseRefinement& refinement);
 
+/// What the covariance of a refined pose is made from.
 struct PoseUncertainty {
   double point_deviation = 0.03;   ///< m; of a point from the map at least, whatever its residual.
   double correlated_points = 8.0;  ///< So many points err alike, and count as one.

@@ -32,6 +32,7 @@ struct EvaluationConfig {
 };
 void describe(ParamVisitor& v, EvaluationConfig& p);
 
+/// What a run writes besides the summary.
 struct OutputConfig {
   bool steps = true;
   int clusters = 50;
@@ -39,6 +40,7 @@ struct OutputConfig {
 };
 void describe(ParamVisitor& v, OutputConfig& p);
 
+/// An experiment without its variants.
 struct Experiment {
   int schema = 1;
   std::string name;

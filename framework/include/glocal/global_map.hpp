@@ -24,6 +24,7 @@ struct MapData {
   std::vector<Pose2> path;  ///< Robot poses the map was made from, in order; empty if not known.
 };
 
+/// The known map, immutable, with indexes that are built once for all who ask.
 class GlobalMap {
  public:
   explicit GlobalMap(MapData data) : data_(std::move(data)) {}

@@ -13,6 +13,7 @@ namespace glocal {
 /// Grids of more cells are refused.
 inline constexpr double max_grid_cells = 64e6;
 
+/// What the map knows of a cell.
 enum class Cell : std::uint8_t { unknown, free, occupied };
 
 /// Square cells over a rectangle; row 0 is the lowest y of the grid's frame, cell (0, 0) starts at its

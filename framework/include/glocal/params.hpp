@@ -38,6 +38,7 @@ struct FormerChoice {
   const char* now = "";
 };
 
+/// What is known of a field besides its name and type.
 struct FieldInfo {
   Doc doc;
   const char* unit = "";  ///< "m", "rad", "deg", "s", "m^2" …; empty for a plain number.
@@ -100,6 +101,7 @@ concept Described = requires(ParamVisitor& visitor, T& value) {
   describe(visitor, value);
 };
 
+/// Visits the fields of a described struct, one call for each.
 class ParamVisitor {
  public:
   virtual ~ParamVisitor() = default;

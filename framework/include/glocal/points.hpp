@@ -10,6 +10,7 @@
 
 namespace glocal {
 
+/// A point in metres.
 struct Point {
   float x = 0.0F;
   float y = 0.0F;

@@ -11,6 +11,7 @@
 
 namespace glocal {
 
+/// What a step says of the robot's place.
 enum class VerdictKind {
   searching,      ///< Nothing can be said yet.
   ambiguous,      ///< Several poses explain the observations; `candidates` lists them.
@@ -34,6 +35,7 @@ struct Evidence {
   double value = 0.0;
 };
 
+/// What a verdict rule says, and why.
 struct Verdict {
   VerdictKind kind = VerdictKind::searching;
   std::optional<Pose2> map_from_robot;        ///< Set when localized.
@@ -53,6 +55,7 @@ struct StageTimes {
   [[nodiscard]] double total() const { return local_map + match + cluster + rate; }
 };
 
+/// Everything a localization step has found out.
 struct StepResult {
   std::size_t step = 0;  ///< Counts from 0 in each trial.
   double stamp = 0.0;

@@ -55,6 +55,7 @@ class LocalMapper {
   [[nodiscard]] virtual std::vector<MapFile> files() const { return {}; }
 };
 
+/// What a matcher found in one step.
 struct MatchResult {
   /// All with score >= omega_max, falling score; map_from_robot is not yet set.
   std::vector<Hypothesis> hypotheses;

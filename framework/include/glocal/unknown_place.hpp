@@ -11,6 +11,7 @@
 
 namespace glocal {
 
+/// When a place counts as unknown.
 struct UnknownPlaceParams {
   int window = 10;
   double max_contact = 0.2;
@@ -18,6 +19,7 @@ struct UnknownPlaceParams {
 };
 void describe(ParamVisitor& v, UnknownPlaceParams& p);
 
+/// Follows Omega' from step to step.
 class UnknownPlaceMonitor {
  public:
   /// `contact_epsilon` (m) is that of the localizer, for parameters without one.
