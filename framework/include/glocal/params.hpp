@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,20 @@ struct Doc {
   const char* text;
 };
 
+/// Who a field is for.
+enum class Audience {
+  everyone,
+  tuner,  ///< What to tune first: few of a strategy's fields.
+  expert,
+};
+
+/// What a value of a text field was called before.
+struct FormerChoice {
+  const char* name = "";
+  const char* now = "";
+};
+
+/// What is known of a field besides its name and type.
 struct FieldInfo {
   Doc doc;
   const char* unit = "";  ///< "m", "rad", "deg", "s", "m^2" …; empty for a plain number.
@@ -35,6 +50,9 @@ struct FieldInfo {
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
   bool required = false;        ///< The file must give it.
   bool may_be_missing = false;  ///< For paths: whoever reads the file says what to do where there is none.
+  Audience audience = Audience::everyone;
+  const char* formerly = "";  ///< What the field was called before; empty if nothing else.
+  std::vector<FormerChoice> former_choices = {};  ///< For strings.
 };
 
 /// A path from a file: relative to that file, or below the datasets folder with the prefix `data:`.
@@ -83,7 +101,6 @@ concept Described = requires(ParamVisitor& visitor, T& value) {
   describe(visitor, value);
 };
 
-/// Visits the fields of a described struct, one call for each.
 class ParamVisitor {
  public:
   virtual ~ParamVisitor() = default;
@@ -92,6 +109,8 @@ class ParamVisitor {
   virtual void field(std::string_view name, int& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, std::uint64_t& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, double& value, const FieldInfo& info) = 0;
+  /// A number, or `auto` for none: then something else says what it is.
+  virtual void field(std::string_view name, std::optional<double>& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, std::string& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, FilePath& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, std::vector<double>& value, const FieldInfo& info) = 0;
@@ -140,6 +159,9 @@ class ParamVisitor {
   /// A rule that spans fields, stated after them: `rule` is reported at `field` if it does not hold.
   /// Only visitors that take values in check it.
   virtual void require(bool holds, std::string_view field, std::string_view rule) = 0;
+
+  /// A field that is gone: whoever still gives it is told what to do instead.
+  virtual void removed(std::string_view /*name*/, std::string_view /*advice*/) {}
 
  protected:
   virtual void group(std::string_view name, AnyParams& params, const FieldInfo& info) = 0;
