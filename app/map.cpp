@@ -130,7 +130,7 @@ void align(const AlignOptions& options, Context& context) {
         options.other.file, options.map.file, options.contact_epsilon));
   }
   const Pose2& p = found->map_from_other;
-  fmt::print("pose        [{:.3f}, {:.3f}, {:.4f}]: x, y (m), yaw (deg) of {} in {}\n", p.x, p.y,
+  fmt::print("pose        [{:.3f}, {:.3f}, {:.3f}]: x, y (m), yaw (deg) of {} in {}\n", p.x, p.y,
              degrees(p.theta), options.other.file, options.map.file);
   fmt::print("contact     {:.1f} % of its points within {} m\n", 100.0 * found->in_contact,
              options.contact_epsilon);

@@ -66,7 +66,7 @@ void register_all() {
   };
   add("exhaustive/paper_lab", [](benchmark::State& state) {
     const GridMatching grid{
-        .contact_epsilon = 0.15, .cell = 0.15, .min_rotation_step = 0.02, .max_points = 100};
+        .contact_epsilon = 0.15, .cell = 0.15, .min_rotation_step_deg = 1.15, .max_points = 100};
     match<Exhaustive>(state, scene("paper_lab"), {.grid = grid}, 0.3);
   })->Arg(0);
   if (!has_datasets()) return;

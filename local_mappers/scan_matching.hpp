@@ -26,7 +26,8 @@ class ScanMatching final : public LocalMapper {
     double likelihood_sigma = 0.1;
     ScanNormalParams normals;
     CorrelativeSearchParams search;
-    CorrelativeSearchParams wide_search{.translation = 0.75, .rotation_deg = degrees(1.5), .odometry_penalty = 0.02};
+    CorrelativeSearchParams wide_search{
+        .translation = 0.75, .rotation_deg = degrees(1.5), .odometry_penalty = 0.02};
     double wide_search_below = 0.5;
     double wide_search_gain = 0.15;
     LineRegistrationParams refinement;

@@ -18,10 +18,21 @@ Points first_of(const Points& points, std::size_t n) {
 
 void describe(ParamVisitor& v, CandidateRule& p) {
   v.field("candidate_distance", p.distance,
-          {.doc = "Robot poses nearer to each other are one candidate.", .unit = "m", .above = 0.0});
-  v.field("candidate_rotation", p.rotation,
-          {.doc = "… if they are turned by less.", .unit = "rad", .above = 0.0});
-  v.field("refinement_points", p.refinement_points, {.doc = "Points used to refine a pose.", .min = 3});
+          {.doc = "Robot poses are one candidate if they are nearer to each other than this, and turned by "
+                  "less than candidate_rotation_deg.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::expert,
+           .formerly = "mode_distance"});
+  v.field("candidate_rotation_deg", p.rotation_deg,
+          {.doc = "Robot poses are one candidate if they are turned by less than this, and nearer to each "
+                  "other than candidate_distance.",
+           .unit = "deg",
+           .above = 0.0,
+           .audience = Audience::expert,
+           .formerly = "mode_rotation"});
+  v.field("refinement_points", p.refinement_points,
+          {.doc = "Points used to refine a pose.", .min = 3, .audience = Audience::expert});
 }
 
 CandidateRefiner::CandidateRefiner(const CandidateRule& rule, std::size_t most,

@@ -24,14 +24,14 @@ struct Candidate {
 /// When two robot poses are one candidate, both nearer and turned by less; and how many points refine one.
 struct CandidateRule {
   double distance = 0.4;  ///< m
-  double rotation = 0.2;  ///< rad
+  double rotation_deg = degrees(0.2);
   int refinement_points = 50;
 };
 /// Among the fields of a matcher, not in a group of their own.
 void describe(ParamVisitor& v, CandidateRule& p);
 
 [[nodiscard]] inline bool is_same_candidate(const Pose2& a, const Pose2& b, const CandidateRule& rule) {
-  return distance(a, b) < rule.distance && rotation_between(a, b) < rule.rotation;
+  return distance(a, b) < rule.distance && rotation_between(a, b) < radians(rule.rotation_deg);
 }
 
 /// Makes few candidates of many poses.

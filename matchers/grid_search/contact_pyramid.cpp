@@ -168,6 +168,13 @@ TileCounts::Mask TileCounts::at_least(std::size_t count) const {
 }
 
 CellFrame cell_frame(const Points& map_points, double cell, double epsilon) {
+  if (cell > epsilon) {
+    throw ConfigError(
+        {{"", 0, 0,
+          fmt::format("the cell of {} m of an exact search is larger than contact_epsilon, which is "
+                      "{:.3g} m on this map; take a smaller cell or a larger contact_epsilon",
+                      cell, epsilon)}});
+  }
   const auto [low_x, high_x] = std::minmax_element(map_points.x.begin(), map_points.x.end());
   const auto [low_y, high_y] = std::minmax_element(map_points.y.begin(), map_points.y.end());
   CellFrame frame{.cell = cell, .min_x = *low_x - epsilon, .min_y = *low_y - epsilon};

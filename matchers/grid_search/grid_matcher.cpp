@@ -20,11 +20,13 @@ void describe(ParamVisitor& v, GridMatching& p) {
            .max = 1.0,
            .audience = Audience::tuner});
   v.require(!p.contact_epsilon || p.cell <= *p.contact_epsilon, "cell", "must be at most contact_epsilon");
-  v.field("min_rotation_step", p.min_rotation_step,
-          {.doc = "Rotations differ by what moves the farthest point by one cell, but by this at least.",
-           .unit = "rad",
-           .min = 0.0001,
-           .max = 0.1});
+  v.field("min_rotation_step_deg", p.min_rotation_step_deg,
+          {.doc = "Smallest step between rotations; a step moves the farthest point by one cell otherwise.",
+           .unit = "deg",
+           .min = 0.005,
+           .max = 5.7,
+           .audience = Audience::expert,
+           .formerly = "min_rotation_step"});
   v.field("max_points", p.max_points,
           {.doc = "A local map of more points is searched for by a random sample of so many; 0 takes all.",
            .min = 0,
@@ -64,9 +66,9 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
   const Points sample = sample_of(local.points, most_points, rng);
   const GridSearchResult found = search(sample, local.local_from_robot,
                                         {.min_quality = omega_max,
-                                         .min_rotation_step = params_.min_rotation_step,
+                                         .min_rotation_step = radians(params_.min_rotation_step_deg),
                                          .distance = params_.candidate.distance,
-                                         .rotation = params_.candidate.rotation,
+                                         .rotation = radians(params_.candidate.rotation_deg),
                                          .max_poses = static_cast<std::size_t>(params_.max_poses)});
   result.proposals = found.tested;
   result.points_tested = found.points_tested;

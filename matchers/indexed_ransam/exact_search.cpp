@@ -6,30 +6,35 @@ namespace glocal {
 
 void describe(ParamVisitor& v, ExactSearchRule& p) {
   v.field("after_steps", p.after_steps,
-          {.doc = "In the last of so many steps in a row without a clear best pose; 0 never searches.",
+          {.doc = "An exact search follows the last of so many steps in a row without a clear best pose; 0 "
+                  "never searches.",
            .min = 0});
   v.field("margin", p.margin,
-          {.doc = "A best pose is clear if no other is within this of its quality.", .min = 0.0, .max = 1.0});
+          {.doc = "The best pose is clear if no other pose has a score within this of its own.",
+           .min = 0.0,
+           .max = 1.0});
   v.field("cell", p.cell,
           {.doc = "Translations are multiples of this; at most contact_epsilon.",
            .unit = "m",
            .min = 0.01,
            .max = 1.0});
-  v.field("min_rotation_step", p.min_rotation_step,
-          {.doc = "Rotations differ by what moves the farthest point by one cell, but by this at least.",
-           .unit = "rad",
-           .min = 0.0001,
-           .max = 0.1});
-  v.field("max_poses", p.max_poses, {.doc = "Poses it adds at most.", .min = 1, .max = 10000});
+  v.field("min_rotation_step_deg", p.min_rotation_step_deg,
+          {.doc = "Smallest step between rotations; a step moves the farthest point by one cell otherwise.",
+           .unit = "deg",
+           .min = 0.005,
+           .max = 5.7,
+           .formerly = "min_rotation_step"});
+  v.field("max_poses", p.max_poses,
+          {.doc = "Largest number of poses that the search adds.", .min = 1, .max = 10000});
 }
 
 ExactSearch::ExactSearch(const ExactSearchRule& rule, const CandidateRule& candidate, double min_contact,
                          const GlobalMap& map, double contact_epsilon, int threads)
     : rule_(rule),
       grid_{.min_quality = min_contact,
-            .min_rotation_step = rule.min_rotation_step,
+            .min_rotation_step = radians(rule.min_rotation_step_deg),
             .distance = candidate.distance,
-            .rotation = candidate.rotation,
+            .rotation = radians(candidate.rotation_deg),
             .max_poses = static_cast<std::size_t>(rule.max_poses)},
       pyramid_(rule.after_steps > 0 ? contact_pyramid(map, rule.cell, contact_epsilon) : nullptr),
       threads_(threads) {}

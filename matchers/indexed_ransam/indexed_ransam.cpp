@@ -20,11 +20,11 @@ RelationRule relation_rule(const IndexedRansam::Params& p) {
           .min_height = p.min_height};
 }
 
-JudgeRule judge_rule(const IndexedRansam::Params& p) {
+JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
   return {.beams = p.beams,
           .unknown_weight = p.unknown_weight,
           .most = static_cast<std::size_t>(p.best),
-          .contact_epsilon = p.contact_epsilon,
+          .contact_epsilon = contact_epsilon,
           .kernel = p.refinement.kernel,
           .uncertainty = p.uncertainty};
 }
@@ -35,49 +35,90 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("iterations", p.iterations,
           {.doc = "Oriented point pairs or triangles drawn from the local map in a step.",
            .min = 0,
-           .max = 10e6});
+           .max = 10e6,
+           .audience = Audience::tuner});
   v.field("first_iterations", p.first_iterations,
-          {.doc = "The same in the first steps, when nothing is carried yet.", .min = 0, .max = 10e6});
-  v.field("first_steps", p.first_steps, {.doc = "How many steps those are.", .min = 0});
+          {.doc = "Oriented point pairs or triangles drawn from the local map in each of the first steps, "
+                  "when nothing is carried on yet.",
+           .min = 0,
+           .max = 10e6,
+           .audience = Audience::tuner});
+  v.field("first_steps", p.first_steps,
+          {.doc = "Number of first steps in which first_iterations are drawn.",
+           .min = 0,
+           .audience = Audience::expert});
   v.removed("adaptive", "the number of draws is fixed; set iterations and first_iterations");
   v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4).",
+          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
+                  "of the localizer.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("min_contact", p.min_contact,
           {.doc = "Contact a pose needs before it is refined: the right one may have little then.",
            .min = 0.0,
-           .max = 1.0});
+           .max = 1.0,
+           .audience = Audience::tuner});
   v.field("contact_points", p.contact_points,
-          {.doc = "Points looked at for that.", .min = 16, .max = 100000});
+          {.doc = "Number of points of the local map that judge a proposal's contact before it is refined.",
+           .min = 16,
+           .max = 100000,
+           .audience = Audience::expert});
   v.field("candidates", p.candidates,
-          {.doc = "Distinct poses that are refined and judged.", .min = 1, .max = 10000});
-  v.field("best", p.best, {.doc = "Of these, the best that become hypotheses.", .min = 1, .max = 10000});
+          {.doc = "Distinct poses that are refined and judged.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::expert,
+           .formerly = "modes"});
+  v.field("best", p.best,
+          {.doc = "Number of candidates that become hypotheses: those with the highest scores.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::expert});
   v.field("carried", p.carried,
-          {.doc = "Of those, the best that go on to the next step.", .min = 0, .max = 10000});
+          {.doc = "Number of hypotheses carried on to the next step: those with the highest scores.",
+           .min = 0,
+           .max = 10000,
+           .audience = Audience::expert});
   describe(v, p.candidate);
-  v.field("refinement", p.refinement, {.doc = "How poses are refined on the distance field."});
-  v.field("uncertainty", p.uncertainty, {.doc = "What the covariance of a hypothesis is made from."});
+  v.field("refinement", p.refinement,
+          {.doc = "How poses are refined on the distance field.", .audience = Audience::expert});
+  v.field("uncertainty", p.uncertainty,
+          {.doc = "What the covariance of a hypothesis is made from.", .audience = Audience::expert});
   v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the distance field.", .unit = "m", .min = 0.01, .max = 1.0});
+          {.doc = "Side of a cell of the distance field.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0,
+           .audience = Audience::expert});
   describe(v, p.beams);
   v.field("unknown_weight", p.unknown_weight,
-          {.doc = "What the share of points in unknown cells adds to the quality.", .min = 0.0, .max = 1.0});
+          {.doc = "What the share of points in unknown cells adds to the score.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
   v.field("min_length", p.min_length,
-          {.doc = "Shortest oriented point pair, or side of a triangle.", .unit = "m", .above = 0.0});
+          {.doc = "Shortest oriented point pair, or side of a triangle.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::expert});
   v.field("max_length", p.max_length,
           {.doc = "Longest oriented point pair, or side of a triangle.",
            .unit = "m",
            .max = 100.0,
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.require(p.max_length > p.min_length, "max_length", "must be above min_length");
   v.field("length_cell", p.length_cell,
           {.doc = "Oriented point pairs in a bin, or sides of triangles, differ in length by less.",
            .unit = "m",
-           .min = 0.01});
-  v.field(
-      "angle_cells", p.angle_cells,
-      {.doc = "Bins of each of an oriented point pair's two angles in a full turn.", .min = 4, .max = 360});
+           .min = 0.01,
+           .audience = Audience::expert});
+  v.field("angle_cells", p.angle_cells,
+          {.doc = "Bins of each of an oriented point pair's two angles in a full turn.",
+           .min = 4,
+           .max = 360,
+           .audience = Audience::expert});
   constexpr double most_bins = 16e6;
   v.require((p.max_length - p.min_length) / p.length_cell * p.angle_cells * p.angle_cells <= most_bins,
             "length_cell",
@@ -85,49 +126,60 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("relation", p.relation,
           {.doc = "What is drawn and sorted: two points with their normals, three points, or three where few "
                   "have normals.",
-           .choices = {"oriented_pair", "triangle", "auto"}});
+           .choices = {"oriented_pair", "triangle", "auto"},
+           .former_choices = {{"dipole", "oriented_pair"}}});
   v.field("min_oriented_share", p.min_oriented_share,
           {.doc = "Share of the map's points that have a normal, below which auto takes triangles.",
            .min = 0.0,
-           .max = 1.0});
-  v.field("min_height", p.min_height,
-          {.doc = "Flatter triangles give poor poses: the height over the longest side.",
-           .unit = "m",
-           .min = 0.0});
+           .max = 1.0,
+           .audience = Audience::expert,
+           .formerly = "min_surfaces"});
   v.field(
-      "max_entries", p.max_entries,
-      {.doc =
-           "Of more oriented point pairs (8 bytes each) or triangles (12 to 20 bytes) an even share is kept.",
-       .min = 1000,
-       .max = 100e6});
+      "min_height", p.min_height,
+      {.doc = "Triangles that are flatter give poor poses and are skipped: the height over the longest side.",
+       .unit = "m",
+       .min = 0.0,
+       .audience = Audience::expert});
+  v.field("max_entries", p.max_entries,
+          {.doc = "Largest number of oriented point pairs (8 bytes each) or triangles (12 to 20 bytes) in "
+                  "the index: of more, an even share is kept.",
+           .min = 1000,
+           .max = 100e6,
+           .audience = Audience::expert});
   v.field("voxel_size", p.voxel_size,
-          {.doc = "The map gives one point to oriented point pairs in each square of this side.",
+          {.doc = "Side of the squares of the map that give one oriented point each.",
            .unit = "m",
-           .min = 0.01});
+           .min = 0.01,
+           .audience = Audience::expert,
+           .formerly = "thinning"});
   v.field("normal_radius", p.normal_radius,
           {.doc = "Neighbourhood that gives a point's normal; at most twice the voxel_size.",
            .unit = "m",
-           .above = 0.0});
+           .above = 0.0,
+           .audience = Audience::expert});
   v.require(p.normal_radius <= 2.0 * p.voxel_size, "normal_radius", "must be at most twice the voxel_size");
   v.field("index_file", p.index_file,
           {.doc = "Index of the map as glocal map index saves it, to be read instead of built.",
            .may_be_missing = true});
   v.field("exact_search", p.exact_search,
-          {.doc = "When an exact search of the whole map, as branch_and_bound makes it, adds its poses."});
-  v.require(p.exact_search.after_steps == 0 || p.exact_search.cell <= p.contact_epsilon, "exact_search",
-            "cell must be at most contact_epsilon");
+          {.doc = "When an exact search of the whole map, as branch_and_bound makes it, adds its poses.",
+           .audience = Audience::expert});
+  v.require(
+      p.exact_search.after_steps == 0 || !p.contact_epsilon || p.exact_search.cell <= *p.contact_epsilon,
+      "exact_search", "cell must be at most contact_epsilon");
 }
 
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
     : params_(params),
       map_(setup.map),
-      contact_(contact_index(*map_, "bitset", params.contact_epsilon)),
+      contact_(contact_index(*map_, "bitset", setup.epsilon(params.contact_epsilon))),
       relation_(relation_rule(params)),
       refiner_(params.candidate, static_cast<std::size_t>(params.candidates), params.refinement,
                distance_field(*map_, params.field_cell), contact_),
-      judge_(judge_rule(params), map_, contact_, distance_field(*map_, params.field_cell)),
-      exact_search_(params.exact_search, params.candidate, params.min_contact, *map_, params.contact_epsilon,
-                    setup.threads) {
+      judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
+             distance_field(*map_, params.field_cell)),
+      exact_search_(params.exact_search, params.candidate, params.min_contact, *map_,
+                    setup.epsilon(params.contact_epsilon), setup.threads) {
   const auto start = std::chrono::steady_clock::now();
   index_ = relation_index(*map_, relation_, params.index_file.resolved, setup.threads);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;

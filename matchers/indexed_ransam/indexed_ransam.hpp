@@ -34,7 +34,7 @@ class IndexedRansam final : public Matcher {
     int iterations = 600;
     int first_iterations = 1500;
     int first_steps = 4;
-    double contact_epsilon = 0.10;
+    std::optional<double> contact_epsilon = {};
     double min_contact = 0.2;
     int contact_points = 128;
     int candidates = 40;

@@ -104,7 +104,7 @@ void Mcl::begin(Rng& rng) {
 
 bool Mcl::is_due(const Pose2& moved) const {
   return std::hypot(moved.x, moved.y) >= params_.update_min_d ||
-         std::abs(moved.theta) >= params_.update_min_a;
+         std::abs(moved.theta) >= radians(params_.update_min_a_deg);
 }
 
 Mcl::Beams Mcl::beams_of(const Scan& scan) const {
@@ -224,7 +224,8 @@ std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
 std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan, const Pose2& moved,
                                         double omega_max) const {
   const std::vector<Heap> heaps =
-      heaps_of(particles_, weights_, {params_.merge_distance, square_parts_of_a_turn(params_.merge_rotation)},
+      heaps_of(particles_, weights_,
+               {params_.merge_distance, square_parts_of_a_turn(radians(params_.merge_rotation_deg))},
                static_cast<std::size_t>(params_.max_hypotheses));
   const Pose2 robot_from_local = inverse(local.local_from_robot);
   std::vector<Hypothesis> found;
@@ -275,11 +276,16 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
   v.field("resample_interval", p.resample_interval,
           {.doc = "Updates between resamplings.", .min = 1, .max = 1000, .audience = Audience::expert});
   v.field("update_min_d", p.update_min_d,
-          {.doc = "An observation counts if the robot has driven so far since the last one that did; 0 lets "
-                  "all count.",
+          {.doc = "An observation counts once the robot has driven this far since the last one that counted, "
+                  "or turned by update_min_a_deg; 0 lets every one count.",
            .unit = "m",
            .min = 0.0});
-  v.field("update_min_a", p.update_min_a, {.doc = "… or turned so far.", .unit = "rad", .min = 0.0});
+  v.field("update_min_a_deg", p.update_min_a_deg,
+          {.doc = "An observation counts once the robot has turned by this much since the last one that "
+                  "counted, or driven update_min_d; 0 lets every one count.",
+           .unit = "deg",
+           .min = 0.0,
+           .formerly = "update_min_a"});
   describe(v, p.noise);
   v.field(
       "laser_model_type", p.laser_model_type,
@@ -344,7 +350,13 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
            .unit = "m",
            .min = 0.001,
            .audience = Audience::expert});
-  v.field("merge_rotation", p.merge_rotation, {.doc = "… and of this angle.", .unit = "rad", .min = 0.001});
+  v.field("merge_rotation_deg", p.merge_rotation_deg,
+          {.doc = "Particles are one hypothesis if they lie in the same cell of this width in heading and of "
+                  "merge_distance.",
+           .unit = "deg",
+           .min = 0.05,
+           .audience = Audience::expert,
+           .formerly = "merge_rotation"});
   v.field("max_hypotheses", p.max_hypotheses,
           {.doc = "Largest number of hypotheses; the heaviest are kept.",
            .min = 1,

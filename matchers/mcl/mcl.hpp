@@ -27,10 +27,10 @@ namespace glocal {
 ///
 /// It looks at the latest scan only; the local map just says in which frame a hypothesis is told, and how
 /// good it is by eq. 4. Hypotheses are the particles, those in one cell of pose space (`merge_distance`,
-/// `merge_rotation`) told as their mean, with as much support as their weights are worth in particles. Their
-/// score is the share of the latest scan's points in contact with the map there (eq. 4 for the scan instead
-/// of the local map): weights say how poses compare, not how good they are. Without a scan there are no
-/// hypotheses; the motion is made up for with the next one.
+/// `merge_rotation_deg`) told as their mean, with as much support as their weights are worth in particles.
+/// Their score is the share of the latest scan's points in contact with the map there (eq. 4 for the scan
+/// instead of the local map): weights say how poses compare, not how good they are. Without a scan there are
+/// no hypotheses; the motion is made up for with the next one.
 ///
 /// `proposals` counts particles, `points_tested` looks at the end of a beam.
 class Mcl final : public Matcher {
@@ -44,7 +44,7 @@ class Mcl final : public Matcher {
     double recovery_alpha_fast = 0.0;
     int resample_interval = 1;
     double update_min_d = 0.25;
-    double update_min_a = 0.2;
+    double update_min_a_deg = degrees(0.2);
     OdometryNoise noise = {};
     std::string laser_model_type = "likelihood_field";
     int max_beams = 60;
@@ -61,7 +61,7 @@ class Mcl final : public Matcher {
     double field_cell = 0.05;
     std::optional<double> contact_epsilon = {};
     double merge_distance = 0.25;
-    double merge_rotation = 0.17;
+    double merge_rotation_deg = degrees(0.17);
     int max_hypotheses = 1000;
   };
 

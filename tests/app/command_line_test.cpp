@@ -44,7 +44,8 @@ TEST_F(CommandLine, WrongUsageEndsWith2AndSuggests) {
 TEST_F(CommandLine, ListsAndDescribesStrategies) {
   EXPECT_THAT(run("list").out, HasSubstr("\nmatcher\n  "));
   EXPECT_THAT(run("list matcher").out, HasSubstr("  ransam  "));
-  EXPECT_THAT(run("describe ransam").out, HasSubstr("contact_epsilon: number (> 0 m), default 0.1\n"));
+  EXPECT_THAT(run("describe ransam").out,
+              HasSubstr("contact_epsilon: number or auto (> 0 m), default auto\n"));
   EXPECT_THAT(run("describe experiment").out,
               HasSubstr("threads: whole number (>= 1 and <= 256), default 1\n"));
 }

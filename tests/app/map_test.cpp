@@ -63,7 +63,7 @@ TEST_F(MapCommand, AlignsAMapWithACopyInAnotherFrame) {
   ASSERT_EQ(std::sscanf(answer.out.substr(answer.out.find("contact")).c_str(), "contact %lf", &percent), 1);
   EXPECT_NEAR(x, 5.0099, 0.01);
   EXPECT_NEAR(y, -2.9812, 0.01);
-  EXPECT_NEAR(yaw, 0.3, 0.001);
+  EXPECT_NEAR(yaw, 17.19, 0.06);  // 0.3 rad
   EXPECT_GT(percent, 99.0);
 
   EXPECT_EQ(run("map align " + file("lab.yaml") + " " + experiment + " --epsilon 0").exit_code, 2);

@@ -62,13 +62,13 @@ class Contract : public ::testing::Test {
       // Defaults would take minutes.
       p.grid.contact_epsilon = 0.2;
       p.grid.cell = 0.2;
-      p.grid.min_rotation_step = 0.05;
+      p.grid.min_rotation_step_deg = 2.9;
     });
     // So that some of the particles fit well enough after a single scan.
     fill<Mcl::Params>("matcher/mcl", [](auto& p) {
       p.max_particles = 20000;
       p.merge_distance = 0.1;
-      p.merge_rotation = 0.05;
+      p.merge_rotation_deg = 2.9;
       p.contact_epsilon = 0.3;
     });
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));

@@ -42,8 +42,8 @@ class CorrelativeSearch : public ::testing::Test {
   Points hits = test::scan_from(test::furnished_room(), {2, 2, 0.3}, {.beams = 181}, rng).hits;
   PointGrid grid = grid_of(hits);
   CorrelativeSearchParams params{.translation = 0.1,
-                                 .rotation_deg = 9.0,
-                                 .rotation_step_deg = 1.0,
+                                 .rotation_deg = degrees(0.15),
+                                 .rotation_step_deg = degrees(0.0175),
                                  .points = 200,
                                  .odometry_penalty = 0.0};
 };

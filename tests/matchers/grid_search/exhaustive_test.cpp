@@ -76,7 +76,7 @@ TEST(Exhaustive, FindsTheBestPoseOfAllOfTheGrid) {
     }
     const Exhaustive::Params params{.grid = {.contact_epsilon = epsilon,
                                              .cell = cell,
-                                             .min_rotation_step = 0.1,
+                                             .min_rotation_step_deg = degrees(0.1),
                                              .refinement = on_the_grid},
                                     .contact = "kd_tree"};
     const auto found = match<Exhaustive>(params, local, 0.1, map_of(map)).hypotheses;

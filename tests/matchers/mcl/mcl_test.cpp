@@ -45,7 +45,7 @@ LocalMap local_map_of(const Observation& observation) {
 Mcl::Params many_particles(const std::string& model) {
   return {.max_particles = 8000,
           .update_min_d = 0.0,
-          .update_min_a = 0.0,
+          .update_min_a_deg = 0.0,
           .noise = {0.05, 0.05, 0.05, 0.05},
           .laser_model_type = model,
           .likelihood_exponent = 0.2,
@@ -161,7 +161,7 @@ TEST(Mcl, WithoutAScanThereIsNoAnswerButTheMotionCounts) {
 TEST(Mcl, ASmallMotionMovesTheAnswerButIsNoUpdate) {
   Mcl::Params params = many_particles("likelihood_field");
   params.update_min_d = 0.25;
-  params.update_min_a = 0.2;
+  params.update_min_a_deg = 11.0;
   Mcl matcher(params, {walled_world(), 1});
   const Pose2 start{2.0, 2.0, 0.5};
   const Pose2 little{0.2, 0.0, 0.1};
