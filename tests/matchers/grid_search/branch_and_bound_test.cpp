@@ -83,7 +83,7 @@ TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGri
       const Pose2& a = found[i].map_from_local;
       const Pose2& b = found[k].map_from_local;
       EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
-                  rotation_between(a, b) >= params.candidate.rotation);
+                  rotation_between(a, b) >= radians(params.candidate.rotation_deg));
     }
   }
 }

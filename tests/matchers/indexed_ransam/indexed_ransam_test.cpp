@@ -44,7 +44,7 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
       const Pose2& a = result.hypotheses[i].map_from_local;
       const Pose2& b = result.hypotheses[k].map_from_local;
       EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
-                  rotation_between(a, b) >= params.candidate.rotation);
+                  rotation_between(a, b) >= radians(params.candidate.rotation_deg));
     }
   }
 }
