@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "evaluation/results/results_folder.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/distance_field.hpp"
@@ -139,13 +140,17 @@ std::string lost_after_matcher(const StepResult& result, std::ptrdiff_t cluster)
                      to_string(result.verdict.kind));
 }
 
+/// The experiment of a run, all of whose files must be in order.
+Experiment experiment_of(const std::string& path, Context& context) {
+  const std::vector<std::filesystem::path> folders = results_folders(path);
+  if (folders.size() > 1)
+    refuse(path, fmt::format("holds {} folders of results; name one of them", folders.size()));
+  static_cast<void>(read_results(folders.front()));
+  return ExperimentOptions{}.read((folders.front() / "effective.yaml").string(), context);
+}
+
 void explain(const ExplainOptions& options, Context& context) {
-  const std::string file = (std::filesystem::path(options.folder) / "effective.yaml").string();
-  if (!std::filesystem::exists(file)) {
-    refuse(options.folder,
-           "holds no results: there is no effective.yaml; name a folder that glocal run has left");
-  }
-  const Experiment experiment = ExperimentOptions{}.read(file, context);
+  const Experiment experiment = experiment_of(options.folder, context);
   const EvaluationConfig& limits = experiment.evaluation;
   LoadedExperiment loaded =
       load_experiment(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });

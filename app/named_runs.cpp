@@ -5,7 +5,6 @@
 
 #include "app/results_arguments.hpp"
 #include "config/nearest.hpp"
-#include "evaluation/results/results_folder.hpp"
 
 namespace glocal::app {
 namespace {
@@ -30,12 +29,11 @@ void tell_apart(std::vector<NamedRun>& runs) {
 }  // namespace
 
 std::vector<NamedRun> read_runs(const std::vector<std::string>& folders,
-                                const std::function<void(const fs::path&)>& also) {
+                                const std::function<StoredRun(const fs::path&)>& read) {
   std::vector<NamedRun> runs;
   FaultCollector faults;
   for_each_results_folder(folders, faults, [&](const fs::path& folder) {
-    faults.collect([&] { runs.push_back({own_name(folder), read_results(folder)}); });
-    also(folder);
+    runs.push_back({own_name(folder), read(folder)});
   });
   faults.report();
   tell_apart(runs);

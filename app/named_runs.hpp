@@ -11,11 +11,12 @@
 
 namespace glocal::app {
 
-/// The results in folders that are results, or hold some; `also` reads more of each, in the same order.
-/// Throws ConfigError with every fault of all of them.
+/// The results in folders that are results, or hold some, as `read` reads each, in the same order. Throws
+/// ConfigError with every fault of all of them.
 [[nodiscard]] std::vector<NamedRun> read_runs(
     const std::vector<std::string>& folders,
-    const std::function<void(const std::filesystem::path&)>& also = [](const std::filesystem::path&) {});
+    const std::function<StoredRun(const std::filesystem::path&)>& read =
+        [](const std::filesystem::path& folder) { return read_results(folder); });
 
 /// The run with that name, or the only one of the experiment with that name; the first without a name. Throws
 /// ConfigError.

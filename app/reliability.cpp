@@ -13,6 +13,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/results_arguments.hpp"
 #include "evaluation/results/results_folder.hpp"
 
 namespace glocal::app {
@@ -33,36 +34,37 @@ struct Findings {
   double sum_of_squared_errors = 0.0;  ///< Normalised, of right declarations.
 };
 
-void add_trials(const std::filesystem::path& folder, Findings& findings) {
-  for_each_line(folder / "trials.jsonl", [&](const Json& trial) {
-    const std::string outcome = trial.at("outcome");
-    ++findings.trials;
-    findings.right += outcome == "right" ? 1 : 0;
-    findings.wrong += outcome == "wrong" ? 1 : 0;
-    if ((outcome != "right" && outcome != "wrong") || !trial.contains("confidence")) return;
-    findings.declared.add(trial.at("confidence"), outcome == "right");
-    if (outcome != "right" || !trial.contains("nees")) return;
-    ++findings.squared_errors;
-    findings.sum_of_squared_errors += trial.at("nees").get<double>();
-  });
+void add_trial(const Json& trial, Findings& findings) {
+  const std::string outcome = trial.at("outcome");
+  ++findings.trials;
+  findings.right += outcome == "right" ? 1 : 0;
+  findings.wrong += outcome == "wrong" ? 1 : 0;
+  if ((outcome != "right" && outcome != "wrong") || !trial.contains("confidence")) return;
+  findings.declared.add(trial.at("confidence"), outcome == "right");
+  if (outcome != "right" || !trial.contains("nees")) return;
+  ++findings.squared_errors;
+  findings.sum_of_squared_errors += trial.at("nees").get<double>();
 }
 
-/// From trial number n the n-th of its steps with an estimate, counted round and round.
-void add_steps(const std::filesystem::path& folder, const EvaluationConfig& limits, Findings& findings) {
-  struct PoseEstimate {
-    double confidence;
-    bool is_right;
+void add_folder(const std::filesystem::path& folder, Context& context, Findings& findings) {
+  struct Estimate {
+    double confidence, translation_error_m, rotation_error_deg;
   };
-  std::map<std::size_t, std::vector<PoseEstimate>> trials;
-  for_each_line(folder / "steps.jsonl", [&](const Json& step) {
+  std::map<std::size_t, std::vector<Estimate>> trials;
+  const auto add_step = [&](const Json& step) {
     if (!step.contains("confidence") || !step.contains("translation_error_m")) return;
-    const bool is_right = step.at("translation_error_m") <= limits.max_translation_error &&
-                          step.at("rotation_error_deg") <= limits.max_rotation_error_deg;
-    trials[step.at("trial")].push_back({step.at("confidence"), is_right});
-  });
+    trials[step.at("trial")].push_back(
+        {step.at("confidence"), step.at("translation_error_m"), step.at("rotation_error_deg")});
+  };
+  require_steps(read_results(folder, {[&](const Json& trial) { add_trial(trial, findings); }, add_step}));
+  const EvaluationConfig limits =
+      ExperimentOptions{}.read((folder / "effective.yaml").string(), context).evaluation;
+  // From trial number n the n-th of its steps with an estimate, counted round and round.
   for (const auto& [trial, estimates] : trials) {
-    const PoseEstimate& estimate = estimates[trial % estimates.size()];
-    findings.believed.add(estimate.confidence, estimate.is_right);
+    const Estimate& estimate = estimates[trial % estimates.size()];
+    findings.believed.add(estimate.confidence,
+                          estimate.translation_error_m <= limits.max_translation_error &&
+                              estimate.rotation_error_deg <= limits.max_rotation_error_deg);
   }
 }
 
@@ -78,11 +80,11 @@ void print_bins(const char* title, const Reliability& reliability) {
 
 void reliability(const ReliabilityOptions& options, Context& context) {
   Findings findings;
-  for (const std::filesystem::path folder : options.folders) {
-    const Experiment experiment = ExperimentOptions{}.read((folder / "effective.yaml").string(), context);
-    add_trials(folder, findings);
-    add_steps(folder, experiment.evaluation, findings);
-  }
+  FaultCollector faults;
+  for_each_results_folder(options.folders, faults, [&](const std::filesystem::path& folder) {
+    add_folder(folder, context, findings);
+  });
+  faults.report();
   const Proportion wrong = wilson(findings.wrong, findings.trials);
   fmt::print(
       "{} trials: {} right, {} wrong ({:.2f} %, 95 % interval {:.2f} to {:.2f} %), {} without a "
@@ -106,7 +108,7 @@ void add_reliability(CLI::App& app, Context& context) {
   auto options = std::make_shared<ReliabilityOptions>();
   CLI::App* command =
       app.add_subcommand("reliability", "Compare confidences and covariances with what was right.");
-  command->add_option("DIR", options->folders, "Folders of results, as glocal run leaves them")->required();
+  command->add_option("DIR", options->folders, "Folders of results, or folders that hold some")->required();
   command->callback([options, &context] { reliability(*options, context); });
 }
 

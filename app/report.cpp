@@ -33,7 +33,7 @@ std::string title_of(const std::vector<NamedRun>& runs) {
 void write_report(const ReportOptions& options) {
   ReportData data(options.limits);
   const auto runs =
-      read_runs(options.folders, [&](const std::filesystem::path& folder) { data.add(folder); });
+      read_runs(options.folders, [&](const std::filesystem::path& folder) { return data.add(folder); });
   const auto json = data.to_json(runs, find_baseline(runs, options.baseline));
   AtomicFiles files(options.force);
   files.add(options.out, page_with(page_text, title_of(runs), json));

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <set>
-#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -53,75 +50,39 @@ Json report_head() {
   return {{"format", format}, {"generator", fmt::format("glocal {} ({})", version, revision())}};
 }
 
-void ReportData::add(const fs::path& folder) {
+StoredRun ReportData::add(const fs::path& folder) {
   FaultCollector faults;
   Run run;
   run.folder = folder;
-  read_head(run, faults);
-  read_trials(run, faults);
+  StoredRun stored = read_files(run, faults);
   read_map(run, faults);
   for (const auto& [number, trial] : run.trials) read_recordings(run, number, faults);
   faults.report();
   runs_.push_back(std::move(run));
   share_limits();
+  return stored;
 }
 
-void ReportData::read_head(Run& run, FaultCollector& faults) const {
-  faults.collect([&] {
-    with_json(run.folder / "summary.json", [&](const Json& summary) {
-      run.trials_counted = summary.at("trials").at("count");
-      run.summary = summary;
-    });
-  });
-  std::map<std::string, std::string> hashes;
-  faults.collect([&] {
-    with_json(run.folder / "provenance.json", [&](const Json& provenance) {
-      hashes = provenance.at("inputs_sha256");
-      run.provenance = provenance;
-    });
-  });
-  faults.collect([&] { run.settings = read_settings(run.folder, hashes); });
-}
-
-/// With their steps.
-void ReportData::read_trials(Run& run, FaultCollector& faults) const {
-  const fs::path file = run.folder / "trials.jsonl";
-  const bool is_read = faults.collect([&] {
-    for_each_line(file, [&](const Json& line) {
-      const std::size_t number = line.at("trial");
-      if (!run.trials.try_emplace(number, Trial{.line = line, .least_steps = line.at("steps")}).second)
-        throw std::invalid_argument(fmt::format("trial {} is there already", number));
-    });
-  });
-  if (!is_read) return;
-  if (run.trials_counted && *run.trials_counted != run.trials.size())
-    faults.add(fault_of(file, fmt::format("has {} trials, where summary.json counts {}", run.trials.size(),
-                                          *run.trials_counted)));
-  read_steps(run, faults);
-}
-
-void ReportData::read_steps(Run& run, FaultCollector& faults) const {
-  const auto written = run.settings.find("output.steps");
-  if (written != run.settings.end() && written->second.text == "false") return;
-  const fs::path file = run.folder / "steps.jsonl";
-  for (auto& [number, trial] : run.trials) trial.steps.emplace(limits_.clusters);
-  const bool is_read = faults.collect([&] {
-    for_each_line(file, [&](const Json& line) {
-      const std::size_t number = line.at("trial");
-      const auto trial = run.trials.find(number);
-      if (trial == run.trials.end())
-        throw std::invalid_argument(fmt::format("trials.jsonl has no trial {}", number));
-      trial->second.steps->add(line);
-    });
-  });
+/// Everything but point clouds.
+StoredRun ReportData::read_files(Run& run, FaultCollector& faults) const {
+  StoredRun stored;
+  const LineReaders lines = {[&](const Json& line) { run.trials[line.at("trial")].line = line; },
+                             [&](const Json& line) {
+                               std::optional<StepColumns>& steps = run.trials.at(line.at("trial")).steps;
+                               if (!steps) steps.emplace(limits_.clusters);
+                               steps->add(line);
+                             }};
+  const bool is_read = faults.collect([&] { stored = read_results(run.folder, lines); });
   for (auto& [number, trial] : run.trials) {
-    if (!is_read) {
-      trial.steps.reset();  // how many there are in all is not known
-    } else if (trial.steps->size() < trial.least_steps) {
-      faults.add(fault_of(file, fmt::format("has {} of the {} steps of trial {}", trial.steps->size(),
-                                            trial.least_steps, number)));
-    }
+    // How many steps there are is not known where some cannot be read; and a trial may have failed in its
+    // first.
+    if (!is_read) trial.steps.reset();
+    if (is_read && stored.has_steps && !trial.steps) trial.steps.emplace(limits_.clusters);
   }
+  run.summary = stored.summary;
+  run.provenance = stored.provenance;
+  run.settings = stored.settings;
+  return stored;
 }
 
 void ReportData::read_map(Run& run, FaultCollector& faults) {

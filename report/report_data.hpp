@@ -38,7 +38,7 @@ class ReportData {
   explicit ReportData(const ReportLimits& limits) : limits_(limits) {}
 
   /// Reads all that a run has left. Throws ConfigError with every fault of the folder.
-  void add(const std::filesystem::path& folder);
+  StoredRun add(const std::filesystem::path& folder);
 
   /// `runs` are those that were added, in this order, with their names.
   [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<NamedRun>& runs, std::size_t baseline) const;
@@ -46,7 +46,6 @@ class ReportData {
  private:
   struct Trial {
     nlohmann::ordered_json line;  ///< Of trials.jsonl.
-    std::size_t least_steps = 0;  ///< Up to the declaration; there may be more.
     std::optional<StepColumns> steps = {};
     std::optional<PointLives> local_map = {};
     std::optional<ScanFrames> scans = {};
@@ -54,15 +53,12 @@ class ReportData {
   struct Run {
     std::filesystem::path folder;
     nlohmann::ordered_json summary, provenance;
-    std::optional<std::size_t> trials_counted;  ///< By the summary.
     std::map<std::string, Setting> settings;
     std::optional<std::size_t> map;
     std::map<std::size_t, Trial> trials;
   };
 
-  void read_head(Run& run, FaultCollector& faults) const;
-  void read_trials(Run& run, FaultCollector& faults) const;
-  void read_steps(Run& run, FaultCollector& faults) const;
+  [[nodiscard]] StoredRun read_files(Run& run, FaultCollector& faults) const;
   void read_map(Run& run, FaultCollector& faults);
   void read_recordings(Run& run, std::size_t number, FaultCollector& faults);
   void share_limits();

@@ -6,15 +6,13 @@
 #include <utility>
 
 #include "evaluation/results/file_io.hpp"
+#include "evaluation/results/results_folder.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Every results folder has this file; only such a folder is ever replaced.
-constexpr const char* mark_of_results = "provenance.json";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
   throw RunError(fmt::format("{}: cannot write: {}", path.string(), reason));
@@ -34,12 +32,10 @@ void check_free(const fs::path& path, bool replace) {
           "output: the folder exists and is not empty; choose another one with --out, or replace earlier "
           "results with --force"}});
   }
-  if (!fs::exists(path / mark_of_results, ignored)) {
-    throw ConfigError(
-        {{path.string(), 0, 0,
-          fmt::format("output: --force replaces only earlier results, and this folder has no {}; choose "
-                      "another one with --out",
-                      mark_of_results)}});
+  if (!is_results_folder(path)) {
+    throw ConfigError({{path.string(), 0, 0,
+                        "output: --force replaces only earlier results, and this folder has no "
+                        "provenance.json; choose another one with --out"}});
   }
 }
 
@@ -99,7 +95,7 @@ void OutputFolder::commit() {
   sync_to_disk(unfinished_);
   std::error_code error;
   // The check is repeated, as the run may have taken hours: what others have put there meanwhile is theirs.
-  const bool replaces = replace_ && fs::exists(path_ / mark_of_results, error);
+  const bool replaces = replace_ && is_results_folder(path_);
   if (replaces) fs::rename(path_, replaced_, error);
   if (!error) fs::rename(unfinished_, path_, error);
   if (error) {

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 #include <openssl/evp.h>
 #include <unistd.h>
 
@@ -43,11 +44,26 @@ std::filesystem::path object_of(Function* function) {
   return found ? std::filesystem::canonical(object.dli_fname) : std::filesystem::path();
 }
 
-/// The program and glocal's libraries: strategies of the program's own are in one of them.
+/// The library of built-in strategies, if a program that embeds glocal has loaded it; empty otherwise.
+std::string builtin_library() {
+  std::string found;
+  const auto look = [](dl_phdr_info* object, std::size_t /*size*/, void* result) {
+    const std::filesystem::path file = object->dlpi_name;
+    if (!file.filename().string().starts_with("libglocal_builtin.so")) return 0;
+    *static_cast<std::string*>(result) = object->dlpi_name;
+    return 1;
+  };
+  dl_iterate_phdr(look, &found);
+  return found;
+}
+
+/// The program and glocal's libraries: all strategies that are in no plugin are in one of them.
 Json program_sha256(FileHashes& hashes) {
-  return {{"program", hashes.of("/proc/self/exe")},
-          {"library", hashes.of(object_of(&revision))},
-          {"evaluation", hashes.of(object_of(&sha256_of_file))}};
+  Json files = {{"program", hashes.of("/proc/self/exe")},
+                {"library", hashes.of(object_of(&revision))},
+                {"evaluation", hashes.of(object_of(&sha256_of_file))}};
+  if (const std::string builtin = builtin_library(); !builtin.empty()) files["builtin"] = hashes.of(builtin);
+  return files;
 }
 
 /// Comments tell what follows from the map; they are no values.
@@ -108,6 +124,7 @@ std::optional<std::string> why_other_run(const std::filesystem::path& folder, co
   if (without_comments(content_of(folder / "effective.yaml")) != without_comments(effective))
     return "it is of other values (effective.yaml)";
   const auto record = Json::parse(content_of(folder / "provenance.json"), nullptr, false);
+  if (record.is_discarded()) return "its provenance.json is damaged";
   const auto text_at = [&](const char* key) {
     return record.is_object() ? record.value(key, Json()) : Json();
   };

@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "config/reader.hpp"
 #include "config/text_file.hpp"
 #include "config/yaml_parser.hpp"
+#include "evaluation/results/fault_collector.hpp"
+#include "evaluation/results/file_io.hpp"
 #include "evaluation/statistics/statistics.hpp"
 #include "glocal/error.hpp"
 
@@ -20,12 +24,80 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* mark_of_results = "provenance.json";
+
+constexpr const char* way_out = "run the experiment again with this version";
+
+/// Keys of a step that earlier versions wrote, and what they are called now.
+constexpr std::array<std::pair<const char*, const char*>, 2> renamed_keys = {
+    {{"collisions", "proposals"}, {"checks", "points_tested"}}};
+constexpr std::array<std::pair<const char*, const char*>, 1> renamed_evidence = {
+    {{"conflict", "free_space_violation"}}};
+
 [[noreturn]] void refuse(const fs::path& file, std::size_t line, const std::string& what) {
   throw ConfigError({{file.string(), static_cast<int>(line), 0, what}});
 }
 
 void check_readable(const fs::path& file) {
   if (why_unreadable(file)) refuse(file, 0, "cannot be read; name a folder that glocal run has left");
+}
+
+/// The number of the line in which this byte is.
+std::size_t line_at(const std::string& text, std::size_t byte) {
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
+  return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
+}
+
+/// What an exception says, without the name that the library of JSON puts in front.
+std::string reason(const std::exception& error) {
+  const std::string text = error.what();
+  const std::size_t name_end = text.find("] ");
+  return text.starts_with("[json.exception.") && name_end != std::string::npos ? text.substr(name_end + 2)
+                                                                               : text;
+}
+
+/// Hands over the content of a file of JSON. A std::exception of `work` is a fault of the file.
+template <class Work>
+void with_json(const fs::path& file, const Work& work) {
+  check_readable(file);
+  const std::string text = content_of(file);
+  const auto fail = [&](std::size_t line, const std::exception& error) {
+    refuse(file, line, fmt::format("is not as glocal run leaves it ({}); {}", reason(error), way_out));
+  };
+  try {
+    work(Json::parse(text));
+  } catch (const Json::parse_error& error) {
+    fail(line_at(text, error.byte == 0 ? 0 : error.byte - 1), error);
+  } catch (const std::exception& error) {
+    fail(0, error);
+  }
+}
+
+/// Hands over each line of a file of JSON lines, and tells their number. A std::exception of `work` is a
+/// fault of the line.
+template <class Work>
+std::size_t for_each_line(const fs::path& file, const Work& work) {
+  check_readable(file);
+  std::ifstream stream(file);
+  std::size_t number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    try {
+      work(Json::parse(line));
+    } catch (const std::exception& error) {
+      refuse(file, number, fmt::format("is no line of results ({}); {}", reason(error), way_out));
+    }
+  }
+  return number;
+}
+
+template <std::size_t n>
+void refuse_renamed(const Json& json, const std::array<std::pair<const char*, const char*>, n>& keys) {
+  for (const auto& [was, is] : keys) {
+    if (json.contains(was))
+      throw std::invalid_argument(
+          fmt::format("it is of an earlier version: '{}' is called '{}' now", was, is));
+  }
 }
 
 std::optional<double> number(const Json& line, const char* key) {
@@ -47,36 +119,11 @@ TrialResult trial_of(const Json& line) {
   return trial;
 }
 
-/// Median time of a step, ms, by the trial's number. Empty where no steps were written.
-std::map<std::size_t, double> step_times(const fs::path& file) {
-  std::map<std::size_t, std::vector<double>> ms;
-  if (fs::exists(file)) {
-    for_each_line(file, [&](const Json& step) {
-      const Json& stages = step.at("stage_ms");
-      double total = 0.0;
-      for (const char* stage : {"local_map", "match", "cluster", "rate"})
-        total += stages.at(stage).get<double>();
-      ms[step.at("trial")].push_back(total);
-    });
-  }
-  std::map<std::size_t, double> medians;
-  for (auto& [trial, values] : ms) medians[trial] = quantile(std::move(values), 0.5);
-  return medians;
-}
-
-void read_trials(StoredRun& results) {
-  const std::map<std::size_t, double> times = step_times(results.folder / "steps.jsonl");
-  const fs::path file = results.folder / "trials.jsonl";
-  for_each_line(file, [&](const Json& line) {
-    TrialResult trial = trial_of(line);
-    const auto time = times.find(line.at("trial"));
-    if (time != times.end()) trial.step_ms = time->second;
-    const Json& start = line.at("start");
-    const TrialStart at{start.at("sample"), start.at("distance_m"), start.at("stamp")};
-    if (!results.trials.emplace(at, trial).second) {
-      throw std::invalid_argument("an earlier trial starts at the same place");
-    }
-  });
+double step_ms(const Json& step) {
+  double total = 0.0;
+  for (const char* stage : {"local_map", "match", "cluster", "rate"})
+    total += step.at("stage_ms").at(stage).get<double>();
+  return total;
 }
 
 /// All scalars of a tree by path. Lists are counted from 0: "map.log_map.segments[0][1]".
@@ -93,63 +140,157 @@ void flatten(const YamlNode& node, const std::string& path, const std::map<std::
   settings[path] = {node.text, hash == hashes.end() ? node.text : hash->second};
 }
 
+/// Has, or once had, all of a run.
 bool holds_results(const fs::path& folder) {
-  return fs::exists(folder / "summary.json") || fs::exists(folder / "trials.jsonl");
+  return is_results_folder(folder) || fs::exists(folder / "summary.json") ||
+         fs::exists(folder / "trials.jsonl");
+}
+
+/// One folder, file by file. What is wrong with one file does not keep the others from being read.
+class ResultsReader {
+ public:
+  ResultsReader(const fs::path& folder, const LineReaders& also) : also_(also) { run_.folder = folder; }
+
+  StoredRun read() {
+    read_head();
+    if (faults_.collect([&] { read_trials(); }) && run_.has_steps) faults_.collect([&] { read_steps(); });
+    faults_.report();
+    return std::move(run_);
+  }
+
+ private:
+  struct TrialSteps {
+    TrialStart start;
+    std::size_t least = 0;  ///< Up to the declaration; there may be more.
+    std::vector<double> ms = {};
+  };
+
+  void read_head();
+  void read_trials();
+  void read_steps();
+  void check_all_steps(const fs::path& file, std::size_t lines) const;
+
+  const LineReaders& also_;
+  StoredRun run_;
+  std::optional<std::size_t> trials_counted_, steps_counted_;  ///< By the summary.
+  std::map<std::size_t, TrialSteps> steps_;                    ///< By the trial's number.
+  FaultCollector faults_;
+};
+
+void ResultsReader::read_head() {
+  faults_.collect([&] {
+    with_json(run_.folder / "summary.json", [&](const Json& summary) {
+      run_.experiment = summary.at("name");
+      run_.seed = summary.at("seed");
+      run_.complete = summary.at("complete");
+      trials_counted_ = summary.at("trials").at("count");
+      steps_counted_ = summary.at("steps");
+      run_.summary = summary;
+    });
+  });
+  std::map<std::string, std::string> hashes;
+  faults_.collect([&] {
+    with_json(run_.folder / mark_of_results, [&](const Json& provenance) {
+      run_.machine = {provenance.at("host"), provenance.at("cpu"), provenance.at("threads")};
+      hashes = provenance.at("inputs_sha256");
+      run_.provenance = provenance;
+    });
+  });
+  faults_.collect([&] {
+    run_.settings = read_settings(run_.folder, hashes);
+    run_.has_steps = run_.settings.at("output.steps").text != "false";
+  });
+}
+
+void ResultsReader::read_trials() {
+  const fs::path file = run_.folder / "trials.jsonl";
+  const std::size_t lines = for_each_line(file, [&](const Json& line) {
+    const std::size_t number = line.at("trial");
+    const Json& start = line.at("start");
+    const TrialStart at{start.at("sample"), start.at("distance_m"), start.at("stamp")};
+    if (!steps_.try_emplace(number, TrialSteps{at, line.at("steps")}).second)
+      throw std::invalid_argument(fmt::format("trial {} is there already", number));
+    if (!run_.trials.emplace(at, trial_of(line)).second)
+      throw std::invalid_argument("an earlier trial starts at the same place");
+    also_.trial(line);
+  });
+  if (trials_counted_ && *trials_counted_ != lines)
+    refuse(file, std::max(lines, std::size_t{1}),
+           fmt::format("ends here with {} trials, where summary.json counts {}; {}", lines, *trials_counted_,
+                       way_out));
+}
+
+void ResultsReader::read_steps() {
+  const fs::path file = run_.folder / "steps.jsonl";
+  const std::size_t lines = for_each_line(file, [&](const Json& line) {
+    const std::size_t number = line.at("trial");
+    const auto trial = steps_.find(number);
+    if (trial == steps_.end())
+      throw std::invalid_argument(fmt::format("trials.jsonl has no trial {}", number));
+    std::vector<double>& ms = trial->second.ms;
+    if (const std::size_t step = line.at("step"); step != ms.size())
+      throw std::invalid_argument(
+          fmt::format("step {} of trial {} is here, where step {} belongs", step, number, ms.size()));
+    refuse_renamed(line, renamed_keys);
+    if (line.contains("evidence")) refuse_renamed(line.at("evidence"), renamed_evidence);
+    ms.push_back(step_ms(line));
+    also_.step(line);
+  });
+  check_all_steps(file, lines);
+  for (auto& [number, trial] : steps_) {
+    if (!trial.ms.empty()) run_.trials.at(trial.start).step_ms = quantile(std::move(trial.ms), 0.5);
+  }
+}
+
+void ResultsReader::check_all_steps(const fs::path& file, std::size_t lines) const {
+  const auto fail = [&](const std::string& what) {
+    refuse(file, std::max(lines, std::size_t{1}), fmt::format("ends here with {}; {}", what, way_out));
+  };
+  for (const auto& [number, trial] : steps_) {
+    if (trial.ms.size() < trial.least)
+      fail(fmt::format("{} of the {} steps of trial {}", trial.ms.size(), trial.least, number));
+  }
+  if (steps_counted_ && *steps_counted_ != lines)
+    fail(fmt::format("{} steps, where summary.json counts {}", lines, *steps_counted_));
 }
 
 }  // namespace
 
-void with_json(const fs::path& file, const std::function<void(const Json&)>& work) {
-  check_readable(file);
-  try {
-    work(Json::parse(std::ifstream(file)));
-  } catch (const std::exception& error) {
-    refuse(file, 0,
-           fmt::format("is not as glocal run leaves it ({}); run the experiment again", error.what()));
-  }
-}
-
-void for_each_line(const fs::path& file, const std::function<void(const Json&)>& work) {
-  check_readable(file);
-  std::ifstream stream(file);
-  std::string line;
-  for (std::size_t number = 1; std::getline(stream, line); ++number) {
-    try {
-      work(Json::parse(line));
-    } catch (const std::exception& error) {
-      refuse(file, number, fmt::format("is no line of results ({}); run the experiment again", error.what()));
-    }
-  }
+bool is_results_folder(const fs::path& folder) {
+  std::error_code unreachable;
+  return fs::exists(folder / mark_of_results, unreachable);
 }
 
 std::map<std::string, Setting> read_settings(const fs::path& folder,
                                              const std::map<std::string, std::string>& hashes) {
   const fs::path file = folder / "effective.yaml";
   check_readable(file);
+  const std::string text = read_text_file(file);
+  const auto check = [&](bool is_whole) {
+    if (!is_whole)
+      refuse(file, line_at(text, text.size()),
+             fmt::format("is cut off: it does not end with the key output as glocal run leaves it; {}",
+                         way_out));
+  };
+  check(text.ends_with('\n'));
   std::vector<Fault> faults;
-  const auto tree = parse_yaml(read_text_file(file), origin_of(file), faults);
+  const auto tree = parse_yaml(text, origin_of(file), faults);
   if (!faults.empty()) throw ConfigError(std::move(faults));
   std::map<std::string, Setting> settings;
   flatten(*tree, "", hashes, settings);
+  // Half a file may be good YAML, too; these are its last keys.
+  check(settings.contains("output.steps") && settings.contains("output.maps"));
   return settings;
 }
 
-StoredRun read_results(const fs::path& folder) {
-  StoredRun results;
-  results.folder = folder;
-  with_json(folder / "summary.json", [&](const Json& summary) {
-    results.experiment = summary.at("name");
-    results.seed = summary.at("seed");
-    results.complete = summary.at("complete");
-  });
-  std::map<std::string, std::string> hashes;
-  with_json(folder / "provenance.json", [&](const Json& provenance) {
-    results.machine = {provenance.at("host"), provenance.at("cpu"), provenance.at("threads")};
-    hashes = provenance.at("inputs_sha256");
-  });
-  results.settings = read_settings(folder, hashes);
-  read_trials(results);
-  return results;
+StoredRun read_results(const fs::path& folder, const LineReaders& also) {
+  return ResultsReader(folder, also).read();
+}
+
+void require_steps(const StoredRun& run) {
+  if (!run.has_steps)
+    refuse(run.folder / "steps.jsonl", 0,
+           "is not there; run the experiment again with --set output.steps=true");
 }
 
 std::vector<fs::path> results_folders(const fs::path& path) {
@@ -163,10 +304,9 @@ std::vector<fs::path> results_folders(const fs::path& path) {
     if (entry.is_directory() && !is_hidden && holds_results(entry.path())) folders.push_back(entry.path());
   }
   if (folders.empty()) {
-    refuse(
-        path, 0,
-        "holds no results: there is no summary.json, neither here nor in a folder below; name a folder that "
-        "glocal run has left");
+    refuse(path, 0,
+           "holds no results: there is no provenance.json, neither here nor in a folder below; name a folder "
+           "that glocal run has left");
   }
   std::sort(folders.begin(), folders.end());
   return folders;

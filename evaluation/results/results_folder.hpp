@@ -1,11 +1,12 @@
 // What glocal run has left in a folder, read again. docs/file-formats.md says what is in it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -16,15 +17,8 @@
 
 namespace glocal {
 
-/// Hands over the content of a file of JSON. Throws ConfigError for one that is none, or that `work` cannot
-/// make sense of: then it throws a std::exception.
-void with_json(const std::filesystem::path& file,
-               const std::function<void(const nlohmann::ordered_json&)>& work);
-
-/// Hands over each line of a file of JSON lines. Throws ConfigError naming the line that is none, or that
-/// `work` cannot make sense of: then it throws a std::exception.
-void for_each_line(const std::filesystem::path& file,
-                   const std::function<void(const nlohmann::ordered_json&)>& work);
+/// Whether glocal run has left this folder, complete or interrupted: whether it has a provenance.json.
+[[nodiscard]] bool is_results_folder(const std::filesystem::path& folder);
 
 /// Where on a drive a trial starts: the same in all runs over the same observations.
 struct TrialStart {
@@ -64,20 +58,35 @@ struct StoredRun {
   std::string experiment;        ///< Its name.
   std::uint64_t seed = 0;
   bool complete = true;                     ///< False if the run was interrupted.
+  bool has_steps = true;                    ///< Steps were written.
   std::map<std::string, Setting> settings;  ///< By path: "map.simulation.resolution".
   Machine machine;
   std::map<TrialStart, TrialResult> trials;
+  nlohmann::ordered_json summary, provenance;  ///< The whole files.
+};
+
+/// Who wants more of the lines of trials.jsonl and steps.jsonl than a StoredRun holds: is handed each of
+/// them, in their order, all trials before the first step. What is wrong with a line they say with a
+/// std::exception.
+struct LineReaders {
+  std::function<void(const nlohmann::ordered_json&)> trial = [](const nlohmann::ordered_json&) {};
+  std::function<void(const nlohmann::ordered_json&)> step = [](const nlohmann::ordered_json&) {};
 };
 
 /// The values of effective.yaml by path; `hashes` are those of the input files. Throws ConfigError.
 [[nodiscard]] std::map<std::string, Setting> read_settings(const std::filesystem::path& folder,
                                                            const std::map<std::string, std::string>& hashes);
 
-/// Throws ConfigError for what is not there, or not as glocal run leaves it.
-[[nodiscard]] StoredRun read_results(const std::filesystem::path& folder);
+/// Reads a results folder. Throws ConfigError with every fault of it: files that are missing, cut off or
+/// damaged, trials and steps that are not all there, keys of earlier versions.
+[[nodiscard]] StoredRun read_results(const std::filesystem::path& folder, const LineReaders& also = {});
 
-/// The results folder that `path` is, or those in it, sorted by name (hidden ones left out). Throws
-/// ConfigError if there is none.
+/// Throws ConfigError if a run has left no steps, which this is about.
+void require_steps(const StoredRun& run);
+
+/// The results folder that `path` is, or those in it, sorted by name (hidden ones left out). Those count,
+/// too, that have lost their provenance.json, of which read_results() tells. Throws ConfigError if there is
+/// none.
 [[nodiscard]] std::vector<std::filesystem::path> results_folders(const std::filesystem::path& path);
 
 }  // namespace glocal

@@ -68,20 +68,12 @@ void Summary::add(const TrialFigures& trial) {
   }
 }
 
-Json Summary::to_json(const Run& run) const {
+Json Summary::figures() const {
   Json trials = {{"count", count_}, {"right", right_}, {"wrong", wrong_}, {"undecided", undecided_}};
   if (declared_ > 0) trials["declared_without_reference"] = declared_;
   if (failed_ > 0) trials["failed"] = failed_;
-  Json map = {{"points", run.map_points}, {"build_ms", run.map_build_ms}, {"index_ms", run.map_index_ms}};
-  if (run.map_index) {
-    map["index"] = {{"entries", run.map_index->entries},
-                    {"bytes", run.map_index->bytes},
-                    {"build_ms", run.map_index->build_ms}};
-  }
-  return {{"name", run.name},
-          {"seed", run.seed},
-          {"complete", run.complete},
-          {"trials", std::move(trials)},
+  return {{"trials", std::move(trials)},
+          {"steps", ms_.total.size()},
           {"success_rate", with_interval(wilson(right_, count_))},
           {"false_rate", with_interval(wilson(wrong_, count_))},
           {"steps_to_localize", median_and_p90(steps_)},
@@ -97,9 +89,21 @@ Json Summary::to_json(const Run& run) const {
            {{"local_map", spread(ms_.local_map)},
             {"match", spread(ms_.match)},
             {"cluster", spread(ms_.cluster)},
-            {"rate", spread(ms_.rate)}}},
-          {"map", std::move(map)},
-          {"peak_rss_mb", peak_rss_mb()}};
+            {"rate", spread(ms_.rate)}}}};
+}
+
+Json Summary::to_json(const Run& run) const {
+  Json map = {{"points", run.map_points}, {"build_ms", run.map_build_ms}, {"index_ms", run.map_index_ms}};
+  if (run.map_index) {
+    map["index"] = {{"entries", run.map_index->entries},
+                    {"bytes", run.map_index->bytes},
+                    {"build_ms", run.map_index->build_ms}};
+  }
+  Json json = {{"name", run.name}, {"seed", run.seed}, {"complete", run.complete}};
+  json.update(figures());
+  json["map"] = std::move(map);
+  json["peak_rss_mb"] = peak_rss_mb();
+  return json;
 }
 
 }  // namespace glocal

@@ -38,6 +38,8 @@ class Summary {
     std::optional<MapIndexInfo> map_index = {};
   };
   [[nodiscard]] nlohmann::ordered_json to_json(const Run& run) const;
+  /// What follows from the trials alone.
+  [[nodiscard]] nlohmann::ordered_json figures() const;
 
  private:
   struct Values {

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,24 +14,10 @@ namespace glocal::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
   throw ConfigError({{file.string(), 0, 0, why}});
-}
-
-/// How many steps trials.jsonl says that the trial has, at least.
-std::size_t steps_of(const fs::path& folder, std::size_t trial) {
-  std::optional<std::size_t> steps;
-  std::size_t last = 0;
-  const fs::path file = folder / "trials.jsonl";
-  for_each_line(file, [&](const Json& line) {
-    last = line.at("trial");
-    if (last == trial) steps = line.at("steps").get<std::size_t>();
-  });
-  if (!steps) refuse(file, fmt::format("has no trial {}; choose one from 0 to {} with --trial", trial, last));
-  if (*steps == 0) refuse(file, fmt::format("trial {} has no steps; choose another with --trial", trial));
-  return *steps;
 }
 
 void check_number(const Json& json, const char* key) {
@@ -62,22 +47,21 @@ void check_step(const Json& step) {
   }
 }
 
-void check_steps(const fs::path& folder, std::size_t trial) {
-  const fs::path file = folder / "steps.jsonl";
-  if (!fs::exists(file)) refuse(file, "is not there; run the experiment again with --set output.steps=true");
-  const std::size_t expected = steps_of(folder, trial);
-  std::size_t found = 0;
-  for_each_line(file, [&](const Json& step) {
-    if (step.at("trial") != trial) return;
-    if (step.at("step") != found) throw std::invalid_argument(fmt::format("step {} is missing", found));
-    check_step(step);
-    ++found;
-  });
-  if (found < expected) {
-    refuse(file,
-           fmt::format("is cut off: it has {} of the {} steps or more of trial {}; run the experiment again",
-                       found, expected, trial));
-  }
+/// That the run has steps of the trial, and figures.py can read them.
+void check_files(const fs::path& folder, std::size_t trial) {
+  std::optional<std::size_t> steps;
+  std::size_t last = 0;
+  const auto note_trial = [&](const Json& line) {
+    last = line.at("trial");
+    if (last == trial) steps = line.at("steps").get<std::size_t>();
+  };
+  const auto look_at_step = [&](const Json& line) {
+    if (line.at("trial") == trial) check_step(line);
+  };
+  require_steps(read_results(folder, {note_trial, look_at_step}));
+  const fs::path file = folder / "trials.jsonl";
+  if (!steps) refuse(file, fmt::format("has no trial {}; choose one from 0 to {} with --trial", trial, last));
+  if (*steps == 0) refuse(file, fmt::format("trial {} has no steps; choose another with --trial", trial));
 }
 
 void check_point_clouds(const fs::path& folder, std::size_t trial, FaultCollector& faults) {
@@ -97,8 +81,7 @@ void check_point_clouds(const fs::path& folder, std::size_t trial, FaultCollecto
 }  // namespace
 
 void check_figures_input(const fs::path& folder, std::size_t trial, FaultCollector& faults) {
-  faults.collect([&] { static_cast<void>(read_results(folder)); });  // that it is one, and all of it
-  faults.collect([&] { check_steps(folder, trial); });
+  faults.collect([&] { check_files(folder, trial); });
   check_point_clouds(folder, trial, faults);
 }
 

@@ -175,7 +175,7 @@ TEST_F(ExplainCommand, NumbersAreThoseOfTheRun) {
 }
 
 TEST_F(ExplainCommand, ReportsFaults) {
-  EXPECT_THAT(run("explain " + folder() + " --trial 0 --step 0").err, HasSubstr("holds no results"));
+  EXPECT_THAT(run("explain " + folder() + " --trial 0 --step 0").err, HasSubstr("is no folder"));
   run_lab();
   Answer answer = run("explain " + folder() + " --trial 1 --step 0");
   EXPECT_EQ(answer.exit_code, 2);

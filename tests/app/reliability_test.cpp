@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "app/program.hpp"
+#include "app/result_lines.hpp"
 
 namespace glocal::test::reliability_test {
 namespace {
@@ -15,20 +17,29 @@ class ReliabilityCommand : public CommandLine {
   [[nodiscard]] std::string folder() const { return folder_.path() / "results"; }
 
   /// The results of one short trial in the simulated lab.
-  void run_lab() const {
+  void run_lab(const std::string& options = "") const {
     const Answer answer =
         run("run " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml --quiet --out " +
             folder() +
             " --set 'trials={starts_m: [0], max_steps: 4}' --set localizer.verdict_rule=staged_margin"
             " --set localizer.matcher=indexed_ransam --set 'localizer.threshold_policy={fixed: {omega_max: "
-            "0.1}}'");
+            "0.1}}' " +
+            options);
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
   }
-
-  void replace(const std::string& file, const std::string& text) const {
-    std::ofstream(folder() + "/" + file) << text;
-  }
 };
+
+nlohmann::json step(int trial, int number, double confidence, double translation_m, double rotation_deg) {
+  return {{"trial", trial},
+          {"step", number},
+          {"confidence", confidence},
+          {"translation_error_m", translation_m},
+          {"rotation_error_deg", rotation_deg}};
+}
+
+nlohmann::json declared(const char* outcome, double nees) {
+  return {{"outcome", outcome}, {"confidence", 0.95}, {"nees", nees}};
+}
 
 TEST_F(ReliabilityCommand, ReadsWhatRunHasLeft) {
   run_lab();
@@ -40,20 +51,16 @@ TEST_F(ReliabilityCommand, ReadsWhatRunHasLeft) {
 
 TEST_F(ReliabilityCommand, CountsByConfidence) {
   run_lab();
-  // Four declared with 0.95, three of them rightly; one undecided.
-  replace("trials.jsonl",
-          "{\"outcome\": \"right\", \"confidence\": 0.95, \"nees\": 2.0}\n"
-          "{\"outcome\": \"right\", \"confidence\": 0.95, \"nees\": 5.5}\n"
-          "{\"outcome\": \"right\", \"confidence\": 0.95, \"nees\": 4.5}\n"
-          "{\"outcome\": \"wrong\", \"confidence\": 0.95, \"nees\": 900.0}\n"
-          "{\"outcome\": \"undecided\"}\n");
-  // Of trial 0 the first step counts, of trial 1 the second.
-  replace(
-      "steps.jsonl",
-      "{\"trial\": 0, \"confidence\": 0.2, \"translation_error_m\": 0.1, \"rotation_error_deg\": 1.0}\n"
-      "{\"trial\": 0, \"confidence\": 0.8, \"translation_error_m\": 9.0, \"rotation_error_deg\": 1.0}\n"
-      "{\"trial\": 1, \"confidence\": 0.6, \"translation_error_m\": 9.0, \"rotation_error_deg\": 1.0}\n"
-      "{\"trial\": 1, \"confidence\": 0.25, \"translation_error_m\": 0.1, \"rotation_error_deg\": 11.0}\n");
+  // Four declared with 0.95, three of them rightly; one undecided. Of trial 0 the first step counts, of trial
+  // 1 the second.
+  replace_lines(folder(),
+                {declared("right", 2.0),
+                 declared("right", 5.5),
+                 declared("right", 4.5),
+                 declared("wrong", 900.0),
+                 {{"outcome", "undecided"}}},
+                {step(0, 0, 0.2, 0.1, 1.0), step(0, 1, 0.8, 9.0, 1.0), step(1, 0, 0.6, 9.0, 1.0),
+                 step(1, 1, 0.25, 0.1, 11.0)});
   const Answer answer = run("reliability " + folder());
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("5 trials: 3 right, 1 wrong (20.00 %"));
@@ -62,10 +69,20 @@ TEST_F(ReliabilityCommand, CountsByConfidence) {
   EXPECT_THAT(answer.out, HasSubstr("declarations: 4.00 in the mean"));
 }
 
+TEST_F(ReliabilityCommand, NeedsStepsAndEachFolderOnce) {
+  run_lab();
+  EXPECT_THAT(run("reliability " + folder() + " " + folder() + "/").err, HasSubstr("is named twice"));
+  const Answer pooled = run("reliability " + folder_.path().string());
+  EXPECT_THAT(pooled.out, HasSubstr("1 trials: 1 right")) << pooled.err;
+  std::filesystem::remove_all(folder());
+  run_lab("--set output.steps=false");
+  EXPECT_THAT(run("reliability " + folder()).err, HasSubstr("again with --set output.steps=true"));
+}
+
 TEST_F(ReliabilityCommand, NamesTheLineThatIsNoResult) {
   EXPECT_EQ(run("reliability " + folder()).exit_code, 2);
   run_lab();
-  replace("trials.jsonl", "{\"outcome\": \"undecided\"}\n{\"outcome\": \n");
+  std::ofstream(folder() + "/trials.jsonl", std::ios::app) << "{\"outcome\": \n";
   const Answer answer = run("reliability " + folder());
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("trials.jsonl:2"));

@@ -31,12 +31,11 @@ class ReportDataTest : public testing::Test {
   }
 
   void write_run(const std::string& name, double first_start_m = 0.0) const {
-    write(name + "/summary.json",
-          R"({"name": "lab", "seed": 7, "complete": true, "trials": {"count": 2, "right": 1}})");
+    write_summary(name, true, 2, 4);
     write(name + "/provenance.json",
           R"({"host": "h", "cpu": "c", "threads": 2, "inputs_sha256": {"/lab.log": "abc"}})");
     write(name + "/effective.yaml",
-          "seed: 7\nmap:\n  carmen_log:\n    path: \"/lab.log\"\noutput:\n  steps: true\n");
+          "seed: 7\nmap:\n  carmen_log:\n    path: \"/lab.log\"\noutput:\n  steps: true\n  maps: all\n");
     write(name + "/trials.jsonl", trial(0, 3, first_start_m) + trial(1, 1, first_start_m + 5.0));
     write(name + "/steps.jsonl", step(0, 0) + step(0, 1) + step(0, 2) + step(1, 0));
     write(name + "/maps/global.pcd", pcd(points_at({{0, 0}, {0.05F, 0}, {0.1F, 0}})));
@@ -45,6 +44,13 @@ class ReportDataTest : public testing::Test {
       write(fmt::format("{}/maps/trial_0000/step_000{}.pcd", name, i), pcd(points_at({{9, 9}, {x, 1}})));
       write(fmt::format("{}/maps/trial_0000/scan_000{}.pcd", name, i), pcd(points_at({{x, -1}})));
     }
+  }
+
+  void write_summary(const std::string& name, bool complete, int trials, int steps) const {
+    write(
+        name + "/summary.json",
+        fmt::format(R"({{"name": "lab", "seed": 7, "complete": {}, "trials": {{"count": {}}}, "steps": {}}})",
+                    complete, trials, steps));
   }
 
   static std::string trial(std::size_t number, std::size_t steps, double start_m) {
@@ -100,6 +106,7 @@ TEST_F(ReportDataTest, IsAllThatTheRunLeft) {
   EXPECT_EQ(run["summary"]["seed"], 7);
   EXPECT_EQ(run["provenance"]["inputs_sha256"]["/lab.log"], "abc");
   EXPECT_EQ(run["settings"], Json::parse(R"({"map.carmen_log.path": {"text": "/lab.log", "identity": "abc"},
+                                             "output.maps": {"text": "all"},
                                              "output.steps": {"text": "true"}, "seed": {"text": "7"}})"));
   EXPECT_EQ(run["map"], 0);
   ASSERT_EQ(run["trials"].size(), 2U);
@@ -119,7 +126,7 @@ TEST_F(ReportDataTest, IsAllThatTheRunLeft) {
 }
 
 TEST_F(ReportDataTest, DoesWithoutWhatWasNotRecorded) {
-  write("a/effective.yaml", "output: {steps: false}\n");
+  write("a/effective.yaml", "output: {steps: false, maps: all}\n");
   fs::remove(folder_ / "a/steps.jsonl");
   for (int i = 0; i < 3; ++i) fs::remove(folder_ / fmt::format("a/maps/trial_0000/scan_000{}.pcd", i));
   Json trial = data({"a"})["runs"][0]["trials"][0];
@@ -133,7 +140,7 @@ TEST_F(ReportDataTest, DoesWithoutWhatWasNotRecorded) {
 }
 
 TEST_F(ReportDataTest, TakesARunThatWasInterrupted) {
-  write("a/summary.json", R"({"name": "lab", "seed": 7, "complete": false, "trials": {"count": 1}})");
+  write_summary("a", false, 1, 1);
   write("a/trials.jsonl", trial(1, 1, 5.0));
   write("a/steps.jsonl", step(1, 0));
   const Json trials = data({"a"})["runs"][0]["trials"];
@@ -144,6 +151,7 @@ TEST_F(ReportDataTest, TakesARunThatWasInterrupted) {
 TEST_F(ReportDataTest, TakesATrialThatFailedInItsFirstStep) {
   write("a/trials.jsonl", trial(0, 3, 0.0) + trial(1, 0, 5.0));
   write("a/steps.jsonl", step(0, 0) + step(0, 1) + step(0, 2));
+  write_summary("a", true, 2, 3);
   EXPECT_EQ(data({"a"})["runs"][0]["trials"][1]["columns"]["step"], Json::array());
 }
 
@@ -195,24 +203,21 @@ TEST_F(ReportDataTest, FindsEveryFaultOfAFolder) {
                   HasSubstr("a/maps/trial_0000/scan_0001.pcd: error: cannot be read"),
                   HasSubstr("a/provenance.json: error: is not as glocal run leaves it"),
                   AllOf(HasSubstr("a/steps.jsonl:2: error:"), HasSubstr("where step 1 belongs")),
-                  HasSubstr("a/summary.json: error: is not as glocal run leaves it")));
+                  HasSubstr("a/summary.json:1: error: is not as glocal run leaves it")));
 }
 
 TEST_F(ReportDataTest, FindsWhatWasCutOff) {
   write("a/steps.jsonl", step(0, 0) + step(0, 1) + step(1, 0));
   EXPECT_THAT(
       faults(),
-      ElementsAre(HasSubstr("a/maps/trial_0000: error: steps.jsonl has 2 steps of this trial, where there "
-                            "are 3 files scan_NNNN.pcd"),
-                  HasSubstr("where there are 3 files step_NNNN.pcd"),
-                  HasSubstr("a/steps.jsonl: error: has 2 of the 3 steps of trial 0; run")));
+      ElementsAre(HasSubstr("a/steps.jsonl:3: error: ends here with 2 of the 3 steps of trial 0; run")));
   write("a/steps.jsonl", step(0, 0) + step(0, 1).substr(0, 200));
   EXPECT_THAT(faults(), testing::Contains(HasSubstr("a/steps.jsonl:2: error: is no line of results")));
   write_run("a");
   write("a/trials.jsonl", trial(0, 3, 0.0));
   EXPECT_THAT(faults(),
-              ElementsAre(HasSubstr("trials.jsonl has no trial 1"),
-                          HasSubstr("a/trials.jsonl: error: has 1 trials, where summary.json counts 2")));
+              ElementsAre(HasSubstr(
+                  "a/trials.jsonl:1: error: ends here with 1 trials, where summary.json counts 2")));
   write_run("a");
   fs::remove(folder_ / "a/steps.jsonl");
   EXPECT_THAT(faults(), testing::Contains(HasSubstr("a/steps.jsonl: error: cannot be read")));

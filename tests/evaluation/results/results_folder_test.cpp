@@ -1,11 +1,15 @@
 #include "evaluation/results/results_folder.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
 
+#include "files.hpp"
 #include "glocal/error.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::test::results_folder_test {
 namespace {
@@ -22,24 +26,36 @@ class ResultsFolder : public testing::Test {
 
   void write_results(const std::string& name) const {
     fs::create_directory(temporary_.path() / name);
-    temporary_.write(name + "/summary.json", R"({"name": "lab", "seed": 7, "complete": true})");
+    write_summary(name, 2, 3);
     temporary_.write(name + "/provenance.json",
                      R"({"host": "h", "cpu": "c", "threads": 2, "inputs_sha256": {"/lab.log": "abc"}})");
     temporary_.write(name + "/effective.yaml",
-                     "seed: 7\nmap:\n  carmen_log:\n    path: \"/lab.log\"\n    segments: [[0, 0.5]]\n");
+                     "seed: 7\nmap:\n  carmen_log:\n    path: \"/lab.log\"\n    segments: [[0, 0.5]]\n"
+                     "output:\n  steps: true\n  maps: none\n");
     temporary_.write(
         name + "/trials.jsonl",
         R"({"trial":0,"start":{"sample":0,"distance_m":0.0,"stamp":5.5,"reference":{"x":1,"y":2,"theta":0.5}},)"
-        R"("outcome":"right","steps":4,"distance_m":1.25,"translation_error_m":0.1,"rotation_error_deg":2})"
+        R"("outcome":"right","steps":3,"distance_m":1.25,"translation_error_m":0.1,"rotation_error_deg":2})"
         "\n"
         R"({"trial":1,"start":{"sample":9,"distance_m":6.5,"stamp":8},"outcome":"failed","steps":0,"distance_m":0})"
         "\n");
-    temporary_.write(name + "/steps.jsonl", step(0, 1) + step(0, 5) + step(0, 3));
+    temporary_.write(name + "/steps.jsonl", step(0, 1) + step(1, 5) + step(2, 3));
   }
 
-  static std::string step(int trial, int match_ms) {
-    return R"({"trial":)" + std::to_string(trial) + R"(,"stage_ms":{"local_map":0.5,"match":)" +
-           std::to_string(match_ms) + R"(,"cluster":0.25,"rate":0.25}})" + "\n";
+  void write_summary(const std::string& name, int trials, int steps) const {
+    temporary_.write(name + "/summary.json",
+                     fmt::format(R"({{"name": "lab", "seed": 7, "complete": true, "trials": {{"count": {}}},)"
+                                 "\n"
+                                 R"("steps": {}}})",
+                                 trials, steps));
+  }
+
+  /// Of trial 0; `more` are further keys.
+  static std::string step(int number, int match_ms, const std::string& more = "") {
+    return fmt::format(
+        R"({{"trial":0,"step":{},"stage_ms":{{"local_map":0.5,"match":{},"cluster":0.25,"rate":0.25}}{}}})"
+        "\n",
+        number, match_ms, more);
   }
 
   [[nodiscard]] fs::path folder() const { return temporary_.path() / "run"; }
@@ -68,7 +84,7 @@ TEST_F(ResultsFolder, IsReadWithTheTimesOfItsSteps) {
   EXPECT_EQ(start.sample, 0);
   EXPECT_EQ(start.stamp, 5.5);
   EXPECT_EQ(right.outcome, Outcome::right);
-  EXPECT_EQ(right.steps, 4.0);
+  EXPECT_EQ(right.steps, 3.0);
   EXPECT_EQ(right.distance_m, 1.25);
   EXPECT_EQ(right.translation_error_m, 0.1);
   EXPECT_EQ(right.rotation_error_deg, 2.0);
@@ -89,9 +105,30 @@ TEST_F(ResultsFolder, KnowsItsSettingsByPathAndItsFilesByContent) {
   EXPECT_EQ(settings.at("map.carmen_log.path").identity, "abc");
 }
 
-TEST_F(ResultsFolder, NeedsNoSteps) {
+TEST_F(ResultsFolder, NeedsNoStepsIfTheRunWroteNone) {
   fs::remove(folder() / "steps.jsonl");
-  EXPECT_EQ(read_results(folder()).trials.begin()->second.step_ms, std::nullopt);
+  EXPECT_THAT(fault(), HasSubstr("steps.jsonl: error: cannot be read"));
+  temporary_.write("run/effective.yaml", "output: {steps: false, maps: none}\n");
+  const StoredRun results = read_results(folder());
+  EXPECT_FALSE(results.has_steps);
+  EXPECT_EQ(results.trials.begin()->second.step_ms, std::nullopt);
+  EXPECT_THAT(
+      config_error(folder(), [&] { require_steps(results); }),
+      HasSubstr("steps.jsonl: error: is not there; run the experiment again with --set output.steps=true"));
+}
+
+TEST_F(ResultsFolder, HandsOverEveryLine) {
+  std::vector<int> trials, steps;
+  static_cast<void>(read_results(folder(), {[&](const auto& trial) { trials.push_back(trial.at("trial")); },
+                                            [&](const auto& step) {
+                                              EXPECT_EQ(trials.size(), 2U);
+                                              steps.push_back(step.at("step"));
+                                            }}));
+  EXPECT_THAT(trials, ElementsAre(0, 1));
+  EXPECT_THAT(steps, ElementsAre(0, 1, 2));
+  const auto refuse = [](const auto&) { throw std::invalid_argument("not this one"); };
+  EXPECT_THAT(config_error(folder(), [&] { static_cast<void>(read_results(folder(), {.step = refuse})); }),
+              HasSubstr("steps.jsonl:1: error: is no line of results (not this one)"));
 }
 
 TEST_F(ResultsFolder, MissesItsFilesByName) {
@@ -102,38 +139,97 @@ TEST_F(ResultsFolder, MissesItsFilesByName) {
   }
 }
 
-TEST_F(ResultsFolder, NamesTheLineThatIsNoTrial) {
-  const std::string start =
-      R"({"trial":0,"start":{"sample":0,"distance_m":0,"stamp":0},"steps":1,"distance_m":0,)";
-  const std::string trial = start + R"("outcome":"right"})" + "\n";
-  for (const auto& [text, what] :
-       {std::pair<std::string, std::string>{trial + "{\n", "trials.jsonl:2: error: is no line of results"},
-        {start + R"("outcome":"rigth"})",
-         "trials.jsonl:1: error: is no line of results (there is no outcome 'rigth')"},
-        {trial + trial,
-         "trials.jsonl:2: error: is no line of results (an earlier trial starts at the same place)"},
-        {"[]\n", "trials.jsonl:1"},
-        {trial + start + R"("outcome":3})", "trials.jsonl:2"}}) {
+std::string start_of(int trial, int sample) {
+  return fmt::format(
+      R"({{"trial":{},"start":{{"sample":{},"distance_m":0,"stamp":0}},"steps":0,"distance_m":0,"outcome":)",
+      trial, sample);
+}
+
+TEST_F(ResultsFolder, NamesTheLineOfTrialsThatIsWrong) {
+  const std::string trial = start_of(0, 0) + "\"right\"}\n";
+  for (const auto& [text, what] : {
+           std::pair<std::string, std::string>{trial + "{\n", "2: error: is no line of results (parse error"},
+           {start_of(0, 0) + "\"rigth\"}\n", "1: error: is no line of results (there is no outcome 'rigth')"},
+           {trial + start_of(1, 0) + "\"wrong\"}\n",
+            "2: error: is no line of results (an earlier trial starts at"},
+           {trial + start_of(0, 5) + "\"wrong\"}\n",
+            "2: error: is no line of results (trial 0 is there already"},
+           {"[]\n", "1: error: is no line of results"},
+           {trial + start_of(1, 5) + "3}\n", "2: error: is no line of results"},
+           {trial,
+            "1: error: ends here with 1 trials, where summary.json counts 2; run the experiment again"},
+           {"", "1: error: ends here with 0 trials, where summary.json counts 2"},
+       }) {
     temporary_.write("run/trials.jsonl", text);
-    EXPECT_THAT(fault(), HasSubstr(what)) << text;
+    EXPECT_THAT(fault(), HasSubstr("trials.jsonl:" + what)) << text;
   }
 }
 
-TEST_F(ResultsFolder, NamesOtherFilesThatAreNotAsTheyWereLeft) {
-  temporary_.write("run/steps.jsonl", "{\"trial\": 0}\n");
-  EXPECT_THAT(fault(), HasSubstr("steps.jsonl:1: error: is no line of results"));
-  temporary_.write("run/effective.yaml", "seed: [\n");
-  EXPECT_THAT(fault(), HasSubstr("effective.yaml:"));
-  temporary_.write("run/summary.json", "{\"name\": 3}");
-  EXPECT_THAT(fault(), AllOf(HasSubstr("summary.json: error: is not as glocal run leaves it"),
-                             HasSubstr("run the experiment again")));
+TEST_F(ResultsFolder, NamesTheLineOfStepsThatIsWrong) {
+  const std::string two = step(0, 1) + step(1, 1);
+  for (const auto& [text, what] : {
+           std::pair<std::string, std::string>{two + step(2, 1).substr(0, 40),
+                                               "3: error: is no line of results"},
+           {"", "1: error: ends here with 0 of the 3 steps of trial 0; run the experiment again"},
+           {two, "2: error: ends here with 2 of the 3 steps of trial 0"},
+           {two + step(2, 1) + step(3, 1), "4: error: ends here with 4 steps, where summary.json counts 3"},
+           {step(0, 1) + step(2, 1),
+            "2: error: is no line of results (step 2 of trial 0 is here, where step 1"},
+           {R"({"trial": 7})", "1: error: is no line of results (trials.jsonl has no trial 7)"},
+           {R"({"trial": 0, "step": 0})", "1: error: is no line of results (key 'stage_ms' not found)"},
+           {two + step(2, 1, R"(,"collisions":4)"),
+            "3: error: is no line of results (it is of an earlier version: "
+            "'collisions' is called 'proposals' now); run the experiment "
+            "again with this version"},
+           {step(0, 1, R"(,"checks":4)"),
+            "1: error: is no line of results (it is of an earlier version: 'checks' is "
+            "called 'points_tested' now)"},
+           {step(0, 1, R"(,"evidence":{"conflict":0.5})"),
+            "1: error: is no line of results (it is of an earlier "
+            "version: 'conflict' is called 'free_space_violation' now)"},
+       }) {
+    temporary_.write("run/steps.jsonl", text);
+    EXPECT_THAT(fault(), HasSubstr("steps.jsonl:" + what)) << text;
+  }
+}
+
+TEST_F(ResultsFolder, NamesThePlaceInOtherFiles) {
+  for (const auto& [name, text, what] : {
+           std::tuple<const char*, std::string, std::string>{
+               "summary.json", "", ":1: error: is not as glocal run leaves it (parse error"},
+           {"summary.json", "{\"name\": \"lab\",\n\"seed\": ", ":2: error: is not as glocal run leaves it"},
+           {"summary.json", "{\"name\": 3}", ": error: is not as glocal run leaves it"},
+           {"provenance.json", "{\n\n", ":3: error: is not as glocal run leaves it"},
+           {"effective.yaml", "", "effective.yaml:"},
+           {"effective.yaml", "seed: [\n", "effective.yaml:"},
+           {"effective.yaml", "seed: 7\nmap:\n  carmen_log:\n", ":4: error: is cut off"},
+           {"effective.yaml", "seed: 7\noutput:\n  steps: true\n  maps: no", ":4: error: is cut off"},
+       }) {
+    write_results("run");
+    temporary_.write(std::string("run/") + name, text);
+    EXPECT_THAT(fault(), AllOf(HasSubstr(name), HasSubstr(what))) << text;
+  }
+}
+
+TEST_F(ResultsFolder, TellsEveryFault) {
+  temporary_.write("run/summary.json", "");
+  temporary_.write("run/provenance.json", "");
+  temporary_.write("run/effective.yaml", "a: 1\n");
+  temporary_.write("run/steps.jsonl", "");
+  EXPECT_THAT(fault(), AllOf(HasSubstr("summary.json:1"), HasSubstr("provenance.json:1"),
+                             HasSubstr("effective.yaml:2"), HasSubstr("steps.jsonl:1")));
 }
 
 TEST_F(ResultsFolder, IsFoundInAFolderOfVariants) {
   write_results("another");
   write_results(".hidden");
   fs::create_directory(temporary_.path() / "notes");
+  EXPECT_TRUE(is_results_folder(folder()));
+  EXPECT_FALSE(is_results_folder(temporary_.path()));
   EXPECT_THAT(results_folders(folder()), ElementsAre(folder()));
+  EXPECT_THAT(results_folders(temporary_.path()), ElementsAre(temporary_.path() / "another", folder()));
+  // One that has lost its provenance is not passed over in silence.
+  fs::remove(folder() / "provenance.json");
   EXPECT_THAT(results_folders(temporary_.path()), ElementsAre(temporary_.path() / "another", folder()));
   EXPECT_THROW(static_cast<void>(results_folders(temporary_.path() / "notes")), ConfigError);
   EXPECT_THROW(static_cast<void>(results_folders(temporary_.path() / "missing")), ConfigError);

@@ -77,6 +77,7 @@ TEST(Summary, TimesAreOfAllStepsOfAllTrials) {
   second.records = {step_record(0, {})};
   second.records[0].result.stage_ms = {10.0, 20.0, 30.0, 40.0};
   const Json json = sum_up({first, second});
+  EXPECT_EQ(json["steps"], 3);
   expect_spread(json["step_ms"], 10.0, 91.0, 100.0);
   expect_spread(json["stage_ms"]["local_map"], 1.0, 9.1, 10.0);
   expect_spread(json["stage_ms"]["match"], 2.0, 18.2, 20.0);
