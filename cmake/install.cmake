@@ -1,4 +1,4 @@
-# What is installed: the program, the shared library, the headers that plugins need, and what finds them.
+# What is installed: the program, the shared libraries, the public headers, and what finds them.
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME core)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glocal)
@@ -6,7 +6,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glocal)
 install(TARGETS glocal glocal_builtin glocal_evaluation EXPORT glocal_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 set_target_properties(glocal_app PROPERTIES EXPORT_NAME program)
 install(TARGETS glocal_app EXPORT glocal_targets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY framework/include/glocal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY framework/include/glocal evaluation/include/glocal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT glocal_targets FILE glocalTargets.cmake NAMESPACE glocal:: DESTINATION ${package_dir})
 # Builds what is installed, and nothing else.
 get_property(package_plugins GLOBAL PROPERTY GLOCAL_PACKAGE_PLUGINS)

@@ -10,6 +10,7 @@
 #include "evaluation/running/drive.hpp"
 #include "glocal/experiment.hpp"
 #include "glocal/localizer.hpp"
+#include "glocal/outcome.hpp"
 #include "glocal/step_result.hpp"
 
 namespace glocal {
@@ -30,17 +31,6 @@ struct StepRecord {
   bool on_map = false;             ///< The reference lies where the map's grid is not unknown.
 };
 
-enum class Outcome {
-  right,      ///< Declared, and within the limits of the evaluation.
-  wrong,      ///< Declared, and outside of them.
-  undecided,  ///< Never declared.
-  declared,   ///< Declared, but there is no reference to check it against.
-  failed,     ///< A strategy threw an exception; `why` has its message.
-};
-[[nodiscard]] const char* to_string(Outcome outcome);
-/// The other way round. Throws std::invalid_argument where there is no outcome of that name.
-[[nodiscard]] Outcome outcome_of(const std::string& name);
-
 struct TrialRecord {
   std::size_t trial = 0;
   std::size_t start_sample = 0;
@@ -54,7 +44,7 @@ struct TrialRecord {
   std::optional<PoseError> error;        ///< Of the declared pose.
   std::optional<PoseEstimate> estimate;  ///< Of the rule that declared it, where it has one.
   std::optional<double> nees;            ///< Normalised error squared of that, where it has a covariance.
-  std::string why;                       ///< Of the declaration, or else of the last step.
+  std::string why;                       ///< Of the declaration, of the exception, or else of the last step.
   std::vector<StepRecord>
       records;  ///< Every step, also those after the declaration. Local maps are not kept.
 };

@@ -75,10 +75,36 @@ run_page embedding
 diff <(jq -r '"\(.step) \(.verdict)"' "$work/whole/steps.jsonl") <(awk '{ sub(":", "", $2); print $1, $2 }' "$work/embedding/verdicts") ||
   fail "the embedding program's verdicts"
 
-# The same without CMake.
+# try_examples HOW EMBED RUN_EXPERIMENT: both programs of examples/, built in some way, run.
+try_examples() {
+  local how=$1 embed=$2 run_experiment=$3
+  awk '$1 == "ROBOTLASER1" { n = $9; printf "%s %s %s", $(n + 14), $(n + 15), $(n + 16); for (i = 10; i < n + 10; ++i) printf " %s", $i; print "" }' \
+    "$work/embedding/drive/drive.log" | "$embed" "$work/embedding/drive/experiment.yaml" >"$work/verdicts_$how"
+  cmp "$work/embedding/verdicts" "$work/verdicts_$how" || fail "examples/embed by $how"
+  "$run_experiment" "$work/embedding/drive/experiment.yaml" "$work/run_by_$how" >"$work/said_by_$how" 2>/dev/null
+  jq -r '.trials | "experiment: \(.right) right, \(.wrong) wrong, \(.undecided) undecided"' "$work/run_by_$how/summary.json" |
+    cmp - "$work/said_by_$how" || fail "examples/run_experiment by $how"
+  "$prefix/bin/glocal" summarize "$work/run_by_$how" >/dev/null || fail "what examples/run_experiment leaves"
+}
+for example in embed run_experiment; do
+  cmake -S "$root/examples/$example" -B "$work/examples/$example" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+  cmake --build "$work/examples/$example" >/dev/null
+done
+try_examples cmake "$work/examples/embed/embed" "$work/examples/run_experiment/run_experiment"
+# The same numbers as the program's own run.
+"$prefix/bin/glocal" run "$work/embedding/drive/experiment.yaml" --quiet --out "$work/run_by_program"
+diff "$work/run_by_program/trials.jsonl" "$work/run_by_cmake/trials.jsonl" || fail "examples/run_experiment against glocal run"
+
+# The same without CMake. A plugin is not linked with what it does not use.
 if command -v pkg-config >/dev/null; then
   export PKG_CONFIG_PATH
   PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name glocal.pc)")
   c++ -shared -fPIC "$work/outside/matcher/my_matcher.cpp" $(pkg-config --cflags --libs glocal) -o "$work/by_hand.so"
   "$prefix/bin/glocal" list matcher --plugin "$work/by_hand.so" | grep -q my_matcher || fail "pkg-config"
+  ! readelf -d "$work/by_hand.so" | grep -Eq 'glocal_(builtin|evaluation)' || fail "a plugin is linked with all of glocal"
+  for example in embed run_experiment; do
+    c++ "$root/examples/$example/$example.cpp" $(pkg-config --cflags --libs glocal) \
+      "-Wl,-rpath,$(pkg-config --variable=libdir glocal)" -o "$work/${example}_by_hand"
+  done
+  try_examples pkg_config "$work/embed_by_hand" "$work/run_experiment_by_hand"
 fi

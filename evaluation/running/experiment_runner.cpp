@@ -1,0 +1,208 @@
+#include "evaluation/running/experiment_runner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "config/nearest.hpp"
+#include "evaluation/results/fault_collector.hpp"
+#include "evaluation/results/output_folder.hpp"
+#include "evaluation/results/pcd.hpp"
+#include "evaluation/results/run_results.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> names_of(const std::vector<Variant>& variants) {
+  std::vector<std::string> names;
+  for (const Variant& variant : variants) names.push_back(variant.name);
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const std::filesystem::path& file,
+                                   const Catalog& catalog, RunOptions options, RunnerCallbacks callbacks)
+    : variants_(std::move(variants)),
+      file_(std::filesystem::absolute(file)),
+      catalog_(catalog),
+      options_(std::move(options)),
+      callbacks_(std::move(callbacks)),
+      out_(options_.out.empty() ? std::filesystem::path("results") / variants_.front().experiment.name
+                                : options_.out),
+      loader_(catalog, callbacks_.warn) {}
+
+RunResult ExperimentRunner::run() {
+  select();
+  const std::vector<std::string> names = names_of(variants_);
+  const bool has_variants = !names.front().empty();
+  if (has_variants) take_finished();
+  note_trials();
+  std::size_t trials = 0;
+  for (const std::size_t n : count_trials(variants_, loader_, catalog_)) trials += n;
+  callbacks_.counted(trials);
+  const std::size_t kept = results_.size();
+  for (Variant& variant : variants_) {
+    if (callbacks_.trials.stop() && results_.size() > kept) break;
+    run_one(variant);
+  }
+  const auto place = [&](const VariantResult& r) { return std::find(names.begin(), names.end(), r.name); };
+  std::sort(results_.begin(), results_.end(),
+            [&](const VariantResult& a, const VariantResult& b) { return place(a) < place(b); });
+  const bool complete =
+      results_.size() == names.size() &&
+      std::all_of(results_.begin(), results_.end(), [](const VariantResult& r) { return r.complete; });
+  return {out_, std::move(results_), complete};
+}
+
+/// Keeps the variants that are named, in the order of the file.
+void ExperimentRunner::select() {
+  std::vector<std::string> names = names_of(variants_);
+  std::erase(names, "");
+  std::vector<Fault> faults;
+  for (const std::string& name : options_.only) {
+    if (contains(names, name)) continue;
+    const std::string help =
+        names.empty() ? " (the experiment has no variants)" : suggestion(name, names, "there are");
+    faults.push_back({"--only " + name, 0, 0, "no such variant" + help});
+  }
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  if (options_.only.empty()) return;
+  std::erase_if(variants_, [&](const Variant& variant) { return !contains(options_.only, variant.name); });
+}
+
+/// The variants that an earlier run has finished need not be run. Throws ConfigError for results of other
+/// runs that are in the way, and for damaged ones.
+void ExperimentRunner::take_finished() {
+  FaultCollector faults;
+  if (is_results_folder(out_)) {
+    faults.add({out_.string(), 0, 0,
+                "output: the folder has results of a run without variants; choose another one with --out"});
+  }
+  std::erase_if(variants_, [&](Variant& variant) {
+    const std::filesystem::path folder = folder_of(variant.name);
+    if (!is_results_folder(folder)) return false;
+    const auto why = why_other(folder, variant.experiment);
+    if (why && !options_.force) {
+      faults.add({folder.string(), 0, 0,
+                  fmt::format("output: the folder has results of another run: {}; choose another folder "
+                              "with --out, or replace earlier results with --force",
+                              *why)});
+    }
+    if (why || std::filesystem::exists(folder / journal_folder)) return false;
+    FaultCollector damage;
+    const bool is_whole = damage.collect([&] { add_result(variant.name, read_results(folder).summary); });
+    if (!is_whole && !options_.force) faults.collect([&] { damage.report(); });
+    if (!is_whole) return false;
+    callbacks_.note(fmt::format("{}: kept, as an earlier run has finished it", variant.name));
+    return true;
+  });
+  faults.report();
+}
+
+void ExperimentRunner::note_trials() const {
+  for (const Variant& variant : variants_) {
+    if (variant.changes_trials)
+      callbacks_.note(
+          fmt::format("{}: has a seed, a map, observations or trials of its own: other starts or other noise",
+                      variant.name));
+  }
+}
+
+std::optional<std::string> ExperimentRunner::why_other(const std::filesystem::path& folder,
+                                                       Experiment& experiment) {
+  return why_other_run(folder, effective_yaml(experiment, catalog_), file_, hashes_);
+}
+
+void ExperimentRunner::add_result(const std::string& name, const Json& summary) {
+  const Json& trials = summary.at("trials");
+  const std::filesystem::path folder = folder_of(name);
+  results_.push_back({.name = name,
+                      .folder = folder,
+                      .summary = folder / "summary.json",
+                      .complete = summary.at("complete"),
+                      .trials = trials.at("count"),
+                      .right = trials.at("right"),
+                      .wrong = trials.at("wrong"),
+                      .undecided = trials.at("undecided"),
+                      .declared = trials.value("declared_without_reference", std::size_t{0}),
+                      .failed = trials.value("failed", std::size_t{0})});
+}
+
+void ExperimentRunner::run_one(Variant& variant) {
+  Experiment& experiment = variant.experiment;
+  LoadedExperiment& loaded = loader_.load(experiment);
+  loaded.inputs.insert(file_);
+  loaded.inputs.insert(options_.plugins.begin(), options_.plugins.end());
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Localizer> localizers;
+  localizers.push_back(make_localizer(experiment, catalog_, loaded));
+  const double map_index_ms = ms_since(start);
+
+  // Nothing is written before everything is known to be in order.
+  std::optional<std::string> declined;
+  OutputFolder folder(folder_of(variant.name), options_.force, [&](const std::filesystem::path& earlier) {
+    if (!std::filesystem::exists(earlier / journal_folder)) return false;
+    declined = why_other(earlier, experiment);
+    return !declined;
+  });
+  if (declined)
+    callbacks_.warn(
+        fmt::format("{}: starts afresh: what an earlier run has left unfinished is dropped, as {}",
+                    folder.path().string(), *declined));
+  RunResults results(folder, experiment.output, loaded.starts.size());
+  const std::size_t trials = loaded.starts.size();
+  const std::size_t before = trials - results.to_run().size();
+  if (before > 0)
+    callbacks_.note(fmt::format("{}: goes on where an earlier run has stopped: {} of {} trials are finished",
+                                folder.path().string(), before, trials));
+  folder.write("effective.yaml", effective_yaml(experiment, catalog_, *loaded.map));
+  Json origin = provenance(catalog_, experiment.threads, loaded.inputs, hashes_);
+  origin["jobs"] = options_.jobs;
+  folder.write("provenance.json", origin.dump(2) + "\n");
+  if (experiment.output.maps != "none") folder.write("maps/global.pcd", pcd(loaded.map->points()));
+  callbacks_.begin({variant.name, folder.path(), experiment, loaded,
+                    read_settings(folder.unfinished(), origin["inputs_sha256"]), before});
+
+  while (localizers.size() <
+         std::min(static_cast<std::size_t>(std::max(options_.jobs, 1)), results.to_run().size()))
+    localizers.push_back(make_localizer(experiment, catalog_, loaded));
+  const auto on_step = [&](std::size_t trial, const StepRecord& record, const Localizer& now) {
+    const Sample& sample = loaded.drive.samples[loaded.starts[trial] + record.result.step];
+    results.step(trial, record, sample.observation.scan, now);
+    callbacks_.trials.step(trial, record, now);
+  };
+  const auto on_done = [&](const TrialRecord& record) {
+    results.finish(record);
+    callbacks_.trials.done(record);
+  };
+  const bool complete = run_trials(localizers, experiment, loaded, results.to_run(),
+                                   {on_step, on_done, callbacks_.trials.stop});
+
+  const Json summary =
+      results.put_together().to_json({experiment.name, experiment.seed, complete, loaded.map->points().size(),
+                                      loaded.map_build_ms, map_index_ms, localizers.front().map_index()});
+  folder.write("summary.json", summary.dump(2) + "\n");
+  folder.commit();
+  // Only now: a run that is killed before goes on with it.
+  if (complete) std::filesystem::remove_all(folder.path() / journal_folder);
+  add_result(variant.name, summary);
+  if (!complete)
+    callbacks_.warn(
+        fmt::format("interrupted: {} of {} trials were finished and kept", results_.back().trials, trials));
+}
+
+}  // namespace glocal
