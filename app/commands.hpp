@@ -41,5 +41,6 @@ void add_report(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_simulate(CLI::App& app, Context& context);
+void add_summarize(CLI::App& app, Context& context);
 
 }  // namespace glocal::app

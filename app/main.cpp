@@ -19,6 +19,7 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_list(app, context);
   add_describe(app, context);
   add_explain(app, context);
+  add_summarize(app, context);
   add_compare(app, context);
   add_figures(app, context);
   add_reliability(app, context);
