@@ -1,0 +1,78 @@
+#include "glocal/parallel.hpp"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace glocal::test::parallel_test {
+namespace {
+
+constexpr std::size_t many = 1000;
+
+TEST(ParallelFor, CallsEachOnce) {
+  for (const int threads : {-1, 0, 1, 2, 7, 64}) {
+    std::vector<int> calls(many, 0);
+    parallel_for(threads, many, [&](std::size_t i) { ++calls[i]; });
+    EXPECT_EQ(calls, std::vector<int>(many, 1)) << threads;
+  }
+}
+
+TEST(ParallelFor, DoesNothingWithoutWork) {
+  for (const int threads : {1, 4}) {
+    parallel_for(threads, 0, [](std::size_t) { ADD_FAILURE() << "there is no work"; });
+    // Nor does it need any function then.
+    EXPECT_NO_THROW(parallel_for(threads, 0, {}));
+  }
+}
+
+TEST(ParallelFor, ThrowsWhatACallThrows) {
+  for (const int threads : {1, 4}) {
+    const auto work = [](std::size_t i) {
+      if (i == 500) throw std::runtime_error("number " + std::to_string(i));
+    };
+    try {
+      parallel_for(threads, many, work);
+      ADD_FAILURE() << "nothing was thrown with " << threads << " threads";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "number 500");
+    }
+  }
+}
+
+TEST(ParallelFor, ThrowsOnceIfAllCallsThrow) {
+  for (const int threads : {1, 4}) {
+    std::atomic<std::size_t> calls = 0;
+    const auto work = [&](std::size_t i) {
+      ++calls;
+      throw i;
+    };
+    EXPECT_THROW(parallel_for(threads, many, work), std::size_t);
+    EXPECT_GE(calls, 1U);
+    EXPECT_LE(calls, many);
+  }
+}
+
+TEST(ParallelFor, WorksAfterAnException) {
+  const auto fail = [](std::size_t) { throw std::runtime_error("no"); };
+  EXPECT_THROW(parallel_for(4, many, fail), std::runtime_error);
+  std::vector<std::size_t> squares(many);
+  parallel_for(4, many, [&](std::size_t i) { squares[i] = i * i; });
+  EXPECT_EQ(squares[many - 1], (many - 1) * (many - 1));
+}
+
+TEST(ParallelFor, MayBeCalledInsideOfItself) {
+  std::vector<std::size_t> sums(20, 0);
+  parallel_for(4, sums.size(), [&](std::size_t i) {
+    std::vector<std::size_t> parts(50);
+    parallel_for(2, parts.size(), [&](std::size_t k) { parts[k] = i; });
+    sums[i] = std::accumulate(parts.begin(), parts.end(), std::size_t{0});
+  });
+  for (std::size_t i = 0; i < sums.size(); ++i) EXPECT_EQ(sums[i], 50 * i);
+}
+
+}  // namespace
+}  // namespace glocal::test::parallel_test
