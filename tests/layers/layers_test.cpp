@@ -1,0 +1,184 @@
+// Which folder may include which: docs/architecture.md says why.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace glocal::test::layers_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = GLOCAL_SOURCE_DIR;
+
+const std::set<std::string> strategy_folders = {"sources", "local_mappers", "matchers", "clustering",
+                                                "raters"};
+
+const std::map<std::string, std::set<std::string>> layers_below = {
+    {"framework", {}},
+    {"evaluation", {"framework"}},
+    {"report", {"evaluation", "framework"}},
+    {"app",
+     {"report", "evaluation", "framework", "sources", "local_mappers", "matchers", "clustering", "raters"}}};
+
+/// Families of matchers that may include another one. indexed_ransam searches the whole map with the grid's
+/// pyramid before its first draw.
+const std::set<std::pair<std::string, std::string>> known_exceptions = {{"indexed_ransam", "grid_search"}};
+
+/// Made when glocal is built.
+const std::map<std::string, std::string> generated = {{"version.hpp", "framework/src/version.hpp"}};
+
+/// The folder of this depth that a file is in, from 0; empty if there is none.
+std::string folder_at(const fs::path& file, int depth) {
+  const auto parts = std::distance(file.begin(), file.end());
+  return depth + 1 < parts ? std::next(file.begin(), depth)->string() : "";
+}
+
+bool is_public(const fs::path& file) {
+  return folder_at(file, 1) == "include";
+}
+
+/// Why matchers of one family may not include this file of another one; empty if they may.
+std::string fault_between_families(const fs::path& file, const fs::path& included) {
+  const std::string family = folder_at(file, 1);
+  const std::string other = folder_at(included, 1);
+  // What is in no family registers them all.
+  if (family.empty() || other == family || other == "common" || known_exceptions.contains({family, other}))
+    return "";
+  return "a family of matchers includes only itself and common";
+}
+
+/// Why a file may not include another; empty if it may. Paths begin at the root.
+std::string fault_of(const fs::path& file, const fs::path& included) {
+  const std::string layer = folder_at(file, 0);
+  const std::string other = folder_at(included, 0);
+  if (const auto below = layers_below.find(layer); below != layers_below.end()) {
+    return layer == other || below->second.contains(other) ? ""
+                                                           : fmt::format("{} lies below {}", layer, other);
+  }
+  if (other == "framework" && is_public(included)) return "";
+  const bool is_own = layer == other && (layer != "plugins" || folder_at(file, 1) == folder_at(included, 1));
+  if (!is_own) return "strategies include only the framework's public headers and their own folder";
+  return layer == "matchers" ? fault_between_families(file, included) : "";
+}
+
+/// The file that an #include leads to; none if it is not of this tree.
+std::optional<fs::path> resolved(const fs::path& file, const std::string& name) {
+  if (const auto made = generated.find(name); made != generated.end()) return made->second;
+  for (const fs::path& folder : {file.parent_path(), fs::path(), fs::path("framework/include"),
+                                 fs::path("framework/src"), fs::path("evaluation/include")}) {
+    if (fs::exists(root / folder / name)) return (folder / name).lexically_normal();
+  }
+  return std::nullopt;
+}
+
+std::vector<fs::path> files_in(const std::string& folder, const std::set<std::string>& extensions) {
+  std::vector<fs::path> files;
+  for (auto entry = fs::recursive_directory_iterator(root / folder);
+       entry != fs::recursive_directory_iterator(); ++entry) {
+    if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+    if (entry->is_regular_file() && extensions.contains(entry->path().extension()))
+      files.push_back(fs::relative(entry->path(), root));
+  }
+  return files;
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::vector<std::string> lines;
+  std::ifstream stream(root / file);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Layers, EveryIncludePointsDownwards) {
+  const std::regex include(R"re(\s*#\s*include\s*(["<])([^">]+)[">].*)re");
+  std::size_t checked = 0;
+  std::set<std::pair<std::string, std::string>> exceptions_used;
+  std::set<std::string> folders = strategy_folders;
+  folders.insert("plugins");
+  for (const auto& [layer, below] : layers_below) folders.insert(layer);
+  for (const std::string& folder : folders) {
+    for (const fs::path& file : files_in(folder, {".cpp", ".hpp"})) {
+      for (const std::string& line : lines_of(file)) {
+        std::smatch found;
+        if (!std::regex_match(line, found, include)) continue;
+        const auto included = resolved(file, found[2]);
+        EXPECT_TRUE(included || found[1] == "<") << file << " includes what is nowhere: " << found[2];
+        if (!included) continue;
+        ++checked;
+        EXPECT_EQ(fault_of(file, *included), "") << file << " includes " << *included;
+        exceptions_used.emplace(folder_at(file, 1), folder_at(*included, 1));
+      }
+    }
+  }
+  EXPECT_GT(checked, 500U);
+  for (const auto& exception : known_exceptions)
+    EXPECT_TRUE(exceptions_used.contains(exception)) << exception.first << " needs no exception any more";
+}
+
+TEST(Layers, TheCheckFindsWhatPointsUpwards) {
+  const std::string strategy = "strategies include only the framework's public headers and their own folder";
+  const std::string family = "a family of matchers includes only itself and common";
+  for (const auto& [file, included, fault] : {
+           std::array<std::string, 3>{"framework/src/error.cpp", "framework/include/glocal/error.hpp", ""},
+           {"framework/src/error.cpp", "evaluation/include/glocal/outcome.hpp",
+            "framework lies below evaluation"},
+           {"framework/include/glocal/points.hpp", "raters/softmax.hpp", "framework lies below raters"},
+           {"evaluation/results/summary.cpp", "framework/src/config/reader.hpp", ""},
+           {"evaluation/results/summary.cpp", "report/page.hpp", "evaluation lies below report"},
+           {"evaluation/results/summary.cpp", "matchers/mcl/mcl.hpp", "evaluation lies below matchers"},
+           {"report/page.cpp", "app/commands.hpp", "report lies below app"},
+           {"app/run.cpp", "report/page.hpp", ""},
+           {"app/run.cpp", "matchers/mcl/mcl.hpp", ""},
+           {"raters/softmax.cpp", "framework/include/glocal/rng.hpp", ""},
+           {"raters/softmax.cpp", "raters/normalise.hpp", ""},
+           {"raters/softmax.cpp", "framework/src/config/reader.hpp", strategy},
+           {"raters/softmax.cpp", "evaluation/include/glocal/outcome.hpp", strategy},
+           {"raters/softmax.cpp", "clustering/dbscan.hpp", strategy},
+           {"plugins/pcl/icp.cpp", "plugins/pcl/clouds.hpp", ""},
+           {"plugins/pcl/icp.cpp", "plugins/octomap/tree_file.hpp", strategy},
+           {"matchers/register.cpp", "matchers/mcl/mcl.hpp", ""},
+           {"matchers/mcl/mcl.cpp", "matchers/common/merge.hpp", ""},
+           {"matchers/mcl/mcl.cpp", "matchers/ransam/ransam.hpp", family},
+           {"matchers/common/merge.cpp", "matchers/ransam/ransam.hpp", family},
+           {"matchers/indexed_ransam/indexed_ransam.cpp", "matchers/grid_search/grid_search.hpp", ""},
+       }) {
+    EXPECT_EQ(fault_of(file, included), fault) << file << " includes " << included;
+  }
+  EXPECT_EQ(resolved("app/main.cpp", "glocal/error.hpp"), "framework/include/glocal/error.hpp");
+  EXPECT_EQ(resolved("plugins/pcl/icp.cpp", "clouds.hpp"), "plugins/pcl/clouds.hpp");
+  EXPECT_EQ(resolved("app/main.cpp", "no_such_file.hpp"), std::nullopt);
+}
+
+/// What every strategy rests on must stay the smaller part of glocal.
+TEST(Layers, TheFrameworkIsAtMostAThirdOfTheCode) {
+  const std::set<std::string> code = {".cpp", ".hpp", ".ts", ".py", ".in", ".mjs", ".css"};
+  std::size_t all = 0;
+  std::size_t framework = 0;
+  for (const char* folder :
+       {"app", "bench", "clustering", "cmake", "evaluation", "examples", "framework", "local_mappers",
+        "matchers", "plugins", "raters", "report", "scripts", "sources"}) {
+    for (const fs::path& file : files_in(folder, code)) {
+      const std::size_t lines = lines_of(file).size();
+      all += lines;
+      framework += folder == std::string("framework") ? lines : 0;
+    }
+  }
+  const double share = static_cast<double>(framework) / static_cast<double>(all);
+  fmt::print("framework: {} of {} lines of code outside of tests, {:.1f} %\n", framework, all, 100.0 * share);
+  EXPECT_GT(framework, 1000U);
+  EXPECT_LE(share, 1.0 / 3.0);
+}
+
+}  // namespace
+}  // namespace glocal::test::layers_test
