@@ -134,16 +134,18 @@ TEST(Docs, EveryEquationHasItsFunction) {
   }
 }
 
-/// Examples and commands of a document, tried out in a folder that has a copy of configs/ and an
-/// empty docs/.
+/// Examples and commands of documents. The test's folder has a copy of configs/ and an empty docs/.
 class DocsExamples : public CommandLine {
  protected:
-  DocsExamples() {
-    fs::copy(root / "configs", folder_.path() / "configs", fs::copy_options::recursive);
-    fs::create_directory(folder_.path() / "docs");
-    fs::current_path(folder_.path());
-  }
+  DocsExamples() { go_to(folder_.path()); }
   ~DocsExamples() override { fs::current_path(root); }
+
+  /// Works in this folder from now on.
+  static void go_to(const fs::path& folder) {
+    fs::create_directories(folder / "docs");
+    fs::copy(root / "configs", folder / "configs", fs::copy_options::recursive);
+    fs::current_path(folder);
+  }
 
   /// Saves the YAML examples that begin with a comment naming their file. Returns the names of experiments.
   static std::vector<std::string> save_examples(const fs::path& document) {
@@ -172,56 +174,127 @@ class DocsExamples : public CommandLine {
     return commands;
   }
 
-  /// A command that would take long, as one that only checks the same experiments and overrides.
-  static std::string quick(const std::string& command) {
-    // Nothing was run that these could look at.
-    if (command.starts_with("explain ")) return "explain --help";
-    if (command.starts_with("reliability ")) return "reliability --help";
-    if (command.starts_with("compare ")) return "compare --help";
-    if (command.starts_with("report ")) return "report --help";
-    if (command.starts_with("summarize ")) return "summarize --help";
-    if (command.starts_with("figures ")) return "figures --help";
-    if (!command.starts_with("run ") && !command.starts_with("mapping ")) return command;
-    std::string check = "check";
-    for (const std::smatch& match : matches(command, R"((--(set|seed|threads) \S+|\S+\.yaml)(?=\s|$))")) {
-      check += " " + match[1].str();
+  /// The words of a command that match, apart from options.
+  static std::vector<std::string> words_like(const std::string& command, const std::string& pattern) {
+    std::vector<std::string> words;
+    for (const std::smatch& match : matches(command, R"((?:^|\s)()" + pattern + R"()(?=\s|$))"))
+      words.push_back(match[1]);
+    return words;
+  }
+
+  /// A command as it is tried out. Runs are restricted where they would take minutes, and draw no progress;
+  /// how far local maps drift is not measured, only the experiments are checked.
+  static std::string tried(const std::string& command) {
+    if (command.starts_with("mapping ")) {
+      std::string check = "check";
+      for (const std::string& word : words_like(command, R"(--set \S+|\S+\.yaml)")) check += " " + word;
+      return check;
     }
-    return check;
+    if (command.starts_with("run ")) {
+      // Thirteen variants on 42 starts, and a thousand single scans on a large map.
+      if (command.find("/intel_variants.yaml") != std::string::npos)
+        return command + " --quiet --set trials.max_steps=1 --set trials.every_m=50";
+      if (command.find("/willow_single.yaml") != std::string::npos)
+        return command + " --quiet --set trials.every_scan=100";
+      return command + " --quiet";
+    }
+    if (command.starts_with("figures ") && !has_matplotlib()) return command + " --python true";
+    return command;
+  }
+
+  static bool has_matplotlib() {
+    return std::system(
+               "python3 -c 'import matplotlib' 2>/dev/null || "
+               "/usr/bin/python3 -c 'import matplotlib' 2>/dev/null") == 0;
   }
 
   static bool needs_data_sets(const std::string& command) {
     if (command.find("$GLOCAL_DATASETS") != std::string::npos) return true;
-    const auto files = matches(command, R"(\S+\.yaml)");
-    return std::any_of(files.begin(), files.end(), [](const std::smatch& file) {
-      return fs::exists(file[0].str()) && read(file[0].str()).find("\"data:") != std::string::npos;
+    std::vector<std::string> experiments = words_like(command, R"(\S+\.yaml)");
+    // results/NAME is where the experiment of that name leaves its results.
+    for (const std::string& folder : words_like(command, R"(results/\w+)"))
+      experiments.push_back("configs/experiments/" + folder.substr(8) + ".yaml");
+    return std::any_of(experiments.begin(), experiments.end(), [](const std::string& file) {
+      return fs::exists(file) && read(file).find("\"data:") != std::string::npos;
     });
   }
 
-  /// Tries out all commands of all documents that need the data sets, or all that do not.
-  std::size_t try_out(bool with_data_sets) {
-    std::size_t tried = 0;
-    for (const fs::path& document : documents()) {
-      std::vector<std::string> commands;
-      for (const std::string& experiment : save_examples(document)) commands.push_back("check " + experiment);
-      for (const std::string& command : commands_of(document)) commands.push_back(quick(command));
-      for (const std::string& command : commands) {
-        if (needs_data_sets(command) != with_data_sets) continue;
-        ++tried;
-        const Answer answer = run(command);
-        EXPECT_EQ(answer.exit_code, 0) << document << ": glocal " << command << "\n" << answer.err;
-      }
+  void expect_success(const std::string& command, const fs::path& document) const {
+    const Answer answer = run(command);
+    EXPECT_EQ(answer.exit_code, 0) << document << ": glocal " << command << "\n" << answer.err;
+  }
+
+  /// Runs the experiments whose results a command reads, where no earlier command of the page has done so.
+  void make_results_for(const std::string& command, const fs::path& document) const {
+    if (command.starts_with("run ")) return;
+    for (const std::string& folder : words_like(command, R"(results/\w+)")) {
+      const std::string experiment = "configs/experiments/" + folder.substr(8) + ".yaml";
+      if (!fs::exists(folder) && fs::exists(experiment))
+        expect_success("run " + experiment + " --quiet", document);
     }
-    return tried;
+  }
+
+  /// The folder that a command leaves its results in, if it says so.
+  static std::vector<std::string> outs_of(const std::string& command) {
+    std::vector<std::string> folders;
+    for (const std::smatch& match : matches(command, R"(--out (results/\S+))")) folders.push_back(match[1]);
+    return folders;
+  }
+
+  /// Whether a folder is one of these, or holds one of them.
+  static bool is_in(const std::string& folder, const std::set<std::string>& folders) {
+    return std::any_of(folders.begin(), folders.end(), [&](const std::string& one) {
+      return one == folder || one.starts_with(folder + "/");
+    });
+  }
+
+  /// Tries out the commands of a document that need the data sets, or those that do not: one after the other,
+  /// in a folder of its own.
+  std::size_t try_out(const fs::path& document, bool with_data_sets) const {
+    go_to(folder_.path() / "pages" / document.stem());
+    std::vector<std::string> commands;
+    for (const std::string& experiment : save_examples(document)) commands.push_back("check " + experiment);
+    for (const std::string& command : commands_of(document)) commands.push_back(command);
+    std::size_t tried_out = 0;
+    std::set<std::string> from_data_sets;  // Folders of results.
+    for (const std::string& command : commands) {
+      bool needs = needs_data_sets(command);
+      for (const std::string& folder : words_like(command, R"(results/\S+)"))
+        needs = needs || is_in(folder, from_data_sets);
+      const std::vector<std::string> outs = outs_of(command);
+      if (needs) from_data_sets.insert(outs.begin(), outs.end());
+      if (needs != with_data_sets) continue;
+      ++tried_out;
+      make_results_for(command, document);
+      expect_success(tried(command), document);
+    }
+    return tried_out;
+  }
+
+  std::size_t try_all(bool with_data_sets) const {
+    std::size_t tried_out = 0;
+    for (const fs::path& document : documents()) tried_out += try_out(document, with_data_sets);
+    return tried_out;
   }
 };
 
 TEST_F(DocsExamples, CommandsAndExperimentsWork) {
-  EXPECT_GT(try_out(false), 0U);
+  EXPECT_GT(try_all(false), 40U);
 }
 
 TEST_F(DocsExamples, CommandsAndExperimentsWithDataSetsWork) {
   if (!has_data_sets()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
-  EXPECT_GT(try_out(true), 0U);
+  EXPECT_GT(try_all(true), 5U);
+}
+
+/// Every command that reads results is on some page, and is run as it is written there.
+TEST(Docs, CommandsThatReadResultsAreShown) {
+  std::string text;
+  for (const fs::path& document : documents()) {
+    for (const Block& block : blocks_of(document, "sh")) text += block.text;
+  }
+  for (const char* command : {"explain", "reliability", "compare", "report", "figures", "summarize"})
+    EXPECT_NE(text.find(std::string("\nglocal ") + command + " "), std::string::npos) << command;
 }
 
 /// All keys of a JSON value, at any depth.
