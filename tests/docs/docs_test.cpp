@@ -140,7 +140,7 @@ class DocsExamples : public CommandLine {
   DocsExamples() { go_to(folder_.path()); }
   ~DocsExamples() override { fs::current_path(root); }
 
-  /// Works in this folder from now on.
+  /// Works in this folder from now on; it is made for that.
   static void go_to(const fs::path& folder) {
     fs::create_directories(folder / "docs");
     fs::copy(root / "configs", folder / "configs", fs::copy_options::recursive);
@@ -191,7 +191,8 @@ class DocsExamples : public CommandLine {
       return check;
     }
     if (command.starts_with("run ")) {
-      // Thirteen variants on 42 starts, and a thousand single scans on a large map.
+      // Thirteen variants on 42 starts, and a thousand single scans on a large map: fewer steps and starts
+      // do.
       if (command.find("/intel_variants.yaml") != std::string::npos)
         return command + " --quiet --set trials.max_steps=1 --set trials.every_m=50";
       if (command.find("/willow_single.yaml") != std::string::npos)
@@ -250,12 +251,11 @@ class DocsExamples : public CommandLine {
 
   /// Tries out the commands of a document that need the data sets, or those that do not: one after the other,
   /// in a folder of its own.
-  std::size_t try_out(const fs::path& document, bool with_data_sets) const {
+  void try_out(const fs::path& document, bool with_data_sets) const {
     go_to(folder_.path() / "pages" / document.stem());
     std::vector<std::string> commands;
     for (const std::string& experiment : save_examples(document)) commands.push_back("check " + experiment);
     for (const std::string& command : commands_of(document)) commands.push_back(command);
-    std::size_t tried_out = 0;
     std::set<std::string> from_data_sets;  // Folders of results.
     for (const std::string& command : commands) {
       bool needs = needs_data_sets(command);
@@ -264,35 +264,41 @@ class DocsExamples : public CommandLine {
       const std::vector<std::string> outs = outs_of(command);
       if (needs) from_data_sets.insert(outs.begin(), outs.end());
       if (needs != with_data_sets) continue;
-      ++tried_out;
       make_results_for(command, document);
       expect_success(tried(command), document);
     }
-    return tried_out;
-  }
-
-  std::size_t try_all(bool with_data_sets) const {
-    std::size_t tried_out = 0;
-    for (const fs::path& document : documents()) tried_out += try_out(document, with_data_sets);
-    return tried_out;
   }
 };
 
-TEST_F(DocsExamples, CommandsAndExperimentsWork) {
-  EXPECT_GT(try_all(false), 40U);
+/// Each page by itself.
+class DocsPages : public DocsExamples, public testing::WithParamInterface<std::string> {};
+
+TEST_P(DocsPages, CommandsAndExperimentsWork) {
+  try_out(root / GetParam(), false);
 }
 
-TEST_F(DocsExamples, CommandsAndExperimentsWithDataSetsWork) {
+TEST_P(DocsPages, CommandsAndExperimentsWithDataSetsWork) {
   if (!has_data_sets()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
-  EXPECT_GT(try_all(true), 5U);
+  try_out(root / GetParam(), true);
 }
+
+std::vector<std::string> pages() {
+  std::vector<std::string> names;
+  for (const fs::path& document : documents()) names.push_back(fs::relative(document, root));
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Docs, DocsPages, testing::ValuesIn(pages()), [](const auto& page) {
+  return std::regex_replace(page.param, std::regex("[^A-Za-z0-9]"), "_");
+});
 
 /// Every command that reads results is on some page, and is run as it is written there.
 TEST(Docs, CommandsThatReadResultsAreShown) {
-  std::string text;
+  std::string text = "\n";
   for (const fs::path& document : documents()) {
     for (const Block& block : blocks_of(document, "sh")) text += block.text;
   }
+  EXPECT_GT(matches(text, "\nglocal ").size(), 40U);
   for (const char* command : {"explain", "reliability", "compare", "report", "figures", "summarize"})
     EXPECT_NE(text.find(std::string("\nglocal ") + command + " "), std::string::npos) << command;
 }
