@@ -1,6 +1,7 @@
 #include "matchers/common/merge.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <unordered_map>
 
 #include "glocal/pose_cells.hpp"
@@ -12,11 +13,16 @@ namespace {
 std::vector<Hypothesis> merged(const std::vector<Hypothesis>& hypotheses, const Pose2& local_from_robot,
                                double scale) {
   std::vector<Hypothesis> best;
-  const PoseBinning binning{scale * 0.05, square_parts_of_a_turn(scale * radians(2.0))};
+  const PoseBinning binning{scale * 0.05, parts_of_a_turn(scale * radians(2.0))};
+  // Parts of the turn begin at multiples of their width, not half a width before: which hypotheses of the
+  // paper's experiments are merged has always depended on that.
+  const double half_a_part = std::numbers::pi / binning.turns;
   std::unordered_map<PoseCell, std::size_t, PoseCellHash> place_of_cell;
   place_of_cell.reserve(hypotheses.size());
   for (const Hypothesis& hypothesis : hypotheses) {
-    const PoseCell cell = binning.cell_of(hypothesis.map_from_local * local_from_robot);
+    Pose2 robot = hypothesis.map_from_local * local_from_robot;
+    robot.theta -= half_a_part;
+    const PoseCell cell = binning.cell_of(robot);
     const auto [it, is_new] = place_of_cell.try_emplace(cell, best.size());
     if (is_new) {
       best.push_back(hypothesis);

@@ -47,14 +47,15 @@ TEST(MergeHypotheses, KeepsTheBestOfEveryDistinctPose) {
   }
 }
 
-TEST(MergeHypotheses, HeadingsOnBothSidesOf180DegreesAreOnePose) {
+TEST(MergeHypotheses, ThePartOfTheTurnBehind180DegreesIsTheOneBeforeMinus180) {
+  // Where the turn falls into an odd number of parts: twelve poses 8 degrees apart, seen at half of that.
   std::vector<Hypothesis> hypotheses;
-  for (int i = 0; i < 20; ++i) {
-    const double theta = radians(i % 2 == 0 ? 179.5 : -179.5);
-    hypotheses.push_back({.map_from_local = {0.02, 0.02, theta}, .score = 1.0});
+  for (int i = 0; i < 24; ++i) {
+    const double theta = radians(i % 2 == 0 ? 179.0 : -179.0);
+    hypotheses.push_back({.map_from_local = {0.02 + 1.0 * (i / 2), 0.02, theta}, .score = 1.0});
   }
-  merge_hypotheses(hypotheses, {}, 10);
-  EXPECT_EQ(hypotheses.size(), 1U);
+  merge_hypotheses(hypotheses, {}, 12);
+  EXPECT_EQ(hypotheses.size(), 12U);
 }
 
 TEST(MergeHypotheses, PosesAreDistinctWhereTheRobotIsNotTheLocalFrame) {
