@@ -15,6 +15,7 @@
 #include "matchers/common/oriented_points.hpp"
 #include "matchers/indexed_ransam/indexed_ransam.hpp"
 #include "matchers/indexed_ransam/oriented_pair_index.hpp"
+#include "matchers/indexed_ransam/proposals.hpp"
 #include "matchers/indexed_ransam/saved_index.hpp"
 #include "matchers/indexed_ransam/triangle_index.hpp"
 
@@ -67,30 +68,17 @@ void saved_pairs(benchmark::State& state, const Scene& s) {
   std::filesystem::remove(file);
 }
 
-/// Motions that oriented point pairs of a local map propose, as IndexedRansam draws them.
+/// Full batches of motions that oriented point pairs of a local map propose.
 std::vector<MotionBatch> proposals(const Scene& s, const LocalMap& local, std::size_t batches) {
-  const OrientedPairIndex index(oriented_points_of(*s.loaded.map, {}), {});
-  const OrientedPoints oriented_points = oriented_points_of(local, OrientedPointRule{});
-  const auto n = static_cast<std::uint32_t>(oriented_points.size());
-  const auto pose_of = [](const OrientedPoints& from, const OrientedPairIndex::OrientedPair& d) {
-    return Pose2{0.5 * (from.x[d.first] + from.x[d.second]), 0.5 * (from.y[d.first] + from.y[d.second]),
-                 std::atan2(from.y[d.second] - from.y[d.first], from.x[d.second] - from.x[d.first])};
-  };
+  const RelationRule rule{.relation = "oriented_pair"};
+  const auto index = relation_index(*s.loaded.map, rule, {}, 1);
+  std::vector<MotionBatch> result;
   Rng rng(1);
-  std::vector<MotionBatch> result(batches);
-  for (MotionBatch& motions : result) {
-    for (std::size_t i = 0; i < MotionBatch::capacity;) {
-      const OrientedPairIndex::OrientedPair pair{rng.below(n), rng.below(n)};
-      const auto partners = index.find(oriented_points, pair);
-      if (partners.empty()) continue;
-      const auto& partner = partners[rng.below(static_cast<std::uint32_t>(partners.size()))];
-      const Transform t(pose_of(index.oriented_points(), partner) * inverse(pose_of(oriented_points, pair)));
-      motions.cosine[i] = t.cosine();
-      motions.sine[i] = t.sine();
-      motions.x[i] = t.x();
-      motions.y[i] = t.y();
-      ++i;
-    }
+  while (result.size() < batches) {
+    propose(*index, rule, local, 4 * MotionBatch::capacity, rng,
+            [&](const MotionBatch& motions, std::size_t size) {
+              if (size == MotionBatch::capacity && result.size() < batches) result.push_back(motions);
+            });
   }
   return result;
 }

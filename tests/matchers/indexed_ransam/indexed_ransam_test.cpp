@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "files.hpp"
+#include "glocal/yaml.hpp"
 #include "test_world.hpp"
 
 namespace glocal::indexed_ransam_test {
@@ -115,6 +118,15 @@ TEST(IndexedRansam, LargeLocalMapsDoNotStarveTheDraws) {
   test::add_wall(local.points, {{0, 100}, {8, 100}});
   local.ends = {local.points.size()};
   EXPECT_GT(match({.first_iterations = 1000}, local).proposals, 500U);
+}
+
+TEST(IndexedRansam, SaysWhatTookThePlaceOfAdaptiveDraws) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("params.yaml", "adaptive: {limit: 5000}\n");
+  ParamsOf<IndexedRansam::Params> params;
+  EXPECT_NE(test::config_error(folder / "", [&] { read_yaml(file, params); })
+                .find("the number of draws is fixed; set iterations and first_iterations"),
+            std::string::npos);
 }
 
 /// Round pillars 10 cm thick, too thin to have a normal, some 2 m apart from each other in 16 m x 16 m.
