@@ -15,7 +15,6 @@
 #include "glocal/contact.hpp"
 #include "glocal/distance_field.hpp"
 #include "glocal/error.hpp"
-#include "raters/fixed_threshold.hpp"
 
 namespace glocal::app {
 namespace {
@@ -38,8 +37,20 @@ struct Replayed {
   double driven_m = 0.0;
 };
 
+/// Asks for nothing: every pose that is drawn passes.
+class NoThreshold final : public ThresholdPolicy {
+ public:
+  [[nodiscard]] double omega_max() const override { return 0.0; }
+  void update(const std::vector<Hypothesis>& /*hypotheses*/) override {}
+  void reset() override {}
+};
+
+/// Without a threshold, steps have the same local maps and random numbers, so a matcher whose draws do not
+/// depend on it draws the same; and no declaration ends the trial.
+enum class Threshold { configured, none };
+
 Replayed replay(const ExplainOptions& options, const Experiment& experiment, const Catalog& catalog,
-                LoadedExperiment& loaded) {
+                LoadedExperiment& loaded, Threshold threshold) {
   if (options.trial >= loaded.starts.size()) {
     refuse(options.folder,
            fmt::format("there is no trial {}: the last one is {}", options.trial, loaded.starts.size() - 1));
@@ -54,11 +65,13 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
   if (!samples[index].map_from_robot)
     refuse(options.folder, "the observations have no reference pose to compare with");
 
+  const bool is_whole = experiment.trials.whole || threshold == Threshold::none;
   Localizer localizer = make_localizer(experiment, catalog, loaded);
+  if (threshold == Threshold::none) localizer.use(std::make_unique<NoThreshold>());
   localizer.reset(options.trial);
   StepResult result;
   for (std::size_t i = start; i <= index; ++i) {
-    if (result.verdict.kind == VerdictKind::localized && !experiment.trials.whole) {
+    if (result.verdict.kind == VerdictKind::localized && !is_whole) {
       refuse(options.folder, fmt::format("trial {} has no step {}: it ended with a declaration in step {}",
                                          options.trial, options.step, result.step));
     }
@@ -66,16 +79,6 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
   }
   return {std::move(result), localizer.local_map(), *samples[index].map_from_robot,
           loaded.drive.path_m[index] - loaded.drive.path_m[start]};
-}
-
-/// The experiment in which every pose that is drawn passes. Its steps have the same local maps and random
-/// numbers, so a matcher whose draws do not depend on the threshold draws the same.
-Experiment without_threshold(Experiment experiment) {
-  auto params = std::make_unique<ParamsOf<FixedThreshold::Params>>();
-  params->value.omega_max = 0.0;
-  experiment.localizer.threshold_policy = {"fixed", OwnedParams(std::move(params))};
-  experiment.trials.whole = true;  // it may declare earlier
-  return experiment;
 }
 
 /// Contact of the local map at a robot pose, in [0, 1].
@@ -154,7 +157,7 @@ void explain(const ExplainOptions& options, Context& context) {
   const EvaluationConfig& limits = experiment.evaluation;
   LoadedExperiment loaded =
       load_experiment(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
-  const Replayed step = replay(options, experiment, context.catalog, loaded);
+  const Replayed step = replay(options, experiment, context.catalog, loaded, Threshold::configured);
   const StepResult& result = step.result;
   const Pose2& truth = step.map_from_robot;
 
@@ -176,7 +179,7 @@ void explain(const ExplainOptions& options, Context& context) {
     if (hypothesis < std::ssize(result.hypotheses)) return lost_after_matcher(result, cluster);
     if (!agree(fitted, truth, limits))
       return "unclear: the local map does not fit where the reference says it was";
-    const Replayed open = replay(options, without_threshold(experiment), context.catalog, loaded);
+    const Replayed open = replay(options, experiment, context.catalog, loaded, Threshold::none);
     return lost_by_matcher(open.result.hypotheses, step, limits);
   };
 

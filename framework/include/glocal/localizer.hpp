@@ -35,6 +35,9 @@ class Localizer {
   /// ConfigError where a strategy cannot work with this map.
   Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup, std::uint64_t seed);
 
+  /// From now on this policy says which score is asked for, and not the configured one.
+  void use(std::unique_ptr<ThresholdPolicy> threshold_policy);
+
   [[nodiscard]] StepResult step(const Observation& observation);
 
   /// Forgets everything; the steps that follow draw their random numbers from a stream of the trial's own.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <utility>
 
 namespace glocal {
 namespace {
@@ -56,6 +57,10 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
   rater_ = catalog.raters.make(config.rater, setup);
   threshold_policy_ = catalog.threshold_policies.make(config.threshold_policy, setup);
   verdict_rule_ = catalog.verdict_rules.make(config.verdict_rule, setup);
+}
+
+void Localizer::use(std::unique_ptr<ThresholdPolicy> threshold_policy) {
+  threshold_policy_ = std::move(threshold_policy);
 }
 
 StepResult Localizer::step(const Observation& observation) {

@@ -63,6 +63,20 @@ TEST_F(LocalizerTest, TheThresholdOfAStepIsTheOneBeforeItsUpdate) {
   EXPECT_THAT(passed, ElementsAre(0.3, 0.7));
 }
 
+TEST_F(LocalizerTest, AnotherThresholdPolicyTakesThePlaceOfTheConfiguredOne) {
+  struct Half final : ThresholdPolicy {
+    [[nodiscard]] double omega_max() const override { return 0.5; }
+    void update(const std::vector<Hypothesis>& /*hypotheses*/) override {}
+    void reset() override {}
+  };
+  Localizer localizer = make();
+  localizer.use(std::make_unique<Half>());
+  EXPECT_EQ(localizer.step({}).omega_max, 0.5);
+  localizer.reset(1);
+  EXPECT_EQ(localizer.step({}).omega_max, 0.5);
+  EXPECT_THAT(script_->calls, Not(testing::Contains("omega_max")));
+}
+
 TEST_F(LocalizerTest, ClustersFollowTheirRatingsDownwardsAndEqualOnesKeepTheirOrder) {
   give({{{1, 0, 0}, {}, 0.9}, {{2, 0, 0}, {}, 0.8}, {{3, 0, 0}, {}, 0.7}, {{4, 0, 0}, {}, 0.6}},
        {0.2, 0.5, 0.2, 0.9});
