@@ -139,7 +139,8 @@ void align(const AlignOptions& options, Context& context) {
 void index(const MapOptions& options, Context& context) {
   const Experiment experiment = options.input.read(context);
   MapData map = context.catalog.map_sources.make(experiment.map, setup_for(experiment.seed))->load();
-  const MapIndexInfo saved = save_index(experiment, std::move(map), options.out, options.force);
+  const MapIndexInfo saved =
+      save_index(experiment, context.catalog, std::move(map), options.out, options.force);
   fmt::print("entries     {}\nbytes       {}\nbuild       {:.1f} ms\n", saved.entries, saved.bytes,
              saved.build_ms);
 }

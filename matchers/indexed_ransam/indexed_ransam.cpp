@@ -180,18 +180,19 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
              distance_field(*map_, params.field_cell)),
       exact_search_(params.exact_search, params.candidate, params.min_contact, *map_,
                     setup.epsilon(params.contact_epsilon), setup.threads) {
+  const bool is_saved = setup.use_saved && !params.index_file.text.empty();
   const auto start = std::chrono::steady_clock::now();
-  index_ = relation_index(*map_, relation_, params.index_file.resolved, setup.threads);
+  index_ = relation_index(*map_, relation_, is_saved ? params.index_file.resolved : "", setup.threads);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   map_index_ = std::visit(
       [&](const auto& index) {
         return MapIndexInfo{index.size(), index.memory_bytes(), time.count()};
       },
       *index_);
-  if (!params.index_file.text.empty()) setup.note_input(params.index_file.resolved);
+  if (is_saved) setup.note_input(params.index_file.resolved);
 }
 
-std::string IndexedRansam::saved_index() const {
+std::optional<std::string> IndexedRansam::saved_index() const {
   return glocal::saved_index(*index_, *map_, relation_);
 }
 

@@ -68,8 +68,7 @@ class IndexedRansam final : public Matcher {
                                   Rng& rng) override;
   void reset() override;
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override { return map_index_; }
-  /// The content of an index_file.
-  [[nodiscard]] std::string saved_index() const;
+  [[nodiscard]] std::optional<std::string> saved_index() const override;
 
  private:
   [[nodiscard]] std::size_t draws_of_step();

@@ -195,7 +195,7 @@ TEST_F(MapIndexCommand, AnIndexThatDoesNotFitIsRefusedUntilItIsBuiltAnew) {
 TEST_F(MapIndexCommand, AMatcherWithoutAnIndexIsRefused) {
   const Answer answer = build("--set localizer.matcher=ransam");
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("the matcher ransam keeps no index of the map"));
+  EXPECT_THAT(answer.err, HasSubstr("the matcher ransam keeps no index of the map that could be saved"));
   EXPECT_FALSE(fs::exists(file("room.index")));
 }
 

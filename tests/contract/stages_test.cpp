@@ -232,6 +232,22 @@ TEST_F(Stages, MatchersAnswerAlikeForAnyNumberOfThreadsAndAfterAReset) {
   });
 }
 
+TEST_F(Stages, WhatCanBeSavedOfAMatchersIndexIsTheSameEachTime) {
+  std::size_t saved = 0;
+  for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
+    StageSetup anew = setup(2);
+    anew.use_saved = false;
+    const auto one = catalog_.matchers.make(choice, setup());
+    const auto index = one->saved_index();
+    EXPECT_EQ(index, catalog_.matchers.make(choice, anew)->saved_index());
+    if (!index) return;
+    ++saved;
+    EXPECT_FALSE(index->empty());
+    EXPECT_TRUE(one->map_index());
+  });
+  EXPECT_GT(saved, 0U);
+}
+
 TEST_F(Stages, MatchersFindNothingForAnEmptyLocalMap) {
   for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
     Rng rng(1);
