@@ -55,6 +55,14 @@ MapData load(const ExperimentOptions& input, Context& context) {
   return context.catalog.map_sources.make(experiment.map, setup_for(experiment.seed))->load();
 }
 
+/// Fills parameters from a tree into which some values are put.
+void fill(AnyParams& params, YamlNode tree, const std::vector<Override>& values) {
+  std::vector<Fault> faults;
+  apply_overrides(tree, values, params, faults);
+  read_params(tree, params, faults);
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+}
+
 /// The parameters of log_map, from `--set name=value`.
 LogMap::Params log_map_params(const ExperimentOptions& input) {
   const auto origin = std::make_shared<Origin>(Origin{"map build", std::filesystem::current_path()});
@@ -65,10 +73,7 @@ LogMap::Params log_map_params(const ExperimentOptions& input) {
   YamlNode tree = make_node(NodeKind::map, place);
   tree.entries.push_back({"path", place, std::move(path)});
   ParamsOf<LogMap::Params> params;
-  std::vector<Fault> faults;
-  apply_overrides(tree, input.overrides(), params, faults);
-  read_params(tree, params, faults);
-  if (!faults.empty()) throw ConfigError(std::move(faults));
+  fill(params, std::move(tree), input.overrides());
   return std::move(params.value);
 }
 
@@ -114,16 +119,26 @@ struct AlignOptions {
   double contact_epsilon = 0.15;
 };
 
+/// Random sample matching of whole maps: they have room for large triangles, which say more.
+StrategyChoice matcher_of_maps(const Catalog& catalog, double contact_epsilon) {
+  StrategyChoice choice = catalog.matchers.choose("ransam");
+  const std::string epsilon = fmt::format("{}", contact_epsilon);
+  const auto origin = std::make_shared<Origin>(Origin{"map align", std::filesystem::current_path()});
+  fill(*choice.params, make_node(NodeKind::null, {origin}),
+       {{"iterations", "2000000"},
+        {"contact_epsilon", epsilon},
+        {"relation_cell", epsilon},
+        {"min_side", "3"},
+        {"min_height", "1"}});
+  return choice;
+}
+
 void align(const AlignOptions& options, Context& context) {
   const auto map = std::make_shared<const GlobalMap>(load(options.map, context));
   const MapData other = load(options.other, context);
-  // Whole maps have room for large triangles, which say more.
-  const Ransam::Params params{.iterations = 2'000'000,
-                              .contact_epsilon = options.contact_epsilon,
-                              .relation_cell = options.contact_epsilon,
-                              .min_side = 3.0,
-                              .min_height = 1.0};
-  const auto found = align_maps(map, other.points, params, 1);
+  const StrategyChoice choice = matcher_of_maps(context.catalog, options.contact_epsilon);
+  const auto matcher = context.catalog.matchers.make(choice, {map, 1});
+  const auto found = align_maps(*map, other.points, *matcher, options.contact_epsilon, 1);
   if (!found) {
     throw RunError(fmt::format(
         "{} does not fit into {}: no pose brings a quarter of its points within {} m of the map's",

@@ -6,7 +6,6 @@
 
 #include "glocal/contact.hpp"
 #include "glocal/distance_field.hpp"
-#include "matchers/ransam/ransam.hpp"
 
 namespace glocal::app {
 namespace {
@@ -21,9 +20,8 @@ Pose2 middle(const Points& points) {
 
 }  // namespace
 
-std::optional<Alignment> align_maps(const std::shared_ptr<const GlobalMap>& map, const Points& other,
-                                    const Ransam::Params& params, std::uint64_t seed) {
-  Ransam matcher(params, {map, 1});
+std::optional<Alignment> align_maps(const GlobalMap& map, const Points& other, Matcher& matcher,
+                                    double contact_epsilon, std::uint64_t seed) {
   LocalMap local;
   local.points = other;
   local.ends = {other.size()};
@@ -37,10 +35,10 @@ std::optional<Alignment> align_maps(const std::shared_ptr<const GlobalMap>& map,
     const Transform to_middle(inverse(other_from_middle));
     for (std::size_t i = 0; i < other.size(); ++i) centred.push_back(to_middle(other[i]));
     const Pose2 map_from_middle =
-        refined_pose(DistanceField(map->points()), centred,
+        refined_pose(DistanceField(map.points()), centred,
                      result.hypotheses.front().map_from_local * other_from_middle, {.iterations = 100});
     const Pose2 map_from_other = map_from_middle * inverse(other_from_middle);
-    const auto contact = contact_index(*map, params.contact, params.contact_epsilon.value());
+    const auto contact = contact_index(map, "bitset", contact_epsilon);
     return Alignment{map_from_other, contact->share(other, Transform(map_from_other))};
   }
   return std::nullopt;

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "glocal/global_map.hpp"
-#include "matchers/ransam/ransam.hpp"
+#include "glocal/strategies.hpp"
 
 namespace glocal::app {
 
@@ -15,10 +14,9 @@ struct Alignment {
   double in_contact;  ///< Share of the other map's points.
 };
 
-/// Random sample matching of whole maps, then Gauss-Newton on the distance field. None if no pose brings a
-/// quarter of the points into contact.
-[[nodiscard]] std::optional<Alignment> align_maps(const std::shared_ptr<const GlobalMap>& map,
-                                                  const Points& other, const Ransam::Params& params,
-                                                  std::uint64_t seed);
+/// Lays points on a map by a matcher that was made for it, then by Gauss-Newton on the distance field. None
+/// if the matcher finds no pose that it scores at least 0.25.
+[[nodiscard]] std::optional<Alignment> align_maps(const GlobalMap& map, const Points& other, Matcher& matcher,
+                                                  double contact_epsilon, std::uint64_t seed);
 
 }  // namespace glocal::app
