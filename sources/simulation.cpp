@@ -1,9 +1,18 @@
 #include "sources/simulation.hpp"
 
+#include <memory>
+#include <utility>
+
+#include "sources/carmen_log.hpp"
+#include "sources/carmen_writer.hpp"
+
 namespace glocal {
 
 Simulation::Simulation(const Params& params, const SourceSetup& setup)
-    : scan_limits_(scan_limits(params.laser)), simulator_(params, setup.seed) {
+    : params_(params),
+      seed_(setup.seed),
+      scan_limits_(scan_limits(params.laser)),
+      simulator_(params, setup.seed) {
   setup.note_input(params.world.resolved);
 }
 
@@ -12,6 +21,20 @@ std::optional<Sample> Simulation::next() {
   if (!scan) return std::nullopt;
   return Sample{
       {scan->stamp, robot_scan(*scan, scan_limits_), scan->odom_from_robot}, scan->map_from_robot, 0};
+}
+
+std::optional<Recording> Simulation::recording() const {
+  auto log = std::make_unique<ParamsOf<CarmenLog::Params>>();
+  log->value = scan_limits_;
+  Recording recording{.file_name = "drive.log", .content = {}, .observations = 0, .source = {}};
+  log->value.path = {recording.file_name, recording.file_name};
+  recording.source = {"carmen_log", std::move(log)};
+  DriveSimulator simulator(params_, seed_);
+  while (const auto scan = simulator.next()) {
+    recording.content += carmen_lines(*scan);
+    ++recording.observations;
+  }
+  return recording;
 }
 
 }  // namespace glocal

@@ -1,6 +1,7 @@
 // Simulated observations, and the map that goes with them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "glocal/catalog.hpp"
@@ -18,8 +19,12 @@ class Simulation final : public ObservationSource {
   Simulation(const Params& params, const SourceSetup& setup);
 
   [[nodiscard]] std::optional<Sample> next() override;
+  /// As a CARMEN log.
+  [[nodiscard]] std::optional<Recording> recording() const override;
 
  private:
+  Params params_;
+  std::uint64_t seed_;
   LogParams scan_limits_;
   DriveSimulator simulator_;
 };

@@ -15,10 +15,19 @@
 #include "glocal/hypothesis.hpp"
 #include "glocal/local_map.hpp"
 #include "glocal/observation.hpp"
+#include "glocal/params.hpp"
 #include "glocal/rng.hpp"
 #include "glocal/step_result.hpp"
 
 namespace glocal {
+
+/// A drive as a file, and who reads it back.
+struct Recording {
+  std::string file_name;
+  std::string content;
+  std::size_t observations = 0;
+  StrategyChoice source;  ///< Takes the file to be beside the experiment that names it.
+};
 
 /// Delivers a drive, one observation after the other.
 class ObservationSource {
@@ -26,6 +35,9 @@ class ObservationSource {
   virtual ~ObservationSource() = default;
   /// The next observation; none at the end, and none ever after.
   [[nodiscard]] virtual std::optional<Sample> next() = 0;
+  /// The whole drive, however much of it has been delivered; none from a source that makes up no drive of its
+  /// own.
+  [[nodiscard]] virtual std::optional<Recording> recording() const { return std::nullopt; }
 };
 
 /// Delivers the known map.
