@@ -1,4 +1,4 @@
-// The simulated experiments give the results they gave before.
+// Experiments give the results they gave before.
 //
 // To make the stored results anew after a change that is meant to change them:
 //   GLOCAL_MAKE_GOLDEN=1 ctest --preset release -R Golden
@@ -15,16 +15,44 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-class Golden : public CommandLine, public testing::WithParamInterface<std::string> {
+/// A run whose results are stored.
+struct GoldenRun {
+  std::string experiment;
+  std::string options = {};
+  bool needs_datasets = false;
+};
+
+class Golden : public CommandLine, public testing::WithParamInterface<GoldenRun> {
  protected:
-  /// What a run of the experiment comes to.
+  /// What the run comes to: of a single trial with its steps, else of each.
   [[nodiscard]] Json result() const {
     const std::string out = folder_.path() / "results";
-    const Answer answer =
-        run("run " GLOCAL_SOURCE_DIR "/configs/experiments/" + GetParam() + ".yaml --quiet --out " + out);
+    const Answer answer = run("run " GLOCAL_SOURCE_DIR "/configs/experiments/" + GetParam().experiment +
+                              ".yaml --quiet --out " + out + " " + GetParam().options);
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
-    const Json trial = Json::parse(content(out + "/trials.jsonl"));
-    std::ifstream steps(out + "/steps.jsonl");
+    std::vector<Json> trials;
+    std::ifstream lines(out + "/trials.jsonl");
+    for (std::string line; std::getline(lines, line);) trials.push_back(Json::parse(line));
+    return trials.size() == 1 ? with_steps(trials.front(), out + "/steps.jsonl") : declarations(trials);
+  }
+
+  [[nodiscard]] static std::string stored_file() {
+    return GLOCAL_SOURCE_DIR "/tests/golden/" + GetParam().experiment + ".json";
+  }
+
+ private:
+  static Json declarations(const std::vector<Json>& trials) {
+    Json result;
+    for (const Json& trial : trials) {
+      Json& one = result["trial_" + std::to_string(trial["trial"].get<int>())];
+      one = {{"outcome", trial["outcome"]}, {"steps", trial["steps"]}};
+      if (trial.contains("pose")) one["declared_pose"] = trial["pose"];
+    }
+    return result;
+  }
+
+  static Json with_steps(const Json& trial, const std::string& file) {
+    std::ifstream steps(file);
     Json result = {{"outcome", trial["outcome"]}, {"steps_to_verdict", trial["steps"]}, {"steps", 0}};
     Json step;
     for (std::string line; std::getline(steps, line);) {
@@ -40,10 +68,6 @@ class Golden : public CommandLine, public testing::WithParamInterface<std::strin
     if (step.contains("estimate")) result["last_estimate"] = step["estimate"];
     return result;
   }
-
-  [[nodiscard]] static std::string stored_file() {
-    return GLOCAL_SOURCE_DIR "/tests/golden/" + GetParam() + ".json";
-  }
 };
 
 /// Takes poses (m, rad) out of a result: they may differ by rounding on other processors.
@@ -53,10 +77,16 @@ Json take_poses(Json& result) {
     if (result.contains(key)) poses[key] = result[key];
     result.erase(key);
   }
+  for (auto& [name, trial] : result.items()) {
+    if (!trial.is_object()) continue;
+    for (const auto& [key, pose] : take_poses(trial).items()) poses[name + "." + key] = pose;
+  }
   return poses;
 }
 
 TEST_P(Golden, TheResultIsTheStoredOne) {
+  if (GetParam().needs_datasets && std::getenv("GLOCAL_DATASETS") == nullptr)
+    GTEST_SKIP() << "GLOCAL_DATASETS is not set";
   Json result = this->result();
   if (std::getenv("GLOCAL_MAKE_GOLDEN") != nullptr) {
     std::ofstream(stored_file()) << result.dump(2) << '\n';
@@ -76,12 +106,19 @@ TEST_P(Golden, TheResultIsTheStoredOne) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<std::string>& info) {
-  return info.param;
+std::string name_of(const testing::TestParamInfo<GoldenRun>& info) {
+  return info.param.experiment;
 }
 
-INSTANTIATE_TEST_SUITE_P(Experiments, Golden,
-                         testing::Values("paper_simulation", "paper_symmetry", "paper_lab"), name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Experiments, Golden,
+    testing::Values(GoldenRun{"paper_simulation"}, GoldenRun{"paper_symmetry"}, GoldenRun{"paper_lab"},
+                    GoldenRun{"paper_symmetry_indexed"},
+                    GoldenRun{
+                        "sim_kidnapped_mcl",
+                        "--set trials.whole=false --set trials.every_m=1000 --set trials.max_steps=100"},
+                    GoldenRun{"intel", "--set trials.every_m=48", true}),
+    name_of);
 
 }  // namespace
 }  // namespace glocal::test::golden_test
