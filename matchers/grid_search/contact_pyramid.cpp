@@ -167,14 +167,16 @@ TileCounts::Mask TileCounts::at_least(std::size_t count) const {
   return nodes;
 }
 
+void check_cell(double cell, double epsilon) {
+  if (cell <= epsilon) return;
+  throw ConfigError(
+      {{"", 0, 0,
+        fmt::format("the cell of {} m of an exact search is larger than contact_epsilon, which is "
+                    "{:.3g} m on this map; take a smaller cell or a larger contact_epsilon",
+                    cell, epsilon)}});
+}
+
 CellFrame cell_frame(const Points& map_points, double cell, double epsilon) {
-  if (cell > epsilon) {
-    throw ConfigError(
-        {{"", 0, 0,
-          fmt::format("the cell of {} m of an exact search is larger than contact_epsilon, which is "
-                      "{:.3g} m on this map; take a smaller cell or a larger contact_epsilon",
-                      cell, epsilon)}});
-  }
   const auto [low_x, high_x] = std::minmax_element(map_points.x.begin(), map_points.x.end());
   const auto [low_y, high_y] = std::minmax_element(map_points.y.begin(), map_points.y.end());
   CellFrame frame{.cell = cell, .min_x = *low_x - epsilon, .min_y = *low_y - epsilon};
@@ -291,6 +293,7 @@ std::size_t ContactPyramid::count(int level, const CellPoints& points, int colum
 }
 
 std::shared_ptr<const ContactPyramid> contact_pyramid(const GlobalMap& map, double cell, double epsilon) {
+  check_cell(cell, epsilon);
   return map.index<ContactPyramid>(fmt::format("{} {}", cell, epsilon),
                                    [&] { return ContactPyramid(map.points(), cell, epsilon); });
 }

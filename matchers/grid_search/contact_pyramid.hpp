@@ -35,6 +35,10 @@ struct CellFrame {
   int columns = 0, rows = 0;
 };
 
+/// Throws ConfigError where the cells of a search (m) are larger than epsilon (m): poses between them would
+/// be missed.
+void check_cell(double cell, double epsilon);
+
 /// All cells within `epsilon` (m) of a point of the map. Throws ConfigError where they are too many for a
 /// grid (1 GiB).
 [[nodiscard]] CellFrame cell_frame(const Points& map_points, double cell, double epsilon);

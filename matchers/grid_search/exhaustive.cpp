@@ -85,7 +85,9 @@ Exhaustive::Exhaustive(const Params& params, const StageSetup& setup)
                   contact_index(*setup.map, params.contact, setup.epsilon(params.grid.contact_epsilon))),
       threads_(setup.threads),
       frame_(cell_frame(setup.map->points(), params.grid.cell, setup.epsilon(params.grid.contact_epsilon))),
-      contact_(contact_index(*setup.map, params.contact, setup.epsilon(params.grid.contact_epsilon))) {}
+      contact_(contact_index(*setup.map, params.contact, setup.epsilon(params.grid.contact_epsilon))) {
+  check_cell(params.grid.cell, setup.epsilon(params.grid.contact_epsilon));
+}
 
 GridSearchResult Exhaustive::search(const Points& points, const Pose2& local_from_robot,
                                     const GridSearchRule& rule) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "glocal/error.hpp"
 #include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
@@ -144,6 +145,14 @@ TEST(BranchAndBound, AnswersAlikeForAnyNumberOfThreads) {
   const MatchResult one = match({}, local, 0.1, test::small_world(), 1);
   const MatchResult two = match({}, local, 0.1, test::small_world(), 2);
   test::expect_same_answer(one, two);
+}
+
+TEST(BranchAndBound, RefusesCellsLargerThanTheEpsilonOfTheMap) {
+  // Epsilon is not said, and so that of the setup: nobody could tell before the map was there.
+  const StageSetup setup{.map = test::small_world(), .contact_epsilon = 0.04};
+  EXPECT_THROW(BranchAndBound({.cell = 0.05}, setup), ConfigError);
+  EXPECT_NO_THROW(BranchAndBound({.cell = 0.04}, setup));
+  EXPECT_NO_THROW(BranchAndBound({.contact_epsilon = 0.05, .cell = 0.05}, setup));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ double ShareOfBest::omega_max() const {
 }
 
 void ShareOfBest::update(const std::vector<Hypothesis>& hypotheses) {
-  best_ = hypotheses.empty() ? 0.0 : hypotheses.front().quality;
+  best_ = hypotheses.empty() ? 0.0 : hypotheses.front().score;
 }
 
 }  // namespace glocal
