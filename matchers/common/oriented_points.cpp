@@ -174,6 +174,7 @@ std::size_t for_each_voxel(const Points& points, const OrientedPointRule& rule, 
 bool is_free_side(const OccupancyGrid& grid, float x, float y, float angle) {
   constexpr double nearest = 0.1;
   constexpr double farthest = 0.31;
+  if (grid.cells.empty()) return false;  // and has no resolution to go by
   bool left_own = false;
   for (double d = nearest; d < farthest; d += grid.resolution) {
     const Cell cell = grid.at(x + d * std::cos(angle), y + d * std::sin(angle));

@@ -201,5 +201,17 @@ TEST(OrientedPoints, ALocalMapWithoutNormalsGetsBothDirections) {
   EXPECT_EQ(2 * static_cast<std::size_t>(to_the_right), oriented_points.size());
 }
 
+TEST(OrientedPoints, WithoutAGridBothSidesOfAWallCount) {
+  MapData data;
+  test::add_wall(data.points, {{0, 0}, {4, 0}});
+  const GlobalMap map(std::move(data));
+  const OrientedPoints points = oriented_points_of(map, {});
+  ASSERT_GT(points.size(), 60U);
+  for (std::size_t i = 0; i < points.size(); i += 2) {
+    EXPECT_EQ(points.x[i], points.x[i + 1]);
+    EXPECT_NEAR(std::abs(points.angle[i] - points.angle[i + 1]), std::numbers::pi, 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace glocal::oriented_points_test
