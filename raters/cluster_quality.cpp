@@ -8,7 +8,7 @@ namespace glocal {
 
 void describe_cluster_quality(ParamVisitor& v, std::string& quality) {
   v.field("quality", quality,
-          {.doc = "A cluster's quality: that of its best hypothesis, or their mean weighted with support.",
+          {.doc = "Score of a cluster: that of its best hypothesis, or their mean weighted with support.",
            .choices = {"best", "mean"}});
 }
 

@@ -12,7 +12,7 @@ namespace glocal {
 void describe(ParamVisitor& v, ClusterRating::Params& p) {
   v.field("weights", p.weights,
           {.doc = "alpha_1 (size), alpha_2 (spread in translation), alpha_3 (spread in rotation) and alpha_4 "
-                  "(mean quality) "
+                  "(mean score) "
                   "of eq. 7; they add up to 1.",
            .min = 0.0,
            .max = 1.0,

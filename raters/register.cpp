@@ -14,17 +14,17 @@
 namespace glocal {
 
 void register_raters(Catalog& catalog) {
-  catalog.raters.add<ClusterRating>("cluster_rating", "Size, spread and quality of a cluster (eq. 7, 8).");
-  catalog.raters.add<QualityOnly>("quality_only", "The quality of a cluster, whatever its size.");
-  catalog.raters.add<Softmax>("softmax", "Differences in quality, weighted exponentially.");
-  catalog.threshold_policies.add<FixedThreshold>("fixed", "The same quality in every step.");
+  catalog.raters.add<ClusterRating>("cluster_rating", "Size, spread and mean score of a cluster (eq. 7, 8).");
+  catalog.raters.add<QualityOnly>("quality_only", "The score of a cluster, whatever its size.");
+  catalog.raters.add<Softmax>("softmax", "Differences in score, weighted exponentially.");
+  catalog.threshold_policies.add<FixedThreshold>("fixed", "The same threshold in every step.");
   catalog.threshold_policies.add<SlidingWindow>("sliding_window",
-                                                "Mean hypothesis quality over a sliding window (eq. 9).");
+                                                "Mean hypothesis score over a sliding window (eq. 9).");
   catalog.threshold_policies.add<ExponentialThreshold>(
-      "exponential", "Mean hypothesis quality, of which older steps count ever less.");
-  catalog.threshold_policies.add<QuantileThreshold>("quantile", "A quantile of the last step's qualities.");
+      "exponential", "Mean hypothesis score, of which older steps count ever less.");
+  catalog.threshold_policies.add<QuantileThreshold>("quantile", "A quantile of the last step's scores.");
   catalog.threshold_policies.add<BestFraction>("best_fraction",
-                                               "A fraction of the best quality, of the last step or so far.");
+                                               "A fraction of the best score, of the last step or so far.");
   catalog.verdict_rules.add<ConsecutiveRating>(
       "consecutive_rating", "The same cluster rated highly in consecutive steps (Section IV).");
   catalog.verdict_rules.add<StagedMargin>(

@@ -8,12 +8,11 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, Softmax::Params& p) {
-  v.field(
-      "beta", p.beta,
-      {.doc = "By how much a difference in quality counts: a cluster better by 1 / beta weighs e times as "
-              "much. 0: all alike.",
-       .min = 0.0,
-       .max = 500.0});
+  v.field("beta", p.beta,
+          {.doc = "By how much a difference in score counts: a cluster better by 1 / beta weighs e times as "
+                  "much. 0: all alike.",
+           .min = 0.0,
+           .max = 500.0});
   describe_cluster_quality(v, p.quality);
 }
 

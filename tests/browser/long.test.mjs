@@ -13,7 +13,7 @@ after(closeBrowser);
 
 function lengthened(folder, out) {
   mkdirSync(join(out, "maps", "trial_0000"), { recursive: true });
-  for (const name of ["effective.yaml", "provenance.json", "summary.json", "trials.jsonl", "maps/global.pcd"]) copyFileSync(join(folder, name), join(out, name));
+  for (const name of ["effective.yaml", "provenance.json", "trials.jsonl", "maps/global.pcd"]) copyFileSync(join(folder, name), join(out, name));
   const steps = stepsOf(folder, 0);
   const padded = (k) => String(k).padStart(4, "0");
   const clusters = steps.flatMap((step) => step.best);
@@ -26,6 +26,8 @@ function lengthened(folder, out) {
       linkSync(join(folder, "maps", "trial_0000", `${kind}_${padded(source)}.pcd`), join(out, "maps", "trial_0000", `${kind}_${padded(k)}.pcd`));
     }
   }
+  const summary = JSON.parse(readFileSync(join(folder, "summary.json"), "utf8"));
+  writeFileSync(join(out, "summary.json"), JSON.stringify({ ...summary, steps: length }));
   writeFileSync(join(out, "steps.jsonl"), `${lines.join("\n")}\n`);
   return out;
 }

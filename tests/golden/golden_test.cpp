@@ -79,7 +79,8 @@ Json take_poses(Json& result) {
   }
   for (auto& [name, trial] : result.items()) {
     if (!trial.is_object()) continue;
-    for (const auto& [key, pose] : take_poses(trial).items()) poses[name + "." + key] = pose;
+    const Json of_trial = take_poses(trial);
+    for (const auto& [key, pose] : of_trial.items()) poses[name + "." + key] = pose;
   }
   return poses;
 }

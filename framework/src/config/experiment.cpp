@@ -42,7 +42,7 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
              {.doc = "Groups hypotheses that mean the same pose."});
   v.strategy("rater", c.rater, s.catalog->raters, {.doc = "Says how much each cluster deserves trust."});
   v.strategy("threshold_policy", c.threshold_policy, s.catalog->threshold_policies,
-             {.doc = "Says which quality a hypothesis must reach."});
+             {.doc = "Says which score a hypothesis must reach."});
   v.strategy("verdict_rule", c.verdict_rule, s.catalog->verdict_rules,
              {.doc = "Says whether the answer can be trusted."});
   v.field("unknown_place", c.unknown_place,

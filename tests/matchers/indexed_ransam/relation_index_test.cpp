@@ -4,6 +4,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "files.hpp"
 #include "glocal/error.hpp"
@@ -18,6 +19,7 @@ std::shared_ptr<const GlobalMap> wall_and_poles() {
   test::add_wall(data.points, {{0, 0}, {4, 0}});
   for (int i = 0; i < 20; ++i)
     data.points.push_back({static_cast<float>(i % 5), 2.0F + static_cast<float>(i / 5), 0.0F});
+  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 80, 80, std::vector<Cell>(std::size_t{80} * 80, Cell::free)};
   return std::make_shared<const GlobalMap>(std::move(data));
 }
 

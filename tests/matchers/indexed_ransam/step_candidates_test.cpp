@@ -10,13 +10,14 @@ namespace {
 
 const Pose2 truth{5.5, 2.5, 0.7};
 
-/// A batch with a pose at the truth and others all over the world.
+/// A batch in which every other pose is near the truth, and the rest all over the world.
 MotionBatch poses(std::size_t size) {
   Rng rng(4);
   MotionBatch batch;
   for (std::size_t i = 0; i < size; ++i) {
-    const Transform t(i == 3 ? truth
-                             : Pose2{rng.uniform(0.0, 8.0), rng.uniform(0.0, 9.0), rng.uniform(-3.1, 3.1)});
+    const Pose2 off{rng.normal(0.1), rng.normal(0.1), rng.normal(0.05)};
+    const Pose2 anywhere{rng.uniform(0.0, 8.0), rng.uniform(0.0, 9.0), rng.uniform(-3.1, 3.1)};
+    const Transform t(i % 2 == 0 ? truth * off : anywhere);
     batch.cosine[i] = t.cosine();
     batch.sine[i] = t.sine();
     batch.x[i] = t.x();
