@@ -52,7 +52,9 @@ bool is_ros_map(const std::string& file) {
 MapData load(const ExperimentOptions& input, Context& context) {
   if (is_ros_map(input.file)) return RosMap({{input.file, input.file}}, setup_for(0)).load();
   const Experiment experiment = input.read(context);
-  return context.catalog.map_sources.make(experiment.map, setup_for(experiment.seed))->load();
+  return context.catalog.map_sources
+      .make(experiment.map, setup_for(seed_of(RandomPart::map_source, experiment)))
+      ->load();
 }
 
 /// Fills parameters from a tree into which some values are put.
@@ -153,7 +155,9 @@ void align(const AlignOptions& options, Context& context) {
 
 void index(const MapOptions& options, Context& context) {
   const Experiment experiment = options.input.read(context);
-  MapData map = context.catalog.map_sources.make(experiment.map, setup_for(experiment.seed))->load();
+  MapData map = context.catalog.map_sources
+                    .make(experiment.map, setup_for(seed_of(RandomPart::map_source, experiment)))
+                    ->load();
   const MapIndexInfo saved =
       save_index(experiment, context.catalog, std::move(map), options.out, options.force);
   fmt::print("entries     {}\nbytes       {}\nbuild       {:.1f} ms\n", saved.entries, saved.bytes,

@@ -25,7 +25,7 @@ struct MappingOptions {
 /// Only the drive and the local mapper are made: the map of the experiment has no part in this.
 MappingAccuracy measure(const Experiment& experiment, const Catalog& catalog, const MappingWindows& windows) {
   SourceSetup setup;
-  setup.seed = experiment.seed;
+  setup.seed = seed_of(RandomPart::observation_source, experiment);
   setup.warn = [](const std::string& text) { spdlog::warn(text); };
   const auto source = catalog.observation_sources.make(experiment.observations, setup);
   const Drive drive = read_drive(*source);

@@ -37,7 +37,7 @@ void simulate(const SimulateOptions& options, Context& context) {
   const Catalog& catalog = context.catalog;
   std::set<std::filesystem::path> inputs{std::filesystem::absolute(options.experiment.file)};
   SourceSetup setup;
-  setup.seed = experiment.seed;
+  setup.seed = seed_of(RandomPart::observation_source, experiment);
   setup.warn = [](const std::string& text) { spdlog::warn(text); };
   setup.note_input = [&](const std::filesystem::path& file) {
     inputs.insert(std::filesystem::absolute(file));
@@ -51,6 +51,7 @@ void simulate(const SimulateOptions& options, Context& context) {
   }
   OutputFolder folder(options.out, options.force);
   folder.append(drive->file_name, drive->content);
+  setup.seed = seed_of(RandomPart::map_source, experiment);
   const MapData map = catalog.map_sources.make(experiment.map, setup)->load();
   folder.append("map.pgm", pgm(trinary_image(map.grid)));
   folder.append("map.yaml", ros_map_yaml(map.grid, "map.pgm"));

@@ -13,7 +13,8 @@ namespace {
 void steps(benchmark::State& state, const std::string& name, std::size_t begin, std::size_t end,
            int threads) {
   const Scene& s = scene(name);
-  Localizer localizer(s.experiment.localizer, catalog(), {s.loaded.map, threads}, s.experiment.seed);
+  Localizer localizer(s.experiment.localizer, catalog(), {s.loaded.map, threads},
+                      seed_of(RandomPart::localizer, s.experiment));
   const auto step = [&](std::size_t i) {
     return localizer.step(s.loaded.drive.samples[s.loaded.starts.front() + i].observation);
   };

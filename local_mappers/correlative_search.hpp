@@ -10,8 +10,8 @@ namespace glocal {
 
 struct CorrelativeSearchParams {
   double translation = 0.1;
-  double rotation_deg = degrees(0.15);
-  double rotation_step_deg = degrees(0.0175);
+  double rotation_deg = 9.0;
+  double rotation_step_deg = 1.0;
   int points = 100;
   double odometry_penalty = 0.005;
 };

@@ -17,7 +17,7 @@ class Keyframes final : public LocalMapper {
  public:
   struct Params {
     double distance = 0.5;
-    double angle_deg = degrees(0.35);
+    double angle_deg = 20.0;
     double overlap = 0.6;
     double overlap_distance = 0.1;
     ScanMatching::Params matching = {};

@@ -14,7 +14,7 @@ namespace glocal {
 struct LineRegistrationParams {
   double gate = 0.45;
   double kernel_share = 0.333;
-  double max_normal_angle_deg = degrees(1.05);
+  double max_normal_angle_deg = 60.0;
   double pointwise_weight = 0.2;
   int max_iterations = 20;
   double damping = 1e-4;

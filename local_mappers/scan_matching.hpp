@@ -26,14 +26,13 @@ class ScanMatching final : public LocalMapper {
     double likelihood_sigma = 0.1;
     ScanNormalParams normals;
     CorrelativeSearchParams search;
-    CorrelativeSearchParams wide_search{
-        .translation = 0.75, .rotation_deg = degrees(1.5), .odometry_penalty = 0.02};
+    CorrelativeSearchParams wide_search{.translation = 0.75, .rotation_deg = 86.0, .odometry_penalty = 0.02};
     double wide_search_below = 0.5;
     double wide_search_gain = 0.15;
     LineRegistrationParams refinement;
     int min_matches = 15;
     double max_correction = 0.6;
-    double max_correction_angle_deg = degrees(0.6);
+    double max_correction_angle_deg = 35.0;
     double min_fit = 0.15;
     double max_free_space_violation = 0.15;
     FreeSpaceCheckParams free_space_check;

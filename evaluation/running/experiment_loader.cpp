@@ -14,15 +14,18 @@ namespace glocal {
 
 LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog, const Warn& warn) {
   LoadedExperiment loaded;
-  const SourceSetup setup{
-      .seed = experiment.seed, .warn = warn, .note_input = [&](const std::filesystem::path& file) {
-        loaded.inputs.insert(file);
-      }};
+  const auto setup_of = [&](RandomPart part) -> SourceSetup {
+    return {.seed = seed_of(part, experiment),
+            .warn = warn,
+            .note_input = [&](const std::filesystem::path& file) { loaded.inputs.insert(file); }};
+  };
   const auto start = std::chrono::steady_clock::now();
-  loaded.map = std::make_shared<const GlobalMap>(catalog.map_sources.make(experiment.map, setup)->load());
+  loaded.map = std::make_shared<const GlobalMap>(
+      catalog.map_sources.make(experiment.map, setup_of(RandomPart::map_source))->load());
   loaded.map_build_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  loaded.drive = read_drive(*catalog.observation_sources.make(experiment.observations, setup));
+  loaded.drive = read_drive(
+      *catalog.observation_sources.make(experiment.observations, setup_of(RandomPart::observation_source)));
   loaded.starts = trial_starts(experiment.trials, loaded.drive, *loaded.map);
   return loaded;
 }
@@ -53,7 +56,7 @@ Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, L
       .map = loaded.map, .threads = experiment.threads, .note_input = [&](const std::filesystem::path& file) {
         loaded.inputs.insert(file);
       }};
-  return {experiment.localizer, catalog, setup, experiment.seed};
+  return {experiment.localizer, catalog, setup, seed_of(RandomPart::localizer, experiment)};
 }
 
 std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,

@@ -37,7 +37,8 @@ int main(int argc, char** argv) try {
       glocal::read_experiment(argc > 1 ? argv[1] : "experiment.yaml", {}, catalog);
   const auto map =
       std::make_shared<const glocal::GlobalMap>(catalog.map_sources.make(experiment.map, {})->load());
-  glocal::Localizer localizer(experiment.localizer, catalog, {map, experiment.threads}, experiment.seed);
+  glocal::Localizer localizer(experiment.localizer, catalog, {map, experiment.threads},
+                              glocal::seed_of(glocal::RandomPart::localizer, experiment));
 
   for (std::string line; std::getline(std::cin, line);) {
     const glocal::StepResult step = localizer.step(parse(line));

@@ -24,7 +24,7 @@ struct Candidate {
 /// When two robot poses are one candidate, both nearer and turned by less; and how many points refine one.
 struct CandidateRule {
   double distance = 0.4;  ///< m
-  double rotation_deg = degrees(0.2);
+  double rotation_deg = 11.5;
   int refinement_points = 50;
 };
 /// Among the fields of a matcher, not in a group of their own.

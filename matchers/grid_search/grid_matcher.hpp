@@ -17,7 +17,7 @@ namespace glocal {
 struct GridMatching {
   std::optional<double> contact_epsilon = {};
   double cell = 0.05;
-  double min_rotation_step_deg = degrees(0.005);
+  double min_rotation_step_deg = 0.3;
   int max_points = 200;
   int max_poses = 50;
   CandidateRule candidate = {};

@@ -20,7 +20,7 @@ struct ExactSearchRule {
   int after_steps = 0;
   double margin = 0.1;
   double cell = 0.05;
-  double min_rotation_step_deg = degrees(0.005);
+  double min_rotation_step_deg = 0.3;
   int max_poses = 50;
 };
 void describe(ParamVisitor& v, ExactSearchRule& p);

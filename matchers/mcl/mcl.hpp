@@ -44,7 +44,7 @@ class Mcl final : public Matcher {
     double recovery_alpha_fast = 0.0;
     int resample_interval = 1;
     double update_min_d = 0.25;
-    double update_min_a_deg = degrees(0.2);
+    double update_min_a_deg = 11.5;
     OdometryNoise noise = {};
     std::string laser_model_type = "likelihood_field";
     int max_beams = 60;
@@ -61,7 +61,7 @@ class Mcl final : public Matcher {
     double field_cell = 0.05;
     std::optional<double> contact_epsilon = {};
     double merge_distance = 0.25;
-    double merge_rotation_deg = degrees(0.17);
+    double merge_rotation_deg = 10.0;
     int max_hypotheses = 1000;
   };
 

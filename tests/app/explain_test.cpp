@@ -102,13 +102,12 @@ TEST_F(ExplainCommand, DrawnButRejected) {
 TEST_F(ExplainCommand, DrawnButGivenUpEarly) {
   const std::string few =
       "--set localizer.matcher.ransam.iterations=60000 --set "
-      "localizer.matcher.ransam.extrapolation_batch=1 --set "
-      "localizer.threshold_policy.fixed.omega_max=0.8";
-  run_lab(few);
+      "localizer.matcher.ransam.extrapolation_batch=1 --set localizer.threshold_policy.fixed.omega_max=";
+  run_lab(few + "0.8");
   const auto best = recorded(0)["omega_best"].get<double>();
   ASSERT_GE(best, 0.8);
-  // Without a margin eq. 5 gives up whatever misses the threshold after a single point.
-  run_lab_again(few + " --set localizer.matcher.ransam.extrapolation_z=0");
+  // Just enough for the best; but without a margin eq. 5 gives up whatever misses that after a single point.
+  run_lab_again(few + std::to_string(best - 0.001) + " --set localizer.matcher.ransam.extrapolation_z=0");
   EXPECT_EQ(recorded(0)["hypotheses"], 0);
   EXPECT_THAT(lost(0), HasSubstr(fmt::format("has score {0:.2f} (Omega {0:.2f}), but was given up", best)));
 }

@@ -377,11 +377,12 @@ TEST(DocsStrategy, DoesWhatItSays) {
   catalog.threshold_policies.add<ShareOfBest>("share_of_best", "A share of the last step's best quality.");
   const auto policy = catalog.threshold_policies.make(catalog.threshold_policies.choose("share_of_best"), {});
   EXPECT_DOUBLE_EQ(policy->omega_max(), 0.4);
-  policy->update({Hypothesis{.quality = 1.0, .score = 0.9}, Hypothesis{.quality = 1.0, .score = 0.5}});
+  policy->update({Hypothesis{.map_from_local = {}, .quality = 1.0, .score = 0.9},
+                  Hypothesis{.map_from_local = {}, .quality = 1.0, .score = 0.5}});
   EXPECT_DOUBLE_EQ(policy->omega_max(), 0.8 * 0.9);
   policy->update({});
   EXPECT_DOUBLE_EQ(policy->omega_max(), 0.4);
-  policy->update({Hypothesis{.quality = 1.0, .score = 0.9}});
+  policy->update({Hypothesis{.map_from_local = {}, .quality = 1.0, .score = 0.9}});
   policy->reset();
   EXPECT_DOUBLE_EQ(policy->omega_max(), 0.4);
 }

@@ -54,6 +54,13 @@ struct Experiment {
   EvaluationConfig evaluation;
   OutputConfig output;
 };
+/// What draws random numbers in an experiment. Each has a stream of its own, so that none repeats what
+/// another one has drawn.
+enum class RandomPart : std::uint64_t { map_source = 1, observation_source, localizer };
+
+/// The seed of one of them.
+[[nodiscard]] std::uint64_t seed_of(RandomPart part, const Experiment& experiment);
+
 /// Unlike other descriptions this one needs to know which strategies there are.
 void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog);
 

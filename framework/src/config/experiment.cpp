@@ -15,6 +15,7 @@
 #include "config/variants.hpp"
 #include "config/writer.hpp"
 #include "config/yaml_parser.hpp"
+#include "glocal/rng.hpp"
 
 namespace glocal {
 namespace {
@@ -199,6 +200,10 @@ void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog) {
           {.doc = "Which strategy does each stage; the defaults are the paper's method."});
   v.field("evaluation", e.evaluation, {.doc = "What counts as a right answer."});
   v.field("output", e.output, {.doc = "What to write besides the summary."});
+}
+
+std::uint64_t seed_of(RandomPart part, const Experiment& experiment) {
+  return Rng(experiment.seed).stream({static_cast<std::uint64_t>(part)}).next();
 }
 
 Experiment default_experiment() {

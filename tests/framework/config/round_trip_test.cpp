@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <set>
 
 #include "config/experiment_params.hpp"
 #include "config/reader.hpp"
@@ -150,6 +151,18 @@ localizer:
   EXPECT_THAT(written,
               testing::EndsWith("evaluation:\n  max_translation_error: 0.5\n  max_rotation_error_deg: 10\n"
                                 "output:\n  steps: true\n  clusters: 50\n  maps: first_trial\n"));
+}
+
+TEST_F(RoundTrip, EachPartOfAnExperimentHasRandomNumbersOfItsOwn) {
+  Experiment e;
+  std::set<std::uint64_t> seeds;
+  for (e.seed = 0; e.seed < 1000; ++e.seed) {
+    seeds.insert(e.seed);
+    for (const auto part : {RandomPart::map_source, RandomPart::observation_source, RandomPart::localizer})
+      seeds.insert(seed_of(part, e));
+  }
+  EXPECT_EQ(seeds.size(), 4000U);
+  EXPECT_EQ(seed_of(RandomPart::localizer, e), seed_of(RandomPart::localizer, e));
 }
 
 TEST_F(RoundTrip, WhatFollowsFromTheMapIsAComment) {
