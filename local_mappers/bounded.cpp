@@ -14,8 +14,7 @@ void describe(ParamVisitor& v, Bounded::Params& p) {
           {.doc = "The map is made of the observations of the last way of this length; 0 sets no such limit, "
                   "and then a robot that stands still fills the map unless scans is set.",
            .unit = "m",
-           .min = 0.0,
-           .audience = Audience::tuner});
+           .min = 0.0});
   v.require(p.scans > 0 || p.distance > 0.0, "scans", "either scans or distance must be above 0");
   describe(v, p.matching);
 }

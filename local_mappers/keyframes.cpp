@@ -14,7 +14,6 @@ void describe(ParamVisitor& v, Keyframes::Params& p) {
           {.doc = "An observation is a keyframe once the robot has turned by this much since the last one.",
            .unit = "deg",
            .min = 0.0,
-           .audience = Audience::tuner,
            .formerly = "angle"});
   v.field("overlap", p.overlap,
           {.doc = "An observation is a keyframe if less than this share of its hits lies on the map; 0 never "

@@ -53,8 +53,7 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
           {.doc = "An observation fits only if its mean likelihood after the search reaches this. One that "
                   "does not fit moves the robot by odometry and adds no points.",
            .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::tuner});
+           .max = 1.0});
   v.field(
       "max_free_space_violation", p.max_free_space_violation,
       {.doc =

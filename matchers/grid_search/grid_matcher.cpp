@@ -7,12 +7,7 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, GridMatching& p) {
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
-                  "of the localizer.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
+  describe_contact_epsilon(v, p.contact_epsilon);
   v.field("cell", p.cell,
           {.doc = "Translations are multiples of this; at most contact_epsilon.",
            .unit = "m",

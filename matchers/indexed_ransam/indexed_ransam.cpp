@@ -41,19 +41,13 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
           {.doc = "Oriented point pairs or triangles drawn from the local map in each of the first steps, "
                   "when nothing is carried on yet.",
            .min = 0,
-           .max = 10e6,
-           .audience = Audience::tuner});
+           .max = 10e6});
   v.field("first_steps", p.first_steps,
           {.doc = "Number of first steps in which first_iterations are drawn.",
            .min = 0,
            .audience = Audience::expert});
   v.removed("adaptive", "the number of draws is fixed; set iterations and first_iterations");
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
-                  "of the localizer.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
+  describe_contact_epsilon(v, p.contact_epsilon);
   v.field("min_contact", p.min_contact,
           {.doc = "Contact a pose needs before it is refined: the right one may have little then.",
            .min = 0.0,

@@ -142,12 +142,7 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
            .min = 1,
            .max = 100000,
            .audience = Audience::expert});
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
-                  "of the localizer.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
+  describe_contact_epsilon(v, p.contact_epsilon);
   v.field("best", p.best, {.doc = "Distinct poses that become hypotheses.", .min = 1, .max = 10000});
   describe(v, p.candidate);
   v.field("refinement", p.refinement,

@@ -338,12 +338,7 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
            .min = 0.01,
            .max = 1.0,
            .audience = Audience::expert});
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
-                  "of the localizer.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
+  describe_contact_epsilon(v, p.contact_epsilon);
   v.field("merge_distance", p.merge_distance,
           {.doc = "Particles are one hypothesis if they lie in the same cell of this side and of "
                   "merge_rotation_deg.",

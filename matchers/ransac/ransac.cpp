@@ -40,12 +40,7 @@ void describe(ParamVisitor& v, Ransac::Params& p) {
            .min = 1,
            .max = 100000,
            .audience = Audience::expert});
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
-                  "of the localizer.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
+  describe_contact_epsilon(v, p.contact_epsilon);
   v.field("tolerance", p.tolerance,
           {.doc = "By how much the two distances of a sample may differ.",
            .unit = "m",

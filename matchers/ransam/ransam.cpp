@@ -60,12 +60,7 @@ void describe(ParamVisitor& v, Ransam::Params& p) {
            .min = 1,
            .max = 100e6,
            .audience = Audience::tuner});
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
-                  "of the localizer.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
+  describe_contact_epsilon(v, p.contact_epsilon);
   v.field("relation_cell", p.relation_cell,
           {.doc = "Side lengths are quantised to this; equal triples are relations in common.",
            .unit = "m",
@@ -74,8 +69,7 @@ void describe(ParamVisitor& v, Ransam::Params& p) {
   v.field("min_side", p.min_side,
           {.doc = "Triples with a side shorter than this give poor poses and are skipped.",
            .unit = "m",
-           .min = 0.0,
-           .audience = Audience::tuner});
+           .min = 0.0});
   v.field("min_height", p.min_height,
           {.doc = "Triples whose third point is nearer than this to their longest side give poor poses and "
                   "are skipped.",

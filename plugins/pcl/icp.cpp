@@ -50,12 +50,7 @@ void describe(ParamVisitor& v, PclIcp::Params& p) {
   v.field("keep", p.keep,
           {.doc = "Poses that go on to the fine level: those with the most contact.", .min = 1});
   v.field("fine", p.fine, {.doc = "ICP from what the coarse level found."});
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
-                  "of the localizer.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
+  describe_contact_epsilon(v, p.contact_epsilon);
 }
 
 IcpAligner::IcpAligner(const Points& map_points) : map_(cloud(map_points)), tree_(std::make_shared<Tree>()) {

@@ -72,12 +72,7 @@ void describe(ParamVisitor& v, PclPrerejective::Params& p) {
   v.field("inlier_fraction", p.inlier_fraction,
           {.doc = "Share of inliers a pose needs.", .min = 0.0, .max = 1.0});
   v.field("refinement", p.refinement, {.doc = "ICP from the poses found."});
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
-                  "of the localizer.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
+  describe_contact_epsilon(v, p.contact_epsilon);
   v.require(p.feature_radius > p.normal_radius, "feature_radius", "must be above normal_radius");
 }
 

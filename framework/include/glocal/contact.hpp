@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -153,6 +154,10 @@ class ContactChoice {
   StrategyChoice choice_;
   const ContactIndexes* indexes_ = nullptr;  ///< Null: the two above.
 };
+
+/// The field `contact_epsilon` of a stage that may have one of its own: m, or auto for that of the localizer
+/// (StageSetup::epsilon()).
+void describe_contact_epsilon(ParamVisitor& v, std::optional<double>& epsilon);
 
 /// The chosen index over a map for an epsilon (m), built once per map. Throws ConfigError if it does not fit
 /// into memory, std::out_of_range for an unknown name.

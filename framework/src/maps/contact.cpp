@@ -53,6 +53,17 @@ void ContactChoice::describe_as(const char* name, ParamVisitor& v) {
   });
 }
 
+void describe_contact_epsilon(ParamVisitor& v, std::optional<double>& epsilon) {
+  v.field(
+      "contact_epsilon", epsilon,
+      {.doc =
+           "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that of the "
+           "localizer.",
+       .unit = "m",
+       .above = 0.0,
+       .audience = Audience::expert});
+}
+
 std::shared_ptr<const ContactIndex> contact_index(const GlobalMap& map, const ContactChoice& choice,
                                                   double epsilon) {
   const std::string params = choice.choice_.params ? write_yaml(*choice.choice_.params) : "";

@@ -12,12 +12,7 @@ void describe(ParamVisitor& v, UnknownPlaceParams& p) {
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::tuner});
-  v.field("contact_epsilon", p.contact_epsilon,
-          {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4); auto takes that "
-                  "of the localizer.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
+  describe_contact_epsilon(v, p.contact_epsilon);
 }
 
 UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map,
