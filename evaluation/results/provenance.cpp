@@ -66,11 +66,14 @@ Json program_sha256(FileHashes& hashes) {
   return files;
 }
 
-/// Comments tell what follows from the map; they are no values.
+/// Comments tell what follows from the map; they are no values, and only stand behind values without quotes.
 std::string without_comments(const std::string& yaml) {
   std::string text;
   std::istringstream lines(yaml);
-  for (std::string line; std::getline(lines, line);) text += line.substr(0, line.find("  # ")) + "\n";
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t comment = line.find("  # ");
+    text += (line.find('"') < comment ? line : line.substr(0, comment)) + "\n";
+  }
   return text;
 }
 

@@ -72,5 +72,18 @@ TEST(WhyOtherRun, NamesWhatHasChanged) {
   EXPECT_EQ(why("values"), "it is of another build of the program");
 }
 
+TEST(WhyOtherRun, CommentsAreNoValuesButWhatStandsInQuotesIs) {
+  const TemporaryFolder folder;
+  FileHashes hashes;
+  folder.write("provenance.json", provenance(Catalog(), 1, {}, hashes).dump());
+  folder.write("effective.yaml", "epsilon: auto  # 0.1 m here\npath: \"/a  # b\"\n");
+  const auto why = [&](const std::string& effective) {
+    return why_other_run(folder.path(), effective, folder.path() / "e.yaml", hashes).value_or("");
+  };
+  EXPECT_EQ(why("epsilon: auto\npath: \"/a  # b\"\n"), "");
+  EXPECT_EQ(why("epsilon: auto\npath: \"/a  # c\"\n"), "it is of other values (effective.yaml)");
+  EXPECT_EQ(why("epsilon: 0.1\npath: \"/a  # b\"\n"), "it is of other values (effective.yaml)");
+}
+
 }  // namespace
 }  // namespace glocal::test::provenance_test
