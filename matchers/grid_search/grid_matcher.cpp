@@ -37,12 +37,7 @@ void describe(ParamVisitor& v, GridMatching& p) {
   v.field("refinement", p.refinement,
           {.doc = "How poses are refined on the distance field; without iterations they stay on the grid.",
            .audience = Audience::expert});
-  v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the distance field.",
-           .unit = "m",
-           .min = 0.01,
-           .max = 1.0,
-           .audience = Audience::expert});
+  describe_field_cell(v, p.field_cell);
 }
 
 GridMatcher::GridMatcher(const GridMatching& params, const GlobalMap& map,

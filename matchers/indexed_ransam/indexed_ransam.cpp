@@ -79,12 +79,7 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
           {.doc = "How poses are refined on the distance field.", .audience = Audience::expert});
   v.field("uncertainty", p.uncertainty,
           {.doc = "What the covariance of a hypothesis is made from.", .audience = Audience::expert});
-  v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the distance field.",
-           .unit = "m",
-           .min = 0.01,
-           .max = 1.0,
-           .audience = Audience::expert});
+  describe_field_cell(v, p.field_cell);
   describe(v, p.beams);
   v.field("unknown_weight", p.unknown_weight,
           {.doc = "What the share of points in unknown cells adds to the score.",

@@ -147,12 +147,7 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
   describe(v, p.candidate);
   v.field("refinement", p.refinement,
           {.doc = "How poses are refined on the distance field.", .audience = Audience::expert});
-  v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the distance field.",
-           .unit = "m",
-           .min = 0.01,
-           .max = 1.0,
-           .audience = Audience::expert});
+  describe_field_cell(v, p.field_cell);
 }
 
 IRansac::IRansac(const Params& params, const StageSetup& setup)

@@ -61,12 +61,7 @@ void describe(ParamVisitor& v, Ransac::Params& p) {
   v.field("refinement", p.refinement,
           {.doc = "How hypotheses are fitted to all points at the end; not without iterations.",
            .audience = Audience::expert});
-  v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the distance field.",
-           .unit = "m",
-           .min = 0.01,
-           .max = 1.0,
-           .audience = Audience::expert});
+  describe_field_cell(v, p.field_cell);
 }
 
 Ransac::Ransac(const Params& params, const StageSetup& setup)

@@ -64,6 +64,9 @@ inline DistanceField::Value DistanceField::at(float x, float y) const {
 /// That of a map, with cells of this side (m), shared by all who ask for it.
 [[nodiscard]] std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell);
 
+/// The field `field_cell` (m) of a strategy that asks for one.
+void describe_field_cell(ParamVisitor& v, double& cell);
+
 /// How a pose is refined on the field.
 struct PoseRefinement {
   int iterations = 12;

@@ -118,6 +118,15 @@ PoseCovariance pose_covariance(const DistanceField& field, const Points& points,
   return {.xx = c(0, 0), .xy = c(0, 1), .xt = c(0, 2), .yy = c(1, 1), .yt = c(1, 2), .tt = c(2, 2)};
 }
 
+void describe_field_cell(ParamVisitor& v, double& cell) {
+  v.field("field_cell", cell,
+          {.doc = "Side of a cell of the distance field.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0,
+           .audience = Audience::expert});
+}
+
 void describe(ParamVisitor& v, PoseRefinement& p) {
   v.field("iterations", p.iterations, {.doc = "Gauss-Newton iterations at most.", .min = 0, .max = 1000});
   v.field("kernel", p.kernel,
