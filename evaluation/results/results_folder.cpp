@@ -119,13 +119,6 @@ TrialResult trial_of(const Json& line) {
   return trial;
 }
 
-double step_ms(const Json& step) {
-  double total = 0.0;
-  for (const char* stage : {"local_map", "match", "cluster", "rate"})
-    total += step.at("stage_ms").at(stage).get<double>();
-  return total;
-}
-
 /// All scalars of a tree by path. Lists are counted from 0: "map.log_map.segments[0][1]".
 void flatten(const YamlNode& node, const std::string& path, const std::map<std::string, std::string>& hashes,
              std::map<std::string, Setting>& settings) {
@@ -233,7 +226,7 @@ void ResultsReader::read_steps() {
           fmt::format("step {} of trial {} is here, where step {} belongs", step, number, ms.size()));
     refuse_renamed(line, renamed_keys);
     if (line.contains("evidence")) refuse_renamed(line.at("evidence"), renamed_evidence);
-    ms.push_back(step_ms(line));
+    ms.push_back(stage_times(line).total());
     also_.step(line);
   });
   check_all_steps(file, lines);
@@ -255,6 +248,11 @@ void ResultsReader::check_all_steps(const fs::path& file, std::size_t lines) con
 }
 
 }  // namespace
+
+StageTimes stage_times(const Json& step) {
+  const Json& ms = step.at("stage_ms");
+  return {ms.at("local_map"), ms.at("match"), ms.at("cluster"), ms.at("rate")};
+}
 
 bool is_results_folder(const fs::path& folder) {
   std::error_code unreachable;

@@ -73,6 +73,9 @@ struct LineReaders {
   std::function<void(const nlohmann::ordered_json&)> step = [](const nlohmann::ordered_json&) {};
 };
 
+/// The times of a line of steps.jsonl. Throws a std::exception where they are not as glocal run writes them.
+[[nodiscard]] StageTimes stage_times(const nlohmann::ordered_json& step);
+
 /// The values of effective.yaml by path; `hashes` are those of the input files. Throws ConfigError.
 [[nodiscard]] std::map<std::string, Setting> read_settings(const std::filesystem::path& folder,
                                                            const std::map<std::string, std::string>& hashes);

@@ -23,10 +23,8 @@ StoredRun read_figures(const std::filesystem::path& folder, const StepRange& ran
   };
   const auto add_step = [&](const nlohmann::ordered_json& line) {
     TrialFigures& trial = trials[line.at("trial")];
-    const nlohmann::ordered_json& ms = line.at("stage_ms");
     const std::size_t step = line.at("step");
-    if (step >= range.from && step < range.to)
-      trial.step_ms.push_back({ms.at("local_map"), ms.at("match"), ms.at("cluster"), ms.at("rate")});
+    if (step >= range.from && step < range.to) trial.step_ms.push_back(stage_times(line));
     if (line.at("verdict") == to_string(VerdictKind::localized) && line.value("on_map", false) &&
         line.contains("translation_error_m"))
       trial.later_errors.push_back(written_error(line));
