@@ -1,11 +1,10 @@
 #include "evaluation/running/trials.hpp"
 
-#include <fmt/format.h>
-
-#include <exception>
 #include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
@@ -44,18 +43,17 @@ void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfi
   trial.nees = record.nees;
 }
 
-/// A step's result; none if a strategy threw an exception, with which the trial has failed.
-std::optional<StepResult> step_or_fail(Localizer& localizer, const Observation& observation,
-                                       TrialRecord& trial) {
+/// Does what a strategy may fail in; false if one did, with which the trial has failed.
+template <class Work>
+bool done_or_failed(TrialRecord& trial, Work work) {
   try {
-    return localizer.step(observation);
-  } catch (const std::exception& error) {
-    trial.why = fmt::format("a strategy threw an exception: {}", error.what());
-  } catch (...) {
-    trial.why = "a strategy threw something that is no std::exception";
+    work();
+    return true;
+  } catch (const StrategyError& error) {
+    trial.why = error.what();
+    trial.outcome = Outcome::failed;
+    return false;
   }
-  trial.outcome = Outcome::failed;
-  return std::nullopt;
 }
 
 }  // namespace
@@ -104,16 +102,17 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
   record.start_stamp = start.observation.stamp;
   record.start_reference = start.map_from_robot;
 
-  localizer.reset(trial);
-  for (std::size_t i = start_sample; i < drive.samples.size(); ++i) {
+  bool going_on = done_or_failed(record, [&] { localizer.reset(trial); });
+  for (std::size_t i = start_sample; going_on && i < drive.samples.size(); ++i) {
     const Sample& sample = drive.samples[i];
     const bool over = sample.segment != start.segment || i - start_sample >= step_limit(experiment.trials);
     if (over || (record.pose && !experiment.trials.whole)) break;
     if (callbacks.stop && callbacks.stop()) return std::nullopt;
 
-    auto result = step_or_fail(localizer, sample.observation, record);
-    if (!result) break;
-    record.records.push_back(make_record(std::move(*result), sample, map));
+    StepResult result;
+    going_on = done_or_failed(record, [&] { result = localizer.step(sample.observation); });
+    if (!going_on) break;
+    record.records.push_back(make_record(std::move(result), sample, map));
     const StepRecord& step = record.records.back();
     if (callbacks.step) callbacks.step(step, localizer);
     if (record.pose) continue;

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <map>
 
+#include "glocal/running_stage.hpp"
+
 namespace glocal {
 namespace {
 
@@ -34,9 +36,11 @@ void parallel_for(int threads, std::size_t n, const std::function<void(std::size
   std::atomic<std::size_t> begun{0};
   std::atomic<std::size_t> done{0};
   begun.store(1, std::memory_order_release);
+  const RunningStage* const stage = running_stage();
   arena.execute([&] {
     oneapi::tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
       (void)begun.load(std::memory_order_acquire);
+      const StageScope scope(stage);
       work(i);
       done.fetch_add(1, std::memory_order_release);
     });

@@ -11,7 +11,7 @@ enum class Outcome {
   wrong,      ///< Declared, and outside of them.
   undecided,  ///< Never declared.
   declared,   ///< Declared, but there is no reference to check it against.
-  failed,     ///< A strategy threw an exception.
+  failed,     ///< A strategy threw an exception or broke its contract.
 };
 
 /// The name used in results.

@@ -38,4 +38,10 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A strategy threw an exception or broke its contract (strategies.hpp): what() names it and the step.
+class StrategyError : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 }  // namespace glocal

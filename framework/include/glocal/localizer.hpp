@@ -7,6 +7,7 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/params.hpp"
+#include "glocal/running_stage.hpp"
 #include "glocal/unknown_place.hpp"
 
 namespace glocal {
@@ -38,9 +39,12 @@ class Localizer {
   /// From now on this policy says which score is asked for, and not the configured one.
   void use(std::unique_ptr<ThresholdPolicy> threshold_policy);
 
+  /// Throws StrategyError if a strategy throws an exception or breaks its contract (strategies.hpp); only
+  /// reset() makes it good again.
   [[nodiscard]] StepResult step(const Observation& observation);
 
   /// Forgets everything; the steps that follow draw their random numbers from a stream of the trial's own.
+  /// Throws StrategyError if a strategy throws an exception.
   void reset(std::uint64_t trial);
 
   /// The local map after the last step.
@@ -50,15 +54,25 @@ class Localizer {
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const { return matcher_->map_index(); }
 
  private:
+  /// Those of the strategies below.
+  struct Stages {
+    RunningStage local_mapper, matcher, clusterer, rater, threshold_policy, verdict_rule;
+  };
+  /// Does a strategy's work in this step, and checks it. What either throws becomes a StrategyError.
+  template <class Work>
+  void in_stage(RunningStage& stage, std::size_t step, Work work) const;
+
   std::unique_ptr<LocalMapper> local_mapper_;
   std::unique_ptr<Matcher> matcher_;
   std::unique_ptr<Clusterer> clusterer_;
   std::unique_ptr<Rater> rater_;
   std::unique_ptr<ThresholdPolicy> threshold_policy_;
   std::unique_ptr<VerdictRule> verdict_rule_;
+  Stages stages_;
   UnknownPlaceMonitor unknown_place_;
   Rng seed_;
-  Rng trial_;
+  std::uint64_t trial_ = 0;
+  Rng rng_;  ///< Of the trial.
   std::size_t step_ = 0;
 };
 

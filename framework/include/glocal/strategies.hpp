@@ -3,7 +3,8 @@
 //
 // All of them: the same calls with the same random state give the same answers, bit for bit. Setting up may
 // throw ConfigError; a step answers with a value ("no pose" is an answer, not an error). reset() forgets all
-// earlier steps.
+// earlier steps. Poses are finite, and at most `farthest_m` from the origin along x and y. The localizer
+// checks each answer: one that breaks a contract fails the trial, with the strategy's name.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +57,8 @@ struct MapFile {
 
 /// Joins observations into a local map.
 /// Contract: the first observation of a map is placed at the local frame's origin; an observation without
-/// hits only moves the robot; points keep their order until the epoch changes, though some may go.
+/// hits only moves the robot; points keep their order until the epoch changes, though some may go; `ends` do
+/// not fall, nor reach beyond the points; one normal for each point, or none at all.
 class LocalMapper {
  public:
   virtual ~LocalMapper() = default;
@@ -84,8 +86,8 @@ struct MapIndexInfo {
 
 /// Proposes poses of a local map in the global map.
 /// Contract: the answer does not depend on the number of threads; the quality of a hypothesis is Omega (eq.
-/// 4), whatever its score; every hypothesis has score >= omega_max; falling score; no hypothesis is a valid
-/// answer (always so for an empty local map).
+/// 4), whatever its score; every hypothesis has score >= omega_max, at most 1, and a support; falling score;
+/// no hypothesis is a valid answer (always so for an empty local map).
 class Matcher {
  public:
   virtual ~Matcher() = default;
@@ -107,7 +109,7 @@ class Clusterer {
 };
 
 /// Says how much each cluster deserves trust.
-/// Contract: one rating for each cluster, in their order; the r_normalised add up to 1.
+/// Contract: one rating for each cluster, in their order, each r in [0, 1]; the r_normalised add up to 1.
 class Rater {
  public:
   virtual ~Rater() = default;
@@ -127,8 +129,9 @@ class ThresholdPolicy {
 };
 
 /// Says whether the answer can be trusted.
-/// Contract: sees a step's clusters and ratings (falling), not its `verdict`; never says unknown_place, which
-/// is the unknown-place monitor's to say.
+/// Contract: sees a step's clusters and ratings (falling), not its `verdict`; gives a pose when localized and
+/// only then, candidates when ambiguous, and confidences in [0, 1]; never says unknown_place, which is the
+/// unknown-place monitor's to say.
 class VerdictRule {
  public:
   virtual ~VerdictRule() = default;

@@ -4,8 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <numeric>
+#include <string>
 #include <utility>
+
+#include "glocal/error.hpp"
+#include "pipeline/stage_contracts.hpp"
 
 namespace glocal {
 namespace {
@@ -13,13 +18,19 @@ namespace {
 /// Names of the random streams within a step.
 enum Stage : std::uint64_t { matching, clustering };
 
-/// Runs one stage and notes how long it took, ms.
+/// Runs `work`, and adds to `ms` how long it took.
 template <class Work>
-auto timed(double& ms, Work work) {
+void timed(double& ms, Work work) {
   const auto start = std::chrono::steady_clock::now();
-  auto result = work();
-  ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return result;
+  work();
+  ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// "matcher 'ransam'", and what has happened there: "breaks its contract in step 3".
+std::string text_of(const RunningStage& stage, const char* what) {
+  const bool in_step = stage.step != RunningStage::before_first;
+  return fmt::format("{} '{}' {} {}", stage.kind, stage.name, what,
+                     in_step ? fmt::format("in step {}", stage.step) : "while it was reset");
 }
 
 /// Clusters and their ratings, best first; equal ones keep their order.
@@ -49,18 +60,39 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
                      std::uint64_t seed)
     : unknown_place_(config.unknown_place, *setup.map, contact_epsilon_on(*setup.map, config)),
       seed_(seed),
-      trial_(seed_.stream({0})) {
+      rng_(seed_.stream({0})) {
   setup.contact_epsilon = contact_epsilon_on(*setup.map, config);
-  local_mapper_ = catalog.local_mappers.make(config.local_mapper, setup);
-  matcher_ = catalog.matchers.make(config.matcher, setup);
-  clusterer_ = catalog.clusterers.make(config.clusterer, setup);
-  rater_ = catalog.raters.make(config.rater, setup);
-  threshold_policy_ = catalog.threshold_policies.make(config.threshold_policy, setup);
-  verdict_rule_ = catalog.verdict_rules.make(config.verdict_rule, setup);
+  const auto make = [&](const auto& registry, const StrategyChoice& choice, RunningStage& stage) {
+    stage = {.kind = registry.kind(), .name = choice.name};
+    const StageScope scope(&stage);
+    return registry.make(choice, setup);
+  };
+  local_mapper_ = make(catalog.local_mappers, config.local_mapper, stages_.local_mapper);
+  matcher_ = make(catalog.matchers, config.matcher, stages_.matcher);
+  clusterer_ = make(catalog.clusterers, config.clusterer, stages_.clusterer);
+  rater_ = make(catalog.raters, config.rater, stages_.rater);
+  threshold_policy_ = make(catalog.threshold_policies, config.threshold_policy, stages_.threshold_policy);
+  verdict_rule_ = make(catalog.verdict_rules, config.verdict_rule, stages_.verdict_rule);
 }
 
 void Localizer::use(std::unique_ptr<ThresholdPolicy> threshold_policy) {
   threshold_policy_ = std::move(threshold_policy);
+}
+
+template <class Work>
+void Localizer::in_stage(RunningStage& stage, std::size_t step, Work work) const {
+  stage.trial = trial_;
+  stage.step = step;
+  const StageScope scope(&stage);
+  try {
+    work();
+  } catch (const BrokenContract& broken) {
+    throw StrategyError(fmt::format("{}: {}", text_of(stage, "breaks its contract"), broken.what()));
+  } catch (const std::exception& error) {
+    throw StrategyError(fmt::format("{}: {}", text_of(stage, "threw an exception"), error.what()));
+  } catch (...) {
+    throw StrategyError(text_of(stage, "threw something that is no std::exception"));
+  }
 }
 
 StepResult Localizer::step(const Observation& observation) {
@@ -68,38 +100,61 @@ StepResult Localizer::step(const Observation& observation) {
   result.step = step_++;
   result.stamp = observation.stamp;
 
-  const LocalMap& local = timed(result.stage_ms.local_map, [&]() -> std::reference_wrapper<const LocalMap> {
-    local_mapper_->add(observation);
-    return local_mapper_->map();
+  try {
+    check_observation(observation);
+  } catch (const BrokenContract& broken) {
+    throw StrategyError(fmt::format("the observation of step {}: {}", result.step, broken.what()));
+  }
+
+  const LocalMap* added = nullptr;
+  in_stage(stages_.local_mapper, result.step, [&] {
+    timed(result.stage_ms.local_map, [&] {
+      local_mapper_->add(observation);
+      added = &local_mapper_->map();
+    });
+    check_local_map(*added);
   });
+  const LocalMap& local = *added;
   result.local_from_robot = local.local_from_robot;
   result.local_map_epoch = local.epoch;
   result.local_map_points = local.points.size();
 
-  result.omega_max = threshold_policy_->omega_max();
-  Rng matching_rng = trial_.stream({result.step, matching});
-  MatchResult match = timed(result.stage_ms.match, [&] {
-    return matcher_->match(local, observation, result.omega_max, matching_rng);
+  in_stage(stages_.threshold_policy, result.step, [&] {
+    result.omega_max = threshold_policy_->omega_max();
+    check_threshold(result.omega_max);
   });
-  result.hypotheses = std::move(match.hypotheses);
+  in_stage(stages_.matcher, result.step, [&] {
+    Rng rng = rng_.stream({result.step, matching});
+    MatchResult match;
+    timed(result.stage_ms.match, [&] { match = matcher_->match(local, observation, result.omega_max, rng); });
+    check_match(match, result.omega_max);
+    result.hypotheses = std::move(match.hypotheses);
+    result.proposals = match.proposals;
+    result.points_tested = match.points_tested;
+  });
   for (Hypothesis& h : result.hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
-  result.proposals = match.proposals;
-  result.points_tested = match.points_tested;
   if (!result.hypotheses.empty()) {
     result.omega_best = result.hypotheses.front().quality;
     result.score_best = result.hypotheses.front().score;
   }
-  threshold_policy_->update(result.hypotheses);
+  in_stage(stages_.threshold_policy, result.step, [&] { threshold_policy_->update(result.hypotheses); });
   result.omega_place = unknown_place_.update(local, result.hypotheses);
 
-  Rng clustering_rng = trial_.stream({result.step, clustering});
-  result.clusters =
-      timed(result.stage_ms.cluster, [&] { return clusterer_->cluster(result.hypotheses, clustering_rng); });
-  result.ratings =
-      timed(result.stage_ms.rate, [&] { return rater_->rate(result.clusters, result.hypotheses); });
+  in_stage(stages_.clusterer, result.step, [&] {
+    Rng rng = rng_.stream({result.step, clustering});
+    timed(result.stage_ms.cluster, [&] { result.clusters = clusterer_->cluster(result.hypotheses, rng); });
+    check_clusters(result.clusters, result.hypotheses.size());
+  });
+  in_stage(stages_.rater, result.step, [&] {
+    timed(result.stage_ms.rate, [&] { result.ratings = rater_->rate(result.clusters, result.hypotheses); });
+    check_ratings(result.ratings, result.clusters.size());
+  });
   sort_by_rating(result.clusters, result.ratings);
 
-  result.verdict = verdict_rule_->judge(result);
+  in_stage(stages_.verdict_rule, result.step, [&] {
+    result.verdict = verdict_rule_->judge(result);
+    check_verdict(result.verdict);
+  });
   if (unknown_place_.is_unknown(result.omega_place)) {
     result.verdict = {
         VerdictKind::unknown_place,
@@ -111,13 +166,17 @@ StepResult Localizer::step(const Observation& observation) {
 }
 
 void Localizer::reset(std::uint64_t trial) {
-  local_mapper_->reset();
-  matcher_->reset();
-  threshold_policy_->reset();
-  verdict_rule_->reset();
-  unknown_place_.reset();
-  trial_ = seed_.stream({trial});
+  trial_ = trial;
+  rng_ = seed_.stream({trial});
   step_ = 0;
+  unknown_place_.reset();
+  const auto reset = [&](RunningStage& stage, auto& strategy) {
+    in_stage(stage, RunningStage::before_first, [&] { strategy->reset(); });
+  };
+  reset(stages_.local_mapper, local_mapper_);
+  reset(stages_.matcher, matcher_);
+  reset(stages_.threshold_policy, threshold_policy_);
+  reset(stages_.verdict_rule, verdict_rule_);
 }
 
 }  // namespace glocal

@@ -39,7 +39,8 @@ class TrialTest : public testing::Test {
     script_->r = {1.0};
     script_->match = [this](double, Rng&) {
       const Pose2& local_from_robot = script_->local.local_from_robot;
-      return MatchResult{{{estimate(local_from_robot.x) * inverse(local_from_robot)}}, 1, 1};
+      return MatchResult{
+          {Hypothesis::by_contact(estimate(local_from_robot.x) * inverse(local_from_robot), 0.9)}, 1, 1};
     };
     script_->judge = [this, sample](const StepResult& step) {
       if (start_ + step.step < sample) return Verdict{VerdictKind::searching, std::nullopt, {}, "not yet"};

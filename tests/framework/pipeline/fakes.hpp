@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -76,8 +77,10 @@ struct FakeRater final : Fake<Rater> {
   [[nodiscard]] std::vector<Rating> rate(const std::vector<Cluster>& clusters,
                                          const std::vector<Hypothesis>& /*hypotheses*/) override {
     note("rate");
+    const double sum = std::accumulate(script_->r.begin(), script_->r.end(), 0.0);
     std::vector<Rating> ratings;
-    for (std::size_t i = 0; i < clusters.size(); ++i) ratings.push_back({script_->r.at(i), 0.0});
+    for (std::size_t i = 0; i < clusters.size(); ++i)
+      ratings.push_back({script_->r.at(i), script_->r.at(i) / sum});
     return ratings;
   }
 };

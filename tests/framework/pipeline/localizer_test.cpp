@@ -3,7 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+#include <stdexcept>
+#include <string>
+
 #include "framework/pipeline/fakes.hpp"
+#include "glocal/error.hpp"
+#include "glocal/parallel.hpp"
 
 namespace glocal::test::localizer_test {
 namespace {
@@ -78,7 +84,8 @@ TEST_F(LocalizerTest, AnotherThresholdPolicyTakesThePlaceOfTheConfiguredOne) {
 }
 
 TEST_F(LocalizerTest, ClustersFollowTheirRatingsDownwardsAndEqualOnesKeepTheirOrder) {
-  give({{{1, 0, 0}, {}, 0.9}, {{2, 0, 0}, {}, 0.8}, {{3, 0, 0}, {}, 0.7}, {{4, 0, 0}, {}, 0.6}},
+  give({Hypothesis::by_contact({1, 0, 0}, 0.9), Hypothesis::by_contact({2, 0, 0}, 0.8),
+        Hypothesis::by_contact({3, 0, 0}, 0.7), Hypothesis::by_contact({4, 0, 0}, 0.6)},
        {0.2, 0.5, 0.2, 0.9});
   std::vector<double> judged;
   script_->judge = [&](const StepResult& step) {
@@ -123,7 +130,8 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
 
 TEST_F(LocalizerTest, TheRobotIsWhereAHypothesisPutsItsLocalMap) {
   script_->local.local_from_robot = {3, 0, 0};
-  const Hypothesis mistaken{{1, 2, radians(90.0)}, {7, 7, 7}, 0.9};  // whatever a matcher says of it
+  Hypothesis mistaken = Hypothesis::by_contact({1, 2, radians(90.0)}, 0.9);
+  mistaken.map_from_robot = {7, 7, 7};  // whatever a matcher says of it
   give({mistaken}, {0.5});
   Localizer localizer = make();
   const StepResult result = localizer.step({});
@@ -148,7 +156,7 @@ TEST_F(LocalizerTest, AnUnknownPlaceOverridesTheVerdict) {
   // One of eight points is on the map.
   for (int i = 0; i < 8; ++i) script_->local.points.push_back({static_cast<float>(i), 0.0F, 0.0F});
   script_->local.ends = {8};
-  give({{{}, {}, 0.9}}, {0.5});
+  give({Hypothesis::by_contact({}, 0.9)}, {0.5});
   script_->judge = [](const StepResult&) {
     return Verdict{VerdictKind::localized, Pose2{1, 0, 0}, {{1, 0, 0}}, "sure"};
   };
@@ -169,7 +177,7 @@ TEST_F(LocalizerTest, AnUnknownPlaceOverridesTheVerdict) {
 TEST_F(LocalizerTest, ResetReachesAllStagesAndCountsFromZero) {
   script_->local.points.push_back({});
   script_->local.ends = {1};
-  give({{{}, {}, 0.9}}, {0.5});
+  give({Hypothesis::by_contact({}, 0.9)}, {0.5});
   script_->updated_omega_max = 0.7;
   Localizer localizer = make();
   EXPECT_EQ(localizer.step({}).step, 0U);
@@ -213,6 +221,69 @@ TEST_F(LocalizerTest, ATrialDrawsTheSameNumbersWheneverItRuns) {
   Localizer other = make();
   other.reset(5);
   EXPECT_EQ(draws(other, 2), fifth);
+}
+
+/// What a step fails with; empty if it does not.
+std::string failure_of(Localizer& localizer) {
+  try {
+    static_cast<void>(localizer.step({}));
+  } catch (const StrategyError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(LocalizerTest, NamesTheStrategyThatBreaksItsContract) {
+  Localizer localizer = make();
+  EXPECT_EQ(failure_of(localizer), "");
+  give({Hypothesis::by_contact({1, 0, 0}, 0.2)}, {1.0});
+  EXPECT_EQ(
+      failure_of(localizer),
+      "matcher 'fake' breaks its contract in step 1: hypothesis 0 has the score 0.2, below omega_max = 0.3");
+  give({Hypothesis::by_contact({1, 0, 0}, 0.9)}, {2.0});
+  EXPECT_EQ(failure_of(localizer),
+            "rater 'fake' breaks its contract in step 2: rating 0 has r = 2, not in [0, 1]");
+  give({}, {});
+  script_->judge = [](const StepResult&) { return Verdict{VerdictKind::localized, {}, {}, "sure"}; };
+  EXPECT_THAT(failure_of(localizer),
+              testing::StartsWith("verdict_rule 'fake' breaks its contract in step 3: "));
+  script_->local.ends = {1};
+  EXPECT_THAT(failure_of(localizer),
+              testing::StartsWith("local_mapper 'fake' breaks its contract in step 4: "));
+  script_->local.ends = {};
+  script_->omega_max = script_->updated_omega_max = 1.5;
+  EXPECT_EQ(failure_of(localizer),
+            "threshold_policy 'fake' breaks its contract in step 5: omega_max() is 1.5, not in [0, 1]");
+}
+
+TEST_F(LocalizerTest, NamesTheStrategyThatThrows) {
+  Localizer localizer = make();
+  script_->match = [](double, Rng&) -> MatchResult { throw std::out_of_range("no such cell"); };
+  EXPECT_EQ(failure_of(localizer), "matcher 'fake' threw an exception in step 0: no such cell");
+  script_->match = [](double, Rng&) -> MatchResult { throw 7; };  // NOLINT: no std::exception
+  EXPECT_EQ(failure_of(localizer), "matcher 'fake' threw something that is no std::exception in step 1");
+}
+
+TEST_F(LocalizerTest, TakesNoObservationThatIsNoPlace) {
+  Localizer localizer = make();
+  Observation observation;
+  observation.scan.hits.push_back({0.0F, std::numeric_limits<float>::infinity(), 0.0F});
+  EXPECT_THROW(static_cast<void>(localizer.step(observation)), StrategyError);
+}
+
+TEST_F(LocalizerTest, KnowsWhichStageIsRunning) {
+  std::string running;
+  script_->match = [&](double, Rng&) {
+    parallel_for(2, 2, [&](std::size_t i) {
+      if (i == 1) running = running_stage()->kind + " " + running_stage()->name;
+    });
+    return MatchResult{};
+  };
+  Localizer localizer = make();
+  EXPECT_EQ(running_stage(), nullptr);
+  static_cast<void>(localizer.step({}));
+  EXPECT_EQ(running, "matcher fake");
+  EXPECT_EQ(running_stage(), nullptr);
 }
 
 /// Writes down the contact_epsilon that it is made with.

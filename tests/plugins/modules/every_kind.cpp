@@ -80,7 +80,7 @@ class Oracle final : public Matcher {
                     Rng& /*rng*/) override {
     if (local.points.empty() || omega_max > 1.0) return {};
     const Pose2 pose{4.0, 4.0, 0.0};
-    return {{{pose, pose, 1.0}}, 1, local.points.size()};
+    return {{Hypothesis::by_contact(pose, 1.0)}, 1, local.points.size()};
   }
   void reset() override {}
 };

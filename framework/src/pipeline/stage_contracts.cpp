@@ -1,0 +1,143 @@
+#include "pipeline/stage_contracts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace glocal {
+namespace {
+
+template <class... Values>
+void require(bool holds, fmt::format_string<const Values&...> broken, const Values&... values) {
+  if (!holds) throw BrokenContract(fmt::format(broken, values...));
+}
+
+bool is_share(double value) {
+  return value >= 0.0 && value <= 1.0;
+}
+
+/// Whether cells of a pose can be counted: finite, and no farther away than anything on Earth.
+bool is_place(const Pose2& pose) {
+  return std::abs(pose.x) <= farthest_m && std::abs(pose.y) <= farthest_m && std::isfinite(pose.theta);
+}
+
+void check_pose(const Pose2& pose, const char* what, std::size_t number) {
+  require(is_place(pose),
+          "{} {} has the pose ({}, {}, {}); poses are finite, and at most {} m from the origin along x and y",
+          what, number, pose.x, pose.y, pose.theta, farthest_m);
+}
+
+/// All |v| <= farthest_m; false for NaN. By their bits, which order as they do, many at a time.
+bool are_near(const std::vector<float>& values) {
+  constexpr std::uint32_t sign = 0x80000000;
+  constexpr auto most = std::bit_cast<std::uint32_t>(static_cast<float>(farthest_m));
+  std::uint32_t largest = 0;
+  for (const float value : values) largest = std::max(largest, std::bit_cast<std::uint32_t>(value) & ~sign);
+  return largest <= most;
+}
+
+void check_points(const Points& points, const char* what) {
+  require(points.y.size() == points.size() && points.z.size() == points.size(),
+          "the {} have {} x, {} y and {} z; give equally many", what, points.x.size(), points.y.size(),
+          points.z.size());
+  require(are_near(points.x) && are_near(points.y) && are_near(points.z),
+          "a value of the {} is not finite, or farther than {} m from the origin", what, farthest_m);
+}
+
+}  // namespace
+
+void check_observation(const Observation& observation) {
+  check_points(observation.scan.hits, "hits");
+  check_points(observation.scan.free_ends, "free ends");
+  const Point& origin = observation.scan.origin;
+  require(is_place(observation.odom_from_robot) && is_place({origin.x, origin.y, origin.z}),
+          "the odometry or the sensor's origin is not finite, or farther than {} m from the origin",
+          farthest_m);
+}
+
+void check_local_map(const LocalMap& local) {
+  check_points(local.points, "points");
+  check_points(local.normals, "normals");
+  require(local.normals.empty() || local.normals.size() == local.points.size(),
+          "there are {} normals for {} points; give one for each, or none", local.normals.size(),
+          local.points.size());
+  check_pose(local.local_from_robot, "the robot in local map", static_cast<std::size_t>(local.epoch));
+  require(std::is_sorted(local.ends.begin(), local.ends.end()) &&
+              (local.ends.empty() || local.ends.back() <= local.points.size()),
+          "`ends` falls, or reaches beyond the {} points", local.points.size());
+}
+
+void check_threshold(double omega_max) {
+  require(is_share(omega_max), "omega_max() is {}, not in [0, 1]", omega_max);
+}
+
+void check_match(const MatchResult& match, double omega_max) {
+  double before = 1.0;
+  for (std::size_t i = 0; i < match.hypotheses.size(); ++i) {
+    const Hypothesis& hypothesis = match.hypotheses[i];
+    check_pose(hypothesis.map_from_local, "hypothesis", i);
+    require(is_share(hypothesis.quality), "hypothesis {} has the quality {}, not in [0, 1]", i,
+            hypothesis.quality);
+    require(hypothesis.score >= omega_max, "hypothesis {} has the score {}, below omega_max = {}", i,
+            hypothesis.score, omega_max);
+    require(hypothesis.score <= before,
+            "hypothesis {} has the score {}, above {}; scores fall, from 1 at most", i, hypothesis.score,
+            before);
+    require(hypothesis.support > 0, "hypothesis {} has no support; it stands for itself at least", i);
+    before = hypothesis.score;
+  }
+}
+
+void check_clusters(const std::vector<Cluster>& clusters, std::size_t hypotheses) {
+  std::vector<char> in_cluster(hypotheses, 0);
+  std::size_t members = 0;
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    require(!clusters[i].members.empty(), "cluster {} is empty; none may be", i);
+    check_pose(clusters[i].map_from_robot, "cluster", i);
+    for (const std::size_t member : clusters[i].members) {
+      require(member < hypotheses, "cluster {} has hypothesis {}, but there are {}", i, member, hypotheses);
+      require(in_cluster[member] == 0, "hypothesis {} is in two clusters, or twice in one", member);
+      in_cluster[member] = 1;
+      ++members;
+    }
+  }
+  require(members == hypotheses, "{} of {} hypotheses are in no cluster; each belongs to one",
+          hypotheses - members, hypotheses);
+}
+
+void check_ratings(const std::vector<Rating>& ratings, std::size_t clusters) {
+  require(ratings.size() == clusters, "there are {} ratings for {} clusters", ratings.size(), clusters);
+  if (ratings.empty()) return;
+  constexpr double rounding = 1e-6;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < ratings.size(); ++i) {
+    require(is_share(ratings[i].r), "rating {} has r = {}, not in [0, 1]", i, ratings[i].r);
+    require(ratings[i].r_normalised >= 0.0, "rating {} has r_normalised = {}, below 0", i,
+            ratings[i].r_normalised);
+    sum += ratings[i].r_normalised;
+  }
+  require(std::abs(sum - 1.0) <= rounding, "the r_normalised add up to {}, not to 1", sum);
+}
+
+void check_verdict(const Verdict& verdict) {
+  using enum VerdictKind;
+  require(verdict.kind != unknown_place, "the verdict is unknown_place, which is not a rule's to say");
+  require((verdict.kind == localized) == verdict.map_from_robot.has_value(),
+          "the verdict is {}, {} a pose; a pose is given when localized, and only then",
+          to_string(verdict.kind), verdict.map_from_robot ? "with" : "without");
+  if (verdict.map_from_robot) check_pose(*verdict.map_from_robot, "verdict", 0);
+  require(verdict.kind != ambiguous || !verdict.candidates.empty(),
+          "the verdict is ambiguous, without candidates");
+  for (std::size_t i = 0; i < verdict.candidates.size(); ++i)
+    check_pose(verdict.candidates[i], "candidate", i);
+  if (!verdict.estimate) return;
+  check_pose(verdict.estimate->map_from_robot, "estimate", 0);
+  require(is_share(verdict.estimate->confidence), "the estimate has the confidence {}, not in [0, 1]",
+          verdict.estimate->confidence);
+}
+
+}  // namespace glocal

@@ -1,0 +1,29 @@
+// What the localizer checks of each stage's answer, so that a strategy that breaks its contract is named, and
+// does not bring down the stages after it. Each check looks at every value once; the clauses are those of
+// strategies.hpp. All throw BrokenContract.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+#include "glocal/strategies.hpp"
+
+namespace glocal {
+
+/// what() says what the answer is and what it should be.
+class BrokenContract : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// No stage's answer, but what all of them work with.
+void check_observation(const Observation& observation);
+void check_local_map(const LocalMap& local);
+void check_threshold(double omega_max);
+void check_match(const MatchResult& match, double omega_max);
+void check_clusters(const std::vector<Cluster>& clusters, std::size_t hypotheses);
+void check_ratings(const std::vector<Rating>& ratings, std::size_t clusters);
+void check_verdict(const Verdict& verdict);
+
+}  // namespace glocal

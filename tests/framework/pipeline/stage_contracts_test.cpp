@@ -1,0 +1,137 @@
+// Answers that break a stage's contract are refused; whole ones are not.
+#include "pipeline/stage_contracts.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+namespace glocal::test::stage_contracts_test {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+LocalMap local_map() {
+  LocalMap local;
+  for (int i = 0; i < 3; ++i) {
+    local.points.push_back({1.0F, 2.0F, 0.0F});
+    local.normals.push_back({0.0F, 1.0F, 0.0F});
+  }
+  local.ends = {1, 3};
+  return local;
+}
+
+TEST(StageContracts, PointsArePlaces) {
+  EXPECT_NO_THROW(check_local_map({}));
+  EXPECT_NO_THROW(check_local_map(local_map()));
+  for (const float odd :
+       {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::quiet_NaN(),
+        std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(), 1.1e7F, -1.1e7F}) {
+    LocalMap local = local_map();
+    local.points.set(2, {0.0F, odd, 0.0F});
+    EXPECT_THROW(check_local_map(local), BrokenContract) << odd;
+    local = local_map();
+    local.normals.set(0, {odd, 0.0F, 0.0F});
+    EXPECT_THROW(check_local_map(local), BrokenContract) << odd;
+  }
+  LocalMap far = local_map();
+  far.points.set(0, {-1e7F, 1e7F, 0.0F});
+  EXPECT_NO_THROW(check_local_map(far));
+}
+
+TEST(StageContracts, LocalMapsAreWhole) {
+  LocalMap uneven = local_map();
+  uneven.points.z.pop_back();
+  EXPECT_THROW(check_local_map(uneven), BrokenContract);
+  LocalMap few_normals = local_map();
+  few_normals.normals = {};
+  EXPECT_NO_THROW(check_local_map(few_normals));
+  few_normals.normals.push_back({1.0F, 0.0F, 0.0F});
+  EXPECT_THROW(check_local_map(few_normals), BrokenContract);
+  LocalMap falling = local_map();
+  falling.ends = {2, 1};
+  EXPECT_THROW(check_local_map(falling), BrokenContract);
+  LocalMap beyond = local_map();
+  beyond.ends = {1, 4};
+  EXPECT_THROW(check_local_map(beyond), BrokenContract);
+  LocalMap nowhere = local_map();
+  nowhere.local_from_robot.theta = infinite;
+  EXPECT_THROW(check_local_map(nowhere), BrokenContract);
+}
+
+TEST(StageContracts, ThresholdsAreShares) {
+  for (const double share : {0.0, 0.5, 1.0}) EXPECT_NO_THROW(check_threshold(share));
+  for (const double odd : {-0.1, 1.1, not_a_number, infinite})
+    EXPECT_THROW(check_threshold(odd), BrokenContract);
+}
+
+TEST(StageContracts, HypothesesHavePlacesAndFallingScoresAboveTheThreshold) {
+  const auto check = [](const std::vector<Hypothesis>& hypotheses) { check_match({hypotheses, 1, 1}, 0.5); };
+  const Hypothesis good = Hypothesis::by_contact({1, 2, 3}, 0.8);
+  EXPECT_NO_THROW(check({}));
+  EXPECT_NO_THROW(check({good, good, Hypothesis::by_contact({1, 2, 3}, 0.5)}));
+  EXPECT_THROW(check({Hypothesis::by_contact({1, 2, 3}, 0.49)}), BrokenContract);
+  EXPECT_THROW(check({Hypothesis::by_contact({1, 2, 3}, 1.01)}), BrokenContract);
+  EXPECT_THROW(check({good, Hypothesis::by_contact({1, 2, 3}, 0.9)}), BrokenContract);
+  for (const Pose2& nowhere : {Pose2{not_a_number, 0, 0}, Pose2{0, infinite, 0}, Pose2{0, 0, not_a_number},
+                               Pose2{1e300, 0, 0}, Pose2{0, -1.1e7, 0}})
+    EXPECT_THROW(check({Hypothesis::by_contact(nowhere, 0.8)}), BrokenContract);
+  Hypothesis odd = good;
+  odd.quality = not_a_number;
+  EXPECT_THROW(check({odd}), BrokenContract);
+  odd = good;
+  odd.score = not_a_number;
+  EXPECT_THROW(check({odd}), BrokenContract);
+  odd = good;
+  odd.support = 0;
+  EXPECT_THROW(check({odd}), BrokenContract);
+}
+
+TEST(StageContracts, EveryHypothesisIsInOneCluster) {
+  const auto check = [](const std::vector<std::vector<std::size_t>>& members) {
+    std::vector<Cluster> clusters;
+    for (const auto& some : members) clusters.push_back({some, {1, 2, 3}});
+    check_clusters(clusters, 3);
+  };
+  EXPECT_NO_THROW(check({{0, 2}, {1}}));
+  EXPECT_NO_THROW(check_clusters({}, 0));
+  EXPECT_THROW(check({}), BrokenContract);
+  EXPECT_THROW(check({{0, 2}}), BrokenContract);
+  EXPECT_THROW(check({{0, 2}, {1}, {}}), BrokenContract);
+  EXPECT_THROW(check({{0, 2}, {1, 2}}), BrokenContract);
+  EXPECT_THROW(check({{0, 0, 2}, {1}}), BrokenContract);
+  EXPECT_THROW(check({{0, 2}, {1, 3}}), BrokenContract);
+  EXPECT_THROW(check_clusters({{{0}, {not_a_number, 0, 0}}}, 1), BrokenContract);
+}
+
+TEST(StageContracts, RatingsAreOneForEachClusterAndAddUp) {
+  EXPECT_NO_THROW(check_ratings({}, 0));
+  EXPECT_NO_THROW(check_ratings({{0.2, 0.25}, {0.6, 0.75}}, 2));
+  EXPECT_THROW(check_ratings({{0.2, 1.0}}, 2), BrokenContract);
+  EXPECT_THROW(check_ratings({{0.2, 0.2}, {0.6, 0.6}}, 2), BrokenContract);
+  EXPECT_THROW(check_ratings({{0.2, -0.25}, {0.6, 1.25}}, 2), BrokenContract);
+  EXPECT_THROW(check_ratings({{not_a_number, 1.0}}, 1), BrokenContract);
+  EXPECT_THROW(check_ratings({{0.5, not_a_number}}, 1), BrokenContract);
+}
+
+TEST(StageContracts, VerdictsHaveWhatTheySay) {
+  const Pose2 pose{1, 2, 3};
+  EXPECT_NO_THROW(check_verdict({}));
+  EXPECT_NO_THROW(check_verdict({VerdictKind::localized, pose, {}, "sure"}));
+  EXPECT_NO_THROW(check_verdict({VerdictKind::ambiguous, {}, {pose, pose}, "two"}));
+  EXPECT_THROW(check_verdict({VerdictKind::localized, {}, {}, "sure"}), BrokenContract);
+  EXPECT_THROW(check_verdict({VerdictKind::searching, pose, {}, ""}), BrokenContract);
+  EXPECT_THROW(check_verdict({VerdictKind::ambiguous, {}, {}, "two"}), BrokenContract);
+  EXPECT_THROW(check_verdict({VerdictKind::unknown_place, {}, {}, ""}), BrokenContract);
+  EXPECT_THROW(check_verdict({VerdictKind::localized, Pose2{infinite, 0, 0}, {}, ""}), BrokenContract);
+  EXPECT_THROW(check_verdict({VerdictKind::ambiguous, {}, {{0, not_a_number, 0}}, ""}), BrokenContract);
+  Verdict sure{VerdictKind::localized, pose, {}, "sure", PoseEstimate{pose, 0.9}};
+  EXPECT_NO_THROW(check_verdict(sure));
+  sure.estimate->confidence = 1.1;
+  EXPECT_THROW(check_verdict(sure), BrokenContract);
+  sure.estimate = PoseEstimate{{not_a_number, 0, 0}, 0.9};
+  EXPECT_THROW(check_verdict(sure), BrokenContract);
+}
+
+}  // namespace
+}  // namespace glocal::test::stage_contracts_test
