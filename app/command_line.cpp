@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/standard_streams.hpp"
 #include "config/nearest.hpp"
 #include "glocal/error.hpp"
 
@@ -33,44 +34,58 @@ bool is_unknown(std::string_view argument, const std::vector<std::string>& comma
 }
 
 int report(const ConfigError& error) {
-  for (const Fault& fault : error.faults()) fmt::print(stderr, "{}\n", to_string(fault));
+  for (const Fault& fault : error.faults()) say("{}\n", to_string(fault));
   const std::size_t n = error.faults().size();
-  fmt::print(stderr, "{} {}\n", n, n == 1 ? "error" : "errors");
+  say("{} {}\n", n, n == 1 ? "error" : "errors");
   return wrong_input;
 }
 
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-  fmt::print(stderr, "error: {}\nRun with --help for more information.\n", error.what());
+  if (error.get_exit_code() == 0) {  // --help, --version
+    app.exit(error);
+    flush_answers();
+    return 0;
+  }
+  say("error: {}\nRun with --help for more information.\n", error.what());
   return wrong_input;
+}
+
+int parse_and_run(CLI::App& app, const Context& context, int argc, char** argv) {
+  if (argc <= 1) {
+    fmt::print("{}", app.help());
+    flush_answers();
+    return 0;
+  }
+  const std::vector<std::string> commands = command_names(app);
+  if (is_unknown(argv[1], commands)) {
+    say("error: unknown command '{}'{}\n", argv[1], suggestion(argv[1], commands, "there are"));
+    return wrong_input;
+  }
+  try {
+    app.parse(argc, argv);
+    flush_answers();
+    return context.exit_code;
+  } catch (const CLI::ParseError& error) {
+    return report_usage(app, error);
+  }
 }
 
 }  // namespace
 
 int run_command_line(CLI::App& app, const Context& context, int argc, char** argv) {
-  if (argc <= 1) {
-    fmt::print("{}", app.help());
-    return 0;
-  }
-  const std::vector<std::string> commands = command_names(app);
-  if (is_unknown(argv[1], commands)) {
-    fmt::print(stderr, "error: unknown command '{}'{}\n", argv[1],
-               suggestion(argv[1], commands, "there are"));
-    return wrong_input;
-  }
   try {
-    app.parse(argc, argv);
-    if (std::fflush(stdout) != 0) throw RunError("the answer could not be written to standard output");
-    return context.exit_code;
-  } catch (const CLI::ParseError& error) {
-    return report_usage(app, error);
+    return parse_and_run(app, context, argc, argv);
   } catch (const ConfigError& error) {
     return report(error);
+  } catch (const std::bad_alloc&) {
+    say("error: not enough memory: free some, or ask for less at once (fewer trials, threads or jobs; a "
+        "smaller map)\n");
+    return failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    say("error: {}\n", error.what());
     return failed;
   } catch (...) {
-    fmt::print(stderr, "error: a plugin threw something that is no std::exception\n");
+    say("error: a plugin threw something that is no std::exception\n");
     return failed;
   }
 }

@@ -1,5 +1,9 @@
 #include "app/experiment_options.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "glocal/error.hpp"
 
 namespace glocal::app {
@@ -63,6 +67,34 @@ std::vector<Variant> ExperimentOptions::read_variants(const std::string& other_f
   std::vector<Variant> variants = glocal::read_variants(other_file, all, context.catalog);
   for (Variant& variant : variants) name_plugins(variant.experiment, context);
   return variants;
+}
+
+Experiment read_stored_experiment(const std::filesystem::path& effective, bool trust_plugins,
+                                  Context& context) {
+  const auto is_loaded = [&](const FilePath& plugin) {
+    const auto& loaded = context.plugins.loaded();
+    return std::any_of(loaded.begin(), loaded.end(), [&](const std::filesystem::path& file) {
+      return file.filename() == plugin.resolved.filename();
+    });
+  };
+  std::vector<Fault> faults;
+  for (const FilePath& plugin : read_plugins(effective, {})) {
+    if (is_loaded(plugin)) continue;
+    if (trust_plugins) {
+      context.plugins.load(plugin.resolved);
+    } else {
+      faults.push_back(
+          {effective.string(), 0, 0,
+           fmt::format("needs the plugin {0}, which is native code: name it with --plugin {0}, or "
+                       "take --trust-plugins if you trust this folder",
+                       plugin.resolved.string())});
+    }
+  }
+  if (!faults.empty()) throw ConfigError(faults);
+  // Those that are loaded may lie elsewhere by now.
+  Experiment experiment = read_experiment(effective, {{"plugins", "[]"}}, context.catalog);
+  name_plugins(experiment, context);
+  return experiment;
 }
 
 }  // namespace glocal::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,5 +40,10 @@ struct ExperimentOptions {
   /// All that is changed; loads the plugins that are then named.
   [[nodiscard]] std::vector<Override> load_plugins(const std::string& other_file, Context& context) const;
 };
+
+/// The experiment of a results folder. Files that are only read must not bring code along: the plugins that
+/// it names have been loaded already, under these file names, or are loaded now if they are trusted.
+[[nodiscard]] Experiment read_stored_experiment(const std::filesystem::path& effective, bool trust_plugins,
+                                                Context& context);
 
 }  // namespace glocal::app

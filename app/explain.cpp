@@ -23,6 +23,7 @@ struct ExplainOptions {
   std::string folder;
   std::size_t trial = 0;
   std::size_t step = 0;
+  bool trust_plugins = false;
 };
 
 [[noreturn]] void refuse(const std::string& file, const std::string& message) {
@@ -144,16 +145,16 @@ std::string lost_after_matcher(const StepResult& result, std::ptrdiff_t cluster)
 }
 
 /// The experiment of a run, all of whose files must be in order.
-Experiment experiment_of(const std::string& path, Context& context) {
-  const std::vector<std::filesystem::path> folders = results_folders(path);
+Experiment experiment_of(const ExplainOptions& options, Context& context) {
+  const std::vector<std::filesystem::path> folders = results_folders(options.folder);
   if (folders.size() > 1)
-    refuse(path, fmt::format("holds {} folders of results; name one of them", folders.size()));
+    refuse(options.folder, fmt::format("holds {} folders of results; name one of them", folders.size()));
   static_cast<void>(read_results(folders.front()));
-  return ExperimentOptions{}.read((folders.front() / "effective.yaml").string(), context);
+  return read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context);
 }
 
 void explain(const ExplainOptions& options, Context& context) {
-  const Experiment experiment = experiment_of(options.folder, context);
+  const Experiment experiment = experiment_of(options, context);
   const EvaluationConfig& limits = experiment.evaluation;
   LoadedExperiment loaded =
       load_experiment(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
@@ -207,6 +208,8 @@ void add_explain(CLI::App& app, Context& context) {
   command->add_option("DIR", options->folder, "Folder of results, as glocal run leaves it")->required();
   command->add_option("--trial", options->trial, "Number of the trial, from 0")->required();
   command->add_option("--step", options->step, "Number of the step, from 0")->required();
+  command->add_flag("--trust-plugins", options->trust_plugins,
+                    "Load the plugins that the folder names: they are native code");
   command->callback([options, &context] { explain(*options, context); });
 }
 

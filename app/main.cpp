@@ -7,6 +7,8 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/fatal_signals.hpp"
+#include "app/standard_streams.hpp"
 #include "glocal/builtin.hpp"
 #include "version.hpp"
 
@@ -35,6 +37,8 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  glocal::app::keep_standard_streams();
+  glocal::app::name_strategy_in_crashes();
   // Answers go to stdout, everything else to stderr.
   spdlog::set_default_logger(spdlog::stderr_color_mt("glocal"));
   spdlog::set_pattern("%^%l%$: %v");

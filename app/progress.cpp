@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "app/standard_streams.hpp"
 
 namespace glocal::app {
 namespace {
@@ -27,7 +28,7 @@ Progress::Progress(bool shown, std::size_t trials)
     : shown_(shown), on_terminal_(isatty(STDERR_FILENO) == 1), trials_(static_cast<double>(trials)) {}
 
 Progress::~Progress() {
-  if (shown_ && on_terminal_) std::fputs("\r\033[K", stderr);
+  if (shown_ && on_terminal_) say("\r\033[K");
 }
 
 void Progress::begin(const std::string& what) {
@@ -49,9 +50,8 @@ void Progress::step(std::size_t trial, std::size_t step, double share, const cha
   }
   constexpr int width = 30;
   const auto filled = static_cast<int>(done * width);
-  fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {} of {:.0f}{}  {}trial {}, step {}  {}", "", filled, "",
-             width - filled, finished_, trials_, left, what_, trial, step, verdict);
-  std::fflush(stderr);
+  say("\r\033[K[{:#<{}}{:.<{}}] {} of {:.0f}{}  {}trial {}, step {}  {}", "", filled, "", width - filled,
+      finished_, trials_, left, what_, trial, step, verdict);
 }
 
 void Progress::finish(std::size_t trial) {

@@ -3,18 +3,20 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/experiment_options.hpp"
 #include "app/results_arguments.hpp"
 #include "evaluation/results/results_folder.hpp"
+#include "glocal/error.hpp"
 
 namespace glocal::app {
 namespace {
@@ -46,7 +48,20 @@ void add_trial(const Json& trial, Findings& findings) {
   findings.sum_of_squared_errors += trial.at("nees").get<double>();
 }
 
-void add_folder(const std::filesystem::path& folder, Context& context, Findings& findings) {
+/// A number of the run's effective.yaml. Only that: reading the whole experiment would take its plugins.
+double limit(const StoredRun& run, const std::string& path) {
+  const auto setting = run.settings.find(path);
+  const std::string text = setting == run.settings.end() ? "" : setting->second.text;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value > 0.0)) {
+    throw ConfigError({{(run.folder / "effective.yaml").string(), 0, 0,
+                        fmt::format("{} is no positive number; run the experiment again", path)}});
+  }
+  return value;
+}
+
+void add_folder(const std::filesystem::path& folder, Findings& findings) {
   struct Estimate {
     double confidence, translation_error_m, rotation_error_deg;
   };
@@ -56,15 +71,16 @@ void add_folder(const std::filesystem::path& folder, Context& context, Findings&
     trials[step.at("trial")].push_back(
         {step.at("confidence"), step.at("translation_error_m"), step.at("rotation_error_deg")});
   };
-  require_steps(read_results(folder, {[&](const Json& trial) { add_trial(trial, findings); }, add_step}));
-  const EvaluationConfig limits =
-      ExperimentOptions{}.read((folder / "effective.yaml").string(), context).evaluation;
+  const StoredRun run =
+      read_results(folder, {[&](const Json& trial) { add_trial(trial, findings); }, add_step});
+  require_steps(run);
+  const double most_m = limit(run, "evaluation.max_translation_error");
+  const double most_deg = limit(run, "evaluation.max_rotation_error_deg");
   // From trial number n the n-th of its steps with an estimate, counted round and round.
   for (const auto& [trial, estimates] : trials) {
     const Estimate& estimate = estimates[trial % estimates.size()];
     findings.believed.add(estimate.confidence,
-                          estimate.translation_error_m <= limits.max_translation_error &&
-                              estimate.rotation_error_deg <= limits.max_rotation_error_deg);
+                          estimate.translation_error_m <= most_m && estimate.rotation_error_deg <= most_deg);
   }
 }
 
@@ -78,12 +94,11 @@ void print_bins(const char* title, const Reliability& reliability) {
   }
 }
 
-void reliability(const ReliabilityOptions& options, Context& context) {
+void reliability(const ReliabilityOptions& options) {
   Findings findings;
   FaultCollector faults;
-  for_each_results_folder(options.folders, faults, [&](const std::filesystem::path& folder) {
-    add_folder(folder, context, findings);
-  });
+  for_each_results_folder(options.folders, faults,
+                          [&](const std::filesystem::path& folder) { add_folder(folder, findings); });
   faults.report();
   const Proportion wrong = wilson(findings.wrong, findings.trials);
   fmt::print(
@@ -104,12 +119,12 @@ void reliability(const ReliabilityOptions& options, Context& context) {
 
 }  // namespace
 
-void add_reliability(CLI::App& app, Context& context) {
+void add_reliability(CLI::App& app, Context& /*context*/) {
   auto options = std::make_shared<ReliabilityOptions>();
   CLI::App* command =
       app.add_subcommand("reliability", "Compare confidences and covariances with what was right.");
   command->add_option("DIR", options->folders, "Folders of results, or folders that hold some")->required();
-  command->callback([options, &context] { reliability(*options, context); });
+  command->callback([options] { reliability(*options); });
 }
 
 }  // namespace glocal::app

@@ -24,11 +24,19 @@ namespace {
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
 
+/// The first ends the run in good order, after the steps that are under way; the second, at once.
+void interrupt(int signal) {
+  if (interrupted.exchange(true)) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+
 /// What --watch stands for without a port.
 constexpr const char* any_port = "any";
 
 /// For whoever watches to hear that the run is over.
-constexpr std::chrono::seconds longest_farewell{2};
+constexpr std::chrono::milliseconds longest_farewell{650};
 
 struct RunCommand {
   ExperimentOptions experiment;
@@ -116,9 +124,8 @@ void run(const RunCommand& command, Context& context) {
   options.plugins = context.plugins.loaded();
   LiveRun live(variants.front().experiment.name);
   std::optional<WatchServer> server;
-  // From here on an interrupt ends the run in good order.
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
   if (!command.watch.empty()) {
     server.emplace(command.watch == any_port ? 0 : std::stoi(command.watch), live);
     spdlog::info("watch: http://127.0.0.1:{}/", server->port());

@@ -77,6 +77,24 @@ TEST_F(CommandLine, CheckTakesOverrides) {
               HasSubstr("--set seed: error: not of the form path=value\n"));
 }
 
+TEST_F(CommandLine, ExitCodesAreTheSameWhereverStreamsLead) {
+  const auto exit_code = [](const std::string& command_line) {
+    const int status = std::system((GLOCAL_PROGRAM " " + command_line).c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  const std::string file = folder_.write("a.yaml", "schema: 2\n");
+  for (const char* stderr_to : {" 2>/dev/full", " 2>&-", " >&- 2>&-", " <&- >&- 2>&-"}) {
+    EXPECT_EQ(exit_code(std::string("list matchr") + stderr_to), 2) << stderr_to;
+    EXPECT_EQ(exit_code("check " + file + stderr_to), 2) << stderr_to;
+    EXPECT_EQ(exit_code(std::string("lst") + stderr_to), 2) << stderr_to;
+    EXPECT_EQ(exit_code(std::string("list --frobnicate") + stderr_to), 2) << stderr_to;
+  }
+  for (const char* answer : {"", "--help", "--version", "list", "run --help"}) {
+    EXPECT_EQ(exit_code(std::string(answer) + " >/dev/full 2>/dev/null"), 1) << answer;
+    EXPECT_EQ(exit_code(std::string(answer) + " >&- 2>/dev/null"), 1) << answer;
+  }
+}
+
 TEST_F(CommandLine, LostAnswerIsAFailure) {
   const int status = std::system(GLOCAL_PROGRAM " list >/dev/full 2>/dev/null");
   ASSERT_TRUE(WIFEXITED(status));

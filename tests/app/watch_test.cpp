@@ -6,10 +6,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <functional>
-#include <regex>
+#include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -29,6 +31,37 @@ bool wait_for(const std::function<bool()>& condition) {
   return false;
 }
 
+/// Of the address that the program has told; 0 if it has told none yet.
+int port_in(const std::string& said) {
+  const std::string before = "watch: http://127.0.0.1:";
+  const std::size_t at = said.find(before);
+  if (at == std::string::npos || said.find("/\n", at + before.size()) == std::string::npos) return 0;
+  return std::stoi(said.substr(at + before.size()));
+}
+
+/// A connection that asks for nothing by itself.
+class Connection {
+ public:
+  explicit Connection(int port) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);  // NOLINT
+  }
+  ~Connection() { close(socket_); }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  /// False if nobody listens any more.
+  [[nodiscard]] bool say(const std::string& text) const {
+    return send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+  }
+
+ private:
+  int socket_;
+};
+
 class WatchedRun : public Room {
  protected:
   WatchedRun() { write_experiment("trials: {every_scan: 6, max_steps: 5}\n", "output: {maps: all}\n"); }
@@ -46,13 +79,8 @@ class WatchedRun : public Room {
         "2>{0}/err",
         folder_.path().string(), GLOCAL_PROGRAM, options);
     program_ = std::thread([this, command] { status_ = std::system(command.c_str()); });
-    std::smatch match;
-    std::string said;
-    ASSERT_TRUE(wait_for([&] {
-      said = content(file("err"));
-      return std::regex_search(said, match, std::regex("watch: http://127.0.0.1:(\\d+)/\n"));
-    })) << said;
-    port_ = std::stoi(match[1]);
+    ASSERT_TRUE(wait_for([&] { return (port_ = port_in(content(file("err")))) != 0; }))
+        << content(file("err"));
   }
 
   void signal(int number) const { kill(std::stoi(content(file("pid"))), number); }
@@ -121,7 +149,7 @@ TEST_F(WatchedRun, IsShownWhileItGoesOnAndToTheEnd) {
 TEST_F(WatchedRun, HasTheResultsOfOneThatIsNot) {
   ASSERT_EQ(run_room("alone", std::string("--quiet ") + slow).exit_code, 0);
   start(std::string(slow) + " --jobs 2");
-  data_with([](const Json& data) { return data["live"]["finished"] == true; });
+  data_with([](const Json& data) { return data["live"]["trials_done"] >= 1; });
   ASSERT_EQ(exit_code(), 0);
   expect_same_results("alone", "watched");
   EXPECT_EQ(content(file("alone/effective.yaml")), content(file("watched/effective.yaml")));
@@ -154,18 +182,64 @@ TEST_F(WatchedRun, AnswersOnlyWhatItsOwnPageAsks) {
 
 TEST_F(WatchedRun, EndsInGoodOrderWhoeverIsConnected) {
   start(slow);
-  const int idle = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port_));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  ASSERT_EQ(connect(idle, reinterpret_cast<const sockaddr*>(&address), sizeof(address)),
-            0);  // NOLINT: sockets
-  data_with([](const Json& data) { return data["live"]["trials_done"] == 1; });
+  const Connection idle(port_);
+  data_with([](const Json& data) { return data["live"]["trials_done"] >= 1; });
   signal(SIGINT);
   EXPECT_EQ(exit_code(), 3);
-  close(idle);
   EXPECT_EQ(json("watched/summary.json")["complete"], false);
+}
+
+TEST_F(WatchedRun, EndsThoughClientsAreSlow) {
+  start(slow);
+  std::vector<std::unique_ptr<Connection>> clients;
+  for (int i = 0; i < 8; ++i) clients.push_back(std::make_unique<Connection>(port_));
+  std::atomic<bool> ended = false;
+  const std::jthread talkers([&] {
+    for (int i = 0; i < 100 && !ended; ++i) {
+      for (const auto& client : clients) static_cast<void>(client->say(i == 0 ? "G" : "x"));
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    }
+  });
+  data_with([](const Json& data) { return data["live"]["trials_done"] >= 1; });
+  signal(SIGINT);
+  const auto asked = std::chrono::steady_clock::now();
+  EXPECT_EQ(exit_code(), 3);
+  ended = true;
+  // Not as long as somebody talks, which is half a minute.
+  EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(10));
+}
+
+TEST_F(WatchedRun, AnswersThoughManyAreConnected) {
+  start("--set localizer.matcher.ransam.iterations=10000000");
+  std::vector<std::unique_ptr<Connection>> idle;
+  for (int i = 0; i < 300; ++i) idle.push_back(std::make_unique<Connection>(port_));
+  httplib::Client client("127.0.0.1", port_);
+  client.set_read_timeout(5);
+  const auto answer = client.Get("/data");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
+}
+
+TEST_F(WatchedRun, AnswersNoMoreThanThePage) {
+  start(slow);
+  std::string ranges = "bytes=0-";
+  for (int i = 0; i < 200; ++i) ranges += ",0-";
+  const auto answer = client().Get("/", {{"Range", ranges}});
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
+  EXPECT_EQ(answer->get_header_value("Content-Type"), "text/html; charset=utf-8");
+  EXPECT_THAT(answer->body, testing::StartsWith("<!doctype html>"));
+}
+
+TEST_F(WatchedRun, ReadsNoMoreThanARequestTakes) {
+  start(slow);
+  httplib::Headers many;
+  for (int i = 0; i < 1000; ++i) many.emplace("X-Header", "more and more of them");
+  const auto answer = client().Get("/", many);
+  EXPECT_TRUE(!answer || answer->status == 400);
+  const Connection endless(port_);
+  EXPECT_TRUE(wait_for([&] { return !endless.say(std::string(4096, 'G')); }));
+  EXPECT_EQ(client().Get("/data")->status, 200);
 }
 
 TEST_F(WatchedRun, WantsAPortOfItsOwn) {

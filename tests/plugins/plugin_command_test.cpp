@@ -1,6 +1,8 @@
 // Plugins as users name them: --plugin, GLOCAL_PLUGIN_PATH and the key `plugins` of an experiment.
 #include <gmock/gmock.h>
 
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -130,6 +132,64 @@ TEST_F(PluginCommand, AnExceptionInAStepEndsOnlyItsTrial) {
   EXPECT_EQ(trials["count"], 4);
   EXPECT_EQ(trials["undecided"], 3);
   EXPECT_EQ(trials["failed"], 1);
+}
+
+TEST_F(PluginCommand, ABrokenContractEndsOnlyItsTrial) {
+  write_experiment("plugins: [" + plugin("every_kind") + ", " + plugin("ill_behaved") + "]\n", "ill_behaved");
+  const Answer answer = run("run " + file("e.yaml") + " --out " + file("results"));
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.err,
+              HasSubstr("trial 0 failed in step 0: matcher 'ill_behaved' breaks its contract in step "
+                        "0: hypothesis 0 has the pose (nan, 0, 0); poses are finite"));
+  EXPECT_EQ(Json::parse(content(file("results/summary.json")))["trials"]["failed"], 4);
+}
+
+TEST_F(PluginCommand, ACrashSaysInWhichStrategy) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer reports crashes itself";
+#endif
+  const auto run_how = [&](const std::string& how) {
+    write_experiment("plugins: [" + plugin("every_kind") + ", " + plugin("ill_behaved") + "]\n",
+                     "{ill_behaved: {how: " + how + "}}");
+    return run("run " + file("e.yaml") + " --quiet --force --out " + file("results"));
+  };
+  const std::string where = " in matcher 'ill_behaved', trial 0, step 0; what was finished before is kept\n";
+  for (const char* how : {"crash", "crash_in_a_thread"}) {
+    const Answer answer = run_how(how);
+    EXPECT_EQ(answer.exit_code, 128 + SIGSEGV) << how;
+    EXPECT_THAT(answer.err, HasSubstr("error: crashed (SIGSEGV, memory that is not its own)" + where)) << how;
+  }
+  const Answer aborted = run_how("abort");
+  EXPECT_EQ(aborted.exit_code, 128 + SIGABRT);
+  EXPECT_THAT(aborted.err, HasSubstr("error: crashed (SIGABRT, it gave up)" + where));
+}
+
+TEST_F(PluginCommand, ASecondInterruptEndsAStepThatHangs) {
+  write_experiment("plugins: [" + plugin("every_kind") + ", " + plugin("ill_behaved") + "]\n",
+                   "{ill_behaved: {how: hang}}");
+  // Long enough for the step to begin; a first signal that comes before leaves nothing for the second to end.
+  const std::string script =
+      std::string(GLOCAL_PROGRAM) + " run " + file("e.yaml") + " --quiet --out " + file("results") +
+      " & p=$!; sleep 2; kill -INT $p; sleep 1; kill -0 $p || exit 90; kill -TERM $p; wait $p";
+  EXPECT_EQ(std::system(("bash -c '" + script + "' 2>/dev/null").c_str()), (128 + SIGTERM) << 8);
+}
+
+TEST_F(PluginCommand, ResultsBringNoCodeAlong) {
+  write_experiment("plugins: [" + plugin("every_kind") + "]\n");
+  ASSERT_EQ(run("run " + file("e.yaml") + " --quiet --out " + file("a")).exit_code, 0);
+  const std::string explain = "explain " + file("a") + " --trial 0 --step 0";
+  const Answer refused = run(explain);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err,
+              AllOf(HasSubstr("a/effective.yaml: error: needs the plugin "), HasSubstr("every_kind.so"),
+                    HasSubstr("--plugin "), HasSubstr("--trust-plugins")));
+  const Answer named = run(explain + " --plugin " + plugin("every_kind"));
+  EXPECT_EQ(named.exit_code, 0) << named.err;
+  const Answer trusted = run(explain + " --trust-plugins");
+  EXPECT_EQ(trusted.exit_code, 0) << trusted.err;
+  EXPECT_EQ(named.out, trusted.out);
+  const Answer reliability = run("reliability " + file("a"));
+  EXPECT_EQ(reliability.exit_code, 0) << reliability.err;
 }
 
 TEST_F(PluginCommand, WhatIsNoPluginIsRefused) {

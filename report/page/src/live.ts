@@ -36,9 +36,12 @@ export class LiveNews {
         this.store.update(report);
         if (report.live.finished) return;
       }
-      // Large answers are asked for less often, so that watching costs the run little.
+      // Large answers are asked for less often, so that watching costs the run little; but towards the end often, as
+      // the program does not wait long to tell it.
       const took = performance.now() - asked;
-      await new Promise((resolve) => setTimeout(resolve, Math.max(shortest, 10 * took)));
+      const remaining = report?.live?.remaining_s ?? Infinity;
+      const pause = remaining < 10 ? shortest : Math.max(shortest, 10 * took);
+      await new Promise((resolve) => setTimeout(resolve, pause));
     }
   }
 

@@ -1,0 +1,48 @@
+// A matcher that does what no matcher should.
+#include <chrono>
+#include <csignal>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "glocal/parallel.hpp"
+#include "glocal/plugin.hpp"
+
+namespace {
+
+using namespace glocal;
+
+class IllBehaved final : public Matcher {
+ public:
+  struct Params {
+    std::string how = "nan";
+  };
+  explicit IllBehaved(const Params& params) : how_(params.how) {}
+
+  MatchResult match(const LocalMap& /*local*/, const Observation& /*latest*/, double /*omega_max*/,
+                    Rng& /*rng*/) override {
+    if (how_ == "crash") std::raise(SIGSEGV);
+    if (how_ == "crash_in_a_thread")
+      parallel_for(2, 100, [](std::size_t i) {
+        if (i == 99) std::raise(SIGSEGV);
+      });
+    if (how_ == "abort") std::terminate();
+    if (how_ == "hang") std::this_thread::sleep_for(std::chrono::hours(1));
+    if (how_ == "latin1") throw std::runtime_error("T\xfcr zu");
+    return {{Hypothesis::by_contact({std::numeric_limits<double>::quiet_NaN(), 0, 0}, 1.0)}, 1, 1};
+  }
+  void reset() override {}
+
+ private:
+  std::string how_;
+};
+void describe(ParamVisitor& v, IllBehaved::Params& p) {
+  v.field("how", p.how, {.doc = "What it does wrong."});
+}
+
+}  // namespace
+
+GLOCAL_PLUGIN("ill_behaved", "1", catalog) {
+  catalog.matchers.add<IllBehaved>("ill_behaved", "Does what no matcher should.");
+}
