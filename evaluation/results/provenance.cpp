@@ -14,6 +14,7 @@
 #include <string>
 
 #include "evaluation/results/file_io.hpp"
+#include "evaluation/results/valid_text.hpp"
 #include "glocal/error.hpp"
 #include "version.hpp"
 
@@ -108,7 +109,7 @@ Json provenance(const Catalog& catalog, int threads, const std::set<std::filesys
   for (const std::filesystem::path& input : inputs) files[input.string()] = hashes.of(input);
   std::set<std::string> origins;
   for (const RegistryBase* registry : catalog.registries()) {
-    for (const StrategyInfo* info : registry->all()) origins.insert(info->origin);
+    for (const StrategyInfo* info : registry->all()) origins.insert(valid_utf8(info->origin));
   }
   origins.erase("glocal");
   return {{"version", version},

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "evaluation/results/valid_text.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -43,6 +44,12 @@ void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfi
   trial.nees = record.nees;
 }
 
+/// Texts of plugins may be in any encoding; what is written is UTF-8.
+void make_valid_utf8(Verdict& verdict) {
+  verdict.why = valid_utf8(verdict.why);
+  for (Evidence& evidence : verdict.evidence) evidence.name = valid_utf8(evidence.name);
+}
+
 /// Does what a strategy may fail in; false if one did, with which the trial has failed.
 template <class Work>
 bool done_or_failed(TrialRecord& trial, Work work) {
@@ -50,7 +57,7 @@ bool done_or_failed(TrialRecord& trial, Work work) {
     work();
     return true;
   } catch (const StrategyError& error) {
-    trial.why = error.what();
+    trial.why = valid_utf8(error.what());
     trial.outcome = Outcome::failed;
     return false;
   }
@@ -112,6 +119,7 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
     StepResult result;
     going_on = done_or_failed(record, [&] { result = localizer.step(sample.observation); });
     if (!going_on) break;
+    make_valid_utf8(result.verdict);
     record.records.push_back(make_record(std::move(result), sample, map));
     const StepRecord& step = record.records.back();
     if (callbacks.step) callbacks.step(step, localizer);

@@ -162,6 +162,19 @@ TEST_F(TrialTest, EachStepKnowsItsErrorAndWhetherTheMapShowsItsPlace) {
   EXPECT_TRUE(trial.records[2].result.hypotheses.empty());
 }
 
+TEST_F(TrialTest, TextsOfStrategiesBecomeUtf8) {
+  script_->judge = [](const StepResult& step) -> Verdict {
+    if (step.step == 1) throw std::runtime_error("caf\xe9");
+    return {VerdictKind::searching, std::nullopt, {}, "\xff searching", {}, {{"\xc3m", 1.0}}};
+  };
+  const TrialRecord trial = run(2);
+  EXPECT_EQ(trial.outcome, Outcome::failed);
+  EXPECT_EQ(trial.why, "a strategy threw an exception: caf\ufffd");
+  ASSERT_EQ(trial.records.size(), 1U);
+  EXPECT_EQ(trial.records[0].result.verdict.why, "\ufffd searching");
+  EXPECT_EQ(trial.records[0].result.verdict.evidence[0].name, "\ufffdm");
+}
+
 TEST_F(TrialTest, GivesUpWhenToldToStop) {
   int asked = 0;
   int steps = 0;
