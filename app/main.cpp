@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <string>
 
 #include "app/command_line.hpp"
@@ -39,6 +40,8 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
 int main(int argc, char** argv) {
   glocal::app::keep_standard_streams();
   glocal::app::name_strategy_in_crashes();
+  // A file that grows over the limit of the shell (ulimit -f) is an error like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   // Answers go to stdout, everything else to stderr.
   spdlog::set_default_logger(spdlog::stderr_color_mt("glocal"));
   spdlog::set_pattern("%^%l%$: %v");

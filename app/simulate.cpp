@@ -34,6 +34,7 @@ StrategyChoice recorded_map() {
 
 void simulate(const SimulateOptions& options, Context& context) {
   Experiment experiment = options.experiment.read(context);
+  OutputFolder::check(options.out, options.force);
   const Catalog& catalog = context.catalog;
   std::set<std::filesystem::path> inputs{std::filesystem::absolute(options.experiment.file)};
   SourceSetup setup;

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void check(const std::error_code& error, const fs::path& file) {
-  if (error) throw RunError(fmt::format("{}: cannot write: {}", file.string(), error.message()));
+  if (error) throw RunError(fmt::format("{}: cannot write: {}", file.string(), reason_of(error)));
 }
 
 }  // namespace
@@ -34,14 +34,15 @@ void AtomicFiles::add(const fs::path& file, std::string_view content) {
     throw ConfigError(
         {{file.string(), 0, 0, "the file exists; choose another name, or replace it with --force"}});
   }
-  fs::create_directories(target.parent_path(), error);
-  check(error, file);
+  std::vector<fs::path> changed;
+  check(make_folders(target.parent_path(), changed), file);
+  for (const fs::path& folder : changed) check(sync_to_disk(folder), file);
   const fs::path temporary =
       target.parent_path() / fmt::format(".{}.{}.unfinished", target.filename().string(), ::getpid());
   fs::remove(temporary, error);
   pending_.push_back({target, temporary});
-  append_to_file(temporary, content, file);
-  sync_to_disk(temporary);
+  check(append_to_file(temporary, content), file);
+  check(sync_to_disk(temporary), file);
 }
 
 void AtomicFiles::commit() {
@@ -50,7 +51,7 @@ void AtomicFiles::commit() {
     fs::rename(pending.temporary, pending.file, error);
     check(error, pending.file);
   }
-  for (const Pending& pending : pending_) sync_to_disk(pending.file.parent_path());
+  for (const Pending& pending : pending_) check(sync_to_disk(pending.file.parent_path()), pending.file);
   pending_.clear();
 }
 

@@ -1,11 +1,9 @@
 #include "evaluation/results/file_io.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -15,18 +13,19 @@
 namespace glocal {
 namespace {
 
-[[noreturn]] void fail_with_errno(const std::filesystem::path& path) {
-  throw RunError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
+namespace fs = std::filesystem;
+
+std::error_code last_error() {
+  return {errno, std::generic_category()};
 }
 
 /// Closes a file descriptor.
 class Descriptor {
  public:
-  Descriptor(const std::filesystem::path& path, int flags, const std::filesystem::path& shown)
-      : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {
-    if (fd_ < 0) fail_with_errno(shown);
+  Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
   }
-  ~Descriptor() { ::close(fd_); }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   [[nodiscard]] int get() const { return fd_; }
@@ -35,28 +34,64 @@ class Descriptor {
   int fd_;
 };
 
+fs::path follow(const fs::path& path, int& links) {
+  if (!path.has_relative_path()) return path;
+  const fs::path parent = follow(path.parent_path(), links);
+  if (path.filename().empty() || path.filename() == ".") return parent;
+  if (path.filename() == "..") return parent.parent_path();
+  const fs::path here = parent / path.filename();
+  std::error_code ignored;
+  if (!fs::is_symlink(here, ignored)) return here;
+  // As many as Linux follows.
+  constexpr int most_links = 40;
+  if (++links > most_links)
+    throw ConfigError({{here.string(), 0, 0, "is a symbolic link that leads in a circle; name a folder"}});
+  return follow(parent / fs::read_symlink(here, ignored), links);
+}
+
 }  // namespace
 
-std::string content_of(const std::filesystem::path& file) {
+std::string content_of(const fs::path& file) {
   std::ostringstream content;
   content << std::ifstream(file, std::ios::binary).rdbuf();
   return std::move(content).str();
 }
 
-void append_to_file(const std::filesystem::path& file, std::string_view content,
-                    const std::filesystem::path& shown) {
-  const Descriptor out(file, O_WRONLY | O_CREAT | O_APPEND, shown);
+std::error_code append_to_file(const fs::path& file, std::string_view content) {
+  const Descriptor out(file, O_WRONLY | O_CREAT | O_APPEND);
+  if (out.get() < 0) return last_error();
   while (!content.empty()) {
     const ssize_t written = ::write(out.get(), content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_with_errno(shown);
+    if (written < 0) return last_error();
     content.remove_prefix(static_cast<std::size_t>(written));
   }
+  return {};
 }
 
-void sync_to_disk(const std::filesystem::path& path) {
-  const Descriptor file(path, O_RDONLY, path);
-  if (::fsync(file.get()) != 0) fail_with_errno(path);
+std::error_code make_folders(const fs::path& folder, std::vector<fs::path>& changed) {
+  std::error_code error;
+  if (fs::is_directory(folder, error)) return {};
+  if (folder.has_relative_path()) {
+    if (const auto above = make_folders(folder.parent_path(), changed)) return above;
+  }
+  if (fs::create_directory(folder, error)) changed.push_back(folder.parent_path());
+  return error == std::errc::file_exists ? std::make_error_code(std::errc::not_a_directory) : error;
+}
+
+std::error_code sync_to_disk(const fs::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  return file.get() < 0 || ::fsync(file.get()) != 0 ? last_error() : std::error_code();
+}
+
+std::string reason_of(const std::error_code& error) {
+  const bool limited = error == std::errc::file_too_large;
+  return error.message() + (limited ? " (for the limit that the shell or the system sets: ulimit -f)" : "");
+}
+
+fs::path without_links(const fs::path& path) {
+  int links = 0;
+  return follow(fs::absolute(path), links);
 }
 
 }  // namespace glocal

@@ -4,18 +4,29 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 namespace glocal {
 
 /// The bytes of a file; empty if it cannot be read.
 [[nodiscard]] std::string content_of(const std::filesystem::path& file);
 
-/// Appends to a file, which is made if there is none. Throws RunError naming `shown`, what the user knows the
-/// file by.
-void append_to_file(const std::filesystem::path& file, std::string_view content,
-                    const std::filesystem::path& shown);
+/// Appends to a file, which is made if there is none.
+[[nodiscard]] std::error_code append_to_file(const std::filesystem::path& file, std::string_view content);
 
-/// Waits until a file or folder is on the disk. Throws RunError.
-void sync_to_disk(const std::filesystem::path& path);
+/// Makes a folder and those above it. `changed` are those that have a new entry, to be synced.
+[[nodiscard]] std::error_code make_folders(const std::filesystem::path& folder,
+                                           std::vector<std::filesystem::path>& changed);
+
+/// Waits until a file or folder is on the disk: of a file what is in it, of a folder the names in it.
+[[nodiscard]] std::error_code sync_to_disk(const std::filesystem::path& path);
+
+/// Why a file could not be written, for a message.
+[[nodiscard]] std::string reason_of(const std::error_code& error);
+
+/// Where this is once all symbolic links are followed, also where nothing is there yet. Throws ConfigError if
+/// links lead in a circle.
+[[nodiscard]] std::filesystem::path without_links(const std::filesystem::path& path);
 
 }  // namespace glocal

@@ -3,18 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <boost/crc.hpp>
 #include <nlohmann/json.hpp>
 #include <system_error>
+
+#include "config/text_file.hpp"
+#include "evaluation/results/file_io.hpp"
+#include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::filesystem::path name_of(std::size_t trial) {
-  return std::filesystem::path(journal_folder) / fmt::format("trial_{:04}.json", trial);
-}
 
 Json to_json(const PoseError& error) {
   return {error.translation_m, error.rotation_rad};
@@ -47,14 +47,44 @@ TrialFigures figures_of(const Json& json) {
   return figures;
 }
 
-bool are_whole(const std::map<std::string, std::uintmax_t>& files, const std::filesystem::path& folder) {
-  std::error_code error;
-  return std::all_of(files.begin(), files.end(), [&](const auto& file) {
-    return std::filesystem::file_size(folder / file.first, error) == file.second;
-  });
+[[noreturn]] void refuse_entry(const std::filesystem::path& file, const std::string& why) {
+  throw RunError(fmt::format("{}:1: {}", file.string(), why));
+}
+
+/// The line is the checksum, a space, and what it is of.
+std::string checked_text(const std::filesystem::path& file) {
+  const std::string line = content_of(file);
+  const std::string_view text = std::string_view(line).substr(std::min(line.size(), std::size_t{9}));
+  if (text.empty() || !line.starts_with(checksum(text) + " "))
+    refuse_entry(file, "the entry is damaged: its checksum is another one");
+  return std::string(text);
+}
+
+JournalEntry entry_of(const Json& json) {
+  return {json.at("trial"), figures_of(json.at("figures")), json.at("trial_line"), json.at("step_lines"),
+          json.at("files")};
+}
+
+void check_files(const JournalEntry& entry, const std::filesystem::path& folder,
+                 const std::filesystem::path& file) {
+  for (const auto& [name, sum] : entry.files) {
+    if (why_unreadable(folder / name)) refuse_entry(file, fmt::format("the trial's {} is missing", name));
+    if (checksum(content_of(folder / name)) != sum)
+      refuse_entry(file, fmt::format("the trial's {} is damaged: its checksum is another one", name));
+  }
 }
 
 }  // namespace
+
+std::string checksum(std::string_view bytes) {
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return fmt::format("{:08x}", crc.checksum());
+}
+
+std::filesystem::path entry_name(std::size_t trial) {
+  return std::filesystem::path(journal_folder) / fmt::format("trial_{:04}.json", trial);
+}
 
 void write_entry(OutputFolder& folder, const JournalEntry& entry) {
   const Json json = {{"trial", entry.trial},
@@ -62,19 +92,26 @@ void write_entry(OutputFolder& folder, const JournalEntry& entry) {
                      {"trial_line", entry.trial_line},
                      {"step_lines", entry.step_lines},
                      {"files", entry.files}};
-  folder.write(name_of(entry.trial), json.dump() + "\n");
+  const std::string text = json.dump() + "\n";
+  folder.sync();
+  folder.write(entry_name(entry.trial), checksum(text) + " " + text);
+  folder.sync();
 }
 
-std::optional<JournalEntry> read_entry(const std::filesystem::path& folder, std::size_t trial) try {
-  std::ifstream in(folder / name_of(trial));
-  if (!in) return std::nullopt;
-  const Json json = Json::parse(in);
-  JournalEntry entry{json.at("trial"), figures_of(json.at("figures")), json.at("trial_line"),
-                     json.at("step_lines"), json.at("files")};
-  return entry.trial == trial && are_whole(entry.files, folder) ? std::optional(std::move(entry))
-                                                                : std::nullopt;
-} catch (const std::exception&) {
-  return std::nullopt;  // no JSON, or not of this form
+std::optional<JournalEntry> read_entry(const std::filesystem::path& folder, std::size_t trial) {
+  const std::filesystem::path file = folder / entry_name(trial);
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return std::nullopt;
+  const std::string text = checked_text(file);
+  JournalEntry entry;
+  try {
+    entry = entry_of(Json::parse(text));
+  } catch (const std::exception&) {
+    refuse_entry(file, "the entry is not as glocal run leaves it");
+  }
+  if (entry.trial != trial) refuse_entry(file, fmt::format("the entry is of trial {}", entry.trial));
+  check_files(entry, folder, file);
+  return entry;
 }
 
 }  // namespace glocal

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/summary.hpp"
@@ -18,19 +18,25 @@ namespace glocal {
 struct JournalEntry {
   std::size_t trial = 0;
   TrialFigures figures;
-  std::string trial_line;                            ///< Of trials.jsonl.
-  std::string step_lines;                            ///< Of steps.jsonl; empty if they are not written.
-  std::map<std::string, std::uintmax_t> files = {};  ///< What the trial left in files of its own, bytes.
+  std::string trial_line;                         ///< Of trials.jsonl.
+  std::string step_lines;                         ///< Of steps.jsonl; empty if they are not written.
+  std::map<std::string, std::string> files = {};  ///< What the trial left in files of its own: checksums.
 };
 
 /// Where a results folder has the journal.
 inline constexpr const char* journal_folder = "journal";
 
-/// Adds a file to the journal, which appears there when it is whole.
+/// CRC-32 as 8 hexadecimal digits, as gzip and zip have it.
+[[nodiscard]] std::string checksum(std::string_view bytes);
+
+/// Where the entry of a trial is, in a results folder.
+[[nodiscard]] std::filesystem::path entry_name(std::size_t trial);
+
+/// Adds a file to the journal. When this returns, the trial is on the disk for good, with its own files.
 void write_entry(OutputFolder& folder, const JournalEntry& entry);
 
-/// None if the trial is not in the journal of this folder, if its entry is damaged, or if a file of its own
-/// is not there in full length.
+/// None if the trial is not in the journal of this folder. Throws RunError with file and line if its entry
+/// is damaged, or if a file of its own is not there as it was.
 [[nodiscard]] std::optional<JournalEntry> read_entry(const std::filesystem::path& folder, std::size_t trial);
 
 }  // namespace glocal

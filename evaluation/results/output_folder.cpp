@@ -1,9 +1,12 @@
 #include "evaluation/results/output_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <system_error>
+#include <cerrno>
 #include <utility>
+#include <vector>
 
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/results_folder.hpp"
@@ -14,109 +17,212 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw RunError(fmt::format("{}: cannot write: {}", path.string(), reason));
+[[noreturn]] void refuse_output(const fs::path& path, const std::string& why) {
+  throw ConfigError({{path.string(), 0, 0, "output: " + why}});
 }
 
-void check_free(const fs::path& path, bool replace) {
+/// Why this process may not change what is in a folder; no error if it may.
+std::error_code why_locked(const fs::path& folder) {
+  return ::faccessat(AT_FDCWD, folder.c_str(), R_OK | W_OK | X_OK, AT_EACCESS) == 0
+             ? std::error_code()
+             : std::error_code(errno, std::generic_category());
+}
+
+/// The folder that is there already must let itself be written.
+void check_writable(const fs::path& path) {
+  fs::path above = path.parent_path();
+  std::error_code error;
+  while (fs::status(above, error).type() == fs::file_type::not_found) above = above.parent_path();
+  if (!error && !fs::is_directory(above, error)) error = std::make_error_code(std::errc::not_a_directory);
+  if (!error) error = why_locked(above);
+  if (error)
+    throw RunError(fmt::format("{}: cannot write: {}: {}", path.string(), reason_of(error), above.string()));
+}
+
+/// Earlier results of someone else can be moved out of the way, but not always removed.
+void check_removable(const fs::path& path) {
+  const auto check = [&](const fs::path& folder) {
+    if (const auto error = why_locked(folder))
+      refuse_output(path, fmt::format("--force cannot remove the earlier results, as {} belongs to someone "
+                                      "else ({}); choose another folder with --out",
+                                      folder.string(), error.message()));
+  };
+  check(path);
+  for (fs::recursive_directory_iterator entry(path), end; entry != end; ++entry) {
+    if (!entry->is_directory() || entry->is_symlink()) continue;
+    check(entry->path());
+  }
+}
+
+/// `there` is what is at `path`, or will be again.
+void check_free(const fs::path& path, const fs::path& there, bool replace) {
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) return;
-  if (!fs::is_directory(path, ignored)) {
-    throw ConfigError(
-        {{path.string(), 0, 0, "output: exists and is not a folder; choose another one with --out"}});
-  }
-  if (fs::is_empty(path, ignored)) return;
-  if (!replace) {
-    throw ConfigError(
-        {{path.string(), 0, 0,
-          "output: the folder exists and is not empty; choose another one with --out, or replace earlier "
-          "results with --force"}});
-  }
-  if (!is_results_folder(path)) {
-    throw ConfigError({{path.string(), 0, 0,
-                        "output: --force replaces only earlier results, and this folder has no "
-                        "provenance.json; choose another one with --out"}});
-  }
+  if (!fs::exists(there, ignored)) return;
+  if (!fs::is_directory(there, ignored))
+    refuse_output(path, "exists and is not a folder; choose another one with --out");
+  if (fs::is_empty(there, ignored)) return;
+  if (!replace)
+    refuse_output(path,
+                  "the folder exists and is not empty; choose another one with --out, or replace earlier "
+                  "results with --force");
+  if (!is_results_folder(there))
+    refuse_output(path,
+                  "--force replaces only earlier results, and this folder has no provenance.json; choose "
+                  "another one with --out");
+  check_removable(there);
 }
 
 }  // namespace
 
+OutputFolder::Places::Places(const fs::path& given) : path(without_links(given)) {
+  const auto beside = [&](const char* what) {
+    return path.parent_path() / fmt::format(".{}.{}", path.filename().string(), what);
+  };
+  unfinished = beside("unfinished");
+  replaced = beside("replaced");
+  lock = beside("lock");
+}
+
+void OutputFolder::check(const fs::path& path, bool replace, const TakesUp& takes_up) {
+  const Places places(path);
+  check_writable(places.path);
+  std::error_code ignored;
+  // A lock of a run that was killed is free.
+  if (fs::exists(places.lock, ignored)) const FileLock probe(places.lock, places.path);
+  const bool moved = !fs::exists(places.path, ignored) && fs::exists(places.replaced, ignored);
+  const fs::path& there = moved ? places.replaced : places.path;
+  if (!fs::is_directory(there, ignored) || !takes_up(there, true)) check_free(places.path, there, replace);
+}
+
 OutputFolder::OutputFolder(const fs::path& path, bool replace, const TakesUp& takes_up)
-    : path_(fs::absolute(path).lexically_normal()), replace_(replace) {
-  if (!path_.has_filename()) path_ = path_.parent_path();
-  unfinished_ = beside("unfinished");
-  replaced_ = beside("replaced");
-  std::error_code error;
-  fs::create_directories(path_.parent_path(), error);
-  if (error) fail(path_, error.message());
-  lock_.emplace(beside("lock"), path_);
+    : places_(path), replace_(replace) {
+  make_folder(places_.path.parent_path(), {});
+  lock_.emplace(places_.lock, places_.path);
   restore_replaced();
-  if (!fs::exists(unfinished_, error) && fs::is_directory(path_, error) && takes_up(path_)) {
-    fs::rename(path_, unfinished_, error);
-    if (error) fail(path_, error.message());
+  take_up_or_begin(takes_up);
+}
+
+/// What is unfinished is later than results that are not complete.
+void OutputFolder::take_up_or_begin(const TakesUp& takes_up) {
+  std::error_code error;
+  keeps_ = fs::exists(places_.unfinished, error) && takes_up(places_.unfinished, false);
+  const bool goes_on = !keeps_ && fs::is_directory(places_.path, error) && takes_up(places_.path, true);
+  if (!goes_on) check_free(places_.path, places_.path, replace_);
+  if (keeps_) return;
+  fs::remove_all(places_.unfinished, error);
+  if (goes_on) {
+    fs::rename(places_.path, places_.unfinished, error);
+    check(error);
     keeps_ = true;
-    return;
+  } else {
+    make_folder(places_.unfinished, {});
   }
-  check_free(path_, replace);
-  keeps_ = fs::exists(unfinished_, error) && takes_up(unfinished_);
-  if (!keeps_) fs::remove_all(unfinished_, error);
-  fs::create_directories(unfinished_, error);
-  if (error) fail(path_, error.message());
+  note_unsynced(places_.path.parent_path());
 }
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
-  if (!committed_ && !keeps_) fs::remove_all(unfinished_, ignored);
-}
-
-fs::path OutputFolder::beside(const char* what) const {
-  return path_.parent_path() / fmt::format(".{}.{}", path_.filename().string(), what);
+  if (!committed_ && !keeps_) fs::remove_all(places_.unfinished, ignored);
 }
 
 void OutputFolder::append(const fs::path& name, std::string_view content) {
-  const fs::path file = unfinished_ / name;
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (error) fail(path_ / name, error.message());
-  append_to_file(file, content, path_ / name);
+  const fs::path file = places_.unfinished / name;
+  make_folder(file.parent_path(), name);
+  check(append_to_file(file, content), name);
+  note_unsynced(file.parent_path());
+  note_unsynced(file);
 }
 
 void OutputFolder::write(const fs::path& name, std::string_view content) {
-  const fs::path part = name.string() + ".part";
+  const fs::path file = places_.unfinished / name;
+  const fs::path part = file.string() + ".part";
   std::error_code error;
-  fs::remove(unfinished_ / part, error);
-  append(part, content);
-  fs::rename(unfinished_ / part, unfinished_ / name, error);
-  if (error) fail(path_ / name, error.message());
+  fs::remove(part, error);
+  make_folder(file.parent_path(), name);
+  check(append_to_file(part, content), name);
+  // On the disk before it has its name.
+  check(sync_to_disk(part), name);
+  fs::rename(part, file, error);
+  check(error, name);
+  note_unsynced(file.parent_path());
+}
+
+void OutputFolder::sync() {
+  // Held to the end: whoever waits here may have what he has written synced by another thread.
+  const std::lock_guard lock(mutex_);
+  // Backwards: what is in a folder comes before the folder.
+  for (auto path = unsynced_.rbegin(); path != unsynced_.rend(); ++path) check(sync_to_disk(*path));
+  unsynced_.clear();
+}
+
+void OutputFolder::sync_all() {
+  for (const auto& entry : fs::recursive_directory_iterator(places_.unfinished)) note_unsynced(entry.path());
+  note_unsynced(places_.unfinished);
+  sync();
 }
 
 void OutputFolder::commit() {
-  for (const auto& entry : fs::recursive_directory_iterator(unfinished_)) sync_to_disk(entry.path());
-  sync_to_disk(unfinished_);
+  sync_all();
   std::error_code error;
   // The check is repeated, as the run may have taken hours: what others have put there meanwhile is theirs.
-  const bool replaces = replace_ && is_results_folder(path_);
-  if (replaces) fs::rename(path_, replaced_, error);
-  if (!error) fs::rename(unfinished_, path_, error);
+  const bool replaces = replace_ && is_results_folder(places_.path);
+  if (replaces) fs::rename(places_.path, places_.replaced, error);
+  if (!error) fs::rename(places_.unfinished, places_.path, error);
   if (error) {
     restore_replaced();
-    fail(path_, error.message());
+    check(error);
   }
   committed_ = true;
-  if (replaces) fs::remove_all(replaced_, error);
-  sync_to_disk(path_.parent_path());
+  // Before the earlier results go: a power failure must not bring them back half removed.
+  check(sync_to_disk(places_.path.parent_path()));
+  if (replaces) remove_replaced();
   lock_.reset();
 }
 
 /// Earlier results that were moved out of the way come back if nothing has taken their place.
 void OutputFolder::restore_replaced() const {
   std::error_code ignored;
-  if (!fs::exists(replaced_, ignored)) return;
-  if (fs::exists(path_, ignored)) {
-    fs::remove_all(replaced_, ignored);
+  if (!fs::exists(places_.replaced, ignored)) return;
+  if (fs::exists(places_.path, ignored)) {
+    remove_replaced();
   } else {
-    fs::rename(replaced_, path_, ignored);
+    fs::rename(places_.replaced, places_.path, ignored);
   }
+}
+
+void OutputFolder::remove_replaced() const {
+  std::error_code error;
+  fs::remove_all(places_.replaced, error);
+  if (error)
+    throw RunError(
+        fmt::format("{}: cannot remove these earlier results, which others have replaced: {}; "
+                    "remove the folder, then give the same command again",
+                    places_.replaced.string(), error.message()));
+}
+
+void OutputFolder::make_folder(const fs::path& folder, const fs::path& name) {
+  std::vector<fs::path> changed;
+  check(make_folders(folder, changed), name);
+  for (const fs::path& above : changed) note_unsynced(above);
+}
+
+void OutputFolder::note_unsynced(const fs::path& path) {
+  const std::lock_guard lock(mutex_);
+  unsynced_.insert(path);
+}
+
+/// Files have their final place only at the end, so the message names the folder that was asked for, and
+/// where to find what is kept.
+void OutputFolder::check(const std::error_code& error, const fs::path& name) const {
+  if (!error) return;
+  const std::string what = name.empty() ? "" : " " + name.string();
+  const std::string kept = keeps_ ? fmt::format(
+                                        "; finished trials are kept in {}: give the same command "
+                                        "again when the cause is mended",
+                                        places_.unfinished.string())
+                                  : "";
+  throw RunError(
+      fmt::format("{}: cannot write{}: {}{}", places_.path.string(), what, reason_of(error), kept));
 }
 
 }  // namespace glocal

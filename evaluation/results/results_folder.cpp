@@ -259,6 +259,13 @@ bool is_results_folder(const fs::path& folder) {
   return fs::exists(folder / mark_of_results, unreachable);
 }
 
+std::optional<bool> is_complete(const fs::path& folder) {
+  const Json summary = Json::parse(content_of(folder / "summary.json"), nullptr, false);
+  const auto complete = summary.is_object() ? summary.find("complete") : summary.end();
+  if (complete == summary.end() || !complete->is_boolean()) return std::nullopt;
+  return complete->get<bool>();
+}
+
 std::map<std::string, Setting> read_settings(const fs::path& folder,
                                              const std::map<std::string, std::string>& hashes) {
   const fs::path file = folder / "effective.yaml";

@@ -20,6 +20,10 @@ namespace glocal {
 /// Whether glocal run has left this folder, complete or interrupted: whether it has a provenance.json.
 [[nodiscard]] bool is_results_folder(const std::filesystem::path& folder);
 
+/// What summary.json says of the run: false if it was interrupted. None if there is no such file, or a
+/// damaged one.
+[[nodiscard]] std::optional<bool> is_complete(const std::filesystem::path& folder);
+
 /// Where on a drive a trial starts: the same in all runs over the same observations.
 struct TrialStart {
   std::int64_t sample = 0;

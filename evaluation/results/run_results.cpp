@@ -3,15 +3,27 @@
 #include <fmt/format.h>
 
 #include "evaluation/results/pcd.hpp"
+#include "evaluation/results/valid_text.hpp"
 #include "evaluation/results/writers.hpp"
+#include "glocal/error.hpp"
 
 namespace glocal {
 
-RunResults::RunResults(OutputFolder& folder, const OutputConfig& config, std::size_t trials)
+RunResults::RunResults(OutputFolder& folder, const OutputConfig& config, std::size_t trials,
+                       const std::function<void(const std::string&)>& warn)
     : folder_(folder), config_(config), trials_(trials) {
-  for (std::size_t trial = 0; trial < trials; ++trial) {
-    if (!read_entry(folder.unfinished(), trial)) to_run_.push_back(trial);
+  for (std::size_t trial = 0; trial < trials; ++trial) take_up(trial, warn);
+}
+
+void RunResults::take_up(std::size_t trial, const std::function<void(const std::string&)>& warn) {
+  try {
+    if (read_entry(folder_.unfinished(), trial)) return;
+  } catch (const RunError& damage) {
+    warn(fmt::format("{}; trial {} runs again", damage.what(), trial));
+    std::error_code ignored;
+    std::filesystem::remove(folder_.unfinished() / entry_name(trial), ignored);
   }
+  to_run_.push_back(trial);
 }
 
 void RunResults::step(std::size_t trial, const StepRecord& record, const Scan& scan,
@@ -23,7 +35,7 @@ void RunResults::step(std::size_t trial, const StepRecord& record, const Scan& s
   MapFiles files = {{name("step", "pcd"), pcd(localizer.local_map().points)},
                     {name("scan", "pcd"), pcd(scan.hits)}};
   for (MapFile& file : localizer.local_map_files())
-    files.emplace_back(name("step", file.extension), std::move(file.content));
+    files.emplace_back(name("step", valid_utf8(file.extension)), std::move(file.content));
   const std::lock_guard lock(mutex_);
   for (auto& file : files) maps_[trial].push_back(std::move(file));
 }
@@ -32,7 +44,7 @@ void RunResults::finish(const TrialRecord& trial) {
   JournalEntry entry{trial.trial, figures_of(trial), trial_line(trial), ""};
   const auto write = [&](const std::string& name, const std::string& content) {
     folder_.write(name, content);
-    entry.files[name] = content.size();
+    entry.files[name] = checksum(content);
   };
   if (config_.steps) {
     for (const StepRecord& record : trial.records)

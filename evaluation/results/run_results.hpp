@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -20,14 +21,16 @@ namespace glocal {
 /// that are in the folder's journal count as finished.
 class RunResults {
  public:
-  RunResults(OutputFolder& folder, const OutputConfig& config, std::size_t trials);
+  /// Drops what is damaged in the journal, and hands `warn` a sentence on it.
+  RunResults(OutputFolder& folder, const OutputConfig& config, std::size_t trials,
+             const std::function<void(const std::string&)>& warn);
 
   /// Numbers of the trials that are still to be run, ascending.
   [[nodiscard]] const std::vector<std::size_t>& to_run() const { return to_run_; }
 
   /// To be called after each step of a trial, with what the robot has seen in it.
   void step(std::size_t trial, const StepRecord& record, const Scan& scan, const Localizer& localizer);
-  /// Writes what the trial leaves; it need not be run again from here on.
+  /// Writes what the trial leaves; it need not be run again from here on, whatever happens.
   void finish(const TrialRecord& trial);
 
   /// Writes trials.jsonl and steps.jsonl, and sums up the trials that are finished.
@@ -36,6 +39,7 @@ class RunResults {
  private:
   using MapFiles = std::vector<std::pair<std::string, std::string>>;  ///< Names and contents.
 
+  void take_up(std::size_t trial, const std::function<void(const std::string&)>& warn);
   [[nodiscard]] bool keeps_map(std::size_t trial) const;
   MapFiles take_maps(std::size_t trial);
 

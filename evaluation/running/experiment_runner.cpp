@@ -8,6 +8,7 @@
 
 #include "config/nearest.hpp"
 #include "evaluation/results/fault_collector.hpp"
+#include "evaluation/results/file_io.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/results/run_results.hpp"
@@ -26,6 +27,14 @@ std::vector<std::string> names_of(const std::vector<Variant>& variants) {
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether an earlier run has left something to go on with. A folder in its place is one of a finished run,
+/// unless it says otherwise.
+bool is_unfinished(const std::filesystem::path& folder, bool is_final) {
+  if (std::filesystem::exists(folder / journal_folder)) return true;
+  const std::optional<bool> complete = is_complete(folder);
+  return is_final ? complete == false : complete.has_value();
 }
 
 double ms_since(std::chrono::steady_clock::time_point start) {
@@ -50,6 +59,7 @@ RunResult ExperimentRunner::run() {
   const std::vector<std::string> names = names_of(variants_);
   const bool has_variants = !names.front().empty();
   if (has_variants) take_finished();
+  check_outputs();
   note_trials();
   std::size_t trials = 0;
   for (const std::size_t n : count_trials(variants_, loader_, catalog_)) trials += n;
@@ -102,7 +112,7 @@ void ExperimentRunner::take_finished() {
                               "with --out, or replace earlier results with --force",
                               *why)});
     }
-    if (why || std::filesystem::exists(folder / journal_folder)) return false;
+    if (why || is_unfinished(folder, true)) return false;
     FaultCollector damage;
     const bool is_whole = damage.collect([&] { add_result(variant.name, read_results(folder).summary); });
     if (!is_whole && !options_.force) faults.collect([&] { damage.report(); });
@@ -110,6 +120,20 @@ void ExperimentRunner::take_finished() {
     callbacks_.note(fmt::format("{}: kept, as an earlier run has finished it", variant.name));
     return true;
   });
+  faults.report();
+}
+
+/// What is wrong with the folders is said before anything is computed.
+void ExperimentRunner::check_outputs() {
+  FaultCollector faults;
+  for (Variant& variant : variants_) {
+    faults.collect([&] {
+      OutputFolder::check(
+          folder_of(variant.name), options_.force, [&](const std::filesystem::path& earlier, bool is_final) {
+            return is_unfinished(earlier, is_final) && !why_other(earlier, variant.experiment);
+          });
+    });
+  }
   faults.report();
 }
 
@@ -154,28 +178,25 @@ void ExperimentRunner::run_one(Variant& variant) {
 
   // Nothing is written before everything is known to be in order.
   std::optional<std::string> declined;
-  OutputFolder folder(folder_of(variant.name), options_.force, [&](const std::filesystem::path& earlier) {
-    if (!std::filesystem::exists(earlier / journal_folder)) return false;
+  const auto takes_up = [&](const std::filesystem::path& earlier, bool is_final) {
+    if (!is_unfinished(earlier, is_final)) return false;
     declined = why_other(earlier, experiment);
     return !declined;
-  });
+  };
+  OutputFolder folder(folder_of(variant.name), options_.force, takes_up);
   if (declined)
     callbacks_.warn(
         fmt::format("{}: starts afresh: what an earlier run has left unfinished is dropped, as {}",
                     folder.path().string(), *declined));
-  RunResults results(folder, experiment.output, loaded.starts.size());
+  if (is_complete(folder.unfinished()) == true) {
+    begin(variant, folder, loaded, loaded.starts.size());
+    put_in_place(folder, variant.name, Json::parse(content_of(folder.unfinished() / "summary.json")));
+    return;
+  }
+  RunResults results(folder, experiment.output, loaded.starts.size(), callbacks_.warn);
   const std::size_t trials = loaded.starts.size();
-  const std::size_t before = trials - results.to_run().size();
-  if (before > 0)
-    callbacks_.note(fmt::format("{}: goes on where an earlier run has stopped: {} of {} trials are finished",
-                                folder.path().string(), before, trials));
-  folder.write("effective.yaml", effective_yaml(experiment, catalog_, *loaded.map));
-  Json origin = provenance(catalog_, experiment.threads, loaded.inputs, hashes_);
-  origin["jobs"] = options_.jobs;
-  folder.write("provenance.json", origin.dump(2) + "\n");
-  if (experiment.output.maps != "none") folder.write("maps/global.pcd", pcd(loaded.map->points()));
-  callbacks_.begin({variant.name, folder.path(), experiment, loaded,
-                    read_settings(folder.unfinished(), origin["inputs_sha256"]), before});
+  write_origin(folder, experiment, loaded);
+  begin(variant, folder, loaded, trials - results.to_run().size());
 
   while (localizers.size() <
          std::min(static_cast<std::size_t>(std::max(options_.jobs, 1)), results.to_run().size()))
@@ -195,14 +216,43 @@ void ExperimentRunner::run_one(Variant& variant) {
   const Json summary =
       results.put_together().to_json({experiment.name, experiment.seed, complete, loaded.map->points().size(),
                                       loaded.map_build_ms, map_index_ms, localizers.front().map_index()});
+  // The summary comes last: a later run takes its word that all is there.
+  folder.sync_all();
   folder.write("summary.json", summary.dump(2) + "\n");
-  folder.commit();
-  // Only now: a run that is killed before goes on with it.
-  if (complete) std::filesystem::remove_all(folder.path() / journal_folder);
-  add_result(variant.name, summary);
+  put_in_place(folder, variant.name, summary);
   if (!complete)
     callbacks_.warn(
         fmt::format("interrupted: {} of {} trials were finished and kept", results_.back().trials, trials));
+}
+
+/// What tells which run this is.
+void ExperimentRunner::write_origin(OutputFolder& folder, Experiment& experiment,
+                                    const LoadedExperiment& loaded) {
+  folder.write("effective.yaml", effective_yaml(experiment, catalog_, *loaded.map));
+  Json origin = provenance(catalog_, experiment.threads, loaded.inputs, hashes_);
+  origin["jobs"] = options_.jobs;
+  // Names of files need not be UTF-8.
+  folder.write("provenance.json", origin.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (experiment.output.maps != "none") folder.write("maps/global.pcd", pcd(loaded.map->points()));
+}
+
+void ExperimentRunner::begin(const Variant& variant, const OutputFolder& folder,
+                             const LoadedExperiment& loaded, std::size_t finished) {
+  if (finished > 0)
+    callbacks_.note(fmt::format("{}: goes on where an earlier run has stopped: {} of {} trials are finished",
+                                folder.path().string(), finished, loaded.starts.size()));
+  std::map<std::string, std::string> inputs;
+  for (const std::filesystem::path& input : loaded.inputs) inputs[input.string()] = hashes_.of(input);
+  callbacks_.begin({variant.name, folder.path(), variant.experiment, loaded,
+                    read_settings(folder.unfinished(), inputs), finished});
+}
+
+void ExperimentRunner::put_in_place(OutputFolder& folder, const std::string& variant, const Json& summary) {
+  // Synced first: without its journal the folder is known by its summary alone.
+  folder.sync();
+  if (summary.at("complete")) std::filesystem::remove_all(folder.unfinished() / journal_folder);
+  folder.commit();
+  add_result(variant, summary);
 }
 
 }  // namespace glocal

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/running/experiment_loader.hpp"
@@ -47,8 +48,13 @@ class ExperimentRunner {
  private:
   void select();
   void take_finished();
+  void check_outputs();
   void note_trials() const;
   void run_one(Variant& variant);
+  void write_origin(OutputFolder& folder, Experiment& experiment, const LoadedExperiment& loaded);
+  void begin(const Variant& variant, const OutputFolder& folder, const LoadedExperiment& loaded,
+             std::size_t finished);
+  void put_in_place(OutputFolder& folder, const std::string& variant, const nlohmann::ordered_json& summary);
   [[nodiscard]] std::optional<std::string> why_other(const std::filesystem::path& folder,
                                                      Experiment& experiment);
   void add_result(const std::string& name, const nlohmann::ordered_json& summary);

@@ -59,7 +59,7 @@ class RunAgain : public Room {
   void expect_steps_of(const std::map<std::string, std::string>& journal, const std::string& results) const {
     const std::string steps = content(file(results + "/steps.jsonl"));
     for (const auto& [name, text] : journal) {
-      const std::string of_trial = Json::parse(text)["step_lines"];
+      const std::string of_trial = Json::parse(text.substr(text.find(' ')))["step_lines"];
       EXPECT_FALSE(of_trial.empty());
       EXPECT_NE(steps.find(of_trial), std::string::npos) << name;
     }
@@ -112,7 +112,8 @@ TEST_F(RunAgain, ADamagedEntryIsRunAgain) {
   fs::resize_file(file(".a.unfinished/trajectories/trial_0001_estimate.tum"), 0);
   const Answer answer = run_room("a", "");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  EXPECT_THAT(answer.err, HasSubstr("stopped: " + std::to_string(before.size() - 2) + " of "));
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("stopped: " + std::to_string(before.size() - 2) + " of "),
+                                HasSubstr("warning: " + first + ":1: the entry is damaged")));
   ASSERT_EQ(run_room("whole").exit_code, 0);
   expect_same_results("whole", "a");
 }
@@ -127,6 +128,52 @@ TEST_F(RunAgain, AnInterruptedRunIsGoneOnWith) {
   ASSERT_EQ(run_room("whole").exit_code, 0);
   expect_same_results("whole", "a");
   EXPECT_EQ(run_room("a").exit_code, 2) << "what is complete is not run again";
+}
+
+/// One trial, long enough for the interrupt to come before its end.
+class RunInterruptedAtOnce : public RunAgain {
+ protected:
+  /// `first` is the folder that the run begins with.
+  void expect_to_go_on(const std::string& first, const std::vector<std::string>& options) const {
+    const std::string out = first.substr(0, first.find('/'));
+    const fs::path parent = fs::path(file(first)).parent_path();
+    const fs::path begun =
+        parent / ("." + fs::path(first).filename().string() + ".unfinished/provenance.json");
+    std::string words = "--quiet";
+    for (const std::string& option : options) words += " " + option;
+    ASSERT_EQ(run_room("whole", words).exit_code, 0);
+    for (const std::string force : {"", " --force"}) {
+      kill_run(
+          out, SIGINT, [&] { return fs::exists(begun); }, options);
+      ASSERT_EQ(json(first + "/summary.json")["complete"], false);
+      ASSERT_EQ(json(first + "/summary.json")["trials"]["count"], 0);
+      const Answer answer = run_room(out, words + force);
+      ASSERT_EQ(answer.exit_code, 0) << answer.err;
+      expect_same_results("whole" + first.substr(out.size()), first);
+      fs::remove_all(file(out));
+    }
+  }
+};
+
+TEST_F(RunInterruptedAtOnce, IsGoneOnWith) {
+  write_experiment("trials: {every_m: 100, max_steps: 3}\n");
+  expect_to_go_on("a", {"--set", "localizer.matcher.ransam.iterations=1000000"});
+}
+
+TEST_F(RunInterruptedAtOnce, IsGoneOnWithInVariants) {
+  write_experiment("trials: {every_m: 100, max_steps: 3}\n",
+                   "variants: {grid: {localizer.matcher.ransam.iterations: [1000000, 10000]}}\n");
+  expect_to_go_on("a/iterations-1000000", {});
+}
+
+TEST_F(RunAgain, AKillBetweenTheSummaryAndTheEndLosesNothing) {
+  ASSERT_EQ(run_room("a").exit_code, 0);
+  const std::string steps = content(file("a/steps.jsonl"));
+  fs::rename(file("a"), file(".a.unfinished"));
+  const Answer answer = run_room("a", "");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(content(file("a/steps.jsonl")), steps) << "no step was run again";
+  EXPECT_FALSE(fs::exists(file(".a.unfinished")));
 }
 
 TEST_F(RunAgain, AnotherRunStartsAfreshAndSaysWhy) {

@@ -14,6 +14,7 @@
 namespace glocal::test::run_test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using RunCommand = Room;
 
@@ -113,6 +114,33 @@ TEST_F(RunCommand, ABadConfigurationLeavesNoFolder) {
   }
 }
 
+TEST_F(RunCommand, SaysWhatIsWrongWithTheFolderBeforeAnythingIsComputed) {
+  ASSERT_EQ(run_room("a").exit_code, 0);
+  fs::create_directory_symlink("there", file("here"));
+  fs::create_directory_symlink("here", file("there"));
+  // What the drive is too short for shows only when it is there.
+  const std::string too_long = "--quiet --set trials.min_steps=100000";
+  EXPECT_THAT(run_room("a", too_long).err, HasSubstr("the folder exists and is not empty"));
+  EXPECT_THAT(run_room("here", too_long).err, HasSubstr("leads in a circle"));
+  EXPECT_THAT(run_room("world.yaml/a", too_long).err, HasSubstr("cannot write: Not a directory"));
+}
+
+TEST_F(RunCommand, WritesWhatALinkLeadsTo) {
+  fs::create_directory_symlink("missing", file("link"));
+  for (const std::string seed : {"1", "2"}) {
+    const Answer answer = run_room("link", "--quiet --force --seed " + seed);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_TRUE(fs::is_symlink(file("link")));
+    EXPECT_EQ(json("missing/summary.json")["seed"], std::stoi(seed));
+  }
+  write_experiment("trials: {every_scan: 6, max_steps: 2}\n",
+                   "variants: {list: {a: {seed: 3}, b: {seed: 4}}}\n");
+  fs::create_directory_symlink("others", file("variants"));
+  const Answer answer = run_room("variants");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(json("others/b/summary.json")["seed"], 4);
+}
+
 TEST_F(RunCommand, FailsWhereItCannotWrite) {
   const Answer answer = run_room("world.yaml/results");
   EXPECT_EQ(answer.exit_code, 1);
@@ -120,11 +148,12 @@ TEST_F(RunCommand, FailsWhereItCannotWrite) {
 }
 
 TEST_F(RunCommand, AFullDiskLeavesNothing) {
-  const std::string limited = "-c 'trap \"\" XFSZ; ulimit -f 4; exec " GLOCAL_PROGRAM " run " +
-                              file("room.yaml") + " --quiet --out " + file("a") + "' 2>" + file("why");
+  const std::string limited = "-c 'ulimit -f 4; exec " GLOCAL_PROGRAM " run " + file("room.yaml") +
+                              " --quiet --out " + file("a") + "' 2>" + file("why");
   const int status = std::system(("bash " + limited).c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
-  EXPECT_THAT(content(file("why")), HasSubstr("cannot write: File too large"));
+  EXPECT_THAT(content(file("why")),
+              AllOf(HasSubstr(file("a") + ": cannot write "), HasSubstr(": File too large (for the limit")));
   for (const auto& entry : fs::directory_iterator(folder_.path())) {
     EXPECT_TRUE(entry.is_regular_file()) << entry.path();
   }

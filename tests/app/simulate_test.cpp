@@ -64,6 +64,15 @@ TEST_F(SimulateCommand, RefusesARecordedDriveAndAFullFolder) {
   EXPECT_EQ(full.exit_code, 2);
   EXPECT_THAT(full.err, HasSubstr("the folder exists and is not empty"));
   EXPECT_EQ(run("simulate " + file("experiment.yaml") + " --force --out " + file("a")).exit_code, 0);
+  const Answer both = run("simulate " + file("a/experiment.yaml") + " --out " + file("a"));
+  EXPECT_THAT(both.err, HasSubstr("the folder exists and is not empty")) << "before the drive is looked at";
+}
+
+TEST_F(SimulateCommand, WritesWhatALinkLeadsTo) {
+  std::filesystem::create_directory_symlink("missing", file("link"));
+  const Answer answer = run("simulate " + file("experiment.yaml") + " --out " + file("link"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_NE(content(file("missing/drive.log")), "");
 }
 
 }  // namespace

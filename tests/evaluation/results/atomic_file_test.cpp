@@ -78,12 +78,22 @@ TEST(AtomicFiles, SayWhyTheyCannotBeWritten) {
 
 TEST(AppendToFile, FailsOnAFullDisk) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
-  try {
-    append_to_file("/dev/full", "x", "results/steps.jsonl");
-    FAIL() << "nothing fits on this device";
-  } catch (const RunError& error) {
-    EXPECT_STREQ(error.what(), "results/steps.jsonl: cannot write: No space left on device");
-  }
+  EXPECT_EQ(append_to_file("/dev/full", "x"), std::errc::no_space_on_device);
+}
+
+TEST(WithoutLinks, FollowsThemToWhereNothingIsYet) {
+  const test::TemporaryFolder folder;
+  const fs::path real = fs::canonical(folder.path());
+  fs::create_directories(real / "a/b");
+  fs::create_directory_symlink(real / "a/b", real / "absolute");
+  fs::create_directory_symlink("absolute/../c/d", real / "dangling");
+  EXPECT_EQ(without_links(real / "absolute/x/./"), real / "a/b/x");
+  EXPECT_EQ(without_links(real / "absolute/../x"), real / "a/x");
+  EXPECT_EQ(without_links(real / "dangling/x"), real / "a/c/d/x");
+  fs::create_directory_symlink("there", real / "here");
+  fs::create_directory_symlink("here", real / "there");
+  EXPECT_EQ(test::config_error(real, [&] { static_cast<void>(without_links(real / "here/x")); }),
+            "here: error: is a symbolic link that leads in a circle; name a folder");
 }
 
 }  // namespace

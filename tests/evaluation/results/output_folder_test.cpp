@@ -1,10 +1,12 @@
 #include "evaluation/results/output_folder.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <iterator>
+#include <utility>
 
 #include "files.hpp"
 #include "glocal/error.hpp"
@@ -13,6 +15,8 @@ namespace glocal::test::output_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
 
 std::string content(const fs::path& file) {
   std::ifstream in(file);
@@ -163,7 +167,7 @@ TEST(OutputFolder, TakesUpWhatWasLeftUnfinished) {
   EXPECT_EQ(content(folder / ".results.unfinished/a"), "1");
   EXPECT_EQ(entries(folder / ""), 1) << "the lock goes with its owner";
   {
-    OutputFolder out(folder / "results", false, [](const fs::path&) { return true; });
+    OutputFolder out(folder / "results", false, [](const fs::path&, bool) { return true; });
     out.write("b", "2");
     out.write("b", "3");
     out.commit();
@@ -186,7 +190,7 @@ TEST(OutputFolder, TakesUpResultsThatAreNotComplete) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "results");
   folder.write("results/a", "1");
-  OutputFolder out(folder / "results", false, [](const fs::path&) { return true; });
+  OutputFolder out(folder / "results", false, [](const fs::path&, bool) { return true; });
   EXPECT_FALSE(fs::exists(folder / "results"));
   out.commit();
   EXPECT_EQ(content(folder / "results/a"), "1");
@@ -215,9 +219,126 @@ TEST(OutputFolder, AFullDiskLeavesNothing) {
     out.append("provenance.json", "small");
     const FileSizeLimit full(1000);
     EXPECT_EQ(run_error([&] { out.append("steps.jsonl", std::string(5000, 'x')); }),
-              (folder / "results/steps.jsonl").string() + ": cannot write: File too large");
+              (folder / "results").string() +
+                  ": cannot write steps.jsonl: File too large (for the limit that the shell or the system "
+                  "sets: ulimit -f)");
   }
   EXPECT_EQ(entries(folder / ""), 0);
+}
+
+TEST(OutputFolder, AFullDiskTellsWhereFinishedWorkIs) {
+  const TemporaryFolder folder;
+  OutputFolder out(folder / "results", false);
+  out.keep_unfinished();
+  const FileSizeLimit full(1000);
+  EXPECT_THAT(run_error([&] { out.write("maps/a.pcd", std::string(5000, 'x')); }),
+              AllOf(HasSubstr("/results: cannot write maps/a.pcd: "),
+                    HasSubstr("; finished trials are kept in " + out.unfinished().string() +
+                              ": give the same command again")));
+}
+
+TEST(OutputFolder, ALinkStaysAndWhatItLeadsToIsWritten) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "empty");
+  fs::create_directory_symlink("empty", folder / "link");
+  fs::create_directory_symlink("far/missing", folder / "dangling");
+  for (const auto& [link, real] : {std::pair{"link", "empty"}, std::pair{"dangling", "far/missing"}}) {
+    for (const std::string text : {"first", "second"}) {
+      OutputFolder::check(folder / link, true);
+      OutputFolder out(folder / link, true);
+      out.append("provenance.json", text);
+      out.commit();
+      EXPECT_EQ(content(folder / real / "provenance.json"), text);
+      EXPECT_TRUE(fs::is_symlink(folder / link));
+    }
+  }
+  EXPECT_EQ(entries(folder / ""), 4);
+  EXPECT_EQ(entries(folder / "far"), 1);
+}
+
+TEST(OutputFolder, IsCheckedWithoutBeingTouched) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a.txt", "mine");
+  const fs::path parent = file.parent_path();
+  EXPECT_EQ(run_error([&] { OutputFolder::check(file / "results", false); }),
+            (file / "results").string() + ": cannot write: Not a directory: " + file.string());
+  EXPECT_THAT(config_error(parent, [&] { OutputFolder::check(file, true); }), HasSubstr("is not a folder"));
+  EXPECT_THAT(config_error(parent, [&] { OutputFolder::check(parent, true); }),
+              HasSubstr("has no provenance.json"));
+  OutputFolder::check(folder / "new/results", false);
+  EXPECT_FALSE(fs::exists(folder / "new"));
+  {
+    const OutputFolder other(folder / "results", false);
+    EXPECT_THAT(config_error(parent, [&] { OutputFolder::check(folder / "results", false); }),
+                HasSubstr("another run is writing this folder"));
+  }
+  EXPECT_EQ(entries(parent), 1);
+}
+
+TEST(OutputFolder, WhatIsUnfinishedGoesOnBeforeWhatWasInterrupted) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "results");
+  folder.write("results/a", "interrupted");
+  fs::create_directory(folder / ".results.unfinished");
+  folder.write(".results.unfinished/a", "of another run");
+  OutputFolder out(folder / "results", true, [](const fs::path&, bool is_final) { return is_final; });
+  EXPECT_EQ(content(out.unfinished() / "a"), "interrupted");
+}
+
+/// Another user than root, who may do everything.
+class SomeUser {
+ public:
+  SomeUser() {
+    if (before_ == 0) static_cast<void>(seteuid(65534));
+  }
+  ~SomeUser() { static_cast<void>(seteuid(before_)); }
+  SomeUser(const SomeUser&) = delete;
+  SomeUser& operator=(const SomeUser&) = delete;
+
+ private:
+  uid_t before_ = geteuid();
+};
+
+class LockedResults : public testing::Test {
+ protected:
+  LockedResults() {
+    fs::create_directories(folder_ / "results/maps");
+    folder_.write("results/provenance.json", "{}");
+    folder_.write("results/maps/a.pcd", "points");
+    for (const char* name : {"", "results"}) fs::permissions(folder_ / name, fs::perms::all);
+    lock_maps();
+  }
+  ~LockedResults() override { fs::permissions(folder_ / "results/maps", fs::perms::all); }
+
+  void lock_maps() const { fs::permissions(folder_ / "results/maps", fs::perms(0555)); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LockedResults, OfSomeoneElseAreRefusedBeforeTheRun) {
+  const SomeUser user;
+  EXPECT_EQ(config_error(folder_.path(), [&] { OutputFolder::check(folder_ / "results", true); }),
+            "results: error: output: --force cannot remove the earlier results, as results/maps belongs to "
+            "someone else (Permission denied); choose another folder with --out");
+}
+
+TEST_F(LockedResults, ThatCannotBeRemovedAreNotLeftInSilence) {
+  fs::permissions(folder_ / "results/maps", fs::perms::all);
+  const SomeUser user;
+  OutputFolder out(folder_ / "results", true);
+  out.append("provenance.json", "new");
+  {
+    if (getuid() == 0) static_cast<void>(seteuid(0));
+    lock_maps();
+    if (getuid() == 0) static_cast<void>(seteuid(65534));
+  }
+  EXPECT_THAT(run_error([&] { out.commit(); }),
+              AllOf(HasSubstr((folder_ / ".results.replaced").string() + ": cannot remove"),
+                    HasSubstr("remove the folder, then give the same command again")));
+  EXPECT_EQ(content(folder_ / "results/provenance.json"), "new");
+  if (getuid() == 0) static_cast<void>(seteuid(0));
+  fs::permissions(folder_ / ".results.replaced/maps", fs::perms::all);
+  fs::create_directory(folder_ / "results/maps");
 }
 
 }  // namespace

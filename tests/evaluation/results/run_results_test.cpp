@@ -1,10 +1,12 @@
 // The journal of a run, and what is put together from it.
 #include "evaluation/results/run_results.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -17,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
 
 std::string content(const fs::path& file) {
   std::ostringstream text;
@@ -44,7 +48,7 @@ class RunResultsTest : public testing::Test {
   /// Runs these trials of four, and leaves the folder as a killed run would.
   void leave_unfinished(const std::vector<std::size_t>& trials) {
     OutputFolder folder(path(), false);
-    RunResults results(folder, config_, 4);
+    RunResults results(folder, config_, 4, warn_);
     for (const std::size_t trial : trials) results.finish(trial_record(trial));
   }
 
@@ -53,22 +57,26 @@ class RunResultsTest : public testing::Test {
     return folder_ / (".results.unfinished/" + name);
   }
 
-  static bool take_up(const fs::path& /*folder*/) { return true; }
+  static bool take_up(const fs::path& /*folder*/, bool /*is_final*/) { return true; }
 
   std::vector<std::size_t> to_run() {
     OutputFolder folder(path(), false, take_up);
     folder.keep_unfinished();
-    return RunResults(folder, config_, 4).to_run();
+    return RunResults(folder, config_, 4, warn_).to_run();
   }
 
   TemporaryFolder folder_;
   OutputConfig config_;
+  std::vector<std::string> warnings_;
+  std::function<void(const std::string&)> warn_ = [this](const std::string& text) {
+    warnings_.push_back(text);
+  };
 };
 
 TEST_F(RunResultsTest, FilesAreInTheOrderOfTrialsWhoeverWroteThem) {
   leave_unfinished({3, 1});
   OutputFolder folder(path(), false, take_up);
-  RunResults results(folder, config_, 4);
+  RunResults results(folder, config_, 4, warn_);
   EXPECT_THAT(results.to_run(), ElementsAre(0, 2));
   results.finish(trial_record(2));
   results.finish(trial_record(0));
@@ -99,23 +107,51 @@ TEST_F(RunResultsTest, AreWholeWithoutStepLinesToo) {
   config_.steps = false;
   leave_unfinished({0, 1, 2, 3});
   OutputFolder folder(path(), false, take_up);
-  const auto json = RunResults(folder, config_, 4).put_together().to_json({"a", 1, true, 1, 1.0, 1.0});
+  const auto json = RunResults(folder, config_, 4, warn_).put_together().to_json({"a", 1, true, 1, 1.0, 1.0});
   EXPECT_EQ(json["trials"]["right"], 4);
   EXPECT_EQ(json["stage_ms"]["local_map"]["max"], 1.0);
   EXPECT_FALSE(fs::exists(unfinished("steps.jsonl")));
 }
 
-TEST_F(RunResultsTest, WhatIsDamagedIsRunAgain) {
+TEST_F(RunResultsTest, WhatIsDamagedIsRunAgainWithAWarning) {
   leave_unfinished({0, 1, 2, 3});
   EXPECT_THAT(to_run(), ElementsAre());
-  fs::resize_file(unfinished("journal/trial_0000.json"), 100);
-  std::ofstream(unfinished("journal/trial_0001.json")) << "{\"trial\": 1}";
-  fs::remove(unfinished("trajectories/trial_0002_estimate.tum"));
-  EXPECT_THAT(to_run(), ElementsAre(0, 1, 2));
+  EXPECT_THAT(warnings_, IsEmpty());
   // The entry of one trial under the name of another.
   fs::copy_file(unfinished("journal/trial_0003.json"), unfinished("journal/trial_0000.json"),
                 fs::copy_options::overwrite_existing);
-  EXPECT_THAT(to_run(), ElementsAre(0, 1, 2));
+  fs::resize_file(unfinished("journal/trial_0001.json"), 100);
+  fs::remove(unfinished("trajectories/trial_0002_estimate.tum"));
+  std::ofstream(unfinished("trajectories/trial_0003_estimate.tum"), std::ios::app) << "1 2 3\n";
+  EXPECT_THAT(to_run(), ElementsAre(0, 1, 2, 3));
+  const auto warning = [&](int trial, const std::string& what) {
+    return fmt::format("{}:1: {}; trial {} runs again",
+                       unfinished(fmt::format("journal/trial_000{}.json", trial)).string(), what, trial);
+  };
+  EXPECT_THAT(
+      warnings_,
+      ElementsAre(warning(0, "the entry is of trial 3"),
+                  warning(1, "the entry is damaged: its checksum is another one"),
+                  warning(2, "the trial's trajectories/trial_0002_estimate.tum is missing"),
+                  warning(3,
+                          "the trial's trajectories/trial_0003_estimate.tum is damaged: its checksum is "
+                          "another one")));
+}
+
+TEST_F(RunResultsTest, AnEditedEntryIsRunAgain) {
+  leave_unfinished({0, 1, 2, 3});
+  const fs::path file = unfinished("journal/trial_0001.json");
+  std::string text = content(file);
+  const std::size_t right = text.find("\"right\"");
+  ASSERT_NE(right, std::string::npos);
+  std::ofstream(file) << text.replace(right, 7, "\"wrong\"");
+  EXPECT_THAT(to_run(), ElementsAre(1));
+  EXPECT_THAT(warnings_, SizeIs(1));
+}
+
+TEST(Checksum, IsTheOneOfGzip) {
+  EXPECT_EQ(checksum("123456789"), "cbf43926");
+  EXPECT_EQ(checksum(""), "00000000");
 }
 
 }  // namespace
