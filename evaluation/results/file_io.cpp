@@ -84,6 +84,11 @@ std::error_code sync_to_disk(const fs::path& path) {
   return file.get() < 0 || ::fsync(file.get()) != 0 ? last_error() : std::error_code();
 }
 
+std::error_code sync_file_system(const fs::path& folder) {
+  const Descriptor file(folder, O_RDONLY);
+  return file.get() < 0 || ::syncfs(file.get()) != 0 ? last_error() : std::error_code();
+}
+
 std::string reason_of(const std::error_code& error) {
   const bool limited = error == std::errc::file_too_large;
   return error.message() + (limited ? " (for the limit that the shell or the system sets: ulimit -f)" : "");

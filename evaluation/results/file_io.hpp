@@ -22,6 +22,9 @@ namespace glocal {
 /// Waits until a file or folder is on the disk: of a file what is in it, of a folder the names in it.
 [[nodiscard]] std::error_code sync_to_disk(const std::filesystem::path& path);
 
+/// Waits until all is on the disk that was written to the file system of this folder, by any program.
+[[nodiscard]] std::error_code sync_file_system(const std::filesystem::path& folder);
+
 /// Why a file could not be written, for a message.
 [[nodiscard]] std::string reason_of(const std::error_code& error);
 

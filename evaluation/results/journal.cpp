@@ -93,9 +93,7 @@ void write_entry(OutputFolder& folder, const JournalEntry& entry) {
                      {"step_lines", entry.step_lines},
                      {"files", entry.files}};
   const std::string text = json.dump() + "\n";
-  folder.sync();
-  folder.write(entry_name(entry.trial), checksum(text) + " " + text);
-  folder.sync();
+  folder.write_for_good(entry_name(entry.trial), checksum(text) + " " + text);
 }
 
 std::optional<JournalEntry> read_entry(const std::filesystem::path& folder, std::size_t trial) {

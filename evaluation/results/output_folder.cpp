@@ -102,22 +102,21 @@ OutputFolder::OutputFolder(const fs::path& path, bool replace, const TakesUp& ta
   take_up_or_begin(takes_up);
 }
 
-/// What is unfinished is later than results that are not complete.
+/// What is unfinished is later than results that are not complete. What an earlier process has left may not
+/// be on the disk yet.
 void OutputFolder::take_up_or_begin(const TakesUp& takes_up) {
   std::error_code error;
   keeps_ = fs::exists(places_.unfinished, error) && takes_up(places_.unfinished, false);
   const bool goes_on = !keeps_ && fs::is_directory(places_.path, error) && takes_up(places_.path, true);
   if (!goes_on) check_free(places_.path, places_.path, replace_);
-  if (keeps_) return;
-  fs::remove_all(places_.unfinished, error);
-  if (goes_on) {
-    fs::rename(places_.path, places_.unfinished, error);
-    check(error);
-    keeps_ = true;
-  } else {
-    make_folder(places_.unfinished, {});
-  }
+  if (!keeps_) fs::remove_all(places_.unfinished, error);
+  if (goes_on) fs::rename(places_.path, places_.unfinished, error);
+  check(error);
+  keeps_ = keeps_ || goes_on;
+  make_folder(places_.unfinished, {});
   note_unsynced(places_.path.parent_path());
+  note_unsynced(places_.unfinished);
+  for (const auto& entry : fs::recursive_directory_iterator(places_.unfinished)) note_unsynced(entry.path());
 }
 
 OutputFolder::~OutputFolder() {
@@ -134,35 +133,51 @@ void OutputFolder::append(const fs::path& name, std::string_view content) {
 }
 
 void OutputFolder::write(const fs::path& name, std::string_view content) {
-  const fs::path file = places_.unfinished / name;
-  const fs::path part = file.string() + ".part";
-  std::error_code error;
-  fs::remove(part, error);
-  make_folder(file.parent_path(), name);
-  check(append_to_file(part, content), name);
-  // On the disk before it has its name.
+  const fs::path part = write_part(name, content);
+  name_part(part, name);
+  note_unsynced(places_.unfinished / name);
+}
+
+void OutputFolder::write_for_good(const fs::path& name, std::string_view content) {
+  const fs::path part = write_part(name, content);
+  sync();
   check(sync_to_disk(part), name);
-  fs::rename(part, file, error);
+  name_part(part, name);
+  sync();
+}
+
+fs::path OutputFolder::write_part(const fs::path& name, std::string_view content) {
+  const fs::path part = (places_.unfinished / name).string() + ".part";
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  make_folder(part.parent_path(), name);
+  check(append_to_file(part, content), name);
+  return part;
+}
+
+void OutputFolder::name_part(const fs::path& part, const fs::path& name) {
+  std::error_code error;
+  fs::rename(part, places_.unfinished / name, error);
   check(error, name);
-  note_unsynced(file.parent_path());
+  note_unsynced(part.parent_path());
 }
 
 void OutputFolder::sync() {
   // Held to the end: whoever waits here may have what he has written synced by another thread.
   const std::lock_guard lock(mutex_);
-  // Backwards: what is in a folder comes before the folder.
-  for (auto path = unsynced_.rbegin(); path != unsynced_.rend(); ++path) check(sync_to_disk(*path));
+  // Each call waits for the disk. With many files it is quicker to wait once, for all that any program
+  // writes.
+  constexpr std::size_t many = 16;
+  if (unsynced_.size() > many) {
+    check(sync_file_system(places_.path.parent_path()));
+  } else {
+    for (const fs::path& path : unsynced_) check(sync_to_disk(path));
+  }
   unsynced_.clear();
 }
 
-void OutputFolder::sync_all() {
-  for (const auto& entry : fs::recursive_directory_iterator(places_.unfinished)) note_unsynced(entry.path());
-  note_unsynced(places_.unfinished);
-  sync();
-}
-
 void OutputFolder::commit() {
-  sync_all();
+  sync();
   std::error_code error;
   // The check is repeated, as the run may have taken hours: what others have put there meanwhile is theirs.
   const bool replaces = replace_ && is_results_folder(places_.path);

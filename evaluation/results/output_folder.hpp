@@ -46,13 +46,11 @@ class OutputFolder {
 
   /// Appends to a file, which is made if there is none, with the folders above it. `name` is relative.
   void append(const std::filesystem::path& name, std::string_view content);
-  /// Writes a file, in place of one that may be there: half of it is never to be seen under its name, not
-  /// even after a power failure.
+  /// Writes a file, in place of one that may be there: half of it is never to be seen under its name.
   void write(const std::filesystem::path& name, std::string_view content);
-  /// Waits until all that was written so far is on the disk.
-  void sync();
-  /// Also what earlier processes have left in the folder.
-  void sync_all();
+  /// Writes a file when all that was written before is on the disk, and waits until it is there, too: whoever
+  /// sees it, also after a power failure, can rely on the others.
+  void write_for_good(const std::filesystem::path& name, std::string_view content);
 
   /// From now on the files stay, whatever happens, for a later run to take up.
   void keep_unfinished() { keeps_ = true; }
@@ -66,6 +64,9 @@ class OutputFolder {
   };
 
   void restore_replaced() const;
+  std::filesystem::path write_part(const std::filesystem::path& name, std::string_view content);
+  void name_part(const std::filesystem::path& part, const std::filesystem::path& name);
+  void sync();
   void take_up_or_begin(const TakesUp& takes_up);
   void make_folder(const std::filesystem::path& folder, const std::filesystem::path& name);
   void note_unsynced(const std::filesystem::path& path);

@@ -217,8 +217,7 @@ void ExperimentRunner::run_one(Variant& variant) {
       results.put_together().to_json({experiment.name, experiment.seed, complete, loaded.map->points().size(),
                                       loaded.map_build_ms, map_index_ms, localizers.front().map_index()});
   // The summary comes last: a later run takes its word that all is there.
-  folder.sync_all();
-  folder.write("summary.json", summary.dump(2) + "\n");
+  folder.write_for_good("summary.json", summary.dump(2) + "\n");
   put_in_place(folder, variant.name, summary);
   if (!complete)
     callbacks_.warn(
@@ -248,8 +247,6 @@ void ExperimentRunner::begin(const Variant& variant, const OutputFolder& folder,
 }
 
 void ExperimentRunner::put_in_place(OutputFolder& folder, const std::string& variant, const Json& summary) {
-  // Synced first: without its journal the folder is known by its summary alone.
-  folder.sync();
   if (summary.at("complete")) std::filesystem::remove_all(folder.unfinished() / journal_folder);
   folder.commit();
   add_result(variant, summary);
