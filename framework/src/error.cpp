@@ -15,8 +15,15 @@ std::string join(const std::vector<Fault>& faults) {
   return text;
 }
 
+/// Sorted; of very many, those that nobody would read are only counted.
 std::vector<Fault> sorted(std::vector<Fault> faults) {
+  constexpr std::size_t most = 200;
   std::sort(faults.begin(), faults.end());
+  if (faults.size() <= most) return faults;
+  const std::size_t more = faults.size() - most;
+  faults.resize(most + 1);
+  faults.back().message =
+      "here and below are at least " + std::to_string(more) + " more; mend those above first";
   return faults;
 }
 

@@ -24,7 +24,8 @@ struct Fault {
 /// Unusable configuration or input data: the program ends with exit code 2 before anything has been written.
 class ConfigError : public std::runtime_error {
  public:
-  /// Faults are sorted by place; what() has one on each line.
+  /// Faults are sorted by place; what() has one on each line. Of more than 200, the last says how many more
+  /// there are.
   explicit ConfigError(std::vector<Fault> faults);
   [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
 

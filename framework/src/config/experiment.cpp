@@ -6,7 +6,9 @@
 #include <array>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string_view>
+#include <tuple>
 
 #include "config/experiment_params.hpp"
 #include "config/overrides.hpp"
@@ -71,25 +73,35 @@ std::optional<YamlNode> read_file(const std::filesystem::path& file, const std::
   return tree;
 }
 
-bool is_place_of(const Fault& fault, const Place& place) {
-  return fault.file == place.origin->label && fault.line == place.line && fault.column == place.column;
+/// Where something is written.
+using Spot = std::tuple<std::string_view, int, int>;
+
+Spot spot_of(const Place& place) {
+  return {place.origin->label, place.line, place.column};
 }
 
-bool is_within(const Fault& fault, const YamlNode& node) {
-  return is_place_of(fault, node.place) ||
-         std::any_of(node.items.begin(), node.items.end(),
-                     [&](const YamlNode& item) { return is_within(fault, item); }) ||
-         std::any_of(node.entries.begin(), node.entries.end(), [&](const YamlEntry& entry) {
-           return is_place_of(fault, entry.place) || is_within(fault, entry.value);
-         });
+void add_spots(const YamlNode& node, std::set<Spot>& spots) {
+  spots.insert(spot_of(node.place));
+  for (const YamlNode& item : node.items) add_spots(item, spots);
+  for (const YamlEntry& entry : node.entries) {
+    spots.insert(spot_of(entry.place));
+    add_spots(entry.value, spots);
+  }
+}
+
+std::set<Spot> spots_of(const VariantChanges& variant) {
+  std::set<Spot> spots;
+  for (const Change& change : variant.changes) {
+    spots.insert(spot_of(change.place));
+    add_spots(*change.value, spots);
+  }
+  return spots;
 }
 
 /// A fault of a variant said at what the variant changes, also if it shows elsewhere: a rule that spans
 /// fields is broken where those are that the variant leaves alone.
-Fault fault_of(const VariantChanges& variant, const Fault& fault) {
-  for (const Change& change : variant.changes) {
-    if (is_place_of(fault, change.place) || is_within(fault, change.value)) return fault;
-  }
+Fault fault_of(const VariantChanges& variant, const std::set<Spot>& spots, const Fault& fault) {
+  if (variant.changes.empty() || spots.contains({fault.file, fault.line, fault.column})) return fault;
   // The change that is about what the message begins with.
   const std::string about = fault.message.substr(0, fault.message.find(':'));
   const auto cause = std::find_if(variant.changes.begin(), variant.changes.end(),
@@ -98,32 +110,54 @@ Fault fault_of(const VariantChanges& variant, const Fault& fault) {
                   "with this change, " + fault.message);
 }
 
-/// The experiment with the variant's changes; faults that the experiment has without them are left out.
+/// The experiment with the variant's changes; faults that the experiment has without them are left out. They
+/// are told by their words, so the variant is read as the same struct.
 Variant read_variant(YamlNode tree, const VariantChanges& changes, const Catalog& catalog,
-                     const std::vector<Fault>& of_base, std::vector<Fault>& faults) {
+                     const std::set<Fault>& of_base, std::set<Fault>& faults) {
   constexpr std::array<std::string_view, 4> of_trials = {"seed", "map", "observations", "trials"};
-  Variant variant{changes.name, default_experiment()};
-  ExperimentParams params(variant.experiment, catalog);
+  Variant variant{changes.name, {}};
+  ExperimentFileParams params(catalog);
   std::vector<Fault> found;
   for (const Change& change : changes.changes) {
-    apply_change(tree, change.path, change.value, change.place, params, found);
+    apply_change(tree, change.path, *change.value, change.place, params, found);
     const std::string first = change.path.substr(0, change.path.find('.'));
     variant.changes_trials |= std::find(of_trials.begin(), of_trials.end(), first) != of_trials.end();
   }
   read_params(tree, params, found);
-  for (const Fault& fault : found) {
-    if (std::find(of_base.begin(), of_base.end(), fault) == of_base.end()) {
-      faults.push_back(fault_of(changes, fault));
-    }
+  std::erase_if(found, [&](const Fault& fault) { return of_base.contains(fault); });
+  if (!found.empty()) {
+    const std::set<Spot> spots = spots_of(changes);
+    for (const Fault& fault : found) faults.insert(fault_of(changes, spots, fault));
   }
+  variant.experiment = std::move(params.file.experiment);
   return variant;
 }
 
-/// Points of a grid share their values, and with them their faults.
-[[noreturn]] void throw_once_each(std::vector<Fault> faults) {
-  std::sort(faults.begin(), faults.end());
-  faults.erase(std::unique(faults.begin(), faults.end()), faults.end());
-  throw ConfigError(std::move(faults));
+/// Whether so many values can be held; each variant has all of its own.
+bool can_be_held(const YamlNode& tree, const std::vector<VariantChanges>& all) {
+  constexpr std::size_t most_values = 20'000'000;
+  const std::size_t of_base = count_nodes(tree);
+  std::size_t values = 0;
+  for (const VariantChanges& changes : all) {
+    values += of_base;
+    for (const Change& change : changes.changes) values += count_nodes(*change.value);
+    if (values > most_values) return false;
+  }
+  return true;
+}
+
+/// Reads all variants, until there are more faults than anybody reads. Points of a grid share their values,
+/// and with them their faults.
+std::vector<Variant> read_all(const YamlNode& tree, const std::vector<VariantChanges>& all,
+                              const Catalog& catalog, const std::set<Fault>& of_base,
+                              std::set<Fault>& faults) {
+  constexpr std::size_t most_faults = 1000;
+  std::vector<Variant> variants;
+  for (const VariantChanges& changes : all) {
+    if (faults.size() > most_faults) break;
+    variants.push_back(read_variant(tree, changes, catalog, of_base, faults));
+  }
+  return variants;
 }
 
 }  // namespace
@@ -229,18 +263,24 @@ Experiment read_experiment(const std::filesystem::path& file, const std::vector<
 
 std::vector<Variant> read_variants(const std::filesystem::path& file, const std::vector<Override>& overrides,
                                    const Catalog& catalog) {
-  std::vector<Fault> of_base;
+  std::vector<Fault> found;
   ExperimentFileParams params(catalog);
-  auto tree = read_file(file, overrides, params, of_base);
-  std::vector<Fault> faults = of_base;
-  const std::vector<VariantChanges> all = expand(params.file.variants, faults);
-  std::vector<Variant> variants;
-  if (all.empty()) variants.push_back({"", std::move(params.file.experiment)});
+  auto tree = read_file(file, overrides, params, found);
+  const std::set<Fault> of_base(found.begin(), found.end());
+  const std::vector<VariantChanges> all = expand(params.file.variants, found);
+  std::set<Fault> faults(found.begin(), found.end());
   if (tree) std::erase_if(tree->entries, [](const YamlEntry& entry) { return entry.key == "variants"; });
-  for (const VariantChanges& changes : all) {
-    variants.push_back(read_variant(*tree, changes, catalog, of_base, faults));
+  std::vector<Variant> variants;
+  if (all.empty()) {
+    variants.push_back({"", std::move(params.file.experiment)});
+  } else if (can_be_held(*tree, all)) {
+    variants = read_all(*tree, all, catalog, of_base, faults);
+  } else {
+    faults.insert(fault_at(all.front().place,
+                           "variants: have more than 20 million values together; leave some out, or shorten "
+                           "the lists of the experiment"));
   }
-  if (!faults.empty()) throw_once_each(std::move(faults));
+  if (!faults.empty()) throw ConfigError({faults.begin(), faults.end()});
   return variants;
 }
 

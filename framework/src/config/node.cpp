@@ -2,6 +2,13 @@
 
 namespace glocal {
 
+std::size_t count_nodes(const YamlNode& node) {
+  std::size_t n = 1;
+  for (const YamlNode& item : node.items) n += count_nodes(item);
+  for (const YamlEntry& entry : node.entries) n += count_nodes(entry.value);
+  return n;
+}
+
 std::string name_of(const YamlNode& node) {
   switch (node.kind) {
     case NodeKind::scalar:

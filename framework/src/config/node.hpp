@@ -1,6 +1,7 @@
 // A YAML document as a small tree in which everything knows where it was written.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -68,6 +69,9 @@ template <class MapNode>
 [[nodiscard]] inline Fault fault_at(const Place& place, std::string message) {
   return {place.origin->label, place.line, place.column, std::move(message)};
 }
+
+/// The node and all below it.
+[[nodiscard]] std::size_t count_nodes(const YamlNode& node);
 
 /// What a message calls it: "nothing", "'text'", "a list", "a map".
 [[nodiscard]] std::string name_of(const YamlNode& node);

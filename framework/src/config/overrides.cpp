@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,6 +58,9 @@ class StrategyFinder final : public UniformVisitor<StrategyFinder> {
   std::size_t depth_;
   std::vector<bool>* is_strategy_;
 };
+
+/// No experiment is so deep, and a tree that is would be too deep to walk.
+constexpr std::size_t most_parts = 32;
 
 /// None if a part is empty.
 std::optional<std::vector<std::string>> split(std::string_view path) {
@@ -117,6 +121,11 @@ void apply_change(YamlNode& tree, const std::string& path, YamlNode value, const
   const auto parts = split(path);
   if (!parts) {
     faults.push_back(fault_at(place, "the path has an empty part; write it as a.b.c"));
+    return;
+  }
+  if (parts->size() > most_parts) {
+    faults.push_back(fault_at(place, fmt::format("the path has {} parts; no value lies deeper than {}",
+                                                 parts->size(), most_parts)));
     return;
   }
   std::vector<bool> is_strategy(parts->size(), false);

@@ -78,8 +78,10 @@ class MapReader final : public UniformVisitor<MapReader> {
 
   /// To be called after all fields were visited.
   void report_unknown_keys() {
+    constexpr std::size_t most = 20;
+    std::size_t unknown = 0;
     for (const YamlEntry& entry : map_->entries) {
-      if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+      if (std::find(known_.begin(), known_.end(), entry.key) != known_.end() || ++unknown > most) continue;
       const std::string key = "key '" + entry.key + "'";
       const auto gone = gone_.find(entry.key);
       const std::string fault = gone != gone_.end() ? key + " " + gone->second
@@ -87,6 +89,10 @@ class MapReader final : public UniformVisitor<MapReader> {
                                     ? "unknown " + key + " (there are no parameters)"
                                     : "unknown " + key + suggestion(entry.key, known_, "known keys");
       faults_->push_back(fault_at(entry.place, about(path_, fault)));
+    }
+    if (unknown > most) {
+      const std::string more = std::to_string(unknown - most) + " more unknown keys follow";
+      faults_->push_back(fault_at(map_->entries.back().place, about(path_, more)));
     }
   }
 

@@ -12,6 +12,8 @@ namespace glocal {
 namespace {
 
 constexpr std::size_t most_variants = 10000;
+constexpr std::size_t most_paths = 1000;
+constexpr std::size_t longest_name = 100;
 
 /// Letters and digits that need no thought in a name.
 bool is_word(char c) {
@@ -26,13 +28,18 @@ struct Axis {
   [[nodiscard]] std::size_t size() const { return written->value.items.size(); }
 };
 
-/// The scalars of a value, one after the other: `0.5`, `staged_margin`, `0-0.3`.
+/// The scalars of a value, one after the other: `0.5`, `staged_margin`, `0-0.3`. What is too long for a name
+/// is cut, but not to one that would do.
 std::string text_of(const YamlNode& value) {
   std::string text;
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "-") + part; };
+  const auto is_full = [&] { return text.size() > longest_name; };
+  const auto add = [&](const std::string& part) {
+    text += (text.empty() ? "" : "-") + part.substr(0, longest_name + 1);
+  };
   if (value.kind == NodeKind::scalar) add(value.text);
-  for (const YamlNode& item : value.items) add(text_of(item));
-  for (const YamlEntry& entry : value.entries) {
+  for (std::size_t i = 0; i < value.items.size() && !is_full(); ++i) add(text_of(value.items[i]));
+  for (std::size_t i = 0; i < value.entries.size() && !is_full(); ++i) {
+    const YamlEntry& entry = value.entries[i];
     add(entry.key);
     if (entry.value.kind != NodeKind::null) add(text_of(entry.value));
   }
@@ -67,37 +74,84 @@ void check_path(const YamlEntry& entry, std::vector<Fault>& faults) {
       fault_at(entry.place, "variants: '" + first + "' is the same for all variants and cannot be changed"));
 }
 
+/// The paths of a map, checked; none where there are too many of them, or one is too long to be any.
+const std::vector<YamlEntry>& paths_of(const YamlNode& map, std::vector<Fault>& faults) {
+  constexpr std::size_t longest_path = 1000;
+  static const std::vector<YamlEntry> none;
+  if (map.entries.size() > most_paths) {
+    faults.push_back(
+        fault_at(map.place, fmt::format("variants: {} paths at once, at most {} are allowed; change fewer",
+                                        map.entries.size(), most_paths)));
+    return none;
+  }
+  for (const YamlEntry& entry : map.entries) {
+    check_path(entry, faults);
+    if (entry.key.size() <= longest_path) continue;
+    faults.push_back(fault_at(entry.place, fmt::format("variants: a path of {} letters is none; write it as "
+                                                       "a.b.c",
+                                                       entry.key.size())));
+  }
+  const bool are_short = std::all_of(map.entries.begin(), map.entries.end(),
+                                     [](const YamlEntry& e) { return e.key.size() <= longest_path; });
+  return are_short ? map.entries : none;
+}
+
 std::vector<Axis> axes_of(const ListedChanges& changes, std::vector<Fault>& faults) {
   std::vector<Axis> axes;
   if (!changes.written) return axes;
-  for (const YamlEntry& entry : changes.written->entries) {
-    check_path(entry, faults);
-    axes.push_back({&entry, label_of(entry.key, changes.written->entries)});
-  }
+  const std::vector<YamlEntry>& entries = paths_of(*changes.written, faults);
+  for (const YamlEntry& entry : entries) axes.push_back({&entry, label_of(entry.key, entries)});
   return axes;
 }
 
+/// A change to this value, which is part of what is written.
+Change change_of(const YamlEntry& path, const YamlNode& value,
+                 const std::shared_ptr<const YamlNode>& written) {
+  return {path.key, path.place, {written, &value}};
+}
+
 /// The variant that takes value at[i] of axis i.
-VariantChanges point(const std::vector<Axis>& axes, const std::vector<std::size_t>& at) {
+VariantChanges point(const std::vector<Axis>& axes, const std::vector<std::size_t>& at,
+                     const std::shared_ptr<const YamlNode>& written) {
   VariantChanges variant;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const YamlEntry& written = *axes[i].written;
-    const YamlNode& value = written.value.items[at[i]];
-    variant.name += (i == 0 ? "" : "_") + axes[i].label + "-" + text_of(value);
-    variant.changes.push_back({written.key, written.place, value});
+    const YamlEntry& path = *axes[i].written;
+    const YamlNode& value = path.value.items[at[i]];
+    if (variant.name.size() <= longest_name)
+      variant.name += (i == 0 ? "" : "_") + axes[i].label + "-" + text_of(value);
+    variant.changes.push_back(change_of(path, value, written));
   }
-  variant.place = variant.changes.back().value.place;
+  variant.place = variant.changes.back().value->place;
   return variant;
+}
+
+/// Says so if there are too many points, or too many changes in all of them.
+bool are_too_many(std::size_t points, const std::vector<Axis>& axes, const char* section, const char* what,
+                  std::vector<Fault>& faults) {
+  constexpr std::size_t most_changes = 1'000'000;
+  const std::size_t changes = points * axes.size();
+  if (points <= most_variants && changes <= most_changes) return false;
+  const std::string excess = points > most_variants ? fmt::format("has more than {} {}", most_variants, what)
+                                                    : fmt::format("changes {} values in all", changes);
+  faults.push_back(fault_at(axes.front().written->place,
+                            fmt::format("variants.{}: {}; leave some values out", section, excess)));
+  return true;
 }
 
 void add_list(const NamedChanges& list, std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
   if (!list.written) return;
+  const std::size_t size = list.written->entries.size();
+  if (size > most_variants) {
+    faults.push_back(
+        fault_at(list.written->place, fmt::format("variants.list: has {} variants, at most {} are "
+                                                  "allowed; leave some out",
+                                                  size, most_variants)));
+    return;
+  }
   for (const YamlEntry& named : list.written->entries) {
     VariantChanges variant{named.key, named.place, {}};
-    for (const YamlEntry& entry : named.value.entries) {
-      check_path(entry, faults);
-      variant.changes.push_back({entry.key, entry.place, entry.value});
-    }
+    for (const YamlEntry& entry : paths_of(named.value, faults))
+      variant.changes.push_back(change_of(entry, entry.value, list.written));
     variants.push_back(std::move(variant));
   }
 }
@@ -107,15 +161,10 @@ void add_grid(const ListedChanges& grid, std::vector<VariantChanges>& variants, 
   if (axes.empty()) return;
   std::size_t points = 1;
   for (const Axis& axis : axes) points = std::min(points * axis.size(), most_variants + 1);
-  if (points > most_variants) {
-    faults.push_back(fault_at(
-        axes.front().written->place,
-        fmt::format("variants.grid: has more than {} combinations; leave some values out", most_variants)));
-    return;
-  }
+  if (are_too_many(points, axes, "grid", "combinations", faults)) return;
   std::vector<std::size_t> at(axes.size());
   for (std::size_t k = 0; k < points; ++k) {
-    variants.push_back(point(axes, at));
+    variants.push_back(point(axes, at, grid.written));
     // Counts on, the last axis fastest.
     for (std::size_t i = axes.size(); i-- > 0;) {
       at[i] = (at[i] + 1) % axes[i].size();
@@ -128,6 +177,7 @@ void add_zip(const ListedChanges& zip, std::vector<VariantChanges>& variants, st
   const std::vector<Axis> axes = axes_of(zip, faults);
   if (axes.empty()) return;
   const std::size_t rows = axes.front().size();
+  if (are_too_many(rows, axes, "zip", "rows", faults)) return;
   bool even = true;
   for (const Axis& axis : axes) {
     if (axis.size() == rows) continue;
@@ -138,7 +188,7 @@ void add_zip(const ListedChanges& zip, std::vector<VariantChanges>& variants, st
                              axis.size(), axis.written->key, rows, axes.front().written->key)));
   }
   for (std::size_t row = 0; even && row < rows; ++row) {
-    variants.push_back(point(axes, std::vector<std::size_t>(axes.size(), row)));
+    variants.push_back(point(axes, std::vector<std::size_t>(axes.size(), row), zip.written));
   }
 }
 
@@ -177,8 +227,7 @@ std::vector<VariantChanges> expand(const VariantsSection& section, std::vector<F
 }
 
 bool is_folder_name(std::string_view name) {
-  constexpr std::size_t longest = 100;
-  return !name.empty() && name.size() <= longest && is_word(name.front()) &&
+  return !name.empty() && name.size() <= longest_name && is_word(name.front()) &&
          std::all_of(name.begin(), name.end(), [](char c) { return is_word(c) || c == '-' || c == '.'; });
 }
 

@@ -1,6 +1,7 @@
 // Which variants an experiment file asks for.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +21,9 @@ void describe(ParamVisitor& v, VariantsSection& s);
 
 /// One value and where it goes.
 struct Change {
-  std::string path;  ///< localizer.matcher.ransam.iterations
-  Place place;       ///< Where the path is written.
-  YamlNode value;
+  std::string path;                       ///< localizer.matcher.ransam.iterations
+  Place place;                            ///< Where the path is written.
+  std::shared_ptr<const YamlNode> value;  ///< Part of what is written: many variants share it.
 };
 
 /// What makes a variant of an experiment.

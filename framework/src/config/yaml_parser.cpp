@@ -7,6 +7,7 @@
 #include <array>
 #include <sstream>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "config/text_file.hpp"
@@ -100,6 +101,7 @@ class TreeBuilder final : public YAML::EventHandler {
   struct Frame {
     YamlNode node;
     std::optional<Key> key;
+    std::unordered_map<std::string, int> lines;  ///< Of the keys so far.
   };
 
   void start(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, NodeKind kind) {
@@ -109,7 +111,7 @@ class TreeBuilder final : public YAML::EventHandler {
       report(place(mark), at_path("nested deeper than " + std::to_string(max_depth) + " levels"));
       throw Stop{};
     }
-    frames_.push_back({make_node(kind, place(mark)), std::nullopt});
+    frames_.push_back({make_node(kind, place(mark)), std::nullopt, {}});
   }
 
   void finish() {
@@ -138,7 +140,6 @@ class TreeBuilder final : public YAML::EventHandler {
 
   Key check_key(YamlNode node) {
     Key key{std::move(node.text), node.place};
-    const YamlEntry* first = find_entry(frames_.back().node, key.text);
     if (node.kind != NodeKind::scalar) {
       key.dropped = true;
       if (node.kind != NodeKind::invalid) {
@@ -147,10 +148,10 @@ class TreeBuilder final : public YAML::EventHandler {
     } else if (key.text == "<<") {
       key.dropped = true;
       report(key.place, at_path("merge keys (<<) are not supported; write the keys out"));
-    } else if (first != nullptr) {
+    } else if (const auto [first, is_new] = frames_.back().lines.try_emplace(key.text, key.place.line);
+               !is_new) {
       key.dropped = true;
-      std::string where =
-          first->place.line > 0 ? " (first in line " + std::to_string(first->place.line) + ")" : "";
+      std::string where = first->second > 0 ? " (first in line " + std::to_string(first->second) + ")" : "";
       report(key.place, at_path("duplicate key '" + key.text + "'" + where));
     }
     return key;

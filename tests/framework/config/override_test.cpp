@@ -129,5 +129,12 @@ TEST_F(OverrideTest, FaultsNameTheOverride) {
                   "'ransac', did you mean 'ransam'? (there are: indexed, ransam)"));
 }
 
+TEST_F(OverrideTest, APathDeeperThanAnyExperimentIsRefused) {
+  std::string path = "a";
+  for (int i = 0; i < 200000; ++i) path += ".a";
+  EXPECT_THAT(faults_of({{path, "1"}}),
+              ElementsAre(testing::HasSubstr("the path has 200001 parts; no value lies deeper than 32")));
+}
+
 }  // namespace
 }  // namespace glocal::test::override_test

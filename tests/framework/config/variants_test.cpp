@@ -225,6 +225,43 @@ TEST_F(VariantsTest, RefusesUnevenListsTwoOfANameAndTooMany) {
                           "values out"));
 }
 
+TEST_F(VariantsTest, FaultsOfTheExperimentAreSaidOnceAtTheirPlace) {
+  const auto unknown =
+      ElementsAre(testing::StartsWith("e.yaml:7:1: error: unknown key 'typo' (known keys: schema, "));
+  for (const char* changes : {"{}", "{a: {}}", "{a: {seed: 3}}", "{a: {}, b: {localizer.matcher: indexed}}"})
+    EXPECT_THAT(faults_of("typo: 1\nvariants: {list: " + std::string(changes) + "}\n"), unknown) << changes;
+  EXPECT_THAT(faults_of("typo: 1\nvariants: {grid: {seed: [1, 2]}, zip: {threads: [3]}}\n"), unknown);
+}
+
+/// "0, 1, 2, …", each between `before` and `after`.
+std::string count_to(int n, const std::string& before, const std::string& after) {
+  std::string text;
+  for (int i = 0; i < n; ++i) text += (i == 0 ? "" : ", ") + before + std::to_string(i) + after;
+  return text;
+}
+
+TEST_F(VariantsTest, MoreThanTenThousandOfAnyKindAreRefusedAtOnce) {
+  using testing::HasSubstr;
+  EXPECT_THAT(faults_of("variants: {list: {" + count_to(40000, "v", ": {}") + "}}\n"),
+              ElementsAre(HasSubstr("variants.list: has 40000 variants, at most 10000 are allowed")));
+  EXPECT_THAT(faults_of("variants: {zip: {seed: [" + count_to(100000, "", "") + "]}}\n"),
+              ElementsAre(HasSubstr("variants.zip: has more than 10000 rows; leave some values out")));
+  EXPECT_THAT(faults_of("variants: {grid: {" + count_to(50000, "a.b", ": [1]") + "}}\n"),
+              ElementsAre(HasSubstr("variants: 50000 paths at once, at most 1000 are allowed")));
+  EXPECT_THAT(faults_of("variants: {grid: {" + count_to(900, "a.b", ": [1]") + ", seed: [" +
+                        count_to(5000, "", "") + "]}}\n"),
+              ElementsAre(HasSubstr("variants.grid: changes 4505000 values in all; leave some values out")));
+}
+
+TEST_F(VariantsTest, WhatTakesTooMuchMemoryIsRefused) {
+  const std::string long_list = "[[" + count_to(30000, "", "") + "]]";
+  EXPECT_THAT(faults_of("variants: {grid: {trials.starts_m: " + long_list + ", trials.every_m: [0], seed: [" +
+                        count_to(1000, "", "") + "]}}\n"),
+              testing::Contains(testing::HasSubstr("have more than 20 million values together")));
+  EXPECT_THAT(faults_of("variants: {grid: {" + std::string(1010, 'a') + ": [1, 2]}}\n"),
+              ElementsAre(testing::HasSubstr("a path of 1010 letters is none")));
+}
+
 TEST_F(VariantsTest, TheEffectiveExperimentHasNone) {
   auto all = read("variants: {list: {a: {seed: 3}}}\n");
   const std::string written = effective_yaml(all[0].experiment, catalog_);
