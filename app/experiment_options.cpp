@@ -49,8 +49,8 @@ std::vector<Override> ExperimentOptions::overrides() const {
 
 std::vector<Override> ExperimentOptions::load_plugins(const std::string& other_file, Context& context) const {
   std::vector<Override> all = overrides();
-  if (seed) all.emplace_back("seed", std::to_string(*seed));
-  if (threads) all.emplace_back("threads", std::to_string(*threads));
+  if (seed) all.emplace_back("seed", *seed);
+  if (threads) all.emplace_back("threads", *threads);
   for (const FilePath& plugin : read_plugins(other_file, all)) context.plugins.load(plugin.resolved);
   return all;
 }

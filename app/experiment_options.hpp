@@ -16,8 +16,8 @@ namespace glocal::app {
 struct ExperimentOptions {
   std::string file;
   std::vector<std::string> set;  ///< "path=value", as given with --set.
-  std::optional<std::uint64_t> seed;
-  std::optional<int> threads;
+  /// As given: what may be a seed is said once, for files and options alike.
+  std::optional<std::string> seed, threads;
 
   /// Adds FILE, --set, --seed and --threads. This object must live as long as the command.
   void add_to(CLI::App& command);

@@ -101,5 +101,23 @@ TEST_F(CommandLine, LostAnswerIsAFailure) {
   EXPECT_EQ(WEXITSTATUS(status), 1);
 }
 
+TEST_F(CommandLine, SeedAndThreadsAreReadAsInTheFile) {
+  const std::string file = folder_.write("a.yaml", "schema: 1\nname: a\n");
+  const auto answer = [&](const std::string& option) {
+    const Answer got = run("check " + file + " " + option);
+    EXPECT_EQ(got.exit_code, 2) << option;
+    return got.err;
+  };
+  EXPECT_THAT(answer("--seed -1"), HasSubstr("--set seed=-1: error: seed: -1 is out of range, must be >= 0"));
+  EXPECT_THAT(answer("--seed 99999999999999999999"),
+              HasSubstr("is too large, must be <= 18446744073709551615"));
+  EXPECT_THAT(answer("--seed 0x10"), HasSubstr("is not a decimal number"));
+  EXPECT_THAT(answer("--seed 1.5"), HasSubstr("1.5 is not a whole number"));
+  EXPECT_THAT(answer("--set seed=-1"), HasSubstr("-1 is out of range"));
+  EXPECT_THAT(answer("--threads -1"), HasSubstr("-1 is out of range, must be >= 1 and <= 256"));
+  EXPECT_THAT(answer("--threads 99999999999"), HasSubstr("is too large"));
+  EXPECT_THAT(answer("--seed 18446744073709551615"), testing::Not(HasSubstr("seed")));
+}
+
 }  // namespace
 }  // namespace glocal::test::command_line_test
