@@ -1,5 +1,6 @@
 #include "sources/carmen_parser.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -15,11 +16,22 @@ namespace {
 
 constexpr std::size_t max_readings = 100000;
 constexpr std::size_t max_faults = 20;
+/// Room for as many readings and remissions, with all the digits that a number may have.
+constexpr std::size_t max_line = 10'000'000;
 
 /// What is wrong with the line at hand; the place is added where it is known.
 struct BadLine {
   std::string message;
 };
+
+/// A field in a message: enough of it to find it by, and only what can be printed.
+std::string shown(std::string_view field) {
+  constexpr std::size_t longest = 40;
+  std::string text(field.substr(0, longest));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text + (field.size() > longest ? "…" : "");
+}
 
 /// A line's fields, read from left to right.
 class Fields {
@@ -48,7 +60,7 @@ class Fields {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::result_out_of_range) return out_of_range<T>(text, what);
     if (error != std::errc() || end != text.data() + text.size()) {
-      throw BadLine{std::string(what) + ": '" + std::string(text) + "' is not a number"};
+      throw BadLine{std::string(what) + ": '" + shown(text) + "' is not a number"};
     }
     return value;
   }
@@ -101,7 +113,7 @@ class Fields {
   template <class T>
   static T out_of_range(std::string_view text, const char* what) {
     if (text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos) return T{};
-    throw BadLine{std::string(what) + ": '" + std::string(text) + "' is out of range"};
+    throw BadLine{std::string(what) + ": '" + shown(text) + "' is out of range"};
   }
 
   std::vector<std::string_view> fields_;
@@ -133,6 +145,7 @@ class Parser {
       const std::string_view line = content.substr(0, end);
       content.remove_prefix(end == std::string_view::npos ? content.size() : end + 1);
       ++line_;
+      check_length(line);
       parse_line(line, content.empty());
     }
     if (faults_.empty() && scans_.empty()) {
@@ -143,6 +156,14 @@ class Parser {
   }
 
  private:
+  /// A file with such a line is something else.
+  void check_length(std::string_view line) const {
+    if (line.size() <= max_line) return;
+    throw ConfigError({{file_, line_, 0,
+                        "the line has " + std::to_string(line.size()) + " bytes, at most " +
+                            std::to_string(max_line) + " are allowed; is this a CARMEN log?"}});
+  }
+
   void parse_line(std::string_view line, bool last) {
     if (line.empty() || std::string_view("FROT").find(line.front()) == std::string_view::npos) return;
     fields_.split(line);
@@ -240,8 +261,8 @@ class Parser {
 
 }  // namespace
 
-std::vector<CarmenScan> read_carmen_log(const std::filesystem::path& file) {
-  const std::string content = read_decompressed(file);
+std::vector<CarmenScan> read_carmen_log(const std::filesystem::path& file, double max_size_gb) {
+  const std::string content = read_decompressed(file, max_size_gb);
   return Parser(file).parse(content);
 }
 

@@ -13,10 +13,17 @@
 namespace glocal {
 namespace {
 
+constexpr double most_observations = 1e6;
+
 enum Stream : std::uint64_t { laser_stream, odometry_stream, tour_stream };
 
 /// Adds equal steps from the last pose to `target`, none larger than allowed by `size` of the largest.
 void add_steps(std::vector<Pose2>& poses, const Pose2& target, double size) {
+  if (static_cast<double>(poses.size()) + size > most_observations) {
+    throw ConfigError({{"", 0, 0,
+                        "simulation: the drive has more than a million observations; raise step_length and "
+                        "step_turn_deg, or lower tour_legs"}});
+  }
   const Pose2 from = poses.back();
   // A remainder that is only rounding makes no step of its own.
   const int steps = static_cast<int>(std::ceil(size - 1e-9));

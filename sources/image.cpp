@@ -22,8 +22,8 @@ constexpr double max_pixels = 64e6;
   throw ConfigError({{file.string(), 0, 0, std::move(message)}});
 }
 
-/// An image of this size, still black. Refuses what cannot be held, before it takes any memory.
-Image blank(const std::filesystem::path& file, double width, double height) {
+/// Refuses what cannot be held, before it takes any memory.
+void check_size(const std::filesystem::path& file, double width, double height) {
   if (width < 1.0 || height < 1.0)
     fail(file, fmt::format("is an empty image ({} x {} pixels)", width, height));
   if (width * height > max_pixels) {
@@ -32,6 +32,10 @@ Image blank(const std::filesystem::path& file, double width, double height) {
              "is too large to hold ({} x {} pixels, at most 64 million); crop it or lower its resolution",
              width, height));
   }
+}
+
+/// An image of this size, still black.
+Image blank(double width, double height) {
   Image image{static_cast<int>(width), static_cast<int>(height), {}, {}};
   image.grey.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   return image;
@@ -50,7 +54,11 @@ class PgmReader {
     const int maximum = number("maximum grey");
     if (maximum < 1 || maximum > 65535)
       fail(file_, fmt::format("maximum grey must be 1 to 65535, not {}", maximum));
-    Image image = blank(file_, width, height);
+    check_size(file_, width, height);
+    const double bytes_per_pixel = binary && maximum < 256 ? 1.0 : 2.0;  // a digit and a blank are two, too
+    if (static_cast<double>(bytes_.size() - at_) + 1.0 < bytes_per_pixel * width * height)
+      truncated("pixels");
+    Image image = blank(width, height);
     if (binary) {
       ++at_;  // A single blank ends the header.
       read_binary(image, maximum);
@@ -113,7 +121,8 @@ class PgmReader {
 /// Reads PNG with libpng, whose errors must not leave through C code: they are kept, and jump back.
 class PngReader {
  public:
-  PngReader(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {
+  PngReader(const std::filesystem::path& file, std::string_view bytes)
+      : file_(file), bytes_(bytes), whole_size_(bytes.size()) {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngReader::on_error, &PngReader::on_warning);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
     if (info_ == nullptr) throw RunError(file.string() + ": libpng cannot start");
@@ -125,7 +134,9 @@ class PngReader {
 
   Image read() {
     if (!read_header()) refuse();
-    Image image = blank(file_, png_get_image_width(png_, info_), png_get_image_height(png_, info_));
+    check_size(file_, png_get_image_width(png_, info_), png_get_image_height(png_, info_));
+    check_length();
+    Image image = blank(png_get_image_width(png_, info_), png_get_image_height(png_, info_));
     channels_ = png_get_channels(png_, info_);
     const auto height = static_cast<std::size_t>(image.height);
     const std::size_t stride = png_get_rowbytes(png_, info_);
@@ -143,10 +154,19 @@ class PngReader {
   bool read_header() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_read_info(png_, info_);
+    packed_stride_ = png_get_rowbytes(png_, info_);
     png_set_expand_16(png_);
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     return true;
+  }
+  /// Refuses what says it has more pixels than so many bytes decompress to, before it takes any memory.
+  void check_length() {
+    constexpr double highest_ratio = 1032.0;  // of DEFLATE
+    const double packed = static_cast<double>(packed_stride_) * png_get_image_height(png_, info_);
+    if (packed <= highest_ratio * static_cast<double>(whole_size_)) return;
+    error_ = "the file ends early";
+    refuse();
   }
   bool read_pixels() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
@@ -190,7 +210,9 @@ class PngReader {
   }
 
   std::filesystem::path file_;
-  std::string_view bytes_;
+  std::string_view bytes_;  ///< Still to be read.
+  std::size_t whole_size_;
+  std::size_t packed_stride_ = 0;  ///< Bytes of a row as the file has it.
   std::string error_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
@@ -201,8 +223,8 @@ class PngReader {
 
 }  // namespace
 
-Image read_image(const std::filesystem::path& file) {
-  const std::string bytes = read_decompressed(file);
+Image read_image(const std::filesystem::path& file, double max_size_gb) {
+  const std::string bytes = read_decompressed(file, max_size_gb);
   if (bytes.starts_with("P5") || bytes.starts_with("P2")) return PgmReader(file, bytes).read();
   if (bytes.starts_with("\x89PNG")) return PngReader(file, bytes).read();
   fail(file, "is neither a PGM (P2, P5) nor a PNG image; convert it to one of these");

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sources/compressed_file.hpp"
+
 namespace glocal {
 
 /// Row 0 is the top row.
@@ -22,8 +24,9 @@ struct Image {
 
 /// Reads PGM (P2 and P5, up to 16 bit) and PNG (grey, coloured, with palette, with or without alpha, up to 16
 /// bit), known by what the file begins with. Throws ConfigError for a missing, damaged, truncated or empty
-/// image, one of another kind, or one of more than 64 million pixels.
-[[nodiscard]] Image read_image(const std::filesystem::path& file);
+/// image, one of another kind, one of more than 64 million pixels, or a file of more than max_size_gb (10^9
+/// bytes).
+[[nodiscard]] Image read_image(const std::filesystem::path& file, double max_size_gb = default_max_size_gb);
 
 /// An image of bytes, row 0 at the top; grey has width * height bytes.
 struct ByteImage {

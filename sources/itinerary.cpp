@@ -3,8 +3,32 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
+#include <utility>
 
 namespace glocal {
+namespace {
+
+std::map<Position, std::vector<std::size_t>> neighbours_of(const std::vector<Position>& way_points) {
+  std::map<Position, std::vector<std::size_t>> neighbours;
+  std::set<std::pair<Position, Position>> ways;
+  const auto add = [&](std::size_t from, std::size_t to) {
+    const bool is_new = ways.emplace(way_points[from], way_points[to]).second;
+    if (is_new) neighbours[way_points[from]].push_back(to);
+  };
+  for (std::size_t i = 0; i < way_points.size(); ++i) {
+    if (i > 0) add(i, i - 1);
+    if (i + 1 < way_points.size()) add(i, i + 1);
+  }
+  return neighbours;
+}
+
+}  // namespace
+
+Itinerary::Itinerary(const std::vector<Position>& way_points, int tour_legs, Rng rng)
+    : way_points_(way_points), legs_left_(tour_legs), is_tour_(tour_legs > 0), rng_(rng) {
+  if (is_tour_) neighbours_ = neighbours_of(way_points);
+}
 
 std::optional<Position> Itinerary::next() {
   if (has_to_get_there_) {
@@ -28,26 +52,10 @@ void Itinerary::go_on_near(const Position& place) {
 
 std::size_t Itinerary::next_of_tour() {
   --legs_left_;
-  std::vector<std::size_t> choices = neighbours(at_);
+  std::vector<std::size_t> choices = neighbours_.at(way_points_[at_]);
   if (choices.size() > 1) std::erase_if(choices, [&](std::size_t i) { return way_points_[i] == from_; });
   from_ = way_points_[at_];
   return choices[rng_.below(static_cast<std::uint32_t>(choices.size()))];
-}
-
-/// Way points that a way leads to, each place once.
-std::vector<std::size_t> Itinerary::neighbours(std::size_t at) const {
-  std::vector<std::size_t> found;
-  const auto add = [&](std::size_t i) {
-    const bool repeats = std::any_of(found.begin(), found.end(),
-                                     [&](std::size_t other) { return way_points_[other] == way_points_[i]; });
-    if (!repeats) found.push_back(i);
-  };
-  for (std::size_t i = 0; i < way_points_.size(); ++i) {
-    if (way_points_[i] != way_points_[at]) continue;
-    if (i > 0) add(i - 1);
-    if (i + 1 < way_points_.size()) add(i + 1);
-  }
-  return found;
 }
 
 }  // namespace glocal

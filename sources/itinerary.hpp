@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,7 @@ namespace glocal {
 class Itinerary {
  public:
   /// Begins at the first way point; `tour_legs` 0: in the order in which they are listed.
-  Itinerary(const std::vector<Position>& way_points, int tour_legs, Rng rng)
-      : way_points_(way_points), legs_left_(tour_legs), is_tour_(tour_legs > 0), rng_(rng) {}
+  Itinerary(const std::vector<Position>& way_points, int tour_legs, Rng rng);
 
   /// Where to drive to now; none at the end.
   [[nodiscard]] std::optional<Position> next();
@@ -25,10 +25,11 @@ class Itinerary {
   void go_on_near(const Position& place);
 
  private:
-  [[nodiscard]] std::vector<std::size_t> neighbours(std::size_t at) const;
   [[nodiscard]] std::size_t next_of_tour();
 
   std::vector<Position> way_points_;
+  /// Of a tour: way points that a way from a place leads to, each place once.
+  std::map<Position, std::vector<std::size_t>> neighbours_;
   int legs_left_;
   bool is_tour_;
   Rng rng_;

@@ -104,6 +104,7 @@ void describe(ParamVisitor& v, LogParams& p) {
            .max = 180.0,
            .audience = Audience::expert,
            .formerly = "laser_yaw"});
+  describe_max_size(v, p.max_size_gb);
   v.require(ascending(p.segments), "segments",
             "each must be [from, to] with from < to, in rising order and without overlap");
   v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
@@ -119,7 +120,7 @@ std::vector<double> path_lengths(const std::vector<CarmenScan>& scans) {
 
 LogDrive read_log_drive(const LogParams& params) {
   const std::string file = params.path.resolved.string();
-  LogDrive drive{of_laser(read_carmen_log(params.path.resolved), params.laser), {}};
+  LogDrive drive{of_laser(read_carmen_log(params.path.resolved, params.max_size_gb), params.laser), {}};
   if (drive.scans.empty()) {
     throw ConfigError({{file, 0, 0,
                         "has no scan of the " + params.laser + " laser; set laser to " +

@@ -25,6 +25,7 @@ struct LogParams {
   double min_range = 0.1;
   double free_range = 8.0;
   double laser_yaw_deg = 0.0;
+  double max_size_gb = default_max_size_gb;
 };
 void describe(ParamVisitor& v, LogParams& p);
 

@@ -89,9 +89,11 @@ void describe(ParamVisitor& v, RosMapFile& p) {
 
 void describe(ParamVisitor& v, RosMap::Params& p) {
   v.field("path", p.path, {.doc = "YAML file of a ROS map server.", .required = true});
+  describe_max_size(v, p.max_size_gb);
 }
 
-RosMap::RosMap(const Params& params, const SourceSetup& setup) : name_(params.path.resolved.string()) {
+RosMap::RosMap(const Params& params, const SourceSetup& setup)
+    : name_(params.path.resolved.string()), max_size_gb_(params.max_size_gb) {
   ParamsOf<RosMapFile> file;
   read_yaml(params.path.resolved, file);
   file_ = std::move(file.value);
@@ -101,7 +103,7 @@ RosMap::RosMap(const Params& params, const SourceSetup& setup) : name_(params.pa
 
 MapData RosMap::load() {
   MapData map;
-  map.grid = grid_of(read_image(file_.image.resolved), file_);
+  map.grid = grid_of(read_image(file_.image.resolved, max_size_gb_), file_);
   map.points = occupied_centres(map.grid);
   if (map.points.empty()) {
     throw ConfigError(

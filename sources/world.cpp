@@ -15,6 +15,9 @@ namespace {
 
 constexpr double lengths = 1000.0;       // m; nothing is larger or farther away
 constexpr double least_clearance = 0.1;  // m, between way points and things
+// Every way is checked against every thing, and so is every ray.
+constexpr std::size_t most_way_points = 10000;
+constexpr std::size_t most_things = 10000;
 
 void describe_presence(ParamVisitor& v, Presence& p) {
   v.field("on_map", p.on_map, {.doc = "Whether the map shows it."});
@@ -79,6 +82,13 @@ bool inside(const World& world, const std::vector<Position>& points) {
   return std::all_of(points.begin(), points.end(), [&](const Position& p) {
     return p[0] >= 0.0 && p[0] <= world.size[0] && p[1] >= 0.0 && p[1] <= world.size[1];
   });
+}
+
+/// Corners of walls, rectangles and circles.
+std::size_t count_things(const World& world) {
+  std::size_t n = world.rectangles.size() + world.circles.size();
+  for (const Wall& wall : world.walls) n += wall.points.size();
+  return n;
 }
 
 /// A robot cannot drive through walls.
@@ -171,8 +181,10 @@ void describe(ParamVisitor& v, World& p) {
   v.field(
       "way_points", p.way_points,
       coordinates(
-          "The drive: straight from place to place, turning on the spot; it begins looking to the second.",
-          2));
+          "The drive: straight from place to place, turning on the spot; it begins looking to the second.", 2,
+          most_way_points));
+  v.require(count_things(p) <= most_things, "walls",
+            "must have at most 10000 corners, together with the rectangles and circles");
   v.require(inside(p, p.free_from), "free_from", "must lie within size");
   v.require(inside(p, p.way_points), "way_points", "must lie within size");
 }

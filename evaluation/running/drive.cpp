@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -23,6 +24,9 @@ double distance_to_path(const Pose2& pose, const std::vector<Pose2>& path) {
 
 /// Whether the grid knows a free cell within `reach` of the pose.
 bool near_free_cell(const Pose2& pose, const OccupancyGrid& grid, double reach) {
+  // The grid has nothing farther away.
+  reach = std::min(
+      reach, distance(pose, grid.map_from_grid) + std::hypot(grid.width, grid.height) * grid.resolution);
   // From the pose itself outwards, so that its own cell counts however short the reach is.
   const int cells = static_cast<int>(reach / grid.resolution);
   for (int row = -cells; row <= cells; ++row) {
@@ -53,6 +57,14 @@ std::vector<std::size_t> starts_at(const std::vector<double>& places_m, const Dr
 }
 
 std::vector<double> every(double distance_m, double length_m) {
+  constexpr double most = 1e6;
+  if (length_m / distance_m > most) {
+    throw ConfigError(
+        {{"", 0, 0,
+          fmt::format("trials: every_m {} m makes {:.3g} starts along the drive of {:.1f} m, at "
+                      "most a million are allowed; raise it",
+                      distance_m, length_m / distance_m, length_m)}});
+  }
   std::vector<double> places;
   for (std::size_t i = 0; static_cast<double>(i) * distance_m <= length_m; ++i) {
     places.push_back(static_cast<double>(i) * distance_m);
@@ -60,11 +72,13 @@ std::vector<double> every(double distance_m, double length_m) {
   return places;
 }
 
-/// Observations from a start to the end of its segment.
-std::size_t steps_left(const Drive& drive, std::size_t start) {
-  std::size_t end = start;
-  while (end < drive.samples.size() && drive.samples[end].segment == drive.samples[start].segment) ++end;
-  return end - start;
+/// Observations from each start to the end of its segment.
+std::vector<std::size_t> steps_left(const Drive& drive) {
+  std::vector<std::size_t> left(drive.samples.size(), 1);
+  for (std::size_t i = left.size(); i-- > 1;) {
+    if (drive.samples[i - 1].segment == drive.samples[i].segment) left[i - 1] = left[i] + 1;
+  }
+  return left;
 }
 
 std::vector<std::size_t> wanted_starts(const TrialsConfig& config, const Drive& drive) {
@@ -102,8 +116,9 @@ std::vector<std::size_t> trial_starts(const TrialsConfig& config, const Drive& d
   std::sort(starts.begin(), starts.end());
   starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
   const std::size_t wanted = starts.size();
+  const std::vector<std::size_t> left = steps_left(drive);
   std::erase_if(starts, [&](std::size_t i) {
-    return steps_left(drive, i) < static_cast<std::size_t>(config.min_steps) ||
+    return left[i] < static_cast<std::size_t>(config.min_steps) ||
            !within_map(drive.samples[i], map, config.within_map_m);
   });
   if (starts.empty()) {

@@ -149,5 +149,14 @@ TEST(CarmenParser, RefusesFilesWithoutScans) {
             "a.log: error: has no FLASER, RLASER or ROBOTLASER1 line; is this a CARMEN log?");
 }
 
+TEST(CarmenParser, ALineThatIsNoneIsRefused) {
+  const std::string good = "PARAM a b\n";
+  EXPECT_EQ(
+      fault_of(good + "FLASER " + std::string(10'000'000, '1')),
+      "a.log:2: error: the line has 10000007 bytes, at most 10000000 are allowed; is this a CARMEN log?");
+  const std::string odd = "FLASER 2 1 " + std::string(100, '\x01') + " 0 0 0 0 0 0 1 h 1\n";
+  EXPECT_NE(fault_of(odd).find("'" + std::string(40, '?') + "…' is not a number"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace glocal::carmen_parser_test

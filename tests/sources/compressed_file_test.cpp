@@ -57,6 +57,16 @@ TEST_P(CompressedFile, IsRefusedWhenCutOffAnywhere) {
   }
 }
 
+TEST_P(CompressedFile, IsRefusedWhereItDecompressesToMoreThanTheLimit) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("bomb.log", GetParam().compress(std::string(3'000'000, '0')));
+  EXPECT_EQ(read_decompressed(file, 0.003).size(), 3'000'000U);
+  EXPECT_EQ(
+      test::config_error(file.parent_path(), [&] { static_cast<void>(read_decompressed(file, 0.0029)); }),
+      "bomb.log: error: has more than 0.0029 GB (decompressed, if it is compressed); if it is the right "
+      "file, raise max_size_gb of the map or observations that it is read for");
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, CompressedFile,
                          testing::Values(Format{"gzip", compressed<boost::iostreams::gzip_compressor>},
                                          Format{"bzip2", compressed<boost::iostreams::bzip2_compressor>},
@@ -67,6 +77,15 @@ TEST(PlainFile, IsReadAsItIs) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(read_decompressed(folder.write("a.gz", "plain\n")), "plain\n");
   EXPECT_EQ(read_decompressed(folder.write("empty", "")), "");
+}
+
+TEST(PlainFile, IsRefusedWhereItIsLargerThanTheLimit) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("a.log", std::string(1001, 'x'));
+  EXPECT_EQ(test::config_error(file.parent_path(), [&] { static_cast<void>(read_decompressed(file, 1e-6)); })
+                .substr(0, 41),
+            "a.log: error: has more than 1e-06 GB (dec");
+  EXPECT_EQ(read_decompressed(file, 1.001e-6).size(), 1001U);
 }
 
 TEST(PlainFile, IsRefusedWhereThereIsNone) {

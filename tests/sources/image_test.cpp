@@ -52,6 +52,10 @@ TEST(Pgm, RefusesWhatIsNoWholeImage) {
             "a.image: error: ends before the end of its pixels" + again);
   EXPECT_EQ(fault_of("P5 2 2 255"), "a.image: error: ends before the end of its pixels" + again);
   EXPECT_EQ(fault_of("P2 2 2 255 1 2 3"), "a.image: error: ends before the end of its pixels" + again);
+  EXPECT_EQ(fault_of("P5 8000 8000 65535\n" + std::string(1000, 'x')),
+            "a.image: error: ends before the end of its pixels" + again);
+  EXPECT_EQ(fault_of("P2 8000 8000 255\n" + std::string(1000, '1')),
+            "a.image: error: ends before the end of its pixels" + again);
   EXPECT_EQ(fault_of("P5 2"), "a.image: error: ends before the end of its height" + again);
   EXPECT_EQ(fault_of("P5 x 2 255\n"), "a.image: error: has no number where its width should be");
   EXPECT_EQ(fault_of("P5 0 2 255\n"), "a.image: error: is an empty image (0 x 2 pixels)");

@@ -363,5 +363,30 @@ TEST(Worlds, OfThePaperAreReadAndHaveItsSizes) {
   EXPECT_NEAR(extent(points("paper_lab.yaml").y), 14.0, 0.02);
 }
 
+TEST(Route, OfMoreThanAMillionObservationsIsRefused) {
+  const test::TemporaryFolder folder;
+  DriveParams params;
+  params.world = test::file_path(folder.write("world.yaml", room));
+  params.tour_legs = 100000;
+  params.step_length = 0.001;
+  EXPECT_EQ(test::config_error(
+                folder.path(),
+                [&] { static_cast<void>(route_of(read_world(params.world.resolved), params, Rng(1))); }),
+            "error: simulation: the drive has more than a million observations; raise step_length and "
+            "step_turn_deg, or lower tour_legs");
+}
+
+TEST(Route, OfATourBetweenManyPlacesIsQuick) {
+  std::vector<Position> star;
+  for (int i = 0; i < 10000; ++i) star.push_back({i % 2 == 0 ? 0.0 : 1.0 + i, 1.0});
+  World world;
+  world.way_points = star;
+  DriveParams params;
+  params.tour_legs = 2000;
+  params.step_length = 1e6;
+  params.step_turn_deg = 180.0;
+  EXPECT_GT(route_of(world, params, Rng(1)).poses.size(), 2000U);
+}
+
 }  // namespace
 }  // namespace glocal::simulation_test

@@ -84,5 +84,20 @@ TEST(World, NamesThePlaceOfAFault) {
             std::string::npos);
 }
 
+TEST(World, MoreThanCanBeCheckedIsRefused) {
+  const auto many = [](int n) {
+    std::string points;
+    for (int i = 0; i < n; ++i) points += i % 2 == 0 ? "[1, 1], " : "[5, 1], ";
+    return points;
+  };
+  EXPECT_EQ(fault_of("size: [6, 4]\nfree_from: [[1, 1]]\nway_points: [" + many(40000) + "]\n"),
+            "world.yaml:3:13: error: way_points: expected 2 to 10000 items, got 40000");
+  EXPECT_EQ(fault_of(std::string(room) + "people: []\ncircles: [{centre: [3, 3], radius: 0.1}]\n"), "");
+  EXPECT_EQ(fault_of("size: [6, 4]\nwalls: [{points: [" + many(10001) +
+                     "]}]\nfree_from: [[1, 1]]\nway_points: [[1, 2], [5, 2]]\n"),
+            "world.yaml:2:8: error: walls: must have at most 10000 corners, together with the rectangles and "
+            "circles");
+}
+
 }  // namespace
 }  // namespace glocal::world_test

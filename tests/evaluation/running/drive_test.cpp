@@ -137,5 +137,16 @@ TEST(TrialStarts, SayWhyThereAreNone) {
   EXPECT_NE(fault({.starts_m = {99.0}}, straight(5)), "");
 }
 
+TEST(TrialStarts, MoreThanAMillionAreRefused) {
+  EXPECT_EQ(
+      fault({.every_m = 1e-9, .starts_m = {}}, straight(15)),
+      "error: trials: every_m 1e-09 m makes 1.4e+10 starts along the drive of 14.0 m, at most a million "
+      "are allowed; raise it");
+}
+
+TEST(TrialStarts, AreFoundQuicklyInALongDrive) {
+  EXPECT_EQ(starts({.starts_m = {}, .every_scan = 1}, straight(200000)).size(), 200000U);
+}
+
 }  // namespace
 }  // namespace glocal::test::drive_test
