@@ -87,7 +87,8 @@ StoredRun ReportData::read_files(Run& run, FaultCollector& faults) const {
 
 void ReportData::read_map(Run& run, FaultCollector& faults) {
   const fs::path file = run.folder / "maps" / "global.pcd";
-  if (!fs::exists(file)) return;
+  std::error_code unreachable;
+  if (!fs::exists(file, unreachable)) return;
   faults.collect([&] {
     Json map = map_points(read_pcd(file));
     const auto same = std::find(maps_.begin(), maps_.end(), map);

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "evaluation/results/file_io.hpp"
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/results/valid_text.hpp"
 #include "glocal/error.hpp"
 #include "version.hpp"
@@ -127,8 +128,12 @@ std::optional<std::string> why_other_run(const std::filesystem::path& folder, co
                                          const std::filesystem::path& experiment_file, FileHashes& hashes) {
   if (without_comments(content_of(folder / "effective.yaml")) != without_comments(effective))
     return "it is of other values (effective.yaml)";
-  const auto record = Json::parse(content_of(folder / "provenance.json"), nullptr, false);
-  if (record.is_discarded()) return "its provenance.json is damaged";
+  Json record;
+  try {
+    record = parse_json(content_of(folder / "provenance.json"));
+  } catch (const std::exception&) {
+    return "its provenance.json is damaged";
+  }
   const auto text_at = [&](const char* key) {
     return record.is_object() ? record.value(key, Json()) : Json();
   };

@@ -15,6 +15,7 @@
 #include "config/yaml_parser.hpp"
 #include "evaluation/results/fault_collector.hpp"
 #include "evaluation/results/file_io.hpp"
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/statistics/statistics.hpp"
 #include "glocal/error.hpp"
 
@@ -48,14 +49,6 @@ std::size_t line_at(const std::string& text, std::size_t byte) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
 }
 
-/// What an exception says, without the name that the library of JSON puts in front.
-std::string reason(const std::exception& error) {
-  const std::string text = error.what();
-  const std::size_t name_end = text.find("] ");
-  return text.starts_with("[json.exception.") && name_end != std::string::npos ? text.substr(name_end + 2)
-                                                                               : text;
-}
-
 /// Hands over the content of a file of JSON. A std::exception of `work` is a fault of the file.
 template <class Work>
 void with_json(const fs::path& file, const Work& work) {
@@ -65,7 +58,7 @@ void with_json(const fs::path& file, const Work& work) {
     refuse(file, line, fmt::format("is not as glocal run leaves it ({}); {}", reason(error), way_out));
   };
   try {
-    work(Json::parse(text));
+    work(parse_json(text));
   } catch (const Json::parse_error& error) {
     fail(line_at(text, error.byte == 0 ? 0 : error.byte - 1), error);
   } catch (const std::exception& error) {
@@ -83,7 +76,7 @@ std::size_t for_each_line(const fs::path& file, const Work& work) {
   for (std::string line; std::getline(stream, line);) {
     ++number;
     try {
-      work(Json::parse(line));
+      work(parse_json(line));
     } catch (const std::exception& error) {
       refuse(file, number, fmt::format("is no line of results ({}); {}", reason(error), way_out));
     }
@@ -135,8 +128,27 @@ void flatten(const YamlNode& node, const std::string& path, const std::map<std::
 
 /// Has, or once had, all of a run.
 bool holds_results(const fs::path& folder) {
-  return is_results_folder(folder) || fs::exists(folder / "summary.json") ||
-         fs::exists(folder / "trials.jsonl");
+  std::error_code unreachable;
+  return is_results_folder(folder) || fs::exists(folder / "summary.json", unreachable) ||
+         fs::exists(folder / "trials.jsonl", unreachable);
+}
+
+[[noreturn]] void refuse_to_look(const fs::path& path, const std::error_code& error) {
+  refuse(
+      path, 0,
+      fmt::format("cannot be looked into ({}); make the folder readable, or name another", error.message()));
+}
+
+/// The folders in a folder. Throws ConfigError if it cannot be looked into.
+std::vector<fs::path> folders_in(const fs::path& path) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code unreachable;
+    if (entry->is_directory(unreachable)) folders.push_back(entry->path());
+  }
+  if (error) refuse_to_look(path, error);
+  return folders;
 }
 
 /// One folder, file by file. What is wrong with one file does not keep the others from being read.
@@ -177,6 +189,8 @@ void ResultsReader::read_head() {
       run_.seed = summary.at("seed");
       run_.complete = summary.at("complete");
       trials_counted_ = summary.at("trials").at("count");
+      for (const char* outcome : {"right", "wrong", "undecided"})
+        static_cast<void>(summary.at("trials").at(outcome).get<std::size_t>());
       steps_counted_ = summary.at("steps");
       run_.summary = summary;
     });
@@ -302,11 +316,14 @@ std::vector<fs::path> results_folders(const fs::path& path) {
   std::error_code unreachable;
   if (!fs::is_directory(path, unreachable))
     refuse(path, 0, "is no folder; name a folder that glocal run has left");
+  // Whoever may not search a folder does not know what is in it.
+  static_cast<void>(fs::status(path / ".", unreachable));
+  if (unreachable) refuse_to_look(path, unreachable);
   if (holds_results(path)) return {path};
   std::vector<fs::path> folders;
-  for (const auto& entry : fs::directory_iterator(path)) {
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (entry.is_directory() && !is_hidden && holds_results(entry.path())) folders.push_back(entry.path());
+  for (const fs::path& folder : folders_in(path)) {
+    const bool is_hidden = folder.filename().string().starts_with('.');
+    if (!is_hidden && holds_results(folder)) folders.push_back(folder);
   }
   if (folders.empty()) {
     refuse(path, 0,

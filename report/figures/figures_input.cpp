@@ -66,12 +66,12 @@ void check_files(const fs::path& folder, std::size_t trial) {
 
 void check_point_clouds(const fs::path& folder, std::size_t trial, FaultCollector& faults) {
   std::vector<fs::path> files;
-  if (const fs::path global = folder / "maps/global.pcd"; fs::exists(global)) files.push_back(global);
+  std::error_code unreachable;
+  if (const fs::path global = folder / "maps/global.pcd"; fs::exists(global, unreachable))
+    files.push_back(global);
   const fs::path local = folder / fmt::format("maps/trial_{:04}", trial);
-  if (fs::is_directory(local)) {
-    for (const auto& entry : fs::directory_iterator(local)) {
-      if (entry.path().extension() == ".pcd") files.push_back(entry.path());
-    }
+  for (const auto& entry : fs::directory_iterator(local, unreachable)) {
+    if (entry.path().extension() == ".pcd") files.push_back(entry.path());
   }
   for (const fs::path& file : files) {
     faults.collect([&] { static_cast<void>(read_pcd(file)); });

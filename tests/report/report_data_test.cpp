@@ -49,8 +49,9 @@ class ReportDataTest : public testing::Test {
   void write_summary(const std::string& name, bool complete, int trials, int steps) const {
     write(
         name + "/summary.json",
-        fmt::format(R"({{"name": "lab", "seed": 7, "complete": {}, "trials": {{"count": {}}}, "steps": {}}})",
-                    complete, trials, steps));
+        fmt::format(
+            R"({{"name": "lab", "seed": 7, "complete": {}, "trials": {{"count": {}, "right": 1, "wrong": 0, "undecided": 0}}, "steps": {}}})",
+            complete, trials, steps));
   }
 
   static std::string trial(std::size_t number, std::size_t steps, double start_m) {

@@ -43,11 +43,13 @@ class ResultsFolder : public testing::Test {
   }
 
   void write_summary(const std::string& name, int trials, int steps) const {
-    temporary_.write(name + "/summary.json",
-                     fmt::format(R"({{"name": "lab", "seed": 7, "complete": true, "trials": {{"count": {}}},)"
-                                 "\n"
-                                 R"("steps": {}}})",
-                                 trials, steps));
+    temporary_.write(
+        name + "/summary.json",
+        fmt::format(
+            R"({{"name": "lab", "seed": 7, "complete": true, "trials": {{"count": {}, "right": 1, "wrong": 0, "undecided": 0}},)"
+            "\n"
+            R"("steps": {}}})",
+            trials, steps));
   }
 
   /// Of trial 0; `more` are further keys.
@@ -233,6 +235,28 @@ TEST_F(ResultsFolder, IsFoundInAFolderOfVariants) {
   EXPECT_THAT(results_folders(temporary_.path()), ElementsAre(temporary_.path() / "another", folder()));
   EXPECT_THROW(static_cast<void>(results_folders(temporary_.path() / "notes")), ConfigError);
   EXPECT_THROW(static_cast<void>(results_folders(temporary_.path() / "missing")), ConfigError);
+}
+
+TEST_F(ResultsFolder, JsonThatIsTooDeepToCopyIsRefused) {
+  std::string deep(200000, '[');
+  deep += std::string(200000, ']');
+  temporary_.write("run/provenance.json",
+                   R"({"host": "[[", "cpu": ")" + std::string(100, '[') + R"(\"", "more": )" + deep + "}");
+  EXPECT_THAT(fault(),
+              HasSubstr("provenance.json: error: is not as glocal run leaves it (nested deeper than 64"));
+  temporary_.write("run/provenance.json", R"({"host": ")" + std::string(100, '[') +
+                                              R"(\"", "cpu": "", "threads": 1, "inputs_sha256": {}})");
+  EXPECT_EQ(fault(), "");
+}
+
+TEST_F(ResultsFolder, WhatCannotBeLookedIntoIsNoneOrSaysWhy) {
+  fs::create_symlink("loop", temporary_.path() / "loop");
+  EXPECT_THAT(results_folders(temporary_.path()), ElementsAre(folder()));
+  fs::create_symlink("summary.json", folder() / "more");
+  fs::remove(folder() / "summary.json");
+  fs::create_symlink("summary.json", folder() / "summary.json");
+  EXPECT_THAT(fault(), HasSubstr("summary.json: error: cannot be read"));
+  EXPECT_THAT(results_folders(temporary_.path()), ElementsAre(folder()));
 }
 
 }  // namespace

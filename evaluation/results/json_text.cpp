@@ -1,0 +1,42 @@
+#include "evaluation/results/json_text.hpp"
+
+#include <exception>
+#include <stdexcept>
+
+namespace glocal {
+namespace {
+
+constexpr int max_depth = 64;
+
+/// Brackets in texts are no depth.
+bool is_too_deep(const std::string& text) {
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size() && depth <= max_depth; ++i) {
+    const char c = text[i];
+    if (c == '"') in_text = !in_text;
+    if (in_text && c == '\\') ++i;
+    if (in_text) continue;
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+  }
+  return depth > max_depth;
+}
+
+}  // namespace
+
+nlohmann::ordered_json parse_json(const std::string& text) {
+  if (is_too_deep(text)) {
+    throw std::invalid_argument("nested deeper than " + std::to_string(max_depth) + " levels");
+  }
+  return nlohmann::ordered_json::parse(text);
+}
+
+std::string reason(const std::exception& error) {
+  const std::string text = error.what();
+  const std::size_t name_end = text.find("] ");
+  return text.starts_with("[json.exception.") && name_end != std::string::npos ? text.substr(name_end + 2)
+                                                                               : text;
+}
+
+}  // namespace glocal
