@@ -1,5 +1,6 @@
 #include "config/text_file.hpp"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -62,10 +63,11 @@ std::optional<std::string> why_unreadable(const std::filesystem::path& file) {
 std::string read_text_file(const std::filesystem::path& file) {
   if (const auto why = why_unreadable(file)) fail(file, *why);
   std::ifstream stream(file, std::ios::binary);
-  std::string bytes(max_bytes + 1, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::string bytes;
+  std::array<char, 4096> chunk{};
+  while (bytes.size() <= max_bytes && (stream.read(chunk.data(), chunk.size()), stream.gcount() > 0))
+    bytes.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
   if (stream.bad()) fail(file, "cannot be read: " + file.string());
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
   if (bytes.size() > max_bytes) fail(file, "is larger than 1 MiB: not a configuration file");
   return bytes;
 }
