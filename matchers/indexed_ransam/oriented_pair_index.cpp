@@ -92,6 +92,8 @@ OrientedPairIndex::OrientedPairIndex(const SavedIndex& saved, const OrientedPair
       begins_.size() != bins() + 1) {
     saved.fail("the index is damaged: its parts do not fit together");
   }
+  for (const auto* values : {&oriented_points_.x, &oriented_points_.y, &oriented_points_.angle})
+    saved.expect_finite(*values);
   saved.expect_bins(begins_.span(), pairs_.size());
   saved.expect_below(points, pairs_.span());
 }

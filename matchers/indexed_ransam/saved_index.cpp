@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
@@ -137,10 +138,19 @@ std::string saved_index(const std::string& kind, const IndexOrigin& origin,
   };
   put(sizeof(Header), std::as_bytes(std::span(places)));
   for (std::size_t i = 0; i < all.size(); ++i) put(places[i].begin, all[i]);
-  Header header{magic, byte_order, version, end, origin.map, all.size(), 0};
-  header.checksum = checksum_of(header, std::as_bytes(std::span(bytes)).subspan(sizeof(Header)));
+  const Header header{magic, byte_order, version, end, origin.map, all.size(), 0};
   put(0, std::as_bytes(std::span(&header, 1)));
-  return bytes;
+  return with_checksum(std::move(bytes));
+}
+
+std::string with_checksum(std::string file) {
+  if (file.size() < sizeof(Header)) return file;
+  Header header;
+  std::memcpy(&header, file.data(), sizeof(Header));
+  header.file_size = file.size();
+  header.checksum = checksum_of(header, std::as_bytes(std::span(file)).subspan(sizeof(Header)));
+  std::memcpy(file.data(), &header, sizeof(Header));
+  return file;
 }
 
 SavedIndex::SavedIndex(std::filesystem::path file, const IndexOrigin& origin) : file_(std::move(file)) {
@@ -183,6 +193,15 @@ void SavedIndex::expect_bins(std::span<const std::uint32_t> begins, std::size_t 
   if (begins.empty() || begins.front() != 0 || begins.back() != items ||
       !std::is_sorted(begins.begin(), begins.end())) {
     fail("the index is damaged: its bins overlap");
+  }
+}
+
+void SavedIndex::expect_finite(std::span<const float> values) const {
+  // Squares of what is larger are no numbers any more.
+  constexpr float largest = 1e9F;
+  const auto is_good = [](float value) { return std::abs(value) <= largest; };
+  if (!std::all_of(values.begin(), values.end(), is_good)) {
+    fail("the index is damaged: it has points that lie nowhere");
   }
 }
 

@@ -53,6 +53,10 @@ struct IndexOrigin {
 [[nodiscard]] std::string saved_index(const std::string& kind, const IndexOrigin& origin,
                                       std::initializer_list<std::span<const std::byte>> sections);
 
+/// The bytes of such a file with size and checksum that fit them, wherever they come from (for tests); what
+/// is too short for a header is left alone.
+[[nodiscard]] std::string with_checksum(std::string file);
+
 /// Such a file, mapped read-only: processes that use the same one share its memory. It is whole and belongs
 /// to the map and the rule it is asked for; what the values of its sections mean is for the index to check.
 /// Replace it by renaming, as `glocal map index` does, never by writing into it while it is in use.
@@ -78,6 +82,8 @@ class SavedIndex {
   void expect(const std::string& kind) const;
   /// Where bins begin, and where the last one ends: rising from 0 to the number of items.
   void expect_bins(std::span<const std::uint32_t> begins, std::size_t items) const;
+  /// Coordinates and angles of points.
+  void expect_finite(std::span<const float> values) const;
   /// Items that consist of the numbers of points.
   template <class T>
   void expect_below(std::size_t points, std::span<const T> items) const {

@@ -150,6 +150,8 @@ TriangleIndex::TriangleIndex(const SavedIndex& saved) {
   if (!std::is_sorted(relations.begin(), relations.end())) {
     saved.fail("the index is damaged: its relations are not in order");
   }
+  saved.expect_finite(points_.x);
+  saved.expect_finite(points_.y);
   saved.expect_bins(begins_.span(), triangles_.size());
   saved.expect_below(points_.size(), triangles_.span());
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <cstring>
 #include <optional>
 
@@ -192,6 +193,18 @@ TEST_F(SavedOrientedPairs, WhoseBinsOrPointsCannotBeAreRefused) {
   begins.pop_back();
   EXPECT_THAT(fault_of(begins, one), HasSubstr("its parts do not fit together"));
   EXPECT_THAT(fault_of({}, {}), HasSubstr("its parts do not fit together"));
+}
+
+TEST_F(SavedOrientedPairs, WhosePointsLieNowhereAreRefused) {
+  const std::vector<std::uint32_t> begins(55U * 24U * 24U + 1U, 0);
+  const std::vector<float> good = {1.0F, 2.0F};
+  for (const float odd : {std::nanf(""), HUGE_VALF, -2e9F}) {
+    const std::vector<float> bad = {1.0F, odd};
+    const auto bytes = [](const auto& values) { return std::as_bytes(std::span(values)); };
+    const std::string file = saved_index(OrientedPairIndex::kind, origin,
+                                         {bytes(good), bytes(good), bytes(bad), bytes(begins), {}});
+    EXPECT_THAT(config_error("", [&] { (void)read(file); }), HasSubstr("it has points that lie nowhere"));
+  }
 }
 
 }  // namespace

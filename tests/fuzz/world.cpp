@@ -1,0 +1,19 @@
+// Worlds of simulations, with what is made of them: a map and a drive.
+#include "sources/world.hpp"
+
+#include "fuzz/harness.hpp"
+#include "sources/simulation.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace glocal;
+  const auto file = fuzz::write("world.yaml", fuzz::text_of(data, size));
+  return fuzz::answer([&] {
+    const World world = read_world(file);
+    static_cast<void>(people_at(world, 1000.0));
+    DriveParams drive;
+    drive.world = {file.string(), file};
+    drive.tour_legs = 10;
+    static_cast<void>(route_of(world, drive, Rng(1)));
+    static_cast<void>(SimulatedMap({{file.string(), file}, 1.0}, {}).load());
+  });
+}
