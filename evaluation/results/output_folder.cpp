@@ -94,6 +94,14 @@ void OutputFolder::check(const fs::path& path, bool replace, const TakesUp& take
   if (!fs::is_directory(there, ignored) || !takes_up(there, true)) check_free(places.path, there, replace);
 }
 
+void OutputFolder::tidy(const fs::path& path) {
+  const Places places(path);
+  std::error_code ignored;
+  if (!fs::exists(places.lock, ignored)) return;
+  const FileLock lock(places.lock, places.path);
+  fs::remove_all(places.replaced, ignored);
+}
+
 OutputFolder::OutputFolder(const fs::path& path, bool replace, const TakesUp& takes_up)
     : places_(path), replace_(replace) {
   make_folder(places_.path.parent_path(), {});

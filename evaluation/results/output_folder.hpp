@@ -24,11 +24,14 @@ class OutputFolder {
   /// Whether to go on with what an earlier run has left in a folder: in the final one, or in the hidden one.
   using TakesUp = std::function<bool(const std::filesystem::path& folder, bool is_final)>;
 
-  /// Throws what the constructor would throw, but leaves everything as it is: for what is known to be wrong
+  /// Throws what the constructor would throw, but writes nothing: for what is known to be wrong
   /// to be said before anything is computed.
   static void check(
       const std::filesystem::path& path, bool replace,
       const TakesUp& takes_up = [](const std::filesystem::path&, bool) { return false; });
+
+  /// Removes what a run that was killed at its very end has left beside its results.
+  static void tidy(const std::filesystem::path& path);
 
   /// Throws ConfigError if `path` exists and is not an empty folder, unless `replace` is given and it holds
   /// results of an earlier run, and if another process writes there. `takes_up` is asked about an unfinished

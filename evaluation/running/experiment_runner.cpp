@@ -117,6 +117,7 @@ void ExperimentRunner::take_finished() {
     const bool is_whole = damage.collect([&] { add_result(variant.name, read_results(folder).summary); });
     if (!is_whole && !options_.force) faults.collect([&] { damage.report(); });
     if (!is_whole) return false;
+    faults.collect([&] { OutputFolder::tidy(folder); });
     callbacks_.note(fmt::format("{}: kept, as an earlier run has finished it", variant.name));
     return true;
   });

@@ -196,6 +196,15 @@ TEST(OutputFolder, TakesUpResultsThatAreNotComplete) {
   EXPECT_EQ(content(folder / "results/a"), "1");
 }
 
+TEST(OutputFolder, AKillAtTheVeryEndLeavesNothingForLong) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "results");
+  fs::create_directory(folder / ".results.replaced");
+  folder.write(".results.lock", "");
+  OutputFolder::tidy(folder / "results");
+  EXPECT_EQ(entries(folder / ""), 1);
+}
+
 TEST(OutputFolder, HasOneOwner) {
   const TemporaryFolder folder;
   const OutputFolder out(folder / "results", false);
