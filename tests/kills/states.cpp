@@ -12,7 +12,6 @@
 #include <iterator>
 #include <map>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -195,8 +194,11 @@ class States {
  public:
   void add(const Disk& disk, std::size_t finished, const std::string& after) {
     for (const auto& [what, words] : ways) {
-      const auto [tree, is_new] = known_.insert(disk.left(what));
-      if (is_new) states_.push_back({&*tree, std::to_string(finished) + "\t" + words + ", " + after});
+      const auto [known, is_new] = known_.emplace(disk.left(what), states_.size());
+      if (is_new) states_.push_back({&known->first, 0, words + (", " + after)});
+      // The same files may be left later, too, when more should be there.
+      std::size_t& most = states_[known->second].finished;
+      most = std::max(most, finished);
     }
   }
 
@@ -207,16 +209,17 @@ class States {
     for (std::size_t i = 0; i < all; ++i) {
       if (most < all && (i + 1) * most / all == i * most / all) continue;
       write(*states_[i].tree, out / std::to_string(i));
-      std::cout << i << '\t' << states_[i].what << '\n';
+      std::cout << i << '\t' << states_[i].finished << '\t' << states_[i].what << '\n';
     }
   }
 
  private:
   struct State {
     const Tree* tree;
+    std::size_t finished;  ///< Trials.
     std::string what;
   };
-  std::set<Tree> known_;
+  std::map<Tree, std::size_t> known_;  ///< Which of the states they are.
   std::vector<State> states_;
 };
 
