@@ -9,6 +9,7 @@
 
 #include "config/text_file.hpp"
 #include "evaluation/results/file_io.hpp"
+#include "evaluation/results/json_text.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -61,8 +62,8 @@ std::string checked_text(const std::filesystem::path& file) {
 }
 
 JournalEntry entry_of(const Json& json) {
-  return {json.at("trial"), figures_of(json.at("figures")), json.at("trial_line"), json.at("step_lines"),
-          json.at("files")};
+  return {whole_number(json, "trial"), figures_of(json.at("figures")), json.at("trial_line"),
+          json.at("step_lines"), json.at("files")};
 }
 
 void check_files(const JournalEntry& entry, const std::filesystem::path& folder,
@@ -103,7 +104,7 @@ std::optional<JournalEntry> read_entry(const std::filesystem::path& folder, std:
   const std::string text = checked_text(file);
   JournalEntry entry;
   try {
-    entry = entry_of(Json::parse(text));
+    entry = entry_of(parse_json(text));
   } catch (const std::exception&) {
     refuse_entry(file, "the entry is not as glocal run leaves it");
   }

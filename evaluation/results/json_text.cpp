@@ -32,6 +32,13 @@ nlohmann::ordered_json parse_json(const std::string& text) {
   return nlohmann::ordered_json::parse(text);
 }
 
+std::size_t whole_number(const nlohmann::ordered_json& object, const char* key) {
+  const auto& json = object.at(key);
+  if (!json.is_number_unsigned())
+    throw std::invalid_argument("'" + std::string(key) + "' is no whole number from 0 on");
+  return json.get<std::size_t>();
+}
+
 std::string reason(const std::exception& error) {
   const std::string text = error.what();
   const std::size_t name_end = text.find("] ");

@@ -27,6 +27,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* mark_of_results = "provenance.json";
 
+/// More than an experiment may have.
+constexpr std::size_t most_threads = 1000;
+
 constexpr const char* way_out = "run the experiment again with this version";
 
 /// Keys of a step that earlier versions wrote, and what they are called now.
@@ -186,19 +189,21 @@ void ResultsReader::read_head() {
   faults_.collect([&] {
     with_json(run_.folder / "summary.json", [&](const Json& summary) {
       run_.experiment = summary.at("name");
-      run_.seed = summary.at("seed");
+      run_.seed = whole_number(summary, "seed");
       run_.complete = summary.at("complete");
-      trials_counted_ = summary.at("trials").at("count");
+      trials_counted_ = whole_number(summary.at("trials"), "count");
       for (const char* outcome : {"right", "wrong", "undecided"})
-        static_cast<void>(summary.at("trials").at(outcome).get<std::size_t>());
-      steps_counted_ = summary.at("steps");
+        static_cast<void>(whole_number(summary.at("trials"), outcome));
+      steps_counted_ = whole_number(summary, "steps");
       run_.summary = summary;
     });
   });
   std::map<std::string, std::string> hashes;
   faults_.collect([&] {
     with_json(run_.folder / mark_of_results, [&](const Json& provenance) {
-      run_.machine = {provenance.at("host"), provenance.at("cpu"), provenance.at("threads")};
+      run_.machine = {
+          provenance.at("host"), provenance.at("cpu"),
+          static_cast<int>(std::min<std::size_t>(whole_number(provenance, "threads"), most_threads))};
       hashes = provenance.at("inputs_sha256");
       run_.provenance = provenance;
     });
@@ -212,10 +217,11 @@ void ResultsReader::read_head() {
 void ResultsReader::read_trials() {
   const fs::path file = run_.folder / "trials.jsonl";
   const std::size_t lines = for_each_line(file, [&](const Json& line) {
-    const std::size_t number = line.at("trial");
+    const std::size_t number = whole_number(line, "trial");
     const Json& start = line.at("start");
-    const TrialStart at{start.at("sample"), start.at("distance_m"), start.at("stamp")};
-    if (!steps_.try_emplace(number, TrialSteps{at, line.at("steps")}).second)
+    const TrialStart at{static_cast<std::int64_t>(whole_number(start, "sample")), start.at("distance_m"),
+                        start.at("stamp")};
+    if (!steps_.try_emplace(number, TrialSteps{at, whole_number(line, "steps")}).second)
       throw std::invalid_argument(fmt::format("trial {} is there already", number));
     if (!run_.trials.emplace(at, trial_of(line)).second)
       throw std::invalid_argument("an earlier trial starts at the same place");
@@ -230,12 +236,12 @@ void ResultsReader::read_trials() {
 void ResultsReader::read_steps() {
   const fs::path file = run_.folder / "steps.jsonl";
   const std::size_t lines = for_each_line(file, [&](const Json& line) {
-    const std::size_t number = line.at("trial");
+    const std::size_t number = whole_number(line, "trial");
     const auto trial = steps_.find(number);
     if (trial == steps_.end())
       throw std::invalid_argument(fmt::format("trials.jsonl has no trial {}", number));
     std::vector<double>& ms = trial->second.ms;
-    if (const std::size_t step = line.at("step"); step != ms.size())
+    if (const std::size_t step = whole_number(line, "step"); step != ms.size())
       throw std::invalid_argument(
           fmt::format("step {} of trial {} is here, where step {} belongs", step, number, ms.size()));
     refuse_renamed(line, renamed_keys);

@@ -259,5 +259,12 @@ TEST_F(ResultsFolder, WhatCannotBeLookedIntoIsNoneOrSaysWhy) {
   EXPECT_THAT(results_folders(temporary_.path()), ElementsAre(folder()));
 }
 
+TEST_F(ResultsFolder, NumbersOfTrialsAndStepsAreWholeOnes) {
+  for (const char* odd : {"-1", "1e300", "0.5", "\"0\"", "null"}) {
+    temporary_.write("run/steps.jsonl", fmt::format(R"({{"trial":{},"step":0}})", odd));
+    EXPECT_THAT(fault(), HasSubstr("is no line of results ('trial' is no whole number from 0 on)")) << odd;
+  }
+}
+
 }  // namespace
 }  // namespace glocal::test::results_folder_test
