@@ -36,10 +36,10 @@ class Descriptor {
 
 fs::path follow(const fs::path& path, int& links) {
   if (!path.has_relative_path()) return path;
-  const fs::path parent = follow(path.parent_path(), links);
+  fs::path parent = follow(path.parent_path(), links);
   if (path.filename().empty() || path.filename() == ".") return parent;
   if (path.filename() == "..") return parent.parent_path();
-  const fs::path here = parent / path.filename();
+  fs::path here = parent / path.filename();
   std::error_code ignored;
   if (!fs::is_symlink(here, ignored)) return here;
   // As many as Linux follows.

@@ -155,7 +155,7 @@ void OutputFolder::write_for_good(const fs::path& name, std::string_view content
 }
 
 fs::path OutputFolder::write_part(const fs::path& name, std::string_view content) {
-  const fs::path part = (places_.unfinished / name).string() + ".part";
+  fs::path part = (places_.unfinished / name).string() + ".part";
   std::error_code ignored;
   fs::remove(part, ignored);
   make_folder(part.parent_path(), name);
