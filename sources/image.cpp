@@ -127,9 +127,9 @@ class PngReader {
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
     if (info_ == nullptr) throw RunError(file.string() + ": libpng cannot start");
     png_set_read_fn(png_, this, &PngReader::on_read);
-    // Texts and profiles, of which nothing is used, may say that they have gigabytes.
-    constexpr png_alloc_size_t largest_chunk = 8'000'000;
-    png_set_chunk_malloc_max(png_, largest_chunk);
+    // Texts, profiles and the like are passed over: they may say that they have gigabytes.
+    constexpr int all = -1;
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, all);
   }
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngReader(const PngReader&) = delete;

@@ -72,6 +72,17 @@ TEST(Pgm, RefusesWhatIsNoWholeImage) {
   EXPECT_EQ(fault_of(""), other);
 }
 
+TEST(Png, PassesOverWhatIsNoPicture) {
+  const std::string plain = make_png(2, 1, 8, PNG_COLOR_TYPE_GRAY, bytes({0, 255}));
+  constexpr std::size_t behind_header = 8 + 25;  // signature, IHDR
+  std::string with_text = plain;
+  with_text.insert(behind_header, bytes({0, 0, 0, 1}) + "tEXtx" + bytes({0x11, 0x98, 0x23, 0xE9}));
+  expect_grey(read(with_text), 2, 1, {0, 1});
+  std::string with_long_text = plain;
+  with_long_text.insert(behind_header, bytes({0x7F, 0xFF, 0xFF, 0xFF}) + "tEXtx");
+  EXPECT_EQ(fault_of(with_long_text).substr(0, 54), "a.image: error: is a damaged or truncated PNG image (t");
+}
+
 TEST(Png, ReadsGrey) {
   expect_grey(read(make_png(2, 2, 8, PNG_COLOR_TYPE_GRAY, bytes({0, 51, 102, 255}))), 2, 2, {0, 0.2, 0.4, 1});
   expect_grey(read(make_png(1, 1, 16, PNG_COLOR_TYPE_GRAY, bytes({0x40, 0x00}))), 1, 1, {16384 / 65535.0});
