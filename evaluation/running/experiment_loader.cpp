@@ -7,10 +7,26 @@
 #include <exception>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "glocal/error.hpp"
+#include "pipeline/stage_contracts.hpp"
 
 namespace glocal {
+namespace {
+
+/// Throws ConfigError, with the source's name, where what it delivers breaks its contract.
+template <class Check>
+void require_contract(const char* kind, const StrategyChoice& source, Check check) {
+  try {
+    check();
+  } catch (const BrokenContract& broken) {
+    throw ConfigError(
+        {{"", 0, 0, fmt::format("{} '{}' breaks its contract: {}", kind, source.name, broken.what())}});
+  }
+}
+
+}  // namespace
 
 LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog, const Warn& warn) {
   LoadedExperiment loaded;
@@ -20,12 +36,16 @@ LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& ca
             .note_input = [&](const std::filesystem::path& file) { loaded.inputs.insert(file); }};
   };
   const auto start = std::chrono::steady_clock::now();
-  loaded.map = std::make_shared<const GlobalMap>(
-      catalog.map_sources.make(experiment.map, setup_of(RandomPart::map_source))->load());
+  MapData map = catalog.map_sources.make(experiment.map, setup_of(RandomPart::map_source))->load();
+  require_contract("map source", experiment.map, [&] { check_map(map); });
+  loaded.map = std::make_shared<const GlobalMap>(std::move(map));
   loaded.map_build_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   loaded.drive = read_drive(
       *catalog.observation_sources.make(experiment.observations, setup_of(RandomPart::observation_source)));
+  require_contract("observation source", experiment.observations, [&] {
+    for (const Sample& sample : loaded.drive.samples) check_sample(sample);
+  });
   loaded.starts = trial_starts(experiment.trials, loaded.drive, *loaded.map);
   return loaded;
 }

@@ -212,9 +212,9 @@ TEST_F(WatchedRun, EndsThoughClientsAreSlow) {
 TEST_F(WatchedRun, AnswersThoughManyAreConnected) {
   start("--set localizer.matcher.ransam.iterations=10000000");
   std::vector<std::unique_ptr<Connection>> idle;
-  for (int i = 0; i < 300; ++i) idle.push_back(std::make_unique<Connection>(port_));
+  for (int i = 0; i < 200; ++i) idle.push_back(std::make_unique<Connection>(port_));
   httplib::Client client("127.0.0.1", port_);
-  client.set_read_timeout(5);
+  client.set_read_timeout(30);  // a second for each four of them would be more
   const auto answer = client.Get("/data");
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 200);

@@ -48,7 +48,33 @@ void check_points(const Points& points, const char* what) {
           "a value of the {} is not finite, or farther than {} m from the origin", what, farthest_m);
 }
 
+void check_normals(const Points& normals, const Points& points) {
+  check_points(normals, "normals");
+  require(normals.empty() || normals.size() == points.size(),
+          "there are {} normals for {} points; give one for each, or none", normals.size(), points.size());
+}
+
 }  // namespace
+
+void check_map(const MapData& map) {
+  require(!map.points.empty(), "the map has no points");
+  check_points(map.points, "points");
+  check_normals(map.normals, map.points);
+  const OccupancyGrid& grid = map.grid;
+  require(
+      grid.width >= 0 && grid.height >= 0 &&
+          grid.cells.size() == static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height),
+      "the grid has {} cells for {} columns and {} rows", grid.cells.size(), grid.width, grid.height);
+  require(grid.cells.empty() || (grid.resolution > 0.0 && grid.resolution <= farthest_m),
+          "the grid's resolution is {} m", grid.resolution);
+  check_pose(grid.map_from_grid, "grid", 0);
+  for (std::size_t i = 0; i < map.path.size(); ++i) check_pose(map.path[i], "path", i);
+}
+
+void check_sample(const Sample& sample) {
+  check_observation(sample.observation);
+  if (sample.map_from_robot) check_pose(*sample.map_from_robot, "reference", 0);
+}
 
 void check_observation(const Observation& observation) {
   check_points(observation.scan.hits, "hits");
@@ -61,10 +87,7 @@ void check_observation(const Observation& observation) {
 
 void check_local_map(const LocalMap& local) {
   check_points(local.points, "points");
-  check_points(local.normals, "normals");
-  require(local.normals.empty() || local.normals.size() == local.points.size(),
-          "there are {} normals for {} points; give one for each, or none", local.normals.size(),
-          local.points.size());
+  check_normals(local.normals, local.points);
   check_pose(local.local_from_robot, "the robot in local map", static_cast<std::size_t>(local.epoch));
   require(std::is_sorted(local.ends.begin(), local.ends.end()) &&
               (local.ends.empty() || local.ends.back() <= local.points.size()),

@@ -1,5 +1,5 @@
-// What the localizer checks of each stage's answer, so that a strategy that breaks its contract is named, and
-// does not bring down the stages after it. Each check looks at every value once; the clauses are those of
+// What is checked of the answers of sources and stages, so that a strategy that breaks its contract is named,
+// and does not bring down the stages after it. Each check looks at every value once; the clauses are those of
 // strategies.hpp. All throw BrokenContract.
 #pragma once
 
@@ -17,7 +17,8 @@ class BrokenContract : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// No stage's answer, but what all of them work with.
+void check_map(const MapData& map);
+void check_sample(const Sample& sample);
 void check_observation(const Observation& observation);
 void check_local_map(const LocalMap& local);
 void check_threshold(double omega_max);

@@ -169,7 +169,7 @@ TEST_F(TrialTest, TextsOfStrategiesBecomeUtf8) {
   };
   const TrialRecord trial = run(2);
   EXPECT_EQ(trial.outcome, Outcome::failed);
-  EXPECT_EQ(trial.why, "a strategy threw an exception: caf\ufffd");
+  EXPECT_EQ(trial.why, "verdict_rule 'fake' threw an exception in step 1: caf\ufffd");
   ASSERT_EQ(trial.records.size(), 1U);
   EXPECT_EQ(trial.records[0].result.verdict.why, "\ufffd searching");
   EXPECT_EQ(trial.records[0].result.verdict.evidence[0].name, "\ufffdm");

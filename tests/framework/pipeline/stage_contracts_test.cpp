@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <limits>
 
 namespace glocal::test::stage_contracts_test {
@@ -57,6 +58,45 @@ TEST(StageContracts, LocalMapsAreWhole) {
   LocalMap nowhere = local_map();
   nowhere.local_from_robot.theta = infinite;
   EXPECT_THROW(check_local_map(nowhere), BrokenContract);
+}
+
+TEST(StageContracts, MapsHavePointsAndAWholeGrid) {
+  MapData good;
+  good.points.push_back({1.0F, 2.0F, 0.0F});
+  good.grid = {{0, 0, 0}, 0.5, 2, 1, {Cell::free, Cell::occupied}};
+  good.path = {{1, 2, 3}};
+  EXPECT_NO_THROW(check_map(good));
+  const auto expect_broken = [&](const std::function<void(MapData&)>& break_it) {
+    MapData map = good;
+    break_it(map);
+    EXPECT_THROW(check_map(map), BrokenContract);
+  };
+  expect_broken([](MapData& map) { map.points = {}; });
+  expect_broken([](MapData& map) { map.points.x[0] = std::numeric_limits<float>::quiet_NaN(); });
+  expect_broken([](MapData& map) { map.normals.push_back({1, 0, 0}), map.normals.push_back({1, 0, 0}); });
+  expect_broken([](MapData& map) { map.grid.cells.pop_back(); });
+  expect_broken([](MapData& map) { map.grid.width = map.grid.height = -1; });
+  expect_broken([](MapData& map) { map.grid.resolution = not_a_number; });
+  expect_broken([](MapData& map) { map.grid.map_from_grid.x = infinite; });
+  expect_broken([](MapData& map) { map.path[0].theta = not_a_number; });
+}
+
+TEST(StageContracts, SamplesArePlaces) {
+  Sample good;
+  good.observation.scan.hits.push_back({1.0F, 2.0F, 0.0F});
+  good.map_from_robot = Pose2{1, 2, 3};
+  EXPECT_NO_THROW(check_sample({}));
+  EXPECT_NO_THROW(check_sample(good));
+  const auto expect_broken = [&](const std::function<void(Sample&)>& break_it) {
+    Sample sample = good;
+    break_it(sample);
+    EXPECT_THROW(check_sample(sample), BrokenContract);
+  };
+  expect_broken([](Sample& s) { s.observation.scan.hits.y[0] = std::numeric_limits<float>::infinity(); });
+  expect_broken([](Sample& s) { s.observation.scan.free_ends.push_back({1e8F, 0, 0}); });
+  expect_broken([](Sample& s) { s.observation.scan.origin.z = std::numeric_limits<float>::quiet_NaN(); });
+  expect_broken([](Sample& s) { s.observation.odom_from_robot.x = infinite; });
+  expect_broken([](Sample& s) { s.map_from_robot->y = not_a_number; });
 }
 
 TEST(StageContracts, ThresholdsAreShares) {
