@@ -15,6 +15,13 @@
 namespace glocal::app {
 namespace {
 
+/// Sanitizers say more of a crash.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_sanitized = true;
+#else
+constexpr bool is_sanitized = false;
+#endif
+
 /// A line put together without any memory of its own: all that a signal handler may do.
 class Line {
  public:
@@ -80,9 +87,9 @@ void say_where(int signal) {
 }  // namespace
 
 void name_strategy_in_crashes() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // They say more.
+  if (is_sanitized) return;
   // A stack of its own: a stack that has overflowed has no room.
-  static std::array<char, 64 * 1024> stack;
+  static std::array<char, 65'536> stack;
   stack_t alternative{};
   alternative.ss_sp = stack.data();
   alternative.ss_size = stack.size();
@@ -91,7 +98,6 @@ void name_strategy_in_crashes() {
   action.sa_handler = say_where;
   action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND | SA_NODEFER);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
-#endif
 }
 
 }  // namespace glocal::app
