@@ -19,6 +19,7 @@
 #include "config/yaml_parser.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/pcd.hpp"
+#include "evaluation/running/experiment_loader.hpp"
 #include "glocal/error.hpp"
 #include "sources/log_map.hpp"
 #include "sources/ros_map.hpp"
@@ -34,9 +35,8 @@ struct MapOptions {
   bool force = false;
 };
 
-SourceSetup setup_for(std::uint64_t seed) {
+SourceSetup warning_setup() {
   SourceSetup setup;
-  setup.seed = seed;
   setup.warn = [](const std::string& text) { spdlog::warn(text); };
   return setup;
 }
@@ -50,11 +50,8 @@ bool is_ros_map(const std::string& file) {
 
 /// The map of a file; `input` has what may be changed in it.
 MapData load(const ExperimentOptions& input, Context& context) {
-  if (is_ros_map(input.file)) return RosMap({{input.file, input.file}}, setup_for(0)).load();
-  const Experiment experiment = input.read(context);
-  return context.catalog.map_sources
-      .make(experiment.map, setup_for(seed_of(RandomPart::map_source, experiment)))
-      ->load();
+  if (is_ros_map(input.file)) return RosMap({{input.file, input.file}}, warning_setup()).load();
+  return load_map(input.read(context), context.catalog, warning_setup());
 }
 
 /// Fills parameters from a tree into which some values are put.
@@ -155,9 +152,7 @@ void align(const AlignOptions& options, Context& context) {
 
 void index(const MapOptions& options, Context& context) {
   const Experiment experiment = options.input.read(context);
-  MapData map = context.catalog.map_sources
-                    .make(experiment.map, setup_for(seed_of(RandomPart::map_source, experiment)))
-                    ->load();
+  MapData map = load_map(experiment, context.catalog, warning_setup());
   const MapIndexInfo saved =
       save_index(experiment, context.catalog, std::move(map), options.out, options.force);
   fmt::print("entries     {}\nbytes       {}\nbuild       {:.1f} ms\n", saved.entries, saved.bytes,
@@ -184,7 +179,7 @@ void add_map(CLI::App& app, Context& context) {
   options->input.add_set_to(*build, "Change a parameter of log_map: segments=[[0,0.3]] (repeatable)");
   add_output(*build, *options);
   build->callback(
-      [options] { write(LogMap(log_map_params(options->input), setup_for(0)).load(), *options); });
+      [options] { write(LogMap(log_map_params(options->input), warning_setup()).load(), *options); });
 
   constexpr const char* file = "ROS map (YAML), or experiment whose map is meant";
   CLI::App* convert = map->add_subcommand("convert", "Write a map in another format.");

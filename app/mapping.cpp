@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "evaluation/running/experiment_loader.hpp"
 #include "evaluation/running/mapping_accuracy.hpp"
 #include "evaluation/statistics/statistics.hpp"
 
@@ -25,10 +26,8 @@ struct MappingOptions {
 /// Only the drive and the local mapper are made: the map of the experiment has no part in this.
 MappingAccuracy measure(const Experiment& experiment, const Catalog& catalog, const MappingWindows& windows) {
   SourceSetup setup;
-  setup.seed = seed_of(RandomPart::observation_source, experiment);
   setup.warn = [](const std::string& text) { spdlog::warn(text); };
-  const auto source = catalog.observation_sources.make(experiment.observations, setup);
-  const Drive drive = read_drive(*source);
+  const Drive drive = load_drive(experiment, catalog, setup);
   const auto mapper =
       catalog.local_mappers.make(experiment.localizer.local_mapper, {nullptr, experiment.threads});
   return measure_mapping(drive, *mapper, windows);

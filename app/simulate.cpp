@@ -12,6 +12,7 @@
 #include "app/experiment_options.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/provenance.hpp"
+#include "evaluation/running/experiment_loader.hpp"
 #include "glocal/error.hpp"
 #include "sources/ros_map.hpp"
 #include "sources/ros_map_writer.hpp"
@@ -52,8 +53,7 @@ void simulate(const SimulateOptions& options, Context& context) {
   }
   OutputFolder folder(options.out, options.force);
   folder.append(drive->file_name, drive->content);
-  setup.seed = seed_of(RandomPart::map_source, experiment);
-  const MapData map = catalog.map_sources.make(experiment.map, setup)->load();
+  const MapData map = load_map(experiment, catalog, setup);
   folder.append("map.pgm", pgm(trinary_image(map.grid)));
   folder.append("map.yaml", ros_map_yaml(map.grid, "map.pgm"));
 

@@ -28,24 +28,31 @@ void require_contract(const char* kind, const StrategyChoice& source, Check chec
 
 }  // namespace
 
+MapData load_map(const Experiment& experiment, const Catalog& catalog, SourceSetup setup) {
+  setup.seed = seed_of(RandomPart::map_source, experiment);
+  MapData map = catalog.map_sources.make(experiment.map, setup)->load();
+  require_contract("map source", experiment.map, [&] { check_map(map); });
+  return map;
+}
+
+Drive load_drive(const Experiment& experiment, const Catalog& catalog, SourceSetup setup) {
+  setup.seed = seed_of(RandomPart::observation_source, experiment);
+  Drive drive = read_drive(*catalog.observation_sources.make(experiment.observations, setup));
+  require_contract("observation source", experiment.observations, [&] {
+    for (const Sample& sample : drive.samples) check_sample(sample);
+  });
+  return drive;
+}
+
 LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog, const Warn& warn) {
   LoadedExperiment loaded;
-  const auto setup_of = [&](RandomPart part) -> SourceSetup {
-    return {.seed = seed_of(part, experiment),
-            .warn = warn,
-            .note_input = [&](const std::filesystem::path& file) { loaded.inputs.insert(file); }};
-  };
+  const SourceSetup setup{
+      .warn = warn, .note_input = [&](const std::filesystem::path& file) { loaded.inputs.insert(file); }};
   const auto start = std::chrono::steady_clock::now();
-  MapData map = catalog.map_sources.make(experiment.map, setup_of(RandomPart::map_source))->load();
-  require_contract("map source", experiment.map, [&] { check_map(map); });
-  loaded.map = std::make_shared<const GlobalMap>(std::move(map));
+  loaded.map = std::make_shared<const GlobalMap>(load_map(experiment, catalog, setup));
   loaded.map_build_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  loaded.drive = read_drive(
-      *catalog.observation_sources.make(experiment.observations, setup_of(RandomPart::observation_source)));
-  require_contract("observation source", experiment.observations, [&] {
-    for (const Sample& sample : loaded.drive.samples) check_sample(sample);
-  });
+  loaded.drive = load_drive(experiment, catalog, setup);
   loaded.starts = trial_starts(experiment.trials, loaded.drive, *loaded.map);
   return loaded;
 }

@@ -27,6 +27,11 @@ struct LoadedExperiment {
   std::set<std::filesystem::path> inputs;  ///< Files that were read.
 };
 
+/// The map of an experiment, and its drive, from their sources. The experiment's seed overrules that of the
+/// setup. Throw ConfigError, also where a source breaks its contract.
+[[nodiscard]] MapData load_map(const Experiment& experiment, const Catalog& catalog, SourceSetup setup);
+[[nodiscard]] Drive load_drive(const Experiment& experiment, const Catalog& catalog, SourceSetup setup);
+
 /// Loads map and drive and finds the starts. Throws ConfigError.
 [[nodiscard]] LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog,
                                                const Warn& warn);
