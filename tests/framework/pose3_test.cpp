@@ -1,0 +1,96 @@
+#include "glocal/pose3.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+#include <vector>
+
+#include "glocal/rng.hpp"
+
+namespace glocal::pose3_test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Eigen::Quaterniond eigen(const Quaternion& q) {
+  return {q.w, q.x, q.y, q.z};
+}
+
+Eigen::Isometry3d eigen(const Pose3& pose) {
+  return Eigen::Translation3d(pose.x, pose.y, pose.z) * eigen(pose.rotation);
+}
+
+/// Poses all over the place, turned by any angle.
+std::vector<Pose3> random_poses(std::size_t n) {
+  Rng rng(7);
+  std::vector<Pose3> poses;
+  const auto value = [&] { return rng.uniform(-3.0, 3.0); };
+  while (poses.size() < n)
+    poses.push_back({{value(), value(), value()}, exponential({value(), value(), value()})});
+  return poses;
+}
+
+TEST(Pose3, ComposesAndInvertsAsEigen) {
+  const std::vector<Pose3> poses = random_poses(20);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    EXPECT_TRUE(eigen(poses[i - 1] * poses[i]).isApprox(eigen(poses[i - 1]) * eigen(poses[i]), 1e-12));
+    EXPECT_TRUE(eigen(inverse(poses[i])).isApprox(eigen(poses[i]).inverse(), 1e-12));
+    const Vector3 moved = poses[i] * Vector3{1.0, 2.0, -3.0};
+    EXPECT_TRUE((eigen(poses[i]) * Eigen::Vector3d(1.0, 2.0, -3.0))
+                    .isApprox(Eigen::Vector3d(moved.x, moved.y, moved.z), 1e-12));
+  }
+}
+
+TEST(Pose3, MatricesAreEigens) {
+  for (const Pose3& pose : random_poses(20)) {
+    const std::array<double, 9> matrix = matrix_of(pose.rotation);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rows(matrix.data());
+    EXPECT_TRUE(rows.isApprox(eigen(pose.rotation).toRotationMatrix(), 1e-12));
+    EXPECT_NEAR(angle_of(inverse(pose.rotation) * quaternion_of(matrix)), 0.0, 1e-7);
+  }
+}
+
+TEST(Pose3, ExponentialAndLogarithmUndoEachOther) {
+  for (const Vector3& v :
+       {Vector3{0.3, -1.2, 2.0}, Vector3{1e-9, 2e-9, 0.0}, Vector3{}, Vector3{0.0, 0.0, 3.1}}) {
+    const Vector3 again = logarithm(exponential(v));
+    EXPECT_NEAR(again.x, v.x, 1e-12);
+    EXPECT_NEAR(again.y, v.y, 1e-12);
+    EXPECT_NEAR(again.z, v.z, 1e-12);
+  }
+}
+
+TEST(Pose3, LogarithmTakesTheShortWay) {
+  const Quaternion q = exponential({0.0, 0.0, 2.0 * pi - 0.5});
+  EXPECT_NEAR(logarithm(q).z, -0.5, 1e-12);
+  EXPECT_NEAR(angle_of(q), 0.5, 1e-12);
+}
+
+TEST(Pose3, AnglesAreThoseOfTheAxes) {
+  // Half a radian to the left, then the nose a tenth of a radian down.
+  const Pose3 pose = Pose3{{}, turn_about_z(0.5)} * Pose3{{}, exponential({0.0, 0.1, 0.0})};
+  EXPECT_NEAR(pose.heading(), 0.5, 1e-12);
+  EXPECT_NEAR(pose.tilt(), 0.1, 1e-12);
+  EXPECT_NEAR(rotation_between(pose, Pose2{0.0, 0.0, 0.5}), 0.1, 1e-12);
+  EXPECT_NEAR(distance(pose, Pose3{{2.0, 3.0, 6.0}, {}}), 7.0, 1e-12);
+}
+
+TEST(Pose3, PlanarPosesStayPlanarAndAreThoseOfPose2) {
+  Rng rng(3);
+  Pose2 planar;
+  Pose3 in_space;
+  for (int i = 0; i < 10000; ++i) {
+    const Pose2 step{rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(-pi, pi)};
+    planar = i % 3 == 0 ? planar * inverse(step) : planar * step;
+    in_space = i % 3 == 0 ? in_space * inverse(Pose3(step)) : in_space * step;
+  }
+  EXPECT_TRUE(in_space.is_planar());
+  EXPECT_NEAR(in_space.x, planar.x, 1e-9);
+  EXPECT_NEAR(in_space.y, planar.y, 1e-9);
+  EXPECT_NEAR(wrap_angle(seen_from_above(in_space).theta - planar.theta), 0.0, 1e-9);
+  EXPECT_NEAR(seen_from_above(Pose3(Pose2{0.0, 0.0, pi})).theta, pi, 1e-15);
+}
+
+}  // namespace
+}  // namespace glocal::pose3_test
