@@ -1,5 +1,6 @@
 // Whole localization steps: local map, match, clusters, ratings and verdict.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <cstddef>
 #include <string>
@@ -43,8 +44,8 @@ void steps(benchmark::State& state, const std::string& name, std::size_t begin, 
 
 void register_steps(const std::string& name, std::size_t begin, std::size_t end) {
   for (const int threads : {1, 2}) {
-    const std::string which = std::to_string(begin) + "_to_" + std::to_string(end);
-    benchmark::RegisterBenchmark((name + "/" + which + "/threads:" + std::to_string(threads)).c_str(),
+    const std::string full_name = fmt::format("{}/{}_to_{}/threads:{}", name, begin, end, threads);
+    benchmark::RegisterBenchmark(full_name.c_str(),
                                  [=](auto& state) { steps(state, name, begin, end, threads); })
         ->UseRealTime()
         ->Iterations(3)

@@ -23,8 +23,10 @@ FreeSpace::FreeSpace(const OccupancyGrid& grid)
 
 Pose2 FreeSpace::draw(Rng& rng) const {
   const std::uint32_t cell = cells_[rng.below(static_cast<std::uint32_t>(cells_.size()))];
-  const double x = (cell % width_ + rng.uniform()) * resolution_;
-  const double y = (cell / width_ + rng.uniform()) * resolution_;
+  const std::uint32_t column = cell % width_;
+  const std::uint32_t row = cell / width_;
+  const double x = (column + rng.uniform()) * resolution_;
+  const double y = (row + rng.uniform()) * resolution_;
   const double heading = rng.uniform(-std::numbers::pi, std::numbers::pi);
   return map_from_grid_ * Pose2{x, y, heading};
 }

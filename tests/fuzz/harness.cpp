@@ -36,7 +36,7 @@ class Folder {
 
 fs::path write(const std::string& name, std::string_view content) {
   static const Folder folder;
-  const fs::path file = folder.path() / name;
+  fs::path file = folder.path() / name;
   if (std::ofstream out(file, std::ios::binary); out << content) return file;
   fs::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << content;

@@ -12,6 +12,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/error.hpp"
 
+// The name that libFuzzer calls. NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace glocal::fuzz {

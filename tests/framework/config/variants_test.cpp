@@ -236,7 +236,10 @@ TEST_F(VariantsTest, FaultsOfTheExperimentAreSaidOnceAtTheirPlace) {
 /// "0, 1, 2, …", each between `before` and `after`.
 std::string count_to(int n, const std::string& before, const std::string& after) {
   std::string text;
-  for (int i = 0; i < n; ++i) text += (i == 0 ? "" : ", ") + before + std::to_string(i) + after;
+  for (int i = 0; i < n; ++i) {
+    if (i > 0) text += ", ";
+    text.append(before).append(std::to_string(i)).append(after);
+  }
   return text;
 }
 

@@ -50,9 +50,9 @@ TEST(MergeHypotheses, KeepsTheBestOfEveryDistinctPose) {
 TEST(MergeHypotheses, ThePartOfTheTurnBehind180DegreesIsTheOneBeforeMinus180) {
   // Where the turn falls into an odd number of parts: twelve poses 8 degrees apart, seen at half of that.
   std::vector<Hypothesis> hypotheses;
-  for (int i = 0; i < 24; ++i) {
-    const double theta = radians(i % 2 == 0 ? 179.0 : -179.0);
-    hypotheses.push_back({.map_from_local = {0.02 + 1.0 * (i / 2), 0.02, theta}, .score = 1.0});
+  for (int i = 0; i < 12; ++i) {
+    for (const double theta : {radians(179.0), radians(-179.0)})
+      hypotheses.push_back({.map_from_local = {0.02 + 1.0 * i, 0.02, theta}, .score = 1.0});
   }
   merge_hypotheses(hypotheses, {}, 12);
   EXPECT_EQ(hypotheses.size(), 12U);

@@ -17,8 +17,10 @@ namespace {
 std::shared_ptr<const GlobalMap> wall_and_poles() {
   MapData data;
   test::add_wall(data.points, {{0, 0}, {4, 0}});
-  for (int i = 0; i < 20; ++i)
-    data.points.push_back({static_cast<float>(i % 5), 2.0F + static_cast<float>(i / 5), 0.0F});
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 5; ++column)
+      data.points.push_back({static_cast<float>(column), 2.0F + static_cast<float>(row), 0.0F});
+  }
   data.grid = {{-1.0, -1.0, 0.0}, 0.1, 80, 80, std::vector<Cell>(std::size_t{80} * 80, Cell::free)};
   return std::make_shared<const GlobalMap>(std::move(data));
 }

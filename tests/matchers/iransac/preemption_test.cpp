@@ -13,8 +13,9 @@ TEST(Preemption, KeepsHalfAfterEachBlock) {
   for (const std::size_t m : {1U, 7U, 500U, 1000U}) {
     for (const std::size_t block : {1U, 16U, 100U}) {
       for (std::size_t i = 0; i < 2000; i += 13) {
+        const std::size_t blocks = i / block;
         const double expected =
-            std::floor(static_cast<double>(m) * std::pow(2.0, -std::floor(static_cast<double>(i / block))));
+            std::floor(static_cast<double>(m) * std::pow(2.0, -static_cast<double>(blocks)));
         EXPECT_EQ(static_cast<double>(left_after(m, i, block)), expected);
       }
     }

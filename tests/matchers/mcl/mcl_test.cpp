@@ -196,7 +196,7 @@ TEST(Mcl, FindsAKidnappedRobotAgainOnlyWithNewParticles) {
     Mcl matcher(params, {walled_world(), 1});
     std::uint64_t step = 0;
     std::vector<Hypothesis> found;
-    const auto observe = [&](Observation observation) {
+    const auto observe = [&](const Observation& observation) {
       Rng rng(step++);
       found = matcher.match(local_map_of(observation), observation, 0.0, rng).hypotheses;
     };
