@@ -80,7 +80,11 @@ Json take_poses(Json& result) {
   for (auto& [name, trial] : result.items()) {
     if (!trial.is_object()) continue;
     const Json of_trial = take_poses(trial);
-    for (const auto& [key, pose] : of_trial.items()) poses[name + "." + key] = pose;
+    for (const auto& [key, pose] : of_trial.items()) {
+      std::string full_key = name;
+      full_key.append(".").append(key);
+      poses[full_key] = pose;
+    }
   }
   return poses;
 }
