@@ -10,6 +10,7 @@
 
 #include "glocal/error.hpp"
 #include "sources/compressed_file.hpp"
+#include "sources/text_lines.hpp"
 
 namespace glocal {
 namespace {
@@ -24,28 +25,12 @@ struct BadLine {
   std::string message;
 };
 
-/// A field in a message: enough of it to find it by, and only what can be printed.
-std::string shown(std::string_view field) {
-  constexpr std::size_t longest = 40;
-  std::string text(field.substr(0, longest));
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text + (field.size() > longest ? "…" : "");
-}
-
 /// A line's fields, read from left to right.
 class Fields {
  public:
   void split(std::string_view line) {
-    fields_.clear();
+    split_fields(line, fields_);
     next_ = 0;
-    std::size_t begin = line.find_first_not_of(blanks);
-    while (begin != std::string_view::npos) {
-      std::size_t end = line.find_first_of(blanks, begin);
-      if (end == std::string_view::npos) end = line.size();
-      fields_.push_back(line.substr(begin, end - begin));
-      begin = line.find_first_not_of(blanks, end);
-    }
   }
 
   [[nodiscard]] std::size_t size() const { return fields_.size(); }
@@ -103,8 +88,6 @@ class Fields {
   }
 
  private:
-  static constexpr std::string_view blanks = " \t\r";
-
   [[nodiscard]] std::string_view take(const char* what) {
     if (next_ >= fields_.size()) throw BadLine{std::string("ends before ") + what};
     return fields_[next_++];

@@ -1,0 +1,128 @@
+#include "sources/clouds/cloud.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/text_lines.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr std::size_t index_of(Channel channel) {
+  return static_cast<std::size_t>(channel);
+}
+
+std::optional<Channel> channel_called(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, Channel>, 12> names = {{{"x", Channel::x},
+                                                                           {"y", Channel::y},
+                                                                           {"z", Channel::z},
+                                                                           {"normal_x", Channel::normal_x},
+                                                                           {"normal_y", Channel::normal_y},
+                                                                           {"normal_z", Channel::normal_z},
+                                                                           {"nx", Channel::normal_x},
+                                                                           {"ny", Channel::normal_y},
+                                                                           {"nz", Channel::normal_z},
+                                                                           {"time", Channel::time},
+                                                                           {"t", Channel::time},
+                                                                           {"timestamp", Channel::time}}};
+  for (const auto& [known, channel] : names) {
+    if (known == name) return channel;
+  }
+  return std::nullopt;
+}
+
+std::string list_of(const std::vector<std::string_view>& names) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += " " + shown(names[i]);
+  return text + (names.size() > most ? " …" : "");
+}
+
+}  // namespace
+
+void refuse_cloud(const std::string& file, int line, std::string message) {
+  throw ConfigError({{file, line, 0, std::move(message)}});
+}
+
+ChannelColumns channel_columns(const std::vector<std::string_view>& names, const std::string& file,
+                               int line) {
+  ChannelColumns columns;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto channel = channel_called(names[i]);
+    if (!channel) continue;
+    auto& column = columns.at(index_of(*channel));
+    if (column)
+      refuse_cloud(file, line,
+                   fmt::format("'{}' and '{}' are the same thing twice; leave out one of them",
+                               names[*column], names[i]));
+    column = i;
+  }
+  for (const auto& [channel, name] : {std::pair{Channel::x, 'x'}, {Channel::y, 'y'}, {Channel::z, 'z'}}) {
+    if (!columns.at(index_of(channel)))
+      refuse_cloud(file, line,
+                   fmt::format("points have no {}; x, y and z are needed, there is:{}", name,
+                               names.empty() ? " nothing" : list_of(names)));
+  }
+  const auto normal = columns.begin() + index_of(Channel::normal_x);
+  if (!(normal[0] && normal[1] && normal[2])) std::fill_n(normal, 3, std::nullopt);
+  return columns;
+}
+
+CloudBuilder::CloudBuilder(std::string file, const CloudOptions& options, const ChannelColumns& columns,
+                           double time_unit)
+    : file_(std::move(file)),
+      unit_(options.unit),
+      time_unit_(time_unit),
+      has_normals_(columns[index_of(Channel::normal_x)].has_value()),
+      has_times_(columns[index_of(Channel::time)].has_value()) {}
+
+void CloudBuilder::add(const PointValues& values, int line) {
+  const std::size_t number = points_++;
+  const std::array<double, 3> place = {unit_ * values[0], unit_ * values[1], unit_ * values[2]};
+  const double time = has_times_ ? values[index_of(Channel::time)] : 0.0;
+  if (!std::isfinite(place[0] + place[1] + place[2] + time)) {
+    ++cloud_.not_finite;
+    return;
+  }
+  const double reach = std::max({std::abs(place[0]), std::abs(place[1]), std::abs(place[2])});
+  if (reach > farthest_m)
+    refuse_cloud(file_, line,
+                 fmt::format("point {} (from 0) has a coordinate of {:g} m, at most {:g} are allowed; if "
+                             "the file is not in metres, give its unit, else get a fresh copy",
+                             number, reach, farthest_m));
+  cloud_.points.push_back(
+      {static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2])});
+  if (has_times_) cloud_.times.push_back(time_unit_ * time);
+  if (has_normals_) add_normal({values[3], values[4], values[5]});
+}
+
+/// Programs that could not tell a normal write zeros or NaN.
+void CloudBuilder::add_normal(const Vector3& normal) {
+  const double length = norm(normal);
+  constexpr double shortest = 1e-3, longest = 1e3;
+  if (!(length > shortest && length < longest)) {
+    has_normals_ = false;
+    cloud_.normals.clear();
+    return;
+  }
+  cloud_.normals.push_back({static_cast<float>(normal.x / length), static_cast<float>(normal.y / length),
+                            static_cast<float>(normal.z / length)});
+}
+
+Cloud CloudBuilder::finish() {
+  if (points_ == 0) refuse_cloud(file_, 0, "has no points; give another file");
+  if (cloud_.points.empty())
+    refuse_cloud(file_, 0,
+                 fmt::format("none of its {} points has finite coordinates; give another file", points_));
+  if (has_times_) {
+    const double first = *std::min_element(cloud_.times.begin(), cloud_.times.end());
+    for (double& time : cloud_.times) time -= first;
+  }
+  return std::move(cloud_);
+}
+
+}  // namespace glocal

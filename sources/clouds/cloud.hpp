@@ -1,0 +1,72 @@
+// Clouds of points as files hold them, whatever the format.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glocal/points.hpp"
+#include "glocal/pose3.hpp"
+#include "sources/compressed_file.hpp"
+
+namespace glocal {
+
+/// What a file says of its points. Points with a coordinate or time that is no finite number are left out.
+struct Cloud {
+  Points points;               ///< m, in the file's frame. Never empty.
+  Points normals;              ///< Unit normals, one for each point; empty unless all points have one.
+  std::vector<double> times;   ///< s since the earliest point, one for each point; empty if not known.
+  Pose3 viewpoint;             ///< Where a PCD file says the sensor was, m; the identity if nothing is said.
+  std::size_t not_finite = 0;  ///< Points left out.
+};
+
+/// How clouds are read.
+struct CloudOptions {
+  double unit = 1.0;  ///< Length of the file's unit, m.
+  double max_size_gb = default_max_size_gb;
+};
+
+/// The values of a point that are of use.
+enum class Channel { x, y, z, normal_x, normal_y, normal_z, time };
+inline constexpr std::size_t channels = 7;
+using PointValues = std::array<double, channels>;
+
+/// Where in a list of names each channel is.
+using ChannelColumns = std::array<std::optional<std::size_t>, channels>;
+
+/// Finds the channels by their names: x y z, normal_x … or nx …, time or t or timestamp. Normals are only
+/// taken if all three are there. Throws ConfigError at the line if x, y or z is missing or a channel is there
+/// twice.
+[[nodiscard]] ChannelColumns channel_columns(const std::vector<std::string_view>& names,
+                                             const std::string& file, int line);
+
+/// Throws ConfigError; line 0 is none.
+[[noreturn]] void refuse_cloud(const std::string& file, int line, std::string message);
+
+/// Makes a cloud of values, point by point.
+class CloudBuilder {
+ public:
+  /// `time_unit`: s.
+  CloudBuilder(std::string file, const CloudOptions& options, const ChannelColumns& columns,
+               double time_unit = 1.0);
+
+  /// The next point; values of channels without column are ignored. Throws ConfigError if it is beyond
+  /// `farthest_m`.
+  void add(const PointValues& values, int line = 0);
+  /// Throws ConfigError if no point is left.
+  [[nodiscard]] Cloud finish();
+
+ private:
+  void add_normal(const Vector3& normal);
+
+  std::string file_;
+  double unit_, time_unit_;
+  bool has_normals_, has_times_;
+  std::size_t points_ = 0;  ///< Added, of any kind.
+  Cloud cloud_;
+};
+
+}  // namespace glocal

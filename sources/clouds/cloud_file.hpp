@@ -1,0 +1,27 @@
+// Clouds of points from files of any format that is known.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sources/clouds/cloud.hpp"
+
+namespace glocal {
+
+/// The cloud in a file: PCD or PLY, known by what the file begins with, or KITTI's, known by its name
+/// (*.bin); perhaps compressed (gzip, bzip2, xz). Throws ConfigError with what is wrong, and where.
+[[nodiscard]] Cloud read_cloud(const std::filesystem::path& file, const CloudOptions& options = {});
+
+/// Whether read_cloud() might read a file of this name.
+[[nodiscard]] bool has_name_of_cloud(const std::filesystem::path& file);
+
+/// Standard deviations along the principal axes, m, falling. A single point has none.
+[[nodiscard]] std::array<double, 3> principal_spreads(const Points& points);
+
+/// What its reader should be told of a cloud, a sentence each: points left out, a size that speaks for
+/// another unit, places that single precision rounds, points that all lie in a plane or on a line.
+[[nodiscard]] std::vector<std::string> cloud_remarks(const Cloud& cloud);
+
+}  // namespace glocal

@@ -1,0 +1,46 @@
+// Text files of numbers: line by line, field by field.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace glocal {
+
+/// The fields of a line; blanks, tabs and carriage returns part them.
+void split_fields(std::string_view line, std::vector<std::string_view>& fields);
+
+/// A field in a message: enough of it to find it by, and only what can be printed.
+[[nodiscard]] std::string shown(std::string_view field);
+
+/// The number that a field is, perhaps infinite or NaN; one too small for a double is 0. None if it is no
+/// number, or too large.
+[[nodiscard]] std::optional<double> number_in(std::string_view field);
+/// The number, without a sign or decimals, that a field is.
+[[nodiscard]] std::optional<std::size_t> whole_number_in(std::string_view field);
+
+/// The lines of a text, which must outlive this.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) : rest_(text) {}
+
+  /// Goes to the next line; false at the end of the text.
+  bool next();
+  /// Goes to the next line that has fields.
+  bool next_with_fields();
+
+  [[nodiscard]] const std::vector<std::string_view>& fields() const { return fields_; }
+  /// Of the line at hand, from 1.
+  [[nodiscard]] int number() const { return number_; }
+  /// All behind the line at hand.
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+
+ private:
+  std::string_view rest_;
+  std::vector<std::string_view> fields_;
+  int number_ = 0;
+};
+
+}  // namespace glocal
