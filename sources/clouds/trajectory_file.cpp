@@ -1,0 +1,135 @@
+#include "sources/clouds/trajectory_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/text_lines.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr std::size_t tum_values = 8, kitti_values = 12;
+/// How far a rotation may be from one: files have six digits or more.
+constexpr double rounding = 1e-3;
+
+/// The lines of a trajectory, with their values.
+class PoseLines {
+ public:
+  PoseLines(std::string_view content, const std::string& file) : file_(file), lines_(content) {}
+
+  /// Goes to the next pose; false at the end.
+  bool next() {
+    do {
+      if (!lines_.next_with_fields()) return false;
+    } while (lines_.fields().front().starts_with('#'));
+    read_values();
+    return true;
+  }
+  [[nodiscard]] const std::vector<double>& values() const { return values_; }
+
+  [[nodiscard]] Vector3 place(double x, double y, double z) const {
+    for (const double v : {x, y, z}) {
+      if (std::abs(v) > farthest_m)
+        refuse(fmt::format("has a coordinate of {:g} m, at most {:g} are allowed", v, farthest_m));
+    }
+    return {x, y, z};
+  }
+
+  [[nodiscard]] Pose3 tum_pose() const {
+    const auto& v = values_;
+    const Quaternion q{v[7], v[4], v[5], v[6]};
+    const double length = length_of(q);
+    if (std::abs(length - 1.0) > rounding)
+      refuse(fmt::format("the quaternion has a length of {:.4g} instead of 1; its order is qx qy qz qw",
+                         length));
+    return {place(v[1], v[2], v[3]), scaled(q, 1.0 / length)};
+  }
+
+  [[nodiscard]] Pose3 kitti_pose() const {
+    const auto& v = values_;
+    const std::array<double, 9> matrix = {v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]};
+    if (!is_rotation(matrix)) refuse("the first three columns are no rotation matrix; get a fresh copy");
+    const Quaternion q = quaternion_of(matrix);
+    return {place(v[3], v[7], v[11]), scaled(q, 1.0 / length_of(q))};
+  }
+
+  [[noreturn]] void refuse(std::string message) const {
+    throw ConfigError({{file_, lines_.number(), 0, std::move(message)}});
+  }
+
+ private:
+  void read_values() {
+    const auto& fields = lines_.fields();
+    if (fields.size() != tum_values && fields.size() != kitti_values)
+      refuse(
+          fmt::format("has {} values; TUM's poses have 8 (stamp tx ty tz qx qy qz qw), KITTI's 12 (three "
+                      "rows of four)",
+                      fields.size()));
+    if (!values_.empty() && values_.size() != fields.size())
+      refuse(fmt::format("has {} values, the poses before have {}; put the line right or delete it",
+                         fields.size(), values_.size()));
+    values_.clear();
+    for (const std::string_view field : fields) {
+      const auto number = number_in(field);
+      if (!number || !std::isfinite(*number))
+        refuse(fmt::format("'{}' is not a finite number", shown(field)));
+      values_.push_back(*number);
+    }
+  }
+
+  static double length_of(const Quaternion& q) {
+    return std::hypot(std::hypot(q.w, q.x), std::hypot(q.y, q.z));
+  }
+  static Quaternion scaled(const Quaternion& q, double factor) {
+    return {factor * q.w, factor * q.x, factor * q.y, factor * q.z};
+  }
+
+  /// Whether columns have length 1, right angles between them, and no mirror.
+  static bool is_rotation(const std::array<double, 9>& m) {
+    std::array<Vector3, 3> column;
+    for (std::size_t i = 0; i < 3; ++i) column.at(i) = {m.at(i), m.at(3 + i), m.at(6 + i)};
+    const auto dot = [](const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        const double expected = i == j ? 1.0 : 0.0;
+        if (!(std::abs(dot(column.at(i), column.at(j)) - expected) <= rounding)) return false;
+      }
+    }
+    const auto& [a, b, c] = column;
+    const Vector3 cross{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return dot(cross, c) > 0.0;
+  }
+
+  const std::string& file_;
+  TextLines lines_;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+Trajectory parse_trajectory(std::string_view content, const std::string& file) {
+  Trajectory trajectory;
+  for (PoseLines lines(content, file); lines.next();) {
+    trajectory.has_stamps = lines.values().size() == tum_values;
+    const auto index = static_cast<double>(trajectory.poses.size());
+    const double stamp = trajectory.has_stamps ? lines.values().front() : index;
+    if (!trajectory.poses.empty() && stamp < trajectory.poses.back().stamp)
+      lines.refuse(fmt::format("the stamp {} is before {}, that of the pose before; sort the lines", stamp,
+                               trajectory.poses.back().stamp));
+    trajectory.poses.push_back({stamp, trajectory.has_stamps ? lines.tum_pose() : lines.kitti_pose()});
+  }
+  if (trajectory.poses.empty())
+    throw ConfigError({{file, 0, 0, "has no poses; TUM's or KITTI's are needed, one a line"}});
+  return trajectory;
+}
+
+Trajectory read_trajectory(const std::filesystem::path& file, double max_size_gb) {
+  return parse_trajectory(read_decompressed(file, max_size_gb), file.string());
+}
+
+}  // namespace glocal
