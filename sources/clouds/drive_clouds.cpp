@@ -1,0 +1,137 @@
+#include "sources/clouds/drive_clouds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/clouds/cloud_file.hpp"
+#include "sources/clouds/trajectory_file.hpp"
+#include "sources/text_lines.hpp"
+
+namespace glocal {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse_drive(const fs::path& file, std::string message) {
+  throw ConfigError({{file.string(), 0, 0, std::move(message)}});
+}
+
+std::vector<DriveCloud> clouds_in(const fs::path& folder) {
+  std::error_code error;
+  std::vector<DriveCloud> clouds;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (has_name_of_cloud(entry.path())) clouds.push_back({entry.path(), 0.0, {}, {}});
+  }
+  if (error) refuse_drive(folder, "cannot be read as a folder: " + error.message());
+  if (clouds.empty()) refuse_drive(folder, "has no clouds (*.pcd, *.ply, *.bin); give another folder");
+  return clouds;
+}
+
+/// Sets stamps from names, if all have one; false if not.
+bool set_stamps(std::vector<DriveCloud>& clouds) {
+  for (DriveCloud& cloud : clouds) {
+    const auto stamp = stamp_in_name(cloud.file);
+    if (!stamp) return false;
+    cloud.stamp = *stamp;
+  }
+  return true;
+}
+
+void sort_clouds(std::vector<DriveCloud>& clouds, bool have_stamps) {
+  std::sort(clouds.begin(), clouds.end(), [&](const DriveCloud& a, const DriveCloud& b) {
+    return have_stamps && a.stamp != b.stamp ? a.stamp < b.stamp : a.file < b.file;
+  });
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    if (!have_stamps) {
+      clouds[i].stamp = static_cast<double>(i);
+    } else if (i > 0 && clouds[i].stamp == clouds[i - 1].stamp) {
+      refuse_drive(clouds[i].file, fmt::format("has the same number as '{}'; remove one of the two",
+                                               clouds[i - 1].file.filename().string()));
+    }
+  }
+}
+
+/// The pose of the stamp nearest to this one; null if it is not that near.
+const StampedPose* nearest_pose(const std::vector<StampedPose>& poses, double stamp, double max_difference) {
+  const auto after = std::lower_bound(poses.begin(), poses.end(), stamp,
+                                      [](const StampedPose& p, double s) { return p.stamp < s; });
+  const StampedPose* nearest = nullptr;
+  double least = max_difference;
+  for (auto it = after == poses.begin() ? after : after - 1; it != poses.end() && it <= after; ++it) {
+    const double difference = std::abs(it->stamp - stamp);
+    if (difference > least) continue;
+    least = difference;
+    nearest = &*it;
+  }
+  return nearest;
+}
+
+/// Gives each cloud its pose of the trajectory in `file`, if it has one; answers how many have.
+std::size_t give_poses(std::vector<DriveCloud>& clouds, bool have_stamps, const fs::path& file,
+                       const DriveFiles& files, std::optional<Pose3> DriveCloud::*pose) {
+  const Trajectory trajectory = read_trajectory(file, files.max_size_gb);
+  std::size_t given = 0;
+  for (DriveCloud& cloud : clouds) {
+    if (!have_stamps || !trajectory.has_stamps) break;
+    const StampedPose* nearest = nearest_pose(trajectory.poses, cloud.stamp, files.max_stamp_difference);
+    if (nearest == nullptr) continue;
+    cloud.*pose = nearest->pose;
+    ++given;
+  }
+  if (given > 0) return given;
+  if (trajectory.poses.size() != clouds.size())
+    refuse_drive(file, fmt::format("has {} poses for {} clouds in {}, and no stamp is the number of a cloud; "
+                                   "give the trajectory of these clouds",
+                                   trajectory.poses.size(), clouds.size(), files.folder.string()));
+  for (std::size_t i = 0; i < clouds.size(); ++i) clouds[i].*pose = trajectory.poses[i].pose;
+  return clouds.size();
+}
+
+}  // namespace
+
+std::optional<double> stamp_in_name(const fs::path& file) {
+  // All endings: "7.pcd.gz" is number 7, but 1305031102.175304.pcd has its decimals.
+  std::string name = file.filename().string();
+  for (const char* ending : {".gz", ".bz2", ".xz", ".pcd", ".ply", ".bin"}) {
+    if (name.ends_with(ending)) name.erase(name.rfind('.'));
+  }
+  const std::size_t before = name.find_last_not_of("0123456789.");
+  const std::string digits = before == std::string::npos ? name : name.substr(before + 1);
+  const auto number = number_in(digits);
+  if (!number) return std::nullopt;
+  constexpr double first_of_nanoseconds = 1e16, nanoseconds = 1e9;
+  return *number >= first_of_nanoseconds ? *number / nanoseconds : *number;
+}
+
+std::vector<DriveCloud> drive_clouds(const DriveFiles& files, const Warn& warn) {
+  std::vector<DriveCloud> clouds = clouds_in(files.folder);
+  const bool have_stamps = set_stamps(clouds);
+  sort_clouds(clouds, have_stamps);
+  if (!files.odometry.empty()) {
+    const std::size_t given = give_poses(clouds, have_stamps, files.odometry, files, &DriveCloud::odometry);
+    if (given < clouds.size()) {
+      const auto without =
+          std::find_if(clouds.begin(), clouds.end(), [](const DriveCloud& c) { return !c.odometry; });
+      refuse_drive(
+          files.odometry,
+          fmt::format("has a pose for {} of {} clouds; there is none within {} s of '{}'; move the "
+                      "clouds without odometry away, or raise max_stamp_difference",
+                      given, clouds.size(), files.max_stamp_difference, without->file.filename().string()));
+    }
+  }
+  if (!files.reference.empty()) {
+    const std::size_t given = give_poses(clouds, have_stamps, files.reference, files, &DriveCloud::reference);
+    if (given < clouds.size())
+      warn(fmt::format("{}: has a pose for {} of {} clouds; the others have no reference",
+                       files.reference.string(), given, clouds.size()));
+  }
+  return clouds;
+}
+
+}  // namespace glocal
