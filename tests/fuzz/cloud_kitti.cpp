@@ -1,0 +1,7 @@
+// Clouds of the KITTI data set.
+#include "fuzz/cloud.hpp"
+#include "sources/clouds/kitti_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return glocal::fuzz::try_cloud(data, size, glocal::read_kitti_cloud);
+}

@@ -1,0 +1,7 @@
+// PLY files of maps and scans.
+#include "fuzz/cloud.hpp"
+#include "sources/clouds/ply_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return glocal::fuzz::try_cloud(data, size, glocal::read_ply_cloud);
+}
