@@ -34,7 +34,7 @@ struct ExplainOptions {
 struct Replayed {
   StepResult result;
   LocalMap local;
-  Pose2 map_from_robot;  ///< Reference.
+  Pose3 map_from_robot;  ///< Reference.
   double driven_m = 0.0;
 };
 
@@ -83,17 +83,22 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
 }
 
 /// Contact of the local map at a robot pose, in [0, 1].
-double contact_at(const Replayed& step, const ContactIndex& contact, const Pose2& map_from_robot) {
-  return contact.share(step.local.points, Transform(map_from_robot * inverse(step.local.local_from_robot)));
+double contact_at(const Replayed& step, const ContactIndex& contact, const Pose3& map_from_robot) {
+  const Points in_map = moved(step.local.points, map_from_robot * inverse(step.local.local_from_robot));
+  return contact.share(in_map, Transform(Pose2{}));
 }
 
-bool agree(const Pose2& a, const Pose2& b, const EvaluationConfig& limits) {
+bool agree(const Pose3& a, const Pose3& b, const EvaluationConfig& limits) {
   return distance(a, b) <= limits.max_translation_error &&
          rotation_between(a, b) <= radians(limits.max_rotation_error_deg);
 }
 
-std::string text_of(const Pose2& pose) {
-  return fmt::format("x {:.2f} m, y {:.2f} m, heading {:.1f} deg", pose.x, pose.y, degrees(pose.theta));
+std::string text_of(const Pose3& pose) {
+  const std::string place = pose.is_planar()
+                                ? fmt::format("x {:.2f} m, y {:.2f} m", pose.x, pose.y)
+                                : fmt::format("x {:.2f} m, y {:.2f} m, z {:.2f} m", pose.x, pose.y, pose.z);
+  const std::string tilt = pose.is_planar() ? "" : fmt::format(", tilt {:.1f} deg", degrees(pose.tilt()));
+  return fmt::format("{}, heading {:.1f} deg{}", place, degrees(pose.heading()), tilt);
 }
 
 /// What a hypothesis is ranked by, and its contact.
@@ -103,16 +108,25 @@ std::string worth(double score, double quality) {
 
 /// "no 3 of 10, 0.12 m and 0.8 deg off", or that there is none; `at` is its index.
 template <class Items>
-std::string rank_text(const Items& items, std::ptrdiff_t at, const Pose2& truth) {
+std::string rank_text(const Items& items, std::ptrdiff_t at, const Pose3& truth) {
   if (at == std::ssize(items)) return fmt::format("none of {}", items.size());
-  const Pose2& pose = items[static_cast<std::size_t>(at)].map_from_robot;
+  const Pose3& pose = items[static_cast<std::size_t>(at)].map_from_robot;
   return fmt::format("no {} of {}, {:.2f} m and {:.1f} deg off", at + 1, items.size(), distance(pose, truth),
                      degrees(rotation_between(pose, truth)));
 }
 
+/// The robot pose near the truth at which the local map fits best; the truth itself where it is not planar.
+Pose3 best_fit(const Replayed& step, const GlobalMap& map) {
+  const Pose3 map_from_local = step.map_from_robot * inverse(step.local.local_from_robot);
+  if (!map_from_local.is_planar()) return step.map_from_robot;
+  return refined_pose(DistanceField(map.points()), step.local.points, seen_from_above(map_from_local),
+                      {.iterations = 30}) *
+         step.local.local_from_robot;
+}
+
 /// Index of the first that agrees with the truth, or one behind the last.
 template <class Items>
-std::ptrdiff_t first_right(const Items& items, const Pose2& truth, const EvaluationConfig& limits) {
+std::ptrdiff_t first_right(const Items& items, const Pose3& truth, const EvaluationConfig& limits) {
   const auto found = std::find_if(items.begin(), items.end(), [&](const auto& item) {
     return agree(item.map_from_robot, truth, limits);
   });
@@ -160,14 +174,11 @@ void explain(const ExplainOptions& options, Context& context) {
       load_experiment(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
   const Replayed step = replay(options, experiment, context.catalog, loaded, Threshold::configured);
   const StepResult& result = step.result;
-  const Pose2& truth = step.map_from_robot;
+  const Pose3& truth = step.map_from_robot;
 
   const auto contact =
       contact_index(*loaded.map, "bitset", contact_epsilon_on(*loaded.map, experiment.localizer));
-  const DistanceField field(loaded.map->points());
-  const Pose2 map_from_local = truth * inverse(step.local.local_from_robot);
-  const Pose2 fitted = refined_pose(field, step.local.points, map_from_local, {.iterations = 30}) *
-                       step.local.local_from_robot;
+  const Pose3 fitted = best_fit(step, *loaded.map);
   const double at_truth = contact_at(step, *contact, truth);
   const double near_truth = std::max(at_truth, contact_at(step, *contact, fitted));
 

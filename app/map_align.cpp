@@ -34,9 +34,9 @@ std::optional<Alignment> align_maps(const GlobalMap& map, const Points& other, M
     Points centred;
     const Transform to_middle(inverse(other_from_middle));
     for (std::size_t i = 0; i < other.size(); ++i) centred.push_back(to_middle(other[i]));
-    const Pose2 map_from_middle =
-        refined_pose(DistanceField(map.points()), centred,
-                     result.hypotheses.front().map_from_local * other_from_middle, {.iterations = 100});
+    const Pose2 map_from_middle = refined_pose(
+        DistanceField(map.points()), centred,
+        seen_from_above(result.hypotheses.front().map_from_local) * other_from_middle, {.iterations = 100});
     const Pose2 map_from_other = map_from_middle * inverse(other_from_middle);
     const auto contact = contact_index(map, "bitset", contact_epsilon);
     return Alignment{map_from_other, contact->share(other, Transform(map_from_other))};

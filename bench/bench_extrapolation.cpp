@@ -69,7 +69,7 @@ Proposals proposals_at(std::size_t step) {
   });
 
   const Pose2 truth = true_map_from_local(simulation(), 0, step, result.local);
-  const Pose2& robot = result.local.local_from_robot;
+  const Pose2 robot = seen_from_above(result.local.local_from_robot);
   result.nearly = batches_of([&] {
     const Pose2 error{rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2), radians(rng.uniform(-2.0, 2.0))};
     return Transform(truth * robot * error * inverse(robot));

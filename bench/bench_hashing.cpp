@@ -253,6 +253,7 @@ void kind(benchmark::State& state) {
   const Points& map = simulation().map();
   const LocalMap local = local_map_at(simulation(), 0, late_step);
   const Pose2 truth = true_map_from_local(simulation(), 0, late_step, local);
+  const Pose2 robot = seen_from_above(local.local_from_robot);
   TriangleRule rule_now = rule;
   rule_now.cell = static_cast<double>(state.range(0)) / 100.0;
   rule_now.max_side = std::min(rule.max_side, largest_side(rule_now.cell));
@@ -273,7 +274,7 @@ void kind(benchmark::State& state) {
       ++proposals;
       const Transform motion =
           plain::least_squares_motion(local.points, triangle->triple, map, partner->second);
-      if (is_right(motion.pose(), local.local_from_robot, truth)) ++right;
+      if (is_right(motion.pose(), robot, truth)) ++right;
     }
   }
   state.counters["proposals"] = per_iteration(proposals);
@@ -285,6 +286,7 @@ void match(benchmark::State& state) {
   constexpr double omega_max = 0.75;
   const LocalMap local = local_map_at(simulation(), 0, late_step);
   const Pose2 truth = true_map_from_local(simulation(), 0, late_step, local);
+  const Pose2 robot = seen_from_above(local.local_from_robot);
   Ransam ransam({.contact_epsilon = 0.05,
                  .relation_cell = static_cast<double>(state.range(0)) / 100.0,
                  .min_side = rule.min_side,
@@ -298,7 +300,7 @@ void match(benchmark::State& state) {
     const MatchResult result = ransam.match(local, {}, omega_max, rng);
     proposals += result.proposals;
     for (const Hypothesis& h : result.hypotheses) {
-      if (is_right(h.map_from_local, local.local_from_robot, truth)) ++right;
+      if (is_right(seen_from_above(h.map_from_local), robot, truth)) ++right;
     }
   }
   state.counters["proposals"] = per_iteration(proposals);

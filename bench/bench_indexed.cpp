@@ -153,8 +153,7 @@ void refinement(benchmark::State& state, const Scene& s) {
   const LocalMap local = local_map_at(s, start, 10);
   Points points;
   for (std::size_t i = 0; i < 100; ++i) points.push_back(local.points[i * local.points.size() / 100]);
-  const Pose2 map_from_local =
-      s.loaded.drive.samples[start + 10].map_from_robot.value() * inverse(local.local_from_robot);
+  const Pose2 map_from_local = true_map_from_local(s, start, 10, local);
   const Pose2 off = map_from_local * Pose2{0.1, -0.1, 0.05};
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(refined_pose(field, points, off, {}));
 }

@@ -18,7 +18,7 @@ constexpr std::size_t steps = 20;
 /// The local map a robot has after some keyframes from each start of the experiment.
 struct Task {
   LocalMap local;
-  Pose2 map_from_robot;  ///< The truth.
+  Pose3 map_from_robot;  ///< The truth.
 };
 
 std::vector<Task> tasks(const Scene& scene) {
@@ -32,7 +32,7 @@ std::vector<Task> tasks(const Scene& scene) {
 
 bool is_right(const MatchResult& result, const Task& task, const EvaluationConfig& limits) {
   if (result.hypotheses.empty()) return false;
-  const Pose2 pose = result.hypotheses.front().map_from_local * task.local.local_from_robot;
+  const Pose3 pose = result.hypotheses.front().map_from_local * task.local.local_from_robot;
   return distance(pose, task.map_from_robot) <= limits.max_translation_error &&
          rotation_between(pose, task.map_from_robot) <= radians(limits.max_rotation_error_deg);
 }

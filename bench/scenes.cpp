@@ -65,7 +65,8 @@ LocalMap local_map_at(const Scene& scene, std::size_t start, std::size_t step) {
 }
 
 Pose2 true_map_from_local(const Scene& scene, std::size_t start, std::size_t step, const LocalMap& local) {
-  return scene.loaded.drive.samples[start + step].map_from_robot.value() * inverse(local.local_from_robot);
+  return seen_from_above(scene.loaded.drive.samples[start + step].map_from_robot.value() *
+                         inverse(local.local_from_robot));
 }
 
 std::shared_ptr<const GlobalMap> tiled_map(int n) {

@@ -2,16 +2,7 @@
 
 #include <utility>
 
-#include "clustering/hierarchical_kmeans.hpp"
-
 namespace glocal {
-
-std::vector<Pose2> robot_poses(const std::vector<Hypothesis>& hypotheses) {
-  std::vector<Pose2> poses;
-  poses.reserve(hypotheses.size());
-  for (const Hypothesis& h : hypotheses) poses.push_back(h.map_from_robot);
-  return poses;
-}
 
 std::vector<double> supports(const std::vector<Hypothesis>& hypotheses) {
   std::vector<double> weights;

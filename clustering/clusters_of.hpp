@@ -3,12 +3,19 @@
 #include <cstddef>
 #include <vector>
 
+#include "clustering/moments.hpp"
 #include "glocal/hypothesis.hpp"
 
 namespace glocal {
 
-/// Robot poses of hypotheses.
-[[nodiscard]] std::vector<Pose2> robot_poses(const std::vector<Hypothesis>& hypotheses);
+/// Robot poses of hypotheses, as Pose2 seen from above.
+template <class Pose>
+[[nodiscard]] std::vector<Pose> robot_poses(const std::vector<Hypothesis>& hypotheses) {
+  std::vector<Pose> poses;
+  poses.reserve(hypotheses.size());
+  for (const Hypothesis& h : hypotheses) poses.push_back(pose_as<Pose>(h.map_from_robot));
+  return poses;
+}
 
 /// How many proposals each of them stands for.
 [[nodiscard]] std::vector<double> supports(const std::vector<Hypothesis>& hypotheses);

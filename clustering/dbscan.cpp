@@ -25,9 +25,12 @@ void describe(ParamVisitor& v, Dbscan::Params& p) {
 }
 
 std::vector<Cluster> Dbscan::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
-  return clusters_of(hypotheses, density_labels(robot_poses(hypotheses), supports(hypotheses),
-                                                {params_.radius, radians(params_.radius_rotation_deg)},
-                                                params_.min_support));
+  const auto labels = [&](const auto& poses) {
+    return density_labels(poses, supports(hypotheses), {params_.radius, radians(params_.radius_rotation_deg)},
+                          params_.min_support);
+  };
+  return clusters_of(hypotheses, are_planar(hypotheses) ? labels(robot_poses<Pose2>(hypotheses))
+                                                        : labels(robot_poses<Pose3>(hypotheses)));
 }
 
 }  // namespace glocal

@@ -10,6 +10,8 @@ namespace glocal {
 /// What the paper calls noise, a hypothesis near no cluster, is a cluster of its own here.
 class Dbscan final : public Clusterer {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     double radius = 0.1;
     double radius_rotation_deg = 5.0;

@@ -4,24 +4,52 @@
 #include <numbers>
 
 #include "clustering/disjoint_sets.hpp"
+#include "clustering/pose_groups.hpp"
 #include "glocal/pose_cells.hpp"
 
 namespace glocal {
 namespace {
 
-/// Near poses are at most so many cells apart in each direction: cells are radius / sqrt(2) wide, and turns
-/// more than half the radius.
-constexpr int reach = 2;
+/// Poses in the plane, in cells all of whose members are near each other.
+class PlanarCells : public PoseCells {
+ public:
+  PlanarCells(std::span<const Pose2> poses, const PoseRadius& radius)
+      : PoseCells(poses, {radius.translation / std::numbers::sqrt2, parts_of_a_turn(radius.rotation)}) {}
 
+  /// Those that can have poses near some of this one.
+  template <class Visit>
+  void visit_around(std::size_t number, Visit visit) const {
+    // Cells are radius / sqrt(2) wide, and turns more than half the radius.
+    constexpr int reach = 2;
+    visit_near(cell(number), reach, reach, visit);
+  }
+};
+
+/// The same of poses in space.
+class SpatialCells : public PoseGroups {
+ public:
+  SpatialCells(std::span<const Pose3> poses, const PoseRadius& radius)
+      : PoseGroups(poses, radius), reach_{1.5 * radius.translation, 1.5 * radius.rotation} {}
+
+  template <class Visit>
+  void visit_around(std::size_t number, Visit visit) const {
+    visit_near(leader(number), reach_, visit);
+  }
+
+ private:
+  PoseRadius reach_;  ///< From a leader to what is near one of its members.
+};
+
+template <class Pose, class Cells>
 class DensityLabels {
  public:
-  DensityLabels(std::span<const Pose2> poses, std::span<const double> weights, const PoseRadius& radius,
+  DensityLabels(std::span<const Pose> poses, std::span<const double> weights, const PoseRadius& radius,
                 double min_weight)
       : poses_(poses),
         weights_(weights),
         radius_(radius),
         min_weight_(min_weight),
-        cells_(poses, {radius.translation / std::numbers::sqrt2, parts_of_a_turn(radius.rotation)}),
+        cells_(poses, radius),
         cores_(cells_.size()),
         sets_(poses.size()) {}
 
@@ -37,8 +65,7 @@ class DensityLabels {
 
  private:
   [[nodiscard]] bool are_near(std::size_t i, std::size_t j) const {
-    return distance(poses_[i], poses_[j]) <= radius_.translation &&
-           rotation_between(poses_[i], poses_[j]) <= radius_.rotation;
+    return glocal::are_near(poses_[i], poses_[j], radius_);
   }
 
   /// Notes the cores of a cell; they are near each other.
@@ -54,7 +81,7 @@ class DensityLabels {
 
   [[nodiscard]] bool is_core(std::size_t c, std::size_t i) const {
     double weight = 0.0;
-    cells_.visit_near(cells_.cell(c), reach, reach, [&](std::size_t other) {
+    cells_.visit_around(c, [&](std::size_t other) {
       for (const std::size_t j : cells_.members(other)) {
         if (are_near(i, j)) weight += weights_[j];
         if (weight >= min_weight_) return false;
@@ -67,7 +94,7 @@ class DensityLabels {
   /// Joins the cores of a cell with those of cells before it.
   void join_near(std::size_t c) {
     if (cores_[c].empty()) return;
-    cells_.visit_near(cells_.cell(c), reach, reach, [&](std::size_t other) {
+    cells_.visit_around(c, [&](std::size_t other) {
       if (other < c && !cores_[other].empty()) join(cores_[c], cores_[other]);
       return true;
     });
@@ -87,7 +114,7 @@ class DensityLabels {
   [[nodiscard]] std::size_t label(std::size_t c, std::size_t i) {
     if (std::binary_search(cores_[c].begin(), cores_[c].end(), i)) return sets_.find(i);
     std::size_t first = poses_.size();
-    cells_.visit_near(cells_.cell(c), reach, reach, [&](std::size_t other) {
+    cells_.visit_around(c, [&](std::size_t other) {
       const auto near = std::find_if(cores_[other].begin(), cores_[other].end(),
                                      [&](std::size_t j) { return are_near(i, j); });
       if (near != cores_[other].end()) first = std::min(first, sets_.find(*near));
@@ -96,11 +123,11 @@ class DensityLabels {
     return first == poses_.size() ? i : first;
   }
 
-  std::span<const Pose2> poses_;
+  std::span<const Pose> poses_;
   std::span<const double> weights_;
   PoseRadius radius_;
   double min_weight_;
-  PoseCells cells_;
+  Cells cells_;
   std::vector<std::vector<std::size_t>> cores_;  ///< Of each cell, ascending.
   DisjointSets sets_;                            ///< Cores of one cluster.
 };
@@ -109,7 +136,12 @@ class DensityLabels {
 
 std::vector<std::size_t> density_labels(std::span<const Pose2> poses, std::span<const double> weights,
                                         const PoseRadius& radius, double min_weight) {
-  return DensityLabels(poses, weights, radius, min_weight).find();
+  return DensityLabels<Pose2, PlanarCells>(poses, weights, radius, min_weight).find();
+}
+
+std::vector<std::size_t> density_labels(std::span<const Pose3> poses, std::span<const double> weights,
+                                        const PoseRadius& radius, double min_weight) {
+  return DensityLabels<Pose3, SpatialCells>(poses, weights, radius, min_weight).find();
 }
 
 }  // namespace glocal

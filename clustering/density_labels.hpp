@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 
 namespace glocal {
 
@@ -15,6 +15,12 @@ struct PoseRadius {
   double rotation = 0.1;     ///< rad
 };
 
+/// Neither is exceeded between two poses, which are both planar or both in space.
+template <class Pose>
+[[nodiscard]] bool are_near(const Pose& a, const Pose& b, const PoseRadius& radius) {
+  return distance(a, b) <= radius.translation && rotation_between(a, b) <= radius.rotation;
+}
+
 /// DBSCAN (Ester, Kriegel, Sander and Xu 1996): a pose is a core if those near it, itself included, weigh
 /// `min_weight` or more; cores near each other are in one cluster, and so are poses near a core. A pose near
 /// cores of several clusters goes to the one with the first core of all, as if poses were taken one after the
@@ -22,8 +28,11 @@ struct PoseRadius {
 /// of them.
 ///
 /// All poses in a cell whose diagonal is the radius are near each other (Gunawan 2013), so that crowds do not
-/// cost the square of their number.
+/// cost the square of their number. In space groups around a pose, of half the radius, stand in for cells.
 [[nodiscard]] std::vector<std::size_t> density_labels(std::span<const Pose2> poses,
+                                                      std::span<const double> weights,
+                                                      const PoseRadius& radius, double min_weight);
+[[nodiscard]] std::vector<std::size_t> density_labels(std::span<const Pose3> poses,
                                                       std::span<const double> weights,
                                                       const PoseRadius& radius, double min_weight);
 

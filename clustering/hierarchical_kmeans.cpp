@@ -2,65 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
+#include <numeric>
 #include <span>
 #include <utility>
 
+#include "clustering/moments.hpp"
+
 namespace glocal {
 namespace {
-
-/// A hypothesis's robot pose, with what the inner loops would compute again and again.
-struct Item {
-  Pose2 pose;
-  double cosine, sine;
-  double weight;  ///< Proposals it stands for.
-  std::size_t index;
-};
-using Items = std::span<Item>;
-
-Item make_item(const Hypothesis& hypothesis, std::size_t index) {
-  const Pose2& pose = hypothesis.map_from_robot;
-  return {pose, std::cos(pose.theta), std::sin(pose.theta), static_cast<double>(hypothesis.support), index};
-}
-
-/// Between headings in [-pi, pi].
-double angle_between(double a, double b) {
-  const double d = std::abs(a - b);
-  return std::min(d, 2.0 * std::numbers::pi - d);
-}
-
-/// Weighted sums, from which the mean pose comes; the heading's is circular.
-struct Sums {
-  double weight = 0.0, x = 0.0, y = 0.0, cosine = 0.0, sine = 0.0;
-
-  void add(const Item& item) {
-    weight += item.weight;
-    x += item.weight * item.pose.x;
-    y += item.weight * item.pose.y;
-    cosine += item.weight * item.cosine;
-    sine += item.weight * item.sine;
-  }
-  [[nodiscard]] Pose2 mean() const { return {x / weight, y / weight, std::atan2(sine, cosine)}; }
-};
-
-/// Mean pose and variances (eq. 6, diagonal only); members are left empty.
-Cluster moments(std::span<const Item> items) {
-  Sums sums;
-  for (const Item& item : items) sums.add(item);
-  Cluster cluster;
-  cluster.map_from_robot = sums.mean();
-  for (const Item& item : items) {
-    const double share = item.weight / sums.weight;
-    const double dx = item.pose.x - cluster.map_from_robot.x;
-    const double dy = item.pose.y - cluster.map_from_robot.y;
-    const double dtheta = angle_between(item.pose.theta, cluster.map_from_robot.theta);
-    cluster.variance_x += share * dx * dx;
-    cluster.variance_y += share * dy * dy;
-    cluster.variance_theta += share * dtheta * dtheta;
-  }
-  return cluster;
-}
 
 /// Squared distance with each axis in units of the largest allowed deviation, so that metres and radians add
 /// up.
@@ -74,12 +23,18 @@ struct Metric {
     const double dtheta = angle_between(a.theta, b.theta);
     return (dx * dx + dy * dy) * per_m2 + dtheta * dtheta * per_rad2;
   }
+  [[nodiscard]] double squared(const Pose3& a, const Pose3& b) const {
+    const Vector3 off = a.translation() - b.translation();
+    const double angle = rotation_between(a, b);
+    return (off.x * off.x + off.y * off.y + off.z * off.z) * per_m2 + angle * angle * per_rad2;
+  }
 };
 
-Pose2 farthest_from(const Pose2& pose, Items items, const Metric& metric) {
-  const Item* farthest = nullptr;
+template <class Pose>
+Pose farthest_from(const Pose& pose, std::span<const Item<Pose>> items, const Metric& metric) {
+  const Item<Pose>* farthest = nullptr;
   double largest = -1.0;
-  for (const Item& item : items) {
+  for (const Item<Pose>& item : items) {
     const double squared = metric.squared(pose, item.pose);
     if (squared > largest) {
       largest = squared;
@@ -92,25 +47,26 @@ Pose2 farthest_from(const Pose2& pose, Items items, const Metric& metric) {
 /// Splits items with K-means, K = 2, and moves those of the second half behind those of the first, otherwise
 /// in order. Seeds are far apart: the item farthest from the mean, and the one farthest from that. Returns
 /// the size of the first half; all of them if they coincide.
-std::size_t split(Items items, const Pose2& mean, const Metric& metric, int max_iterations) {
-  std::array<Pose2, 2> centres;
-  centres[0] = farthest_from(mean, items, metric);
-  centres[1] = farthest_from(centres[0], items, metric);
+template <class Pose>
+std::size_t split(std::span<Item<Pose>> items, const Pose& mean, const Metric& metric, int max_iterations) {
+  std::array<Pose, 2> centres;
+  centres[0] = farthest_from<Pose>(mean, items, metric);
+  centres[1] = farthest_from<Pose>(centres[0], items, metric);
   std::vector<char> in_second(items.size(), 0);
   std::vector<char> next(items.size());
   for (int round = 0; round <= max_iterations; ++round) {
-    std::array<Sums, 2> sums;
+    std::array sums{Sums<Pose>(centres[0]), Sums<Pose>(centres[1])};
     for (std::size_t i = 0; i < items.size(); ++i) {
-      const Pose2& pose = items[i].pose;
+      const Pose& pose = items[i].pose;
       const bool second = metric.squared(pose, centres[1]) < metric.squared(pose, centres[0]);
       next[i] = second ? 1 : 0;
       sums[second ? 1 : 0].add(items[i]);
     }
-    if (next == in_second || sums[0].weight == 0.0 || sums[1].weight == 0.0) break;
+    if (next == in_second || sums[0].weight() == 0.0 || sums[1].weight() == 0.0) break;
     in_second.swap(next);
     centres = {sums[0].mean(), sums[1].mean()};
   }
-  std::vector<Item> second_half;
+  std::vector<Item<Pose>> second_half;
   std::size_t first_size = 0;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (in_second[i] != 0) {
@@ -123,62 +79,67 @@ std::size_t split(Items items, const Pose2& mean, const Metric& metric, int max_
   return first_size;
 }
 
+/// The largest variances that a cluster may have about any axis.
+struct Limits {
+  double translation;  ///< m^2
+  double rotation;     ///< rad^2
+
+  [[nodiscard]] bool hold(const Cluster& cluster) const {
+    return std::max({cluster.variance_x, cluster.variance_y, cluster.variance_z}) <= translation &&
+           std::max({cluster.variance_theta, cluster.variance_about_x, cluster.variance_about_y}) <= rotation;
+  }
+};
+
+/// Splits all that is wider than the limits.
+template <class Pose>
+std::vector<Cluster> split_all(std::vector<Item<Pose>> items, const Limits& limits, int max_iterations) {
+  const Metric metric{1.0 / limits.translation, 1.0 / limits.rotation};
+  std::vector<Cluster> done;
+  std::vector<std::span<Item<Pose>>> open{items};
+  while (!open.empty()) {
+    const std::span<Item<Pose>> part = open.back();
+    open.pop_back();
+    Cluster cluster = moments(part);
+    if (!limits.hold(cluster)) {
+      const std::size_t first = split(part, pose_as<Pose>(cluster.map_from_robot), metric, max_iterations);
+      open.push_back(part.subspan(first));
+      open.push_back(part.first(first));
+      continue;
+    }
+    for (const Item<Pose>& item : part) cluster.members.push_back(item.index);
+    done.push_back(std::move(cluster));
+  }
+  return done;
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, HierarchicalKmeans::Params& p) {
   v.field("max_variance_translation", p.max_variance_translation,
-          {.doc = "A cluster whose variance along x or y is larger is split.",
+          {.doc = "A cluster whose variance along x, y or z is larger is split.",
            .unit = "m^2",
            .above = 0.0,
            .audience = Audience::tuner});
-  v.field("max_variance_rotation_deg2", p.max_variance_rotation_deg2,
-          {.doc = "A cluster whose variance of heading is larger is split.",
-           .unit = "deg^2",
-           .above = 0.0,
-           .audience = Audience::tuner});
+  v.field(
+      "max_variance_rotation_deg2", p.max_variance_rotation_deg2,
+      {.doc = "A cluster whose variance of heading, or of rotation about another axis, is larger is split.",
+       .unit = "deg^2",
+       .above = 0.0,
+       .audience = Audience::tuner});
   v.field("max_iterations", p.max_iterations,
           {.doc = "Rounds of assignment in each split; most end by themselves after a few.",
            .min = 1,
            .audience = Audience::expert});
 }
 
-Cluster make_cluster(const std::vector<Hypothesis>& hypotheses, std::vector<std::size_t> members) {
-  std::vector<Item> items;
-  items.reserve(members.size());
-  for (const std::size_t i : members) items.push_back(make_item(hypotheses[i], i));
-  Cluster cluster = moments(items);
-  cluster.members = std::move(members);
-  return cluster;
-}
-
 std::vector<Cluster> HierarchicalKmeans::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
   if (hypotheses.empty()) return {};
   const double degree = radians(1.0);
-  const double max_variance_rotation = params_.max_variance_rotation_deg2 * degree * degree;
-  const Metric metric{1.0 / params_.max_variance_translation, 1.0 / max_variance_rotation};
-
-  std::vector<Item> items;
-  items.reserve(hypotheses.size());
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) items.push_back(make_item(hypotheses[i], i));
-  std::vector<Cluster> done;
-  std::vector<Items> open{items};
-  while (!open.empty()) {
-    const Items part = open.back();
-    open.pop_back();
-    Cluster cluster = moments(part);
-    const bool compact =
-        std::max(cluster.variance_x, cluster.variance_y) <= params_.max_variance_translation &&
-        cluster.variance_theta <= max_variance_rotation;
-    if (!compact) {
-      const std::size_t first = split(part, cluster.map_from_robot, metric, params_.max_iterations);
-      open.push_back(part.subspan(first));
-      open.push_back(part.first(first));
-      continue;
-    }
-    for (const Item& item : part) cluster.members.push_back(item.index);
-    done.push_back(std::move(cluster));
-  }
-  return done;
+  const Limits limits{params_.max_variance_translation, params_.max_variance_rotation_deg2 * degree * degree};
+  std::vector<std::size_t> all(hypotheses.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return are_planar(hypotheses) ? split_all(items_of<Pose2>(hypotheses, all), limits, params_.max_iterations)
+                                : split_all(items_of<Pose3>(hypotheses, all), limits, params_.max_iterations);
 }
 
 }  // namespace glocal

@@ -10,6 +10,8 @@ namespace glocal {
 /// left before right.
 class HierarchicalKmeans final : public Clusterer {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     double max_variance_translation = 0.0030;
     double max_variance_rotation_deg2 = 50.0;
@@ -23,10 +25,5 @@ class HierarchicalKmeans final : public Clusterer {
   Params params_;
 };
 void describe(ParamVisitor& v, HierarchicalKmeans::Params& p);
-
-/// The cluster of some hypotheses: mean robot pose with circular mean heading, and variances (eq. 6, diagonal
-/// only). `members` is not empty.
-[[nodiscard]] Cluster make_cluster(const std::vector<Hypothesis>& hypotheses,
-                                   std::vector<std::size_t> members);
 
 }  // namespace glocal

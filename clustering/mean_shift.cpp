@@ -5,12 +5,13 @@
 
 #include "clustering/clusters_of.hpp"
 #include "clustering/density_labels.hpp"
+#include "clustering/pose_groups.hpp"
 #include "glocal/pose_cells.hpp"
 
 namespace glocal {
 namespace {
 
-/// A kernel on SE(2): how much a pose weighs, seen from another one.
+/// A kernel on SE(2) or SE(3): how much a pose weighs, seen from another one.
 struct Kernel {
   bool is_flat;
   PoseRadius bandwidth;
@@ -25,8 +26,16 @@ struct Kernel {
 };
 
 /// A difference of poses in the map's axes.
-struct Shift {
+template <class Pose>
+struct Shift;
+
+template <>
+struct Shift<Pose2> {
   double x = 0.0, y = 0.0, theta = 0.0;
+
+  Shift() = default;
+  Shift(const Pose2& from, const Pose2& to)
+      : x(to.x - from.x), y(to.y - from.y), theta(wrap_angle(to.theta - from.theta)) {}
 
   [[nodiscard]] double squared(const PoseRadius& unit) const {
     return (x * x + y * y) / (unit.translation * unit.translation) +
@@ -42,71 +51,152 @@ struct Shift {
     y /= by;
     theta /= by;
   }
+  [[nodiscard]] Pose2 from(const Pose2& pose) const {
+    return {pose.x + x, pose.y + y, wrap_angle(pose.theta + theta)};
+  }
 };
 
-Shift between(const Pose2& from, const Pose2& to) {
-  return {to.x - from.x, to.y - from.y, wrap_angle(to.theta - from.theta)};
-}
+template <>
+struct Shift<Pose3> {
+  Vector3 way, turn;
 
-Pose2 moved(const Pose2& pose, const Shift& shift) {
-  return {pose.x + shift.x, pose.y + shift.y, wrap_angle(pose.theta + shift.theta)};
-}
+  Shift() = default;
+  Shift(const Pose3& from, const Pose3& to)
+      : way(to.translation() - from.translation()), turn(logarithm(to.rotation * inverse(from.rotation))) {}
+
+  [[nodiscard]] double squared(const PoseRadius& unit) const {
+    const double translation = norm(way) / unit.translation;
+    const double rotation = norm(turn) / unit.rotation;
+    return translation * translation + rotation * rotation;
+  }
+  void add(const Shift& other, double weight) {
+    way = way + weight * other.way;
+    turn = turn + weight * other.turn;
+  }
+  void divide(double by) {
+    way = (1.0 / by) * way;
+    turn = (1.0 / by) * turn;
+  }
+  [[nodiscard]] Pose3 from(const Pose3& pose) const {
+    return {pose.translation() + way, exponential(turn) * pose.rotation};
+  }
+};
 
 /// Hypotheses that climb together.
+template <class Pose>
 struct Climbers {
-  std::vector<Pose2> poses;
+  std::vector<Pose> poses;
   std::vector<double> weights;
 };
 
-Climbers gather(const PoseCells& cells, std::span<const Pose2> poses, std::span<const double> weights) {
-  Climbers result;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const Pose2& first = poses[cells.members(c).front()];
-    Shift mean;
+/// `together`: poses in cells or groups.
+template <class Pose, class Together>
+Climbers<Pose> gather(const Together& together, std::span<const Pose> poses,
+                      std::span<const double> weights) {
+  Climbers<Pose> result;
+  for (std::size_t c = 0; c < together.size(); ++c) {
+    const Pose& first = poses[together.members(c).front()];
+    Shift<Pose> mean;
     double weight = 0.0;
-    for (const std::size_t i : cells.members(c)) {
-      mean.add(between(first, poses[i]), weights[i]);
+    for (const std::size_t i : together.members(c)) {
+      mean.add(Shift<Pose>(first, poses[i]), weights[i]);
       weight += weights[i];
     }
     mean.divide(weight);
-    result.poses.push_back(moved(first, mean));
+    result.poses.push_back(mean.from(first));
     result.weights.push_back(weight);
   }
   return result;
 }
 
+/// Finds all poses that count, seen from another one.
+template <class Pose>
+class Surroundings;
+
+template <>
+class Surroundings<Pose2> {
+ public:
+  Surroundings(std::span<const Pose2> poses, const Kernel& kernel)
+      : cells_(poses, {kernel.reach() * kernel.bandwidth.translation,
+                       wide_parts_of_a_turn(kernel.reach() * kernel.bandwidth.rotation)}) {}
+  template <class Visit>
+  void visit(const Pose2& pose, Visit visit_one) const {
+    // Nothing counts that is more than one cell away.
+    cells_.visit_near(cells_.cell_of(pose), 1, 1, [&](std::size_t c) {
+      for (const std::size_t i : cells_.members(c)) visit_one(i);
+      return true;
+    });
+  }
+
+ private:
+  PoseCells cells_;
+};
+
+template <>
+class Surroundings<Pose3> {
+ public:
+  Surroundings(std::span<const Pose3> poses, const Kernel& kernel)
+      : reach_{kernel.reach() * kernel.bandwidth.translation, kernel.reach() * kernel.bandwidth.rotation},
+        groups_(poses, reach_) {}
+  template <class Visit>
+  void visit(const Pose3& pose, Visit visit_one) const {
+    groups_.visit_near(pose, reach_, [&](std::size_t g) {
+      for (const std::size_t i : groups_.members(g)) visit_one(i);
+      return true;
+    });
+  }
+
+ private:
+  PoseRadius reach_;
+  PoseGroups groups_;
+};
+
 /// The mean shift at a pose.
-Shift mean_shift(const Pose2& pose, const Climbers& all, const PoseCells& cells, const Kernel& kernel) {
-  Shift mean;
+template <class Pose>
+Shift<Pose> mean_shift(const Pose& pose, const Climbers<Pose>& all, const Surroundings<Pose>& surroundings,
+                       const Kernel& kernel) {
+  Shift<Pose> mean;
   double weights = 0.0;
-  cells.visit_near(cells.cell_of(pose), 1, 1, [&](std::size_t c) {
-    for (const std::size_t i : cells.members(c)) {
-      const Shift shift = between(pose, all.poses[i]);
-      const double weight = all.weights[i] * kernel.weight(shift.squared(kernel.bandwidth));
-      mean.add(shift, weight);
-      weights += weight;
-    }
-    return true;
+  surroundings.visit(pose, [&](std::size_t i) {
+    const Shift<Pose> shift(pose, all.poses[i]);
+    const double weight = all.weights[i] * kernel.weight(shift.squared(kernel.bandwidth));
+    mean.add(shift, weight);
+    weights += weight;
   });
   if (weights > 0.0) mean.divide(weights);
   return mean;
 }
 
 /// Where each climber ends.
-std::vector<Pose2> modes_of(const Climbers& climbers, const Kernel& kernel, int max_iterations) {
+template <class Pose>
+std::vector<Pose> modes_of(const Climbers<Pose>& climbers, const Kernel& kernel, int max_iterations) {
   constexpr double still = 1e-3;  // bandwidths
-  // Nothing counts that is more than one cell away.
-  const PoseCells cells(climbers.poses, {kernel.reach() * kernel.bandwidth.translation,
-                                         wide_parts_of_a_turn(kernel.reach() * kernel.bandwidth.rotation)});
-  std::vector<Pose2> modes = climbers.poses;
-  for (Pose2& mode : modes) {
+  const Surroundings<Pose> surroundings(climbers.poses, kernel);
+  std::vector<Pose> modes = climbers.poses;
+  for (Pose& mode : modes) {
     for (int i = 0; i < max_iterations; ++i) {
-      const Shift shift = mean_shift(mode, climbers, cells, kernel);
-      mode = moved(mode, shift);
+      const Shift<Pose> shift = mean_shift(mode, climbers, surroundings, kernel);
+      mode = shift.from(mode);
       if (shift.squared(kernel.bandwidth) < still * still) break;
     }
   }
   return modes;
+}
+
+/// For each pose a number of its cluster, the same for all of them.
+template <class Pose, class Together>
+std::vector<std::size_t> labels_of(const Together& together, std::span<const Pose> poses,
+                                   std::span<const double> weights, const Kernel& kernel,
+                                   int max_iterations) {
+  const Climbers<Pose> climbers = gather(together, poses, weights);
+  const std::vector<Pose> modes = modes_of(climbers, kernel, max_iterations);
+  // Without a least weight, poses near each other are simply linked.
+  const std::vector<std::size_t> ends = density_labels(modes, climbers.weights, kernel.bandwidth, 0.0);
+  std::vector<std::size_t> labels(poses.size());
+  for (std::size_t c = 0; c < together.size(); ++c) {
+    for (const std::size_t i : together.members(c)) labels[i] = ends[c];
+  }
+  return labels;
 }
 
 }  // namespace
@@ -125,7 +215,7 @@ void describe(ParamVisitor& v, MeanShift::Params& p) {
        .min = 0.001,
        .audience = Audience::tuner});
   v.field("bandwidth_rotation_deg", p.bandwidth_rotation_deg,
-          {.doc = "Unit of rotation: as bandwidth, for the heading.",
+          {.doc = "Unit of rotation: as bandwidth, for the rotation.",
            .unit = "deg",
            .min = 0.01,
            .max = 60.0,
@@ -139,18 +229,18 @@ void describe(ParamVisitor& v, MeanShift::Params& p) {
 
 std::vector<Cluster> MeanShift::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
   const Kernel kernel{params_.kernel == "flat", {params_.bandwidth, radians(params_.bandwidth_rotation_deg)}};
-  const std::vector<Pose2> poses = robot_poses(hypotheses);
-  const PoseCells together(
-      poses, {0.25 * kernel.bandwidth.translation, parts_of_a_turn(0.25 * kernel.bandwidth.rotation)});
-  const Climbers climbers = gather(together, poses, supports(hypotheses));
-  const std::vector<Pose2> modes = modes_of(climbers, kernel, params_.max_iterations);
-  // Without a least weight, poses near each other are simply linked.
-  const std::vector<std::size_t> ends = density_labels(modes, climbers.weights, kernel.bandwidth, 0.0);
-  std::vector<std::size_t> labels(hypotheses.size());
-  for (std::size_t c = 0; c < together.size(); ++c) {
-    for (const std::size_t i : together.members(c)) labels[i] = ends[c];
+  const PoseRadius near{0.25 * kernel.bandwidth.translation, 0.25 * kernel.bandwidth.rotation};
+  const std::vector<double> weights = supports(hypotheses);
+  const auto labels = [&](const auto& together, const auto& poses) {
+    return labels_of(together, std::span(poses), std::span(weights), kernel, params_.max_iterations);
+  };
+  if (are_planar(hypotheses)) {
+    const std::vector<Pose2> poses = robot_poses<Pose2>(hypotheses);
+    const PoseCells cells(poses, {near.translation, parts_of_a_turn(near.rotation)});
+    return clusters_of(hypotheses, labels(cells, poses));
   }
-  return clusters_of(hypotheses, labels);
+  const std::vector<Pose3> poses = robot_poses<Pose3>(hypotheses);
+  return clusters_of(hypotheses, labels(PoseGroups(poses, near), poses));
 }
 
 }  // namespace glocal

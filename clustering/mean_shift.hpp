@@ -12,11 +12,13 @@ namespace glocal {
 /// nearer to each other than the bandwidths, and so on, are one cluster. Unlike with dbscan, two maxima with
 /// a bridge between them stay two.
 ///
-/// On SE(2) a distance is translation and rotation in units of their bandwidths, squared and added up; means
-/// are taken of rotations from where the hypothesis is. Hypotheses within the same cell of a quarter of the
-/// bandwidths climb together, from their mean.
+/// On SE(2) and SE(3) a distance is translation and rotation in units of their bandwidths, squared and added
+/// up; means are taken of rotations from where the hypothesis is. Hypotheses within the same cell of a
+/// quarter of the bandwidths climb together, from their mean.
 class MeanShift final : public Clusterer {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     std::string kernel = "gaussian";
     double bandwidth = 0.15;

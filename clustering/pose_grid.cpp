@@ -24,7 +24,7 @@ void describe(ParamVisitor& v, PoseGridClusterer::Params& p) {
 }
 
 std::vector<Cluster> PoseGridClusterer::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
-  const std::vector<Pose2> poses = robot_poses(hypotheses);
+  const std::vector<Pose2> poses = robot_poses<Pose2>(hypotheses);
   const PoseCells cells(poses, {params_.cell, parts_of_a_turn(radians(params_.cell_rotation_deg))});
   DisjointSets sets(cells.size());
   for (std::size_t c = 0; params_.joined && c < cells.size(); ++c) {

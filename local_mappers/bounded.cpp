@@ -26,10 +26,10 @@ void Bounded::reset() {
 
 void Bounded::add(const Observation& observation) {
   const int epoch = map().epoch;
-  const Pose2 last = map().local_from_robot;
+  const Pose2 last = matching_.robot();
   LocalScan scan = matching_.place(observation);
   if (map().epoch != epoch) window_.clear();
-  const double way = window_.empty() ? 0.0 : window_.back().way + distance(last, map().local_from_robot);
+  const double way = window_.empty() ? 0.0 : window_.back().way + distance(last, matching_.robot());
   window_.push_back({std::move(scan), way});
   if (!is_too_long()) {
     matching_.insert(window_.back().scan);

@@ -45,14 +45,14 @@ void Keyframes::add(const Observation& observation) {
     matching_.insert({});
     return;
   }
-  local_from_last_ = map().local_from_robot;
+  local_from_last_ = matching_.robot();
   matching_.insert(scan);
 }
 
 bool Keyframes::is_keyframe(const Points& hits) const {
   if (hits.empty()) return false;
   if (!local_from_last_) return true;
-  const Pose2& robot = map().local_from_robot;
+  const Pose2& robot = matching_.robot();
   return distance(*local_from_last_, robot) >= params_.distance ||
          rotation_between(*local_from_last_, robot) >= radians(params_.angle_deg) ||
          overlap(hits) < params_.overlap;

@@ -12,14 +12,15 @@ Odometry::Odometry(const Params& params)
     : params_(params), map_(params.voxels, 0, params.voxels.resolution) {}
 
 void Odometry::add(const Observation& observation) {
-  if (!odom_from_local_) odom_from_local_ = observation.odom_from_robot;
-  map_.move_robot(inverse(*odom_from_local_) * observation.odom_from_robot);
+  const Pose2 odom_from_robot = seen_from_above(observation.odom_from_robot);
+  if (!odom_from_local_) odom_from_local_ = odom_from_robot;
+  map_.move_robot(inverse(*odom_from_local_) * odom_from_robot);
   if (!map_.holds_robot()) {
     map_.start_over();
-    odom_from_local_ = observation.odom_from_robot;
+    odom_from_local_ = odom_from_robot;
   }
   const Scan& scan = observation.scan;
-  map_.add({scan.hits, scan_normals(scan.hits, scan.origin, params_.normals), map().local_from_robot});
+  map_.add({scan.hits, scan_normals(scan.hits, scan.origin, params_.normals), map_.robot()});
 }
 
 void Odometry::reset() {

@@ -99,8 +99,9 @@ LocalScan ScanMatching::place(const Observation& observation) {
   const Points& hits = observation.scan.hits;
   const Points normals = scan_normals(hits, observation.scan.origin, params_.normals);
   const int misfits_before = misfits_;
-  const Pose2 predicted = predict(observation.odom_from_robot);
-  last_odom_from_robot_ = observation.odom_from_robot;
+  const Pose2 odom_from_robot = seen_from_above(observation.odom_from_robot);
+  const Pose2 predicted = predict(odom_from_robot);
+  last_odom_from_robot_ = odom_from_robot;
   map_.move_robot(match(observation.scan, normals, predicted));
   if (!map_.holds_robot() || misfits_ >= params_.restart_after) {
     map_.start_over();
@@ -108,13 +109,13 @@ LocalScan ScanMatching::place(const Observation& observation) {
     misfits_ = 0;
   }
   if (misfits_ > misfits_before) return {};
-  free_space_check_.add(observation.scan, map().local_from_robot);
-  return {hits, normals, map().local_from_robot};
+  free_space_check_.add(observation.scan, robot());
+  return {hits, normals, robot()};
 }
 
 Pose2 ScanMatching::predict(const Pose2& odom_from_robot) const {
   if (!last_odom_from_robot_) return {};
-  return map().local_from_robot * (inverse(*last_odom_from_robot_) * odom_from_robot);
+  return robot() * (inverse(*last_odom_from_robot_) * odom_from_robot);
 }
 
 Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& predicted) {

@@ -53,6 +53,8 @@ class ScanMatching final : public LocalMapper {
   /// Forgets the points, but neither frame nor robot.
   void clear() { map_.clear(); }
 
+  /// The map's local_from_robot.
+  [[nodiscard]] const Pose2& robot() const { return map_.robot(); }
   /// Index of the points.
   [[nodiscard]] const PointGrid& grid() const { return map_.grid(); }
 

@@ -65,8 +65,12 @@ VoxelMap::VoxelMap(const VoxelParams& params, int reach, double sigma)
     : params_(params), grid_(params.resolution, reach, sigma, tiles_in(params.memory_mb)) {}
 
 bool VoxelMap::holds_robot() const {
-  const Pose2& robot = map_.local_from_robot;
-  return grid_.contains(static_cast<float>(robot.x), static_cast<float>(robot.y));
+  return grid_.contains(static_cast<float>(robot_.x), static_cast<float>(robot_.y));
+}
+
+void VoxelMap::move_robot(const Pose2& local_from_robot) {
+  robot_ = local_from_robot;
+  map_.local_from_robot = local_from_robot;
 }
 
 void VoxelMap::clear() {
@@ -80,7 +84,7 @@ void VoxelMap::clear() {
 
 void VoxelMap::start_over() {
   clear();
-  map_.local_from_robot = {};
+  move_robot({});
   ++map_.epoch;
 }
 

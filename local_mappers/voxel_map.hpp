@@ -46,7 +46,9 @@ class VoxelMap {
   /// Index of the points.
   [[nodiscard]] const PointGrid& grid() const { return grid_; }
 
-  void move_robot(const Pose2& local_from_robot) { map_.local_from_robot = local_from_robot; }
+  /// The map's local_from_robot.
+  [[nodiscard]] const Pose2& robot() const { return robot_; }
+  void move_robot(const Pose2& local_from_robot);
   /// Whether the grid can hold what lies where the robot is.
   [[nodiscard]] bool holds_robot() const;
   /// Registers the next observation's hits; perhaps none.
@@ -68,6 +70,7 @@ class VoxelMap {
   VoxelParams params_;
   PointGrid grid_;
   LocalMap map_;
+  Pose2 robot_;                           ///< map_.local_from_robot, before it is rounded to a quaternion.
   std::vector<std::uint8_t> hits_;        ///< Hits averaged in each point so far.
   std::vector<std::int32_t> next_above_;  ///< Next point in the same column of the plane, or none.
 };

@@ -12,6 +12,8 @@ namespace glocal {
 /// a share of the best score and of the threshold.
 class BestFraction final : public ThresholdPolicy {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     double fraction = 0.8;
     std::string best = "last_step";

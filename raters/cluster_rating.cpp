@@ -21,11 +21,12 @@ void describe(ParamVisitor& v, ClusterRating::Params& p) {
   v.require(std::abs(std::accumulate(p.weights.begin(), p.weights.end(), 0.0) - 1.0) < 1e-9, "weights",
             "the four weights must add up to 1 (eq. 7)");
   v.field("max_variance_translation", p.max_variance_translation,
-          {.doc = "Variance along x or y at which the second term of eq. 7 is 0; the clusterer's value.",
+          {.doc = "Variance along x, y or z at which the second term of eq. 7 is 0; the clusterer's value.",
            .unit = "m^2",
            .above = 0.0});
   v.field("max_variance_rotation_deg2", p.max_variance_rotation_deg2,
-          {.doc = "Variance of heading at which the third term of eq. 7 is 0; the clusterer's value.",
+          {.doc = "Variance of heading, or of rotation about another axis, at which the third term of eq. 7 "
+                  "is 0; the clusterer's value.",
            .unit = "deg^2",
            .above = 0.0});
 }
@@ -53,9 +54,11 @@ double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothe
   const double score = mean_score(hypotheses, cluster.members);
 
   const double share = support / all_support;
-  const double variance = std::max(cluster.variance_x, cluster.variance_y);
+  const double variance = std::max({cluster.variance_x, cluster.variance_y, cluster.variance_z});
+  const double variance_rotation =
+      std::max({cluster.variance_theta, cluster.variance_about_x, cluster.variance_about_y});
   const double narrow = std::max(0.0, 1.0 - variance / params_.max_variance_translation);
-  const double straight = std::max(0.0, 1.0 - cluster.variance_theta / max_variance_rotation);
+  const double straight = std::max(0.0, 1.0 - variance_rotation / max_variance_rotation);
   const std::vector<double>& alpha = params_.weights;
   return alpha[0] * share + alpha[1] * narrow + alpha[2] * straight + alpha[3] * score;
 }

@@ -9,6 +9,8 @@ namespace glocal {
 /// clusters (eq. 8).
 class ClusterRating final : public Rater {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     /// The paper leaves them open; these give its first-step ratings of 0.2 to 0.45 (Fig. 4a).
     std::vector<double> weights = {0.5, 0.075, 0.075, 0.35};

@@ -46,7 +46,7 @@ Verdict ConsecutiveRating::judge(const StepResult& step) {
     last_.reset();
     return {VerdictKind::searching, std::nullopt, {}, "no pose fits the local map well enough in this step"};
   }
-  const Pose2& pose = step.clusters.front().map_from_robot;
+  const Pose3& pose = step.clusters.front().map_from_robot;
   const double rating = step.ratings.front().r_normalised;
   if (rating > params_.min_rating) {
     const int count = last_ && continues(*last_, step) ? last_->count + 1 : 1;
@@ -65,7 +65,7 @@ Verdict ConsecutiveRating::judge(const StepResult& step) {
                         params_.consecutive)};
   }
   last_.reset();
-  std::vector<Pose2> poses = candidates(step);
+  std::vector<Pose3> poses = candidates(step);
   const std::size_t n = poses.size();
   if (n >= 2 && n <= static_cast<std::size_t>(params_.max_candidates)) {
     return {VerdictKind::ambiguous, std::nullopt, std::move(poses),
@@ -77,7 +77,7 @@ Verdict ConsecutiveRating::judge(const StepResult& step) {
           fmt::format("the best of {} clusters is rated only {:.2f}", step.clusters.size(), rating)};
 }
 
-bool ConsecutiveRating::same(const Pose2& a, const Pose2& b) const {
+bool ConsecutiveRating::same(const Pose3& a, const Pose3& b) const {
   return are_same(a, b, params_.same_distance, params_.same_rotation_deg);
 }
 
@@ -87,12 +87,12 @@ bool ConsecutiveRating::continues(const Leader& last, const StepResult& step) co
 }
 
 /// Robot poses of the highly rated clusters, leaving out those that only repeat a better one.
-std::vector<Pose2> ConsecutiveRating::candidates(const StepResult& step) const {
-  std::vector<Pose2> poses;
+std::vector<Pose3> ConsecutiveRating::candidates(const StepResult& step) const {
+  std::vector<Pose3> poses;
   const double least = params_.candidate_share * step.ratings.front().r;
   for (std::size_t i = 0; i < step.clusters.size() && step.ratings[i].r >= least; ++i) {
-    const Pose2& pose = step.clusters[i].map_from_robot;
-    if (std::none_of(poses.begin(), poses.end(), [&](const Pose2& other) { return same(pose, other); })) {
+    const Pose3& pose = step.clusters[i].map_from_robot;
+    if (std::none_of(poses.begin(), poses.end(), [&](const Pose3& other) { return same(pose, other); })) {
       poses.push_back(pose);
     }
   }

@@ -13,6 +13,8 @@ namespace glocal {
 /// moved by the local motion. A step without clusters resets the count and is no failure.
 class ConsecutiveRating final : public VerdictRule {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     double min_rating = 0.8;
     int consecutive = 3;
@@ -31,9 +33,9 @@ class ConsecutiveRating final : public VerdictRule {
     FollowedPose pose;
     int count = 0;
   };
-  [[nodiscard]] bool same(const Pose2& a, const Pose2& b) const;
+  [[nodiscard]] bool same(const Pose3& a, const Pose3& b) const;
   [[nodiscard]] bool continues(const Leader& last, const StepResult& step) const;
-  [[nodiscard]] std::vector<Pose2> candidates(const StepResult& step) const;
+  [[nodiscard]] std::vector<Pose3> candidates(const StepResult& step) const;
 
   Params params_;
   std::optional<Leader> last_;  ///< The cluster that was rated highly in the last step.

@@ -10,6 +10,8 @@ namespace glocal {
 /// counts as 0, as in eq. 9.
 class ExponentialThreshold final : public ThresholdPolicy {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     double weight = 0.1;
     double initial = 0.6;

@@ -8,6 +8,8 @@ namespace glocal {
 /// The same Omega_max in every step.
 class FixedThreshold final : public ThresholdPolicy {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     double omega_max = 0.2;
   };

@@ -3,24 +3,24 @@
 
 #include <optional>
 
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 #include "glocal/step_result.hpp"
 
 namespace glocal {
 
 /// A robot pose in the map as of one step, with what tells how the robot moves from there.
 struct FollowedPose {
-  Pose2 map_from_robot;
-  Pose2 local_from_robot;
+  Pose3 map_from_robot;
+  Pose3 local_from_robot;
   int epoch = 0;
   double stamp = 0.0;  ///< s
 
-  static FollowedPose of(const StepResult& step, const Pose2& map_from_robot) {
+  static FollowedPose of(const StepResult& step, const Pose3& map_from_robot) {
     return {map_from_robot, step.local_from_robot, step.local_map_epoch, step.stamp};
   }
 
   /// Where it is by a later step: moved by the local motion. None in another local frame.
-  [[nodiscard]] std::optional<Pose2> expected_in(const StepResult& step) const {
+  [[nodiscard]] std::optional<Pose3> expected_in(const StepResult& step) const {
     if (epoch != step.local_map_epoch) return std::nullopt;
     return map_from_robot * (inverse(local_from_robot) * step.local_from_robot);
   }
@@ -35,7 +35,7 @@ struct FollowedPose {
 };
 
 /// Nearer to each other, and turned by less, than this.
-[[nodiscard]] inline bool are_same(const Pose2& a, const Pose2& b, double distance_m, double rotation_deg) {
+[[nodiscard]] inline bool are_same(const Pose3& a, const Pose3& b, double distance_m, double rotation_deg) {
   return distance(a, b) < distance_m && rotation_between(a, b) < radians(rotation_deg);
 }
 

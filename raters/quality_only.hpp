@@ -11,6 +11,8 @@ namespace glocal {
 /// hypothesis for each pose, the size of clusters says nothing. Normalised by eq. 8.
 class QualityOnly final : public Rater {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     std::string quality = "best";
   };

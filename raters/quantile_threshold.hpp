@@ -10,6 +10,8 @@ namespace glocal {
 /// lowers it to a share of itself.
 class QuantileThreshold final : public ThresholdPolicy {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     double quantile = 0.25;
     double empty_share = 0.9;

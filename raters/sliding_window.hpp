@@ -12,6 +12,8 @@ namespace glocal {
 /// above the threshold of its step, so only empty steps let the threshold fall.
 class SlidingWindow final : public ThresholdPolicy {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     int window = 10;
     double initial = 0.6;

@@ -13,6 +13,8 @@ namespace glocal {
 /// no contact is eta times as likely as one that has.
 class Softmax final : public Rater {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     double beta = 30.0;
     std::string quality = "best";

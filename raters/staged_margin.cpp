@@ -121,7 +121,7 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const bool goes_on = continues(step);
   const double driven = goes_on ? distance(best_->local_from_robot, step.local_from_robot) : 0.0;
   if (!goes_on) begin_anew();
-  const Pose2& pose = step.hypotheses.front().map_from_robot;
+  const Pose3& pose = step.hypotheses.front().map_from_robot;
   best_ = FollowedPose::of(step, pose);
   ++steps_;
   distance_ += driven;
@@ -180,7 +180,7 @@ Verdict StagedMargin::localized(const StepResult& step, double margin) const {
 }
 
 Verdict StagedMargin::undecided(const StepResult& step, double margin) const {
-  std::vector<Pose2> poses = candidates(step);
+  std::vector<Pose3> poses = candidates(step);
   const std::size_t n = poses.size();
   if (n >= 2 && n <= static_cast<std::size_t>(params_.max_candidates)) {
     return {VerdictKind::ambiguous, std::nullopt, std::move(poses),
@@ -202,6 +202,7 @@ double StagedMargin::confidence(double margin) const {
 std::optional<PoseCovariance> StagedMargin::covariance(const std::vector<Hypothesis>& hypotheses) const {
   const Hypothesis& best = hypotheses.front();
   if (!best.covariance) return std::nullopt;
+  const double heading = best.map_from_robot.heading();
   PoseCovariance spread;
   double weights = 0.0;
   for (const Hypothesis& h : hypotheses) {
@@ -209,7 +210,7 @@ std::optional<PoseCovariance> StagedMargin::covariance(const std::vector<Hypothe
     const double weight = std::exp((h.score - best.score) / params_.spread_margin);
     const double x = h.map_from_robot.x - best.map_from_robot.x;
     const double y = h.map_from_robot.y - best.map_from_robot.y;
-    const double t = wrap_angle(h.map_from_robot.theta - best.map_from_robot.theta);
+    const double t = wrap_angle(h.map_from_robot.heading() - heading);
     weights += weight;
     spread.xx += weight * x * x;
     spread.xy += weight * x * y;
@@ -224,7 +225,7 @@ std::optional<PoseCovariance> StagedMargin::covariance(const std::vector<Hypothe
                         own.yt + spread.yt / weights, own.tt + spread.tt / weights};
 }
 
-bool StagedMargin::are_rivals(const Pose2& a, const Pose2& b) const {
+bool StagedMargin::are_rivals(const Pose3& a, const Pose3& b) const {
   return distance(a, b) > params_.rival_distance ||
          rotation_between(a, b) > radians(params_.rival_rotation_deg);
 }
@@ -245,12 +246,12 @@ bool StagedMargin::continues(const StepResult& step) const {
 }
 
 /// The best pose and its rivals of about the same score, each a rival of the others.
-std::vector<Pose2> StagedMargin::candidates(const StepResult& step) const {
-  std::vector<Pose2> poses;
+std::vector<Pose3> StagedMargin::candidates(const StepResult& step) const {
+  std::vector<Pose3> poses;
   for (const Hypothesis& h : step.hypotheses) {
     if (h.score < step.hypotheses.front().score - params_.candidate_margin) break;
     const bool repeats = std::any_of(
-        poses.begin(), poses.end(), [&](const Pose2& other) { return !are_rivals(h.map_from_robot, other); });
+        poses.begin(), poses.end(), [&](const Pose3& other) { return !are_rivals(h.map_from_robot, other); });
     if (!repeats) poses.push_back(h.map_from_robot);
   }
   return poses;

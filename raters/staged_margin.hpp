@@ -19,6 +19,8 @@ namespace glocal {
 /// widened by hypotheses near it that are about as good.
 class StagedMargin final : public VerdictRule {
  public:
+  static constexpr Motions motions = all_motions;
+
   /// A margin in score of at least `margin`, kept for so many steps and so far.
   struct Stage {
     double margin = 0.3;
@@ -66,8 +68,8 @@ class StagedMargin final : public VerdictRule {
   [[nodiscard]] double confidence(double margin) const;
   [[nodiscard]] std::optional<PoseCovariance> covariance(const std::vector<Hypothesis>& hypotheses) const;
   [[nodiscard]] bool continues(const StepResult& step) const;
-  [[nodiscard]] std::vector<Pose2> candidates(const StepResult& step) const;
-  [[nodiscard]] bool are_rivals(const Pose2& a, const Pose2& b) const;
+  [[nodiscard]] std::vector<Pose3> candidates(const StepResult& step) const;
+  [[nodiscard]] bool are_rivals(const Pose3& a, const Pose3& b) const;
 
   Params params_;
   std::vector<Kept> kept_;  ///< One for each stage.

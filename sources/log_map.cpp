@@ -147,8 +147,8 @@ Point point_of(const OccupancyGrid& grid, int column, int row, const Count& coun
           static_cast<float>(grid.map_from_grid.y + row * grid.resolution) + dy, 0.0F};
 }
 
-std::vector<Pose2> sparse_path(const std::vector<PlacedScan>& placed) {
-  std::vector<Pose2> path;
+std::vector<Pose3> sparse_path(const std::vector<PlacedScan>& placed) {
+  std::vector<Pose3> path;
   for (const PlacedScan& p : placed) {
     if (path.empty() || distance(path.back(), p.map_from_robot) >= path_spacing)
       path.push_back(p.map_from_robot);

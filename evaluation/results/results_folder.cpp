@@ -16,6 +16,7 @@
 #include "evaluation/results/fault_collector.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
+#include "evaluation/results/pose_json.hpp"
 #include "evaluation/statistics/statistics.hpp"
 #include "glocal/error.hpp"
 
@@ -104,10 +105,8 @@ std::optional<double> number(const Json& line, const char* key) {
 TrialResult trial_of(const Json& line) {
   TrialResult trial;
   trial.outcome = outcome_of(line.at("outcome"));
-  if (line.at("start").contains("reference")) {
-    const Json& pose = line.at("start").at("reference");
-    trial.start_reference = Pose2{pose.at("x"), pose.at("y"), pose.at("theta")};
-  }
+  if (line.at("start").contains("reference"))
+    trial.start_reference = pose_of(line.at("start").at("reference"));
   trial.steps = line.at("steps");
   trial.distance_m = line.at("distance_m");
   trial.translation_error_m = number(line, "translation_error_m");

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "evaluation/running/trials.hpp"
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 
 namespace glocal {
 
@@ -37,7 +37,7 @@ struct TrialStart {
 /// One line of trials.jsonl, with what steps.jsonl says of its time.
 struct TrialResult {
   Outcome outcome = Outcome::undecided;
-  std::optional<Pose2> start_reference;
+  std::optional<Pose3> start_reference;
   double steps = 0.0;       ///< Up to the declaration; all of them if there is none.
   double distance_m = 0.0;  ///< Driven in these steps.
   std::optional<double> translation_error_m, rotation_error_deg;  ///< Of the declared pose.

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "evaluation/results/pose_json.hpp"
 
 namespace glocal {
 namespace {
@@ -14,7 +15,7 @@ using Json = nlohmann::ordered_json;
 Json best_clusters(const StepResult& step, int most) {
   Json best = Json::array();
   for (std::size_t i = 0; i < std::min(step.clusters.size(), static_cast<std::size_t>(most)); ++i) {
-    best.push_back({{"pose", to_json(step.clusters[i].map_from_robot)},
+    best.push_back({{"pose", to_json(step.clusters[i].map_from_robot, step.motion)},
                     {"size", step.clusters[i].members.size()},
                     {"r", step.ratings[i].r},
                     {"r_normalised", step.ratings[i].r_normalised}});
@@ -38,16 +39,11 @@ void add_estimate(Json& json, const PoseEstimate& estimate, const std::optional<
   if (nees) json["nees"] = *nees;
 }
 
-std::string tum_line(double stamp, const Pose2& pose) {
-  return fmt::format("{:.6f} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", stamp, pose.x, pose.y,
-                     std::sin(pose.theta / 2.0), std::cos(pose.theta / 2.0));
+std::string tum_line(double stamp, const Pose3& pose) {
+  return fmt::format("{:.6f} {}\n", stamp, tum_text(pose));
 }
 
 }  // namespace
-
-Json to_json(const Pose2& pose) {
-  return {{"x", pose.x}, {"y", pose.y}, {"theta", pose.theta}};
-}
 
 Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
   const StepResult& step = record.result;
@@ -73,14 +69,14 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
   json["why"] = step.verdict.why;
   if (!step.verdict.candidates.empty()) {
     Json candidates = Json::array();
-    for (const Pose2& pose : step.verdict.candidates) candidates.push_back(to_json(pose));
+    for (const Pose3& pose : step.verdict.candidates) candidates.push_back(to_json(pose, step.motion));
     json["candidates"] = std::move(candidates);
   }
   for (const Evidence& e : step.verdict.evidence) json["evidence"][e.name] = e.value;
-  json["local_from_robot"] = to_json(step.local_from_robot);
-  if (const auto estimate = step.estimate()) json["estimate"] = to_json(*estimate);
+  json["local_from_robot"] = to_json(step.local_from_robot, step.motion);
+  if (const auto estimate = step.estimate()) json["estimate"] = to_json(*estimate, step.motion);
   if (record.reference) {
-    json["reference"] = to_json(*record.reference);
+    json["reference"] = to_json(*record.reference, step.motion);
     json["on_map"] = record.on_map;
   }
   if (record.error) add_error(json, *record.error);
@@ -94,7 +90,7 @@ std::string step_line(std::size_t trial, const StepRecord& record, int most_clus
 
 Json start_json(const TrialRecord& trial) {
   Json start = {{"sample", trial.start_sample}, {"distance_m", trial.start_m}, {"stamp", trial.start_stamp}};
-  if (trial.start_reference) start["reference"] = to_json(*trial.start_reference);
+  if (trial.start_reference) start["reference"] = to_json(*trial.start_reference, trial.motion);
   return start;
 }
 
@@ -104,7 +100,7 @@ std::string trial_line(const TrialRecord& trial) {
                {"outcome", to_string(trial.outcome)},
                {"steps", trial.steps},
                {"distance_m", trial.distance_m}};
-  if (trial.pose) json["pose"] = to_json(*trial.pose);
+  if (trial.pose) json["pose"] = to_json(*trial.pose, trial.motion);
   if (trial.error) add_error(json, *trial.error);
   if (trial.estimate) add_estimate(json, *trial.estimate, trial.nees);
   json["why"] = trial.why;

@@ -8,7 +8,6 @@
 
 #include "evaluation/running/trials.hpp"
 #include "glocal/experiment.hpp"
-#include "glocal/pose2.hpp"
 
 namespace glocal {
 
@@ -31,7 +30,5 @@ struct Trajectories {
   std::string reference;
 };
 [[nodiscard]] Trajectories tum_trajectories(const TrialRecord& trial);
-
-[[nodiscard]] nlohmann::ordered_json to_json(const Pose2& pose);
 
 }  // namespace glocal

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "glocal/contact.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -16,14 +17,14 @@ bool has_reference(const Sample& sample) {
   return sample.map_from_robot.has_value();
 }
 
-double distance_to_path(const Pose2& pose, const std::vector<Pose2>& path) {
+double distance_to_path(const Pose3& pose, const std::vector<Pose3>& path) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Pose2& p : path) least = std::min(least, distance(pose, p));
+  for (const Pose3& p : path) least = std::min(least, distance(pose, p));
   return least;
 }
 
 /// Whether the grid knows a free cell within `reach` of the pose.
-bool near_free_cell(const Pose2& pose, const OccupancyGrid& grid, double reach) {
+bool near_free_cell(const Pose3& pose, const OccupancyGrid& grid, double reach) {
   // The grid has nothing farther away.
   reach = std::min(
       reach, distance(pose, grid.map_from_grid) + std::hypot(grid.width, grid.height) * grid.resolution);
@@ -39,12 +40,20 @@ bool near_free_cell(const Pose2& pose, const OccupancyGrid& grid, double reach) 
   return false;
 }
 
-/// A map made from a drive is known near that drive's path; another one is known where cells are free.
+/// Whether the map has a point within `reach` of the pose.
+bool near_point(const Pose3& pose, const GlobalMap& map, double reach) {
+  Points place;
+  place.push_back({static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.z)});
+  return contact_index(map, "kd_tree", reach)->count(place, 0, 1, Transform(Pose2{})) > 0;
+}
+
+/// A map made from a drive is known near that drive's path; another one is known where cells are free; one of
+/// points alone is known near these.
 bool within_map(const Sample& sample, const GlobalMap& map, double reach) {
   if (reach <= 0.0 || !has_reference(sample)) return true;
-  const Pose2& pose = *sample.map_from_robot;
-  return map.path().empty() ? near_free_cell(pose, map.grid(), reach)
-                            : distance_to_path(pose, map.path()) <= reach;
+  const Pose3& pose = *sample.map_from_robot;
+  if (!map.path().empty()) return distance_to_path(pose, map.path()) <= reach;
+  return map.grid().cells.empty() ? near_point(pose, map, reach) : near_free_cell(pose, map.grid(), reach);
 }
 
 std::vector<std::size_t> starts_at(const std::vector<double>& places_m, const Drive& drive) {

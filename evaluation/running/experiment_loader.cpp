@@ -31,7 +31,7 @@ void require_contract(const char* kind, const StrategyChoice& source, Check chec
 MapData load_map(const Experiment& experiment, const Catalog& catalog, SourceSetup setup) {
   setup.seed = seed_of(RandomPart::map_source, experiment);
   MapData map = catalog.map_sources.make(experiment.map, setup)->load();
-  require_contract("map source", experiment.map, [&] { check_map(map); });
+  require_contract("map source", experiment.map, [&] { check_map(map, experiment.localizer.motion); });
   return map;
 }
 
@@ -39,7 +39,7 @@ Drive load_drive(const Experiment& experiment, const Catalog& catalog, SourceSet
   setup.seed = seed_of(RandomPart::observation_source, experiment);
   Drive drive = read_drive(*catalog.observation_sources.make(experiment.observations, setup));
   require_contract("observation source", experiment.observations, [&] {
-    for (const Sample& sample : drive.samples) check_sample(sample);
+    for (const Sample& sample : drive.samples) check_sample(sample, experiment.localizer.motion);
   });
   return drive;
 }
@@ -63,6 +63,7 @@ LoadedExperiment& ExperimentLoader::load(Experiment& experiment) {
   sources.map = experiment.map;
   sources.observations = experiment.observations;
   sources.trials = experiment.trials;
+  sources.localizer.motion = experiment.localizer.motion;  // Sources must keep to it.
   std::string wanted = effective_yaml(sources, catalog_);
   if (wanted != sources_) {
     sources_.clear();
@@ -71,8 +72,8 @@ LoadedExperiment& ExperimentLoader::load(Experiment& experiment) {
     source_inputs_ = loaded_.inputs;
   } else {
     const GlobalMap& map = *loaded_.map;
-    loaded_.map =
-        std::make_shared<const GlobalMap>(MapData{map.points(), map.normals(), map.grid(), map.path()});
+    loaded_.map = std::make_shared<const GlobalMap>(
+        MapData{map.points(), map.normals(), map.grid(), map.path(), map.resolution()});
     loaded_.inputs = source_inputs_;
   }
   return loaded_;

@@ -40,12 +40,10 @@ class CellCounter {
  public:
   explicit CellCounter(double cell) : cell_(cell) {}
 
-  void add(const Points& hits, const Pose2& local_from_robot) {
-    const Transform transform(local_from_robot);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      const Point p = transform(hits[i]);
-      cells_.emplace_back(std::floor(p.x / cell_), std::floor(p.y / cell_));
-    }
+  void add(const Points& hits, const Pose3& local_from_robot) {
+    const Points in_local = moved(hits, local_from_robot);
+    for (std::size_t i = 0; i < in_local.size(); ++i)
+      cells_.emplace_back(std::floor(in_local.x[i] / cell_), std::floor(in_local.y[i] / cell_));
   }
 
   [[nodiscard]] std::size_t count() {
@@ -87,7 +85,7 @@ class WindowRun {
     if (mapper_.map().epoch != epoch_) {
       return {drive_.path_m[last] - drive_.path_m[first_], std::numbers::pi};
     }
-    const Pose2 first_from_last =
+    const Pose3 first_from_last =
         inverse(*drive_.samples[first_].map_from_robot) * *drive_.samples[last].map_from_robot;
     return pose_error(mapper_.map().local_from_robot, first_from_last);
   }

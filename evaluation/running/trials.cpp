@@ -17,13 +17,14 @@ StepRecord make_record(StepResult result, const Sample& sample, const GlobalMap&
   record.result.hypotheses = {};
   record.reference = sample.map_from_robot;
   if (record.reference) {
-    record.on_map = map.grid().at(record.reference->x, record.reference->y) != Cell::unknown;
+    record.on_map =
+        map.grid().cells.empty() || map.grid().at(record.reference->x, record.reference->y) != Cell::unknown;
     if (const auto estimate = record.result.estimate())
       record.error = pose_error(*estimate, *record.reference);
     const auto& estimate = record.result.verdict.estimate;
     if (estimate && estimate->covariance)
-      record.nees =
-          normalised_error_squared(estimate->map_from_robot, *record.reference, *estimate->covariance);
+      record.nees = normalised_error_squared(seen_from_above(estimate->map_from_robot),
+                                             seen_from_above(*record.reference), *estimate->covariance);
   }
   return record;
 }
@@ -70,7 +71,7 @@ std::size_t step_limit(const TrialsConfig& config) {
   return static_cast<std::size_t>(config.max_steps);
 }
 
-PoseError pose_error(const Pose2& estimate, const Pose2& reference) {
+PoseError pose_error(const Pose3& estimate, const Pose3& reference) {
   return {distance(estimate, reference), rotation_between(estimate, reference)};
 }
 
@@ -107,6 +108,7 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
   record.start_sample = start_sample;
   record.start_m = drive.path_m[start_sample];
   record.start_stamp = start.observation.stamp;
+  record.motion = experiment.localizer.motion;
   record.start_reference = start.map_from_robot;
 
   bool going_on = done_or_failed(record, [&] { localizer.reset(trial); });

@@ -19,16 +19,17 @@ struct PoseError {
   double translation_m = 0.0;
   double rotation_rad = 0.0;
 };
-[[nodiscard]] PoseError pose_error(const Pose2& estimate, const Pose2& reference);
+[[nodiscard]] PoseError pose_error(const Pose3& estimate, const Pose3& reference);
 
 /// A step with what the evaluation knows about it.
 struct StepRecord {
   StepResult result;  ///< Without its hypotheses, which can be tens of thousands.
   std::size_t hypotheses = 0;
-  std::optional<Pose2> reference;
+  std::optional<Pose3> reference;
   std::optional<PoseError> error;  ///< Of the estimate, declared or not.
   std::optional<double> nees;      ///< Normalised error squared of what the verdict rule believes.
-  bool on_map = false;             ///< The reference lies where the map's grid is not unknown.
+  /// The reference lies where the map's grid is not unknown; always so on a map of points alone.
+  bool on_map = false;
 };
 
 struct TrialRecord {
@@ -36,11 +37,12 @@ struct TrialRecord {
   std::size_t start_sample = 0;
   double start_m = 0.0;  ///< Along the drive.
   double start_stamp = 0.0;
-  std::optional<Pose2> start_reference;
+  Motion motion = Motion::planar;  ///< Says how poses are written.
+  std::optional<Pose3> start_reference;
   Outcome outcome = Outcome::undecided;
   std::size_t steps = 0;                 ///< Up to the declaration; all of them if there is none.
   double distance_m = 0.0;               ///< Driven in these steps.
-  std::optional<Pose2> pose;             ///< Declared robot pose.
+  std::optional<Pose3> pose;             ///< Declared robot pose.
   std::optional<PoseError> error;        ///< Of the declared pose.
   std::optional<PoseEstimate> estimate;  ///< Of the rule that declared it, where it has one.
   std::optional<double> nees;            ///< Normalised error squared of that, where it has a covariance.

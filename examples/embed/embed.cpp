@@ -16,8 +16,9 @@ glocal::Observation parse(const std::string& line) {
   constexpr float max_range = 8.0F;
   std::istringstream text(line);
   glocal::Observation observation;
-  glocal::Pose2& odom = observation.odom_from_robot;
+  glocal::Pose2 odom;
   text >> odom.x >> odom.y >> odom.theta;
+  observation.odom_from_robot = odom;
   const std::vector<float> ranges{std::istream_iterator<float>(text), {}};
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double bearing =
@@ -44,7 +45,7 @@ int main(int argc, char** argv) try {
     const glocal::StepResult step = localizer.step(parse(line));
     std::cout << step.step << ' ' << glocal::to_string(step.verdict.kind);
     if (const auto& pose = step.verdict.map_from_robot)
-      std::cout << ' ' << pose->x << ' ' << pose->y << ' ' << pose->theta;
+      std::cout << ' ' << pose->x << ' ' << pose->y << ' ' << pose->heading();
     std::cout << ": " << step.verdict.why << '\n';
   }
 } catch (const glocal::ConfigError& e) {

@@ -1,5 +1,6 @@
 #include "glocal/pose_cells.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -8,11 +9,14 @@
 
 namespace glocal {
 
-std::size_t PoseCellHash::operator()(const PoseCell& cell) const {
+std::size_t hash_of(std::span<const std::int64_t> numbers) {
   std::uint64_t hash = 0;
-  for (const std::int64_t part : {cell.turn, cell.row, cell.column})
-    hash = mix64(hash ^ static_cast<std::uint64_t>(part));
+  for (const std::int64_t number : numbers) hash = mix64(hash ^ static_cast<std::uint64_t>(number));
   return hash;
+}
+
+std::size_t PoseCellHash::operator()(const PoseCell& cell) const {
+  return hash_of(std::array{cell.turn, cell.row, cell.column});
 }
 
 int parts_of_a_turn(double width_rad) {

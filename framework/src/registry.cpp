@@ -25,13 +25,13 @@ StrategyChoice RegistryBase::choose(std::string_view name) const {
   return {info->name, info->default_params()};
 }
 
-void RegistryBase::insert(std::string name, std::string doc,
+void RegistryBase::insert(std::string name, std::string doc, Motions motions,
                           std::function<std::unique_ptr<AnyParams>()> default_params) {
   if (const StrategyInfo* taken = find(name)) {
     throw std::invalid_argument(kind_ + " '" + name + "' of " + origin_ + " is already registered by " +
                                 taken->origin);
   }
-  StrategyInfo info{name, std::move(doc), origin_, std::move(default_params)};
+  StrategyInfo info{name, std::move(doc), origin_, motions, std::move(default_params)};
   infos_.emplace(std::move(name), std::move(info));
 }
 

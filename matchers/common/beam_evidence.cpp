@@ -37,7 +37,7 @@ void describe(ParamVisitor& v, BeamRule& p) {
 void BeamEvidence::add(const LocalMap& local, const Scan& scan) {
   if (local.epoch != epoch_) scans_.clear();
   epoch_ = local.epoch;
-  const Transform local_from_robot(local.local_from_robot);
+  const Transform local_from_robot(seen_from_above(local.local_from_robot));
   Beams beams{local_from_robot(scan.origin), {}};
   for (const Beam& beam : some_beams(scan, static_cast<std::size_t>(rule_.beams)))
     beams.ends.push_back(local_from_robot(beam.end));

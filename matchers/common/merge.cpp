@@ -1,6 +1,9 @@
 #include "matchers/common/merge.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <unordered_map>
 
@@ -9,21 +12,14 @@
 namespace glocal {
 namespace {
 
-/// The best of each cell.
-std::vector<Hypothesis> merged(const std::vector<Hypothesis>& hypotheses, const Pose2& local_from_robot,
-                               double scale) {
+/// The best of the hypotheses in each cell, whose hash table is `Places`.
+template <class Places, class CellOf>
+std::vector<Hypothesis> best_of_cells(const std::vector<Hypothesis>& hypotheses, CellOf cell_of) {
   std::vector<Hypothesis> best;
-  const PoseBinning binning{scale * 0.05, parts_of_a_turn(scale * radians(2.0))};
-  // Parts of the turn begin at multiples of their width, not half a width before: which hypotheses of the
-  // paper's experiments are merged has always depended on that.
-  const double half_a_part = std::numbers::pi / binning.turns;
-  std::unordered_map<PoseCell, std::size_t, PoseCellHash> place_of_cell;
+  Places place_of_cell;
   place_of_cell.reserve(hypotheses.size());
   for (const Hypothesis& hypothesis : hypotheses) {
-    Pose2 robot = hypothesis.map_from_local * local_from_robot;
-    robot.theta -= half_a_part;
-    const PoseCell cell = binning.cell_of(robot);
-    const auto [it, is_new] = place_of_cell.try_emplace(cell, best.size());
+    const auto [it, is_new] = place_of_cell.try_emplace(cell_of(hypothesis), best.size());
     if (is_new) {
       best.push_back(hypothesis);
     } else {
@@ -33,14 +29,57 @@ std::vector<Hypothesis> merged(const std::vector<Hypothesis>& hypotheses, const 
   return best;
 }
 
-}  // namespace
+constexpr double first_side = 0.05;          // m
+constexpr double first_turn = radians(2.0);  // rad
 
-void merge_hypotheses(std::vector<Hypothesis>& hypotheses, const Pose2& local_from_robot, std::size_t most) {
-  for (double scale = 1.0; hypotheses.size() > most; scale *= 2.0)
-    hypotheses = merged(hypotheses, local_from_robot, scale);
+std::vector<Hypothesis> merged_in_plane(const std::vector<Hypothesis>& hypotheses,
+                                        const Pose2& local_from_robot, double scale) {
+  const PoseBinning binning{scale * first_side, parts_of_a_turn(scale * first_turn)};
+  // Parts of the turn begin at multiples of their width, not half a width before: which hypotheses of the
+  // paper's experiments are merged has always depended on that.
+  const double half_a_part = std::numbers::pi / binning.turns;
+  using Places = std::unordered_map<PoseCell, std::size_t, PoseCellHash>;
+  return best_of_cells<Places>(hypotheses, [&](const Hypothesis& hypothesis) {
+    Pose2 robot = seen_from_above(hypothesis.map_from_local) * local_from_robot;
+    robot.theta -= half_a_part;
+    return binning.cell_of(robot);
+  });
 }
 
-MatchResult joined(const std::vector<MatchResult>& chunks, const Pose2& local_from_robot, std::size_t most) {
+using SpatialCell = std::array<std::int64_t, 6>;
+
+struct SpatialCellHash {
+  std::size_t operator()(const SpatialCell& cell) const { return hash_of(cell); }
+};
+
+std::vector<Hypothesis> merged_in_space(const std::vector<Hypothesis>& hypotheses,
+                                        const Pose3& local_from_robot, double scale) {
+  using Places = std::unordered_map<SpatialCell, std::size_t, SpatialCellHash>;
+  return best_of_cells<Places>(hypotheses, [&](const Hypothesis& hypothesis) {
+    const Pose3 robot = hypothesis.map_from_local * local_from_robot;
+    const Vector3 turn = logarithm(robot.rotation);
+    // Rounded to the nearest, so that everything is in one cell in the end.
+    const auto part = [scale](double value, double width) {
+      return static_cast<std::int64_t>(std::floor(value / (scale * width) + 0.5));
+    };
+    return SpatialCell{part(robot.x, first_side), part(robot.y, first_side), part(robot.z, first_side),
+                       part(turn.x, first_turn),  part(turn.y, first_turn),  part(turn.z, first_turn)};
+  });
+}
+
+}  // namespace
+
+void merge_hypotheses(std::vector<Hypothesis>& hypotheses, const Pose3& local_from_robot, std::size_t most) {
+  const bool is_planar = local_from_robot.is_planar() &&
+                         std::all_of(hypotheses.begin(), hypotheses.end(),
+                                     [](const Hypothesis& h) { return h.map_from_local.is_planar(); });
+  for (double scale = 1.0; hypotheses.size() > most; scale *= 2.0) {
+    hypotheses = is_planar ? merged_in_plane(hypotheses, seen_from_above(local_from_robot), scale)
+                           : merged_in_space(hypotheses, local_from_robot, scale);
+  }
+}
+
+MatchResult joined(const std::vector<MatchResult>& chunks, const Pose3& local_from_robot, std::size_t most) {
   MatchResult result;
   for (const MatchResult& chunk : chunks) {
     result.hypotheses.insert(result.hypotheses.end(), chunk.hypotheses.begin(), chunk.hypotheses.end());

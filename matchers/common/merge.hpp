@@ -12,12 +12,13 @@ namespace glocal {
 /// Merges hypotheses whose robot poses lie in the same cell of a pose grid, if there are more than `most` of
 /// them. The best of each cell stays and takes over the support of the others. Cells begin at 5 cm and 2
 /// degrees and double until no more than `most` are left, so every pose that is distinct at the final cell
-/// size keeps a hypothesis. `hypotheses` come and stay sorted by falling score; most >= 8.
-void merge_hypotheses(std::vector<Hypothesis>& hypotheses, const Pose2& local_from_robot, std::size_t most);
+/// size keeps a hypothesis. Unless all poses are planar, cells are those of SE(3): x, y, z, and the
+/// rotation's axis as long as its angle. `hypotheses` come and stay sorted by falling score; most >= 8.
+void merge_hypotheses(std::vector<Hypothesis>& hypotheses, const Pose3& local_from_robot, std::size_t most);
 
 /// What chunks of draws have found, in their order, as one answer: sorted, and merged where there are more
 /// hypotheses than `most`.
-[[nodiscard]] MatchResult joined(const std::vector<MatchResult>& chunks, const Pose2& local_from_robot,
+[[nodiscard]] MatchResult joined(const std::vector<MatchResult>& chunks, const Pose3& local_from_robot,
                                  std::size_t most);
 
 }  // namespace glocal

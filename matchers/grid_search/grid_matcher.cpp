@@ -54,7 +54,8 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
   const auto most_points =
       params_.max_points > 0 ? static_cast<std::size_t>(params_.max_points) : TileCounts::most_points;
   const Points sample = sample_of(local.points, most_points, rng);
-  const GridSearchResult found = search(sample, local.local_from_robot,
+  const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
+  const GridSearchResult found = search(sample, local_from_robot,
                                         {.min_quality = omega_max,
                                          .min_rotation_step = radians(params_.min_rotation_step_deg),
                                          .distance = params_.candidate.distance,
@@ -67,10 +68,10 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
     candidates.push_back(
         {pose.map_from_local, static_cast<double>(pose.in_contact) / static_cast<double>(sample.size())});
   }
-  candidates = refiner_.distinct(std::move(candidates), local.local_from_robot);
+  candidates = refiner_.distinct(std::move(candidates), local_from_robot);
   if (params_.refinement.iterations > 0) {
     result.points_tested += candidates.size() * local.points.size();
-    candidates = refiner_.refined(std::move(candidates), local.local_from_robot, sample, local.points);
+    candidates = refiner_.refined(std::move(candidates), local_from_robot, sample, local.points);
   }
   for (const Candidate& candidate : candidates) {
     if (candidate.quality < omega_max) break;

@@ -208,7 +208,7 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
           [&](const MotionBatch& poses, std::size_t size) { candidates.test(poses, size); });
   std::vector<Hypothesis> best = settled(candidates, local, sample, result);
   if (exact_search_.is_due(best)) {
-    const GridSearchResult found = exact_search_.search(sample, local.local_from_robot);
+    const GridSearchResult found = exact_search_.search(sample, seen_from_above(local.local_from_robot));
     for (const GridSearchResult::Pose& pose : found.poses) candidates.add(pose.map_from_local);
     result.proposals += found.tested;
     result.points_tested += found.points_tested;
@@ -219,7 +219,8 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
 
   carried_.clear();
   for (const Hypothesis& h : best) {
-    if (carried_.size() < static_cast<std::size_t>(params_.carried)) carried_.push_back(h.map_from_local);
+    if (carried_.size() < static_cast<std::size_t>(params_.carried))
+      carried_.push_back(seen_from_above(h.map_from_local));
     if (h.score >= omega_max) result.hypotheses.push_back(judge_.told(h, local, sample));
   }
   return result;
@@ -234,7 +235,7 @@ std::size_t IndexedRansam::draws_of_step() {
 /// The best of the candidates, once these are distinct and refined.
 std::vector<Hypothesis> IndexedRansam::settled(StepCandidates& candidates, const LocalMap& local,
                                                const Points& sample, MatchResult& result) const {
-  candidates.refine(refiner_, local.local_from_robot);
+  candidates.refine(refiner_, seen_from_above(local.local_from_robot));
   result.points_tested += candidates.all().size() * local.points.size();
   return judge_.best_of(candidates.all(), local, sample);
 }

@@ -38,14 +38,14 @@ std::vector<Hypothesis> PoseJudge::best_of(const std::vector<Candidate>& candida
   for (const Candidate& candidate : candidates) {
     Hypothesis h = Hypothesis::by_contact(candidate.map_from_local,
                                           contact_->share(local.points, Transform(candidate.map_from_local)));
-    h.score += rule_.unknown_weight * unknown_share(sample, h.map_from_local);
+    h.score += rule_.unknown_weight * unknown_share(sample, candidate.map_from_local);
     at_most.push_back(h);
   }
   std::stable_sort(at_most.begin(), at_most.end(), has_better_score);
   std::vector<Hypothesis> best;
   for (Hypothesis& h : at_most) {
     if (best.size() == rule_.most && best.back().score >= h.score) break;
-    h.score -= beams_.penalty(*clearance_, h.map_from_local);
+    h.score -= beams_.penalty(*clearance_, seen_from_above(h.map_from_local));
     best.insert(std::upper_bound(best.begin(), best.end(), h, has_better_score), h);
     if (best.size() > rule_.most) best.pop_back();
   }
@@ -53,11 +53,11 @@ std::vector<Hypothesis> PoseJudge::best_of(const std::vector<Candidate>& candida
 }
 
 Hypothesis PoseJudge::told(Hypothesis judged, const LocalMap& local, const Points& sample) const {
-  const Pose2& map_from_local = judged.map_from_local;
+  const Pose2 map_from_local = seen_from_above(judged.map_from_local);
+  const Pose2 map_from_robot = map_from_local * seen_from_above(local.local_from_robot);
   judged.score = std::min(judged.score, 1.0);
   judged.covariance =
-      pose_covariance(*field_, sample, map_from_local, map_from_local * local.local_from_robot, rule_.kernel,
-                      rule_.uncertainty);
+      pose_covariance(*field_, sample, map_from_local, map_from_robot, rule_.kernel, rule_.uncertainty);
   judged.free_space_violation = free_space_violation(sample, map_from_local);
   return judged;
 }

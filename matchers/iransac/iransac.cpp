@@ -182,7 +182,8 @@ MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/,
 
   std::vector<Candidate> candidates;
   for (const ScoredPose& pose : pool_) candidates.push_back({pose.map_from_local, pose.score()});
-  candidates = refiner_.refined(std::move(candidates), local.local_from_robot, shuffled, local.points);
+  candidates = refiner_.refined(std::move(candidates), seen_from_above(local.local_from_robot), shuffled,
+                                local.points);
   result.points_tested += candidates.size() * local.points.size();
   pool_.clear();
   for (const Candidate& candidate : candidates) {

@@ -81,13 +81,14 @@ MatchResult Mcl::match(const LocalMap& local, const Observation& latest, double 
   MatchResult result;
   if (latest.scan.hits.empty()) return result;
   if (particles_.empty()) begin(rng);
-  Pose2 moved = odom_from_last_ ? inverse(*odom_from_last_) * latest.odom_from_robot : Pose2{};
+  const Pose2 odom_from_robot = seen_from_above(latest.odom_from_robot);
+  Pose2 moved = odom_from_last_ ? inverse(*odom_from_last_) * odom_from_robot : Pose2{};
   result.proposals = particles_.size();
   if (!odom_from_last_ || is_due(moved)) {
     const Beams beams = beams_of(latest.scan);
     result.points_tested = particles_.size() * beams.ranges.size();
     update(moved, beams, rng);
-    odom_from_last_ = latest.odom_from_robot;
+    odom_from_last_ = odom_from_robot;
     moved = {};
   }
   if (local.points.empty()) return result;
@@ -227,7 +228,7 @@ std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan,
       heaps_of(particles_, weights_,
                {params_.merge_distance, square_parts_of_a_turn(radians(params_.merge_rotation_deg))},
                static_cast<std::size_t>(params_.max_hypotheses));
-  const Pose2 robot_from_local = inverse(local.local_from_robot);
+  const Pose2 robot_from_local = inverse(seen_from_above(local.local_from_robot));
   std::vector<Hypothesis> found;
   for (const Heap& heap : heaps) {
     const Pose2 map_from_robot = heap.mean() * moved;

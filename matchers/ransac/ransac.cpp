@@ -124,8 +124,10 @@ void Ransac::refine_all(const LocalMap& local, double omega_max, MatchResult& re
   const Points anchors = sample_of(local.points, static_cast<std::size_t>(params_.refinement_points), rng);
   parallel_for(setup_.threads, result.hypotheses.size(), [&](std::size_t i) {
     Hypothesis& h = result.hypotheses[i];
-    h.map_from_local = refined_pose(*field_, anchors, h.map_from_local, params_.refinement);
-    h.quality = contact_->share(local.points, Transform(h.map_from_local));
+    const Pose2 refined =
+        refined_pose(*field_, anchors, seen_from_above(h.map_from_local), params_.refinement);
+    h.map_from_local = refined;
+    h.quality = contact_->share(local.points, Transform(refined));
     h.score = h.quality;
   });
   result.points_tested += result.hypotheses.size() * local.points.size();

@@ -242,7 +242,7 @@ void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_s
 
 void Ransam::ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) const {
   for (Hypothesis& h : hypotheses)
-    h.score -= beams_.penalty(*clearance_, h.map_from_local, h.score - omega_max);
+    h.score -= beams_.penalty(*clearance_, seen_from_above(h.map_from_local), h.score - omega_max);
   std::erase_if(hypotheses, [&](const Hypothesis& h) { return h.score < omega_max; });
 }
 

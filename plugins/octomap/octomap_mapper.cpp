@@ -38,7 +38,7 @@ void OctomapMapper::add(const Observation& observation) {
   if (inner.epoch != map_.epoch) start_over();
   map_.epoch = inner.epoch;
   map_.local_from_robot = inner.local_from_robot;
-  cast_rays(observation.scan, map_.local_from_robot);
+  cast_rays(observation.scan, seen_from_above(map_.local_from_robot));
   ++observations_;
   collect_points();
 }

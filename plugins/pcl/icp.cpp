@@ -108,7 +108,7 @@ PclIcp::PclIcp(const Params& params, const StageSetup& setup)
 MatchResult PclIcp::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
                           Rng& /*rng*/) {
   if (local.points.empty()) return {};
-  const Pose2 robot_from_local = inverse(local.local_from_robot);
+  const Pose2 robot_from_local = inverse(seen_from_above(local.local_from_robot));
   std::vector<Pose2> starts;
   for (const Pose2& map_from_robot : map_from_robot_starts_)
     starts.push_back(map_from_robot * robot_from_local);
@@ -117,7 +117,7 @@ MatchResult PclIcp::match(const LocalMap& local, const Observation& /*latest*/, 
       rated(aligner_.align(local.points, starts, params_.coarse, threads_), local, *contact_, 0.0);
   coarse.resize(std::min(coarse.size(), static_cast<std::size_t>(params_.keep)));
   std::vector<Pose2> promising;
-  for (const Hypothesis& h : coarse) promising.push_back(h.map_from_local);
+  for (const Hypothesis& h : coarse) promising.push_back(seen_from_above(h.map_from_local));
 
   MatchResult result;
   result.hypotheses =

@@ -44,11 +44,12 @@ class AsPublished {
   [[nodiscard]] std::vector<std::size_t> region(std::size_t i) const {
     std::vector<std::size_t> near;
     for (std::size_t j = 0; j < hypotheses_.size(); ++j) {
-      const Pose2& a = hypotheses_[i].map_from_robot;
-      const Pose2& b = hypotheses_[j].map_from_robot;
-      double turn = std::fmod(std::abs(a.theta - b.theta), 2.0 * std::numbers::pi);
-      turn = std::min(turn, 2.0 * std::numbers::pi - turn);
-      if (std::hypot(a.x - b.x, a.y - b.y) <= params_.radius &&
+      const Pose3& a = hypotheses_[i].map_from_robot;
+      const Pose3& b = hypotheses_[j].map_from_robot;
+      const Quaternion &p = a.rotation, &q = b.rotation;
+      const double cosine = std::abs(p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z);
+      const double turn = 2.0 * std::acos(std::min(1.0, cosine));
+      if (std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) <= params_.radius &&
           turn <= params_.radius_rotation_deg * std::numbers::pi / 180.0) {
         near.push_back(j);
       }
@@ -88,6 +89,22 @@ TEST(Dbscan, IsWhatThePaperWritesDown) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Rng rng(seed);
     const std::vector<Hypothesis> hypotheses = test::crowded(400, rng);
+    for (const double radius : {0.03, 0.1, 0.3}) {
+      for (const double rotation : {2.0, 7.0, 100.0, 180.0}) {
+        for (const int support : {1, 3, 8, 40}) {
+          const Dbscan::Params params{radius, rotation, support};
+          ASSERT_EQ(cluster(hypotheses, params), AsPublished(hypotheses, params).find())
+              << seed << ": " << radius << " m, " << rotation << " deg, " << support;
+        }
+      }
+    }
+  }
+}
+
+TEST(Dbscan, IsWhatThePaperWritesDownInSpace) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Rng rng(seed);
+    const std::vector<Hypothesis> hypotheses = test::in_space(test::crowded(400, rng), rng);
     for (const double radius : {0.03, 0.1, 0.3}) {
       for (const double rotation : {2.0, 7.0, 100.0, 180.0}) {
         for (const int support : {1, 3, 8, 40}) {

@@ -12,7 +12,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Hypothesis at(double x, double y, double theta) {
-  return {{}, {x, y, theta}, 0.7};
+  return {{}, Pose2{x, y, theta}, 0.7};
 }
 
 std::vector<Cluster> cluster(const std::vector<Hypothesis>& hypotheses,
@@ -21,21 +21,8 @@ std::vector<Cluster> cluster(const std::vector<Hypothesis>& hypotheses,
   return HierarchicalKmeans(params).cluster(hypotheses, rng);
 }
 
-TEST(MakeCluster, MeanAndVariancesByHand) {
-  const Cluster c = make_cluster({at(1.0, 2.0, 0.1), at(9.0, 9.0, 1.0), at(3.0, 2.0, 0.3)}, {0, 2});
-  EXPECT_DOUBLE_EQ(c.map_from_robot.x, 2.0);
-  EXPECT_DOUBLE_EQ(c.map_from_robot.y, 2.0);
-  EXPECT_NEAR(c.map_from_robot.theta, 0.2, 1e-12);
-  EXPECT_DOUBLE_EQ(c.variance_x, 1.0);  // ((1 - 2)^2 + (3 - 2)^2) / 2
-  EXPECT_DOUBLE_EQ(c.variance_y, 0.0);
-  EXPECT_NEAR(c.variance_theta, 0.01, 1e-12);
-  EXPECT_EQ(c.members, (std::vector<std::size_t>{0, 2}));
-}
-
-TEST(MakeCluster, HeadingsAcrossTheSeam) {
-  const Cluster c = make_cluster({at(0, 0, pi - 0.1), at(0, 0, -pi + 0.1)}, {0, 1});
-  EXPECT_NEAR(std::abs(c.map_from_robot.theta), pi, 1e-12);
-  EXPECT_NEAR(c.variance_theta, 0.01, 1e-12);
+Hypothesis turned(const Vector3& turn) {
+  return {{}, Pose3({}, exponential(turn)), 0.7};
 }
 
 TEST(HierarchicalKmeans, NothingGivesNothing) {
@@ -103,6 +90,48 @@ TEST(HierarchicalKmeans, KeepsKnownGroupsApart) {
     EXPECT_EQ(c.members.size(), 50U);
     for (const std::size_t i : c.members) EXPECT_EQ(i % 12, c.members.front() % 12);
   }
+}
+
+TEST(HierarchicalKmeans, SplitsInSpaceExactlyWhereAVarianceIsTooLarge) {
+  const auto raised = [](double z) { return Hypothesis{{}, Pose3({0, 0, z}, {}), 0.7}; };
+  EXPECT_EQ(cluster({raised(-0.0547), raised(0.0547)}).size(), 1U);
+  EXPECT_EQ(cluster({raised(-0.0548), raised(0.0548)}).size(), 2U);
+  for (const Vector3& axis : {Vector3{1, 0, 0}, Vector3{0, 1, 0}}) {
+    EXPECT_EQ(cluster({turned(radians(-7.07) * axis), turned(radians(7.07) * axis)}).size(), 1U);
+    EXPECT_EQ(cluster({turned(radians(-7.08) * axis), turned(radians(7.08) * axis)}).size(), 2U);
+  }
+}
+
+TEST(HierarchicalKmeans, KeepsKnownGroupsInSpaceApart) {
+  Rng rng(6);
+  std::vector<Hypothesis> hypotheses;
+  for (int i = 0; i < 400; ++i) {
+    // Eight places of a cube's corners, on each of which the robot leans another way.
+    const int corner = i % 8;
+    const int layer = corner / 4;
+    const Vector3 place{1.0 * (corner % 2), 1.0 * (corner / 2 % 2), 1.0 * layer};
+    const Vector3 noise{rng.normal(0.01), rng.normal(0.01), rng.normal(0.01)};
+    const Vector3 lean{0.4 * corner - 1.5, 0.2 * corner, -0.3 * corner};
+    hypotheses.push_back({{}, Pose3(place + noise, exponential(lean + noise)), 0.7});
+  }
+  const std::vector<Cluster> clusters = cluster(hypotheses);
+  ASSERT_EQ(clusters.size(), 8U);
+  for (const Cluster& c : clusters) {
+    EXPECT_EQ(c.members.size(), 50U);
+    for (const std::size_t i : c.members) EXPECT_EQ(i % 8, c.members.front() % 8);
+  }
+}
+
+TEST(HierarchicalKmeans, RotationsAllOverSpaceComeToAnEnd) {
+  Rng rng(7);
+  std::vector<Hypothesis> hypotheses;
+  for (int i = 0; i < 500; ++i) {
+    const double pitch = rng.uniform(-pi, pi);
+    hypotheses.push_back(turned({rng.uniform(-pi, pi), pitch, rng.uniform(-pi, pi)}));
+  }
+  std::size_t members = 0;
+  for (const Cluster& c : cluster(hypotheses)) members += c.members.size();
+  EXPECT_EQ(members, 500U);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ Pose2 mode_of(Pose2 pose, const std::vector<Hypothesis>& hypotheses, double band
       const double dx = (h.map_from_robot.x - pose.x) / bandwidth;
       const double dy = (h.map_from_robot.y - pose.y) / bandwidth;
       const double dt =
-          std::remainder(h.map_from_robot.theta - pose.theta, 2.0 * std::numbers::pi) / bandwidth_rad;
+          std::remainder(h.map_from_robot.heading() - pose.theta, 2.0 * std::numbers::pi) / bandwidth_rad;
       const double squared = dx * dx + dy * dy + dt * dt;
       if (squared > 9.0) continue;
       const double weight = static_cast<double>(h.support) * std::exp(-0.5 * squared);
@@ -82,22 +82,56 @@ TEST(MeanShift, TogetherIsWhatClimbsToTheSameModeOneByOne) {
   for (int i = 0; i < 300; ++i) {
     // Five places that touch each other, some on both sides of the seam.
     const int place = i % 5;
-    hypotheses.push_back(at(0.55 * place + rng.normal(0.08), rng.normal(0.08), 0.0));
-    hypotheses.back().map_from_robot.theta = wrap_angle(radians(170.0 + 8.0 * place + rng.normal(4.0)));
+    const double x = 0.55 * place + rng.normal(0.08);
+    const double y = rng.normal(0.08);
+    hypotheses.push_back(at(x, y, 170.0 + 8.0 * place + rng.normal(4.0)));
   }
   const MeanShift::Params params{.bandwidth = 0.15, .bandwidth_rotation_deg = 8.0};
   const Groups groups = cluster(hypotheses, params);
   ASSERT_EQ(groups.size(), 5U);
   int elsewhere = 0;
   for (const std::vector<std::size_t>& group : groups) {
-    const Pose2 first = mode_of(hypotheses[group.front()].map_from_robot, hypotheses, 0.15, radians(8.0));
+    const Pose2 first =
+        mode_of(seen_from_above(hypotheses[group.front()].map_from_robot), hypotheses, 0.15, radians(8.0));
     for (const std::size_t i : group) {
-      const Pose2 mode = mode_of(hypotheses[i].map_from_robot, hypotheses, 0.15, radians(8.0));
+      const Pose2 mode =
+          mode_of(seen_from_above(hypotheses[i].map_from_robot), hypotheses, 0.15, radians(8.0));
       elsewhere += distance(mode, first) > 0.1 ? 1 : 0;
     }
   }
   // Those that climb together from a watershed may part if each goes on its own.
   EXPECT_LE(elsewhere, 3);
+}
+
+TEST(MeanShift, InSpaceByHand) {
+  // Two heights and two ways to lean, around each of which three poses lie.
+  std::vector<Hypothesis> poses;
+  for (const double z : {0.0, 1.0}) {
+    for (const double roll : {0.0, 0.6}) {
+      for (const double off : {-0.02, 0.0, 0.02})
+        poses.push_back({.map_from_local = {},
+                         .map_from_robot = Pose3({off, 0.0, z + off}, exponential({roll + off, off, 0.0})),
+                         .score = 0.7});
+    }
+  }
+  for (const char* kernel : {"flat", "gaussian"}) {
+    EXPECT_THAT(cluster(poses, {.kernel = kernel, .bandwidth = 0.15, .bandwidth_rotation_deg = 8.0}),
+                ElementsAre(ElementsAre(0U, 1U, 2U), ElementsAre(3U, 4U, 5U), ElementsAre(6U, 7U, 8U),
+                            ElementsAre(9U, 10U, 11U)))
+        << kernel;
+  }
+}
+
+TEST(MeanShift, InSpaceAndInThePlaneAreTheSameWhereAllIsPlanarButALittle) {
+  Rng rng(4);
+  const std::vector<Hypothesis> planar = test::crowded(300, rng);
+  std::vector<Hypothesis> spatial = planar;
+  for (Hypothesis& h : spatial) h.map_from_robot.z = 1e-9;
+  const auto count = [](const std::vector<Hypothesis>& hypotheses) {
+    return static_cast<double>(cluster(hypotheses, {}).size());
+  };
+  // What climbs together differs: cells there, groups here.
+  EXPECT_NEAR(count(spatial), count(planar), 0.1 * count(planar));
 }
 
 TEST(MeanShift, ManyAtOnePlaceAreOneCluster) {

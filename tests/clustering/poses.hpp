@@ -13,8 +13,10 @@ namespace glocal::test {
 using Groups = std::vector<std::vector<std::size_t>>;
 
 inline Hypothesis at(double x, double y, double theta_deg, std::size_t support = 1) {
-  return {
-      .map_from_local = {}, .map_from_robot = {x, y, radians(theta_deg)}, .score = 0.7, .support = support};
+  return {.map_from_local = {},
+          .map_from_robot = Pose2{x, y, radians(theta_deg)},
+          .score = 0.7,
+          .support = support};
 }
 
 /// The members of each cluster, in the order of their first ones.
@@ -40,8 +42,19 @@ inline std::vector<Hypothesis> crowded(int n, Rng& rng) {
     const double x = anywhere ? rng.uniform(-1.0, 2.0) : 0.5 * (i % 3) + rng.normal(0.08);
     const double y = anywhere ? rng.uniform(-1.0, 1.0) : rng.normal(0.08);
     const double theta = anywhere ? rng.uniform(-180.0, 180.0) : 175.0 + 40.0 * (i % 2) + rng.normal(6.0);
-    hypotheses.push_back(at(x, y, 0.0, 1 + static_cast<std::size_t>(i % 7 == 0)));
-    hypotheses.back().map_from_robot.theta = wrap_angle(radians(theta));
+    hypotheses.push_back(at(x, y, theta, 1 + static_cast<std::size_t>(i % 7 == 0)));
+  }
+  return hypotheses;
+}
+
+/// The same, raised and tilted a little, and some upside down.
+inline std::vector<Hypothesis> in_space(std::vector<Hypothesis> hypotheses, Rng& rng) {
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    Pose3& pose = hypotheses[i].map_from_robot;
+    pose.z = 0.4 * static_cast<double>(i % 2) + rng.normal(0.05);
+    const double upside_down = i % 3 == 0 ? std::numbers::pi : 0.0;
+    const double pitch = rng.normal(0.05);
+    pose.rotation = pose.rotation * exponential({upside_down + rng.normal(0.05), pitch, 0.0});
   }
   return hypotheses;
 }

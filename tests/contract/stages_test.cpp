@@ -33,8 +33,8 @@ Points seen_by_robot() {
 /// is more than a metre off.
 LocalMap local_map() {
   LocalMap local;
-  local.local_from_robot = {1.5, -0.7, 0.9};
-  local.points = glocal::test::moved(seen_by_robot(), local.local_from_robot);
+  local.local_from_robot = Pose2{1.5, -0.7, 0.9};
+  local.points = moved(seen_by_robot(), local.local_from_robot);
   local.ends = {local.points.size()};
   return local;
 }
@@ -193,7 +193,7 @@ TEST_F(Stages, TheQualityOfAHypothesisIsTheContactOfTheLocalMap) {
     const auto found = matcher->match(local, observation(seen_by_robot()), 0.3, rng).hypotheses;
     ASSERT_FALSE(found.empty());
     for (const Hypothesis& h : found) {
-      const Transform map_from_local(h.map_from_local);
+      const Transform map_from_local(seen_from_above(h.map_from_local));
       EXPECT_GE(h.quality, surely.share(local.points, map_from_local));
       EXPECT_LE(h.quality, perhaps.share(local.points, map_from_local));
     }
@@ -207,7 +207,7 @@ TEST_F(Stages, MatchersFindTheRobotInWhateverFrameTheLocalMapIs) {
     Rng rng(1);
     const auto found = matcher->match(local, observation(seen_by_robot()), 0.5, rng).hypotheses;
     ASSERT_FALSE(found.empty());
-    const Pose2 best = found.front().map_from_local * local.local_from_robot;
+    const Pose3 best = found.front().map_from_local * local.local_from_robot;
     EXPECT_LT(distance(best, map_from_robot), 0.4);
     EXPECT_LT(rotation_between(best, map_from_robot), radians(15.0));
   });

@@ -14,7 +14,7 @@ namespace {
 TEST(PoseCells, VisitsEachCellNearOnce) {
   Rng rng(3);
   std::vector<Pose2> poses;
-  for (const Hypothesis& h : test::crowded(500, rng)) poses.push_back(h.map_from_robot);
+  for (const Hypothesis& h : test::crowded(500, rng)) poses.push_back(seen_from_above(h.map_from_robot));
   for (const int turns : {1, 2, 3, 4, 5, 36}) {
     const PoseCells cells(poses, {0.1, turns});
     for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -41,7 +41,7 @@ TEST(PoseCells, VisitsEachCellNearOnce) {
 TEST(PoseCells, HoldEachPoseWhereItBelongs) {
   Rng rng(4);
   std::vector<Pose2> poses;
-  for (const Hypothesis& h : test::crowded(300, rng)) poses.push_back(h.map_from_robot);
+  for (const Hypothesis& h : test::crowded(300, rng)) poses.push_back(seen_from_above(h.map_from_robot));
   const PoseCells cells(poses, {0.1, 24});
   std::size_t held = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {

@@ -72,7 +72,7 @@ TEST(Bounded, IsWhatTheLastObservationsAloneWouldGive) {
   std::vector<Pose2> poses;
   for (std::size_t k = 0; k < noisy.observations.size(); ++k) {
     mapper.add(noisy.observations[k]);
-    poses.push_back(mapper.map().local_from_robot);
+    poses.push_back(seen_from_above(mapper.map().local_from_robot));
     expect_equal(mapper.map(), thin(noisy.observations, poses, k < 7 ? 0 : k - 6));
     const Pose2 truth = inverse(noisy.map_from_robot.front()) * noisy.map_from_robot[k];
     EXPECT_LT(distance(poses.back(), truth), 0.15);
@@ -85,7 +85,7 @@ TEST(Bounded, KeepsSoManyMetresOfWay) {
   std::vector<Pose2> poses;
   for (std::size_t k = 0; k < exact.observations.size(); ++k) {
     mapper.add(exact.observations[k]);
-    poses.push_back(mapper.map().local_from_robot);
+    poses.push_back(seen_from_above(mapper.map().local_from_robot));
     // The first observation from which on the way is at most 1 m.
     std::size_t first = k;
     for (double way = 0.0; first > 0; --first) {

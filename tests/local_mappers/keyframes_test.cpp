@@ -28,7 +28,7 @@ TEST(Keyframes, RegistersWhenTheRobotHasTurnedEnough) {
   Keyframes mapper({.distance = 10.0, .angle_deg = 20.0, .overlap = 0.0});
   for (const double theta : {0.0, 0.2, 0.34, -0.34, -0.4, -0.1, 0.0}) {
     Observation observation = at(0.0, {{2.01F, 0.01F, 0}});
-    observation.odom_from_robot.theta = theta;
+    observation.odom_from_robot = Pose2{0.0, 0.0, theta};
     mapper.add(observation);
   }
   EXPECT_THAT(mapper.map().ends, ElementsAre(1U, 1U, 1U, 1U, 2U, 2U, 2U));

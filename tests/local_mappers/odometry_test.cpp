@@ -31,7 +31,7 @@ TEST(Odometry, PutsHitsWhereOdometrySays) {
   EXPECT_NEAR(map.points.x[2], 0.99F, 1e-5F);
   EXPECT_NEAR(map.points.y[2], 1.01F, 1e-5F);
   EXPECT_NEAR(map.local_from_robot.x, 1.0, 1e-12);
-  EXPECT_NEAR(map.local_from_robot.theta, radians(90), 1e-12);
+  EXPECT_NEAR(map.local_from_robot.heading(), radians(90), 1e-12);
 }
 
 TEST(Odometry, ThinsAsScanMatchingDoes) {
@@ -46,7 +46,7 @@ TEST(Odometry, IsNotCorrectedByScans) {
   const test::Drive drive = test::drive(test::furnished_room(), test::circle(60), {}, test::bad_odometry);
   Odometry mapper({});
   for (const Observation& observation : drive.observations) mapper.add(observation);
-  const Pose2 odom =
+  const Pose3 odom =
       inverse(drive.observations.front().odom_from_robot) * drive.observations.back().odom_from_robot;
   const Pose2 truth = inverse(drive.map_from_robot.front()) * drive.map_from_robot.back();
   EXPECT_NEAR(distance(mapper.map().local_from_robot, odom), 0.0, 1e-9);

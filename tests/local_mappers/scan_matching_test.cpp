@@ -51,7 +51,7 @@ TEST(ScanMatching, NoisyScansGiveThePoseInSpiteOfBadOdometry) {
   EXPECT_LT(worst.translation, 0.05);
   EXPECT_LT(worst.rotation, radians(0.6));
   // The same drive by odometry alone is lost: the test is one.
-  const Pose2 odom =
+  const Pose3 odom =
       inverse(noisy.observations.front().odom_from_robot) * noisy.observations.back().odom_from_robot;
   const Pose2 truth = inverse(noisy.map_from_robot.front()) * noisy.map_from_robot.back();
   EXPECT_GT(distance(odom, truth), 0.5);
@@ -177,7 +177,7 @@ TEST(ScanMatching, StartsANewMapWhenObservationsStopFitting) {
   EXPECT_LT(sizes[12], sizes[9]);
   EXPECT_EQ(mapper.map().ends.size(), 2U);
   EXPECT_NEAR(mapper.map().local_from_robot.x, 0.0, 1e-3);
-  EXPECT_NEAR(mapper.map().local_from_robot.theta, 0.0, 1e-3);
+  EXPECT_NEAR(mapper.map().local_from_robot.heading(), 0.0, 1e-3);
   mapper.reset();
   EXPECT_EQ(mapper.map().epoch, 0);
 }

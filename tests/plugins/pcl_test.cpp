@@ -37,7 +37,7 @@ TEST_F(Pcl, BothMatchersFindThePose) {
   for (const char* name : {"pcl_icp", "pcl_prerejective"}) {
     const MatchResult result = match(name, glocal::test::local_map_at(truth, reach));
     ASSERT_FALSE(result.hypotheses.empty()) << name;
-    const Pose2& best = result.hypotheses.front().map_from_local;
+    const Pose3& best = result.hypotheses.front().map_from_local;
     EXPECT_LT(distance(best, truth), 0.03) << name;
     EXPECT_LT(rotation_between(best, truth), radians(1.0)) << name;
     EXPECT_GT(result.hypotheses.front().quality, 0.98) << name;

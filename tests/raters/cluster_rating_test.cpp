@@ -27,6 +27,20 @@ TEST(ClusterRating, Equation7ByHand) {
   EXPECT_NEAR(ratings[1].r_normalised, ratings[1].r / sum, 1e-12);
 }
 
+TEST(ClusterRating, InSpaceTheWidestAxisCounts) {
+  ClusterRating rater({});
+  const auto r_of = [&](Cluster cluster) {
+    cluster.members = {0};
+    return rater.rate({cluster}, {with_score(0.0)})[0].r;
+  };
+  const double rotation = 10.0 * radians(1.0) * radians(1.0);
+  // 0.5 + 0.075 * (1 - 1/2) + 0.075, and 0.5 + 0.075 + 0.075 * (1 - 1/5).
+  EXPECT_NEAR(r_of({.members = {}, .map_from_robot = {}, .variance_x = 0.0003, .variance_z = 0.0015}), 0.6125,
+              1e-12);
+  EXPECT_NEAR(r_of({.members = {}, .map_from_robot = {}, .variance_about_x = rotation}), 0.635, 1e-12);
+  EXPECT_NEAR(r_of({.members = {}, .map_from_robot = {}, .variance_about_y = rotation}), 0.635, 1e-12);
+}
+
 TEST(ClusterRating, StaysAboveZeroHoweverWideTheCluster) {
   ClusterRating rater({});
   const auto ratings = rater.rate({{{0}, {}, 100.0, 100.0, 9.0}}, {with_score(0.5)});

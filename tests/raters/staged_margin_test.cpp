@@ -15,7 +15,7 @@ const Pose2 there{8.0, 1.0, 2.0};
 StepResult step(double best, double rival, double driven = 0.0, int epoch = 0) {
   StepResult result;
   result.omega_max = 0.1;
-  result.local_from_robot = {driven, 0.0, 0.0};
+  result.local_from_robot = Pose2{driven, 0.0, 0.0};
   result.local_map_epoch = epoch;
   const Pose2 ahead{driven, 0.0, 0.0};
   result.hypotheses.push_back({.map_from_local = here, .map_from_robot = here * ahead, .score = best});
@@ -157,8 +157,7 @@ TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
   EXPECT_EQ(rule.judge(one).estimate->covariance, own);
   // A second one of the same score, 0.2 m to the left in the map's y and turned by 0.1: half the weight.
   one.hypotheses.insert(one.hypotheses.begin() + 1, one.hypotheses[0]);
-  one.hypotheses[1].map_from_robot.y += 0.2;
-  one.hypotheses[1].map_from_robot.theta += 0.1;
+  one.hypotheses[1].map_from_robot = Pose2{here.x, here.y + 0.2, here.theta + 0.1};
   const auto wide = rule.judge(one).estimate->covariance;
   ASSERT_TRUE(wide);
   EXPECT_NEAR(wide->xx, 0.01, 1e-12);

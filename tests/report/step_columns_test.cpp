@@ -54,9 +54,9 @@ TEST(StepColumns, HaveAValueForEachStep) {
   second.result.omega_place = std::nullopt;
   second.result.clusters.clear();
   second.result.ratings.clear();
-  second.result.verdict = {VerdictKind::ambiguous, std::nullopt, {{1, 2, 3}, {4, 5, 6.5}}, "two"};
+  second.result.verdict = {VerdictKind::ambiguous, std::nullopt, {Pose2{1, 2, 3}, Pose2{4, 5, 0.5}}, "two"};
   StepRecord third = step_record(2, {1, 2, 3});
-  third.result.verdict.estimate = PoseEstimate{{7, 8, 0.5}, 0.75};
+  third.result.verdict.estimate = PoseEstimate{Pose2{7, 8, 0.5}, 0.75};
   EXPECT_EQ(columns_of({first, second, third}), Json::parse(R"({
     "step": [0, 1, 2], "stamp": [100.0, 100.5, 101.0],
     "local_map_ms": [1, 1, 1], "match_ms": [2, 2, 2], "cluster_ms": [3, 3, 3], "rate_ms": [4, 4, 4],
@@ -69,7 +69,7 @@ TEST(StepColumns, HaveAValueForEachStep) {
     "estimate": {"x": [1.5, null, 7], "y": [-2, null, 8], "theta": [0.3333333, null, 0.5]},
     "reference": {"x": [1, null, null], "y": [-2, null, null], "theta": [0.25, null, null]},
     "local_from_robot": {"x": [1, 1, 1], "y": [2, 2, 2], "theta": [0.5, 0.5, 0.5]},
-    "candidates": [[], [1, 2, 3, 4, 5, 6.5], []],
+    "candidates": [[], [1, 2, 3, 4, 5, 0.5], []],
     "evidence": {},
     "best": {"first": [0, 2, 2, 4], "x": [1.5, 9, 1, 9], "y": [-2, 9, 2, 9], "theta": [0.3333333, 0, 3, 0],
              "size": [3, 1, 3, 1], "r": [0.6, 0.2, 0.6, 0.2], "r_normalised": [0.75, 0.25, 0.75, 0.25]},

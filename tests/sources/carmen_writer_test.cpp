@@ -24,10 +24,10 @@ void expect_near(const Points& a, const Points& b) {
   }
 }
 
-void expect_near(const Pose2& a, const Pose2& b) {
+void expect_near(const Pose3& a, const Pose3& b) {
   EXPECT_NEAR(a.x, b.x, 1e-9);
   EXPECT_NEAR(a.y, b.y, 1e-9);
-  EXPECT_NEAR(wrap_angle(a.theta - b.theta), 0.0, 1e-9);
+  EXPECT_NEAR(rotation_between(a, b), 0.0, 1e-9);
 }
 
 TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
@@ -72,7 +72,7 @@ TEST(CarmenWriter, WritesTheFormatsFields) {
   scan.angle_step = 0.5;
   scan.max_range = 8.0;
   scan.stamp = 2.5;
-  scan.odom_from_robot = {1, 2, 0};
+  scan.odom_from_robot = Pose2{1, 2, 0};
   scan.robot_from_laser = {0.5, 0, 0};
   EXPECT_EQ(carmen_lines(scan),
             "ROBOTLASER1 0 -0.25 0.5 0.5 8 0 0 2 1.5 8 0 1.5 2 0 1 2 0 0 0 0 0 0 2.500000 glocal 2.500000\n");

@@ -41,7 +41,7 @@ TEST(LogMap, CountsHitsAndFreesTheWay) {
   EXPECT_EQ(map.grid.at(2.7, 1.2), Cell::unknown) << "one hit is too few, and no ray went on";
   for (const double x : {0.2, 0.7, 1.2, 1.7}) EXPECT_EQ(map.grid.at(x, 1.2), Cell::free);
   EXPECT_EQ(count(map.grid, Cell::free), 4U);
-  EXPECT_EQ(map.path, (std::vector<Pose2>{{0.25, 1.25, 0.0}}));
+  EXPECT_EQ(map.path, (std::vector<Pose3>{Pose2{0.25, 1.25, 0.0}}));
 
   params.points = "centre";
   EXPECT_EQ(LogMap(params, {}).load().points[0], (Point{2.25F, 1.25F, 0.0F}));
@@ -85,7 +85,7 @@ TEST(LogMap, UsesItsSegmentsOnly) {
   params.log.segments = {{0.0, 0.15}, {0.95, 1.0}};
   const MapData map = LogMap(params, {}).load();
   EXPECT_EQ(map.points.size(), 3U);
-  EXPECT_EQ(map.path, (std::vector<Pose2>{{0, 0, 0}, {1, 0, 0}, {10, 0, 0}}));
+  EXPECT_EQ(map.path, (std::vector<Pose3>{Pose2{0, 0, 0}, Pose2{1, 0, 0}, Pose2{10, 0, 0}}));
 }
 
 TEST(LogMap, SaysWhyThereIsNoMap) {

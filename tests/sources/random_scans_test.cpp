@@ -105,7 +105,7 @@ TEST(RandomScans, LieInFreeCellsFarEnoughFromOthers) {
   ASSERT_EQ(samples.size(), 200U);
   std::set<std::pair<int, int>> cells;
   for (const Sample& sample : samples) {
-    const Pose2& pose = *sample.map_from_robot;
+    const Pose3& pose = *sample.map_from_robot;
     EXPECT_EQ(grid.at(pose.x, pose.y), Cell::free);
     for (int i = 0; i < 64; ++i) {
       const double angle = 2.0 * pi * i / 64;
@@ -127,7 +127,7 @@ TEST(RandomScans, LookInAllDirections) {
   params.count = 400;
   std::array<int, 4> quadrants{};
   for (const Sample& sample : read_all(params)) {
-    ++quadrants[static_cast<std::size_t>(std::floor((sample.map_from_robot->theta + pi) / (pi / 2))) % 4];
+    ++quadrants[static_cast<std::size_t>(std::floor((sample.map_from_robot->heading() + pi) / (pi / 2))) % 4];
   }
   // 100 each; 5 standard deviations are 43.
   for (const int n : quadrants) EXPECT_NEAR(n, 100, 43);
@@ -143,7 +143,7 @@ TEST(RandomScans, SeeTheCellsAroundThem) {
   const auto samples = read_all(params);
   const OccupancyGrid grid = plan.grid();
   for (const Sample& sample : samples) {
-    const Transform map_from_robot(*sample.map_from_robot);
+    const Transform map_from_robot(seen_from_above(*sample.map_from_robot));
     const Scan& scan = sample.observation.scan;
     EXPECT_GT(scan.hits.size(), 0U);
     EXPECT_LE(scan.hits.size() + scan.free_ends.size(), 361U);

@@ -11,7 +11,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/experiment.hpp"
 #include "glocal/outcome.hpp"
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 #include "glocal/step_result.hpp"
 
 namespace glocal {
@@ -42,7 +42,7 @@ struct TrialEnd {
   Outcome outcome = Outcome::undecided;
   std::size_t steps = 0;      ///< Up to the declaration; all of them if there is none.
   double distance_m = 0.0;    ///< Driven in these steps.
-  std::optional<Pose2> pose;  ///< Declared robot pose.
+  std::optional<Pose3> pose;  ///< Declared robot pose.
   std::string why;            ///< One sentence.
 };
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "glocal/contact.hpp"
+#include "glocal/motion.hpp"
 #include "glocal/registry.hpp"
 #include "glocal/strategies.hpp"
 
@@ -30,7 +31,8 @@ struct SourceSetup {
 struct StageSetup {
   std::shared_ptr<const GlobalMap> map;
   int threads = 1;
-  double contact_epsilon = 0.10;  ///< m; said once for all stages.
+  double contact_epsilon = 0.10;   ///< m; said once for all stages.
+  Motion motion = Motion::planar;  ///< What of the robot's pose is looked for; said once for all stages.
   /// To be called with every file read while the stage is made, for the record of a run's inputs.
   std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
   /// Whether files are read in which a stage has saved what it makes of the map; else it makes that anew.

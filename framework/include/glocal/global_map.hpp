@@ -12,7 +12,7 @@
 
 #include "glocal/occupancy_grid.hpp"
 #include "glocal/points.hpp"
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 
 namespace glocal {
 
@@ -21,7 +21,9 @@ struct MapData {
   Points points;            ///< Occupied places, m, in the map's frame. Never empty.
   Points normals;           ///< Unit normals of `points`, or empty.
   OccupancyGrid grid;       ///< Free, occupied and unknown cells.
-  std::vector<Pose2> path;  ///< Robot poses the map was made from, in order; empty if not known.
+  std::vector<Pose3> path;  ///< Robot poses the map was made from, in order; empty if not known.
+  /// m; how far apart neighbouring points lie, of a map without cells; 0 if not known.
+  double resolution = 0.0;
 };
 
 /// The known map, immutable, with indexes that are built once for all who ask.
@@ -32,7 +34,11 @@ class GlobalMap {
   [[nodiscard]] const Points& points() const { return data_.points; }
   [[nodiscard]] const Points& normals() const { return data_.normals; }
   [[nodiscard]] const OccupancyGrid& grid() const { return data_.grid; }
-  [[nodiscard]] const std::vector<Pose2>& path() const { return data_.path; }
+  [[nodiscard]] const std::vector<Pose3>& path() const { return data_.path; }
+  /// m; the side of the grid's cells, or else as the source says; 0 if not known.
+  [[nodiscard]] double resolution() const {
+    return data_.grid.resolution > 0.0 ? data_.grid.resolution : data_.resolution;
+  }
 
   /// An index of this map (contact grid, relation table, …) that is built by the first who asks and then
   /// shared. `key` tells apart indexes of one type built with different parameters. Thread-safe; `build`

@@ -5,17 +5,17 @@
 #include <optional>
 #include <vector>
 
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 #include "glocal/pose_covariance.hpp"
 
 namespace glocal {
 
 /// A proposed pose of the local map in the global map (the paper's H).
 struct Hypothesis {
-  Pose2 map_from_local;
+  Pose3 map_from_local;
   /// map_from_local * local_from_robot. The localizer sets it; matchers leave it alone, so that the two
   /// cannot disagree.
-  Pose2 map_from_robot = {};
+  Pose3 map_from_robot = {};
   double quality = 0.0;  ///< Omega (eq. 4): share of local map points in contact with the map, in [0, 1].
   /// What its matcher ranks it by, in [0, 1]: Omega, unless more speaks for or against a pose than contact.
   double score = 0.0;
@@ -29,7 +29,7 @@ struct Hypothesis {
   std::optional<double> free_space_violation = {};
 
   /// Ranked by contact alone, as in the paper.
-  [[nodiscard]] static Hypothesis by_contact(const Pose2& map_from_local, double omega) {
+  [[nodiscard]] static Hypothesis by_contact(const Pose3& map_from_local, double omega) {
     return {.map_from_local = map_from_local, .quality = omega, .score = omega};
   }
 };
@@ -37,10 +37,13 @@ struct Hypothesis {
 /// Hypotheses that mean the same robot pose.
 struct Cluster {
   std::vector<std::size_t> members;  ///< Indexes into the step's hypotheses, ascending.
-  Pose2 map_from_robot;              ///< Mean; the heading is the circular mean.
-  double variance_x = 0.0;           ///< m^2 (eq. 6, diagonal only)
-  double variance_y = 0.0;           ///< m^2
-  double variance_theta = 0.0;       ///< rad^2
+  Pose3 map_from_robot;         ///< Mean; of rotations the one nearest to all, of headings the circular one.
+  double variance_x = 0.0;      ///< m^2 (eq. 6, diagonal only)
+  double variance_y = 0.0;      ///< m^2
+  double variance_theta = 0.0;  ///< rad^2; of the rotation about the map's z axis
+  double variance_z = 0.0;      ///< m^2; 0 in the plane, as are those below
+  double variance_about_x = 0.0;  ///< rad^2; of the rotation about the map's x axis
+  double variance_about_y = 0.0;  ///< rad^2
 };
 
 /// How much a cluster deserves trust.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "glocal/points.hpp"
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 
 namespace glocal {
 
@@ -13,7 +13,7 @@ namespace glocal {
 struct LocalMap {
   Points points;
   Points normals;          ///< Unit normals of `points`, or empty; (0, 0, 0) where a point has none.
-  Pose2 local_from_robot;  ///< Where the robot is now.
+  Pose3 local_from_robot;  ///< Where the robot is now.
   /// Observation k of this map registered the points [ends[k-1], ends[k]), with ends[-1] = 0 (needed by eq.
   /// 10).
   std::vector<std::size_t> ends;

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "glocal/catalog.hpp"
+#include "glocal/motion.hpp"
 #include "glocal/params.hpp"
 #include "glocal/running_stage.hpp"
 #include "glocal/unknown_place.hpp"
@@ -14,6 +16,7 @@ namespace glocal {
 
 /// Which strategy does each stage. Defaults are the paper's method.
 struct LocalizerConfig {
+  Motion motion = Motion::planar;  ///< What of the robot's pose is looked for.
   /// m; epsilon of eq. 4 for all stages without one of their own. None: twice the map's resolution.
   std::optional<double> contact_epsilon = {};
   StrategyChoice local_mapper;
@@ -25,15 +28,20 @@ struct LocalizerConfig {
   UnknownPlaceParams unknown_place;
 };
 
+/// What a stage of the localizer must not be because of how the robot moves: a sentence with the motions that
+/// the strategy can do, and what to do about it. None if it can do this one, or is not in the registry.
+[[nodiscard]] std::optional<std::string> why_unfit(const StrategyChoice& choice, const RegistryBase& registry,
+                                                   Motion motion);
+
 /// The epsilon of eq. 4 (m) that the localizer's stages take on this map: as configured, or else twice the
-/// side of the map's cells.
+/// map's resolution.
 [[nodiscard]] double contact_epsilon_on(const GlobalMap& map, const LocalizerConfig& config);
 
 /// Finds out where a robot is, one observation after the other.
 class Localizer {
  public:
-  /// `seed` fixes all random numbers; contact_epsilon of the setup is overruled by that of `config`; throws
-  /// ConfigError where a strategy cannot work with this map.
+  /// `seed` fixes all random numbers; motion and contact_epsilon of the setup are overruled by those of
+  /// `config`; throws ConfigError where a strategy cannot work with this motion or this map.
   Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup, std::uint64_t seed);
 
   /// From now on this policy says which score is asked for, and not the configured one.
@@ -62,6 +70,7 @@ class Localizer {
   template <class Work>
   void in_stage(RunningStage& stage, std::size_t step, Work work) const;
 
+  Motion motion_;
   std::unique_ptr<LocalMapper> local_mapper_;
   std::unique_ptr<Matcher> matcher_;
   std::unique_ptr<Clusterer> clusterer_;

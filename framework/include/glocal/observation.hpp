@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "glocal/points.hpp"
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 
 namespace glocal {
 
@@ -19,13 +19,13 @@ struct Scan {
 struct Observation {
   double stamp = 0.0;  ///< s; may stand still or run backwards in real logs, so never divide by differences.
   Scan scan;
-  Pose2 odom_from_robot;
+  Pose3 odom_from_robot;
 };
 
 /// An observation with what only the evaluation may see.
 struct Sample {
   Observation observation;
-  std::optional<Pose2> map_from_robot;  ///< Reference pose, if the source has one.
+  std::optional<Pose3> map_from_robot;  ///< Reference pose, if the source has one.
   int segment = 0;                      ///< Changes where the drive is interrupted: no trial runs across.
 };
 

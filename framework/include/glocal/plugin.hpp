@@ -14,7 +14,7 @@
 namespace glocal {
 
 /// Counts up when interfaces or values change so that plugins must be changed or built again.
-inline constexpr int plugin_api_version = 2;
+inline constexpr int plugin_api_version = 3;
 
 /// What glocal and a plugin must have in common to understand each other, as whoever includes this header was
 /// compiled: a line for each property, "name: value".
@@ -43,7 +43,7 @@ inline constexpr int plugin_api_version = 2;
 #else
     text += line("vector alignment", 16);
 #endif
-    text += line("size of Pose2", sizeof(Pose2));
+    text += line("size of Pose3", sizeof(Pose3));
     text += line("size of Points", sizeof(Points));
     text += line("size of Sample", sizeof(Sample));
     text += line("size of LocalMap", sizeof(LocalMap));

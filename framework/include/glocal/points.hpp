@@ -53,7 +53,12 @@ struct Points {
   friend bool operator==(const Points&, const Points&) = default;
 };
 
-/// A pose with its sine and cosine at hand, for moving many points. Heights stay as they are.
+struct Pose3;
+
+/// The points as they are in the target's frame.
+[[nodiscard]] Points moved(const Points& points, const Pose3& target_from_source);
+
+/// A pose in the plane with its sine and cosine at hand, for moving many points. Heights stay as they are.
 class Transform {
  public:
   explicit Transform(const Pose2& target_from_source)

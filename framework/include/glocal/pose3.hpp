@@ -104,6 +104,8 @@ struct Pose3 {
   /// The direction of the source's x axis, seen from above (yaw): rad, in (-pi, pi].
   [[nodiscard]] double heading() const {
     const Quaternion& q = rotation;
+    // In the plane from half the angle, with fewer roundings.
+    if (q.x == 0.0 && q.y == 0.0) return wrap_angle(2.0 * std::atan2(q.z, q.w));
     return wrap_angle(
         std::atan2(2.0 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z));
   }
@@ -138,9 +140,9 @@ struct Pose3 {
   return {rotated(back, {-pose.x, -pose.y, -pose.z}), back};
 }
 
-/// Distance between two origins, m.
+/// Distance between two origins, m; of equal heights to the last bit as in the plane.
 [[nodiscard]] inline double distance(const Pose3& a, const Pose3& b) {
-  return norm(a.translation() - b.translation());
+  return std::hypot(std::hypot(a.x - b.x, a.y - b.y), a.z - b.z);
 }
 
 /// Smallest rotation between two orientations, rad, in [0, pi].

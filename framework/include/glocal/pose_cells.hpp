@@ -24,6 +24,9 @@ struct PoseCell {
   }
 };
 
+/// Of the numbers of a cell, however many it has.
+[[nodiscard]] std::size_t hash_of(std::span<const std::int64_t> numbers);
+
 /// For hash tables of cells.
 struct PoseCellHash {
   [[nodiscard]] std::size_t operator()(const PoseCell& cell) const;

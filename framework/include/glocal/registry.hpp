@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "glocal/motion.hpp"
 #include "glocal/params.hpp"
 
 namespace glocal {
@@ -20,8 +21,19 @@ struct StrategyInfo {
   std::string name;
   std::string doc;     ///< One sentence.
   std::string origin;  ///< "glocal", or the plugin it came from.
+  Motions motions;     ///< What a stage of the localizer can work with.
   std::function<std::unique_ptr<AnyParams>()> default_params;
 };
+
+/// What a strategy's class says of the motions it can work with; one that says nothing works in the plane.
+template <class T>
+[[nodiscard]] constexpr Motions motions_of() {
+  if constexpr (requires { T::motions; }) {
+    return T::motions;
+  } else {
+    return {};
+  }
+}
 
 /// The part of a registry that does not depend on what it makes.
 class RegistryBase {
@@ -52,7 +64,8 @@ class RegistryBase {
 
  protected:
   /// Throws std::invalid_argument if the name is taken, naming both origins.
-  void insert(std::string name, std::string doc, std::function<std::unique_ptr<AnyParams>()> default_params);
+  void insert(std::string name, std::string doc, Motions motions,
+              std::function<std::unique_ptr<AnyParams>()> default_params);
 
  private:
   std::string kind_;
@@ -72,7 +85,7 @@ class Registry final : public RegistryBase {
   template <std::derived_from<Interface> T>
   void add(std::string name, std::string doc, typename T::Params defaults = {}) {
     using Params = typename T::Params;
-    insert(name, std::move(doc), [defaults = std::move(defaults)] {
+    insert(name, std::move(doc), motions_of<T>(), [defaults = std::move(defaults)] {
       auto params = std::make_unique<ParamsOf<Params>>();
       params->value = defaults;
       return params;

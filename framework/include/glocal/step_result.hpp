@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "glocal/hypothesis.hpp"
-#include "glocal/pose2.hpp"
+#include "glocal/motion.hpp"
+#include "glocal/pose3.hpp"
 
 namespace glocal {
 
@@ -24,7 +25,7 @@ enum class VerdictKind {
 
 /// The pose a verdict rule holds most likely, declared or not.
 struct PoseEstimate {
-  Pose2 map_from_robot;
+  Pose3 map_from_robot;
   double confidence = 0.0;  ///< Probability that it is right, in [0, 1].
   std::optional<PoseCovariance> covariance = {};
 };
@@ -38,8 +39,8 @@ struct Evidence {
 /// What a verdict rule says, and why.
 struct Verdict {
   VerdictKind kind = VerdictKind::searching;
-  std::optional<Pose2> map_from_robot;        ///< Set when localized.
-  std::vector<Pose2> candidates;              ///< Robot poses, best first; set when ambiguous.
+  std::optional<Pose3> map_from_robot;        ///< Set when localized.
+  std::vector<Pose3> candidates;              ///< Robot poses, best first; set when ambiguous.
   std::string why;                            ///< One sentence for a person.
   std::optional<PoseEstimate> estimate = {};  ///< None where the rule has none.
   std::vector<Evidence> evidence = {};        ///< For whoever studies the rule.
@@ -59,7 +60,8 @@ struct StageTimes {
 struct StepResult {
   std::size_t step = 0;  ///< Counts from 0 in each trial.
   double stamp = 0.0;
-  Pose2 local_from_robot;
+  Motion motion = Motion::planar;  ///< What the localizer was asked for; decides how poses are written.
+  Pose3 local_from_robot;
   int local_map_epoch = 0;
   std::size_t local_map_points = 0;
 
@@ -77,7 +79,7 @@ struct StepResult {
   StageTimes stage_ms;
 
   /// Robot pose the verdict rule believes in, else that of the best-rated cluster; declared or not.
-  [[nodiscard]] std::optional<Pose2> estimate() const {
+  [[nodiscard]] std::optional<Pose3> estimate() const {
     if (verdict.estimate) return verdict.estimate->map_from_robot;
     return clusters.empty() ? std::nullopt : std::optional(clusters.front().map_from_robot);
   }

@@ -39,7 +39,7 @@ class UnknownPlaceMonitor {
 
  private:
   struct Best {
-    Pose2 map_from_local;
+    Pose3 map_from_local;
     int epoch;
   };
   UnknownPlaceParams params_;

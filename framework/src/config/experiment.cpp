@@ -28,8 +28,27 @@ struct LocalizerSection {
   const Catalog* catalog;
 };
 
+Motion motion_named(const std::string& name) {
+  return *std::find_if(every_motion.begin(), every_motion.end(),
+                       [&](Motion motion) { return name == to_string(motion); });
+}
+
+/// A stage of the localizer, which must be able to do what the robot does.
+void stage_field(ParamVisitor& v, const char* name, StrategyChoice& choice, const RegistryBase& registry,
+                 Motion motion, const FieldInfo& info) {
+  v.strategy(name, choice, registry, info);
+  if (const auto why = why_unfit(choice, registry, motion)) v.require(false, name, *why);
+}
+
 void describe(ParamVisitor& v, LocalizerSection& s) {
   LocalizerConfig& c = *s.config;
+  std::string motion = to_string(c.motion);
+  v.field(
+      "motion", motion,
+      {.doc = "What of the robot's pose is looked for: planar is x, y and yaw; upright is x, y, z and yaw, "
+              "where it is known which way is up; free is all six.",
+       .choices = {"planar", "upright", "free"}});
+  c.motion = motion_named(motion);
   v.field(
       "contact_epsilon", c.contact_epsilon,
       {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4), for all stages that "
@@ -37,17 +56,18 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
        .unit = "m",
        .above = 0.0,
        .audience = Audience::tuner});
-  v.strategy("local_mapper", c.local_mapper, s.catalog->local_mappers,
-             {.doc = "Joins scans into the local map."});
-  v.strategy("matcher", c.matcher, s.catalog->matchers,
-             {.doc = "Proposes poses of the local map in the global map."});
-  v.strategy("clusterer", c.clusterer, s.catalog->clusterers,
-             {.doc = "Groups hypotheses that mean the same pose."});
-  v.strategy("rater", c.rater, s.catalog->raters, {.doc = "Says how much each cluster deserves trust."});
-  v.strategy("threshold_policy", c.threshold_policy, s.catalog->threshold_policies,
-             {.doc = "Says which score a hypothesis must reach."});
-  v.strategy("verdict_rule", c.verdict_rule, s.catalog->verdict_rules,
-             {.doc = "Says whether the answer can be trusted."});
+  stage_field(v, "local_mapper", c.local_mapper, s.catalog->local_mappers, c.motion,
+              {.doc = "Joins scans into the local map."});
+  stage_field(v, "matcher", c.matcher, s.catalog->matchers, c.motion,
+              {.doc = "Proposes poses of the local map in the global map."});
+  stage_field(v, "clusterer", c.clusterer, s.catalog->clusterers, c.motion,
+              {.doc = "Groups hypotheses that mean the same pose."});
+  stage_field(v, "rater", c.rater, s.catalog->raters, c.motion,
+              {.doc = "Says how much each cluster deserves trust."});
+  stage_field(v, "threshold_policy", c.threshold_policy, s.catalog->threshold_policies, c.motion,
+              {.doc = "Says which score a hypothesis must reach."});
+  stage_field(v, "verdict_rule", c.verdict_rule, s.catalog->verdict_rules, c.motion,
+              {.doc = "Says whether the answer can be trusted."});
   v.field("unknown_place", c.unknown_place,
           {.doc = "When the robot counts as somewhere the map does not show."});
 }
@@ -179,10 +199,13 @@ void describe(ParamVisitor& v, TrialsConfig& p) {
            .min = 0.0});
   v.field("min_steps", p.min_steps,
           {.doc = "Only starts with at least so many observations left in their segment count.", .min = 1.0});
-  v.field("within_map_m", p.within_map_m,
-          {.doc = "Only starts at most this far from where the map was recorded count; 0: all.",
-           .unit = "m",
-           .min = 0.0});
+  v.field(
+      "within_map_m", p.within_map_m,
+      {.doc =
+           "Only starts at most this far from where the map was recorded count; 0: all. A map without a path "
+           "was recorded at its free cells, one without cells at its points.",
+       .unit = "m",
+       .min = 0.0});
   const int given = (p.every_m > 0.0 ? 1 : 0) + (p.starts_m.empty() ? 0 : 1) + (p.every_scan > 0 ? 1 : 0) +
                     (p.whole ? 1 : 0);
   v.require(given == 1, "", "exactly one of every_m, starts_m, every_scan and whole must be given");

@@ -54,7 +54,8 @@ void write_struct(const StructDoc& doc, std::size_t indent, std::string& text) {
 
 std::string strategy_help(const StrategyInfo& info, const RegistryBase& registry) {
   std::string text =
-      fmt::format("{} ({}, from {})\n{}\n\n", info.name, registry.kind(), info.origin, info.doc);
+      fmt::format("{} ({}, from {})\n{}\n{}\n", info.name, registry.kind(), info.origin, info.doc,
+                  info.motions == Motions{} ? "" : fmt::format("Motions: {}.\n", to_string(info.motions)));
   const StructDoc doc = document(*info.default_params());
   if (doc.fields.empty()) return text + "  No parameters.\n";
   write_struct(doc, 2, text);

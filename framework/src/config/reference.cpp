@@ -79,8 +79,10 @@ std::string parameter_reference(const Catalog& catalog) {
     text += "\n## " + registry->kind() + "\n";
     if (registry->all().empty()) text += "\nNone.\n";
     for (const StrategyInfo* info : registry->all()) {
-      text += fmt::format("\n### {}\n\n{}\n\n{}", info->name, info->doc,
-                          table(document(*info->default_params())));
+      text += fmt::format(
+          "\n### {}\n\n{}\n\n{}{}", info->name, info->doc,
+          info->motions == Motions{} ? "" : fmt::format("Motions: {}.\n\n", to_string(info->motions)),
+          table(document(*info->default_params())));
     }
   }
   return text;

@@ -1,6 +1,7 @@
 #include "glocal/localizer.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -8,6 +9,7 @@
 #include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "glocal/error.hpp"
 #include "pipeline/stage_contracts.hpp"
@@ -52,17 +54,36 @@ void sort_by_rating(std::vector<Cluster>& clusters, std::vector<Rating>& ratings
 }  // namespace
 
 double contact_epsilon_on(const GlobalMap& map, const LocalizerConfig& config) {
-  const double resolution = map.grid().resolution;
+  const double resolution = map.resolution();
   return config.contact_epsilon.value_or(resolution > 0.0 ? 2.0 * resolution : StageSetup{}.contact_epsilon);
+}
+
+std::optional<std::string> why_unfit(const StrategyChoice& choice, const RegistryBase& registry,
+                                     Motion motion) {
+  const StrategyInfo* info = registry.find(choice.name);
+  if (info == nullptr || info->motions.contain(motion)) return std::nullopt;
+  std::vector<std::string> fit;
+  for (const StrategyInfo* other : registry.all()) {
+    if (other->motions.contain(motion)) fit.push_back(other->name);
+  }
+  const std::string others = fit.empty()
+                                 ? fmt::format("; no {} can do {}", registry.kind(), to_string(motion))
+                                 : fmt::format(", or take {}", fmt::join(fit, " or "));
+  const std::string able = to_string(info->motions);
+  return fmt::format("the {} '{}' can do the motion {}, not {}; set localizer.motion to {}{}",
+                     registry.kind(), info->name, able, to_string(motion), able, others);
 }
 
 Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup,
                      std::uint64_t seed)
-    : unknown_place_(config.unknown_place, *setup.map, contact_epsilon_on(*setup.map, config)),
+    : motion_(config.motion),
+      unknown_place_(config.unknown_place, *setup.map, contact_epsilon_on(*setup.map, config)),
       seed_(seed),
       rng_(seed_.stream({0})) {
   setup.contact_epsilon = contact_epsilon_on(*setup.map, config);
+  setup.motion = motion_;
   const auto make = [&](const auto& registry, const StrategyChoice& choice, RunningStage& stage) {
+    if (const auto why = why_unfit(choice, registry, motion_)) throw ConfigError({{"", 0, 0, *why}});
     stage = {.kind = registry.kind(), .name = choice.name};
     const StageScope scope(&stage);
     return registry.make(choice, setup);
@@ -99,9 +120,10 @@ StepResult Localizer::step(const Observation& observation) {
   StepResult result;
   result.step = step_++;
   result.stamp = observation.stamp;
+  result.motion = motion_;
 
   try {
-    check_observation(observation);
+    check_observation(observation, motion_);
   } catch (const BrokenContract& broken) {
     throw StrategyError(fmt::format("the observation of step {}: {}", result.step, broken.what()));
   }
@@ -112,7 +134,7 @@ StepResult Localizer::step(const Observation& observation) {
       local_mapper_->add(observation);
       added = &local_mapper_->map();
     });
-    check_local_map(*added);
+    check_local_map(*added, motion_);
   });
   const LocalMap& local = *added;
   result.local_from_robot = local.local_from_robot;
@@ -127,7 +149,7 @@ StepResult Localizer::step(const Observation& observation) {
     Rng rng = rng_.stream({result.step, matching});
     MatchResult match;
     timed(result.stage_ms.match, [&] { match = matcher_->match(local, observation, result.omega_max, rng); });
-    check_match(match, result.omega_max);
+    check_match(match, result.omega_max, motion_);
     result.hypotheses = std::move(match.hypotheses);
     result.proposals = match.proposals;
     result.points_tested = match.points_tested;
@@ -143,7 +165,7 @@ StepResult Localizer::step(const Observation& observation) {
   in_stage(stages_.clusterer, result.step, [&] {
     Rng rng = rng_.stream({result.step, clustering});
     timed(result.stage_ms.cluster, [&] { result.clusters = clusterer_->cluster(result.hypotheses, rng); });
-    check_clusters(result.clusters, result.hypotheses.size());
+    check_clusters(result.clusters, result.hypotheses.size(), motion_);
   });
   in_stage(stages_.rater, result.step, [&] {
     timed(result.stage_ms.rate, [&] { result.ratings = rater_->rate(result.clusters, result.hypotheses); });
@@ -153,7 +175,7 @@ StepResult Localizer::step(const Observation& observation) {
 
   in_stage(stages_.verdict_rule, result.step, [&] {
     result.verdict = verdict_rule_->judge(result);
-    check_verdict(result.verdict);
+    check_verdict(result.verdict, motion_);
   });
   if (unknown_place_.is_unknown(result.omega_place)) {
     result.verdict = {

@@ -20,15 +20,40 @@ bool is_share(double value) {
   return value >= 0.0 && value <= 1.0;
 }
 
-/// Whether cells of a pose can be counted: finite, and no farther away than anything on Earth.
-bool is_place(const Pose2& pose) {
-  return std::abs(pose.x) <= farthest_m && std::abs(pose.y) <= farthest_m && std::isfinite(pose.theta);
+bool is_near(const Vector3& place) {
+  return std::abs(place.x) <= farthest_m && std::abs(place.y) <= farthest_m &&
+         std::abs(place.z) <= farthest_m;
 }
 
-void check_pose(const Pose2& pose, const char* what, std::size_t number) {
-  require(is_place(pose),
-          "{} {} has the pose ({}, {}, {}); poses are finite, and at most {} m from the origin along x and y",
-          what, number, pose.x, pose.y, pose.theta, farthest_m);
+bool is_rotation(const Quaternion& q) {
+  constexpr double rounding = 1e-6;
+  return std::abs(std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z) - 1.0) <= rounding;
+}
+
+std::string text_of(const Pose3& pose) {
+  if (pose.is_planar()) return fmt::format("({}, {}, {})", pose.x, pose.y, pose.heading());
+  const Quaternion& q = pose.rotation;
+  return fmt::format("({}, {}, {}; {}, {}, {}, {})", pose.x, pose.y, pose.z, q.x, q.y, q.z, q.w);
+}
+
+/// What is wrong with a pose; empty if nothing is.
+std::string fault_of(const Pose3& pose, Motion motion) {
+  if (!is_near(pose.translation()))
+    return fmt::format("poses are finite, and at most {} m from the origin along x, y and z", farthest_m);
+  if (!is_rotation(pose.rotation)) return "rotations are finite, as quaternions of length 1";
+  if (motion == Motion::planar && !pose.is_planar())
+    return "where the motion is planar, z is 0 and nothing tilts";
+  return "";
+}
+
+/// `name` and `values` say what has the pose, with its number if there are several: "hypothesis 3".
+template <class... Values>
+void check_pose(const Pose3& pose, Motion motion, fmt::format_string<const Values&...> name,
+                const Values&... values) {
+  const std::string fault = fault_of(pose, motion);
+  if (!fault.empty())
+    throw BrokenContract(
+        fmt::format("{} has the pose {}; {}", fmt::format(name, values...), text_of(pose), fault));
 }
 
 /// All |v| <= farthest_m; false for NaN. By their bits, which order as they do, many at a time.
@@ -56,7 +81,7 @@ void check_normals(const Points& normals, const Points& points) {
 
 }  // namespace
 
-void check_map(const MapData& map) {
+void check_map(const MapData& map, Motion motion) {
   require(!map.points.empty(), "the map has no points");
   check_points(map.points, "points");
   check_normals(map.normals, map.points);
@@ -67,28 +92,28 @@ void check_map(const MapData& map) {
       "the grid has {} cells for {} columns and {} rows", grid.cells.size(), grid.width, grid.height);
   require(grid.cells.empty() || (grid.resolution > 0.0 && grid.resolution <= farthest_m),
           "the grid's resolution is {} m", grid.resolution);
-  check_pose(grid.map_from_grid, "grid", 0);
-  for (std::size_t i = 0; i < map.path.size(); ++i) check_pose(map.path[i], "path", i);
+  check_pose(grid.map_from_grid, motion, "the grid");
+  for (std::size_t i = 0; i < map.path.size(); ++i) check_pose(map.path[i], motion, "pose {} of the path", i);
 }
 
-void check_sample(const Sample& sample) {
-  check_observation(sample.observation);
-  if (sample.map_from_robot) check_pose(*sample.map_from_robot, "reference", 0);
+void check_sample(const Sample& sample, Motion motion) {
+  check_observation(sample.observation, motion);
+  if (sample.map_from_robot) check_pose(*sample.map_from_robot, motion, "the reference");
 }
 
-void check_observation(const Observation& observation) {
+void check_observation(const Observation& observation, Motion motion) {
   check_points(observation.scan.hits, "hits");
   check_points(observation.scan.free_ends, "free ends");
   const Point& origin = observation.scan.origin;
-  require(is_place(observation.odom_from_robot) && is_place({origin.x, origin.y, origin.z}),
-          "the odometry or the sensor's origin is not finite, or farther than {} m from the origin",
-          farthest_m);
+  require(is_near({origin.x, origin.y, origin.z}),
+          "the sensor's origin is not finite, or farther than {} m from the robot's", farthest_m);
+  check_pose(observation.odom_from_robot, motion, "the odometry");
 }
 
-void check_local_map(const LocalMap& local) {
+void check_local_map(const LocalMap& local, Motion motion) {
   check_points(local.points, "points");
   check_normals(local.normals, local.points);
-  check_pose(local.local_from_robot, "the robot in local map", static_cast<std::size_t>(local.epoch));
+  check_pose(local.local_from_robot, motion, "the robot in local map {}", local.epoch);
   require(std::is_sorted(local.ends.begin(), local.ends.end()) &&
               (local.ends.empty() || local.ends.back() <= local.points.size()),
           "`ends` falls, or reaches beyond the {} points", local.points.size());
@@ -98,11 +123,11 @@ void check_threshold(double omega_max) {
   require(is_share(omega_max), "omega_max() is {}, not in [0, 1]", omega_max);
 }
 
-void check_match(const MatchResult& match, double omega_max) {
+void check_match(const MatchResult& match, double omega_max, Motion motion) {
   double before = 1.0;
   for (std::size_t i = 0; i < match.hypotheses.size(); ++i) {
     const Hypothesis& hypothesis = match.hypotheses[i];
-    check_pose(hypothesis.map_from_local, "hypothesis", i);
+    check_pose(hypothesis.map_from_local, motion, "hypothesis {}", i);
     require(is_share(hypothesis.quality), "hypothesis {} has the quality {}, not in [0, 1]", i,
             hypothesis.quality);
     require(hypothesis.score >= omega_max, "hypothesis {} has the score {}, below omega_max = {}", i,
@@ -115,12 +140,12 @@ void check_match(const MatchResult& match, double omega_max) {
   }
 }
 
-void check_clusters(const std::vector<Cluster>& clusters, std::size_t hypotheses) {
+void check_clusters(const std::vector<Cluster>& clusters, std::size_t hypotheses, Motion motion) {
   std::vector<char> in_cluster(hypotheses, 0);
   std::size_t members = 0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     require(!clusters[i].members.empty(), "cluster {} is empty; none may be", i);
-    check_pose(clusters[i].map_from_robot, "cluster", i);
+    check_pose(clusters[i].map_from_robot, motion, "cluster {}", i);
     for (const std::size_t member : clusters[i].members) {
       require(member < hypotheses, "cluster {} has hypothesis {}, but there are {}", i, member, hypotheses);
       require(in_cluster[member] == 0, "hypothesis {} is in two clusters, or twice in one", member);
@@ -146,19 +171,19 @@ void check_ratings(const std::vector<Rating>& ratings, std::size_t clusters) {
   require(std::abs(sum - 1.0) <= rounding, "the r_normalised add up to {}, not to 1", sum);
 }
 
-void check_verdict(const Verdict& verdict) {
+void check_verdict(const Verdict& verdict, Motion motion) {
   using enum VerdictKind;
   require(verdict.kind != unknown_place, "the verdict is unknown_place, which is not a rule's to say");
   require((verdict.kind == localized) == verdict.map_from_robot.has_value(),
           "the verdict is {}, {} a pose; a pose is given when localized, and only then",
           to_string(verdict.kind), verdict.map_from_robot ? "with" : "without");
-  if (verdict.map_from_robot) check_pose(*verdict.map_from_robot, "verdict", 0);
+  if (verdict.map_from_robot) check_pose(*verdict.map_from_robot, motion, "the verdict");
   require(verdict.kind != ambiguous || !verdict.candidates.empty(),
           "the verdict is ambiguous, without candidates");
   for (std::size_t i = 0; i < verdict.candidates.size(); ++i)
-    check_pose(verdict.candidates[i], "candidate", i);
+    check_pose(verdict.candidates[i], motion, "candidate {}", i);
   if (!verdict.estimate) return;
-  check_pose(verdict.estimate->map_from_robot, "estimate", 0);
+  check_pose(verdict.estimate->map_from_robot, motion, "the estimate");
   require(is_share(verdict.estimate->confidence), "the estimate has the confidence {}, not in [0, 1]",
           verdict.estimate->confidence);
 }

@@ -17,14 +17,14 @@ class BrokenContract : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-void check_map(const MapData& map);
-void check_sample(const Sample& sample);
-void check_observation(const Observation& observation);
-void check_local_map(const LocalMap& local);
+void check_map(const MapData& map, Motion motion);
+void check_sample(const Sample& sample, Motion motion);
+void check_observation(const Observation& observation, Motion motion);
+void check_local_map(const LocalMap& local, Motion motion);
 void check_threshold(double omega_max);
-void check_match(const MatchResult& match, double omega_max);
-void check_clusters(const std::vector<Cluster>& clusters, std::size_t hypotheses);
+void check_match(const MatchResult& match, double omega_max, Motion motion);
+void check_clusters(const std::vector<Cluster>& clusters, std::size_t hypotheses, Motion motion);
 void check_ratings(const std::vector<Rating>& ratings, std::size_t clusters);
-void check_verdict(const Verdict& verdict);
+void check_verdict(const Verdict& verdict, Motion motion);
 
 }  // namespace glocal

@@ -25,14 +25,19 @@ std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
   if (!hypotheses.empty()) best_ = Best{hypotheses.front().map_from_local, local.epoch};
   if (!best_ || best_->epoch != local.epoch) return std::nullopt;
 
-  const Transform map_from_local(best_->map_from_local);
+  // Contact indexes move points in the plane only: others are moved before.
+  const Pose3& pose = best_->map_from_local;
+  const bool is_planar = pose.is_planar();
+  const Points in_map = is_planar ? Points{} : moved(local.points, pose);
+  const Points& points = is_planar ? local.points : in_map;
+  const Transform map_from_points(is_planar ? seen_from_above(pose) : Pose2{});
   double sum_of_shares = 0.0;
   int observations = 0;
   for (std::size_t k = local.ends.size(); k > 0 && observations < params_.window; --k) {
     const std::size_t end = local.ends[k - 1];
     const std::size_t begin = k > 1 ? local.ends[k - 2] : 0;
     if (begin == end) continue;
-    const std::size_t in_contact = contact_->count(local.points, begin, end - begin, map_from_local);
+    const std::size_t in_contact = contact_->count(points, begin, end - begin, map_from_points);
     sum_of_shares += static_cast<double>(in_contact) / static_cast<double>(end - begin);
     ++observations;
   }

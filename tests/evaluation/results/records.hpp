@@ -11,14 +11,14 @@ inline StepRecord step_record(std::size_t step, const Pose2& pose) {
   record.result.step = step;
   record.result.stamp = 100.0 + 0.5 * static_cast<double>(step);
   record.result.local_map_points = 40;
-  record.result.local_from_robot = {1.0, 2.0, 0.5};
+  record.result.local_from_robot = Pose2{1.0, 2.0, 0.5};
   record.result.omega_max = 0.5;
   record.result.omega_best = 0.75;
   record.result.score_best = 0.625;
   record.result.omega_place = 0.875;
   record.result.proposals = 60;
   record.result.points_tested = 700;
-  record.result.clusters = {{{0, 2, 3}, pose}, {{1}, {9.0, 9.0, 0.0}}};
+  record.result.clusters = {{{0, 2, 3}, pose}, {{1}, Pose2{9.0, 9.0, 0.0}}};
   record.result.ratings = {{0.6, 0.75}, {0.2, 0.25}};
   record.result.verdict = {VerdictKind::searching, std::nullopt, {}, "not yet"};
   record.result.stage_ms = {1.0, 2.0, 3.0, 4.0};

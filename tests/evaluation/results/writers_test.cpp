@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "evaluation/results/pose_json.hpp"
 #include "evaluation/results/records.hpp"
 
 namespace glocal::test::writers_test {
@@ -59,9 +60,36 @@ TEST(StepLine, HasTheKeysOfTheContract) {
   EXPECT_DOUBLE_EQ(json["rotation_error_deg"].get<double>(), 2.0);
 }
 
+TEST(StepLine, HasPosesInSpaceWhereTheMotionIsNotPlanar) {
+  const Pose3 pose({1.5, -2.0, 0.75}, exponential({0.3, -0.2, 1.0}));
+  StepRecord record = step_record(3, {});
+  record.result.motion = Motion::free;
+  record.result.clusters[0].map_from_robot = pose;
+  record.result.verdict = {VerdictKind::ambiguous, std::nullopt, {pose, Pose3()}, "two"};
+  record.reference = Pose3();
+  const Json json = parse_line(step_line(7, record));
+  for (const Json& written : {json["best"][0]["pose"], json["estimate"], json["candidates"][0]}) {
+    EXPECT_EQ(pose_of(written), pose);
+    EXPECT_EQ(written["theta"], pose.heading());
+  }
+  EXPECT_EQ(json["reference"]["qw"], 1.0);
+  EXPECT_TRUE(json["local_from_robot"].contains("z"));
+}
+
+TEST(TrialLine, HasPosesInSpaceWhereTheMotionIsNotPlanar) {
+  TrialRecord trial;
+  trial.motion = Motion::upright;
+  trial.pose = Pose3({1, 2, 3}, turn_about_z(0.5));
+  trial.start_reference = Pose2{4, 5, 0};
+  const Json json = parse_line(trial_line(trial));
+  EXPECT_EQ(pose_of(json["pose"]), *trial.pose);
+  EXPECT_EQ(json["start"]["reference"]["z"], 0.0);
+}
+
 TEST(StepLine, TellsWhatTheVerdictRestsOn) {
   StepRecord record = step_record(3, {1.5, -2.0, 0.25});
-  record.result.verdict.estimate = PoseEstimate{{1.0, 2.0, 0.5}, 0.875, PoseCovariance{1, 2, 3, 4, 5, 6}};
+  record.result.verdict.estimate =
+      PoseEstimate{Pose2{1.0, 2.0, 0.5}, 0.875, PoseCovariance{1, 2, 3, 4, 5, 6}};
   record.result.verdict.evidence = {{"margin", 0.25}, {"distance_m", 3.0}};
   record.nees = 2.5;
   const Json json = parse_line(step_line(7, record));
@@ -98,7 +126,7 @@ TEST(StepLine, ListsFiftyClustersButCountsAll) {
 
 TEST(StepLine, ListsTheCandidatesOfAnAmbiguousVerdict) {
   StepRecord record = step_record(0, {});
-  record.result.verdict = {VerdictKind::ambiguous, std::nullopt, {{1, 2, 0}, {3, 4, 0.5}}, "two"};
+  record.result.verdict = {VerdictKind::ambiguous, std::nullopt, {Pose2{1, 2, 0}, Pose2{3, 4, 0.5}}, "two"};
   const Json json = parse_line(step_line(0, record));
   EXPECT_EQ(json["verdict"], "ambiguous");
   EXPECT_EQ(json["candidates"],

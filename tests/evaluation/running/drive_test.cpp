@@ -73,6 +73,17 @@ TEST(TrialStarts, EverySoManyMetres) {
   EXPECT_THAT(starts({.every_m = 0.4, .starts_m = {}}, straight(3)), ElementsAre(0, 1, 2));
 }
 
+TEST(TrialStarts, OnAMapOfPointsAloneLieNearThese) {
+  MapData data;
+  data.points.push_back({4.0F, 0.0F, 3.0F});
+  const GlobalMap map(std::move(data));
+  // sqrt(3^2 + 1.5^2) = 3.35 m to the points beside, 3 m straight up.
+  EXPECT_THAT(starts({.starts_m = {}, .every_scan = 1, .within_map_m = 3.1}, straight(9), map),
+              ElementsAre(4));
+  EXPECT_THAT(starts({.starts_m = {}, .every_scan = 1, .within_map_m = 3.5}, straight(9), map),
+              ElementsAre(3, 4, 5));
+}
+
 TEST(TrialStarts, AtGivenPlaces) {
   EXPECT_THAT(starts({.starts_m = {3.5, 9.0, 100.0}}, straight(15)), ElementsAre(4, 9));
   EXPECT_THAT(starts({.starts_m = {9.0, 3.5, 9.0}}, straight(15)), ElementsAre(4, 9));
@@ -93,7 +104,7 @@ TEST(TrialStarts, NeedObservationsLeftInTheirSegment) {
 TEST(TrialStarts, LieNearThePathTheMapWasRecordedFrom) {
   MapData data;
   data.points.push_back({});
-  data.path = {{0, 0, 0}, {8, 1, 0}};
+  data.path = {Pose2{0, 0, 0}, Pose2{8, 1, 0}};
   const GlobalMap map(std::move(data));
   EXPECT_THAT(starts({.starts_m = {}, .every_scan = 1, .within_map_m = 1.0}, straight(11), map),
               ElementsAre(0, 1, 8));
@@ -128,7 +139,7 @@ TEST(TrialStarts, SayWhyThereAreNone) {
       "trials.within_map_m or a smaller trials.min_steps");
   MapData data;
   data.points.push_back({});
-  data.path = {{0, 30, 0}};
+  data.path = {Pose2{0, 30, 0}};
   EXPECT_EQ(
       fault({.starts_m = {}, .every_scan = 1, .within_map_m = 2.5}, straight(2), GlobalMap(std::move(data))),
       "error: trials: none of 2 starts along the drive of 1.0 m lies within 2.5 m of the mapped area "

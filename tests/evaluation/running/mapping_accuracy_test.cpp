@@ -31,7 +31,7 @@ class OdometryMapper final : public LocalMapper {
  private:
   std::size_t new_map_after_;
   std::size_t seen_ = 0;
-  Pose2 first_;
+  Pose3 first_;
   LocalMap map_;
 };
 
@@ -42,7 +42,7 @@ Drive straight(int samples, double scale) {
   for (int i = 0; i < samples; ++i) {
     Sample sample;
     sample.map_from_robot = Pose2{5.0, 0.5 * i, radians(90)};
-    sample.observation.odom_from_robot = {0.5 * i * scale, 0.0, 0.0};
+    sample.observation.odom_from_robot = Pose2{0.5 * i * scale, 0.0, 0.0};
     sample.observation.scan.hits.push_back({1.01F, 0.01F, 0.0F});
     drive.samples.push_back(sample);
     drive.path_m.push_back(0.5 * i);
@@ -84,7 +84,8 @@ TEST(MappingAccuracy, CountsFailuresByTranslationAndByRotation) {
   Drive turning = straight(81, 1.0);
   // The reference turns by 0.1 degree per sample, 6 degrees in 30 m, and odometry does not notice.
   for (std::size_t i = 0; i < turning.samples.size(); ++i) {
-    turning.samples[i].map_from_robot->theta += radians(0.1) * static_cast<double>(i);
+    Pose3& map_from_robot = *turning.samples[i].map_from_robot;
+    map_from_robot = map_from_robot * Pose2{0.0, 0.0, radians(0.1) * static_cast<double>(i)};
   }
   EXPECT_TRUE(all_failed(turning));
 }

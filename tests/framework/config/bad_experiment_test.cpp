@@ -14,8 +14,11 @@
 namespace glocal::test::bad_experiment_test {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::ElementsAreArray;
+using testing::HasSubstr;
+using testing::SizeIs;
 using Lines = std::vector<std::string>;
 
 const std::string valid =
@@ -98,6 +101,32 @@ struct Case {
   std::string to;
   Lines faults;
 };
+
+/// Works with all motions.
+struct Able final : Clusterer {
+  using Params = Nothing;
+  static constexpr Motions motions = all_motions;
+  explicit Able(const Params& /*params*/) {}
+  std::vector<Cluster> cluster(const std::vector<Hypothesis>& /*hypotheses*/, Rng& /*rng*/) override {
+    return {};
+  }
+};
+
+TEST_F(ExperimentFile, AStageThatCannotDoTheMotionIsNamedWhereItIsChosen) {
+  catalog_.clusterers.add<Able>("able", "Groups nothing in space.");
+  const std::string text =
+      replaced(valid, "localizer:\n", "localizer:\n  motion: upright\n  rater: cluster_rating\n");
+  const Lines faults = faults_of(text);
+  EXPECT_THAT(faults, Contains("e.yaml:11:10: error: localizer: rater: the rater 'cluster_rating' can do the "
+                               "motion planar, not upright; set localizer.motion to planar; no rater can do "
+                               "upright"));
+  EXPECT_THAT(faults, Contains(HasSubstr("the clusterer 'hierarchical_kmeans' can do the motion planar, not "
+                                         "upright; set localizer.motion to planar, or take able")));
+  EXPECT_THAT(faults, SizeIs(6));
+  EXPECT_THAT(
+      faults_of(replaced(valid, "localizer:\n", "localizer:\n  motion: sideways\n")),
+      ElementsAre("e.yaml:10:11: error: localizer: motion: 'sideways' is not one of planar, upright, free"));
+}
 
 TEST_F(ExperimentFile, EachFaultHasItsPlaceAndRule) {
   const std::vector<Case> cases = {

@@ -131,6 +131,7 @@ trials:
   min_steps: 1
   within_map_m: 0
 localizer:
+  motion: planar
   contact_epsilon: auto
   local_mapper: scan_matching
   matcher:
@@ -175,8 +176,9 @@ TEST_F(RoundTrip, WhatFollowsFromTheMapIsAComment) {
   const GlobalMap map(std::move(data));
   const std::string written = effective_yaml(e, catalog_, map);
   EXPECT_THAT(written,
-              testing::HasSubstr("\nlocalizer:\n  contact_epsilon: auto  # 0.06 m here, twice the map's "
-                                 "resolution\n  local_mapper: scan_matching\n"));
+              testing::HasSubstr(
+                  "\nlocalizer:\n  motion: planar\n  contact_epsilon: auto  # 0.06 m here, twice the map's "
+                  "resolution\n  local_mapper: scan_matching\n"));
   Experiment again = read("again.yaml", written);
   EXPECT_EQ(effective_yaml(again, catalog_), effective_yaml(e, catalog_));
   e.localizer.contact_epsilon = 0.05;

@@ -35,6 +35,7 @@ template <class Interface>
 class Fake : public Interface {
  public:
   using Params = FakeParams;
+  static constexpr Motions motions = all_motions;
   explicit Fake(const Params& params) : script_(params.script) {}
 
  protected:

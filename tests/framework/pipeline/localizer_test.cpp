@@ -84,8 +84,8 @@ TEST_F(LocalizerTest, AnotherThresholdPolicyTakesThePlaceOfTheConfiguredOne) {
 }
 
 TEST_F(LocalizerTest, ClustersFollowTheirRatingsDownwardsAndEqualOnesKeepTheirOrder) {
-  give({Hypothesis::by_contact({1, 0, 0}, 0.9), Hypothesis::by_contact({2, 0, 0}, 0.8),
-        Hypothesis::by_contact({3, 0, 0}, 0.7), Hypothesis::by_contact({4, 0, 0}, 0.6)},
+  give({Hypothesis::by_contact(Pose2{1, 0, 0}, 0.9), Hypothesis::by_contact(Pose2{2, 0, 0}, 0.8),
+        Hypothesis::by_contact(Pose2{3, 0, 0}, 0.7), Hypothesis::by_contact(Pose2{4, 0, 0}, 0.6)},
        {0.2, 0.5, 0.2, 0.9});
   std::vector<double> judged;
   script_->judge = [&](const StepResult& step) {
@@ -105,12 +105,12 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
   script_->local.points.push_back({});
   script_->local.points.push_back({});
   script_->local.ends = {2};
-  script_->local.local_from_robot = {1, 2, 0.5};
+  script_->local.local_from_robot = Pose2{1, 2, 0.5};
   script_->local.epoch = 3;
-  give({{.map_from_local = {}, .quality = 0.9, .score = 0.7}, Hypothesis::by_contact({2, 0, 0}, 0.4)},
+  give({{.map_from_local = {}, .quality = 0.9, .score = 0.7}, Hypothesis::by_contact(Pose2{2, 0, 0}, 0.4)},
        {0.5, 0.6});
   script_->judge = [](const StepResult&) {
-    return Verdict{VerdictKind::ambiguous, std::nullopt, {{2, 0, 0}, {1, 0, 0}}, "two"};
+    return Verdict{VerdictKind::ambiguous, std::nullopt, {Pose2{2, 0, 0}, Pose2{1, 0, 0}}, "two"};
   };
   Localizer localizer = make();
   const StepResult result = localizer.step({12.5, {}, {}});
@@ -129,17 +129,17 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
 }
 
 TEST_F(LocalizerTest, TheRobotIsWhereAHypothesisPutsItsLocalMap) {
-  script_->local.local_from_robot = {3, 0, 0};
-  Hypothesis mistaken = Hypothesis::by_contact({1, 2, radians(90.0)}, 0.9);
-  mistaken.map_from_robot = {7, 7, 7};  // whatever a matcher says of it
+  script_->local.local_from_robot = Pose2{3, 0, 0};
+  Hypothesis mistaken = Hypothesis::by_contact(Pose2{1, 2, radians(90.0)}, 0.9);
+  mistaken.map_from_robot = Pose2{7, 7, 7};  // whatever a matcher says of it
   give({mistaken}, {0.5});
   Localizer localizer = make();
   const StepResult result = localizer.step({});
   ASSERT_EQ(result.hypotheses.size(), 1U);
-  const Pose2& robot = result.hypotheses.front().map_from_robot;
+  const Pose3& robot = result.hypotheses.front().map_from_robot;
   EXPECT_NEAR(robot.x, 1.0, 1e-12);
   EXPECT_NEAR(robot.y, 5.0, 1e-12);
-  EXPECT_NEAR(robot.theta, radians(90.0), 1e-12);
+  EXPECT_NEAR(robot.heading(), radians(90.0), 1e-12);
   EXPECT_EQ(result.clusters.front().map_from_robot, robot);
 }
 
@@ -158,7 +158,7 @@ TEST_F(LocalizerTest, AnUnknownPlaceOverridesTheVerdict) {
   script_->local.ends = {8};
   give({Hypothesis::by_contact({}, 0.9)}, {0.5});
   script_->judge = [](const StepResult&) {
-    return Verdict{VerdictKind::localized, Pose2{1, 0, 0}, {{1, 0, 0}}, "sure"};
+    return Verdict{VerdictKind::localized, Pose2{1, 0, 0}, {Pose2{1, 0, 0}}, "sure"};
   };
   Localizer wary = make(1, {.max_contact = 0.2});
   const StepResult unknown = wary.step({});
@@ -236,11 +236,11 @@ std::string failure_of(Localizer& localizer) {
 TEST_F(LocalizerTest, NamesTheStrategyThatBreaksItsContract) {
   Localizer localizer = make();
   EXPECT_EQ(failure_of(localizer), "");
-  give({Hypothesis::by_contact({1, 0, 0}, 0.2)}, {1.0});
+  give({Hypothesis::by_contact(Pose2{1, 0, 0}, 0.2)}, {1.0});
   EXPECT_EQ(
       failure_of(localizer),
       "matcher 'fake' breaks its contract in step 1: hypothesis 0 has the score 0.2, below omega_max = 0.3");
-  give({Hypothesis::by_contact({1, 0, 0}, 0.9)}, {2.0});
+  give({Hypothesis::by_contact(Pose2{1, 0, 0}, 0.9)}, {2.0});
   EXPECT_EQ(failure_of(localizer),
             "rater 'fake' breaks its contract in step 2: rating 0 has r = 2, not in [0, 1]");
   give({}, {});
@@ -286,6 +286,51 @@ TEST_F(LocalizerTest, KnowsWhichStageIsRunning) {
   EXPECT_EQ(running_stage(), nullptr);
 }
 
+/// Works in the plane, as it does not say otherwise.
+struct PlanarRater final : Rater {
+  struct Params {};
+  explicit PlanarRater(const Params& /*params*/) {}
+  [[nodiscard]] std::vector<Rating> rate(const std::vector<Cluster>& /*clusters*/,
+                                         const std::vector<Hypothesis>& /*hypotheses*/) override {
+    return {};
+  }
+};
+void describe(ParamVisitor& /*v*/, PlanarRater::Params& /*p*/) {}
+
+TEST_F(LocalizerTest, AStageThatCannotDoTheMotionIsRefused) {
+  catalog_.raters.add<PlanarRater>("flat", "Does nothing.");
+  LocalizerConfig config = follow(script_);
+  config.rater = {"flat"};
+  const auto make_with = [&](Motion motion) {
+    config.motion = motion;
+    const Localizer localizer(config, catalog_, {map_of_one_point(), 1}, 1);
+  };
+  EXPECT_NO_THROW(make_with(Motion::planar));
+  try {
+    make_with(Motion::free);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "error: the rater 'flat' can do the motion planar, not free; set localizer.motion to planar, or "
+        "take fake");
+  }
+}
+
+TEST_F(LocalizerTest, PosesInSpaceGoAllTheWay) {
+  const Pose3 map_from_local({1, 2, 3}, exponential({0.1, 0.2, 0.3}));
+  script_->local.local_from_robot = Pose3({0.5, 0, -1}, exponential({-0.2, 0, 0.4}));
+  give({Hypothesis::by_contact(map_from_local, 0.9)}, {1.0});
+  LocalizerConfig config = follow(script_);
+  config.motion = Motion::free;
+  Localizer localizer(config, catalog_, {map_of_one_point(), 1}, 1);
+  const StepResult result = localizer.step({});
+  EXPECT_EQ(result.motion, Motion::free);
+  EXPECT_EQ(result.hypotheses.front().map_from_robot, map_from_local * script_->local.local_from_robot);
+  EXPECT_EQ(result.estimate(), result.hypotheses.front().map_from_robot);
+  EXPECT_THROW(static_cast<void>(make().step({})), StrategyError) << "where the motion is planar";
+}
+
 /// Writes down the contact_epsilon that it is made with.
 class EpsilonWitness final : public Clusterer {
  public:
@@ -299,6 +344,19 @@ class EpsilonWitness final : public Clusterer {
   }
 };
 void describe(ParamVisitor& /*v*/, EpsilonWitness::Params& /*p*/) {}
+
+TEST(ContactEpsilon, FollowsFromTheResolutionOfAMapOfPointsAlone) {
+  const auto epsilon_on = [](double of_grid, double of_points) {
+    MapData data;
+    data.points.push_back({0.0F, 0.0F, 0.0F});
+    data.grid.resolution = of_grid;
+    data.resolution = of_points;
+    return contact_epsilon_on(GlobalMap(std::move(data)), {});
+  };
+  EXPECT_DOUBLE_EQ(epsilon_on(0.0, 0.2), 0.4);
+  EXPECT_DOUBLE_EQ(epsilon_on(0.03, 0.2), 0.06);
+  EXPECT_DOUBLE_EQ(epsilon_on(0.0, 0.0), 0.1);
+}
 
 TEST_F(LocalizerTest, ContactEpsilonIsSaidOnceOrFollowsFromTheMap) {
   const auto seen = std::make_shared<double>(0.0);

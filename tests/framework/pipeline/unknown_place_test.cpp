@@ -62,6 +62,16 @@ TEST(UnknownPlace, IsJudgedByTheBestHypothesis) {
   EXPECT_EQ(monitor.update(local, {{{}, {}, 0.9}, {pose, {}, 0.9}}), 0.5);
 }
 
+TEST(UnknownPlace, PosesInSpaceMoveThePointsInSpace) {
+  const GlobalMap map = four_points();
+  UnknownPlaceMonitor monitor({}, map, 0.1);
+  // The robot lies on its left side, 2 m above: what is 2 m to its right is below it.
+  const Pose3 on_its_side({1.0, 0.0, 2.0}, exponential({-std::numbers::pi / 2.0, 0.0, 0.0}));
+  const LocalMap local = observed({{{0.0F, 2.0F, 0.0F}, {1.0F, 2.0F, 0.0F}, {0.0F, 0.0F, 2.0F}}});
+  EXPECT_DOUBLE_EQ(monitor.update(local, {{on_its_side, {}, 0.9}}).value(), 2.0 / 3.0);
+  EXPECT_EQ(monitor.update(local, {{{}, {}, 0.9}}), 0.0);
+}
+
 TEST(UnknownPlace, AStepWithoutHypothesesIsJudgedByTheLastBest) {
   const GlobalMap map = four_points();
   UnknownPlaceMonitor monitor({}, map, 0.1);

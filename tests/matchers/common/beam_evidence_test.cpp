@@ -49,7 +49,7 @@ TEST(BeamEvidence, FreeRaysCountToo) {
 TEST(BeamEvidence, BeamsBeginAtTheSensorWhereTheRobotWas) {
   BeamEvidence evidence(BeamRule{});
   LocalMap local;
-  local.local_from_robot = {0.5, 0.0, 0.0};
+  local.local_from_robot = Pose2{0.5, 0.0, 0.0};
   Scan scan = beams_along_x({1.2F});
   scan.origin = {0.2F, 0.0F, 0.0F};
   evidence.add(local, scan);

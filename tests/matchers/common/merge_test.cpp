@@ -52,7 +52,7 @@ TEST(MergeHypotheses, ThePartOfTheTurnBehind180DegreesIsTheOneBeforeMinus180) {
   std::vector<Hypothesis> hypotheses;
   for (int i = 0; i < 12; ++i) {
     for (const double theta : {radians(179.0), radians(-179.0)})
-      hypotheses.push_back({.map_from_local = {0.02 + 1.0 * i, 0.02, theta}, .score = 1.0});
+      hypotheses.push_back({.map_from_local = Pose2{0.02 + 1.0 * i, 0.02, theta}, .score = 1.0});
   }
   merge_hypotheses(hypotheses, {}, 12);
   EXPECT_EQ(hypotheses.size(), 12U);
@@ -63,7 +63,7 @@ TEST(MergeHypotheses, PosesAreDistinctWhereTheRobotIsNotTheLocalFrame) {
   const Pose2 local_from_robot{300.0, 0.0, 0.0};
   std::vector<Hypothesis> hypotheses;
   for (int i = 0; i < 20; ++i)
-    hypotheses.push_back({.map_from_local = {0.02, 0.02, radians(0.5 * (i % 2))}, .score = 1.0});
+    hypotheses.push_back({.map_from_local = Pose2{0.02, 0.02, radians(0.5 * (i % 2))}, .score = 1.0});
   merge_hypotheses(hypotheses, local_from_robot, 10);
   EXPECT_EQ(hypotheses.size(), 2U);
 }
@@ -83,6 +83,34 @@ TEST(MergeHypotheses, FitsHoweverSpreadTheyAreAndLosesNoSupport) {
                              [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; }));
   merge_hypotheses(hypotheses, {}, 8);
   EXPECT_LE(hypotheses.size(), 8U);
+}
+
+TEST(MergeHypotheses, InSpaceHeightAndTiltTellPosesApart) {
+  // Two heights and two ways to lean at one place, with the same heading.
+  Rng rng(3);
+  std::vector<Hypothesis> hypotheses;
+  for (int i = 0; i < 400; ++i) {
+    const double roll = radians(28.0) * (i / 2 % 2) + rng.uniform(-0.01, 0.01);
+    const Pose3 pose({rng.uniform(-0.01, 0.01), 0.0, 1.0 * (i % 2)}, exponential({roll, 0.0, 0.0}));
+    hypotheses.push_back({.map_from_local = pose, .score = 1.0 - i / 400.0});
+  }
+  merge_hypotheses(hypotheses, {}, 100);
+  ASSERT_EQ(hypotheses.size(), 4U);
+  for (const Hypothesis& h : hypotheses) EXPECT_EQ(h.support, 100U);
+}
+
+TEST(MergeHypotheses, InSpaceTheyFitHoweverSpreadTheyAre) {
+  Rng rng(4);
+  std::vector<Hypothesis> hypotheses;
+  for (int i = 0; i < 5000; ++i) {
+    const auto draw = [&](double most) { return rng.uniform(-most, most); };
+    const Vector3 place{draw(30.0), draw(30.0), draw(5.0)};
+    const Vector3 turn{draw(2.0), draw(2.0), draw(2.0)};
+    hypotheses.push_back({.map_from_local = Pose3(place, exponential(turn)), .score = 1.0 - i / 5000.0});
+  }
+  merge_hypotheses(hypotheses, {}, 8);
+  EXPECT_LE(hypotheses.size(), 8U);
+  EXPECT_EQ(total_support(hypotheses), 5000U);
 }
 
 }  // namespace

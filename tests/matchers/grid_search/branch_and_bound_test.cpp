@@ -45,7 +45,7 @@ TEST(BranchAndBound, FindsThePoseFromAnywhere) {
     const Pose2 truth = test::somewhere_in_small_world(i, rng);
     const MatchResult result = match({}, local_map_at(truth, 4.0));
     ASSERT_FALSE(result.hypotheses.empty());
-    const Pose2& best = result.hypotheses.front().map_from_local;
+    const Pose3& best = result.hypotheses.front().map_from_local;
     if (distance(best, truth) < 0.05 && rotation_between(best, truth) < radians(1.0)) ++first;
   }
   // The world looks like itself in places, seen from near by.
@@ -77,12 +77,12 @@ TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGri
   const auto near = contact_index(*test::small_world(), "kd_tree", *params.contact_epsilon - blur);
   const auto far = contact_index(*test::small_world(), "kd_tree", *params.contact_epsilon + blur);
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const Transform pose(found[i].map_from_local);
+    const Transform pose(seen_from_above(found[i].map_from_local));
     EXPECT_GE(found[i].score, near->share(local.points, pose));
     EXPECT_LE(found[i].score, far->share(local.points, pose));
     for (std::size_t k = 0; k < i; ++k) {
-      const Pose2& a = found[i].map_from_local;
-      const Pose2& b = found[k].map_from_local;
+      const Pose3& a = found[i].map_from_local;
+      const Pose3& b = found[k].map_from_local;
       EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
                   rotation_between(a, b) >= radians(params.candidate.rotation_deg));
     }
@@ -95,7 +95,7 @@ TEST(BranchAndBound, RefinedOnesAreAsGoodAsAllPointsSay) {
   const auto found = match({.max_points = 40}, local).hypotheses;
   ASSERT_FALSE(found.empty());
   for (const Hypothesis& h : found) {
-    EXPECT_DOUBLE_EQ(h.quality, contact->share(local.points, Transform(h.map_from_local)));
+    EXPECT_DOUBLE_EQ(h.quality, contact->share(local.points, Transform(seen_from_above(h.map_from_local))));
   }
 }
 

@@ -83,7 +83,7 @@ TEST(Exhaustive, FindsTheBestPoseOfAllOfTheGrid) {
     ASSERT_FALSE(found.empty());
     EXPECT_EQ(found.front().score, best);
     for (const Hypothesis& h : found) {
-      EXPECT_EQ(h.score, omega(map, local.points, h.map_from_local, epsilon));
+      EXPECT_EQ(h.score, omega(map, local.points, seen_from_above(h.map_from_local), epsilon));
     }
   }
 }

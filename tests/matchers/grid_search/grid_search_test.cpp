@@ -118,7 +118,7 @@ Problem random_problem(std::uint64_t seed) {
   Problem problem;
   for (int i = 0; i < 160; ++i) problem.map.push_back({random(-4.0, 3.0), random(1.0, 6.0), 0.0F});
   for (int i = 0; i < 12; ++i) problem.local.push_back({random(0.0, 3.0), random(-1.0, 1.0), 0.0F});
-  problem.local_from_robot = {rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(-3.0, 3.0)};
+  problem.local_from_robot = Pose2{rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(-3.0, 3.0)};
   return problem;
 }
 

@@ -12,7 +12,7 @@ ExactSearch search_after(int steps) {
 }
 
 std::vector<Hypothesis> best_two(double first, double second) {
-  return {Hypothesis::by_contact({}, first), Hypothesis::by_contact({5.0, 0.0, 0.0}, second)};
+  return {Hypothesis::by_contact({}, first), Hypothesis::by_contact(Pose2{5.0, 0.0, 0.0}, second)};
 }
 
 TEST(ExactSearch, IsDueInTheLastOfSoManyStepsWithoutAClearBestPose) {

@@ -30,7 +30,7 @@ TEST(IndexedRansam, FindsThePoseFromAnywhereWithFewDraws) {
     const Pose2 truth = test::somewhere_in_small_world(i, rng);
     const MatchResult result = match({}, local_map_at(truth, 4.0), static_cast<std::uint64_t>(i));
     ASSERT_FALSE(result.hypotheses.empty());
-    const Pose2& best = result.hypotheses.front().map_from_local;
+    const Pose3& best = result.hypotheses.front().map_from_local;
     if (distance(best, truth) < 0.05 && rotation_between(best, truth) < radians(1.0)) ++first;
   }
   // The world looks like itself in places, seen from near by.
@@ -44,8 +44,8 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
   EXPECT_LE(result.hypotheses.size(), static_cast<std::size_t>(params.candidates));
   for (std::size_t i = 0; i < result.hypotheses.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      const Pose2& a = result.hypotheses[i].map_from_local;
-      const Pose2& b = result.hypotheses[k].map_from_local;
+      const Pose3& a = result.hypotheses[i].map_from_local;
+      const Pose3& b = result.hypotheses[k].map_from_local;
       EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
                   rotation_between(a, b) >= radians(params.candidate.rotation_deg));
     }
@@ -60,7 +60,7 @@ TEST(IndexedRansam, TheScoreIsContactWhereNothingSpeaksAgainstAPose) {
   for (const Hypothesis& h : found) {
     const std::size_t n = local.points.size();
     const auto in_contact =
-        static_cast<double>(contact->count(local.points, 0, n, Transform(h.map_from_local)));
+        static_cast<double>(contact->count(local.points, 0, n, Transform(seen_from_above(h.map_from_local))));
     EXPECT_NEAR(h.quality, in_contact / static_cast<double>(n), 1e-12);
     EXPECT_EQ(h.score, h.quality);
   }

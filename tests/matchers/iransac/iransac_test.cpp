@@ -19,7 +19,7 @@ class IRansacWithOrWithoutHashing : public ::testing::TestWithParam<bool> {
 
 bool is_right(const MatchResult& result, const Pose2& truth) {
   if (result.hypotheses.empty()) return false;
-  const Pose2& best = result.hypotheses.front().map_from_local;
+  const Pose3& best = result.hypotheses.front().map_from_local;
   return distance(best, truth) < 0.05 && rotation_between(best, truth) < radians(1.0);
 }
 
@@ -60,7 +60,7 @@ class IRansacPool : public ::testing::Test {
     EXPECT_TRUE(is_right(matcher.match(local, {}, 0.5, rng), truth_));
     if (reset_between) matcher.reset();
     local.epoch = epoch;
-    local.local_from_robot = {0.3, 0.0, 0.1};  // the robot has moved on in its local map
+    local.local_from_robot = Pose2{0.3, 0.0, 0.1};  // the robot has moved on in its local map
     // Too few points for a feature, let alone two.
     Points few;
     for (std::size_t i = 0; i < 3; ++i) few.push_back(local.points[i * local.points.size() / 3]);

@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(All, MclModels,
 TEST(Mcl, HypothesesAreTheParticlesInTheFrameOfTheLocalMap) {
   const Observation observation = observation_at({2.0, 2.0, 0.5});
   LocalMap local = local_map_of(observation);
-  local.local_from_robot = {1.0, -2.0, 0.8};
+  local.local_from_robot = Pose2{1.0, -2.0, 0.8};
   Mcl matcher(many_particles("likelihood_field"), {walled_world(), 1});
   Rng rng(1);
   const auto found = matcher.match(local, observation, 0.0, rng).hypotheses;
@@ -111,10 +111,10 @@ TEST(Mcl, HypothesesAreTheParticlesInTheFrameOfTheLocalMap) {
   const auto contact = contact_index(*walled_world(), "kd_tree", 0.1);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Hypothesis& h = found[i];
-    const Pose2 robot = h.map_from_local * local.local_from_robot;
+    const Pose3 robot = h.map_from_local * local.local_from_robot;
     // The grid of contacts blurs what the tree knows exactly.
-    EXPECT_NEAR(h.score, contact->share(observation.scan.hits, Transform(robot)), 0.15);
-    EXPECT_NEAR(h.quality, contact->share(local.points, Transform(h.map_from_local)), 0.15);
+    EXPECT_NEAR(h.score, contact->share(observation.scan.hits, Transform(seen_from_above(robot))), 0.15);
+    EXPECT_NEAR(h.quality, contact->share(local.points, Transform(seen_from_above(h.map_from_local))), 0.15);
     EXPECT_LE(h.score, found[i == 0 ? 0 : i - 1].score);
   }
   EXPECT_LE(total_support(found), 8000U);
@@ -153,7 +153,7 @@ TEST(Mcl, WithoutAScanThereIsNoAnswerButTheMotionCounts) {
   EXPECT_TRUE(match(start * step, false).empty());
   const auto third = match(start * step * step, true);
   ASSERT_EQ(third.size(), 1U);
-  const Pose2 expected = first.front().map_from_local * step * step;
+  const Pose3 expected = first.front().map_from_local * step * step;
   EXPECT_LT(distance(third.front().map_from_local, expected), 1e-9);
   EXPECT_LT(rotation_between(third.front().map_from_local, expected), 1e-9);
 }
@@ -170,10 +170,10 @@ TEST(Mcl, ASmallMotionMovesTheAnswerButIsNoUpdate) {
     Rng rng(1);
     return matcher.match(local_map_of(observation), observation, 0.0, rng);
   };
-  const Pose2 before = heaviest(match(start).hypotheses).map_from_local;
+  const Pose3 before = heaviest(match(start).hypotheses).map_from_local;
   const MatchResult result = match(start * little);
   EXPECT_EQ(result.points_tested, 0U);
-  const Pose2 expected = before * little;
+  const Pose3 expected = before * little;
   EXPECT_TRUE(std::any_of(result.hypotheses.begin(), result.hypotheses.end(),
                           [&](const Hypothesis& h) { return distance(h.map_from_local, expected) < 1e-9; }));
   EXPECT_GT(match(start * little * little).points_tested, 0U);

@@ -38,7 +38,7 @@ TEST(Ransac, FindsThePose) {
     const Pose2 truth = test::somewhere_in_small_world(i, rng);
     const auto found = match({.iterations = 300000}, local_map_at(truth, 5.0)).hypotheses;
     if (found.empty()) continue;
-    const Pose2& best = found.front().map_from_local;
+    const Pose3& best = found.front().map_from_local;
     if (distance(best, truth) < 0.05 && rotation_between(best, truth) < radians(1.0)) ++right;
   }
   EXPECT_GE(right, places - 1);
@@ -98,7 +98,8 @@ TEST(Ransac, QualityIsTheContactOfAllPoints) {
         EXPECT_LE(found[i].quality, found[i - 1].quality);
       }
       // A pose that has been through an arc tangent moves points by some micrometres.
-      EXPECT_NEAR(found[i].quality, contact->share(local.points, Transform(found[i].map_from_local)), 0.02);
+      EXPECT_NEAR(found[i].quality,
+                  contact->share(local.points, Transform(seen_from_above(found[i].map_from_local))), 0.02);
     }
   }
 }

@@ -22,9 +22,9 @@ MatchResult match(const Ransam::Params& params, const LocalMap& local, double om
   return ransam.match(local, {}, omega_max, rng);
 }
 
-double brute_force_quality(const Points& local, const Pose2& map_from_local, double epsilon) {
+double brute_force_quality(const Points& local, const Pose3& map_from_local, double epsilon) {
   const Points world = test::small_world_points();
-  const Points there = test::moved(local, map_from_local);
+  const Points there = moved(local, map_from_local);
   int in_contact = 0;
   for (std::size_t i = 0; i < there.size(); ++i) {
     bool contact = false;
@@ -84,7 +84,7 @@ TEST(Ransam, AgreesWithExhaustiveSearch) {
     }
   }
   ASSERT_FALSE(found.empty());
-  const auto near = [](const Pose2& a, const Pose2& b) {
+  const auto near = [](const Pose3& a, const Pose3& b) {
     return distance(a, b) < 0.3 && rotation_between(a, b) < 0.15;
   };
   for (const Pose2& pose : found) {

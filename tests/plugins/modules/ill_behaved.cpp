@@ -30,7 +30,7 @@ class IllBehaved final : public Matcher {
     if (how_ == "abort") std::terminate();
     if (how_ == "hang") std::this_thread::sleep_for(std::chrono::hours(1));
     if (how_ == "latin1") throw std::runtime_error("T\xfcr zu");
-    return {{Hypothesis::by_contact({std::numeric_limits<double>::quiet_NaN(), 0, 0}, 1.0)}, 1, 1};
+    return {{Hypothesis::by_contact(Pose2{std::numeric_limits<double>::quiet_NaN(), 0, 0}, 1.0)}, 1, 1};
   }
   void reset() override {}
 

@@ -1,0 +1,48 @@
+// How a robot can move, which says what of its pose is looked for.
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace glocal {
+
+/// What of a robot's pose is not known beforehand.
+enum class Motion {
+  planar,   ///< x, y and heading: z is 0, and nothing tilts.
+  upright,  ///< x, y, z and heading: which way is up is known.
+  free,     ///< All six.
+};
+
+inline constexpr std::array every_motion{Motion::planar, Motion::upright, Motion::free};
+
+/// The name used in YAML and messages.
+[[nodiscard]] const char* to_string(Motion motion);
+
+/// The motions that a strategy can work with. A class of strategies says it with a member
+/// `static constexpr Motions motions`; one that says nothing works in the plane only.
+struct Motions {
+  bool planar = true;
+  bool upright = false;
+  bool free = false;
+
+  [[nodiscard]] constexpr bool contain(Motion motion) const {
+    switch (motion) {
+      case Motion::planar:
+        return planar;
+      case Motion::upright:
+        return upright;
+      case Motion::free:
+        return free;
+    }
+    return false;
+  }
+
+  friend bool operator==(const Motions&, const Motions&) = default;
+};
+
+inline constexpr Motions all_motions{.planar = true, .upright = true, .free = true};
+
+/// "planar or upright".
+[[nodiscard]] std::string to_string(const Motions& motions);
+
+}  // namespace glocal
