@@ -80,8 +80,10 @@ TEST(CloudRemarks, SayWhatIsOdd) {
 
 TEST(CloudRemarks, MeasureTheSpreadOfACloudThatIsTurned) {
   Points points;
-  for (int i = 0; i < 100; ++i)
-    points.push_back({static_cast<float>(i % 10), static_cast<float>(i / 10), static_cast<float>(i % 10)});
+  for (int row = 0; row < 10; ++row) {
+    for (int i = 0; i < 10; ++i)
+      points.push_back({static_cast<float>(i), static_cast<float>(row), static_cast<float>(i)});
+  }
   const auto spreads = principal_spreads(points);
   EXPECT_NEAR(spreads[0], std::sqrt(2.0 * 8.25), 1e-9);
   EXPECT_NEAR(spreads[1], std::sqrt(8.25), 1e-9);
