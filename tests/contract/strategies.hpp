@@ -16,6 +16,8 @@
 #include "matchers/mcl/mcl.hpp"
 #include "octree_files.hpp"
 #include "sources/carmen_log.hpp"
+#include "sources/clouds/cloud_drive.hpp"
+#include "sources/clouds/point_cloud_map.hpp"
 #include "sources/log_map.hpp"
 #include "sources/random_scans.hpp"
 #include "sources/ros_map.hpp"
@@ -58,6 +60,16 @@ class Contract : public ::testing::Test {
       p.log.path = log_;
       p.min_hits = 1;
     });
+    const std::string cloud =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "end_header\n1 0 0\n0 1 0\n0 0 1\n";
+    std::filesystem::create_directory(folder_ / "clouds");
+    folder_.write("clouds/0.ply", cloud);
+    folder_.write("clouds/1.ply", cloud);
+    fill<CloudDrive::Params>("observation_source/cloud_drive",
+                             [&](auto& p) { p.folder = file_path(folder_ / "clouds"); });
+    fill<PointCloudMap::Params>("map_source/point_cloud",
+                                [&](auto& p) { p.path = file_path(folder_ / "clouds/0.ply"); });
     fill<Exhaustive::Params>("matcher/exhaustive", [](auto& p) {
       // Defaults would take minutes.
       p.grid.contact_epsilon = 0.2;

@@ -50,6 +50,7 @@ struct FieldInfo {
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
   bool required = false;        ///< The file must give it.
   bool may_be_missing = false;  ///< For paths: whoever reads the file says what to do where there is none.
+  bool is_folder = false;       ///< For paths: a folder is needed, not a file.
   Audience audience = Audience::everyone;
   const char* formerly = "";  ///< What the field was called before; empty if nothing else.
   std::vector<FormerChoice> former_choices = {};  ///< For strings.

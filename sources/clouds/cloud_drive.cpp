@@ -1,0 +1,137 @@
+#include "sources/clouds/cloud_drive.hpp"
+
+#include <utility>
+
+#include "glocal/voxel_filter.hpp"
+#include "sources/clouds/cloud_file.hpp"
+
+namespace glocal {
+
+void describe(ParamVisitor& v, SensorMount& p) {
+  constexpr double far = 100.0;
+  v.field("x", p.x, {.doc = "Forward of the robot's origin.", .unit = "m", .min = -far, .max = far});
+  v.field("y", p.y, {.doc = "Left of the robot's origin.", .unit = "m", .min = -far, .max = far});
+  v.field("z", p.z, {.doc = "Above the robot's origin.", .unit = "m", .min = -far, .max = far});
+  v.field("roll_deg", p.roll_deg,
+          {.doc = "Turned about x, before all else.", .unit = "deg", .min = -180.0, .max = 180.0});
+  v.field("pitch_deg", p.pitch_deg,
+          {.doc = "Then turned about y; above 0 looks down.", .unit = "deg", .min = -180.0, .max = 180.0});
+  v.field("yaw_deg", p.yaw_deg, {.doc = "Then turned about z.", .unit = "deg", .min = -180.0, .max = 180.0});
+}
+
+Pose3 robot_from_sensor(const SensorMount& mount) {
+  const Quaternion roll = exponential({radians(mount.roll_deg), 0.0, 0.0});
+  const Quaternion pitch = exponential({0.0, radians(mount.pitch_deg), 0.0});
+  return {{mount.x, mount.y, mount.z}, turn_about_z(radians(mount.yaw_deg)) * pitch * roll};
+}
+
+void describe(ParamVisitor& v, CloudDrive::Params& p) {
+  v.field(
+      "folder", p.folder,
+      {.doc = "Folder of the clouds: PCD, PLY or KITTI (*.bin), in the order of the numbers at the ends of "
+              "their names.",
+       .required = true,
+       .is_folder = true});
+  v.field("odometry", p.odometry,
+          {.doc = "Poses by odometry (TUM or KITTI), one for each cloud; without, no cloud is joined with "
+                  "another."});
+  v.field("reference", p.reference,
+          {.doc = "Reference poses in the map (TUM or KITTI); without, nothing is judged."});
+  v.field("poses_of", p.poses_of,
+          {.doc = "What the poses of both files are of.", .choices = {"robot", "sensor"}});
+  v.field("sensor", p.sensor, {.doc = "Where the sensor is on the robot; x is forward and z is up."});
+  v.field("keyframe_distance", p.keyframe_distance,
+          {.doc = "A cloud is used once odometry has moved this far since the last one used, or turned by "
+                  "keyframe_angle_deg; 0 uses every cloud.",
+           .unit = "m",
+           .min = 0.0,
+           .audience = Audience::tuner});
+  v.field("keyframe_angle_deg", p.keyframe_angle_deg,
+          {.doc = "A cloud is used once odometry has turned this much since the last one used, or moved by "
+                  "keyframe_distance; 0 uses every cloud.",
+           .unit = "deg",
+           .min = 0.0});
+  v.field("min_range", p.min_range,
+          {.doc = "Points nearer to the sensor are dropped: the robot itself.",
+           .unit = "m",
+           .min = 0.0,
+           .audience = Audience::expert});
+  v.field("max_range", p.max_range,
+          {.doc = "Points farther from the sensor are dropped.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::tuner});
+  v.field(
+      "voxel_size", p.voxel_size,
+      {.doc = "Side of the cubes whose points are replaced by their mean; 0 takes all points as they are.",
+       .unit = "m",
+       .min = 0.0,
+       .max = 100.0,
+       .audience = Audience::tuner});
+  describe_cloud_unit(v, p.unit);
+  v.field("max_stamp_difference", p.max_stamp_difference,
+          {.doc = "A cloud has the pose of the nearest stamp, which is at most this far from its own.",
+           .unit = "s",
+           .min = 0.0,
+           .audience = Audience::expert});
+  describe_max_size(v, p.max_size_gb);
+  v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
+}
+
+CloudDrive::CloudDrive(const Params& params, const SourceSetup& setup)
+    : params_(params), warn_(setup.warn), robot_from_sensor_(robot_from_sensor(params.sensor)) {
+  const DriveFiles files{params.folder.resolved, params.odometry.resolved, params.reference.resolved,
+                         params.max_stamp_difference, params.max_size_gb};
+  for (const auto& trajectory : {files.odometry, files.reference}) {
+    if (!trajectory.empty()) setup.note_input(trajectory);
+  }
+  const Pose3 sensor_from_robot = params.poses_of == "sensor" ? inverse(robot_from_sensor_) : Pose3{};
+  for (DriveCloud& cloud : drive_clouds(files, warn_)) {
+    for (auto* pose : {&cloud.odometry, &cloud.reference}) {
+      if (*pose) *pose = **pose * sensor_from_robot;
+    }
+    const bool is_used =
+        clouds_.empty() || !cloud.odometry || is_keyframe(*clouds_.back().odometry, *cloud.odometry);
+    if (!is_used) continue;
+    setup.note_input(cloud.file);
+    clouds_.push_back(std::move(cloud));
+  }
+}
+
+bool CloudDrive::is_keyframe(const Pose3& last, const Pose3& now) const {
+  return distance(last, now) >= params_.keyframe_distance ||
+         rotation_between(last, now) >= radians(params_.keyframe_angle_deg);
+}
+
+std::optional<Sample> CloudDrive::next() {
+  if (next_ == clouds_.size()) return std::nullopt;
+  const std::size_t number = next_++;
+  const DriveCloud& source = clouds_[number];
+  const Cloud cloud = read_cloud(source.file, {params_.unit, params_.max_size_gb});
+  if (number == 0) {
+    for (const std::string& remark : cloud_remarks(cloud)) warn_(source.file.string() + ": " + remark);
+  }
+  return Sample{{source.stamp, scan_of(cloud.points), source.odometry.value_or(Pose3{})},
+                source.reference,
+                source.odometry ? 0 : static_cast<int>(number)};
+}
+
+Scan CloudDrive::scan_of(const Points& sensor_points) const {
+  const double min_squared = params_.min_range * params_.min_range;
+  const double max_squared = params_.max_range * params_.max_range;
+  Points in_range;
+  for (std::size_t i = 0; i < sensor_points.size(); ++i) {
+    const Point p = sensor_points[i];
+    const double squared =
+        static_cast<double>(p.x) * p.x + static_cast<double>(p.y) * p.y + static_cast<double>(p.z) * p.z;
+    if (squared >= min_squared && squared <= max_squared) in_range.push_back(p);
+  }
+  if (params_.voxel_size > 0.0) in_range = voxel_downsampled(in_range, params_.voxel_size);
+  const Vector3 origin = robot_from_sensor_.translation();
+  Scan scan;
+  scan.hits = moved(in_range, robot_from_sensor_);
+  scan.origin = {static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z)};
+  return scan;
+}
+
+}  // namespace glocal
