@@ -1,0 +1,15 @@
+// Refinement of a motion between clouds of surfels.
+#pragma once
+
+#include "matchers/in_space/prepared_cloud.hpp"
+#include "matchers/in_space/rigid_motion.hpp"
+#include "matchers/in_space/surfel_contact.hpp"
+
+namespace glocal {
+
+/// The motion near a given one that brings the first surfels of a sample, n at most, nearest to the planes of
+/// those they lie on: so many steps of Gauss and Newton with Tukey's weights (Chen and Medioni 1991).
+[[nodiscard]] RigidMotion refined(const RigidMotion& target_from_source, const SurfelSample& sample,
+                                  std::size_t n, const SurfelContact& target, int steps);
+
+}  // namespace glocal

@@ -1,0 +1,195 @@
+#include "matchers/in_space/pose_search.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "matchers/in_space/point_to_plane.hpp"
+
+namespace glocal {
+namespace {
+
+/// Sizes of samples: the first ones see most wrong poses off.
+constexpr std::size_t first_look = 16;
+constexpr std::size_t second_look = 64;
+constexpr std::size_t third_look = 100;
+constexpr std::size_t whole_sample = 400;
+constexpr float fewest_contacts = 2.0F;  ///< In the first look.
+/// A pose that pairs propose is a few degrees off: far surfels seem to be seen through.
+constexpr float weight_before_refinement = 0.5F;
+
+/// A motion, and how good it looks so far.
+struct Proposal {
+  RigidMotion motion;
+  float score = 0.0F;
+};
+
+bool is_better(const Proposal& a, const Proposal& b) {
+  return a.score > b.score;
+}
+
+/// The n best, best first.
+void keep_best(std::vector<Proposal>& proposals, std::size_t n) {
+  if (proposals.size() > n) {
+    std::nth_element(proposals.begin(), proposals.begin() + static_cast<std::ptrdiff_t>(n), proposals.end(),
+                     is_better);
+    proposals.resize(n);
+  }
+  std::stable_sort(proposals.begin(), proposals.end(), is_better);
+}
+
+/// Surfels [begin, end) of a sample: 1 for each in contact, less the weight for each seen through.
+float evidence(const SurfelSample& sample, std::size_t begin, std::size_t end, const RigidMotion& motion,
+               const PreparedCloud& other, float seen_through_weight) {
+  float sum = 0.0F;
+  for (std::size_t i = begin; i < std::min(end, sample.size()); ++i) {
+    const Point p = motion(sample.points[i]);
+    const Point normal = motion.turned(sample.normals[i]);
+    if (other.contact.touches(p, normal)) {
+      sum += 1.0F;
+    } else if (other.view && other.view->saw_through(p, normal, other.contact.reach())) {
+      sum -= seen_through_weight;
+    }
+  }
+  return sum;
+}
+
+/// Both clouds, and samples of them.
+struct Scene {
+  const PreparedCloud& target;
+  const PreparedCloud& source;
+  SurfelSample target_sample, source_sample;
+};
+
+/// What pairs of a round propose, seen off by a few surfels.
+std::vector<Proposal> proposals(const Scene& scene, const PairTable& pairs, const PairSampler& sampler,
+                                const PairRule& rule, const PoseSearchParams& params, Rng& rng) {
+  constexpr std::size_t tries_for_a_pair = 40;
+  std::vector<Proposal> result;
+  std::size_t drawn = 0;
+  for (std::size_t i = 0; i < tries_for_a_pair * params.draws && drawn < params.draws; ++i) {
+    const auto pair = sampler.draw(rng);
+    if (!pair) continue;
+    ++drawn;
+    const std::span<const SurfelPair> partners = pairs.find(pair->second);
+    const std::size_t n = std::min(params.partners, partners.size());
+    const std::size_t first =
+        n < partners.size() ? rng.below(static_cast<std::uint32_t>(partners.size())) : 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      Proposal proposal;
+      proposal.motion = motion_between(scene.source.surfels, pair->first, scene.target.surfels,
+                                       partners[(first + k) % partners.size()], rule.both_sides);
+      const auto look = [&](std::size_t begin, std::size_t end) {
+        return evidence(scene.source_sample, begin, end, proposal.motion, scene.target,
+                        weight_before_refinement);
+      };
+      proposal.score = look(0, first_look);
+      if (proposal.score < fewest_contacts) continue;
+      proposal.score += look(first_look, second_look);
+      result.push_back(proposal);
+    }
+  }
+  return result;
+}
+
+/// Refines proposals a little, and judges them by samples of both clouds.
+void look_closer(std::vector<Proposal>& proposals, const Scene& scene, const PoseSearchParams& params) {
+  constexpr int steps = 2;
+  const auto weight = static_cast<float>(params.seen_through_weight);
+  for (Proposal& proposal : proposals) {
+    proposal.motion = refined(proposal.motion, scene.source_sample, second_look, scene.target.contact, steps);
+    proposal.score = evidence(scene.source_sample, 0, third_look, proposal.motion, scene.target, weight);
+    proposal.score +=
+        evidence(scene.target_sample, 0, third_look, inverse(proposal.motion), scene.source, weight);
+  }
+}
+
+bool is_same(const RigidMotion& a, const RigidMotion& b, float voxel_size) {
+  constexpr float voxels = 3.0F;
+  constexpr float least_cosine = 0.97F;  // 14 degrees
+  const Point d = a.translation - b.translation;
+  const float reach = voxels * voxel_size;
+  return dot(d, d) < reach * reach && cosine_between(a, b) > least_cosine;
+}
+
+FoundPose judged(const RigidMotion& motion, const Scene& scene, double seen_through_weight) {
+  FoundPose pose{.target_from_source = motion};
+  const Agreement of_source = agreement_of(scene.source.surfels, motion, scene.target);
+  pose.contact = of_source.contact;
+  pose.seen_through = of_source.seen_through;
+  if (scene.target.view) {
+    const Agreement of_target = agreement_of(scene.target.surfels, inverse(motion), scene.source);
+    pose.contact = (of_source.contact + of_target.contact) / 2.0;
+    pose.seen_through = (of_source.seen_through + of_target.seen_through) / 2.0;
+  }
+  pose.score = pose.contact - seen_through_weight * pose.seen_through;
+  return pose;
+}
+
+/// Adds a pose, or counts it for the one it is the same as, whose place it takes if it is better.
+void add(std::vector<FoundPose>& found, const FoundPose& pose, std::size_t round, float voxel_size) {
+  const auto same = std::find_if(found.begin(), found.end(), [&](const FoundPose& other) {
+    return is_same(other.target_from_source, pose.target_from_source, voxel_size);
+  });
+  if (same == found.end()) {
+    found.push_back(pose);
+    return;
+  }
+  const std::size_t rounds = std::min(same->rounds + 1, round + 1);
+  if (pose.score > same->score) *same = pose;
+  same->rounds = rounds;
+}
+
+/// The best pose was found more than once, and no other comes near.
+bool is_beyond_doubt(const std::vector<FoundPose>& found) {
+  constexpr double least_score = 0.3;
+  constexpr double least_lead = 0.15;
+  if (found.empty() || found[0].rounds == 1) return false;
+  const double next = found.size() > 1 ? found[1].score : 0.0;
+  return found[0].score >= least_score && found[0].score - next >= least_lead;
+}
+
+}  // namespace
+
+PairRule pair_rule(float voxel_size, bool both_sides) {
+  constexpr float shortest = 5.0F;
+  constexpr float longest = 40.0F;
+  return {.shortest = shortest * voxel_size,
+          .longest = longest * voxel_size,
+          .length_cell = voxel_size,
+          .both_sides = both_sides};
+}
+
+std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng) const {
+  constexpr std::size_t alike = 4;  // proposals of the same pose that may be among the best
+  constexpr int steps = 6;
+  std::vector<FoundPose> found;
+  if (source.surfels.size() < 2 || target_.surfels.size() < 2) return found;
+  const float voxel_size = target_.contact.reach();
+  Scene scene{target_, source, {}, {}};
+  scene.source_sample = sample_of(source.surfels, whole_sample, rng);
+  if (target_.view) scene.target_sample = sample_of(target_.surfels, third_look, rng);
+  const PairSampler sampler(source.surfels, rule_);
+  for (std::size_t round = 0; round < params_.rounds && !is_beyond_doubt(found); ++round) {
+    std::vector<Proposal> proposed = proposals(scene, pairs_, sampler, rule_, params_, rng);
+    keep_best(proposed, params_.looked_at);
+    look_closer(proposed, scene, params_);
+    keep_best(proposed, alike * params_.refined);
+    std::vector<RigidMotion> distinct;
+    for (const Proposal& proposal : proposed) {
+      if (distinct.size() < params_.refined &&
+          std::none_of(distinct.begin(), distinct.end(),
+                       [&](const auto& other) { return is_same(other, proposal.motion, voxel_size); }))
+        distinct.push_back(proposal.motion);
+    }
+    for (const RigidMotion& motion : distinct) {
+      const RigidMotion best = refined(motion, scene.source_sample, whole_sample, target_.contact, steps);
+      add(found, judged(best, scene, params_.seen_through_weight), round, voxel_size);
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const FoundPose& a, const FoundPose& b) { return a.score > b.score; });
+  }
+  return found;
+}
+
+}  // namespace glocal

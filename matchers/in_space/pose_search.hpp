@@ -1,0 +1,55 @@
+// Poses of one cloud in another, whatever they are turned by: random sample matching with pairs of surfels.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "glocal/params.hpp"
+#include "glocal/rng.hpp"
+#include "matchers/in_space/prepared_cloud.hpp"
+#include "matchers/in_space/surfel_pairs.hpp"
+
+namespace glocal {
+
+/// How long is searched. Each round draws pairs, looks up what they may lie on, and narrows the poses down.
+struct PoseSearchParams {
+  std::size_t rounds = 4;       ///< At most.
+  std::size_t draws = 5000;     ///< Pairs of a round.
+  std::size_t partners = 8;     ///< Pairs of the target tried for each.
+  std::size_t looked_at = 800;  ///< Poses of a round that are refined a little and judged by both sides.
+  std::size_t refined = 15;     ///< Distinct poses of a round that are refined and judged by all surfels.
+  double seen_through_weight = 5.0;
+};
+
+/// A pose of the source in the target.
+struct FoundPose {
+  RigidMotion target_from_source;
+  double contact = 0.0;  ///< Share of surfels in contact, by weight; of both clouds where both have a view.
+  double seen_through = 0.0;  ///< Share that the other's sensor looked through.
+  double score = 0.0;         ///< Contact less the weighted share that was seen through.
+  std::size_t rounds = 1;     ///< In how many rounds it was found.
+};
+
+/// The rule for pairs in voxels of a side (m).
+[[nodiscard]] PairRule pair_rule(float voxel_size, bool both_sides);
+
+/// Finds poses of clouds in a target that is made ready once.
+class PoseSearch {
+ public:
+  /// Target and pairs must outlive it.
+  PoseSearch(const PreparedCloud& target, const PairTable& target_pairs, const PairRule& rule,
+             const PoseSearchParams& params)
+      : target_(target), pairs_(target_pairs), rule_(rule), params_(params) {}
+
+  /// Distinct poses, falling score. Ends after a round that finds the best pose once more, if that leaves no
+  /// doubt.
+  [[nodiscard]] std::vector<FoundPose> find(const PreparedCloud& source, Rng rng) const;
+
+ private:
+  const PreparedCloud& target_;
+  const PairTable& pairs_;
+  PairRule rule_;
+  PoseSearchParams params_;
+};
+
+}  // namespace glocal

@@ -1,0 +1,77 @@
+// Pairs of surfels, and what does not change when they are moved.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "glocal/rng.hpp"
+#include "matchers/in_space/rigid_motion.hpp"
+#include "matchers/in_space/surfels.hpp"
+
+namespace glocal {
+
+/// Two surfels, by their indexes, in the order in which they are compared.
+struct SurfelPair {
+  std::uint32_t first = 0, second = 0;
+};
+
+/// Which pairs are drawn, and how finely their relations are told apart.
+struct PairRule {
+  float shortest = 1.0F, longest = 8.0F;  ///< m
+  float length_cell = 0.2F;               ///< m
+  bool both_sides = false;                ///< Normals may point to either side of a surface.
+};
+
+/// The relation of a pair: its length, the angles of both normals to the line between, and the twist between
+/// the normals about that line (Drost et al. 2010 have the same features but the twist's sign). Cells of 10
+/// degrees.
+class PairRelation {
+ public:
+  /// None for a pair that fixes no pose: normals nearly parallel to each other, or to the line between. May
+  /// swap the two.
+  static std::optional<PairRelation> of(const Surfels& surfels, SurfelPair& pair, const PairRule& rule);
+
+  /// A number that equal relations share.
+  [[nodiscard]] std::uint64_t key() const { return key_; }
+
+ private:
+  std::uint64_t key_ = 0;
+};
+
+/// Draws pairs of surfels by their weights.
+class PairSampler {
+ public:
+  PairSampler(const Surfels& surfels, const PairRule& rule);
+  /// A pair, and its relation; none if this draw gave no pair to use.
+  [[nodiscard]] std::optional<std::pair<SurfelPair, PairRelation>> draw(Rng& rng) const;
+
+ private:
+  const Surfels* surfels_;
+  PairRule rule_;
+  std::vector<std::uint32_t> by_weight_;  ///< Each surfel as often as its weight says.
+};
+
+/// Drawn pairs of a cloud by their relation.
+class PairTable {
+ public:
+  PairTable(const Surfels& surfels, const PairRule& rule, std::size_t pairs, Rng rng);
+  /// Pairs whose relation is perhaps the same.
+  [[nodiscard]] std::span<const SurfelPair> find(const PairRelation& relation) const;
+
+ private:
+  [[nodiscard]] std::size_t bucket_of(const PairRelation& relation) const;
+
+  int bucket_bits_;
+  std::vector<std::uint32_t> starts_;  ///< Where each bucket begins in pairs_; one more at the end.
+  std::vector<SurfelPair> pairs_;
+};
+
+/// The motion that brings one pair onto another of the same relation.
+[[nodiscard]] RigidMotion motion_between(const Surfels& source, const SurfelPair& a, const Surfels& target,
+                                         const SurfelPair& b, bool both_sides);
+
+}  // namespace glocal

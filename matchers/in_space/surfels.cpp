@@ -1,0 +1,150 @@
+#include "matchers/in_space/surfels.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "matchers/in_space/rigid_motion.hpp"
+#include "matchers/in_space/voxel_table.hpp"
+
+namespace glocal {
+namespace {
+
+/// Voxels with points, and the mean of each.
+struct FilledVoxels {
+  VoxelTable numbers;
+  Points means;
+};
+
+FilledVoxels filled_voxels(const Points& cloud, float side, int margin) {
+  FilledVoxels filled{VoxelTable(cloud, side, margin), {}};
+  std::vector<float> counts;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::uint32_t& number = filled.numbers.slot(filled.numbers.voxel_of(cloud[i]));
+    if (number == VoxelTable::none) {
+      number = static_cast<std::uint32_t>(counts.size());
+      counts.push_back(0.0F);
+      filled.means.push_back({});
+    }
+    counts[number] += 1.0F;
+    filled.means.x[number] += cloud.x[i];
+    filled.means.y[number] += cloud.y[i];
+    filled.means.z[number] += cloud.z[i];
+  }
+  for (std::size_t k = 0; k < counts.size(); ++k) filled.means.set(k, (1.0F / counts[k]) * filled.means[k]);
+  return filled;
+}
+
+/// Sums over points, relative to one that is near to them.
+struct Moments {
+  float n = 0.0F;
+  float x = 0.0F, y = 0.0F, z = 0.0F;
+  float xx = 0.0F, xy = 0.0F, xz = 0.0F, yy = 0.0F, yz = 0.0F, zz = 0.0F;
+
+  void add(const Point& p) {
+    n += 1.0F;
+    x += p.x;
+    y += p.y;
+    z += p.z;
+    xx += p.x * p.x;
+    xy += p.x * p.y;
+    xz += p.x * p.z;
+    yy += p.y * p.y;
+    yz += p.y * p.z;
+    zz += p.z * p.z;
+  }
+};
+
+/// The normal of points that lie in a plane: thin, and wide in two directions.
+std::optional<Point> plane_normal(const Moments& m) {
+  constexpr float fewest = 5.0F;
+  constexpr float thinnest_width = 0.04F;
+  constexpr float thickest = 0.35F;
+  if (m.n < fewest) return std::nullopt;
+  const float scale = 1.0F / m.n;
+  const auto moment = [&](float product, float a, float b) { return scale * (product - scale * a * b); };
+  Eigen::Matrix3f covariance;
+  covariance << moment(m.xx, m.x, m.x), moment(m.xy, m.x, m.y), moment(m.xz, m.x, m.z),
+      moment(m.xy, m.x, m.y), moment(m.yy, m.y, m.y), moment(m.yz, m.y, m.z), moment(m.xz, m.x, m.z),
+      moment(m.yz, m.y, m.z), moment(m.zz, m.z, m.z);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
+  solver.computeDirect(covariance);
+  const Eigen::Vector3f spread = solver.eigenvalues();
+  if (spread[1] < thinnest_width * spread[2] || spread[0] > thickest * spread[1]) return std::nullopt;
+  const Eigen::Vector3f normal = solver.eigenvectors().col(0);
+  return Point{normal.x(), normal.y(), normal.z()};
+}
+
+/// The normal at a voxel from the means within so many voxels.
+std::optional<Point> normal_within(const FilledVoxels& filled, std::size_t k, float voxels) {
+  const Point p = filled.means[k];
+  const Voxel centre = filled.numbers.voxel_of(p);
+  const auto reach = static_cast<std::int32_t>(std::ceil(voxels));
+  const float radius = voxels * filled.numbers.side();
+  Moments moments;
+  for (std::int32_t z = centre.z - reach; z <= centre.z + reach; ++z) {
+    for (std::int32_t y = centre.y - reach; y <= centre.y + reach; ++y) {
+      for (std::int32_t x = centre.x - reach; x <= centre.x + reach; ++x) {
+        const std::uint32_t neighbour = filled.numbers.at(Voxel{x, y, z});
+        if (neighbour == VoxelTable::none) continue;
+        const Point offset = filled.means[neighbour] - p;
+        if (dot(offset, offset) <= radius * radius) moments.add(offset);
+      }
+    }
+  }
+  return plane_normal(moments);
+}
+
+/// Directions in equal parts of a cube's faces.
+std::size_t direction_bin(const Point& n) {
+  constexpr float parts = 6.0F;
+  const float ax = std::abs(n.x);
+  const float ay = std::abs(n.y);
+  const float az = std::abs(n.z);
+  const auto part = [&](float v, float most) {
+    return static_cast<std::size_t>(std::min((v / most + 1.0F) * 0.5F * parts, parts - 1.0F));
+  };
+  const auto bin = [&](std::size_t face, float u, float v, float most) {
+    return (face * 6 + part(u, most)) * 6 + part(v, most);
+  };
+  if (ax >= ay && ax >= az) return bin(n.x > 0.0F ? 0 : 1, n.y, n.z, ax);
+  if (ay >= az) return bin(n.y > 0.0F ? 2 : 3, n.x, n.z, ay);
+  return bin(n.z > 0.0F ? 4 : 5, n.x, n.y, az);
+}
+
+/// 1 / sqrt(how many share the direction), scaled.
+std::vector<float> balanced_weights(const Points& normals) {
+  std::array<float, 6 * 36> counts{};
+  for (std::size_t i = 0; i < normals.size(); ++i) counts[direction_bin(normals[i])] += 1.0F;
+  std::vector<float> weights(normals.size());
+  float sum = 0.0F;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    weights[i] = 1.0F / std::sqrt(counts[direction_bin(normals[i])]);
+    sum += weights[i];
+  }
+  for (float& weight : weights) weight *= static_cast<float>(normals.size()) / sum;
+  return weights;
+}
+
+}  // namespace
+
+Surfels surfels_of(const Points& cloud, float voxel_size, const std::optional<Point>& seen_from) {
+  constexpr float near = 2.5F;
+  constexpr float far = 5.0F;
+  const FilledVoxels filled = filled_voxels(cloud, voxel_size, 1);
+  Surfels surfels;
+  for (std::size_t k = 0; k < filled.means.size(); ++k) {
+    auto normal = normal_within(filled, k, near);
+    if (!normal) normal = normal_within(filled, k, far);
+    if (!normal) continue;
+    const Point p = filled.means[k];
+    if (seen_from && dot(*normal, *seen_from - p) < 0.0F) normal = -1.0F * *normal;
+    surfels.points.push_back(p);
+    surfels.normals.push_back(*normal);
+  }
+  surfels.weights = balanced_weights(surfels.normals);
+  return surfels;
+}
+
+}  // namespace glocal
