@@ -14,6 +14,7 @@ MapIndexInfo save_index(const Experiment& experiment, const Catalog& catalog, Ma
                         const std::filesystem::path& file, bool replace) {
   StageSetup setup{std::make_shared<const GlobalMap>(std::move(map)), experiment.threads};
   setup.contact_epsilon = contact_epsilon_on(*setup.map, experiment.localizer);
+  setup.motion = experiment.localizer.motion;
   setup.use_saved = false;  // it may be out of date: what is built now is to take its place
   const auto matcher = catalog.matchers.make(experiment.localizer.matcher, setup);
   const auto index = matcher->saved_index();

@@ -28,8 +28,9 @@ MappingAccuracy measure(const Experiment& experiment, const Catalog& catalog, co
   SourceSetup setup;
   setup.warn = [](const std::string& text) { spdlog::warn(text); };
   const Drive drive = load_drive(experiment, catalog, setup);
-  const auto mapper =
-      catalog.local_mappers.make(experiment.localizer.local_mapper, {nullptr, experiment.threads});
+  const StageSetup stage_setup{
+      .map = nullptr, .threads = experiment.threads, .motion = experiment.localizer.motion};
+  const auto mapper = catalog.local_mappers.make(experiment.localizer.local_mapper, stage_setup);
   return measure_mapping(drive, *mapper, windows);
 }
 

@@ -28,7 +28,7 @@ struct Pose2 {
   friend bool operator==(const Pose2&, const Pose2&) = default;
 };
 
-/// No map reaches farther from its origin along x and y, m: planar coordinates on Earth (UTM) do not.
+/// No map reaches farther from its origin along x, y and z, m: planar coordinates on Earth (UTM) do not.
 inline constexpr double farthest_m = 1e7;
 
 /// `a_from_c = a_from_b * b_from_c`.
