@@ -1,7 +1,6 @@
 #include "clustering/moments.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 namespace glocal {
@@ -15,11 +14,6 @@ Sums<Pose> sums_of(std::span<const Item<Pose>> items, const Pose& near) {
 }
 
 }  // namespace
-
-double angle_between(double a, double b) {
-  const double d = std::abs(a - b);
-  return std::min(d, 2.0 * std::numbers::pi - d);
-}
 
 Cluster moments(std::span<const Item<Pose2>> items) {
   const Sums<Pose2> sums = sums_of(items, items.front().pose);

@@ -1,8 +1,10 @@
 // Means and variances of robot poses (eq. 6), in the plane and in space.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -112,7 +114,10 @@ class Sums<Pose3> {
 [[nodiscard]] Cluster moments(std::span<const Item<Pose3>> items);
 
 /// Between headings in [-pi, pi], rad.
-[[nodiscard]] double angle_between(double a, double b);
+[[nodiscard]] inline double angle_between(double a, double b) {
+  const double d = std::abs(a - b);
+  return std::min(d, 2.0 * std::numbers::pi - d);
+}
 
 /// Whether all robot poses are planar.
 [[nodiscard]] bool are_planar(const std::vector<Hypothesis>& hypotheses);
