@@ -36,6 +36,7 @@ void add_map(CLI::App& app, Context& context);
 void add_mapping(CLI::App& app, Context& context);
 void add_new_plugin(CLI::App& app, Context& context);
 void add_reference(CLI::App& app, Context& context);
+void add_register(CLI::App& app, Context& context);
 void add_reliability(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);

@@ -25,6 +25,7 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_summarize(app, context);
   add_compare(app, context);
   add_figures(app, context);
+  add_register(app, context);
   add_reliability(app, context);
   add_report(app, context);
   add_schema(app, context);

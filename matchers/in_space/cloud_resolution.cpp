@@ -32,8 +32,12 @@ int fitting_power(const Points& cloud) {
 }  // namespace
 
 float cloud_resolution(const Points& a, const Points& b) {
-  const int sum = fitting_power(a) + fitting_power(b);
-  return static_cast<float>(std::exp2(static_cast<double>(sum) / (2.0 * per_octave)));
+  const double of_a = fitting_power(a);
+  const double of_b = fitting_power(b);
+  // A map is larger than a scan, and would be too coarse for it.
+  constexpr double most_above_finer = per_octave / 2.0;
+  const double power = std::min((of_a + of_b) / 2.0, std::min(of_a, of_b) + most_above_finer);
+  return static_cast<float>(std::exp2(power / per_octave));
 }
 
 }  // namespace glocal

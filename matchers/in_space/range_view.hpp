@@ -28,6 +28,11 @@ class RangeView {
     return dot(off, off) < radius * radius;
   }
 
+  /// Of the rays in the direction of a point, m; 0 without one.
+  [[nodiscard]] float shortest_range_towards(const Point& p) const {
+    return length(ends_[cell_of(p - origin_)]);
+  }
+
  private:
   static constexpr std::size_t edge = 30;  ///< Cells along an edge of the cube.
 

@@ -23,10 +23,11 @@ PairGeometry geometry_of(const Surfels& surfels, const SurfelPair& pair, bool bo
   const Point a = surfels.points[pair.first];
   const Point b = surfels.points[pair.second];
   const Point d = b - a;
-  PairGeometry g{.middle = 0.5F * (a + b),
-                 .first = surfels.normals[pair.first],
-                 .second = surfels.normals[pair.second],
-                 .length = length(d)};
+  PairGeometry g;
+  g.middle = 0.5F * (a + b);
+  g.first = surfels.normals[pair.first];
+  g.second = surfels.normals[pair.second];
+  g.length = length(d);
   g.line = (1.0F / g.length) * d;
   if (both_sides) {
     if (dot(g.first, g.line) < 0.0F) g.first = -1.0F * g.first;
@@ -119,7 +120,7 @@ std::optional<std::pair<SurfelPair, PairRelation>> PairSampler::draw(Rng& rng) c
 }
 
 PairTable::PairTable(const Surfels& surfels, const PairRule& rule, std::size_t pairs, Rng rng)
-    : bucket_bits_(std::bit_width(pairs)) {
+    : bucket_bits_(static_cast<int>(std::bit_width(pairs))) {
   const PairSampler sampler(surfels, rule);
   std::vector<std::pair<std::uint32_t, SurfelPair>> drawn;
   drawn.reserve(pairs);

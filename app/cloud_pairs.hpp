@@ -1,0 +1,49 @@
+// Lists of pairs of clouds whose poses are known, and how registrations of them turned out.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glocal/points.hpp"
+#include "glocal/pose3.hpp"
+#include "glocal/register_clouds.hpp"
+
+namespace glocal::app {
+
+/// A line of a list.
+struct CloudPair {
+  std::string source, target;  ///< As the list names them.
+  std::filesystem::path source_file, target_file;
+  std::optional<Pose3> target_from_source = {};  ///< The true pose, where the list knows it.
+  std::string kind = "all";                      ///< Its column `class`: "easy", "hard" …
+};
+
+/// The pairs of a CSV file with a line of names: `source` and `target` (paths relative to the file); perhaps
+/// tx ty tz qx qy qz qw, the pose target_from_source (m, unit quaternion), and `class`; other columns are
+/// passed over. Throws ConfigError with all faults.
+[[nodiscard]] std::vector<CloudPair> read_cloud_pairs(const std::filesystem::path& file);
+
+/// A pair, and what came of it.
+struct PairOutcome {
+  CloudPair pair;
+  Registration registration = {};
+  double cpu_s = 0.0;  ///< CPU time without reading files, s.
+  /// Whether the pose found is right; none where the true one is not known.
+  std::optional<bool> is_right = {};
+};
+
+/// Whether a pose is the true one: the middle of the source's points at most `translation` (m) off, its
+/// orientation at most 5 degrees. The middle, as a cloud that is turned about its sensor would move far
+/// points most.
+[[nodiscard]] bool is_right_pose(const Pose3& found, const Pose3& truth, const Points& source,
+                                 double translation);
+
+/// A row for each class and one for all, classes in the order in which they are first met.
+[[nodiscard]] std::string table_of(const std::vector<PairOutcome>& outcomes);
+
+/// An outcome on one line: source, target, target_from_source, verdict, overlap, cpu_s and more.
+[[nodiscard]] std::string json_line(const PairOutcome& outcome);
+
+}  // namespace glocal::app

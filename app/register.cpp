@@ -1,0 +1,179 @@
+// glocal register: where one cloud lies in another.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cloud_pairs.hpp"
+#include "app/commands.hpp"
+#include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/pcd.hpp"
+#include "glocal/error.hpp"
+#include "glocal/register_clouds.hpp"
+#include "sources/clouds/cloud_file.hpp"
+
+namespace glocal::app {
+namespace {
+
+struct RegisterOptions {
+  std::string source, target, pairs;
+  std::string out;
+  double voxel_size = 0.0;  ///< m; 0: made from the clouds.
+  double within = 0.0;      ///< m; 0: 1.5 voxels.
+  double unit = 1.0;
+  double max_size_gb = default_max_size_gb;
+  std::uint64_t seed = 42;
+  bool json = false;
+  bool force = false;
+};
+
+Cloud read(const std::filesystem::path& file, const RegisterOptions& options) {
+  Cloud cloud = read_cloud(file, {options.unit, options.max_size_gb});
+  for (const std::string& remark : cloud_remarks(cloud)) spdlog::warn("{}: {}", file.string(), remark);
+  return cloud;
+}
+
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+Point place_of(const Pose3& viewpoint) {
+  return {static_cast<float>(viewpoint.x), static_cast<float>(viewpoint.y), static_cast<float>(viewpoint.z)};
+}
+
+PairOutcome outcome_of(CloudPair pair, const Cloud& source, const Cloud& target,
+                       const RegisterOptions& options) {
+  RegistrationOptions registration;
+  if (options.voxel_size > 0.0) registration.voxel_size = options.voxel_size;
+  registration.source_seen_from = place_of(source.viewpoint);
+  registration.target_seen_from = place_of(target.viewpoint);
+  registration.seed = options.seed;
+  PairOutcome outcome{.pair = std::move(pair)};
+  const double begin = cpu_seconds();
+  outcome.registration = register_clouds(source.points, target.points, registration);
+  outcome.cpu_s = cpu_seconds() - begin;
+  if (outcome.pair.target_from_source) {
+    constexpr double voxels = 1.5;
+    const Registration& r = outcome.registration;
+    outcome.is_right = r.target_from_source &&
+                       is_right_pose(*r.target_from_source, *outcome.pair.target_from_source, source.points,
+                                     options.within > 0.0 ? options.within : voxels * r.voxel_size);
+  }
+  return outcome;
+}
+
+std::string text_of(const PairOutcome& outcome) {
+  const Registration& r = outcome.registration;
+  std::string text = fmt::format("{}: {}\n", r.is_match ? "match" : "no match", r.why);
+  if (!r.target_from_source) return text;
+  const Pose3& pose = *r.target_from_source;
+  const std::array<double, 9> m = matrix_of(pose.rotation);
+  const Quaternion& q = pose.rotation;
+  text += r.is_match ? "target_from_source:\n" : "target_from_source, not to be trusted:\n";
+  const std::array translation = {pose.x, pose.y, pose.z};
+  for (std::size_t row = 0; row < 3; ++row) {
+    text += fmt::format("  {:10.6f} {:10.6f} {:10.6f} {:12.4f}\n", m[3 * row], m[3 * row + 1], m[3 * row + 2],
+                        translation[row]);
+  }
+  text += fmt::format("  {:10.6f} {:10.6f} {:10.6f} {:12.4f}\n", 0.0, 0.0, 0.0, 1.0);
+  text += fmt::format("quaternion x y z w  {:.6f} {:.6f} {:.6f} {:.6f}\n", q.x, q.y, q.z, q.w);
+  text += fmt::format("turned by           {:.2f} deg\n", degrees(angle_of(q)));
+  text += fmt::format("overlap             {:.0f} %\n", 100.0 * r.overlap);
+  text += fmt::format("RMSE of inliers     {:.3f} m\n", r.rmse);
+  text += fmt::format(
+      "voxels              {:.2f} m, {}\n", r.voxel_size,
+      r.sensors_known ? "clouds of one sensor's place each" : "clouds of unknown sensors' places");
+  text += fmt::format("CPU time            {:.3f} s\n", outcome.cpu_s);
+  return text;
+}
+
+/// The target's points, then the source's in the target's frame.
+Points joined(const Points& source, const Points& target, const Pose3& target_from_source) {
+  Points all = target;
+  all.reserve(target.size() + source.size());
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const Vector3 p = target_from_source * Vector3{source.x[i], source.y[i], source.z[i]};
+    all.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
+  return all;
+}
+
+void register_pair(const RegisterOptions& options) {
+  const Cloud source = read(options.source, options);
+  const Cloud target = read(options.target, options);
+  AtomicFiles files(options.force);
+  // Before any work is done for it.
+  if (!options.out.empty() && !options.force && std::filesystem::exists(options.out))
+    throw ConfigError({{options.out, 0, 0, "there is a file already; give another name, or --force"}});
+  const PairOutcome outcome =
+      outcome_of({options.source, options.target, options.source, options.target}, source, target, options);
+  fmt::print("{}", options.json ? json_line(outcome) : text_of(outcome));
+  if (options.out.empty()) return;
+  if (!outcome.registration.is_match) {
+    spdlog::warn("{} is not written: there is no match", options.out);
+    return;
+  }
+  files.add(options.out, pcd(joined(source.points, target.points, *outcome.registration.target_from_source)));
+  files.commit();
+}
+
+void register_pairs(const RegisterOptions& options) {
+  std::vector<PairOutcome> outcomes;
+  for (const CloudPair& pair : read_cloud_pairs(options.pairs)) {
+    outcomes.push_back(
+        outcome_of(pair, read(pair.source_file, options), read(pair.target_file, options), options));
+    if (options.json) fmt::print("{}", json_line(outcomes.back()));
+  }
+  if (!options.json) fmt::print("{}", table_of(outcomes));
+}
+
+void run(const RegisterOptions& options) {
+  if (!options.pairs.empty()) {
+    if (!options.source.empty() || !options.out.empty())
+      throw ConfigError(
+          {{"--pairs", 0, 0, "names the clouds by itself; leave out SOURCE, TARGET and --out"}});
+    register_pairs(options);
+  } else if (options.source.empty() || options.target.empty()) {
+    throw ConfigError({{"register", 0, 0, "needs two clouds, SOURCE and TARGET, or --pairs FILE.csv"}});
+  } else {
+    register_pair(options);
+  }
+}
+
+}  // namespace
+
+void add_register(CLI::App& app, Context& /*context*/) {
+  auto options = std::make_shared<RegisterOptions>();
+  CLI::App* command =
+      app.add_subcommand("register", "Find the pose of one cloud in another, without any guess.");
+  command->add_option("SOURCE", options->source, "Cloud: PCD, PLY or KITTI's .bin");
+  command->add_option("TARGET", options->target, "Cloud in whose frame the source is sought");
+  command->add_option("-o,--out", options->out, "PCD file for both clouds, joined in the target's frame");
+  command->add_option("--pairs", options->pairs,
+                      "CSV file of pairs (source,target,tx,ty,tz,qx,qy,qz,qw,class): a table by class");
+  command
+      ->add_option("--voxel-size", options->voxel_size,
+                   "Side of voxels, m (made from the clouds unless given)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--within", options->within,
+                   "Up to what error a pair's pose is right, m (1.5 voxels unless given)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--unit", options->unit, "Length of the files' unit, m")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--max-size-gb", options->max_size_gb, "Most that a cloud may take, unpacked, GB")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Fixes all random numbers")->capture_default_str();
+  command->add_flag("--json", options->json, "One line of JSON a pair");
+  command->add_flag("--force", options->force, "Replace the file that --out names");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace glocal::app

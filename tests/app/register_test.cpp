@@ -1,0 +1,125 @@
+// glocal register.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/program.hpp"
+#include "evaluation/results/pcd.hpp"
+#include "matchers/in_space/scanned_hall.hpp"
+
+namespace glocal::test::register_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const Pose3 here({5.0, 4.5, 1.2}, turn_about_z(0.3));
+const Pose3 there({6.5, 3.0, 1.0}, exponential({0.1, -0.2, 2.0}));
+
+class RegisterCommand : public CommandLine {
+ protected:
+  RegisterCommand() {
+    std::ofstream(file("source.pcd"), std::ios::binary) << pcd(scan_of(hall(), there));
+    std::ofstream(file("target.pcd"), std::ios::binary) << pcd(scan_of(hall(), here));
+  }
+
+  /// "tx,ty,…" of the true pose.
+  [[nodiscard]] static std::string truth() {
+    const Pose3 pose = inverse(here) * there;
+    const Quaternion& q = pose.rotation;
+    std::ostringstream text;
+    text << pose.x << ',' << pose.y << ',' << pose.z << ',' << q.x << ',' << q.y << ',' << q.z << ',' << q.w;
+    return text.str();
+  }
+};
+
+TEST_F(RegisterCommand, SaysThePoseAndJoinsTheClouds) {
+  const Answer answer =
+      run("register " + file("source.pcd") + " " + file("target.pcd") + " -o " + file("both.pcd"));
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, StartsWith("match: score "));
+  EXPECT_THAT(answer.out, HasSubstr("quaternion x y z w"));
+  const Points both = read_pcd(file("both.pcd"));
+  const std::size_t n = scan_of(hall(), here).size();
+  EXPECT_EQ(both.size(), 2 * n);
+  // The source's points lie in the hall, as the target's do.
+  for (std::size_t i = n; i < both.size(); i += 97) {
+    const Vector3 p = here * Vector3{both.x[i], both.y[i], both.z[i]};
+    EXPECT_GT(p.z, -0.1);
+    EXPECT_LT(p.z, 4.1);
+    EXPECT_GT(p.x, -0.1);
+    EXPECT_LT(p.x, 14.1);
+  }
+  const Answer again =
+      run("register " + file("source.pcd") + " " + file("target.pcd") + " -o " + file("both.pcd"));
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("there is a file already"));
+}
+
+TEST_F(RegisterCommand, MakesATableOfPairs) {
+  std::ofstream(file("pairs.csv")) << "source,target,tx,ty,tz,qx,qy,qz,qw,class\nsource.pcd,target.pcd,"
+                                   << truth() << ",easy\nsource.pcd,target.pcd,1,2,3,0,0,0,1,odd\n";
+  const Answer table = run("register --pairs " + file("pairs.csv"));
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_THAT(table.out, HasSubstr("easy              1        1       1          0 of 1          0 of 0"));
+  EXPECT_THAT(table.out, HasSubstr("odd               1        1       0          0 of 0          1 of 1"));
+  EXPECT_THAT(table.out, HasSubstr("all               2        2       1"));
+
+  const Answer lines = run("register --json --pairs " + file("pairs.csv"));
+  std::istringstream in(lines.out);
+  std::string line;
+  std::size_t n = 0;
+  for (; std::getline(in, line); ++n) {
+    const auto json = nlohmann::json::parse(line);
+    EXPECT_EQ(json["source"], "source.pcd");
+    EXPECT_EQ(json["verdict"], "match");
+    EXPECT_EQ(json["target_from_source"]["translation"].size(), 3U);
+    EXPECT_EQ(json["target_from_source"]["quaternion"].size(), 4U);
+    EXPECT_GT(json["overlap"].get<double>(), 0.5);
+    EXPECT_GT(json["cpu_s"].get<double>(), 0.0);
+  }
+  EXPECT_EQ(n, 2U);
+}
+
+TEST_F(RegisterCommand, NamesAllFaultsOfAList) {
+  std::ofstream(file("pairs.csv"))
+      << "source,target,tx,ty,tz,qx,qy,qz,qw\nsource.pcd,none.pcd,1,2,3,0,0,0,1\n"
+      << "source.pcd,target.pcd,1,2,3,0,0,0,2\nsource.pcd\n"
+      << "source.pcd,target.pcd,1,b,3,0,0,0,1\n";
+  const Answer answer = run("register --pairs " + file("pairs.csv"));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("pairs.csv:2: error: no such file: "));
+  EXPECT_THAT(answer.err,
+              HasSubstr("pairs.csv:3: error: the quaternion (qx qy qz qw) has the length 2.0000"));
+  EXPECT_THAT(answer.err, HasSubstr("pairs.csv:4: error: there are 1 values for 9 columns"));
+  EXPECT_THAT(answer.err, HasSubstr("pairs.csv:5: error: ty: 'b' is no number"));
+  EXPECT_EQ(answer.out, "");
+}
+
+TEST_F(RegisterCommand, RefusesWhatItCannotDo) {
+  EXPECT_EQ(run("register " + file("source.pcd")).exit_code, 2);
+  EXPECT_EQ(run("register --pairs " + file("p.csv") + " " + file("source.pcd")).exit_code, 2);
+  std::ofstream(file("p.csv")) << "a,b\n1,2\n";
+  EXPECT_THAT(run("register --pairs " + file("p.csv")).err, HasSubstr("there is no column 'source'"));
+  std::ofstream(file("bad.pcd")) << "VERSION 0.7\nFIELDS x y z\n";
+  EXPECT_EQ(run("register " + file("bad.pcd") + " " + file("source.pcd")).exit_code, 2);
+}
+
+TEST_F(RegisterCommand, IsRightOnRealAndSimulatedPairs) {
+  const char* const datasets = std::getenv("GLOCAL_DATASETS");
+  if (datasets == nullptr) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
+  const Answer lines = run(std::string("register --json --pairs ") + datasets + "/lidar3d/pairs.csv");
+  std::istringstream in(lines.out);
+  std::size_t pairs = 0;
+  std::size_t right = 0;
+  for (std::string line; std::getline(in, line); ++pairs) {
+    if (nlohmann::json::parse(line)["right"].get<bool>()) ++right;
+  }
+  EXPECT_EQ(pairs, 40U);
+  EXPECT_GE(right, 33U);  // the easy ones, 14 of 16 middle and 4 of 9 hard ones
+}
+
+}  // namespace
+}  // namespace glocal::test::register_test
