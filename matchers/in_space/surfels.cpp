@@ -115,7 +115,7 @@ std::size_t direction_bin(const Point& n) {
 
 /// 1 / sqrt(how many share the direction), scaled.
 std::vector<float> balanced_weights(const Points& normals) {
-  std::array<float, 6 * 36> counts{};
+  std::array<float, std::size_t{6} * 36> counts{};
   for (std::size_t i = 0; i < normals.size(); ++i) counts[direction_bin(normals[i])] += 1.0F;
   std::vector<float> weights(normals.size());
   float sum = 0.0F;
