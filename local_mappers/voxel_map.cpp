@@ -73,6 +73,11 @@ void VoxelMap::move_robot(const Pose2& local_from_robot) {
   map_.local_from_robot = local_from_robot;
 }
 
+void VoxelMap::move_robot(const Pose3& local_from_robot) {
+  robot_ = seen_from_above(local_from_robot);
+  map_.local_from_robot = local_from_robot;
+}
+
 void VoxelMap::clear() {
   map_.points.clear();
   map_.normals.clear();
@@ -84,7 +89,7 @@ void VoxelMap::clear() {
 
 void VoxelMap::start_over() {
   clear();
-  move_robot({});
+  move_robot(Pose2{});
   ++map_.epoch;
 }
 
@@ -96,12 +101,18 @@ void VoxelMap::reset() {
 void VoxelMap::add(const LocalScan& scan) {
   for (std::size_t i = 0; i < scan.hits.size(); ++i) {
     const Point p = scan.hits[i];
-    if (grid_.contains(p.x, p.y)) add_hit(p, scan.normals[i]);
+    if (!grid_.contains(p.x, p.y)) continue;
+    if (scan.normals.empty()) {
+      add_hit(p, nullptr);
+    } else {
+      const Point normal = scan.normals[i];
+      add_hit(p, &normal);
+    }
   }
   map_.ends.push_back(map_.points.size());
 }
 
-void VoxelMap::add_hit(const Point& p, const Point& normal) {
+void VoxelMap::add_hit(const Point& p, const Point* normal) {
   const GridCell cell = grid_.cell(p.x, p.y);
   const int found = find_point(cell, p.z);
   if (found != PointGrid::none) {
@@ -123,7 +134,7 @@ int VoxelMap::find_point(GridCell cell, float z) const {
   return i;
 }
 
-void VoxelMap::append_point(GridCell cell, const Point& p, const Point& normal) {
+void VoxelMap::append_point(GridCell cell, const Point& p, const Point* normal) {
   const std::size_t index = map_.points.size();
   if (index >= PointGrid::max_points) return;
   const int first = grid_.inside(cell);
@@ -135,18 +146,18 @@ void VoxelMap::append_point(GridCell cell, const Point& p, const Point& normal) 
     return;
   }
   map_.points.push_back(p);
-  map_.normals.push_back(normal);
+  if (normal != nullptr) map_.normals.push_back(*normal);
   hits_.push_back(1);
   next_above_.push_back(next);
 }
 
-void VoxelMap::average_into(std::size_t index, const Point& p, const Point& normal) {
+void VoxelMap::average_into(std::size_t index, const Point& p, const Point* normal) {
   if (hits_[index] >= params_.cell_hits) return;
   const auto n = static_cast<float>(hits_[index]++);
   const Point mean = map_.points[index];
   const auto average = [n](float a, float b) { return a + (b - a) / (n + 1.0F); };
   map_.points.set(index, {average(mean.x, p.x), average(mean.y, p.y), average(mean.z, p.z)});
-  map_.normals.set(index, average_normal(map_.normals[index], n, normal));
+  if (normal != nullptr) map_.normals.set(index, average_normal(map_.normals[index], n, *normal));
 }
 
 }  // namespace glocal

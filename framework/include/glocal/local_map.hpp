@@ -9,7 +9,8 @@
 
 namespace glocal {
 
-/// Points of all observations so far, in the local frame: the robot's pose when this map was started.
+/// Points of all observations so far, in the local frame: the robot's pose when this map was started,
+/// without its tilt where the motion is upright.
 struct LocalMap {
   Points points;
   Points normals;          ///< Unit normals of `points`, or empty; (0, 0, 0) where a point has none.

@@ -15,7 +15,8 @@ struct Scan {
   Point origin;      ///< The sensor, where all rays begin.
 };
 
-/// One step's input. Odometry counts from an arbitrary start and drifts; only its increments mean something.
+/// One step's input. Odometry counts from an arbitrary start and drifts; only its increments mean something,
+/// and, where the motion is upright, which way is up: along its z axis.
 struct Observation {
   double stamp = 0.0;  ///< s; may stand still or run backwards in real logs, so never divide by differences.
   Scan scan;

@@ -58,9 +58,11 @@ struct MapFile {
 };
 
 /// Joins observations into a local map.
-/// Contract: the first observation of a map is placed at the local frame's origin; an observation without
-/// hits only moves the robot; points keep their order until the epoch changes, though some may go; `ends` do
-/// not fall, nor reach beyond the points; one normal for each point, or none at all.
+/// Contract: the first observation of a map is placed at the local frame's origin, and not turned there;
+/// where the motion is upright, it has the heading 0 and the tilt that odometry has, so that up is up in the
+/// local frame, too; an observation without hits only moves the robot; points keep their order until the
+/// epoch changes, though some may go; `ends` do not fall, nor reach beyond the points; one normal for each
+/// point, or none at all.
 class LocalMapper {
  public:
   virtual ~LocalMapper() = default;
