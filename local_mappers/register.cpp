@@ -2,6 +2,7 @@
 
 #include "local_mappers/bounded.hpp"
 #include "local_mappers/keyframes.hpp"
+#include "local_mappers/lidar_odometry.hpp"
 #include "local_mappers/odometry.hpp"
 #include "local_mappers/scan_matching.hpp"
 
@@ -17,6 +18,9 @@ void register_local_mappers(Catalog& catalog) {
                                        "Scan matching that registers only scans that bring something new.");
   catalog.local_mappers.note_renamed("key_frames", "keyframes");
   catalog.local_mappers.add<Odometry>("odometry", "Scans joined by odometry alone.");
+  catalog.local_mappers.add<LidarOdometry>(
+      "lidar_odometry",
+      "Scans in space, each registered to the surfaces seen before; as KISS-ICP, but to planes.");
 }
 
 }  // namespace glocal

@@ -89,6 +89,7 @@ class Contract : public ::testing::Test {
     for (const char* stage : {"local_mapper/scan_matching",
                               "local_mapper/bounded",
                               "local_mapper/keyframes",
+                              "local_mapper/lidar_odometry",
                               "local_mapper/odometry",
                               "contact_index/bitset",
                               "contact_index/kd_tree",

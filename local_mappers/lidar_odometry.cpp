@@ -1,0 +1,179 @@
+#include "local_mappers/lidar_odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "glocal/voxel_filter.hpp"
+#include "local_mappers/first_pose.hpp"
+
+namespace glocal {
+namespace {
+
+/// The distance of the farthest hit from the sensor, m.
+double farthest_range(const Scan& scan) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < scan.hits.size(); ++i) {
+    const Point p = scan.hits[i];
+    most = std::max(
+        most, norm({double{p.x} - scan.origin.x, double{p.y} - scan.origin.y, double{p.z} - scan.origin.z}));
+  }
+  return most;
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, LidarOdometry::Params& p) {
+  v.field("surfaces", p.surfaces, {.doc = "Points of the map and their normals."});
+  v.field("scan_voxel", p.scan_voxel,
+          {.doc = "Side of the voxels whose hits are replaced by their mean before a scan is registered. The "
+                  "map gets all hits.",
+           .unit = "m",
+           .max = 100.0,
+           .above = 0.001,
+           .audience = Audience::tuner});
+  v.field("prediction", p.prediction,
+          {.doc = "Where the search for the next pose begins: by odometry, or with the last step once more "
+                  "(constant_velocity); either is odometry, but the last step where odometry stands still or "
+                  "there is none.",
+           .choices = {"odometry", "constant_velocity", "either"}});
+  v.field(
+      "initial_threshold", p.initial_threshold,
+      {.doc = "Standard deviation of a hit from where the prediction puts it, before anything is known of "
+              "how good predictions are. It adapts.",
+       .unit = "m",
+       .above = 0.0,
+       .audience = Audience::expert});
+  v.field("min_correction", p.min_correction,
+          {.doc = "Corrections that move no hit farther than this do not count for the threshold.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("max_gate", p.max_gate,
+          {.doc = "A hit matches a point of the map within three standard deviations, and at most this.",
+           .unit = "m",
+           .max = 100.0,
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.field("registration", p.registration,
+          {.doc = "Point-to-plane registration.", .audience = Audience::expert});
+  v.field("min_matches", p.min_matches,
+          {.doc = "With fewer matched hits the prediction is kept.",
+           .min = 6,
+           .max = 100000,
+           .audience = Audience::expert});
+  v.field("min_fit", p.min_fit,
+          {.doc = "An observation fits only if this share of its hits has found a point of the map. One that "
+                  "does not fit moves the robot as predicted and adds no points.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("restart_after", p.restart_after,
+          {.doc = "Observations in a row that do not fit before a new local map is started with the last of "
+                  "them.",
+           .min = 1,
+           .audience = Audience::expert});
+  v.field("scans", p.scans,
+          {.doc = "A point is forgotten that none of the last observations has hit, so many of them; 0 sets "
+                  "no such limit.",
+           .min = 0,
+           .max = 1e6,
+           .audience = Audience::expert});
+  v.field(
+      "distance", p.distance,
+      {.doc = "A point is forgotten that was not hit on the last way of this length; 0 sets no such limit.",
+       .unit = "m",
+       .min = 0.0,
+       .audience = Audience::tuner});
+  v.require(p.scans > 0 || p.distance > 0.0, "scans", "either scans or distance must be above 0");
+}
+
+double AdaptiveThreshold::sigma() const {
+  return std::sqrt(sum_ / corrections_);
+}
+
+void AdaptiveThreshold::note(const Pose3& correction, double range) {
+  const double delta =
+      norm(correction.translation()) + 2.0 * range * std::sin(angle_of(correction.rotation) / 2.0);
+  if (delta <= least_) return;
+  sum_ += delta * delta;
+  corrections_ += 1.0;
+}
+
+LidarOdometry::LidarOdometry(const Params& params, const StageSetup& setup)
+    : params_(params),
+      motion_(setup.motion),
+      map_(params.surfaces),
+      threshold_(params.initial_threshold, params.min_correction) {}
+
+void LidarOdometry::reset() {
+  map_.reset();
+  threshold_ = {params_.initial_threshold, params_.min_correction};
+  odom_from_last_.reset();
+  last_from_robot_ = {};
+  misfits_ = 0;
+  way_ = forgotten_at_ = 0.0;
+  since_forgetting_ = 0;
+}
+
+void LidarOdometry::add(const Observation& observation) {
+  const Scan& scan = observation.scan;
+  const Pose3& odom_from_robot = observation.odom_from_robot;
+  const int misfits_before = misfits_;
+  if (odom_from_last_) {
+    const Pose3 local_from_last = map().local_from_robot;
+    map_.move_robot(match(scan, predicted(odom_from_robot)));
+    last_from_robot_ = inverse(local_from_last) * map().local_from_robot;
+    way_ += norm(last_from_robot_.translation());
+  } else {
+    map_.move_robot(first_pose(odom_from_robot, motion_));
+  }
+  odom_from_last_ = odom_from_robot;
+  if (misfits_ >= params_.restart_after ||
+      norm(map().local_from_robot.translation()) > SurfaceMap::reach / 2) {
+    map_.start_over();
+    map_.move_robot(first_pose(odom_from_robot, motion_));
+    misfits_ = 0;
+  }
+  const Pose3& local_from_robot = map().local_from_robot;
+  const Vector3 sensor = local_from_robot * Vector3{scan.origin.x, scan.origin.y, scan.origin.z};
+  map_.add(misfits_ > misfits_before ? Points{} : moved(scan.hits, local_from_robot),
+           {static_cast<float>(sensor.x), static_cast<float>(sensor.y), static_cast<float>(sensor.z)}, way_);
+  forget();
+}
+
+Pose3 LidarOdometry::predicted(const Pose3& odom_from_robot) const {
+  const bool by_velocity = params_.prediction == "constant_velocity" ||
+                           (params_.prediction == "either" && odom_from_robot == *odom_from_last_);
+  return map().local_from_robot *
+         (by_velocity ? last_from_robot_ : inverse(*odom_from_last_) * odom_from_robot);
+}
+
+Pose3 LidarOdometry::match(const Scan& scan, const Pose3& prediction) {
+  const Points hits = voxel_downsampled(scan.hits, params_.scan_voxel);
+  if (map().points.empty() || hits.size() < static_cast<std::size_t>(params_.min_matches)) return prediction;
+  const double sigma = threshold_.sigma();
+  const MatchLimits limits{.gate = std::min(3.0 * sigma, params_.max_gate), .kernel = sigma / 3.0};
+  const PlaneRegistration found =
+      register_to_planes(map_, hits, scan.origin, prediction, limits, params_.registration);
+  const bool fits = found.matches >= static_cast<std::size_t>(params_.min_matches) &&
+                    static_cast<double>(found.matches) >= params_.min_fit * static_cast<double>(hits.size());
+  misfits_ = fits ? 0 : misfits_ + 1;
+  if (!fits) return prediction;
+  threshold_.note(inverse(prediction) * found.local_from_robot, farthest_range(scan));
+  return found.local_from_robot;
+}
+
+// Not with each observation, as what is looked up by has to be made anew.
+void LidarOdometry::forget() {
+  constexpr double share = 0.1;
+  const bool has_driven = params_.distance > 0.0 && way_ - forgotten_at_ > share * params_.distance;
+  const bool has_seen = params_.scans > 0 && ++since_forgetting_ > share * params_.scans;
+  if (!has_driven && !has_seen) return;
+  const auto unlimited = std::numeric_limits<std::size_t>::max();
+  map_.forget(params_.scans > 0 ? static_cast<std::size_t>(params_.scans) : unlimited,
+              params_.distance > 0.0 ? way_ - params_.distance : 0.0);
+  forgotten_at_ = way_;
+  since_forgetting_ = 0;
+}
+
+}  // namespace glocal

@@ -1,0 +1,89 @@
+// Scans in space, each registered to the surfaces seen before.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "glocal/catalog.hpp"
+#include "glocal/params.hpp"
+#include "glocal/strategies.hpp"
+#include "local_mappers/plane_registration.hpp"
+#include "local_mappers/surface_map.hpp"
+
+namespace glocal {
+
+/// How far hits may be from where a prediction puts them, learnt from how far predictions were off: sigma is
+/// the root mean square of delta = |t| + 2 r sin(|angle| / 2), the most that a correction has moved a point
+/// at the range r. Corrections below `least` are not counted, so that a robot at rest forgets nothing. After
+/// Vizzo et al., "KISS-ICP: In defense of point-to-point ICP", RA-L 2023, eq. 5 to 8.
+class AdaptiveThreshold {
+ public:
+  /// `start`: sigma before the first correction, which counts as one (m).
+  AdaptiveThreshold(double start, double least) : least_(least), sum_(start * start) {}
+
+  [[nodiscard]] double sigma() const;
+  /// `range`: that of the scan's farthest hit, m.
+  void note(const Pose3& correction, double range);
+
+ private:
+  double least_;
+  double sum_;  ///< Of squares, m^2.
+  double corrections_ = 1.0;
+};
+
+/// Joins scans in space. Each is predicted by odometry, downsampled, and registered point to plane to the map
+/// of the scans before it, of which what was not seen for a while is forgotten. As KISS-ICP does it, but for
+/// the planes and the odometry.
+///
+/// All hits of a scan are taken as of one moment: an observation has no times of single points, so that a
+/// scan that was made in motion is not undistorted.
+///
+/// A scan that fits nowhere moves the robot as predicted, and adds no points. Several in a row start the map
+/// over (the next epoch), as does a robot that goes farther from where the map began than single precision
+/// allows.
+class LidarOdometry final : public LocalMapper {
+ public:
+  static constexpr Motions motions{.planar = false, .upright = true, .free = true};
+  struct Params {
+    SurfaceMapParams surfaces;
+    double scan_voxel = 0.25;
+    std::string prediction = "odometry";
+    double initial_threshold = 0.3;
+    double min_correction = 0.02;
+    double max_gate = 2.0;
+    PlaneRegistrationParams registration;
+    int min_matches = 30;
+    double min_fit = 0.3;
+    int restart_after = 3;
+    int scans = 400;
+    double distance = 30.0;
+  };
+
+  LidarOdometry(const Params& params, const StageSetup& setup);
+
+  void add(const Observation& observation) override;
+  [[nodiscard]] const LocalMap& map() const override { return map_.map(); }
+  void reset() override;
+
+ private:
+  void begin(const Pose3& odom_from_robot);
+  [[nodiscard]] Pose3 predicted(const Pose3& odom_from_robot) const;
+  /// Where the scan fits best, or `prediction` where it says too little. Counts misfits.
+  [[nodiscard]] Pose3 match(const Scan& scan, const Pose3& prediction);
+  void forget();
+
+  Params params_;
+  Motion motion_;
+  SurfaceMap map_;
+  AdaptiveThreshold threshold_;
+  std::optional<Pose3> odom_from_last_;  ///< The robot at the last observation.
+  Pose3 last_from_robot_;                ///< Its last step.
+  int misfits_ = 0;                      ///< Observations in a row that did not fit.
+  double way_ = 0.0;                     ///< Driven so far, m.
+  double forgotten_at_ = 0.0;            ///< Where on the way forget() has looked last, m …
+  int since_forgetting_ = 0;             ///< … and observations since then.
+};
+void describe(ParamVisitor& v, LidarOdometry::Params& p);
+
+}  // namespace glocal

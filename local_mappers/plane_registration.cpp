@@ -1,0 +1,102 @@
+#include "local_mappers/plane_registration.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <optional>
+
+namespace glocal {
+namespace {
+
+constexpr double small_step_m = 1e-4;
+constexpr double small_step_rad = 1e-4;
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// A robust least-squares problem, linearised at a pose. A step moves the robot in the local frame (m) and
+/// turns it about itself, about the axes of the local frame (rad).
+class SpatialNormalEquations {
+ public:
+  explicit SpatialNormalEquations(double kernel) : kernel_squared_(kernel * kernel) {}
+
+  /// One residual (m), the distance along `direction` of a hit that is at `lever` from the robot.
+  void add(double residual, const Eigen::Vector3d& direction, const Eigen::Vector3d& lever, double weight) {
+    const double share = kernel_squared_ / (kernel_squared_ + residual * residual);
+    const double w = weight * share * share;
+    Vector6 derivative;
+    derivative << direction, lever.cross(direction);
+    hessian_.noalias() += w * derivative * derivative.transpose();
+    gradient_.noalias() += w * residual * derivative;
+  }
+
+  [[nodiscard]] Vector6 step(double damping) const {
+    const Matrix6 damped = hessian_ + damping * Matrix6::Identity();
+    return damped.ldlt().solve(-gradient_);
+  }
+
+ private:
+  double kernel_squared_;
+  Matrix6 hessian_ = Matrix6::Zero();
+  Vector6 gradient_ = Vector6::Zero();
+};
+
+Eigen::Vector3d vector_of(const Point& p) {
+  return {p.x, p.y, p.z};
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, PlaneRegistrationParams& p) {
+  v.field("pointwise_weight", p.pointwise_weight,
+          {.doc = "Weight of matches without normals, which count point to point; others have weight 1.",
+           .min = 0.0,
+           .max = 1.0});
+  v.field("max_iterations", p.max_iterations, {.doc = "Gauss-Newton steps.", .min = 1, .max = 1000});
+  v.field("damping", p.damping,
+          {.doc = "Added to the diagonal of the normal equations per match: keeps directions still that no "
+                  "match sees.",
+           .max = 1.0,
+           .above = 0.0});
+}
+
+PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, const Point& sensor,
+                                     const Pose3& start, const MatchLimits& limits,
+                                     const PlaneRegistrationParams& params) {
+  PlaneRegistration result{start, 0};
+  const Points& points = map.map().points;
+  const Points& normals = map.map().normals;
+  for (int iteration = 0; iteration < params.max_iterations; ++iteration) {
+    Pose3& pose = result.local_from_robot;
+    const Points placed = moved(hits, pose);
+    const Vector3 sensor_in_local = pose * Vector3{sensor.x, sensor.y, sensor.z};
+    const Eigen::Vector3d eye(sensor_in_local.x, sensor_in_local.y, sensor_in_local.z);
+    const Eigen::Vector3d robot(pose.x, pose.y, pose.z);
+    SpatialNormalEquations equations(limits.kernel);
+    result.matches = 0;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      const std::optional<std::size_t> found = map.nearest(placed[i], limits.gate);
+      if (!found) continue;
+      const Eigen::Vector3d hit = vector_of(placed[i]);
+      const Eigen::Vector3d offset = hit - vector_of(points[*found]);
+      if (normals[*found] == Point{}) {
+        for (int axis = 0; axis < 3; ++axis)
+          equations.add(offset[axis], Eigen::Vector3d::Unit(axis), hit - robot, params.pointwise_weight);
+      } else {
+        const Eigen::Vector3d normal = vector_of(normals[*found]);
+        if (normal.dot(eye - hit) < 0.0) continue;
+        equations.add(normal.dot(offset), normal, hit - robot, 1.0);
+      }
+      ++result.matches;
+    }
+    if (result.matches == 0) return result;
+    const Vector6 step = equations.step(params.damping * static_cast<double>(result.matches));
+    pose = {{pose.x + step[0], pose.y + step[1], pose.z + step[2]},
+            exponential({step[3], step[4], step[5]}) * pose.rotation};
+    if (step.head<3>().norm() < small_step_m && step.tail<3>().norm() < small_step_rad) break;
+  }
+  return result;
+}
+
+}  // namespace glocal

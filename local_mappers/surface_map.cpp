@@ -1,0 +1,291 @@
+#include "local_mappers/surface_map.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace glocal {
+namespace {
+
+float squared_distance(const Point& a, const Point& b) {
+  const float x = a.x - b.x;
+  const float y = a.y - b.y;
+  const float z = a.z - b.z;
+  return x * x + y * y + z * z;
+}
+
+/// How far a coordinate is from the block `block`, m.
+float gap(float value, std::int32_t block, float side) {
+  const float low = static_cast<float>(block) * side;
+  return std::max({low - value, value - (low + side), 0.0F});
+}
+
+/// Second moments of points, relative to one that is near to them.
+struct SurfaceMoments {
+  double n = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+
+  void add(const Eigen::Vector3d& offset) {
+    n += 1.0;
+    sum += offset;
+    products.noalias() += offset * offset.transpose();
+  }
+  [[nodiscard]] Eigen::Matrix3d covariance() const { return (products - sum * sum.transpose() / n) / n; }
+};
+
+}  // namespace
+
+void describe(ParamVisitor& v, SurfaceMapParams& p) {
+  v.field("resolution", p.resolution,
+          {.doc = "Side of the cubes that hold one point each.",
+           .unit = "m",
+           .max = 10.0,
+           .above = 0.001,
+           .audience = Audience::tuner});
+  v.field("cell_hits", p.cell_hits,
+          {.doc = "The point of a cube is the mean of its first hits, so many of them.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::expert});
+  v.field("normal_radius", p.normal_radius,
+          {.doc = "A point's normal is computed from the points of the map within this distance: a few times "
+                  "what is between neighbouring rings of a scan.",
+           .unit = "m",
+           .max = 100.0,
+           .above = 0.0,
+           .audience = Audience::tuner});
+  v.field("max_roughness", p.max_roughness,
+          {.doc = "Largest ratio of the variances across and along a surface; rougher places have no normal.",
+           .max = 1.0,
+           .above = 0.0,
+           .audience = Audience::expert});
+  v.require(p.normal_radius >= p.resolution, "normal_radius", "must not be below resolution");
+  v.require(p.normal_radius <= 100.0 * p.resolution, "normal_radius", "must be at most 100 times resolution");
+}
+
+std::size_t BlockNumbers::slot_of(const Block& block) const {
+  std::uint64_t hash = 0;
+  for (const std::int32_t index : block)
+    hash = (hash ^ static_cast<std::uint32_t>(index)) * 0x9E3779B97F4A7C15U;
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = (hash >> 32U) & mask;  // The upper bits of a product are the well mixed ones.
+  while (slots_[slot] != none && blocks_[slots_[slot]] != block) slot = (slot + 1) & mask;
+  return slot;
+}
+
+std::uint32_t BlockNumbers::find(const Block& block) const {
+  return slots_[slot_of(block)];
+}
+
+std::uint32_t BlockNumbers::find_or_add(const Block& block) {
+  const std::size_t slot = slot_of(block);
+  if (slots_[slot] != none) return slots_[slot];
+  const auto number = static_cast<std::uint32_t>(blocks_.size());
+  slots_[slot] = number;
+  blocks_.push_back(block);
+  if (2 * blocks_.size() > slots_.size()) {
+    slots_.assign(2 * slots_.size(), none);
+    for (std::uint32_t i = 0; i < blocks_.size(); ++i) slots_[slot_of(blocks_[i])] = i;
+  }
+  return number;
+}
+
+void BlockNumbers::clear() {
+  std::fill(slots_.begin(), slots_.end(), none);
+  blocks_.clear();
+}
+
+SurfaceMap::SurfaceMap(const SurfaceMapParams& params)
+    : params_(params),
+      cells_in_block_(static_cast<std::int32_t>(std::ceil(params.normal_radius / params.resolution - 1e-9))),
+      block_side_(static_cast<float>(cells_in_block_ * params.resolution)) {}
+
+SurfaceMap::Cell SurfaceMap::cell_of(const Point& p) const {
+  const auto cell = [&](float value) {
+    return static_cast<std::int32_t>(std::floor(value / params_.resolution));
+  };
+  return {cell(p.x), cell(p.y), cell(p.z)};
+}
+
+BlockNumbers::Block SurfaceMap::block_of(const Cell& cell) const {
+  const auto block = [&](std::int32_t index) {
+    return (index >= 0 ? index : index - cells_in_block_ + 1) / cells_in_block_;
+  };
+  return {block(cell[0]), block(cell[1]), block(cell[2])};
+}
+
+void SurfaceMap::add(const Points& hits, const Point& sensor, double way) {
+  const auto is_within = [](float value) { return std::abs(value) <= reach; };
+  std::vector<std::size_t> changed;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Point p = hits[i];
+    if (!is_within(p.x) || !is_within(p.y) || !is_within(p.z)) continue;
+    const std::size_t index = add_hit(p);
+    seen_[index].last = observations_;
+    seen_[index].way = way;
+    if (seen_[index].hits < static_cast<std::uint32_t>(params_.cell_hits)) {
+      const auto share = 1.0F / static_cast<float>(++seen_[index].hits);
+      const Point mean = map_.points[index];
+      map_.points.set(index, {mean.x + share * (p.x - mean.x), mean.y + share * (p.y - mean.y),
+                              mean.z + share * (p.z - mean.z)});
+      changed.push_back(index);
+    }
+  }
+  ++observations_;
+  map_.ends.push_back(map_.points.size());
+  update_normals(changed, sensor);
+}
+
+std::size_t SurfaceMap::add_hit(const Point& p) {
+  const Cell cell = cell_of(p);
+  const std::uint32_t number = numbers_.find(block_of(cell));
+  if (number != BlockNumbers::none) {
+    for (const std::uint32_t index : blocks_[number])
+      if (cell_of(map_.points[index]) == cell) return index;
+  }
+  map_.points.push_back(p);
+  map_.normals.push_back({});
+  seen_.emplace_back();
+  index_point(map_.points.size() - 1);
+  return map_.points.size() - 1;
+}
+
+void SurfaceMap::index_point(std::size_t index) {
+  const std::uint32_t number = numbers_.find_or_add(block_of(cell_of(map_.points[index])));
+  if (number == blocks_.size()) blocks_.emplace_back();
+  blocks_[number].push_back(static_cast<std::uint32_t>(index));
+}
+
+void SurfaceMap::rebuild_index() {
+  numbers_.clear();
+  blocks_.clear();
+  for (std::size_t i = 0; i < map_.points.size(); ++i) index_point(i);
+}
+
+void SurfaceMap::forget(std::size_t scans, double way) {
+  const auto is_kept = [&](std::size_t i) {
+    return seen_[i].way >= way && observations_ - seen_[i].last <= scans;
+  };
+  std::size_t kept = 0;
+  std::size_t i = 0;
+  for (std::size_t& end : map_.ends) {
+    for (; i < end; ++i) {
+      if (!is_kept(i)) continue;
+      map_.points.set(kept, map_.points[i]);
+      map_.normals.set(kept, map_.normals[i]);
+      seen_[kept++] = seen_[i];
+    }
+    end = kept;
+  }
+  if (kept == i) return;
+  for (auto* points : {&map_.points, &map_.normals}) {
+    points->x.resize(kept);
+    points->y.resize(kept);
+    points->z.resize(kept);
+  }
+  seen_.resize(kept);
+  const auto first =
+      std::find_if(map_.ends.begin(), map_.ends.end(), [](std::size_t end) { return end > 0; });
+  map_.ends.erase(map_.ends.begin(), first == map_.ends.end() ? first - 1 : first);
+  rebuild_index();
+}
+
+void SurfaceMap::start_over() {
+  const int epoch = map_.epoch + 1;
+  map_ = {};
+  map_.epoch = epoch;
+  seen_.clear();
+  observations_ = 0;
+  rebuild_index();
+}
+
+void SurfaceMap::reset() {
+  start_over();
+  map_.epoch = 0;
+}
+
+std::optional<std::size_t> SurfaceMap::nearest(const Point& p, double within) const {
+  const BlockNumbers::Block centre = block_of(cell_of(p));
+  const auto blocks = static_cast<std::int32_t>(std::ceil(within / block_side_));
+  auto least = static_cast<float>(within * within);
+  std::optional<std::size_t> found;
+  const auto look_into = [&](const BlockNumbers::Block& block) {
+    const std::uint32_t number = numbers_.find(block);
+    if (number == BlockNumbers::none) return;
+    for (const std::uint32_t index : blocks_[number]) {
+      const float squared = squared_distance(map_.points[index], p);
+      if (squared < least || (squared == least && (!found || index < *found))) {
+        least = squared;
+        found = index;
+      }
+    }
+  };
+  look_into(centre);  // First, as little is left to look at afterwards.
+  for (std::int32_t x = centre[0] - blocks; x <= centre[0] + blocks; ++x) {
+    const float dx = gap(p.x, x, block_side_);
+    if (dx * dx > least) continue;
+    for (std::int32_t y = centre[1] - blocks; y <= centre[1] + blocks; ++y) {
+      const float dy = gap(p.y, y, block_side_);
+      if (dx * dx + dy * dy > least) continue;
+      for (std::int32_t z = centre[2] - blocks; z <= centre[2] + blocks; ++z) {
+        const float dz = gap(p.z, z, block_side_);
+        const BlockNumbers::Block block{x, y, z};
+        if (dx * dx + dy * dy + dz * dz <= least && block != centre) look_into(block);
+      }
+    }
+  }
+  return found;
+}
+
+void SurfaceMap::update_normals(const std::vector<std::size_t>& points, const Point& sensor) {
+  // Of all points in these blocks: their neighbours have changed.
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(points.size());
+  for (const std::size_t i : points) numbers.push_back(numbers_.find(block_of(cell_of(map_.points[i]))));
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  for (const std::uint32_t number : numbers) {
+    for (const std::uint32_t i : blocks_[number]) {
+      const Point before = map_.normals[i];
+      const Point p = map_.points[i];
+      const bool had_one = before != Point{};
+      const Point towards = had_one ? before : Point{sensor.x - p.x, sensor.y - p.y, sensor.z - p.z};
+      const Point n = normal_at(i);
+      const bool is_turned = n.x * towards.x + n.y * towards.y + n.z * towards.z < 0.0F;
+      map_.normals.set(i, is_turned ? Point{-n.x, -n.y, -n.z} : n);
+    }
+  }
+}
+
+Point SurfaceMap::normal_at(std::size_t index) const {
+  constexpr double fewest = 6.0;
+  // Points of a single ring are on a line: that says little.
+  constexpr double thinnest = 0.05;
+  const Point p = map_.points[index];
+  const auto radius_squared = static_cast<float>(params_.normal_radius * params_.normal_radius);
+  const BlockNumbers::Block centre = block_of(cell_of(p));
+  SurfaceMoments moments;
+  for (std::int32_t x = centre[0] - 1; x <= centre[0] + 1; ++x) {
+    for (std::int32_t y = centre[1] - 1; y <= centre[1] + 1; ++y) {
+      for (std::int32_t z = centre[2] - 1; z <= centre[2] + 1; ++z) {
+        const std::uint32_t number = numbers_.find({x, y, z});
+        if (number == BlockNumbers::none) continue;
+        for (const std::uint32_t i : blocks_[number]) {
+          const Point q = map_.points[i];
+          if (squared_distance(p, q) > radius_squared) continue;
+          moments.add({double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z});
+        }
+      }
+    }
+  }
+  if (moments.n < fewest) return {};
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(moments.covariance());
+  const Eigen::Vector3d spread = solver.eigenvalues();
+  if (spread[1] < thinnest * spread[2] || spread[0] > params_.max_roughness * spread[1]) return {};
+  const Eigen::Vector3f normal = solver.eigenvectors().col(0).normalized().cast<float>();
+  return {normal.x(), normal.y(), normal.z()};
+}
+
+}  // namespace glocal

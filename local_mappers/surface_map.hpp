@@ -1,0 +1,96 @@
+// Points of a local map in space, with the directions of the surfaces they lie on.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "glocal/local_map.hpp"
+#include "glocal/params.hpp"
+#include "glocal/points.hpp"
+
+namespace glocal {
+
+struct SurfaceMapParams {
+  double resolution = 0.15;
+  int cell_hits = 20;
+  double normal_radius = 0.6;
+  double max_roughness = 0.2;
+};
+void describe(ParamVisitor& v, SurfaceMapParams& p);
+
+/// Cubes of space with a number each, by an open-addressed hash table.
+class BlockNumbers {
+ public:
+  using Block = std::array<std::int32_t, 3>;
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  [[nodiscard]] std::uint32_t find(const Block& block) const;
+  /// Numbers count from 0.
+  [[nodiscard]] std::uint32_t find_or_add(const Block& block);
+  void clear();
+
+ private:
+  [[nodiscard]] std::size_t slot_of(const Block& block) const;
+
+  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(1024, none);
+  std::vector<Block> blocks_;
+};
+
+/// A local map downsampled to cubes of `resolution`; a cube's point is the mean of its first `cell_hits`
+/// hits. A normal is the direction in which the points within `normal_radius` spread least, where they lie in
+/// a plane; it is turned to where the point was seen from. Points are looked up in blocks with the side
+/// normal_radius.
+class SurfaceMap {
+ public:
+  /// Hits farther than this from the origin of the local frame (m) are left out: single precision ends there.
+  static constexpr double reach = 4000.0;
+
+  explicit SurfaceMap(const SurfaceMapParams& params);
+
+  [[nodiscard]] const LocalMap& map() const { return map_; }
+  void move_robot(const Pose3& local_from_robot) { map_.local_from_robot = local_from_robot; }
+  /// Registers the next observation's hits (local frame; perhaps none), seen from `sensor`. `way`: driven
+  /// up to here, m.
+  void add(const Points& hits, const Point& sensor, double way);
+  /// Drops the points that were last hit by one but the last `scans` observations, or before `way`. Their
+  /// order stays. Observations of which nothing is left are forgotten, from the oldest on.
+  void forget(std::size_t scans, double way);
+  /// Begins the next epoch, without points.
+  void start_over();
+  /// Begins the first one.
+  void reset();
+
+  /// The nearest point within a distance (m); the earlier of two equally near ones.
+  [[nodiscard]] std::optional<std::size_t> nearest(const Point& p, double within) const;
+
+ private:
+  struct Seen {
+    std::uint32_t hits = 0;
+    std::size_t last = 0;  ///< Observation, counted from the beginning of the map.
+    double way = 0.0;      ///< m
+  };
+  using Cell = std::array<std::int32_t, 3>;
+
+  [[nodiscard]] Cell cell_of(const Point& p) const;
+  [[nodiscard]] BlockNumbers::Block block_of(const Cell& cell) const;
+  /// The point that has the hit's cell now.
+  std::size_t add_hit(const Point& p);
+  void index_point(std::size_t index);
+  void rebuild_index();
+  void update_normals(const std::vector<std::size_t>& points, const Point& sensor);
+  [[nodiscard]] Point normal_at(std::size_t index) const;
+
+  SurfaceMapParams params_;
+  std::int32_t cells_in_block_;
+  float block_side_;
+  LocalMap map_;
+  std::vector<Seen> seen_;
+  BlockNumbers numbers_;
+  std::vector<std::vector<std::uint32_t>> blocks_;  ///< The points of each block, by its number.
+  std::size_t observations_ = 0;
+};
+
+}  // namespace glocal
