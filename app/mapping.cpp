@@ -65,11 +65,16 @@ void mapping(const MappingOptions& options, Context& context) {
   for (const std::string& file : options.files) {
     experiments.push_back(options.experiment.read(file, context));
   }
-  fmt::print(
-      "Error of the local map's robot pose after {} m, starts every {} m; failures ({} m or {} deg) after {} "
-      "m.\n",
-      options.windows.after_m, options.windows.every_m, options.windows.fail_translation,
-      options.windows.fail_rotation_deg, options.windows.fail_after_m);
+  if (options.windows.whole) {
+    fmt::print("Error of the local map's robot pose at the end of the drive.\n");
+  } else {
+    fmt::print(
+        "Error of the local map's robot pose after {} m, starts every {} m; failures ({} m or {} deg) after "
+        "{} "
+        "m.\n",
+        options.windows.after_m, options.windows.every_m, options.windows.fail_translation,
+        options.windows.fail_rotation_deg, options.windows.fail_after_m);
+  }
   fmt::print("{:<16}{:>8}{:>10}{:>10}{:>10}{:>12}{:>8}{:>10}{:>10}\n", "experiment", "windows", "median m",
              "p90 m", "med. deg", "failures", "cells", "median ms", "p95 ms");
   for (const Experiment& experiment : experiments) {
@@ -86,6 +91,8 @@ void add_mapping(CLI::App& app, Context& context) {
   command
       ->add_option("FILE", options->files, "Experiment files (YAML) whose observations have reference poses")
       ->required();
+  command->add_flag("--whole", options->windows.whole,
+                    "One start only, and the error at the end of the drive or where it is interrupted");
   command->add_option("--every", options->windows.every_m, "Way from one start to the next, m")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

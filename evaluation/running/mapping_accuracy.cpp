@@ -1,11 +1,11 @@
 #include "evaluation/running/mapping_accuracy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
 
 #include "glocal/error.hpp"
 
@@ -35,6 +35,14 @@ std::vector<std::size_t> window_starts(const Drive& drive, double every_m) {
   return starts;
 }
 
+/// The last sample of the first segment.
+std::size_t end_of_first_segment(const Drive& drive) {
+  std::size_t last = 0;
+  while (last + 1 < drive.samples.size() && drive.samples[last + 1].segment == drive.samples[0].segment)
+    ++last;
+  return last;
+}
+
 /// Cells that hits have fallen in.
 class CellCounter {
  public:
@@ -43,7 +51,8 @@ class CellCounter {
   void add(const Points& hits, const Pose3& local_from_robot) {
     const Points in_local = moved(hits, local_from_robot);
     for (std::size_t i = 0; i < in_local.size(); ++i)
-      cells_.emplace_back(std::floor(in_local.x[i] / cell_), std::floor(in_local.y[i] / cell_));
+      cells_.push_back({std::floor(in_local.x[i] / cell_), std::floor(in_local.y[i] / cell_),
+                        std::floor(in_local.z[i] / cell_)});
   }
 
   [[nodiscard]] std::size_t count() {
@@ -54,7 +63,7 @@ class CellCounter {
 
  private:
   double cell_;
-  std::vector<std::pair<double, double>> cells_;
+  std::vector<std::array<double, 3>> cells_;
 };
 
 /// Runs the mapper from one start.
@@ -74,7 +83,10 @@ class WindowRun {
       mapper_.add(observation);
       add_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       const LocalMap& map = mapper_.map();
-      if (next_ == first_) epoch_ = map.epoch;
+      if (next_ == first_) {
+        epoch_ = map.epoch;
+        local_from_first_ = map.local_from_robot;
+      }
       cells_.add(observation.scan.hits, map.local_from_robot);
     }
   }
@@ -87,7 +99,7 @@ class WindowRun {
     }
     const Pose3 first_from_last =
         inverse(*drive_.samples[first_].map_from_robot) * *drive_.samples[last].map_from_robot;
-    return pose_error(mapper_.map().local_from_robot, first_from_last);
+    return pose_error(inverse(local_from_first_) * mapper_.map().local_from_robot, first_from_last);
   }
 
   [[nodiscard]] std::size_t occupied_cells() { return cells_.count(); }
@@ -98,6 +110,7 @@ class WindowRun {
   std::size_t first_;
   std::size_t next_;
   int epoch_ = 0;
+  Pose3 local_from_first_;  ///< Where the mapper has put the robot at the start.
   CellCounter cells_;
 };
 
@@ -116,6 +129,12 @@ void require_references(const Drive& drive) {
 MappingAccuracy measure_mapping(const Drive& drive, LocalMapper& mapper, const MappingWindows& windows) {
   require_references(drive);
   MappingAccuracy accuracy;
+  if (windows.whole && !drive.samples.empty()) {
+    WindowRun run(drive, mapper, 0, windows.cell);
+    run.run_to(end_of_first_segment(drive), accuracy.add_ms);
+    accuracy.windows.push_back({0, run.error(), run.occupied_cells(), std::nullopt});
+    return accuracy;
+  }
   for (const std::size_t first : window_starts(drive, windows.every_m)) {
     const auto middle = farther(drive, first, windows.after_m);
     if (!middle) continue;

@@ -14,9 +14,10 @@ namespace glocal {
 /// Where a mapper starts afresh, and when its pose is compared. Distances are metres along
 /// Drive::path_m.
 struct MappingWindows {
-  double every_m = 5.0;            ///< From one start to the next.
-  double after_m = 10.0;           ///< Driven when the error is taken.
-  double fail_after_m = 30.0;      ///< Driven when it is judged whether the map has failed …
+  bool whole = false;          ///< One start, and the error is taken where the drive ends or is interrupted.
+  double every_m = 5.0;        ///< From one start to the next.
+  double after_m = 10.0;       ///< Driven when the error is taken.
+  double fail_after_m = 30.0;  ///< Driven when it is judged whether the map has failed …
   double fail_translation = 0.5;   ///< … by an error over this (m) …
   double fail_rotation_deg = 5.0;  ///< … or this.
   double cell = 0.05;              ///< Side of the cells that hits are counted in, m.
@@ -26,7 +27,7 @@ struct MappingWindows {
 /// error is then all of the way driven, and half a turn.
 struct MappingWindow {
   std::size_t first = 0;  ///< Sample the mapper started at.
-  PoseError error;        ///< After `after_m`.
+  PoseError error;        ///< After `after_m`, or at the end.
   std::size_t occupied_cells =
       0;  ///< Cells hits fell in up to there, placed by the mapper's poses: fewer is sharper.
   std::optional<bool> failed;  ///< None if the drive is interrupted before `fail_after_m`.

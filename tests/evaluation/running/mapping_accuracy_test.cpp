@@ -116,6 +116,48 @@ TEST(MappingAccuracy, NoWindowRunsAcrossAnInterruption) {
   EXPECT_THAT(accuracy.windows, SizeIs(4));
 }
 
+TEST(MappingAccuracy, TakesTheWholeDriveUpToAnInterruption) {
+  Drive drive = straight(81, 1.01);
+  for (std::size_t i = 61; i < 81; ++i) drive.samples[i].segment = 1;
+  OdometryMapper mapper;
+  const MappingAccuracy accuracy = measure_mapping(drive, mapper, {.whole = true});
+  ASSERT_THAT(accuracy.windows, SizeIs(1));
+  EXPECT_NEAR(accuracy.windows[0].error.translation_m, 0.3, 1e-9);
+  EXPECT_EQ(accuracy.windows[0].failed, std::nullopt);
+  EXPECT_THAT(accuracy.add_ms, SizeIs(61));
+}
+
+/// Believes odometry, and keeps its tilt at the start.
+class UprightMapper final : public LocalMapper {
+ public:
+  void add(const Observation& observation) override { map_.local_from_robot = observation.odom_from_robot; }
+  [[nodiscard]] const LocalMap& map() const override { return map_; }
+  void reset() override { map_ = {}; }
+
+ private:
+  LocalMap map_;
+};
+
+TEST(MappingAccuracy, WorksInSpace) {
+  const Pose3 step({0.5, 0.1, 0.2}, exponential({0.01, 0.02, 0.1}));
+  const Pose3 fault({0.0, 0.0, 0.3}, exponential({0.0, 0.1, 0.0}));
+  Drive drive;
+  Pose3 pose({3.0, 4.0, 5.0}, exponential({0.3, 0.2, 0.1}));
+  for (int i = 0; i < 10; ++i) {
+    Sample sample;
+    sample.map_from_robot = pose;
+    sample.observation.odom_from_robot = i < 9 ? pose : pose * fault;
+    drive.samples.push_back(sample);
+    drive.path_m.push_back(i);
+    pose = pose * step;
+  }
+  UprightMapper mapper;
+  const MappingAccuracy accuracy = measure_mapping(drive, mapper, {.whole = true});
+  ASSERT_THAT(accuracy.windows, SizeIs(1));
+  EXPECT_NEAR(accuracy.windows[0].error.translation_m, 0.3, 1e-9);
+  EXPECT_NEAR(accuracy.windows[0].error.rotation_rad, 0.1, 1e-9);
+}
+
 TEST(MappingAccuracy, NeedsReferencePoses) {
   Drive drive = straight(81, 1.0);
   drive.samples[7].map_from_robot.reset();
