@@ -246,38 +246,44 @@ void SurfaceMap::update_normals(const std::vector<std::size_t>& points, const Po
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   for (const std::uint32_t number : numbers) {
+    const Points around = points_around(blocks_[number].front());
     for (const std::uint32_t i : blocks_[number]) {
       const Point before = map_.normals[i];
       const Point p = map_.points[i];
       const bool had_one = before != Point{};
       const Point towards = had_one ? before : Point{sensor.x - p.x, sensor.y - p.y, sensor.z - p.z};
-      const Point n = normal_at(i);
+      const Point n = normal_at(p, around);
       const bool is_turned = n.x * towards.x + n.y * towards.y + n.z * towards.z < 0.0F;
       map_.normals.set(i, is_turned ? Point{-n.x, -n.y, -n.z} : n);
     }
   }
 }
 
-Point SurfaceMap::normal_at(std::size_t index) const {
-  constexpr double fewest = 6.0;
-  // Points of a single ring are on a line: that says little.
-  constexpr double thinnest = 0.05;
-  const Point p = map_.points[index];
-  const auto radius_squared = static_cast<float>(params_.normal_radius * params_.normal_radius);
-  const BlockNumbers::Block centre = block_of(cell_of(p));
-  SurfaceMoments moments;
+Points SurfaceMap::points_around(std::uint32_t index) const {
+  const BlockNumbers::Block centre = block_of(cell_of(map_.points[index]));
+  Points around;
   for (std::int32_t x = centre[0] - 1; x <= centre[0] + 1; ++x) {
     for (std::int32_t y = centre[1] - 1; y <= centre[1] + 1; ++y) {
       for (std::int32_t z = centre[2] - 1; z <= centre[2] + 1; ++z) {
         const std::uint32_t number = numbers_.find({x, y, z});
         if (number == BlockNumbers::none) continue;
-        for (const std::uint32_t i : blocks_[number]) {
-          const Point q = map_.points[i];
-          if (squared_distance(p, q) > radius_squared) continue;
-          moments.add({double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z});
-        }
+        for (const std::uint32_t i : blocks_[number]) around.push_back(map_.points[i]);
       }
     }
+  }
+  return around;
+}
+
+Point SurfaceMap::normal_at(const Point& p, const Points& around) const {
+  constexpr double fewest = 6.0;
+  // Points of a single ring are on a line: that says little.
+  constexpr double thinnest = 0.05;
+  const auto radius_squared = static_cast<float>(params_.normal_radius * params_.normal_radius);
+  SurfaceMoments moments;
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const Point q = around[i];
+    if (squared_distance(p, q) > radius_squared) continue;
+    moments.add({double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z});
   }
   if (moments.n < fewest) return {};
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;

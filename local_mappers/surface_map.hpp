@@ -81,7 +81,9 @@ class SurfaceMap {
   void index_point(std::size_t index);
   void rebuild_index();
   void update_normals(const std::vector<std::size_t>& points, const Point& sensor);
-  [[nodiscard]] Point normal_at(std::size_t index) const;
+  /// All points in the blocks at and around a point's.
+  [[nodiscard]] Points points_around(std::uint32_t index) const;
+  [[nodiscard]] Point normal_at(const Point& p, const Points& around) const;
 
   SurfaceMapParams params_;
   std::int32_t cells_in_block_;
