@@ -16,9 +16,11 @@ struct Equations {
   std::array<float, 21> a{};  ///< Lower triangle.
   std::array<float, 6> b{};
 
-  void add(const Point& arm, const Point& normal, float residual, float weight) {
+  /// `upright`: as if a turn about x or y moved nothing, so that there is none.
+  void add(const Point& arm, const Point& normal, float residual, float weight, bool upright) {
     const Point turn = cross(arm, normal);
-    const std::array<float, 6> j = {turn.x, turn.y, turn.z, normal.x, normal.y, normal.z};
+    const std::array<float, 6> j = {
+        upright ? 0.0F : turn.x, upright ? 0.0F : turn.y, turn.z, normal.x, normal.y, normal.z};
     std::size_t k = 0;
     for (std::size_t row = 0; row < 6; ++row) {
       const float weighted = weight * j[row];
@@ -49,7 +51,7 @@ struct Equations {
 }  // namespace
 
 RigidMotion refined(const RigidMotion& target_from_source, const SurfelSample& sample, std::size_t n,
-                    const SurfelContact& target, int steps) {
+                    const SurfelContact& target, int steps, bool upright) {
   Pose3 pose = target_from_source.pose();
   for (int step = 0; step < steps; ++step) {
     const RigidMotion motion(pose);
@@ -62,7 +64,7 @@ RigidMotion refined(const RigidMotion& target_from_source, const SurfelSample& s
       const float residual = dot(plane.normal, p) - plane.distance;
       const float share = residual / target.reach();
       const float root = 1.0F - share * share;
-      equations.add(p - motion.translation, plane.normal, residual, root * root);
+      equations.add(p - motion.translation, plane.normal, residual, root * root, upright);
     }
     const Vector6 x = equations.solution();
     const Quaternion turn = exponential({x[0], x[1], x[2]});

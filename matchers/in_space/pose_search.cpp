@@ -59,10 +59,18 @@ struct Scene {
   const PreparedCloud& target;
   const PreparedCloud& source;
   SurfelSample target_sample, source_sample;
+  SearchEffort effort;
 };
 
+/// Whether a motion that a pair proposes can be that of clouds which both stand upright: normals are a few
+/// degrees off.
+bool is_about_upright(const RigidMotion& motion) {
+  constexpr float least_cosine = 0.97F;  // 14 degrees
+  return motion.rotation[8] > least_cosine;
+}
+
 /// What pairs of a round propose, seen off by a few surfels.
-std::vector<Proposal> proposals(const Scene& scene, const PairTable& pairs, const PairSampler& sampler,
+std::vector<Proposal> proposals(Scene& scene, const PairTable& pairs, const PairSampler& sampler,
                                 const PairRule& rule, const PoseSearchParams& params, Rng& rng) {
   constexpr std::size_t tries_for_a_pair = 40;
   std::vector<Proposal> result;
@@ -79,7 +87,15 @@ std::vector<Proposal> proposals(const Scene& scene, const PairTable& pairs, cons
       Proposal proposal;
       proposal.motion = motion_between(scene.source.surfels, pair->first, scene.target.surfels,
                                        partners[(first + k) % partners.size()], rule.both_sides);
+      ++scene.effort.proposals;
+      if (params.upright) {
+        if (!is_about_upright(proposal.motion)) continue;
+        const Point middle = 0.5F * (scene.source.surfels.points[pair->first.first] +
+                                     scene.source.surfels.points[pair->first.second]);
+        proposal.motion = made_upright(proposal.motion, middle);
+      }
       const auto look = [&](std::size_t begin, std::size_t end) {
+        scene.effort.points_tested += end - begin;
         return evidence(scene.source_sample, begin, end, proposal.motion, scene.target,
                         weight_before_refinement);
       };
@@ -93,15 +109,17 @@ std::vector<Proposal> proposals(const Scene& scene, const PairTable& pairs, cons
 }
 
 /// Refines proposals a little, and judges them by samples of both clouds.
-void look_closer(std::vector<Proposal>& proposals, const Scene& scene, const PoseSearchParams& params) {
+void look_closer(std::vector<Proposal>& proposals, Scene& scene, const PoseSearchParams& params) {
   constexpr int steps = 2;
   const auto weight = static_cast<float>(params.seen_through_weight);
   for (Proposal& proposal : proposals) {
-    proposal.motion = refined(proposal.motion, scene.source_sample, second_look, scene.target.contact, steps);
+    proposal.motion = refined(proposal.motion, scene.source_sample, second_look, scene.target.contact, steps,
+                              params.upright);
     proposal.score = evidence(scene.source_sample, 0, third_look, proposal.motion, scene.target, weight);
     proposal.score +=
         evidence(scene.target_sample, 0, third_look, inverse(proposal.motion), scene.source, weight);
   }
+  scene.effort.points_tested += proposals.size() * (third_look + scene.target_sample.size());
 }
 
 bool is_same(const RigidMotion& a, const RigidMotion& b, float voxel_size) {
@@ -112,7 +130,33 @@ bool is_same(const RigidMotion& a, const RigidMotion& b, float voxel_size) {
   return dot(d, d) < reach * reach && cosine_between(a, b) > least_cosine;
 }
 
-FoundPose judged(const RigidMotion& motion, const Scene& scene, double seen_through_weight) {
+/// Of the target's surfels that the source's sensor looked at, the share that it looked through: the others
+/// are in contact. What is hidden says nothing, nor does what is far, where rays lie too wide apart.
+double looked_through(const RigidMotion& motion, const PreparedCloud& target, const PreparedCloud& source) {
+  const RigidMotion source_from_target = inverse(motion);
+  const Point sensor = motion(source.view->origin());
+  constexpr float voxels = 60.0F;
+  const float reach = voxels * source.contact.reach();
+  double in_contact = 0.0;
+  double seen_through = 0.0;
+  for (std::size_t i = 0; i < target.surfels.size(); ++i) {
+    const Point surfel = target.surfels.points[i];
+    const Point from_sensor = surfel - sensor;
+    if (dot(from_sensor, from_sensor) > reach * reach) continue;
+    const Point p = source_from_target(surfel);
+    const Point normal = source_from_target.turned(target.surfels.normals[i]);
+    const auto weight = static_cast<double>(target.surfels.weights[i]);
+    if (source.contact.touches(p, normal)) {
+      in_contact += weight;
+    } else if (source.view->saw_through(p, normal, source.contact.reach())) {
+      seen_through += weight;
+    }
+  }
+  const double all = in_contact + seen_through;
+  return all > 0.0 ? seen_through / all : 0.0;
+}
+
+FoundPose judged(const RigidMotion& motion, Scene& scene, double seen_through_weight) {
   FoundPose pose{.target_from_source = motion};
   const Agreement of_source = agreement_of(scene.source.surfels, motion, scene.target);
   pose.contact = of_source.contact;
@@ -121,7 +165,10 @@ FoundPose judged(const RigidMotion& motion, const Scene& scene, double seen_thro
     const Agreement of_target = agreement_of(scene.target.surfels, inverse(motion), scene.source);
     pose.contact = (of_source.contact + of_target.contact) / 2.0;
     pose.seen_through = (of_source.seen_through + of_target.seen_through) / 2.0;
+  } else if (scene.source.view) {
+    pose.seen_through = looked_through(motion, scene.target, scene.source);
   }
+  scene.effort.points_tested += scene.source.surfels.size();
   pose.score = pose.contact - seen_through_weight * pose.seen_through;
   return pose;
 }
@@ -160,17 +207,26 @@ PairRule pair_rule(float voxel_size, bool both_sides) {
           .both_sides = both_sides};
 }
 
-std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng) const {
+std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
+                                        std::span<const RigidMotion> known, SearchEffort* effort) const {
   constexpr std::size_t alike = 4;  // proposals of the same pose that may be among the best
   constexpr int steps = 6;
   std::vector<FoundPose> found;
   if (source.surfels.size() < 2 || target_.surfels.size() < 2) return found;
   const float voxel_size = target_.contact.reach();
-  Scene scene{target_, source, {}, {}};
+  Scene scene{target_, source, {}, {}, {}};
   scene.source_sample = sample_of(source.surfels, whole_sample, rng);
   if (target_.view) scene.target_sample = sample_of(target_.surfels, third_look, rng);
+  const auto settle = [&](const RigidMotion& motion, std::size_t round) {
+    const RigidMotion best =
+        refined(motion, scene.source_sample, whole_sample, target_.contact, steps, params_.upright);
+    add(found, judged(best, scene, params_.seen_through_weight), round, voxel_size);
+  };
+  for (const RigidMotion& motion : known) settle(motion, 0);
+  const std::size_t first_round = known.empty() ? 0 : 1;
   const PairSampler sampler(source.surfels, rule_);
-  for (std::size_t round = 0; round < params_.rounds && !is_beyond_doubt(found); ++round) {
+  for (std::size_t round = first_round; round < first_round + params_.rounds && !is_beyond_doubt(found);
+       ++round) {
     std::vector<Proposal> proposed = proposals(scene, pairs_, sampler, rule_, params_, rng);
     keep_best(proposed, params_.looked_at);
     look_closer(proposed, scene, params_);
@@ -182,12 +238,13 @@ std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng) co
                        [&](const auto& other) { return is_same(other, proposal.motion, voxel_size); }))
         distinct.push_back(proposal.motion);
     }
-    for (const RigidMotion& motion : distinct) {
-      const RigidMotion best = refined(motion, scene.source_sample, whole_sample, target_.contact, steps);
-      add(found, judged(best, scene, params_.seen_through_weight), round, voxel_size);
-    }
+    for (const RigidMotion& motion : distinct) settle(motion, round);
     std::stable_sort(found.begin(), found.end(),
                      [](const FoundPose& a, const FoundPose& b) { return a.score > b.score; });
+  }
+  if (effort != nullptr) {
+    effort->proposals += scene.effort.proposals;
+    effort->points_tested += scene.effort.points_tested;
   }
   return found;
 }

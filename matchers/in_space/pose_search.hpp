@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "glocal/params.hpp"
@@ -11,7 +12,8 @@
 
 namespace glocal {
 
-/// How long is searched. Each round draws pairs, looks up what they may lie on, and narrows the poses down.
+/// What is searched, and how long. Each round draws pairs, looks up what they may lie on, and narrows the
+/// poses down.
 struct PoseSearchParams {
   std::size_t rounds = 4;       ///< At most.
   std::size_t draws = 5000;     ///< Pairs of a round.
@@ -19,15 +21,24 @@ struct PoseSearchParams {
   std::size_t looked_at = 800;  ///< Poses of a round that are refined a little and judged by both sides.
   std::size_t refined = 15;     ///< Distinct poses of a round that are refined and judged by all surfels.
   double seen_through_weight = 5.0;
+  bool upright = false;  ///< Both z axes point up: poses turn about z alone.
 };
 
 /// A pose of the source in the target.
 struct FoundPose {
   RigidMotion target_from_source;
   double contact = 0.0;  ///< Share of surfels in contact, by weight; of both clouds where both have a view.
-  double seen_through = 0.0;  ///< Share that the other's sensor looked through.
-  double score = 0.0;         ///< Contact less the weighted share that was seen through.
-  std::size_t rounds = 1;     ///< In how many rounds it was found.
+  /// Share that the other's sensor looked through. Of a target without a view, which is taken for a map:
+  /// share of what the source's sensor looked through among what it looked at.
+  double seen_through = 0.0;
+  double score = 0.0;      ///< Contact less the weighted share that was seen through.
+  std::size_t rounds = 1;  ///< In how many rounds it was found.
+};
+
+/// What a search has cost.
+struct SearchEffort {
+  std::size_t proposals = 0;      ///< Poses that pairs proposed.
+  std::size_t points_tested = 0;  ///< Single surfels tested for contact.
 };
 
 /// The rule for pairs in voxels of a side (m).
@@ -42,8 +53,11 @@ class PoseSearch {
       : target_(target), pairs_(target_pairs), rule_(rule), params_(params) {}
 
   /// Distinct poses, falling score. Ends after a round that finds the best pose once more, if that leaves no
-  /// doubt.
-  [[nodiscard]] std::vector<FoundPose> find(const PreparedCloud& source, Rng rng) const;
+  /// doubt. Known poses (of the source in the target) are refined and judged beside those found; they count
+  /// as a round. `effort` is added to.
+  [[nodiscard]] std::vector<FoundPose> find(const PreparedCloud& source, Rng rng,
+                                            std::span<const RigidMotion> known = {},
+                                            SearchEffort* effort = nullptr) const;
 
  private:
   const PreparedCloud& target_;

@@ -33,6 +33,8 @@ class RangeView {
     return length(ends_[cell_of(p - origin_)]);
   }
 
+  [[nodiscard]] const Point& origin() const { return origin_; }
+
  private:
   static constexpr std::size_t edge = 30;  ///< Cells along an edge of the cube.
 

@@ -95,7 +95,7 @@ Registration register_clouds(const Points& source, const Points& target, const R
   Rng last = rng.stream({last_refinement});
   const RigidMotion motion =
       refined(found[0].target_from_source, sample_of(from.surfels, from.surfels.size(), last),
-              from.surfels.size(), to.contact, steps);
+              from.surfels.size(), to.contact, steps, false);
   result.target_from_source = motion.pose();
   const Inliers of_source = inliers_of(from.surfels, motion, to.contact);
   const Inliers of_target = inliers_of(to.surfels, inverse(motion), from.contact);

@@ -70,6 +70,20 @@ struct RigidMotion {
   return back;
 }
 
+/// The turn about z, with a shift, that is nearest to a motion and moves one point as it does.
+[[nodiscard]] inline RigidMotion made_upright(const RigidMotion& motion, const Point& moved_alike) {
+  const auto& r = motion.rotation;
+  const float cosine = r[0] + r[4];
+  const float sine = r[3] - r[1];
+  const float scale = 1.0F / std::hypot(cosine, sine);
+  const float c = scale * cosine;
+  const float s = scale * sine;
+  RigidMotion result;
+  result.rotation = {c, -s, 0.0F, s, c, 0.0F, 0.0F, 0.0F, 1.0F};
+  result.translation = motion(moved_alike) - result.turned(moved_alike);
+  return result;
+}
+
 /// The cosine of the angle between two orientations.
 [[nodiscard]] inline float cosine_between(const RigidMotion& a, const RigidMotion& b) {
   float trace = 0.0F;

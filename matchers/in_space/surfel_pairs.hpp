@@ -61,6 +61,10 @@ class PairTable {
   PairTable(const Surfels& surfels, const PairRule& rule, std::size_t pairs, Rng rng);
   /// Pairs whose relation is perhaps the same.
   [[nodiscard]] std::span<const SurfelPair> find(const PairRelation& relation) const;
+  [[nodiscard]] std::size_t size() const { return pairs_.size(); }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return starts_.size() * sizeof(std::uint32_t) + pairs_.size() * sizeof(SurfelPair);
+  }
 
  private:
   [[nodiscard]] std::size_t bucket_of(const PairRelation& relation) const;

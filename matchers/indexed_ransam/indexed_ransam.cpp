@@ -153,9 +153,22 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("exact_search", p.exact_search,
           {.doc = "When an exact search of the whole map, as branch_and_bound makes it, adds its poses.",
            .audience = Audience::expert});
+  v.field(
+      "space", p.space,
+      {.doc = "The search where localizer.motion is not planar: of the fields above, only contact_epsilon, "
+              "best and carried count there.",
+       .audience = Audience::tuner});
   v.require(
       p.exact_search.after_steps == 0 || !p.contact_epsilon || p.exact_search.cell <= *p.contact_epsilon,
       "exact_search", "cell must be at most contact_epsilon");
+}
+
+std::unique_ptr<Matcher> IndexedRansam::make(const Params& params, const StageSetup& setup) {
+  if (setup.motion == Motion::planar) return std::make_unique<IndexedRansam>(params, setup);
+  const SpaceMatcher::Answer answer{.best = static_cast<std::size_t>(params.best),
+                                    .carried = static_cast<std::size_t>(params.carried),
+                                    .contact_epsilon = setup.epsilon(params.contact_epsilon)};
+  return std::make_unique<SpaceMatcher>(params.space, answer, setup);
 }
 
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)

@@ -16,6 +16,7 @@
 #include "matchers/indexed_ransam/exact_search.hpp"
 #include "matchers/indexed_ransam/pose_judge.hpp"
 #include "matchers/indexed_ransam/relation_index.hpp"
+#include "matchers/indexed_ransam/space_matcher.hpp"
 #include "matchers/indexed_ransam/step_candidates.hpp"
 
 namespace glocal {
@@ -28,8 +29,12 @@ namespace glocal {
 /// Hypotheses are the best distinct poses (candidates); their score is contact (Omega, eq. 4) less
 /// `blocked_weight` times the share of blocked beams, plus `unknown_weight` times the share of points in
 /// unknown cells.
+///
+/// This is the search in the plane; make() gives a SpaceMatcher for any other motion.
 class IndexedRansam final : public Matcher {
  public:
+  static constexpr Motions motions = all_motions;
+
   struct Params {
     int iterations = 600;
     int first_iterations = 1500;
@@ -58,7 +63,11 @@ class IndexedRansam final : public Matcher {
     double normal_radius = 0.2;
     FilePath index_file = {};
     ExactSearchRule exact_search = {};
+    SpaceMatcher::Params space = {};
   };
+
+  /// What suits the setup's motion.
+  [[nodiscard]] static std::unique_ptr<Matcher> make(const Params& params, const StageSetup& setup);
 
   /// Throws ConfigError where the map is too large for a contact grid, a distance field or a pyramid, or
   /// index_file is not the index of this map and these parameters.

@@ -1,0 +1,156 @@
+#include "matchers/indexed_ransam/space_matcher.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+/// The side of voxels (m) that suits a map whose points are so far apart (m; 0 if not known).
+double fitting_voxel_size(double resolution) {
+  constexpr double points_apart = 3.0;
+  constexpr double finest = 0.2;
+  return std::max(points_apart * resolution, finest);
+}
+
+/// The local map's surfels, with the view of the latest scan: where a local map of many scans was seen from
+/// is not known.
+PreparedCloud prepared(const LocalMap& local, const Scan& latest, float voxel_size) {
+  PreparedCloud cloud(local.points, voxel_size, std::nullopt, false);
+  if (!latest.hits.empty()) {
+    const RigidMotion local_from_robot(local.local_from_robot);
+    cloud.view.emplace(moved(latest.hits, local.local_from_robot), local_from_robot(latest.origin));
+  }
+  return cloud;
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, SpaceMatcher::Params& p) {
+  v.field("voxel_size", p.voxel_size,
+          {.doc = "Side of the voxels of map and local map that give one surfel each; auto takes three times "
+                  "the map's resolution, and at least 0.2 m.",
+           .unit = "m",
+           .min = 0.01,
+           .audience = Audience::tuner});
+  v.field("pairs", p.pairs,
+          {.doc = "Pairs of surfels in the index of the map (8 bytes each).",
+           .min = 1000,
+           .max = 100e6,
+           .audience = Audience::expert});
+  v.field("first_draws", p.first_draws,
+          {.doc = "Pairs of surfels drawn from the local map in each round of a step when nothing is carried "
+                  "on yet.",
+           .min = 0,
+           .max = 10e6,
+           .audience = Audience::tuner});
+  v.field("draws", p.draws,
+          {.doc = "Pairs of surfels drawn from the local map in each round of any other step.",
+           .min = 0,
+           .max = 10e6,
+           .audience = Audience::tuner});
+  v.field("rounds", p.rounds,
+          {.doc = "Rounds of a step at most: the last one is that which finds the best pose once more, if no "
+                  "other comes near.",
+           .min = 1,
+           .max = 1000,
+           .audience = Audience::expert});
+  v.field("partners", p.partners,
+          {.doc = "Pairs of the map that are tried for each drawn pair.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::expert});
+  v.field("looked_at", p.looked_at,
+          {.doc = "Poses of a round that are refined a little.",
+           .min = 1,
+           .max = 1e6,
+           .audience = Audience::expert});
+  v.field("refined", p.refined,
+          {.doc = "Distinct poses of a round that are refined and judged by all surfels.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::expert});
+  v.field("seen_through_weight", p.seen_through_weight,
+          {.doc = "What the share of the map's surfels that the latest scan looked through, among those it "
+                  "looked at, takes from the score.",
+           .min = 0.0,
+           .max = 100.0,
+           .audience = Audience::tuner});
+}
+
+SpaceIndex::SpaceIndex(const Points& map_points, float voxel_size, std::size_t n)
+    : map(map_points, voxel_size, std::nullopt, false),
+      rule(pair_rule(voxel_size, true)),
+      pairs(map.surfels, rule, n, Rng(1)) {}
+
+SpaceMatcher::SpaceMatcher(const Params& params, const Answer& answer, const StageSetup& setup)
+    : params_(params),
+      answer_(answer),
+      upright_(setup.motion == Motion::upright),
+      voxel_size_(
+          static_cast<float>(params.voxel_size.value_or(fitting_voxel_size(setup.map->resolution())))),
+      contact_(contact_index(*setup.map, "bitset", answer.contact_epsilon)) {
+  const std::string key = fmt::format("{} {}", voxel_size_, params.pairs);
+  index_ = setup.map->index<SpaceIndex>(key, [&] {
+    const auto start = std::chrono::steady_clock::now();
+    SpaceIndex index(setup.map->points(), voxel_size_, static_cast<std::size_t>(params.pairs));
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    index.build_ms = time.count();
+    return index;
+  });
+  if (index_->pairs.size() == 0) {
+    throw ConfigError(
+        {{"", 0, 0,
+          fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: indexed_ransam "
+                      "needs them where the motion is not planar",
+                      voxel_size_)}});
+  }
+}
+
+std::optional<MapIndexInfo> SpaceMatcher::map_index() const {
+  const std::size_t bytes = index_->pairs.memory_bytes() + index_->map.contact.memory_bytes();
+  return MapIndexInfo{index_->pairs.size(), bytes, index_->build_ms};
+}
+
+PoseSearchParams SpaceMatcher::search_params() const {
+  return {.rounds = static_cast<std::size_t>(params_.rounds),
+          .draws = static_cast<std::size_t>(carried_.empty() ? params_.first_draws : params_.draws),
+          .partners = static_cast<std::size_t>(params_.partners),
+          .looked_at = static_cast<std::size_t>(params_.looked_at),
+          .refined = static_cast<std::size_t>(params_.refined),
+          .seen_through_weight = params_.seen_through_weight,
+          .upright = upright_};
+}
+
+MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest, double omega_max,
+                                Rng& rng) {
+  MatchResult result;
+  if (local.points.empty()) return result;
+  if (local.epoch != epoch_) reset();
+  epoch_ = local.epoch;
+  const PoseSearch search(index_->map, index_->pairs, index_->rule, search_params());
+  const PreparedCloud source = prepared(local, latest.scan, voxel_size_);
+  SearchEffort effort;
+  std::vector<FoundPose> found = search.find(source, rng, carried_, &effort);
+  if (found.size() > answer_.best) found.resize(answer_.best);
+  result.proposals = effort.proposals;
+  result.points_tested = effort.points_tested;
+
+  carried_.clear();
+  for (const FoundPose& pose : found) {
+    if (carried_.size() < answer_.carried) carried_.push_back(pose.target_from_source);
+    if (pose.score < omega_max) continue;
+    const Pose3 map_from_local = pose.target_from_source.pose();
+    // Contact indexes move points in the plane only.
+    const double omega = contact_->share(moved(local.points, map_from_local), Transform(Pose2{}));
+    result.points_tested += local.points.size();
+    result.hypotheses.push_back({.map_from_local = map_from_local, .quality = omega, .score = pose.score});
+  }
+  return result;
+}
+
+}  // namespace glocal

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/contact.hpp"
+#include "glocal/params.hpp"
+#include "glocal/strategies.hpp"
+#include "matchers/in_space/pose_search.hpp"
+
+namespace glocal {
+
+/// A map of points made ready for a search in space.
+struct SpaceIndex {
+  SpaceIndex(const Points& map_points, float voxel_size, std::size_t pairs);
+
+  PreparedCloud map;
+  PairRule rule;
+  PairTable pairs;
+  double build_ms = 0.0;
+};
+
+/// Indexed random sample matching in space: pairs of surfels of the local map meet pairs of the map that are
+/// alike. The best distinct poses are refined point to plane, carried to the next step beside fresh ones, and
+/// judged by contact with normals and by what the latest scan looked through.
+///
+/// Hypotheses are the best distinct poses; their score is the share of surfels in contact less
+/// `seen_through_weight` times the share of the map's surfels that the latest scan looked through.
+class SpaceMatcher final : public Matcher {
+ public:
+  struct Params {
+    std::optional<double> voxel_size = {};
+    int pairs = 300000;
+    int first_draws = 5000;
+    int draws = 1500;
+    int rounds = 4;
+    int partners = 8;
+    int looked_at = 800;
+    int refined = 15;
+    double seen_through_weight = 1.0;
+  };
+  /// What it has in common with the search in the plane.
+  struct Answer {
+    std::size_t best = 10;         ///< How many poses become hypotheses.
+    std::size_t carried = 10;      ///< How many of these are carried to the next step.
+    double contact_epsilon = 0.1;  ///< m; for Omega.
+  };
+
+  /// Throws ConfigError where the map is too large, or has hardly any surfaces.
+  SpaceMatcher(const Params& params, const Answer& answer, const StageSetup& setup);
+
+  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
+                                  Rng& rng) override;
+  void reset() override { carried_.clear(); }
+  [[nodiscard]] std::optional<MapIndexInfo> map_index() const override;
+
+ private:
+  [[nodiscard]] PoseSearchParams search_params() const;
+
+  Params params_;
+  Answer answer_;
+  bool upright_;
+  float voxel_size_;
+  std::shared_ptr<const ContactIndex> contact_;
+  std::shared_ptr<const SpaceIndex> index_;
+  std::vector<RigidMotion> carried_;  ///< map_from_local of the last step's best.
+  int epoch_ = 0;                     ///< Of the local map in whose frame they are.
+};
+void describe(ParamVisitor& v, SpaceMatcher::Params& p);
+
+}  // namespace glocal
