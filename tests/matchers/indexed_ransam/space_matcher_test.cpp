@@ -1,0 +1,298 @@
+#include "matchers/indexed_ransam/space_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "files.hpp"
+#include "glocal/error.hpp"
+#include "matchers/indexed_ransam/indexed_ransam.hpp"
+#include "sources/clouds/cloud_drive.hpp"
+#include "sources/clouds/point_cloud_map.hpp"
+
+namespace glocal::space_matcher_test {
+namespace {
+
+/// A box along the axes, m.
+struct Box {
+  std::array<double, 3> least, most;
+};
+
+constexpr Box hall{{0.0, 0.0, 0.0}, {12.0, 8.0, 3.0}};
+constexpr Box cupboard{{5.0, 3.0, 0.0}, {5.5, 5.5, 1.6}};
+const std::vector<Box> furniture = {{{0.0, 6.0, 0.0}, {3.0, 8.0, 1.2}},
+                                    {{8.5, 0.0, 0.0}, {9.0, 3.0, 3.0}},
+                                    {{10.0, 5.0, 0.0}, {11.0, 7.0, 0.8}}};
+
+/// Points of a box's six faces, 0.08 m apart.
+void add_faces(Points& points, const Box& box) {
+  constexpr double apart = 0.08;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t u = (axis + 1) % 3;
+    const std::size_t v = (axis + 2) % 3;
+    for (double a = box.least[u]; a <= box.most[u]; a += apart) {
+      for (double b = box.least[v]; b <= box.most[v]; b += apart) {
+        for (const double side : {box.least[axis], box.most[axis]}) {
+          std::array<double, 3> p{};
+          p[axis] = side;
+          p[u] = a;
+          p[v] = b;
+          points.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+        }
+      }
+    }
+  }
+}
+
+std::shared_ptr<const GlobalMap> map_of(const std::vector<Box>& boxes) {
+  MapData data;
+  data.resolution = 0.05;
+  add_faces(data.points, hall);
+  for (const Box& box : boxes) add_faces(data.points, box);
+  return std::make_shared<const GlobalMap>(std::move(data));
+}
+
+const std::shared_ptr<const GlobalMap>& furnished() {
+  static const auto map = map_of(furniture);
+  return map;
+}
+
+/// Where a ray that starts at `from` enters and leaves a box.
+std::array<double, 2> crossing(const Box& box, const Vector3& from, const Vector3& direction) {
+  const std::array<double, 3> o = {from.x, from.y, from.z};
+  const std::array<double, 3> d = {direction.x, direction.y, direction.z};
+  std::array<double, 2> t = {-std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::infinity()};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double a = (box.least[axis] - o[axis]) / d[axis];
+    const double b = (box.most[axis] - o[axis]) / d[axis];
+    t = {std::max(t[0], std::min(a, b)), std::min(t[1], std::max(a, b))};
+  }
+  return t;
+}
+
+/// A lidar of 16 beams in the furnished hall, ray by ray.
+Points scan_at(const Pose3& map_from_robot) {
+  Points hits;
+  Rng rng(7);
+  for (int ring = 0; ring < 16; ++ring) {
+    for (int step = 0; step < 360; ++step) {
+      const double up = radians(-15.0 + 2.0 * ring);
+      const double turn = radians(step + 0.01);
+      const Vector3 ray{std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up)};
+      const Vector3 in_map = rotated(map_from_robot.rotation, ray);
+      double range = crossing(hall, map_from_robot.translation(), in_map)[1];
+      for (const Box& box : furniture) {
+        const auto [enters, leaves] = crossing(box, map_from_robot.translation(), in_map);
+        if (enters > 0.0 && enters < leaves) range = std::min(range, enters);
+      }
+      const Vector3 hit = (range + rng.normal(0.01)) * ray;
+      hits.push_back({static_cast<float>(hit.x), static_cast<float>(hit.y), static_cast<float>(hit.z)});
+    }
+  }
+  return hits;
+}
+
+/// A scan as it came, and a local map of it, whose frame is that of the robot.
+struct Seen {
+  explicit Seen(const Pose3& map_from_robot) {
+    latest.scan.hits = scan_at(map_from_robot);
+    local.points = latest.scan.hits;
+    local.ends = {local.points.size()};
+  }
+  Observation latest;
+  LocalMap local;
+};
+
+Pose3 somewhere(Rng& rng, bool upright) {
+  const Vector3 place{rng.uniform(1.0, 7.5), rng.uniform(1.0, 5.0), rng.uniform(0.8, 1.5)};
+  const Quaternion turn = turn_about_z(rng.uniform(-3.1, 3.1));
+  if (upright) return {place, turn};
+  return {place, turn * exponential({rng.uniform(-0.6, 0.6), rng.uniform(-0.6, 0.6), 0.0})};
+}
+
+SpaceMatcher matcher(Motion motion, const SpaceMatcher::Params& params = {.pairs = 100000},
+                     const std::shared_ptr<const GlobalMap>& map = furnished()) {
+  return {params, {}, {.map = map, .motion = motion}};
+}
+
+bool is_near(const Pose3& a, const Pose3& b) {
+  return distance(a, b) < 0.1 && rotation_between(a, b) < radians(2.0);
+}
+
+TEST(SpaceMatcher, FindsThePoseOfATiltedSensor) {
+  Rng rng(1);
+  int right = 0;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const Pose3 truth = somewhere(rng, false);
+    const Seen seen(truth);
+    Rng draws(i);
+    const auto found = matcher(Motion::free).match(seen.local, seen.latest, 0.1, draws).hypotheses;
+    ASSERT_FALSE(found.empty());
+    if (is_near(found.front().map_from_local, truth)) ++right;
+  }
+  EXPECT_GE(right, 9);
+}
+
+TEST(SpaceMatcher, UprightPosesTurnAboutZAlone) {
+  Rng rng(2);
+  int right = 0;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const Pose3 truth = somewhere(rng, true);
+    const Seen seen(truth);
+    Rng draws(i);
+    const auto found = matcher(Motion::upright).match(seen.local, seen.latest, 0.0, draws).hypotheses;
+    ASSERT_FALSE(found.empty());
+    for (const Hypothesis& h : found) {
+      EXPECT_EQ(h.map_from_local.rotation.x, 0.0);
+      EXPECT_EQ(h.map_from_local.rotation.y, 0.0);
+    }
+    if (is_near(found.front().map_from_local, truth)) ++right;
+  }
+  EXPECT_GE(right, 9);
+}
+
+// Up to what a contact index may be wrong by.
+TEST(SpaceMatcher, TheQualityIsTheContactOfTheLocalMap) {
+  const Seen seen({{3.0, 2.5, 1.0}, exponential({0.3, 0.2, 1.0})});
+  const KdTreeContact surely(furnished()->points(), 0.8 * 0.1);
+  const KdTreeContact perhaps(furnished()->points(), 1.2 * 0.1);
+  Rng rng(1);
+  const auto found = matcher(Motion::free).match(seen.local, seen.latest, 0.0, rng).hypotheses;
+  ASSERT_FALSE(found.empty());
+  double last = 1.0;
+  for (const Hypothesis& h : found) {
+    const Points in_map = moved(seen.local.points, h.map_from_local);
+    EXPECT_GE(h.quality, surely.share(in_map, Transform(Pose2{})));
+    EXPECT_LE(h.quality, perhaps.share(in_map, Transform(Pose2{})));
+    EXPECT_LE(h.score, last);
+    last = h.score;
+  }
+  EXPECT_GT(found.front().quality, 0.95);
+}
+
+TEST(SpaceMatcher, FindsTheRobotInWhateverFrameTheLocalMapIs) {
+  const Pose3 truth{{6.5, 2.0, 1.2}, exponential({0.1, -0.2, 2.0})};
+  Seen seen(truth);
+  seen.local.local_from_robot = {{4.0, -7.0, 1.0}, exponential({0.5, 0.1, -1.0})};
+  seen.local.points = moved(seen.local.points, seen.local.local_from_robot);
+  Rng rng(3);
+  const auto found = matcher(Motion::free).match(seen.local, seen.latest, 0.1, rng).hypotheses;
+  ASSERT_FALSE(found.empty());
+  EXPECT_TRUE(is_near(found.front().map_from_local * seen.local.local_from_robot, truth));
+}
+
+TEST(SpaceMatcher, WhatTheLatestScanLookedThroughSpeaksAgainstAPose) {
+  // A cupboard of the map that is gone.
+  std::vector<Box> before = furniture;
+  before.push_back(cupboard);
+  const auto outdated = map_of(before);
+  const Pose3 truth{{3.0, 3.5, 1.0}, turn_about_z(0.4)};
+  const Seen seen(truth);
+  const auto loss = [&](const std::shared_ptr<const GlobalMap>& map) {
+    std::array<double, 2> scores{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      Rng rng(1);
+      const Observation latest = i == 0 ? Observation{} : seen.latest;
+      const auto found =
+          matcher(Motion::upright, {.pairs = 100000}, map).match(seen.local, latest, 0.1, rng).hypotheses;
+      EXPECT_TRUE(is_near(found.at(0).map_from_local, truth));
+      scores[i] = found.at(0).score;
+    }
+    return scores[0] - scores[1];
+  };
+  EXPECT_LT(loss(furnished()), 0.02);
+  EXPECT_GT(loss(outdated), 0.05);
+}
+
+TEST(SpaceMatcher, TheBestPosesAreCarriedToTheNextStep) {
+  const Pose3 truth{{3.0, 2.5, 1.0}, turn_about_z(-2.0)};
+  Seen seen(truth);
+  SpaceMatcher carrying = matcher(Motion::upright, {.pairs = 100000, .draws = 0});
+  Rng rng(1);
+  EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
+  const MatchResult second = carrying.match(seen.local, seen.latest, 0.1, rng);
+  EXPECT_EQ(second.proposals, 0U);
+  ASSERT_FALSE(second.hypotheses.empty());
+  EXPECT_TRUE(is_near(second.hypotheses.front().map_from_local, truth));
+  // Poses in another local frame mean nothing, nor do they after a reset.
+  seen.local.epoch = 1;
+  EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
+  carrying.reset();
+  EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
+}
+
+TEST(SpaceMatcher, AnswersAlikeAfterAReset) {
+  const Seen seen({{7.0, 5.0, 1.3}, exponential({1.0, 0.2, 1.0})});
+  SpaceMatcher same = matcher(Motion::free);
+  const auto answer = [&] {
+    same.reset();
+    Rng rng(4);
+    return same.match(seen.local, seen.latest, 0.0, rng);
+  };
+  const MatchResult first = answer();
+  const MatchResult again = answer();
+  ASSERT_EQ(first.hypotheses.size(), again.hypotheses.size());
+  for (std::size_t i = 0; i < first.hypotheses.size(); ++i) {
+    EXPECT_EQ(first.hypotheses[i].map_from_local, again.hypotheses[i].map_from_local);
+    EXPECT_EQ(first.hypotheses[i].score, again.hypotheses[i].score);
+  }
+  EXPECT_EQ(first.proposals, again.proposals);
+  EXPECT_EQ(first.points_tested, again.points_tested);
+}
+
+TEST(SpaceMatcher, FindsNothingForAnEmptyLocalMap) {
+  Rng rng(1);
+  EXPECT_TRUE(matcher(Motion::free).match({}, {}, 0.0, rng).hypotheses.empty());
+}
+
+TEST(SpaceMatcher, IsTheSearchOfEveryMotionButThePlanarOne) {
+  for (const Motion motion : every_motion) {
+    const auto made = IndexedRansam::make({.space = {.pairs = 1000}}, {.map = furnished(), .motion = motion});
+    EXPECT_EQ(dynamic_cast<const IndexedRansam*>(made.get()) != nullptr, motion == Motion::planar);
+    EXPECT_TRUE(made->map_index());
+  }
+}
+
+TEST(SpaceMatcher, AMapWithoutSurfacesIsAnError) {
+  MapData line;
+  for (int i = 0; i < 100; ++i) line.points.push_back({0.1F * static_cast<float>(i), 0.0F, 0.0F});
+  const auto map = std::make_shared<const GlobalMap>(std::move(line));
+  EXPECT_THROW((void)matcher(Motion::free, {}, map), ConfigError);
+}
+
+TEST(SpaceMatcher, FindsScansOfABuilding) {
+  const std::filesystem::path folder = test::dataset("lidar3d/fr_079");
+  if (folder.empty()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
+  const SourceSetup setup;
+  PointCloudMap::Params map_params;
+  map_params.path = test::file_path(folder / "map.pcd");
+  const auto map = std::make_shared<const GlobalMap>(PointCloudMap(map_params, setup).load());
+  CloudDrive::Params scan_params;
+  scan_params.folder = test::file_path(folder / "scans");
+  scan_params.reference = test::file_path(folder / "scans/poses.tum");
+  CloudDrive scans(scan_params, setup);
+  SpaceMatcher in_building = matcher(Motion::free, {}, map);
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const auto sample = scans.next();
+    ASSERT_TRUE(sample && sample->map_from_robot);
+    LocalMap local;
+    local.points = sample->observation.scan.hits;
+    local.ends = {local.points.size()};
+    in_building.reset();
+    Rng rng(i);
+    const auto found = in_building.match(local, sample->observation, 0.1, rng).hypotheses;
+    ASSERT_FALSE(found.empty());
+    EXPECT_LT(distance(found.front().map_from_local, *sample->map_from_robot), 0.3);
+    EXPECT_LT(rotation_between(found.front().map_from_local, *sample->map_from_robot), radians(3.0));
+  }
+}
+
+}  // namespace
+}  // namespace glocal::space_matcher_test
