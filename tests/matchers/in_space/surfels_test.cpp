@@ -115,7 +115,7 @@ TEST(PointToPlane, RefinesAPoseThatIsALittleOff) {
   const Pose3 guess = truth * Pose3({0.08, -0.06, 0.05}, exponential({0.02, -0.03, 0.03}));
   Rng rng(1);
   const SurfelSample sample = sample_of(source.surfels, 500, rng);
-  const Pose3 found = refined(RigidMotion(guess), sample, sample.size(), target.contact, 15).pose();
+  const Pose3 found = refined(RigidMotion(guess), sample, sample.size(), target.contact, 15, false).pose();
   EXPECT_LT(distance(found, truth), 0.02);
   EXPECT_LT(degrees(rotation_between(found, truth)), 0.3);
 }
