@@ -156,7 +156,8 @@ double looked_through(const RigidMotion& motion, const PreparedCloud& target, co
   return all > 0.0 ? seen_through / all : 0.0;
 }
 
-FoundPose judged(const RigidMotion& motion, Scene& scene, double seen_through_weight) {
+FoundPose judged(const RigidMotion& motion, Scene& scene, const PointContact& point_contact,
+                 double seen_through_weight) {
   FoundPose pose{.target_from_source = motion};
   const Agreement of_source = agreement_of(scene.source.surfels, motion, scene.target);
   pose.contact = of_source.contact;
@@ -168,9 +169,37 @@ FoundPose judged(const RigidMotion& motion, Scene& scene, double seen_through_we
   } else if (scene.source.view) {
     pose.seen_through = looked_through(motion, scene.target, scene.source);
   }
+  if (point_contact) pose.contact = (pose.contact + point_contact(motion)) / 2.0;
   scene.effort.points_tested += scene.source.surfels.size();
   pose.score = pose.contact - seen_through_weight * pose.seen_through;
   return pose;
+}
+
+/// A pose refined by a sample of the source, and judged by all of it.
+FoundPose settled(const RigidMotion& motion, const SurfelSample& sample, int steps, Scene& scene,
+                  const PointContact& point_contact, const PoseSearchParams& params) {
+  const RigidMotion best =
+      refined(motion, sample, sample.size(), scene.target.contact, steps, params.upright);
+  return judged(best, scene, point_contact, params.seen_through_weight);
+}
+
+bool has_higher_score(const FoundPose& a, const FoundPose& b) {
+  return a.score > b.score;
+}
+
+/// Refines the best few once more, by a larger sample and to the end.
+void polish(std::vector<FoundPose>& found, Scene& scene, const PointContact& point_contact,
+            const PoseSearchParams& params, Rng& rng) {
+  constexpr std::size_t few = 3;
+  constexpr std::size_t large_sample = 1500;
+  constexpr int steps = 10;
+  const SurfelSample sample = sample_of(scene.source.surfels, large_sample, rng);
+  for (std::size_t i = 0; i < std::min(few, found.size()); ++i) {
+    FoundPose pose = settled(found[i].target_from_source, sample, steps, scene, point_contact, params);
+    pose.rounds = found[i].rounds;
+    if (pose.score > found[i].score) found[i] = pose;
+  }
+  std::stable_sort(found.begin(), found.end(), has_higher_score);
 }
 
 /// Adds a pose, or counts it for the one it is the same as, whose place it takes if it is better.
@@ -187,13 +216,14 @@ void add(std::vector<FoundPose>& found, const FoundPose& pose, std::size_t round
   same->rounds = rounds;
 }
 
-/// The best pose was found more than once, and no other comes near.
+/// The best pose was found again and again, and no other comes near: the more often, the nearer it may come.
 bool is_beyond_doubt(const std::vector<FoundPose>& found) {
   constexpr double least_score = 0.3;
-  constexpr double least_lead = 0.15;
+  constexpr double lead_found_once = 0.4;
   if (found.empty() || found[0].rounds == 1) return false;
   const double next = found.size() > 1 ? found[1].score : 0.0;
-  return found[0].score >= least_score && found[0].score - next >= least_lead;
+  return found[0].score >= least_score &&
+         found[0].score - next >= lead_found_once / static_cast<double>(found[0].rounds);
 }
 
 }  // namespace
@@ -208,7 +238,8 @@ PairRule pair_rule(float voxel_size, bool both_sides) {
 }
 
 std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
-                                        std::span<const RigidMotion> known, SearchEffort* effort) const {
+                                        std::span<const RigidMotion> known, const PointContact& point_contact,
+                                        SearchEffort* effort) const {
   constexpr std::size_t alike = 4;  // proposals of the same pose that may be among the best
   constexpr int steps = 6;
   std::vector<FoundPose> found;
@@ -218,11 +249,10 @@ std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
   scene.source_sample = sample_of(source.surfels, whole_sample, rng);
   if (target_.view) scene.target_sample = sample_of(target_.surfels, third_look, rng);
   const auto settle = [&](const RigidMotion& motion, std::size_t round) {
-    const RigidMotion best =
-        refined(motion, scene.source_sample, whole_sample, target_.contact, steps, params_.upright);
-    add(found, judged(best, scene, params_.seen_through_weight), round, voxel_size);
+    add(found, settled(motion, scene.source_sample, steps, scene, point_contact, params_), round, voxel_size);
   };
   for (const RigidMotion& motion : known) settle(motion, 0);
+  std::stable_sort(found.begin(), found.end(), has_higher_score);
   const std::size_t first_round = known.empty() ? 0 : 1;
   const PairSampler sampler(source.surfels, rule_);
   for (std::size_t round = first_round; round < first_round + params_.rounds && !is_beyond_doubt(found);
@@ -239,9 +269,9 @@ std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
         distinct.push_back(proposal.motion);
     }
     for (const RigidMotion& motion : distinct) settle(motion, round);
-    std::stable_sort(found.begin(), found.end(),
-                     [](const FoundPose& a, const FoundPose& b) { return a.score > b.score; });
+    std::stable_sort(found.begin(), found.end(), has_higher_score);
   }
+  polish(found, scene, point_contact, params_, rng);
   if (effort != nullptr) {
     effort->proposals += scene.effort.proposals;
     effort->points_tested += scene.effort.points_tested;

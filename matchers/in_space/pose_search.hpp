@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -13,13 +14,13 @@
 namespace glocal {
 
 /// What is searched, and how long. Each round draws pairs, looks up what they may lie on, and narrows the
-/// poses down.
+/// poses down. Rounds are short: most searches are beyond doubt after a few.
 struct PoseSearchParams {
-  std::size_t rounds = 4;       ///< At most.
-  std::size_t draws = 5000;     ///< Pairs of a round.
+  std::size_t rounds = 16;      ///< At most.
+  std::size_t draws = 600;      ///< Pairs of a round.
   std::size_t partners = 8;     ///< Pairs of the target tried for each.
-  std::size_t looked_at = 800;  ///< Poses of a round that are refined a little and judged by both sides.
-  std::size_t refined = 15;     ///< Distinct poses of a round that are refined and judged by all surfels.
+  std::size_t looked_at = 400;  ///< Poses of a round that are refined a little and judged by both sides.
+  std::size_t refined = 12;     ///< Distinct poses of a round that are refined and judged by all surfels.
   double seen_through_weight = 5.0;
   bool upright = false;  ///< Both z axes point up: poses turn about z alone.
 };
@@ -27,7 +28,9 @@ struct PoseSearchParams {
 /// A pose of the source in the target.
 struct FoundPose {
   RigidMotion target_from_source;
-  double contact = 0.0;  ///< Share of surfels in contact, by weight; of both clouds where both have a view.
+  /// Share of surfels in contact, by weight; of both clouds where both have a view. Where the search is told
+  /// the contact of points, the mean of that and this.
+  double contact = 0.0;
   /// Share that the other's sensor looked through. Of a target without a view, which is taken for a map:
   /// share of what the source's sensor looked through among what it looked at.
   double seen_through = 0.0;
@@ -40,6 +43,10 @@ struct SearchEffort {
   std::size_t proposals = 0;      ///< Poses that pairs proposed.
   std::size_t points_tested = 0;  ///< Single surfels tested for contact.
 };
+
+/// The share of the source's points in contact with the target, where that is known more finely than by
+/// surfels.
+using PointContact = std::function<double(const RigidMotion& target_from_source)>;
 
 /// The rule for pairs in voxels of a side (m).
 [[nodiscard]] PairRule pair_rule(float voxel_size, bool both_sides);
@@ -57,6 +64,7 @@ class PoseSearch {
   /// as a round. `effort` is added to.
   [[nodiscard]] std::vector<FoundPose> find(const PreparedCloud& source, Rng rng,
                                             std::span<const RigidMotion> known = {},
+                                            const PointContact& point_contact = {},
                                             SearchEffort* effort = nullptr) const;
 
  private:

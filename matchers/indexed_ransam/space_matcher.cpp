@@ -13,14 +13,15 @@ namespace {
 /// The side of voxels (m) that suits a map whose points are so far apart (m; 0 if not known).
 double fitting_voxel_size(double resolution) {
   constexpr double points_apart = 3.0;
-  constexpr double finest = 0.2;
+  constexpr double finest = 0.1;
   return std::max(points_apart * resolution, finest);
 }
 
-/// The local map's surfels, with the view of the latest scan: where a local map of many scans was seen from
-/// is not known.
+/// The local map's surfels, finer than those of the map: a narrow view has few. With the view of the latest
+/// scan: where a local map of many scans was seen from is not known.
 PreparedCloud prepared(const LocalMap& local, const Scan& latest, float voxel_size) {
-  PreparedCloud cloud(local.points, voxel_size, std::nullopt, false);
+  constexpr float finer = 2.0F / 3.0F;
+  PreparedCloud cloud(local.points, finer * voxel_size, std::nullopt, false);
   if (!latest.hits.empty()) {
     const RigidMotion local_from_robot(local.local_from_robot);
     cloud.view.emplace(moved(latest.hits, local.local_from_robot), local_from_robot(latest.origin));
@@ -28,12 +29,21 @@ PreparedCloud prepared(const LocalMap& local, const Scan& latest, float voxel_si
   return cloud;
 }
 
+/// A thousand points or fewer: enough for the share in contact.
+Points evenly_sampled(const Points& points) {
+  constexpr std::size_t most = 1000;
+  const std::size_t step = std::max<std::size_t>(1, points.size() / most);
+  Points sample;
+  for (std::size_t i = 0; i < points.size(); i += step) sample.push_back(points[i]);
+  return sample;
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, SpaceMatcher::Params& p) {
   v.field("voxel_size", p.voxel_size,
           {.doc = "Side of the voxels of map and local map that give one surfel each; auto takes three times "
-                  "the map's resolution, and at least 0.2 m.",
+                  "the map's resolution, and at least 0.1 m.",
            .unit = "m",
            .min = 0.01,
            .audience = Audience::tuner});
@@ -42,22 +52,19 @@ void describe(ParamVisitor& v, SpaceMatcher::Params& p) {
            .min = 1000,
            .max = 100e6,
            .audience = Audience::expert});
-  v.field("first_draws", p.first_draws,
-          {.doc = "Pairs of surfels drawn from the local map in each round of a step when nothing is carried "
-                  "on yet.",
-           .min = 0,
-           .max = 10e6,
-           .audience = Audience::tuner});
-  v.field("draws", p.draws,
-          {.doc = "Pairs of surfels drawn from the local map in each round of any other step.",
-           .min = 0,
-           .max = 10e6,
-           .audience = Audience::tuner});
+  v.field(
+      "first_rounds", p.first_rounds,
+      {.doc = "Rounds of a step at most, when nothing is carried on yet: the last one is that which finds "
+              "the best pose once more, if no other comes near.",
+       .min = 1,
+       .max = 1000,
+       .audience = Audience::tuner});
   v.field("rounds", p.rounds,
-          {.doc = "Rounds of a step at most: the last one is that which finds the best pose once more, if no "
-                  "other comes near.",
+          {.doc = "Rounds of any other step at most.", .min = 0, .max = 1000, .audience = Audience::tuner});
+  v.field("draws", p.draws,
+          {.doc = "Pairs of surfels drawn from the local map in each round.",
            .min = 1,
-           .max = 1000,
+           .max = 10e6,
            .audience = Audience::expert});
   v.field("partners", p.partners,
           {.doc = "Pairs of the map that are tried for each drawn pair.",
@@ -117,8 +124,8 @@ std::optional<MapIndexInfo> SpaceMatcher::map_index() const {
 }
 
 PoseSearchParams SpaceMatcher::search_params() const {
-  return {.rounds = static_cast<std::size_t>(params_.rounds),
-          .draws = static_cast<std::size_t>(carried_.empty() ? params_.first_draws : params_.draws),
+  return {.rounds = static_cast<std::size_t>(carried_.empty() ? params_.first_rounds : params_.rounds),
+          .draws = static_cast<std::size_t>(params_.draws),
           .partners = static_cast<std::size_t>(params_.partners),
           .looked_at = static_cast<std::size_t>(params_.looked_at),
           .refined = static_cast<std::size_t>(params_.refined),
@@ -134,20 +141,27 @@ MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest
   epoch_ = local.epoch;
   const PoseSearch search(index_->map, index_->pairs, index_->rule, search_params());
   const PreparedCloud source = prepared(local, latest.scan, voxel_size_);
+  const Points sample = evenly_sampled(local.points);
+  // Contact indexes move points in the plane only.
+  const auto contact_of = [&](const Points& points, const Pose3& map_from_local) {
+    result.points_tested += points.size();
+    return contact_->share(moved(points, map_from_local), Transform(Pose2{}));
+  };
+  const PointContact contact_of_sample = [&](const RigidMotion& map_from_local) {
+    return contact_of(sample, map_from_local.pose());
+  };
   SearchEffort effort;
-  std::vector<FoundPose> found = search.find(source, rng, carried_, &effort);
+  std::vector<FoundPose> found = search.find(source, rng, carried_, contact_of_sample, &effort);
   if (found.size() > answer_.best) found.resize(answer_.best);
   result.proposals = effort.proposals;
-  result.points_tested = effort.points_tested;
+  result.points_tested += effort.points_tested;
 
   carried_.clear();
   for (const FoundPose& pose : found) {
     if (carried_.size() < answer_.carried) carried_.push_back(pose.target_from_source);
     if (pose.score < omega_max) continue;
     const Pose3 map_from_local = pose.target_from_source.pose();
-    // Contact indexes move points in the plane only.
-    const double omega = contact_->share(moved(local.points, map_from_local), Transform(Pose2{}));
-    result.points_tested += local.points.size();
+    const double omega = contact_of(local.points, map_from_local);
     result.hypotheses.push_back({.map_from_local = map_from_local, .quality = omega, .score = pose.score});
   }
   return result;

@@ -27,19 +27,19 @@ struct SpaceIndex {
 /// alike. The best distinct poses are refined point to plane, carried to the next step beside fresh ones, and
 /// judged by contact with normals and by what the latest scan looked through.
 ///
-/// Hypotheses are the best distinct poses; their score is the share of surfels in contact less
-/// `seen_through_weight` times the share of the map's surfels that the latest scan looked through.
+/// Hypotheses are the best distinct poses; their score is the contact (mean of the share of surfels and of the
+/// share of points) less `seen_through_weight` times the share of the map's surfels that the latest scan looked through.
 class SpaceMatcher final : public Matcher {
  public:
   struct Params {
     std::optional<double> voxel_size = {};
     int pairs = 300000;
-    int first_draws = 5000;
-    int draws = 1500;
+    int first_rounds = 24;
     int rounds = 4;
+    int draws = 600;
     int partners = 8;
-    int looked_at = 800;
-    int refined = 15;
+    int looked_at = 400;
+    int refined = 12;
     double seen_through_weight = 1.0;
   };
   /// What it has in common with the search in the plane.

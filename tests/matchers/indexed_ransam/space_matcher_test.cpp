@@ -214,7 +214,7 @@ TEST(SpaceMatcher, WhatTheLatestScanLookedThroughSpeaksAgainstAPose) {
 TEST(SpaceMatcher, TheBestPosesAreCarriedToTheNextStep) {
   const Pose3 truth{{3.0, 2.5, 1.0}, turn_about_z(-2.0)};
   Seen seen(truth);
-  SpaceMatcher carrying = matcher(Motion::upright, {.pairs = 100000, .draws = 0});
+  SpaceMatcher carrying = matcher(Motion::upright, {.pairs = 100000, .rounds = 0});
   Rng rng(1);
   EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
   const MatchResult second = carrying.match(seen.local, seen.latest, 0.1, rng);
