@@ -48,7 +48,8 @@ void simulate(const SimulateOptions& options, Context& context) {
   const auto drive = catalog.observation_sources.make(experiment.observations, setup)->recording();
   if (!drive) {
     throw ConfigError({{options.experiment.file, 0, 0,
-                        fmt::format("observations: come from {}; only a simulation can be simulated",
+                        fmt::format("observations: come from {}; only a simulation of a planar laser can be "
+                                    "written to files",
                                     experiment.observations.name)}});
   }
   OutputFolder folder(options.out, options.force);

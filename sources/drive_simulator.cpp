@@ -15,8 +15,6 @@ namespace {
 
 constexpr double most_observations = 1e6;
 
-enum Stream : std::uint64_t { laser_stream, odometry_stream, tour_stream };
-
 /// Adds equal steps from the last pose to `target`, none larger than allowed by `size` of the largest.
 void add_steps(std::vector<Pose2>& poses, const Pose2& target, double size) {
   if (static_cast<double>(poses.size()) + size > most_observations) {
@@ -131,12 +129,18 @@ void describe(ParamVisitor& v, DriveParams& p) {
            .unit = "s",
            .min = 0.0,
            .audience = Audience::expert});
-  v.field("laser", p.laser, {.doc = "The range finder."});
+  v.field("laser", p.laser, {.doc = "A planar range finder."});
+  v.field("lidar", p.lidar, {.doc = "A lidar of several beams, in place of the planar range finder."});
   v.field("odometry", p.odometry,
           {.doc = "How badly the robot's own motion is measured.", .audience = Audience::expert});
   v.require(std::is_sorted(p.kidnappings.begin(), p.kidnappings.end(),
                            [](const Kidnapping& a, const Kidnapping& b) { return a.after_m < b.after_m; }),
             "kidnappings", "must be in rising order of after_m");
+  v.require(p.lidar.beams == 0 || p.laser == LaserParams{}, "laser",
+            "must be left out where there is a lidar: a robot has one of the two");
+  v.require(p.lidar.beams > 0 || p.lidar == LidarParams{}, "lidar", "must have beams, 1 or more");
+  v.require(p.lidar.scan_time <= p.step_seconds, "lidar",
+            "scan_time must be at most step_seconds: a scan is over before the next one begins");
 }
 
 Route route_of(const World& world, const DriveParams& params, Rng rng) {
@@ -162,47 +166,66 @@ Route route_of(const World& world, const DriveParams& params, Rng rng) {
   return route;
 }
 
+DrivingRobot::DrivingRobot(const World& world, const DriveParams& params, std::uint64_t seed)
+    : odometry_(params.odometry),
+      step_seconds_(params.step_seconds),
+      rng_(seed),
+      route_(route_of(world, params, rng_.stream({static_cast<std::uint64_t>(DriveStream::tour)}))) {}
+
+std::optional<DriveStep> DrivingRobot::next() {
+  if (step_ == route_.poses.size()) return std::nullopt;
+  DriveStep step;
+  step.number = step_;
+  step.stamp = static_cast<double>(step_) * step_seconds_;
+  step.map_from_robot = route_.poses[step_];
+  const bool is_carried = std::binary_search(route_.carried.begin(), route_.carried.end(), step_);
+  if (step_ > 0 && !is_carried) {
+    step.map_from_last = route_.poses[step_ - 1];
+    odom_from_robot_ = odom_from_robot_ * measured_motion(*step.map_from_last, step.map_from_robot);
+  }
+  step.odom_from_robot = odom_from_robot_;
+  ++step_;
+  return step;
+}
+
+Rng DrivingRobot::stream(DriveStream stream, std::size_t step) const {
+  return rng_.stream({static_cast<std::uint64_t>(stream), step});
+}
+
+Pose2 DrivingRobot::measured_motion(const Pose2& from, const Pose2& to) const {
+  Rng rng = stream(DriveStream::odometry, step_);
+  const Pose2 motion = inverse(from) * to;
+  const double way = std::hypot(motion.x, motion.y);
+  const double scale = 1.0 + odometry_.distance_bias + rng.normal(odometry_.distance_noise);
+  const double turn_scale = 1.0 + odometry_.turn_bias + rng.normal(odometry_.turn_noise);
+  const double yaw_per_m = radians(odometry_.yaw_bias_deg_per_m + rng.normal(odometry_.yaw_noise_deg_per_m));
+  return {scale * motion.x, scale * motion.y, wrap_angle(turn_scale * motion.theta + yaw_per_m * way)};
+}
+
 DriveSimulator::DriveSimulator(const DriveParams& params, std::uint64_t seed)
-    : params_(params),
+    : laser_(params.laser),
       world_(read_world(params.world.resolved)),
       reality_(shapes_in_reality(world_)),
-      rng_(seed),
-      route_(route_of(world_, params, rng_.stream({tour_stream}))) {}
+      robot_(world_, params, seed) {}
 
 std::optional<CarmenScan> DriveSimulator::next() {
-  if (step_ == route_.poses.size()) return std::nullopt;
-  const Pose2& map_from_robot = route_.poses[step_];
-  const bool is_carried = std::binary_search(route_.carried.begin(), route_.carried.end(), step_);
-  if (step_ > 0 && !is_carried)
-    odom_from_robot_ = odom_from_robot_ * measured_motion(route_.poses[step_ - 1], map_from_robot);
-  const double stamp = static_cast<double>(step_) * params_.step_seconds;
-  CarmenScan scan = measure(map_from_robot, stamp);
-  scan.stamp = stamp;
-  scan.odom_from_robot = odom_from_robot_;
-  ++step_;
+  const std::optional<DriveStep> step = robot_.next();
+  if (!step) return std::nullopt;
+  CarmenScan scan = measure(*step);
+  scan.stamp = step->stamp;
+  scan.odom_from_robot = step->odom_from_robot;
   return scan;
 }
 
-CarmenScan DriveSimulator::measure(const Pose2& map_from_robot, double time) const {
+CarmenScan DriveSimulator::measure(const DriveStep& step) const {
   Shapes shapes = reality_;
-  const std::vector<Circle> people = people_at(world_, time);
+  const std::vector<Circle> people = people_at(world_, step.stamp);
   shapes.circles.insert(shapes.circles.end(), people.begin(), people.end());
   const auto distance_to_shapes = [&](const Position& origin, const Position& direction) {
     return ray_distance(shapes, origin, direction);
   };
-  return simulated_scan(params_.laser, map_from_robot, distance_to_shapes,
-                        rng_.stream({laser_stream, step_}));
-}
-
-Pose2 DriveSimulator::measured_motion(const Pose2& from, const Pose2& to) const {
-  const OdometryParams& odometry = params_.odometry;
-  Rng rng = rng_.stream({odometry_stream, step_});
-  const Pose2 motion = inverse(from) * to;
-  const double way = std::hypot(motion.x, motion.y);
-  const double scale = 1.0 + odometry.distance_bias + rng.normal(odometry.distance_noise);
-  const double turn_scale = 1.0 + odometry.turn_bias + rng.normal(odometry.turn_noise);
-  const double yaw_per_m = radians(odometry.yaw_bias_deg_per_m + rng.normal(odometry.yaw_noise_deg_per_m));
-  return {scale * motion.x, scale * motion.y, wrap_angle(turn_scale * motion.theta + yaw_per_m * way)};
+  return simulated_scan(laser_, step.map_from_robot, distance_to_shapes,
+                        robot_.stream(DriveStream::laser, step.number));
 }
 
 }  // namespace glocal

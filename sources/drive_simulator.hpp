@@ -9,6 +9,7 @@
 #include "glocal/rng.hpp"
 #include "sources/carmen_parser.hpp"
 #include "sources/laser.hpp"
+#include "sources/lidar.hpp"
 #include "sources/world.hpp"
 
 namespace glocal {
@@ -40,6 +41,7 @@ struct DriveParams {
   double step_turn_deg = 45.0;
   double step_seconds = 1.0;
   LaserParams laser;
+  LidarParams lidar;
   OdometryParams odometry;
 };
 void describe(ParamVisitor& v, DriveParams& p);
@@ -54,6 +56,42 @@ struct Route {
 /// drive cannot go on, or after its end.
 [[nodiscard]] Route route_of(const World& world, const DriveParams& params, Rng rng);
 
+/// Streams of random numbers, one for each thing that is drawn on a drive.
+enum class DriveStream : std::uint64_t { laser, odometry, tour, lidar, sway, tilt };
+
+/// Where the robot is when it measures.
+struct DriveStep {
+  std::size_t number = 0;  ///< From 0.
+  double stamp = 0.0;      ///< s
+  Pose2 map_from_robot;
+  std::optional<Pose2> map_from_last;  ///< The robot a step before; none where it did not drive from there.
+  Pose2 odom_from_robot;
+};
+
+/// A robot on its way through a world, in the plane.
+class DrivingRobot {
+ public:
+  /// Throws ConfigError where route_of() does.
+  DrivingRobot(const World& world, const DriveParams& params, std::uint64_t seed);
+
+  /// The next step; none at the end of the drive.
+  [[nodiscard]] std::optional<DriveStep> next();
+  [[nodiscard]] const Route& route() const { return route_; }
+  /// What is drawn for a step.
+  [[nodiscard]] Rng stream(DriveStream stream, std::size_t step) const;
+
+ private:
+  [[nodiscard]] Pose2 measured_motion(const Pose2& from, const Pose2& to) const;
+
+  OdometryParams odometry_;
+  double step_seconds_;
+  Rng rng_;
+  Route route_;
+  std::size_t step_ = 0;
+  Pose2 odom_from_robot_;
+};
+
+/// A robot with a planar laser.
 class DriveSimulator {
  public:
   /// Throws ConfigError where read_world() and route_of() do.
@@ -64,16 +102,12 @@ class DriveSimulator {
   [[nodiscard]] std::optional<CarmenScan> next();
 
  private:
-  [[nodiscard]] CarmenScan measure(const Pose2& map_from_robot, double time) const;
-  [[nodiscard]] Pose2 measured_motion(const Pose2& from, const Pose2& to) const;
+  [[nodiscard]] CarmenScan measure(const DriveStep& step) const;
 
-  DriveParams params_;
+  LaserParams laser_;
   World world_;
   Shapes reality_;
-  Rng rng_;
-  Route route_;
-  std::size_t step_ = 0;
-  Pose2 odom_from_robot_;
+  DrivingRobot robot_;
 };
 
 }  // namespace glocal

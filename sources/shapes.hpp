@@ -4,28 +4,48 @@
 #include <array>
 #include <vector>
 
+#include "glocal/pose3.hpp"
+
 namespace glocal {
 
 using Position = std::array<double, 2>;  ///< x, y (m)
 
+/// Heights are those of things that stand on the floor, m; in the plane nobody asks for them.
 struct Segment {
   Position from;
   Position to;
+  double height = 0.0;
 };
 
 struct Circle {
   Position centre;
   double radius = 0.0;  ///< m
+  double height = 0.0;
+};
+
+/// The level upper side of a box, between four corners in order.
+struct Top {
+  std::array<Position, 4> corners;
+  double height = 0.0;
 };
 
 struct Shapes {
   std::vector<Segment> segments;
   std::vector<Circle> circles;
+  std::vector<Top> tops;
 };
 
 /// Distance from `origin` along the unit vector `direction` to the first shape, m; infinite if there is none.
 /// From within a circle it is the distance to its rim.
 [[nodiscard]] double ray_distance(const Shapes& shapes, const Position& origin, const Position& direction);
+
+/// The same in space, where segments are upright walls, and circles are upright columns with tops. z is the
+/// height over the floor, which is no shape.
+[[nodiscard]] double ray_distance_in_space(const Shapes& shapes, const Vector3& origin,
+                                           const Vector3& direction);
+
+/// The shapes with a part nearer to a place than `reach` (m), seen from above.
+[[nodiscard]] Shapes shapes_within(const Shapes& shapes, const Position& place, double reach);
 
 /// Distance from a place to the nearest shape's outline, m.
 [[nodiscard]] double clearance(const Shapes& shapes, const Position& place);

@@ -6,6 +6,7 @@
 
 #include "glocal/error.hpp"
 #include "sources/simulation.hpp"
+#include "sources/surface_points.hpp"
 
 namespace glocal {
 namespace {
@@ -94,11 +95,19 @@ OccupancyGrid draw(const World& world, double resolution) {
 
 void describe(ParamVisitor& v, SimulatedMap::Params& p) {
   v.field("world", p.world, {.doc = "File that describes the world.", .required = true});
-  v.field("resolution", p.resolution, {.doc = "Side of a cell.", .unit = "m", .max = 10.0, .above = 0.0});
+  v.field("resolution", p.resolution,
+          {.doc = "Side of a cell, and of the cubes that have a point each.",
+           .unit = "m",
+           .max = 10.0,
+           .above = 0.0});
+  v.field("points", p.points,
+          {.doc = "Points of the map: the plan's occupied cells, or all surfaces in space, for a lidar.",
+           .choices = {"plan", "space"}});
 }
 
 SimulatedMap::SimulatedMap(const Params& params, const SourceSetup& setup) : params_(params) {
   setup.note_input(params.world.resolved);
+  note_input_ = setup.note_input;
 }
 
 MapData SimulatedMap::load() {
@@ -111,7 +120,14 @@ MapData SimulatedMap::load() {
   }
   MapData map;
   map.grid = draw(world, params_.resolution);
-  map.points = occupied_centres(map.grid);
+  map.points = params_.points == "space" ? surface_points(world, map.grid, file) : occupied_centres(map.grid);
+  const bool is_of_cloud = params_.points == "space" && !world.cloud.text.empty();
+  if (is_of_cloud) {
+    note_input_(world.cloud.resolved);
+    // Nothing is known of where it is free within a cloud.
+    map.grid = {};
+    map.resolution = params_.resolution;
+  }
   if (map.points.empty()) {
     throw ConfigError({{file, 0, 0, "has nothing on its map; give it walls with on_map: true"}});
   }

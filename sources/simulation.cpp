@@ -5,8 +5,14 @@
 
 #include "sources/carmen_log.hpp"
 #include "sources/carmen_writer.hpp"
+#include "sources/lidar_simulation.hpp"
 
 namespace glocal {
+
+std::unique_ptr<ObservationSource> Simulation::make(const Params& params, const SourceSetup& setup) {
+  if (params.lidar.beams > 0) return std::make_unique<LidarSimulation>(params, setup);
+  return std::make_unique<Simulation>(params, setup);
+}
 
 Simulation::Simulation(const Params& params, const SourceSetup& setup)
     : params_(params),

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
@@ -10,11 +14,13 @@
 
 namespace glocal {
 
-/// A drive through a simulated world.
+/// A drive through a simulated world, with a planar laser.
 class Simulation final : public ObservationSource {
  public:
   using Params = DriveParams;
 
+  /// A Simulation, or a LidarSimulation where there is a lidar.
+  static std::unique_ptr<ObservationSource> make(const Params& params, const SourceSetup& setup);
   /// Throws ConfigError for a faulty world.
   Simulation(const Params& params, const SourceSetup& setup);
 
@@ -29,12 +35,14 @@ class Simulation final : public ObservationSource {
   DriveSimulator simulator_;
 };
 
-/// The map of a simulated world: its outlines, one cell thick, and the free space they enclose.
+/// The map of a simulated world: its outlines, one cell thick, and the free space they enclose; or its
+/// surfaces in space, over the same plan.
 class SimulatedMap final : public MapSource {
  public:
   struct Params {
     FilePath world;
     double resolution = 0.03;
+    std::string points = "plan";
   };
 
   SimulatedMap(const Params& params, const SourceSetup& setup);
@@ -45,6 +53,7 @@ class SimulatedMap final : public MapSource {
 
  private:
   Params params_;
+  std::function<void(const std::filesystem::path&)> note_input_;
 };
 void describe(ParamVisitor& v, SimulatedMap::Params& p);
 

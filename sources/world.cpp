@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,32 +25,45 @@ void describe_presence(ParamVisitor& v, Presence& p) {
   v.field("in_reality", p.in_reality, {.doc = "Whether it is there when the robot drives."});
 }
 
-void add_polyline(Shapes& shapes, const std::vector<Position>& points, bool closed) {
-  for (std::size_t i = 1; i < points.size(); ++i) shapes.segments.push_back({points[i - 1], points[i]});
-  if (closed) shapes.segments.push_back({points.back(), points.front()});
+void describe_height(ParamVisitor& v, double& height) {
+  v.field("height", height,
+          {.doc = "From the floor to its upper end, as a lidar sees it; a planar laser sees everything.",
+           .unit = "m",
+           .max = lengths,
+           .above = 0.0});
 }
 
-std::vector<Position> corners_of(const Rectangle& r) {
+void add_wall(Shapes& shapes, const Wall& wall) {
+  const std::vector<Position>& points = wall.points;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    shapes.segments.push_back({points[i - 1], points[i], wall.height});
+  if (wall.closed) shapes.segments.push_back({points.back(), points.front(), wall.height});
+}
+
+void add_box(Shapes& shapes, const Rectangle& r) {
   const Pose2 world_from_box{r.centre[0], r.centre[1], radians(r.angle_deg)};
-  std::vector<Position> corners;
-  for (const Position& sign : {Position{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
-    const Pose2 corner = world_from_box * Pose2{sign[0] * r.size[0], sign[1] * r.size[1], 0.0};
-    corners.push_back({corner.x, corner.y});
+  constexpr std::array signs{Position{-0.5, -0.5}, Position{0.5, -0.5}, Position{0.5, 0.5},
+                             Position{-0.5, 0.5}};
+  Top top{{}, r.height};
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    const Pose2 corner = world_from_box * Pose2{signs[i][0] * r.size[0], signs[i][1] * r.size[1], 0.0};
+    top.corners[i] = {corner.x, corner.y};
   }
-  return corners;
+  add_wall(shapes, {{top.corners.begin(), top.corners.end()}, true, r.height, {}});
+  shapes.tops.push_back(top);
 }
 
 Shapes shapes_where(const World& world, bool Presence::*present) {
   Shapes shapes;
   for (const Wall& wall : world.walls) {
-    if (wall.presence.*present) add_polyline(shapes, wall.points, wall.closed);
+    if (wall.presence.*present) add_wall(shapes, wall);
   }
   for (const Rectangle& rectangle : world.rectangles) {
-    if (rectangle.presence.*present) add_polyline(shapes, corners_of(rectangle), true);
+    if (rectangle.presence.*present) add_box(shapes, rectangle);
   }
   for (const RoundThing& circle : world.circles) {
     if (circle.presence.*present)
-      shapes.circles.push_back({{circle.centre[0], circle.centre[1]}, circle.radius});
+      shapes.circles.push_back({{circle.centre[0], circle.centre[1]}, circle.radius, circle.height});
   }
   return shapes;
 }
@@ -77,8 +91,8 @@ Position walked(const std::vector<Position>& points, double way) {
 }
 
 bool inside(const World& world, const std::vector<Position>& points) {
-  // Without a usable size, only that is reported.
-  if (world.size.size() != 2) return true;
+  // Without a usable size, only that is reported. A cloud lies where it lies.
+  if (world.size.size() != 2 || !world.cloud.text.empty()) return true;
   return std::all_of(points.begin(), points.end(), [&](const Position& p) {
     return p[0] >= 0.0 && p[0] <= world.size[0] && p[1] >= 0.0 && p[1] <= world.size[1];
   });
@@ -136,6 +150,7 @@ FieldInfo extent(Doc doc) {
 void describe(ParamVisitor& v, Wall& p) {
   v.field("points", p.points, coordinates("Corners, [x, y] each.", 2));
   v.field("closed", p.closed, {.doc = "Whether a wall leads back from the last corner to the first."});
+  describe_height(v, p.height);
   describe_presence(v, p.presence);
 }
 
@@ -144,6 +159,7 @@ void describe(ParamVisitor& v, Rectangle& p) {
   v.field("size", p.size, extent("Length and width."));
   v.field("angle_deg", p.angle_deg,
           {.doc = "Direction of the length.", .unit = "deg", .min = -360.0, .max = 360.0});
+  describe_height(v, p.height);
   describe_presence(v, p.presence);
 }
 
@@ -151,6 +167,7 @@ void describe(ParamVisitor& v, RoundThing& p) {
   v.field("centre", p.centre, coordinates("[x, y]", 2, 2));
   v.field("radius", p.radius,
           {.doc = "Radius of the outline.", .unit = "m", .max = lengths, .above = 0.0, .required = true});
+  describe_height(v, p.height);
   describe_presence(v, p.presence);
 }
 
@@ -162,6 +179,7 @@ void describe(ParamVisitor& v, Walker& p) {
            .unit = "m",
            .max = lengths,
            .above = 0.0});
+  describe_height(v, p.height);
 }
 
 void describe(ParamVisitor& v, UnmappedArea& p) {
@@ -170,6 +188,24 @@ void describe(ParamVisitor& v, UnmappedArea& p) {
 
 void describe(ParamVisitor& v, World& p) {
   v.field("size", p.size, extent("Extent in x and y; everything lies between [0, 0] and here."));
+  v.field("floor", p.floor,
+          {.doc = "Height of the floor in space, where the robot drives.",
+           .unit = "m",
+           .min = -lengths,
+           .max = lengths});
+  v.field("ceiling", p.ceiling,
+          {.doc = "From the floor to the ceiling, as a lidar sees it; 0 is none.",
+           .unit = "m",
+           .min = 0.0,
+           .max = lengths});
+  v.field("cloud", p.cloud,
+          {.doc = "Cloud of points (PCD, PLY or KITTI) that is there, too, for a lidar: with a floor of its "
+                  "own, and places that may lie outside of size."});
+  v.field("cloud_voxel_size", p.cloud_voxel_size,
+          {.doc = "Rays end where they enter a cube of this side that holds points of the cloud.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 10.0});
   v.field("walls", p.walls, {.doc = "Straight walls."});
   v.field("rectangles", p.rectangles, {.doc = "Boxes, tables and the like."});
   v.field("circles", p.circles, {.doc = "Round things."});
@@ -215,7 +251,7 @@ Shapes shapes_in_reality(const World& world) {
 std::vector<Circle> people_at(const World& world, double time) {
   std::vector<Circle> circles;
   for (const Walker& walker : world.people) {
-    circles.push_back({walked(walker.points, walker.speed * time), walker.radius});
+    circles.push_back({walked(walker.points, walker.speed * time), walker.radius, walker.height});
   }
   return circles;
 }

@@ -16,10 +16,14 @@ struct Presence {
   bool in_reality = true;
 };
 
+/// Height of what says nothing of its own, m.
+inline constexpr double usual_height = 2.5;
+
 /// Straight walls from point to point.
 struct Wall {
   std::vector<Position> points;
   bool closed = false;
+  double height = usual_height;
   Presence presence;
 };
 void describe(ParamVisitor& v, Wall& p);
@@ -29,6 +33,7 @@ struct Rectangle {
   std::vector<double> centre;
   std::vector<double> size;
   double angle_deg = 0.0;
+  double height = usual_height;
   Presence presence;
 };
 void describe(ParamVisitor& v, Rectangle& p);
@@ -37,6 +42,7 @@ void describe(ParamVisitor& v, Rectangle& p);
 struct RoundThing {
   std::vector<double> centre;
   double radius = 0.0;
+  double height = usual_height;
   Presence presence;
 };
 void describe(ParamVisitor& v, RoundThing& p);
@@ -46,6 +52,7 @@ struct Walker {
   std::vector<Position> points;
   double speed = 0.5;
   double radius = 0.2;
+  double height = 1.75;
 };
 void describe(ParamVisitor& v, Walker& p);
 
@@ -55,9 +62,13 @@ struct UnmappedArea {
 };
 void describe(ParamVisitor& v, UnmappedArea& p);
 
-/// Metres; x to the right, y up, from (0, 0) to `size`.
+/// Metres; x to the right, y up, from (0, 0) to `size`. In space z is up; things stand on the floor.
 struct World {
   std::vector<double> size;
+  double floor = 0.0;
+  double ceiling = 0.0;
+  FilePath cloud;
+  double cloud_voxel_size = 0.1;
   std::vector<Wall> walls;
   std::vector<Rectangle> rectangles;
   std::vector<RoundThing> circles;

@@ -58,8 +58,10 @@ TEST_F(SimulateCommand, RefusesARecordedDriveAndAFullFolder) {
   ASSERT_EQ(run("simulate " + file("experiment.yaml") + " --out " + file("a")).exit_code, 0);
   const Answer recorded = run("simulate " + file("a/experiment.yaml") + " --out " + file("b"));
   EXPECT_EQ(recorded.exit_code, 2);
-  EXPECT_THAT(recorded.err,
-              HasSubstr("observations: come from carmen_log; only a simulation can be simulated"));
+  EXPECT_THAT(
+      recorded.err,
+      HasSubstr(
+          "observations: come from carmen_log; only a simulation of a planar laser can be written to files"));
   const Answer full = run("simulate " + file("experiment.yaml") + " --out " + file("a"));
   EXPECT_EQ(full.exit_code, 2);
   EXPECT_THAT(full.err, HasSubstr("the folder exists and is not empty"));

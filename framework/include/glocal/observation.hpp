@@ -2,17 +2,22 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "glocal/points.hpp"
 #include "glocal/pose3.hpp"
 
 namespace glocal {
 
-/// One range scan in the robot's frame, m.
+/// One range scan in the robot's frame, m. Of a scan that was made in motion, each hit is as measured: in the
+/// robot's frame at the hit's own time.
 struct Scan {
   Points hits;       ///< Ends of the rays that met something, in beam order.
   Points free_ends;  ///< Ends of rays that met nothing: the way from `origin` to there is free.
   Point origin;      ///< The sensor, where all rays begin.
+  /// When each hit was measured, s after the observation's stamp; empty if all are of one moment, or nobody
+  /// knows.
+  std::vector<float> times = {};
 };
 
 /// One step's input. Odometry counts from an arbitrary start and drifts; only its increments mean something,

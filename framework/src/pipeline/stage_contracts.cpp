@@ -104,6 +104,11 @@ void check_sample(const Sample& sample, Motion motion) {
 void check_observation(const Observation& observation, Motion motion) {
   check_points(observation.scan.hits, "hits");
   check_points(observation.scan.free_ends, "free ends");
+  const std::vector<float>& times = observation.scan.times;
+  require(times.empty() || times.size() == observation.scan.hits.size(), "there are {} times for {} hits",
+          times.size(), observation.scan.hits.size());
+  require(std::all_of(times.begin(), times.end(), [](float time) { return std::isfinite(time); }),
+          "a hit's time is not finite");
   const Point& origin = observation.scan.origin;
   require(is_near({origin.x, origin.y, origin.z}),
           "the sensor's origin is not finite, or farther than {} m from the robot's", farthest_m);

@@ -1,0 +1,67 @@
+#include "sources/clouds/voxel_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "glocal/error.hpp"
+#include "sources/grid_ray.hpp"
+
+namespace glocal {
+
+VoxelGrid::VoxelGrid(const Points& points, double side, const std::string& file) : side_(side) {
+  const auto lowest = [&](const std::vector<float>& v) { return *std::min_element(v.begin(), v.end()); };
+  const auto cubes = [&](const std::vector<float>& v) {
+    return std::floor((*std::max_element(v.begin(), v.end()) - lowest(v)) / side) + 1.0;
+  };
+  constexpr double most_cubes = 4e9;
+  if (!(cubes(points.x) * cubes(points.y) * cubes(points.z) <= most_cubes)) {
+    throw ConfigError({{file, 0, 0,
+                        fmt::format("its extent is more than 4000 million cubes of {} m; raise "
+                                    "cloud_voxel_size, or cut the cloud smaller",
+                                    side)}});
+  }
+  corner_ = {lowest(points.x), lowest(points.y), lowest(points.z)};
+  // One more than needed, as the farthest point may be rounded into the next.
+  size_ = {static_cast<int>(cubes(points.x)) + 1, static_cast<int>(cubes(points.y)) + 1,
+           static_cast<int>(cubes(points.z)) + 1};
+  occupied_.resize(index_of({size_[0] - 1, size_[1] - 1, size_[2] - 1}) + 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto at = in_cubes({points.x[i], points.y[i], points.z[i]});
+    occupied_[index_of({static_cast<int>(at[0]), static_cast<int>(at[1]), static_cast<int>(at[2])})] = true;
+  }
+}
+
+double VoxelGrid::ray_distance(const Vector3& origin, const Vector3& direction, double reach) const {
+  // Looked at from beyond the last cube that matters, as rays stop before the cube they end in.
+  const double length = reach + 2.0 * side_;
+  double distance = std::numeric_limits<double>::infinity();
+  visit_cells_before_end<3>(in_cubes(origin), in_cubes(origin + length * direction),
+                            [&](const Cube& cube, double share) {
+                              if (!holds(cube) || !occupied_[index_of(cube)]) return true;
+                              distance = share * length;
+                              return false;
+                            });
+  return distance <= reach ? distance : std::numeric_limits<double>::infinity();
+}
+
+std::array<double, 3> VoxelGrid::in_cubes(const Vector3& place) const {
+  const Vector3 from_corner = place - corner_;
+  return {from_corner.x / side_, from_corner.y / side_, from_corner.z / side_};
+}
+
+bool VoxelGrid::holds(const Cube& cube) const {
+  for (std::size_t axis = 0; axis < cube.size(); ++axis) {
+    if (cube[axis] < 0 || cube[axis] >= size_[axis]) return false;
+  }
+  return true;
+}
+
+std::size_t VoxelGrid::index_of(const Cube& cube) const {
+  const auto at = [](int number) { return static_cast<std::size_t>(number); };
+  return (at(cube[2]) * at(size_[1]) + at(cube[1])) * at(size_[0]) + at(cube[0]);
+}
+
+}  // namespace glocal

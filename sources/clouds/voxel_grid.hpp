@@ -1,0 +1,38 @@
+// The voxels of a cloud of points, for casting rays.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "glocal/points.hpp"
+#include "glocal/pose3.hpp"
+
+namespace glocal {
+
+/// Cubes over the extent of a cloud: occupied where there are points, empty elsewhere. A bit for each.
+class VoxelGrid {
+ public:
+  /// `side` of a cube, m; `file` is whose points they are. Throws ConfigError if there would be too many
+  /// cubes.
+  VoxelGrid(const Points& points, double side, const std::string& file);
+
+  /// Distance from a place along a unit vector to where the ray enters an occupied cube, m; infinite if there
+  /// is none within `reach` (m).
+  [[nodiscard]] double ray_distance(const Vector3& origin, const Vector3& direction, double reach) const;
+
+ private:
+  using Cube = std::array<int, 3>;
+  [[nodiscard]] std::array<double, 3> in_cubes(const Vector3& place) const;
+  [[nodiscard]] bool holds(const Cube& cube) const;
+  [[nodiscard]] std::size_t index_of(const Cube& cube) const;
+
+  double side_;
+  Vector3 corner_;  ///< Of cube (0, 0, 0), m.
+  Cube size_{};     ///< Cubes along x, y and z.
+  std::vector<bool> occupied_;
+};
+
+}  // namespace glocal
