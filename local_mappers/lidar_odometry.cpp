@@ -38,6 +38,12 @@ void describe(ParamVisitor& v, LidarOdometry::Params& p) {
                   "there is none.",
            .choices = {"odometry", "constant_velocity", "either"}});
   v.field(
+      "deskew", p.deskew,
+      {.doc = "By which motion a scan that was made in motion is put right, if its hits have times: that of "
+              "odometry since the last observation, or the last step (velocity); odometry is the last "
+              "step, too, where odometry stands still or there is none.",
+       .choices = {"none", "velocity", "odometry"}});
+  v.field(
       "initial_threshold", p.initial_threshold,
       {.doc = "Standard deviation of a hit from where the prediction puts it, before anything is known of "
               "how good predictions are. It adapts.",
@@ -110,24 +116,29 @@ void LidarOdometry::reset() {
   threshold_ = {params_.initial_threshold, params_.min_correction};
   odom_from_last_.reset();
   last_from_robot_ = {};
+  last_step_seconds_ = last_stamp_ = 0.0;
   misfits_ = 0;
   way_ = forgotten_at_ = 0.0;
   since_forgetting_ = 0;
 }
 
 void LidarOdometry::add(const Observation& observation) {
-  const Scan& scan = observation.scan;
+  const std::optional<Scan> still =
+      params_.deskew == "none" ? std::nullopt : deskewed(observation.scan, motion_in_scan(observation));
+  const Scan& scan = still ? *still : observation.scan;
   const Pose3& odom_from_robot = observation.odom_from_robot;
   const int misfits_before = misfits_;
   if (odom_from_last_) {
     const Pose3 local_from_last = map().local_from_robot;
     map_.move_robot(match(scan, predicted(odom_from_robot)));
     last_from_robot_ = inverse(local_from_last) * map().local_from_robot;
+    last_step_seconds_ = observation.stamp - last_stamp_;
     way_ += norm(last_from_robot_.translation());
   } else {
     map_.move_robot(first_pose(odom_from_robot, motion_));
   }
   odom_from_last_ = odom_from_robot;
+  last_stamp_ = observation.stamp;
   if (misfits_ >= params_.restart_after ||
       norm(map().local_from_robot.translation()) > SurfaceMap::reach / 2) {
     map_.start_over();
@@ -146,6 +157,13 @@ Pose3 LidarOdometry::predicted(const Pose3& odom_from_robot) const {
                            (params_.prediction == "either" && odom_from_robot == *odom_from_last_);
   return map().local_from_robot *
          (by_velocity ? last_from_robot_ : inverse(*odom_from_last_) * odom_from_robot);
+}
+
+SteadyMotion LidarOdometry::motion_in_scan(const Observation& observation) const {
+  if (!odom_from_last_) return {};
+  const bool by_velocity = params_.deskew == "velocity" || observation.odom_from_robot == *odom_from_last_;
+  if (by_velocity) return {last_from_robot_, last_step_seconds_};
+  return {inverse(*odom_from_last_) * observation.odom_from_robot, observation.stamp - last_stamp_};
 }
 
 Pose3 LidarOdometry::match(const Scan& scan, const Pose3& prediction) {

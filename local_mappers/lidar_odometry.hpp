@@ -8,6 +8,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
+#include "local_mappers/deskew.hpp"
 #include "local_mappers/plane_registration.hpp"
 #include "local_mappers/surface_map.hpp"
 
@@ -36,8 +37,7 @@ class AdaptiveThreshold {
 /// of the scans before it, of which what was not seen for a while is forgotten. As KISS-ICP does it, but for
 /// the planes and the odometry.
 ///
-/// All hits of a scan are taken as of one moment: an observation has no times of single points, so that a
-/// scan that was made in motion is not undistorted.
+/// A scan that was made in motion is deskewed, if its hits have times: by odometry or by the last step.
 ///
 /// A scan that fits nowhere moves the robot as predicted, and adds no points. Several in a row start the map
 /// over (the next epoch), as does a robot that goes farther from where the map began than single precision
@@ -49,6 +49,7 @@ class LidarOdometry final : public LocalMapper {
     SurfaceMapParams surfaces;
     double scan_voxel = 0.25;
     std::string prediction = "odometry";
+    std::string deskew = "odometry";
     double initial_threshold = 0.3;
     double min_correction = 0.02;
     double max_gate = 2.0;
@@ -67,8 +68,9 @@ class LidarOdometry final : public LocalMapper {
   void reset() override;
 
  private:
-  void begin(const Pose3& odom_from_robot);
   [[nodiscard]] Pose3 predicted(const Pose3& odom_from_robot) const;
+  /// The robot's motion while it made the scan of an observation, as far as it is known.
+  [[nodiscard]] SteadyMotion motion_in_scan(const Observation& observation) const;
   /// Where the scan fits best, or `prediction` where it says too little. Counts misfits.
   [[nodiscard]] Pose3 match(const Scan& scan, const Pose3& prediction);
   void forget();
@@ -78,7 +80,9 @@ class LidarOdometry final : public LocalMapper {
   SurfaceMap map_;
   AdaptiveThreshold threshold_;
   std::optional<Pose3> odom_from_last_;  ///< The robot at the last observation.
-  Pose3 last_from_robot_;                ///< Its last step.
+  Pose3 last_from_robot_;                ///< Its last step …
+  double last_step_seconds_ = 0.0;       ///< … and how long it took; 0 before the first.
+  double last_stamp_ = 0.0;              ///< s
   int misfits_ = 0;                      ///< Observations in a row that did not fit.
   double way_ = 0.0;                     ///< Driven so far, m.
   double forgotten_at_ = 0.0;            ///< Where on the way forget() has looked last, m …

@@ -1,11 +1,28 @@
 #include "sources/clouds/cloud_drive.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "glocal/voxel_filter.hpp"
 #include "sources/clouds/cloud_file.hpp"
 
 namespace glocal {
+namespace {
+
+/// The mean of each group's times. To first order it is when the mean of the group's points was measured.
+std::vector<float> mean_times(const std::vector<float>& times, const VoxelGroups& groups) {
+  std::vector<double> sums(groups.count, 0.0);
+  std::vector<double> counts(groups.count, 0.0);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    sums[groups.of_point[i]] += times[i];
+    counts[groups.of_point[i]] += 1.0;
+  }
+  std::vector<float> means(groups.count);
+  for (std::size_t i = 0; i < groups.count; ++i) means[i] = static_cast<float>(sums[i] / counts[i]);
+  return means;
+}
+
+}  // namespace
 
 void describe(ParamVisitor& v, SensorMount& p) {
   constexpr double far = 100.0;
@@ -74,6 +91,12 @@ void describe(ParamVisitor& v, CloudDrive::Params& p) {
            .unit = "s",
            .min = 0.0,
            .audience = Audience::expert});
+  v.field(
+      "stamp_of", p.stamp_of,
+      {.doc = "Which point of a cloud its stamp and pose belong to, where points have times: scans that were "
+              "made in motion.",
+       .choices = {"first_point", "last_point"},
+       .audience = Audience::expert});
   describe_max_size(v, p.max_size_gb);
   v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
 }
@@ -111,24 +134,34 @@ std::optional<Sample> CloudDrive::next() {
   if (number == 0) {
     for (const std::string& remark : cloud_remarks(cloud)) warn_(source.file.string() + ": " + remark);
   }
-  return Sample{{source.stamp, scan_of(cloud.points), source.odometry.value_or(Pose3{})},
+  return Sample{{source.stamp, scan_of(cloud), source.odometry.value_or(Pose3{})},
                 source.reference,
                 source.odometry ? 0 : static_cast<int>(number)};
 }
 
-Scan CloudDrive::scan_of(const Points& sensor_points) const {
+Scan CloudDrive::scan_of(const Cloud& cloud) const {
   const double min_squared = params_.min_range * params_.min_range;
   const double max_squared = params_.max_range * params_.max_range;
+  const bool has_times = !cloud.times.empty();
+  const double stamp = has_times && params_.stamp_of == "last_point"
+                           ? *std::max_element(cloud.times.begin(), cloud.times.end())
+                           : 0.0;
   Points in_range;
-  for (std::size_t i = 0; i < sensor_points.size(); ++i) {
-    const Point p = sensor_points[i];
+  Scan scan;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Point p = cloud.points[i];
     const double squared =
         static_cast<double>(p.x) * p.x + static_cast<double>(p.y) * p.y + static_cast<double>(p.z) * p.z;
-    if (squared >= min_squared && squared <= max_squared) in_range.push_back(p);
+    if (squared < min_squared || squared > max_squared) continue;
+    in_range.push_back(p);
+    if (has_times) scan.times.push_back(static_cast<float>(cloud.times[i] - stamp));
   }
-  if (params_.voxel_size > 0.0) in_range = voxel_downsampled(in_range, params_.voxel_size);
+  if (params_.voxel_size > 0.0) {
+    const VoxelGroups groups = voxel_groups(in_range, params_.voxel_size);
+    in_range = means_of_groups(in_range, groups);
+    if (has_times) scan.times = mean_times(scan.times, groups);
+  }
   const Vector3 origin = robot_from_sensor_.translation();
-  Scan scan;
   scan.hits = moved(in_range, robot_from_sensor_);
   scan.origin = {static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z)};
   return scan;

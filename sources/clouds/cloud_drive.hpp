@@ -8,6 +8,7 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
+#include "sources/clouds/cloud.hpp"
 #include "sources/clouds/drive_clouds.hpp"
 
 namespace glocal {
@@ -41,6 +42,7 @@ class CloudDrive final : public ObservationSource {
     double voxel_size = 0.1;
     double unit = 1.0;
     double max_stamp_difference = 0.02;
+    std::string stamp_of = "first_point";
     double max_size_gb = default_max_size_gb;
   };
 
@@ -52,7 +54,7 @@ class CloudDrive final : public ObservationSource {
   [[nodiscard]] std::optional<Sample> next() override;
 
  private:
-  [[nodiscard]] Scan scan_of(const Points& sensor_points) const;
+  [[nodiscard]] Scan scan_of(const Cloud& cloud) const;
   [[nodiscard]] bool is_keyframe(const Pose3& last, const Pose3& now) const;
 
   Params params_;

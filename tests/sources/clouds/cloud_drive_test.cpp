@@ -63,6 +63,22 @@ TEST_F(CloudDriveTest, WithoutOdometryIsSingleClouds) {
   }
 }
 
+TEST_F(CloudDriveTest, KeepsTheTimesOfPoints) {
+  folder_.write(
+      "0.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property double time\nend_header\n1 0 0 10.00\n0.1 0 0 10.01\n1.02 0 0 10.04\n3 0 0 10.10\n");
+  params_.voxel_size = 0.0;
+  EXPECT_THAT(read()[0].observation.scan.times, ElementsAre(0.0F, 0.04F, 0.1F)) << "without the near point";
+  params_.stamp_of = "last_point";
+  EXPECT_THAT(read()[0].observation.scan.times,
+              testing::Pointwise(testing::FloatNear(1e-6F), {-0.1F, -0.06F, 0.0F}));
+  params_.voxel_size = 0.5;
+  const Scan scan = read()[0].observation.scan;
+  EXPECT_THAT(scan.hits.x, testing::Pointwise(testing::FloatNear(1e-6F), {1.01F, 3.0F}));
+  EXPECT_THAT(scan.times, testing::Pointwise(testing::FloatNear(1e-6F), {-0.08F, 0.0F}));
+}
+
 TEST_F(CloudDriveTest, TakesKeyframesByOdometry) {
   write_clouds(5);
   params_.odometry =
