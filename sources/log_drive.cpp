@@ -9,15 +9,6 @@
 namespace glocal {
 namespace {
 
-bool ascending(const std::vector<std::array<double, 2>>& segments) {
-  double last = 0.0;
-  for (const auto& [from, to] : segments) {
-    if (!(from >= last && to > from)) return false;
-    last = to;
-  }
-  return true;
-}
-
 /// A logger that writes ROBOTLASER1 lines often writes the same scans as FLASER lines too.
 std::vector<CarmenScan> of_laser(std::vector<CarmenScan> scans, const std::string& laser) {
   const auto has = [&](CarmenLaser kind) {
@@ -34,28 +25,6 @@ bool is_keyframe(const CarmenScan& last, const CarmenScan& scan, const LogParams
          rotation_between(last.odom_from_robot, scan.odom_from_robot) >= radians(params.keyframe_angle_deg);
 }
 
-std::string share_text(double share) {
-  std::string text = std::to_string(share);
-  text.erase(std::max(text.find_last_not_of('0') + 1, text.find('.') + 2));
-  return text;
-}
-
-/// Keyframes of the scans on [from, to[ of the path; the very end of the path belongs to a segment that ends
-/// at 1.
-std::vector<LogFrame> pick_segment(const std::vector<CarmenScan>& scans, const std::vector<double>& lengths,
-                                   int segment, const LogParams& params) {
-  const auto& [from, to] = params.segments[static_cast<std::size_t>(segment)];
-  const double total = lengths.back();
-  std::vector<LogFrame> frames;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    const bool inside = lengths[i] >= from * total && (lengths[i] < to * total || to >= 1.0);
-    if (inside && (frames.empty() || is_keyframe(scans[frames.back().scan], scans[i], params))) {
-      frames.push_back({i, segment});
-    }
-  }
-  return frames;
-}
-
 }  // namespace
 
 void describe(ParamVisitor& v, LogParams& p) {
@@ -63,11 +32,7 @@ void describe(ParamVisitor& v, LogParams& p) {
   v.field("laser", p.laser,
           {.doc = "Which laser: front (FLASER lines, or ROBOTLASER1 where there are none) or rear (RLASER).",
            .choices = {"front", "rear"}});
-  v.field("segments", p.segments,
-          {.doc = "Parts of the drive to use, as [from, to] shares of the driven path.",
-           .min = 0.0,
-           .max = 1.0,
-           .min_items = 1});
+  describe_segments(v, p.segments);
   v.field("keyframe_distance", p.keyframe_distance,
           {.doc = "A scan is used once odometry has moved this far since the last one used, or turned by "
                   "keyframe_angle_deg; 0 uses every scan.",
@@ -105,8 +70,7 @@ void describe(ParamVisitor& v, LogParams& p) {
            .audience = Audience::expert,
            .formerly = "laser_yaw"});
   describe_max_size(v, p.max_size_gb);
-  v.require(ascending(p.segments), "segments",
-            "each must be [from, to] with from < to, in rising order and without overlap");
+  require_rising(v, p.segments);
   v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
 }
 
@@ -126,18 +90,15 @@ LogDrive read_log_drive(const LogParams& params) {
                         "has no scan of the " + params.laser + " laser; set laser to " +
                             (params.laser == "front" ? "rear" : "front")}});
   }
-  const std::vector<double> lengths = path_lengths(drive.scans);
-  std::vector<Fault> faults;
-  for (std::size_t i = 0; i < params.segments.size(); ++i) {
-    const std::vector<LogFrame> frames = pick_segment(drive.scans, lengths, static_cast<int>(i), params);
-    if (frames.empty()) {
-      faults.push_back({file, 0, 0,
-                        "has no scan between " + share_text(params.segments[i][0]) + " and " +
-                            share_text(params.segments[i][1]) + " of its path; widen the segment"});
+  const auto places = places_on(params.segments, path_lengths(drive.scans), file, "scan");
+  for (std::size_t segment = 0; segment < places.size(); ++segment) {
+    const std::size_t first = drive.frames.size();
+    for (const std::size_t i : places[segment]) {
+      const bool is_used = drive.frames.size() == first ||
+                           is_keyframe(drive.scans[drive.frames.back().scan], drive.scans[i], params);
+      if (is_used) drive.frames.push_back({i, static_cast<int>(segment)});
     }
-    drive.frames.insert(drive.frames.end(), frames.begin(), frames.end());
   }
-  if (!faults.empty()) throw ConfigError(std::move(faults));
   return drive;
 }
 

@@ -2,7 +2,6 @@
 // robot's frame.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -11,6 +10,7 @@
 #include "glocal/observation.hpp"
 #include "glocal/params.hpp"
 #include "sources/carmen_parser.hpp"
+#include "sources/driven_path.hpp"
 
 namespace glocal {
 
@@ -18,7 +18,7 @@ namespace glocal {
 struct LogParams {
   FilePath path;
   std::string laser = "front";
-  std::vector<std::array<double, 2>> segments{{0.0, 1.0}};
+  PathSegments segments{{0.0, 1.0}};
   double keyframe_distance = 0.25;
   double keyframe_angle_deg = 11.46;
   double max_range = 20.0;

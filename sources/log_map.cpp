@@ -13,8 +13,6 @@
 namespace glocal {
 namespace {
 
-constexpr double path_spacing = 0.25;  // m
-
 /// A scan and the sensor's place on the map.
 struct PlacedScan {
   Pose2 map_from_robot;
@@ -147,13 +145,10 @@ Point point_of(const OccupancyGrid& grid, int column, int row, const Count& coun
           static_cast<float>(grid.map_from_grid.y + row * grid.resolution) + dy, 0.0F};
 }
 
-std::vector<Pose3> sparse_path(const std::vector<PlacedScan>& placed) {
+std::vector<Pose3> path_of(const std::vector<PlacedScan>& placed) {
   std::vector<Pose3> path;
-  for (const PlacedScan& p : placed) {
-    if (path.empty() || distance(path.back(), p.map_from_robot) >= path_spacing)
-      path.push_back(p.map_from_robot);
-  }
-  return path;
+  for (const PlacedScan& p : placed) path.push_back(p.map_from_robot);
+  return sparse_path(path);
 }
 
 }  // namespace
@@ -207,7 +202,7 @@ MapData LogMap::load() {
     throw ConfigError(
         {{file, 0, 0, "its map has no occupied cell; lower min_hits or min_hit_share, or use more scans"}});
   }
-  map.path = sparse_path(placed);
+  map.path = path_of(placed);
   return map;
 }
 

@@ -2,6 +2,7 @@
 
 #include "sources/carmen_log.hpp"
 #include "sources/clouds/cloud_drive.hpp"
+#include "sources/clouds/cloud_drive_map.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 #include "sources/log_map.hpp"
 #include "sources/random_scans.hpp"
@@ -16,6 +17,8 @@ void register_sources(Catalog& catalog) {
   catalog.observation_sources.add<Simulation>("simulation", "A drive through a simulated world.");
   catalog.observation_sources.add<RandomScans>("random_scans", "Single scans at random places of a ROS map.");
   catalog.map_sources.add<LogMap>("log_map", "A map from the reference poses of a CARMEN log.");
+  catalog.map_sources.add<CloudDriveMap>("cloud_drive",
+                                         "A map in space from the reference poses of a drive of clouds.");
   catalog.map_sources.add<RosMap>("ros_map", "A map of the ROS map server: a YAML file and an image.");
   catalog.map_sources.add<PointCloudMap>("point_cloud", "A cloud of points: PCD, PLY or KITTI.");
   catalog.map_sources.add<SimulatedMap>("simulation", "The map of a simulated world.");

@@ -57,6 +57,7 @@ void describe(ParamVisitor& v, CloudDrive::Params& p) {
   v.field("poses_of", p.poses_of,
           {.doc = "What the poses of both files are of.", .choices = {"robot", "sensor"}});
   v.field("sensor", p.sensor, {.doc = "Where the sensor is on the robot; x is forward and z is up."});
+  describe_segments(v, p.segments);
   v.field("keyframe_distance", p.keyframe_distance,
           {.doc = "A cloud is used once odometry has moved this far since the last one used, or turned by "
                   "keyframe_angle_deg; 0 uses every cloud.",
@@ -98,6 +99,7 @@ void describe(ParamVisitor& v, CloudDrive::Params& p) {
        .choices = {"first_point", "last_point"},
        .audience = Audience::expert});
   describe_max_size(v, p.max_size_gb);
+  require_rising(v, p.segments);
   v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
 }
 
@@ -109,21 +111,40 @@ CloudDrive::CloudDrive(const Params& params, const SourceSetup& setup)
     if (!trajectory.empty()) setup.note_input(trajectory);
   }
   const Pose3 sensor_from_robot = params.poses_of == "sensor" ? inverse(robot_from_sensor_) : Pose3{};
-  for (DriveCloud& cloud : drive_clouds(files, warn_)) {
+  std::vector<DriveCloud> clouds = drive_clouds(files, warn_);
+  for (DriveCloud& cloud : clouds) {
     for (auto* pose : {&cloud.odometry, &cloud.reference}) {
       if (*pose) *pose = **pose * sensor_from_robot;
     }
-    const bool is_used =
-        clouds_.empty() || !cloud.odometry || is_keyframe(*clouds_.back().odometry, *cloud.odometry);
-    if (!is_used) continue;
-    setup.note_input(cloud.file);
-    clouds_.push_back(std::move(cloud));
   }
+  clouds_ = picked(clouds);
+  for (const DriveCloud& cloud : clouds_) setup.note_input(cloud.file);
 }
 
-bool CloudDrive::is_keyframe(const Pose3& last, const Pose3& now) const {
-  return distance(last, now) >= params_.keyframe_distance ||
-         rotation_between(last, now) >= radians(params_.keyframe_angle_deg);
+std::vector<DriveCloud> CloudDrive::picked(const std::vector<DriveCloud>& clouds) const {
+  // Without odometry nothing is known of the way: each cloud counts the same.
+  std::vector<double> lengths(clouds.size(), 0.0);
+  for (std::size_t i = 1; i < clouds.size(); ++i) {
+    const auto& last = clouds[i - 1].odometry;
+    lengths[i] = lengths[i - 1] + (last ? distance(*last, *clouds[i].odometry) : 1.0);
+  }
+  std::vector<DriveCloud> used;
+  const auto places = places_on(params_.segments, lengths, params_.folder.resolved.string(), "cloud");
+  for (std::size_t segment = 0; segment < places.size(); ++segment) {
+    const std::size_t first = used.size();
+    for (const std::size_t i : places[segment]) {
+      if (used.size() > first && !is_keyframe(used.back(), clouds[i])) continue;
+      used.push_back(clouds[i]);
+      used.back().segment = static_cast<int>(clouds[i].odometry ? segment : i);
+    }
+  }
+  return used;
+}
+
+bool CloudDrive::is_keyframe(const DriveCloud& last, const DriveCloud& now) const {
+  if (!now.odometry) return true;
+  return distance(*last.odometry, *now.odometry) >= params_.keyframe_distance ||
+         rotation_between(*last.odometry, *now.odometry) >= radians(params_.keyframe_angle_deg);
 }
 
 std::optional<Sample> CloudDrive::next() {
@@ -134,9 +155,8 @@ std::optional<Sample> CloudDrive::next() {
   if (number == 0) {
     for (const std::string& remark : cloud_remarks(cloud)) warn_(source.file.string() + ": " + remark);
   }
-  return Sample{{source.stamp, scan_of(cloud), source.odometry.value_or(Pose3{})},
-                source.reference,
-                source.odometry ? 0 : static_cast<int>(number)};
+  return Sample{
+      {source.stamp, scan_of(cloud), source.odometry.value_or(Pose3{})}, source.reference, source.segment};
 }
 
 Scan CloudDrive::scan_of(const Cloud& cloud) const {

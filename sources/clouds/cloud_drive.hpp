@@ -10,6 +10,7 @@
 #include "glocal/strategies.hpp"
 #include "sources/clouds/cloud.hpp"
 #include "sources/clouds/drive_clouds.hpp"
+#include "sources/driven_path.hpp"
 
 namespace glocal {
 
@@ -35,6 +36,7 @@ class CloudDrive final : public ObservationSource {
     FilePath reference;
     std::string poses_of = "robot";
     SensorMount sensor;
+    PathSegments segments{{0.0, 1.0}};
     double keyframe_distance = 0.25;
     double keyframe_angle_deg = 11.46;
     double min_range = 0.5;
@@ -55,7 +57,9 @@ class CloudDrive final : public ObservationSource {
 
  private:
   [[nodiscard]] Scan scan_of(const Cloud& cloud) const;
-  [[nodiscard]] bool is_keyframe(const Pose3& last, const Pose3& now) const;
+  /// Those of the segments that are keyframes.
+  [[nodiscard]] std::vector<DriveCloud> picked(const std::vector<DriveCloud>& clouds) const;
+  [[nodiscard]] bool is_keyframe(const DriveCloud& last, const DriveCloud& now) const;
 
   Params params_;
   Warn warn_;

@@ -17,6 +17,7 @@ struct DriveCloud {
   double stamp = 0.0;              ///< s; the number at the end of its name, else its place in the order.
   std::optional<Pose3> odometry;   ///< As in the file of odometry; all clouds have one, or none.
   std::optional<Pose3> reference;  ///< As in the file of reference poses.
+  int segment = 0;                 ///< Part of the drive that it belongs to.
 };
 
 /// Where the parts of a drive are.

@@ -17,6 +17,7 @@
 #include "octree_files.hpp"
 #include "sources/carmen_log.hpp"
 #include "sources/clouds/cloud_drive.hpp"
+#include "sources/clouds/cloud_drive_map.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 #include "sources/log_map.hpp"
 #include "sources/random_scans.hpp"
@@ -68,6 +69,11 @@ class Contract : public ::testing::Test {
     folder_.write("clouds/1.ply", cloud);
     fill<CloudDrive::Params>("observation_source/cloud_drive",
                              [&](auto& p) { p.folder = file_path(folder_ / "clouds"); });
+    const FilePath poses = file_path(folder_.write("poses.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n"));
+    fill<CloudDriveMap::Params>("map_source/cloud_drive", [&, poses](auto& p) {
+      p.drive.folder = file_path(folder_ / "clouds");
+      p.drive.reference = poses;
+    });
     fill<PointCloudMap::Params>("map_source/point_cloud",
                                 [&](auto& p) { p.path = file_path(folder_ / "clouds/0.ply"); });
     fill<Exhaustive::Params>("matcher/exhaustive", [](auto& p) {
