@@ -70,7 +70,8 @@ void describe(ParamVisitor& v, OctomapMap::Params& p) {
            .min = 1,
            .max = 65536});
   v.field("points", p.points,
-          {.doc = "Points of the map: the plan's occupied cells, or every occupied voxel in space.",
+          {.doc = "Points of the map: the plan's occupied cells, or every occupied voxel in space. There a "
+                  "cell of the plan is free if one of its voxels is: a robot may be over a floor.",
            .choices = {"plan", "space"}});
   v.field("tree_pose", p.tree_pose,
           {.doc = "Pose of the tree's frame in the map's: x, y (m), yaw (deg).",
@@ -90,6 +91,7 @@ MapData OctomapMap::load() {
     throw ConfigError({{params_.path.resolved.string(), 0, 0, why}});
   };
   const std::unique_ptr<octomap::OcTree> tree = read_tree(params_.path.resolved);
+  const bool in_space = params_.points == "space";
   Extent extent;
   for_each_voxel(*tree, params_, [&](const Voxel& v, bool /*occupied*/) { extent.add(v); });
   if (extent.min_x > extent.max_x)
@@ -121,15 +123,16 @@ MapData OctomapMap::load() {
       return;
     }
     ++occupied_voxels[cell];
-    if (params_.points != "space") return;
+    if (!in_space) return;
     const Pose2 centre = grid.centre(v.x - extent.min_x, v.y - extent.min_y);
     map.points.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y),
                           static_cast<float>(tree->keyToCoord(static_cast<octomap::key_type>(v.z)))});
   });
   for (std::size_t cell = 0; cell < cells; ++cell) {
-    if (occupied_voxels[cell] >= params_.min_voxels) grid.cells[cell] = Cell::occupied;
+    const bool is_over_floor = in_space && grid.cells[cell] == Cell::free;
+    if (occupied_voxels[cell] >= params_.min_voxels && !is_over_floor) grid.cells[cell] = Cell::occupied;
   }
-  if (params_.points == "plan") map.points = occupied_centres(grid);
+  if (!in_space) map.points = occupied_centres(grid);
   if (map.points.empty()) refuse("has nothing occupied between min_height and max_height; take a wider band");
   return map;
 }

@@ -69,6 +69,19 @@ TEST_F(Octomap, PointsInSpaceAreTheOccupiedVoxels) {
   EXPECT_NEAR(map.points.z[1], 1.05, 1e-6);
 }
 
+TEST_F(Octomap, InSpaceThePlanIsFreeOverAFloor) {
+  // A floor with a free voxel over it, a column without any, and a free voxel alone.
+  const std::string tree = bt_file({{},
+                                    {.z = 32770, .log_odds = -1.0F},
+                                    {.x = 32769},
+                                    {.x = 32769, .z = 32770},
+                                    {.x = 32770, .log_odds = -1.0F}},
+                                   0.1);
+  EXPECT_EQ(load(tree).grid.cells, (std::vector<Cell>{Cell::occupied, Cell::occupied, Cell::free}));
+  EXPECT_EQ(load(tree, "points: space\n").grid.cells,
+            (std::vector<Cell>{Cell::free, Cell::occupied, Cell::free}));
+}
+
 TEST_F(Octomap, OnlyTheBandOfHeightsCounts) {
   const std::string tree = bt_file({{}, {.z = 32778}, {.x = 32769, .z = 32778, .log_odds = -1.0F}}, 0.1);
   const MapData low = load(tree, "max_height: 0.5\n");
