@@ -14,7 +14,8 @@ constexpr double nothing = std::numeric_limits<double>::infinity();
 /// Distance along a ray that begins at height z and rises by so much for each metre.
 double distance_to_level(double height, double z, double rise) {
   const double distance = (height - z) / rise;
-  return distance >= 0.0 ? distance : nothing;
+  if (!(distance >= 0.0)) return nothing;  // not even where the ray runs within the surface
+  return distance;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,23 @@ TEST(GridRay, VisitsTheCellsOfALineInOrder) {
   EXPECT_EQ(cells_before_end(0.5, 0.5, 3.5, 1.6), (Cells{{0, 0}, {1, 0}, {1, 1}, {2, 1}}));
   EXPECT_EQ(cells_before_end(1.5, 2.5, 1.5, -0.5), (Cells{{1, 2}, {1, 1}, {1, 0}}));
   EXPECT_TRUE(cells_before_end(1.2, 1.2, 1.8, 1.8).empty());
+}
+
+TEST(GridRay, VisitsVoxelsInSpaceInOrder) {
+  std::vector<std::array<int, 3>> voxels;
+  std::vector<double> shares;
+  // Borders at z = 1 after a third, x = 1 after a half, y = 1 after three quarters of the line.
+  visit_cells_before_end<3>({0.5, 0.25, 0.5}, {1.5, 1.25, 2.0},
+                            [&](const std::array<int, 3>& voxel, double share) {
+                              voxels.push_back(voxel);
+                              shares.push_back(share);
+                              return voxels.size() < 4;
+                            });
+  EXPECT_EQ(voxels, (std::vector<std::array<int, 3>>{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}}));
+  ASSERT_EQ(shares.size(), 4U);
+  EXPECT_NEAR(shares[1], 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(shares[2], 0.5, 1e-12);
+  EXPECT_NEAR(shares[3], 0.75, 1e-12);
 }
 
 TEST(GridRay, TellsWhereTheLineEntersACell) {

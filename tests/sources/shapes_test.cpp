@@ -50,5 +50,40 @@ TEST(Clearance, IsTheDistanceToTheNearestOutline) {
   EXPECT_NEAR(clearance(shapes, {2, 4.75}), 0.75, 1e-12) << "from within";
 }
 
+TEST(RayDistanceInSpace, PassesOverWhatIsLower) {
+  Shapes shapes;
+  shapes.segments = {{{2, -1}, {2, 1}, 1.0}, {{5, -1}, {5, 1}, 3.0}};
+  EXPECT_DOUBLE_EQ(ray_distance_in_space(shapes, {0, 0, 0.9}, {1, 0, 0}), 2.0);
+  EXPECT_DOUBLE_EQ(ray_distance_in_space(shapes, {0, 0, 1.1}, {1, 0, 0}), 5.0);
+  // At 45 degrees up the near wall is passed 1.5 m high; at 45 degrees down it is missed below the floor.
+  EXPECT_EQ(ray_distance_in_space(shapes, {0, 0, 0.5}, {half, 0, half}), infinite);
+  EXPECT_EQ(ray_distance_in_space(shapes, {0, 0, 0.5}, {half, 0, -half}), infinite);
+  EXPECT_EQ(ray_distance_in_space(shapes, {0, 0, 0.5}, {0, 0, 1}), infinite);
+}
+
+TEST(RayDistanceInSpace, MeetsTops) {
+  Shapes shapes;
+  shapes.circles = {{{3, 0}, 1.0, 1.0}};
+  shapes.tops = {{{{{-4, -1}, {-2, -1}, {-2, 1}, {-4, 1}}}, 1.0}};
+  const double diagonal = 1.0 / half;
+  // From 3 m, at 45 degrees down, 2 m away.
+  EXPECT_NEAR(ray_distance_in_space(shapes, {1, 0, 3}, {half, 0, -half}), 2.0 * diagonal, 1e-12);
+  EXPECT_NEAR(ray_distance_in_space(shapes, {-1, 0, 3}, {-half, 0, -half}), 2.0 * diagonal, 1e-12);
+  EXPECT_EQ(ray_distance_in_space(shapes, {-1, 1.5, 3}, {-half, 0, -half}), infinite) << "beside it";
+  EXPECT_DOUBLE_EQ(ray_distance_in_space(shapes, {3, 0.5, 3}, {0, 0, -1}), 2.0) << "from above";
+  EXPECT_DOUBLE_EQ(ray_distance_in_space(shapes, {0, 0, 0.5}, {1, 0, 0}), 2.0) << "the side";
+}
+
+TEST(ShapesWithin, AreThoseThatMayBeMet) {
+  Shapes shapes;
+  shapes.segments = {{{2, -9}, {2, 9}, 1.0}, {{5, -1}, {5, 1}, 1.0}};
+  shapes.circles = {{{-3, 0}, 0.5, 1.0}, {{-9, 0}, 0.5, 1.0}};
+  shapes.tops = {{{{{2, 0}, {9, 0}, {9, 1}, {2, 1}}}, 1.0}, {{{{20, 0}, {21, 0}, {21, 1}, {20, 1}}}, 1.0}};
+  const Shapes near = shapes_within(shapes, {0, 0}, 3.0);
+  EXPECT_EQ(near.segments.size(), 1U);
+  EXPECT_EQ(near.circles.size(), 1U);
+  EXPECT_EQ(near.tops.size(), 1U);
+}
+
 }  // namespace
 }  // namespace glocal::shapes_test

@@ -94,6 +94,8 @@ TEST(StageContracts, SamplesArePlaces) {
   };
   expect_broken([](Sample& s) { s.observation.scan.hits.y[0] = std::numeric_limits<float>::infinity(); });
   expect_broken([](Sample& s) { s.observation.scan.free_ends.push_back({1e8F, 0, 0}); });
+  expect_broken([](Sample& s) { s.observation.scan.times = {0.0F, 0.1F}; });
+  expect_broken([](Sample& s) { s.observation.scan.times = {std::numeric_limits<float>::infinity()}; });
   expect_broken([](Sample& s) { s.observation.scan.origin.z = std::numeric_limits<float>::quiet_NaN(); });
   expect_broken([](Sample& s) { s.observation.odom_from_robot.x = infinite; });
   expect_broken([](Sample& s) { s.map_from_robot->y = not_a_number; });
