@@ -119,10 +119,10 @@ Points surface_points(const World& world, const OccupancyGrid& plan, const std::
   const double side = plan.resolution;
   const double spacing = side / 2.0;  // so that no cube on a surface is missed
   const Shapes shapes = shapes_on_map(world);
-  constexpr double most_points = 64e6;
+  constexpr double most_points = 16e6;
   if (!(area_of(shapes) / (spacing * spacing) <= most_points)) {
     throw ConfigError({{file, 0, 0,
-                        fmt::format("its surfaces would have more than 64 million points {} m apart; raise "
+                        fmt::format("its surfaces would have more than 16 million points {} m apart; raise "
                                     "resolution",
                                     spacing)}});
   }

@@ -335,6 +335,15 @@ TEST(SimulatedMapInSpace, ShowsWhatIsOnTheMapOnly) {
   EXPECT_EQ(count_near({6.0, 2.0, 1.0}, 0.3), 0U) << "not mapped";
 }
 
+TEST(SimulatedMapInSpace, RefusesTooManyPoints) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path world = folder.write("world.yaml", room);
+  EXPECT_THAT(
+      test::config_error(world.parent_path(), [&] { static_cast<void>(load(world, 0.003)); }),
+      HasSubstr("world.yaml: error: its surfaces would have more than 16 million points 0.0015 m apart; "
+                "raise resolution"));
+}
+
 TEST(SimulatedMapInSpace, HasTheCloudAsItIs) {
   const test::TemporaryFolder folder;
   Points points;
