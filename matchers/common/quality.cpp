@@ -69,7 +69,7 @@ QualityTest::Outcome QualityTest::test(const MotionBatch& map_from_local, std::s
                                        const ContactIndex::BatchColumn& starts) const {
   ContactIndex::BatchColumn begins{};
   for (std::size_t i = 0; i < size; ++i) {
-    begins[i] = static_cast<std::uint32_t>(std::uint64_t{starts[i]} * size_ >> 32U);
+    begins[i] = static_cast<std::uint32_t>(place_in_order(starts[i]));
   }
   ContactIndex::BatchColumn at_most;
   contact_->count_at_most(shuffled_, batch_, map_from_local, size, begins, at_most);
@@ -87,6 +87,25 @@ QualityTest::Outcome QualityTest::test(const MotionBatch& map_from_local, std::s
     outcome.passed.push_back({i, static_cast<double>(in_contact) / static_cast<double>(size_)});  // eq. 4
   }
   return outcome;
+}
+
+QualityTest::Judged QualityTest::test(const RigidMotion& map_from_local, std::uint32_t start,
+                                      Points& memory) const {
+  // Contact indexes move points in the plane only.
+  static const Transform nowhere{Pose2{}};
+  Judged judged;
+  std::size_t in_contact = 0;
+  std::size_t next = place_in_order(start);
+  for (const std::uint32_t least : least_) {
+    memory.clear();
+    const std::size_t n = std::min(batch_, size_ - judged.points_tested);
+    for (std::size_t i = 0; i < n; ++i) memory.push_back(map_from_local(shuffled_[next++]));
+    in_contact += contact_->count(memory, 0, n, nowhere);
+    judged.points_tested += n;
+    if (in_contact < least) return judged;
+  }
+  judged.quality = static_cast<double>(in_contact) / static_cast<double>(size_);  // eq. 4
+  return judged;
 }
 
 }  // namespace glocal

@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "glocal/contact.hpp"
 #include "glocal/points.hpp"
 #include "glocal/rng.hpp"
+#include "matchers/in_space/rigid_motion.hpp"
 
 namespace glocal {
 
@@ -54,7 +56,19 @@ class QualityTest {
   [[nodiscard]] Outcome test(const MotionBatch& map_from_local, std::size_t size,
                              const ContactIndex::BatchColumn& starts) const;
 
+  /// One pose in space.
+  struct Judged {
+    std::optional<double> quality;  ///< Omega, of a pose that reaches the threshold.
+    std::size_t points_tested = 0;
+  };
+  /// Tests one pose in space. `memory` is overwritten: who tests many poses gives the same each time.
+  [[nodiscard]] Judged test(const RigidMotion& map_from_local, std::uint32_t start, Points& memory) const;
+
  private:
+  [[nodiscard]] std::size_t place_in_order(std::uint32_t start) const {
+    return static_cast<std::size_t>(std::uint64_t{start} * size_ >> 32U);
+  }
+
   Points shuffled_;  ///< All points twice, so that a test never wraps.
   std::size_t size_;
   std::size_t batch_;

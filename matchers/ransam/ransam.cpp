@@ -1,48 +1,13 @@
 #include "matchers/ransam/ransam.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
-#include "glocal/parallel.hpp"
 #include "matchers/common/merge.hpp"
+#include "matchers/ransam/space_ransam.hpp"
 
 namespace glocal {
 namespace {
-
-/// Draws handled together by one thread. Fixed, so that the answer does not depend on the number of threads.
-constexpr std::size_t draws_per_chunk = RelationBatch::probes * TripleBatch::capacity;
-/// Chunks of the map's relations kept in memory: 4.5 MB.
-constexpr std::size_t chunks_at_a_time = 256;
-
-unsigned table_bits(const Ransam::Params& p) {
-  if (p.table_bits > 0) return static_cast<unsigned>(p.table_bits);
-  // Two slots a draw. Half of the draws of a map have no relation worth keeping, so about one entry in eight
-  // is lost to another relation in its slot; a larger table costs more time than it gains.
-  return static_cast<unsigned>(std::bit_width(static_cast<unsigned>(p.iterations) * 2U - 1U));
-}
-
-ExtrapolationRule extrapolation_rule(const Ransam::Params& p) {
-  return {
-      .kind = p.extrapolation == "wald" ? ExtrapolationRule::Kind::wald : ExtrapolationRule::Kind::interval,
-      .batch = p.extrapolation_batch,
-      .confidence_z = p.extrapolation_z,
-      .false_rejects = p.wald_false_rejects,
-      .background = p.wald_background};
-}
-
-/// Adds the relations of draws [begin, end) of a seed.
-void add_relations_of_draws(const TripleSampler& sampler, const Points& points, const TriangleRule& rule,
-                            bool neighbours, std::uint64_t seed, std::size_t begin, std::size_t end,
-                            RelationBatch& relations) {
-  TripleBatch triples;
-  while (begin < end) {
-    triples.clear();
-    while (begin < end && !triples.full()) triples.add_number(static_cast<std::uint32_t>(begin++));
-    sampler.draw(seed, triples);
-    find_relations(points, triples, rule, neighbours, relations);
-  }
-}
 
 double diameter_bound(const Points& points) {
   const auto extent = [](const std::vector<float>& values) {
@@ -127,12 +92,32 @@ void describe(ParamVisitor& v, Ransam::Params& p) {
   describe(v, p.beams);
 }
 
+TripleMatchingRule triple_matching_rule(const Ransam::Params& p) {
+  return {.iterations = static_cast<std::size_t>(p.iterations),
+          .local_radius = p.local_radius,
+          .neighbour_cells = p.neighbour_cells,
+          .table_bits = static_cast<unsigned>(p.table_bits)};
+}
+
+ExtrapolationRule extrapolation_rule(const Ransam::Params& p) {
+  return {
+      .kind = p.extrapolation == "wald" ? ExtrapolationRule::Kind::wald : ExtrapolationRule::Kind::interval,
+      .batch = p.extrapolation_batch,
+      .confidence_z = p.extrapolation_z,
+      .false_rejects = p.wald_false_rejects,
+      .background = p.wald_background};
+}
+
+std::unique_ptr<Matcher> Ransam::make(const Params& params, const StageSetup& setup) {
+  if (setup.motion == Motion::planar) return std::make_unique<Ransam>(params, setup);
+  return std::make_unique<SpaceRansam>(params, setup);
+}
+
 Ransam::Ransam(const Params& params, const StageSetup& setup)
     : params_(params),
       setup_(setup),
       contact_(contact_index(*setup.map, params.contact, setup.epsilon(params.contact_epsilon))),
-      sampler_(setup.map->points(), params.local_radius),
-      table_(table_bits(params)),
+      matching_(setup.map->points(), find_relations, triple_matching_rule(params), setup.threads),
       beams_(params.beams) {
   if (params.beams.weight > 0.0) clearance_ = clearance_grid(*setup.map);
 }
@@ -140,104 +125,37 @@ Ransam::Ransam(const Params& params, const StageSetup& setup)
 MatchResult Ransam::match(const LocalMap& local, const Observation& latest, double omega_max, Rng& rng) {
   if (local.points.empty()) return {};
   if (clearance_) beams_.add(local, latest.scan);
-  const Draws draws{rng.next(), rng.next()};
+  const TripleMatching::Draws draws{rng.next(), rng.next()};
   const QualityTest quality(local.points, contact_, extrapolation_rule(params_), omega_max, rng);
-  const TripleSampler local_sampler(local.points, params_.local_radius);
   // A triangle of the map that is larger than the whole local map has no partner there.
   const TriangleRule rule{.cell = params_.relation_cell,
                           .min_side = params_.min_side,
                           .min_height = params_.min_height,
                           .max_side = std::min(diameter_bound(local.points) + params_.relation_cell,
                                                largest_side(params_.relation_cell))};
-
-  hash_map_triples(draws.map_seed, rule);
-  std::vector<MatchResult> chunks(chunk_count());
-  parallel_for(setup_.threads, chunks.size(), [&](std::size_t i) {
-    chunks[i] = match_local_triples(local, local_sampler, quality, rule, draws, i);
-    if (clearance_) ask_beams(chunks[i].hypotheses, omega_max);
-  });
-
+  const std::vector<MatchResult> chunks = matching_.match(
+      local.points, rule, draws, [&](const TripleBatch& local_triples, const TripleBatch& map_triples) {
+        MatchResult found = test_hypotheses(local, quality, local_triples, map_triples);
+        if (clearance_) ask_beams(found.hypotheses, omega_max);
+        return found;
+      });
   return joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.max_hypotheses));
 }
 
-std::size_t Ransam::chunk_count() const {
-  return (iterations() + draws_per_chunk - 1) / draws_per_chunk;
-}
-
-void Ransam::hash_map_triples(std::uint64_t seed, const TriangleRule& rule) {
-  const auto draw_chunk = [&](std::size_t chunk, RelationBatch& drawn) {
-    drawn.size = 0;
-    const std::size_t begin = chunk * draws_per_chunk;
-    const std::size_t end = std::min(begin + draws_per_chunk, iterations());
-    add_relations_of_draws(sampler_, setup_.map->points(), rule, false, seed, begin, end, drawn);
-  };
-  table_.begin_fill(iterations());
-  if (setup_.threads <= 1) {
-    RelationBatch drawn;
-    for (std::size_t chunk = 0; chunk < chunk_count(); ++chunk) {
-      draw_chunk(chunk, drawn);
-      table_.fill(drawn);
-    }
-    return;
-  }
-  // Threads that wrote to the whole table would take its lines from each other all the time. So relations are
-  // found first, some chunks at a time, and then each thread fills a share of the table of its own.
-  const auto shares = static_cast<std::size_t>(setup_.threads);
-  for (std::size_t begin = 0; begin < chunk_count(); begin += chunks_at_a_time) {
-    drawn_.resize(std::min(chunks_at_a_time, chunk_count() - begin));
-    parallel_for(setup_.threads, drawn_.size(), [&](std::size_t i) { draw_chunk(begin + i, drawn_[i]); });
-    parallel_for(setup_.threads, shares, [&](std::size_t share) {
-      for (const RelationBatch& drawn : drawn_) table_.fill(drawn, share, shares);
-    });
-  }
-}
-
-MatchResult Ransam::match_local_triples(const LocalMap& local, const TripleSampler& local_sampler,
-                                        const QualityTest& quality, const TriangleRule& rule,
-                                        const Draws& draws, std::size_t chunk) const {
-  MatchResult found;
-  RelationBatch relations;
-  PartnerBatch partners;
-  TripleBatch local_triples;
-  TripleBatch map_triples;
-  const auto test_collisions = [&] {
-    test_hypotheses(local, local_sampler, quality, draws, local_triples, map_triples, found);
-    local_triples.clear();
-    map_triples.clear();
-  };
-  const std::size_t end = std::min((chunk + 1) * draws_per_chunk, iterations());
-  for (std::size_t begin = chunk * draws_per_chunk; begin < end; begin += TripleBatch::capacity) {
-    relations.size = 0;
-    add_relations_of_draws(local_sampler, local.points, rule, params_.neighbour_cells, draws.local_seed,
-                           begin, std::min(begin + TripleBatch::capacity, end), relations);
-    table_.find(relations, partners);  // eq. 2
-    for (std::size_t i = 0; i < partners.size; ++i) {
-      local_triples.add_number(partners.number(i));
-      map_triples.add_number(partners.partner(i));
-      if (local_triples.full()) test_collisions();
-    }
-  }
-  test_collisions();
-  return found;
-}
-
-void Ransam::test_hypotheses(const LocalMap& local, const TripleSampler& local_sampler,
-                             const QualityTest& quality, const Draws& draws, TripleBatch& local_triples,
-                             TripleBatch& map_triples, MatchResult& found) const {
-  // Drawing again is cheaper than having kept the triples of all draws.
-  local_sampler.draw(draws.local_seed, local_triples);
-  sampler_.draw(draws.map_seed, map_triples);
-  MotionBatch motions;
+MatchResult Ransam::test_hypotheses(const LocalMap& local, const QualityTest& quality,
+                                    const TripleBatch& local_triples, const TripleBatch& map_triples) const {
+  MotionBatch poses;
   ContactIndex::BatchColumn starts;
-  least_squares_motions(local.points, local_triples, setup_.map->points(), map_triples, motions);  // eq. 3
+  least_squares_motions(local.points, local_triples, setup_.map->points(), map_triples, poses);  // eq. 3
   for (std::size_t i = 0; i < local_triples.size; ++i) {
     starts[i] = static_cast<std::uint32_t>(mix64(local_triples.numbers[i]));
   }
-  const QualityTest::Outcome outcome = quality.test(motions, local_triples.size, starts);
-  found.proposals += local_triples.size;
-  found.points_tested += outcome.points_tested;
+  const QualityTest::Outcome outcome = quality.test(poses, local_triples.size, starts);
+  MatchResult found{
+      .hypotheses = {}, .proposals = local_triples.size, .points_tested = outcome.points_tested};
   for (const auto& [i, omega] : outcome.passed)
-    found.hypotheses.push_back(Hypothesis::by_contact(motions[i].pose(), omega));
+    found.hypotheses.push_back(Hypothesis::by_contact(poses[i].pose(), omega));
+  return found;
 }
 
 void Ransam::ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) const {

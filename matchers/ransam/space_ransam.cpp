@@ -1,0 +1,158 @@
+#include "matchers/ransam/space_ransam.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "glocal/error.hpp"
+#include "glocal/voxel_filter.hpp"
+#include "matchers/common/merge.hpp"
+#include "matchers/in_space/rigid_motion.hpp"
+#include "matchers/in_space/surfel_contact.hpp"
+#include "matchers/ransam/space_triangle.hpp"
+
+namespace glocal {
+namespace {
+
+/// Surfaces are looked for in voxels of so many epsilon.
+constexpr double epsilons_per_voxel = 2.0;
+
+/// One point of each voxel: a scan is dense where its sensor is near, and those points would be drawn most.
+Points spread_evenly(const Points& points, double side) {
+  const VoxelGroups groups = voxel_groups(points, side);
+  Points firsts;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (groups.of_point[i] == firsts.size()) firsts.push_back(points[i]);
+  }
+  return firsts;
+}
+
+double diagonal(const Points& points) {
+  const auto extent = [](const std::vector<float>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return static_cast<double>(*high) - static_cast<double>(*low);
+  };
+  return std::hypot(extent(points.x), extent(points.y), extent(points.z));
+}
+
+Triangle triangle_of(const Points& points, const Triple& triple) {
+  const auto corner = [&](std::uint32_t i) { return Vector3{points.x[i], points.y[i], points.z[i]}; };
+  return {corner(triple[0]), corner(triple[1]), corner(triple[2])};
+}
+
+/// A triple of a batch, in the order of relations.
+Triple ordered_triple(const Points& points, const TripleBatch& batch, std::size_t i) {
+  return in_order_of_relation(points, {batch.first[i], batch.second[i], batch.third[i]});
+}
+
+/// Whether a motion lays surfaces on surfaces, at all corners of two triples.
+bool surfaces_agree(const RigidMotion& motion, const Points& from_normals, const Triple& from,
+                    const Points& to_normals, const Triple& to) {
+  constexpr float least_cosine = 0.755F;  // 41 degrees, as for contact of surfels
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const Point normal = motion.turned(from_normals[from[corner]]);
+    if (std::abs(dot(normal, to_normals[to[corner]])) < least_cosine) return false;
+  }
+  return true;
+}
+
+/// The motion as one of a robot that stands upright, if it is about that: triangles are a few degrees off.
+std::optional<RigidMotion> upright_motion(const RigidMotion& motion, const Triangle& triangle) {
+  constexpr float least_cosine = 0.97F;  // 14 degrees
+  if (motion.rotation[8] < least_cosine) return std::nullopt;
+  const Vector3 middle = 1.0 / 3.0 * (triangle[0] + triangle[1] + triangle[2]);
+  return made_upright(
+      motion, {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)});
+}
+
+std::shared_ptr<const SurfacePoints> surfaces_of(const GlobalMap& map, float voxel_size) {
+  auto surfaces = map.index<SurfacePoints>(fmt::format("{}", voxel_size),
+                                           [&] { return SurfacePoints(map.points(), voxel_size); });
+  if (surfaces->points.empty()) {
+    throw ConfigError({{"", 0, 0,
+                        fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: ransam needs "
+                                    "them where the motion is not planar",
+                                    voxel_size)}});
+  }
+  return surfaces;
+}
+
+}  // namespace
+
+SurfacePoints::SurfacePoints(const Points& cloud, float voxel_size) {
+  const Surfels surfels = surfels_of(cloud, voxel_size, std::nullopt);
+  const SurfelContact contact(surfels, voxel_size, false);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Point p = cloud[i];
+    const std::uint32_t k = contact.nearest(p);
+    if (k == VoxelTable::none) continue;
+    const SurfelContact::Plane& plane = contact.plane(k);
+    if (std::abs(dot(plane.normal, p) - plane.distance) > 0.5F * voxel_size) continue;
+    points.push_back(p);
+    normals.push_back(plane.normal);
+  }
+}
+
+SpaceRansam::SpaceRansam(const Ransam::Params& params, const StageSetup& setup)
+    : params_(params),
+      upright_(setup.motion == Motion::upright),
+      voxel_size_(static_cast<float>(epsilons_per_voxel * setup.epsilon(params.contact_epsilon))),
+      contact_(contact_index(*setup.map, params.contact, setup.epsilon(params.contact_epsilon))),
+      map_(surfaces_of(*setup.map, voxel_size_)),
+      matching_(map_->points, find_relations_in_space, triple_matching_rule(params), setup.threads) {
+  if (params.beams.weight > 0.0) {
+    throw ConfigError(
+        {{"", 0, 0, "ransam asks beams in the plane only: blocked_weight must be 0 with other motions"}});
+  }
+}
+
+MatchResult SpaceRansam::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
+                               Rng& rng) {
+  if (local.points.empty()) return {};
+  const TripleMatching::Draws draws{rng.next(), rng.next()};
+  const QualityTest quality(local.points, contact_, extrapolation_rule(params_), omega_max, rng);
+  const SurfacePoints surfaces(spread_evenly(local.points, voxel_size_), voxel_size_);
+  if (surfaces.points.empty()) return {};
+  // A triangle of the map that is larger than the whole local map has no partner there.
+  const TriangleRule rule{.cell = params_.relation_cell,
+                          .min_side = params_.min_side,
+                          .min_height = params_.min_height,
+                          .max_side = std::min(diagonal(surfaces.points) + params_.relation_cell,
+                                               largest_side(params_.relation_cell))};
+  const std::vector<MatchResult> chunks = matching_.match(
+      surfaces.points, rule, draws, [&](const TripleBatch& local_triples, const TripleBatch& map_triples) {
+        return test_hypotheses(surfaces, quality, local_triples, map_triples);
+      });
+  return joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.max_hypotheses));
+}
+
+MatchResult SpaceRansam::test_hypotheses(const SurfacePoints& local, const QualityTest& quality,
+                                         const TripleBatch& local_triples,
+                                         const TripleBatch& map_triples) const {
+  MatchResult found;
+  found.proposals = local_triples.size;
+  Points memory;
+  for (std::size_t i = 0; i < local_triples.size; ++i) {
+    const Triple from = ordered_triple(local.points, local_triples, i);
+    const Triple to = ordered_triple(map_->points, map_triples, i);
+    const Triangle triangle = triangle_of(local.points, from);
+    Pose3 pose = least_squares_motion(triangle, triangle_of(map_->points, to));  // eq. 3
+    RigidMotion motion(pose);
+    if (!surfaces_agree(motion, local.normals, from, map_->normals, to)) continue;
+    if (upright_) {
+      const auto upright = upright_motion(motion, triangle);
+      if (!upright) continue;
+      motion = *upright;
+      pose = motion.pose();
+    }
+    const auto start = static_cast<std::uint32_t>(mix64(local_triples.numbers[i]));
+    const QualityTest::Judged judged = quality.test(motion, start, memory);
+    found.points_tested += judged.points_tested;
+    if (judged.quality) found.hypotheses.push_back(Hypothesis::by_contact(pose, *judged.quality));
+  }
+  return found;
+}
+
+}  // namespace glocal

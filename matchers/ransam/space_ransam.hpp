@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "glocal/contact.hpp"
+#include "glocal/strategies.hpp"
+#include "matchers/common/quality.hpp"
+#include "matchers/ransam/ransam.hpp"
+#include "matchers/ransam/triple_matching.hpp"
+
+namespace glocal {
+
+/// Those points of a cloud that lie on a surface, with its normal, which may look to either side.
+struct SurfacePoints {
+  /// Surfaces are surfels of voxels of a side (m). Throws ConfigError if the cloud reaches too far.
+  SurfacePoints(const Points& cloud, float voxel_size);
+
+  Points points;   ///< m
+  Points normals;  ///< Unit length.
+};
+
+/// Random sample matching in space (Section II of the paper): the relation of three points are the lengths of
+/// the sides between them. Where the motion is upright, proposals that are not are dropped, and others made
+/// upright.
+///
+/// Three points are laid on their mirror image by a rotation, so sides cannot tell the two apart. Normals
+/// can: triples are drawn from points on surfaces, and a proposal must turn each corner's normal to within 41
+/// degrees of its partner's, n and -n being the same. Omega (eq. 4) asks all points of the local map.
+class SpaceRansam final : public Matcher {
+ public:
+  /// Throws ConfigError where the map is too large for a contact grid or has no surfaces, and where beams are
+  /// to be asked.
+  SpaceRansam(const Ransam::Params& params, const StageSetup& setup);
+
+  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
+                                  Rng& rng) override;
+  void reset() override {}
+
+ private:
+  [[nodiscard]] MatchResult test_hypotheses(const SurfacePoints& local, const QualityTest& quality,
+                                            const TripleBatch& local_triples,
+                                            const TripleBatch& map_triples) const;
+
+  Ransam::Params params_;
+  bool upright_;
+  float voxel_size_;
+  std::shared_ptr<const ContactIndex> contact_;
+  std::shared_ptr<const SurfacePoints> map_;
+  TripleMatching matching_;
+};
+
+}  // namespace glocal

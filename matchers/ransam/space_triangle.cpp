@@ -1,0 +1,147 @@
+#include "matchers/ransam/space_triangle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace glocal {
+namespace {
+
+/// Squared sides, each against the corner of the same number, m^2.
+std::array<float, 3> squared_sides(const Points& points, const Triple& triple) {
+  const auto squared_distance = [&](std::size_t i, std::size_t k) {
+    const float dx = points.x[triple[i]] - points.x[triple[k]];
+    const float dy = points.y[triple[i]] - points.y[triple[k]];
+    const float dz = points.z[triple[i]] - points.z[triple[k]];
+    return dx * dx + dy * dy + dz * dz;
+  };
+  return {squared_distance(1, 2), squared_distance(2, 0), squared_distance(0, 1)};
+}
+
+/// Longest first.
+std::array<float, 3> sorted(std::array<float, 3> squares) {
+  std::sort(squares.begin(), squares.end(), std::greater<>());
+  return squares;
+}
+
+bool is_admitted(const std::array<float, 3>& squares, const TriangleRule& rule) {
+  const auto square = [](double value) { return static_cast<float>(value) * static_cast<float>(value); };
+  const auto [a, b, c] = squares;
+  if (c < std::max(square(rule.min_side), std::numeric_limits<float>::min()) || a >= square(rule.max_side))
+    return false;
+  // Heron: 16 times the squared area, which is 4 times the longest side times the height over it, squared.
+  const float area = 4.0F * a * b - (a + b - c) * (a + b - c);
+  return area >= 4.0F * square(rule.min_height) * a;
+}
+
+/// A side length in relation cells, and the neighbouring cell that is nearer.
+struct Cells {
+  Relation own, nearer;
+};
+
+Cells cells_of(float square, float cells_per_metre) {
+  const float length = std::sqrt(square) * cells_per_metre;
+  const auto own = static_cast<Relation>(length);
+  const bool is_lower = length - static_cast<float>(own) < 0.5F && own > 0;
+  return {own, is_lower ? own - 1 : own + 1};
+}
+
+Relation relation_of(Relation a, Relation b, Relation c) {
+  return a << 2 * relation_side_bits | b << relation_side_bits | c;
+}
+
+Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+double dot(const Vector3& a, const Vector3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+Vector3 centroid(const Triangle& t) {
+  return 1.0 / 3.0 * (t[0] + t[1] + t[2]);
+}
+
+/// Two axes in a triangle's plane, and the normal round which its corners run counter-clockwise.
+struct Axes {
+  explicit Axes(const Triangle& t) {
+    const Vector3 side = t[1] - t[0];
+    const Vector3 upright = cross(side, t[2] - t[0]);
+    u = 1.0 / norm(side) * side;
+    normal = 1.0 / norm(upright) * upright;
+    v = cross(normal, u);
+  }
+  Vector3 u, v, normal;
+};
+
+}  // namespace
+
+void find_relations_in_space(const Points& points, const TripleBatch& batch, const TriangleRule& rule,
+                             bool neighbours, RelationBatch& relations) {
+  const auto cells_per_metre = static_cast<float>(1.0 / rule.cell);
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    const std::array<float, 3> squares =
+        sorted(squared_sides(points, {batch.first[i], batch.second[i], batch.third[i]}));
+    if (!is_admitted(squares, rule)) continue;
+    const Cells a = cells_of(squares[0], cells_per_metre);
+    const Cells b = cells_of(squares[1], cells_per_metre);
+    const Cells c = cells_of(squares[2], cells_per_metre);
+    const auto store = [&](Relation relation) {
+      relations.relations[relations.size] = relation;
+      relations.numbers[relations.size] = batch.numbers[i];
+      ++relations.size;
+    };
+    store(relation_of(a.own, b.own, c.own));
+    if (!neighbours) continue;
+    store(relation_of(a.own, b.own, c.nearer));
+    store(relation_of(a.own, b.nearer, c.own));
+    store(relation_of(a.own, b.nearer, c.nearer));
+    store(relation_of(a.nearer, b.own, c.own));
+    store(relation_of(a.nearer, b.own, c.nearer));
+    store(relation_of(a.nearer, b.nearer, c.own));
+    store(relation_of(a.nearer, b.nearer, c.nearer));
+  }
+}
+
+Triple in_order_of_relation(const Points& points, const Triple& triple) {
+  const std::array<float, 3> squares = squared_sides(points, triple);
+  std::array<std::size_t, 3> order = {0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t k) { return squares[i] > squares[k]; });
+  return {triple[order[0]], triple[order[1]], triple[order[2]]};
+}
+
+Pose3 least_squares_motion(const Triangle& from, const Triangle& to) {
+  const Vector3 from_middle = centroid(from);
+  const Vector3 to_middle = centroid(to);
+  const Axes f(from);
+  const Axes t(to);
+  // In the plane, the optimal rotation turns by atan2(sine, cosine) of these sums over the centred corners.
+  double cosine = 0.0;
+  double sine = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3 p = from[i] - from_middle;
+    const Vector3 q = to[i] - to_middle;
+    const double px = dot(p, f.u);
+    const double py = dot(p, f.v);
+    const double qx = dot(q, t.u);
+    const double qy = dot(q, t.v);
+    cosine += px * qx + py * qy;
+    sine += px * qy - py * qx;
+  }
+  const double length = std::hypot(cosine, sine);
+  const double c = length > 0.0 ? cosine / length : 1.0;
+  const double s = length > 0.0 ? sine / length : 0.0;
+  const Vector3 u = c * t.u + s * t.v;  // where f.u comes to lie
+  const Vector3 v = c * t.v - s * t.u;
+  const auto row = [&](double along_u, double along_v, double along_normal) {
+    return along_u * f.u + along_v * f.v + along_normal * f.normal;
+  };
+  const Vector3 x = row(u.x, v.x, t.normal.x);
+  const Vector3 y = row(u.y, v.y, t.normal.y);
+  const Vector3 z = row(u.z, v.z, t.normal.z);
+  const Quaternion turn = quaternion_of({x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z});
+  return {to_middle - rotated(turn, from_middle), turn};
+}
+
+}  // namespace glocal

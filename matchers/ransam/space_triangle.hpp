@@ -1,0 +1,28 @@
+// Triples of points in space: their relation, and the motion between two of them (Section II of the paper,
+// eq. 1 to 3).
+#pragma once
+
+#include <array>
+
+#include "glocal/pose3.hpp"
+#include "matchers/common/triangle.hpp"
+
+namespace glocal {
+
+/// As find_relations(), but sides are those in space, and come in the order of their lengths. Mirrored
+/// triangles have the same relation: turned over, one lies on the other.
+void find_relations_in_space(const Points& points, const TripleBatch& batch, const TriangleRule& rule,
+                             bool neighbours, RelationBatch& relations);
+
+/// Three points in metres.
+using Triangle = std::array<Vector3, 3>;
+
+/// A triple's points in the order of relations: against the longest side, the middle one and the shortest.
+[[nodiscard]] Triple in_order_of_relation(const Points& points, const Triple& triple);
+
+/// The motion that moves the corners of one triangle onto those of another with the least sum of squares (eq.
+/// 3, with centroids). It lays one plane on the other and turns in it, which is optimal for coplanar points
+/// (Horn 1987, closed form). Neither triangle has all its corners on a line.
+[[nodiscard]] Pose3 least_squares_motion(const Triangle& from, const Triangle& to);
+
+}  // namespace glocal
