@@ -10,8 +10,8 @@ namespace glocal {
 namespace {
 
 bool is_better(const GridPose& a, const GridPose& b) {
-  return std::tie(b.in_contact, a.rotation, a.row, a.column) <
-         std::tie(a.in_contact, b.rotation, b.row, b.column);
+  return std::tie(b.in_contact, a.rotation, a.layer, a.row, a.column) <
+         std::tie(a.in_contact, b.rotation, b.layer, b.row, b.column);
 }
 
 /// How many points must be in contact for a share of them; at least one.
@@ -24,17 +24,21 @@ std::size_t least_in_contact(double share, std::size_t points) {
 
 }  // namespace
 
-RobotCells::RobotCells(const Pose2& robot_at_zero, double cell, const GridSearchRule& rule)
+RobotCells::RobotCells(const Pose2& robot_at_zero, double height_at_zero, double cell,
+                       const GridSearchRule& rule)
     : robot_at_zero_(robot_at_zero),
+      height_at_zero_(height_at_zero),
       cell_(cell),
       binning_{rule.distance / std::numbers::sqrt2, square_parts_of_a_turn(rule.rotation)} {}
 
-PoseCell RobotCells::of(const GridPose& pose) const {
-  return binning_.cell_of(
-      {robot_at_zero_.x + cell_ * pose.column, robot_at_zero_.y + cell_ * pose.row, robot_at_zero_.theta});
+RobotCell RobotCells::of(const GridPose& pose) const {
+  const double height = height_at_zero_ + cell_ * pose.layer;
+  return {binning_.cell_of({robot_at_zero_.x + cell_ * pose.column, robot_at_zero_.y + cell_ * pose.row,
+                            robot_at_zero_.theta}),
+          static_cast<std::int64_t>(std::floor(height / binning_.side))};
 }
 
-void add(BestOfCells& best, const PoseCell& cell, const GridPose& pose) {
+void add(BestOfCells& best, const RobotCell& cell, const GridPose& pose) {
   const auto [place, is_new] = best.try_emplace(cell, pose);
   if (!is_new && is_better(pose, place->second)) place->second = pose;
 }
@@ -61,6 +65,15 @@ void BestPoses::raise() {
   std::nth_element(contacts.begin(), last, contacts.end(), std::greater<>());
   least_ = *last + 1;
   std::erase_if(best_, [&](const auto& entry) { return entry.second.in_contact < *last; });
+}
+
+GridSearchResult BestPoses::result(const PoseGrid& grid, const CellFrame& frame) const {
+  GridSearchResult result{.poses = {}, .tested = tested_, .points_tested = points_tested_};
+  for (const GridPose& pose : poses()) {
+    result.poses.push_back({grid.pose(pose.rotation, pose.column, pose.row, frame.min_x, frame.min_y),
+                            frame.min_z + frame.cell * pose.layer, pose.in_contact});
+  }
+  return result;
 }
 
 std::vector<GridPose> BestPoses::poses() const {

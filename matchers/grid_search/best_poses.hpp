@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include "glocal/pose2.hpp"
 #include "glocal/pose_cells.hpp"
+#include "matchers/grid_search/contact_pyramid.hpp"
+#include "matchers/grid_search/pose_grid.hpp"
 
 namespace glocal {
 
@@ -20,7 +24,8 @@ struct GridSearchRule {
 
 struct GridSearchResult {
   struct Pose {
-    Pose2 map_from_local;
+    Pose2 map_from_local;        ///< Seen from above.
+    double z = 0.0;              ///< Of the local frame's origin in the map, m; 0 in the plane.
     std::size_t in_contact = 0;  ///< Points.
   };
   std::vector<Pose> poses;        ///< Falling contact.
@@ -34,28 +39,39 @@ struct GridPose {
   std::size_t rotation = 0;
   int row = 0;
   int column = 0;
+  int layer = 0;  ///< 0 in the plane.
 };
 
-/// By cells of robot poses.
-using BestOfCells = std::map<PoseCell, GridPose>;
+/// A cell of robot poses.
+struct RobotCell {
+  PoseCell place;
+  std::int64_t layer = 0;  ///< 0 in the plane.
+
+  friend bool operator<(const RobotCell& a, const RobotCell& b) {
+    return std::tie(a.place, a.layer) < std::tie(b.place, b.layer);
+  }
+};
+
+using BestOfCells = std::map<RobotCell, GridPose>;
 
 /// The cells that the robot is in at the poses of one rotation of a grid.
 class RobotCells {
  public:
-  /// `robot_at_zero`: the robot in the map before any translation; `cell`: what translations are multiples of
-  /// (m).
-  RobotCells(const Pose2& robot_at_zero, double cell, const GridSearchRule& rule);
-  [[nodiscard]] PoseCell of(const GridPose& pose) const;
+  /// `robot_at_zero`: the robot in the map before any translation, and its height there (m, 0 in the plane);
+  /// `cell`: what translations are multiples of (m).
+  RobotCells(const Pose2& robot_at_zero, double height_at_zero, double cell, const GridSearchRule& rule);
+  [[nodiscard]] RobotCell of(const GridPose& pose) const;
 
  private:
   Pose2 robot_at_zero_;
+  double height_at_zero_;
   double cell_;
   PoseBinning binning_;  ///< Of robot poses.
 };
 
 /// Keeps the better of a cell's poses: more contact; then the first in the grid, so that the order of the
 /// search does not matter.
-void add(BestOfCells& best, const PoseCell& cell, const GridPose& pose);
+void add(BestOfCells& best, const RobotCell& cell, const GridPose& pose);
 
 /// What has been found in one rotation of a grid.
 struct FoundPoses {
@@ -76,13 +92,8 @@ class BestPoses {
 
   /// Points in contact.
   [[nodiscard]] std::size_t least() const { return least_; }
-  /// The best first; map_from_local of a grid pose is `pose_of(pose)`.
-  template <class PoseOf>
-  [[nodiscard]] GridSearchResult result(PoseOf pose_of) const {
-    GridSearchResult result{.poses = {}, .tested = tested_, .points_tested = points_tested_};
-    for (const GridPose& pose : poses()) result.poses.push_back({pose_of(pose), pose.in_contact});
-    return result;
-  }
+  /// The best first: poses of a grid over the cells of a frame.
+  [[nodiscard]] GridSearchResult result(const PoseGrid& grid, const CellFrame& frame) const;
 
  private:
   void raise();

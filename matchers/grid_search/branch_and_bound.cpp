@@ -1,8 +1,14 @@
 #include "matchers/grid_search/branch_and_bound.hpp"
 
 #include "matchers/grid_search/grid_search.hpp"
+#include "matchers/grid_search/space_branch_and_bound.hpp"
 
 namespace glocal {
+
+std::unique_ptr<Matcher> BranchAndBound::make(const Params& params, const StageSetup& setup) {
+  if (setup.motion == Motion::planar) return std::make_unique<BranchAndBound>(params, setup);
+  return std::make_unique<SpaceBranchAndBound>(params, setup);
+}
 
 BranchAndBound::BranchAndBound(const Params& params, const StageSetup& setup)
     : GridMatcher(params, *setup.map,

@@ -21,6 +21,9 @@ namespace glocal {
 class BranchAndBound final : public GridMatcher {
  public:
   using Params = GridMatching;
+  static constexpr Motions motions{.planar = true, .upright = true};
+  /// A SpaceBranchAndBound where the motion is upright.
+  [[nodiscard]] static std::unique_ptr<Matcher> make(const Params& params, const StageSetup& setup);
 
   /// Throws ConfigError where the map is too large for a contact grid, a pyramid or a distance field.
   BranchAndBound(const Params& params, const StageSetup& setup);

@@ -72,9 +72,11 @@ void add_looks_in_vectors(const std::uint64_t* level, std::size_t rows, const Ti
 }
 
 /// The looks of those of n points that meet a tile; n is a multiple of every vector's length. Writes whole
-/// vectors. Returns how many they are.
-std::size_t find_looks_in_vectors(const TileLayout& tile, const std::int32_t* columns,
-                                  const std::int32_t* rows, std::size_t n, TileLooks& looks) {
+/// vectors. Returns how many they are. `layers` are looked at in space alone.
+template <bool in_space>
+HWY_INLINE std::size_t find_looks(const TileLayout& tile, const std::int32_t* columns,
+                                  const std::int32_t* rows, const std::int32_t* layers, std::size_t n,
+                                  TileLooks& looks) {
   const hn::CappedTag<std::int32_t, 16> d;
   const hn::Rebind<std::uint32_t, decltype(d)> words;
   const auto low_bits = hn::Set(d, (1 << tile.level) - 1);
@@ -89,14 +91,29 @@ std::size_t find_looks_in_vectors(const TileLayout& tile, const std::int32_t* co
     const auto line = hn::Add(hn::ShiftRightSame(y, tile.level), hn::Set(d, TileCounts::rows));
     const auto phase = hn::Or(hn::ShiftLeftSame(hn::And(y, low_bits), tile.level), hn::And(x, low_bits));
     const auto column = hn::Add(hn::Mul(phase, hn::Set(d, tile.words)), hn::ShiftRight<6>(first));
-    const auto word = hn::Add(hn::Mul(column, hn::Set(d, tile.rows)), line);
-    const auto meets = hn::And(within(first, tile.last_column), within(line, tile.last_row));
+    auto word = hn::Add(hn::Mul(column, hn::Set(d, tile.rows)), line);
+    auto meets = hn::And(within(first, tile.last_column), within(line, tile.last_row));
+    if constexpr (in_space) {
+      const auto layer = hn::Add(hn::LoadU(d, layers + i), hn::Set(d, tile.layer));
+      word = hn::Add(word, hn::Mul(layer, hn::Set(d, tile.layer_words)));
+      meets = hn::And(meets, within(layer, tile.last_layer));
+    }
     hn::CompressStore(hn::BitCast(words, hn::And(first, hn::Set(d, 63))), hn::RebindMask(words, meets), words,
                       looks.shifts.data() + size);
     size += hn::CompressStore(hn::BitCast(words, word), hn::RebindMask(words, meets), words,
                               looks.words.data() + size);
   }
   return size;
+}
+
+std::size_t find_looks_in_plane(const TileLayout& tile, const std::int32_t* columns, const std::int32_t* rows,
+                                std::size_t n, TileLooks& looks) {
+  return find_looks<false>(tile, columns, rows, nullptr, n, looks);
+}
+
+std::size_t find_looks_in_space(const TileLayout& tile, const std::int32_t* columns, const std::int32_t* rows,
+                                const std::int32_t* layers, std::size_t n, TileLooks& looks) {
+  return find_looks<true>(tile, columns, rows, layers, n, looks);
 }
 
 }  // namespace
@@ -107,7 +124,8 @@ HWY_AFTER_NAMESPACE();
 namespace glocal {
 
 HWY_EXPORT(add_looks_in_vectors);
-HWY_EXPORT(find_looks_in_vectors);
+HWY_EXPORT(find_looks_in_plane);
+HWY_EXPORT(find_looks_in_space);
 
 namespace {
 
@@ -121,14 +139,16 @@ int low_bits(int value, int n) {
 
 }  // namespace
 
-void CellPoints::push_back(std::int32_t column, std::int32_t row) {
+void CellPoints::push_back(std::int32_t column, std::int32_t row, std::int32_t layer) {
   constexpr std::int32_t far_away = -(1 << 29);
   if (size_ == columns_.size()) {
     columns_.resize(size_ + lanes, far_away);
     rows_.resize(size_ + lanes, far_away);
+    layers_.resize(size_ + lanes, far_away);
   }
   columns_[size_] = column;
   rows_[size_] = row;
+  layers_[size_] = layer;
   ++size_;
 }
 
@@ -176,63 +196,95 @@ void check_cell(double cell, double epsilon) {
                     cell, epsilon)}});
 }
 
-CellFrame cell_frame(const Points& map_points, double cell, double epsilon) {
-  const auto [low_x, high_x] = std::minmax_element(map_points.x.begin(), map_points.x.end());
-  const auto [low_y, high_y] = std::minmax_element(map_points.y.begin(), map_points.y.end());
-  CellFrame frame{.cell = cell, .min_x = *low_x - epsilon, .min_y = *low_y - epsilon};
-  const double columns = std::floor((*high_x + epsilon - frame.min_x) / cell) + 1.0;
-  const double rows = std::floor((*high_y + epsilon - frame.min_y) / cell) + 1.0;
+CellFrame cell_frame(const Points& map_points, double cell, double epsilon, Motion motion) {
+  const auto least = [&](const std::vector<float>& values) {
+    return *std::min_element(values.begin(), values.end()) - epsilon;
+  };
+  const auto cells = [&](const std::vector<float>& values) {
+    const double most = *std::max_element(values.begin(), values.end()) + epsilon;
+    return std::floor((most - least(values)) / cell) + 1.0;
+  };
+  const bool in_space = motion != Motion::planar;
+  const double columns = cells(map_points.x);
+  const double rows = cells(map_points.y);
+  const double layers = in_space ? cells(map_points.z) : 1.0;
   constexpr double largest = 1024.0 * 1024.0 * 1024.0;
-  if (!(columns * rows <= largest)) {
+  if (!(columns * rows * layers <= largest)) {
     throw ConfigError({{"", 0, 0,
                         fmt::format("the map is too large for a grid of cells of {} m: it would need more "
                                     "than 1 GiB; cut the map, or take a larger cell",
                                     cell)}});
   }
-  frame.columns = static_cast<int>(columns);
-  frame.rows = static_cast<int>(rows);
-  return frame;
+  return {.cell = cell,
+          .min_x = least(map_points.x),
+          .min_y = least(map_points.y),
+          .min_z = in_space ? least(map_points.z) : 0.0,
+          .columns = static_cast<int>(columns),
+          .rows = static_cast<int>(rows),
+          .layers = static_cast<int>(layers)};
 }
 
-ContactPyramid::ContactPyramid(const Points& map_points, double cell, double epsilon, int top_level)
-    : frame_(cell_frame(map_points, cell, epsilon)) {
-  // Windows may begin before the first cell.
+struct ContactPyramid::Windows {
+  int border;  ///< How many cells before the first one they begin, at most.
+  std::size_t width, height, depth;
+  std::vector<std::uint8_t> bytes;
+
+  Windows(const CellFrame& frame, int cells_before, int layers_before)
+      : border(cells_before),
+        width(static_cast<std::size_t>(frame.columns + cells_before)),
+        height(static_cast<std::size_t>(frame.rows + cells_before)),
+        depth(static_cast<std::size_t>(frame.layers + layers_before)),
+        bytes(width * height * depth, 0) {}
+
+  /// Four windows make one of twice the side, or eight in space; those read have not been replaced yet.
+  void join(std::size_t half) {
+    const std::size_t layer = width * height;
+    for (std::size_t row = 0; row < height * depth; ++row) {
+      for (std::size_t i = row * width; i + half < (row + 1) * width; ++i) bytes[i] |= bytes[i + half];
+    }
+    for (std::size_t z = 0; z < depth; ++z) {
+      for (std::size_t i = z * layer; i + half * width < (z + 1) * layer; ++i)
+        bytes[i] |= bytes[i + half * width];
+    }
+    for (std::size_t i = 0; i + half * layer < bytes.size(); ++i) bytes[i] |= bytes[i + half * layer];
+  }
+};
+
+ContactPyramid::ContactPyramid(const Points& map_points, double cell, double epsilon, int top_level,
+                               Motion motion)
+    : frame_(cell_frame(map_points, cell, epsilon, motion)), in_space_(motion != Motion::planar) {
   const int border = (1 << top_level) - 1;
-  const auto width = static_cast<std::size_t>(frame_.columns) + static_cast<std::size_t>(border);
-  const auto height = static_cast<std::size_t>(frame_.rows) + static_cast<std::size_t>(border);
-  std::vector<std::uint8_t> windows(width * height, 0);
-  const auto window = [&](int column, int row) -> std::uint8_t& {
-    return windows[static_cast<std::size_t>(row + border) * width +
-                   static_cast<std::size_t>(column + border)];
+  if (in_space_) layers_before_ = border;
+  Windows windows(frame_, border, layers_before_);
+  const auto window = [&](int column, int row, int layer) -> std::uint8_t& {
+    const auto line = static_cast<std::size_t>(layer + layers_before_) * windows.height +
+                      static_cast<std::size_t>(row + border);
+    return windows.bytes[line * windows.width + static_cast<std::size_t>(column + border)];
   };
   for (std::size_t i = 0; i < map_points.size(); ++i) {
-    // In cells, relative to the centre of cell (0, 0).
+    // In cells, relative to the centre of cell (0, 0, 0).
     const double x = (map_points.x[i] - frame_.min_x) / cell - 0.5;
     const double y = (map_points.y[i] - frame_.min_y) / cell - 0.5;
+    const double z = in_space_ ? (map_points.z[i] - frame_.min_z) / cell - 0.5 : 0.0;
     const double reach = epsilon / cell;
     const auto first = [&](double centre) {
       return std::max(0, static_cast<int>(std::ceil(centre - reach)));
     };
-    for (int r = first(y); r < frame_.rows && r <= y + reach; ++r) {
-      for (int c = first(x); c < frame_.columns && c <= x + reach; ++c) {
-        if ((c - x) * (c - x) + (r - y) * (r - y) <= reach * reach) window(c, r) = 1;
+    for (int l = first(z); l < frame_.layers && l <= z + reach; ++l) {
+      for (int r = first(y); r < frame_.rows && r <= y + reach; ++r) {
+        for (int c = first(x); c < frame_.columns && c <= x + reach; ++c) {
+          if ((c - x) * (c - x) + (r - y) * (r - y) + (l - z) * (l - z) <= reach * reach) window(c, r, l) = 1;
+        }
       }
     }
   }
   for (int level = 0; level <= top_level; ++level) {
-    if (level > 0) {
-      // Four windows of the last level make one of this; those read have not been replaced yet.
-      const auto half = std::size_t{1} << (level - 1);
-      for (std::size_t row = 0; row < height; ++row) {
-        for (std::size_t i = row * width; i + half < (row + 1) * width; ++i) windows[i] |= windows[i + half];
-      }
-      for (std::size_t i = 0; i + half * width < windows.size(); ++i) windows[i] |= windows[i + half * width];
-    }
-    add_level(level, windows, border);
+    if (level > 0) windows.join(std::size_t{1} << (level - 1));
+    add_level(level, windows);
   }
 }
 
-void ContactPyramid::add_level(int level, const std::vector<std::uint8_t>& windows, int border) {
+void ContactPyramid::add_level(int level, const Windows& windows) {
   const auto nodes = [&](int cells) { return ((cells - 1) >> level) + 1; };
   Level l;
   // A tile may begin a whole tile before the first windows and end as far behind the last.
@@ -240,18 +292,21 @@ void ContactPyramid::add_level(int level, const std::vector<std::uint8_t>& windo
   l.last_row = nodes(frame_.rows) + TileCounts::rows - 1;
   l.words = l.last_column / word_bits + 2;
   l.rows = l.last_row + TileCounts::rows;
-  l.bits.assign(static_cast<std::size_t>(l.words) * static_cast<std::size_t>(l.rows) << (2 * level), 0);
-  const int width = frame_.columns + border;
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    if (windows[i] == 0) continue;
-    const int column = static_cast<int>(i % static_cast<std::size_t>(width)) - border;
-    const int row = static_cast<int>(i / static_cast<std::size_t>(width)) - border;
+  l.layer_words = (l.words * l.rows) << (2 * level);
+  l.bits.assign(static_cast<std::size_t>(l.layer_words) * windows.depth, 0);
+  for (std::size_t i = 0; i < windows.bytes.size(); ++i) {
+    if (windows.bytes[i] == 0) continue;
+    const std::size_t line_of_windows = i / windows.width;
+    const int column = static_cast<int>(i % windows.width) - windows.border;
+    const int row = static_cast<int>(line_of_windows % windows.height) - windows.border;
+    const std::size_t layer = line_of_windows / windows.height;
     const auto phase = static_cast<std::size_t>(low_bits(row, level) << level | low_bits(column, level));
     const int bit = (column >> level) + TileCounts::columns;
     const int line = (row >> level) + TileCounts::rows;
     const std::size_t column_of_words =
         phase * static_cast<std::size_t>(l.words) + static_cast<std::size_t>(bit / word_bits);
-    l.bits[column_of_words * static_cast<std::size_t>(l.rows) + static_cast<std::size_t>(line)] |=
+    l.bits[layer * static_cast<std::size_t>(l.layer_words) +
+           column_of_words * static_cast<std::size_t>(l.rows) + static_cast<std::size_t>(line)] |=
         std::uint64_t{1} << (bit % word_bits);
   }
   levels_.push_back(std::move(l));
@@ -264,14 +319,28 @@ std::size_t ContactPyramid::memory_bytes() const {
 }
 
 std::size_t ContactPyramid::count(int level, const CellPoints& points, int column, int row, std::size_t least,
-                                  TileCounts& counts) const {
+                                  TileCounts& counts, int layer) const {
   const Level& l = levels_[static_cast<std::size_t>(level)];
   TileLooks& looks = counts.looks_;
   looks.words.resize(points.columns_.size() + lanes);
   looks.shifts.resize(points.columns_.size() + lanes);
-  const TileLayout tile{level, column, row, l.words, l.rows, l.last_column, l.last_row};
-  const std::size_t n = HWY_DYNAMIC_DISPATCH(find_looks_in_vectors)(
-      tile, points.columns_.data(), points.rows_.data(), points.columns_.size(), looks);
+  const TileLayout tile{.level = level,
+                        .column = column,
+                        .row = row,
+                        .words = l.words,
+                        .rows = l.rows,
+                        .last_column = l.last_column,
+                        .last_row = l.last_row,
+                        .layer = layer + layers_before_,
+                        .layer_words = l.layer_words,
+                        .last_layer = frame_.layers + layers_before_ - 1};
+  const std::int32_t* columns = points.columns_.data();
+  const std::int32_t* rows = points.rows_.data();
+  const std::size_t padded = points.columns_.size();
+  const std::size_t n = in_space_
+                            ? HWY_DYNAMIC_DISPATCH(find_looks_in_space)(tile, columns, rows,
+                                                                        points.layers_.data(), padded, looks)
+                            : HWY_DYNAMIC_DISPATCH(find_looks_in_plane)(tile, columns, rows, padded, looks);
   // The first words are empty: nothing is in contact so far before the first cell.
   constexpr std::ptrdiff_t group = 8;
   std::fill_n(looks.words.begin() + static_cast<std::ptrdiff_t>(n), group, 0);
@@ -292,10 +361,13 @@ std::size_t ContactPyramid::count(int level, const CellPoints& points, int colum
   return looked_at;
 }
 
-std::shared_ptr<const ContactPyramid> contact_pyramid(const GlobalMap& map, double cell, double epsilon) {
+std::shared_ptr<const ContactPyramid> contact_pyramid(const GlobalMap& map, double cell, double epsilon,
+                                                      Motion motion) {
   check_cell(cell, epsilon);
-  return map.index<ContactPyramid>(fmt::format("{} {}", cell, epsilon),
-                                   [&] { return ContactPyramid(map.points(), cell, epsilon); });
+  const bool in_space = motion != Motion::planar;
+  return map.index<ContactPyramid>(fmt::format("{} {}{}", cell, epsilon, in_space ? " in space" : ""), [&] {
+    return ContactPyramid(map.points(), cell, epsilon, ContactPyramid::default_top_level, motion);
+  });
 }
 
 }  // namespace glocal

@@ -92,19 +92,17 @@ Exhaustive::Exhaustive(const Params& params, const StageSetup& setup)
 GridSearchResult Exhaustive::search(const Points& points, const Pose2& local_from_robot,
                                     const GridSearchRule& rule) const {
   const PoseGrid grid(points, frame_.cell, rule.min_rotation_step);
-  const auto pose_of = [&](const GridPose& pose) {
-    return grid.pose(pose.rotation, pose.column, pose.row, frame_.min_x, frame_.min_y);
-  };
   BestPoses best(rule, points.size());
   for (std::size_t begin = 0; begin < grid.rotations(); begin += rotations_per_round) {
     std::vector<FoundPoses> found(std::min(rotations_per_round, grid.rotations() - begin));
     parallel_for(threads_, found.size(), [&](std::size_t i) {
-      const RobotCells robots(pose_of({.rotation = begin + i}) * local_from_robot, frame_.cell, rule);
+      const Pose2 at_zero = grid.pose(begin + i, 0, 0, frame_.min_x, frame_.min_y);
+      const RobotCells robots(at_zero * local_from_robot, 0.0, frame_.cell, rule);
       found[i] = search_rotation(grid, begin + i, points, robots, best.least());
     });
     best.add(found);
   }
-  return best.result(pose_of);
+  return best.result(grid, frame_);
 }
 
 FoundPoses Exhaustive::search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,

@@ -35,9 +35,22 @@ void describe(ParamVisitor& v, GridMatching& p) {
            .audience = Audience::tuner});
   describe(v, p.candidate);
   v.field("refinement", p.refinement,
-          {.doc = "How poses are refined on the distance field; without iterations they stay on the grid.",
+          {.doc = "How poses are refined on the distance field, in the plane; without iterations they stay "
+                  "on the grid.",
            .audience = Audience::expert});
   describe_field_cell(v, p.field_cell);
+}
+
+std::size_t most_points(const GridMatching& p) {
+  return p.max_points > 0 ? static_cast<std::size_t>(p.max_points) : TileCounts::most_points;
+}
+
+GridSearchRule search_rule(const GridMatching& p, double omega_max) {
+  return {.min_quality = omega_max,
+          .min_rotation_step = radians(p.min_rotation_step_deg),
+          .distance = p.candidate.distance,
+          .rotation = radians(p.candidate.rotation_deg),
+          .max_poses = static_cast<std::size_t>(p.max_poses)};
 }
 
 GridMatcher::GridMatcher(const GridMatching& params, const GlobalMap& map,
@@ -51,16 +64,9 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
                                Rng& rng) {
   MatchResult result;
   if (local.points.empty()) return result;
-  const auto most_points =
-      params_.max_points > 0 ? static_cast<std::size_t>(params_.max_points) : TileCounts::most_points;
-  const Points sample = sample_of(local.points, most_points, rng);
+  const Points sample = sample_of(local.points, most_points(params_), rng);
   const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
-  const GridSearchResult found = search(sample, local_from_robot,
-                                        {.min_quality = omega_max,
-                                         .min_rotation_step = radians(params_.min_rotation_step_deg),
-                                         .distance = params_.candidate.distance,
-                                         .rotation = radians(params_.candidate.rotation_deg),
-                                         .max_poses = static_cast<std::size_t>(params_.max_poses)});
+  const GridSearchResult found = search(sample, local_from_robot, search_rule(params_, omega_max));
   result.proposals = found.tested;
   result.points_tested = found.points_tested;
   std::vector<Candidate> candidates;

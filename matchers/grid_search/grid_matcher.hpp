@@ -26,6 +26,10 @@ struct GridMatching {
 };
 void describe(ParamVisitor& v, GridMatching& p);
 
+/// By how many points a local map is searched for.
+[[nodiscard]] std::size_t most_points(const GridMatching& p);
+[[nodiscard]] GridSearchRule search_rule(const GridMatching& p, double omega_max);
+
 /// Matching by a search of a grid of poses. A pose of the grid turns the local map by whole steps about its
 /// middle and moves it by whole cells (PoseGrid). A local map of more than max_points is searched for by a
 /// sample of them.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -29,16 +30,30 @@ std::size_t most_in_contact(const FoundPoses& found) {
   return most;
 }
 
+/// Translations by whole layers, from the first to the last.
+struct Layers {
+  int first = 0, last = 0;
+};
+
+/// All that leave a robot, which is at a height (m) in the local frame, within the frame.
+Layers layers_of_robot(const ContactPyramid& pyramid, double robot_height) {
+  if (!pyramid.in_space()) return {};
+  const double height = robot_height / pyramid.frame().cell;
+  return {static_cast<int>(std::ceil(-height)),
+          static_cast<int>(std::ceil(pyramid.frame().layers - height)) - 1};
+}
+
 /// The translations of one rotation.
 class RotationSearch {
  public:
   RotationSearch(const ContactPyramid& pyramid, const PoseGrid& grid, std::size_t rotation,
-                 const Pose2& local_from_robot, const GridSearchRule& rule)
+                 const Pose2& local_from_robot, double robot_height, const GridSearchRule& rule)
       : pyramid_(pyramid),
         rotation_(rotation),
         points_(grid.cells(rotation)),
+        layers_(layers_of_robot(pyramid, robot_height)),
         robots_(grid.pose(rotation, 0, 0, pyramid.frame().min_x, pyramid.frame().min_y) * local_from_robot,
-                pyramid.frame().cell, rule) {}
+                pyramid.frame().min_z + robot_height, pyramid.frame().cell, rule) {}
 
   /// A bound for all poses, and the best pose of the node that promises most.
   [[nodiscard]] Look look() {
@@ -46,24 +61,28 @@ class RotationSearch {
     std::size_t bound = 0;
     int column = 0;
     int row = 0;
-    for_each_top_tile([&](int x, int y) {
-      count(top, x, y, bound + 1);
+    int layer = layers_.first;
+    for_each_top_tile([&](int x, int y, int z) {
+      count(top, x, y, z, bound + 1);
       if (counts_.largest() <= bound) return;
       bound = counts_.largest();
       const auto [i, k] = first_of(counts_.at_least(bound));
       column = x + (i << top);
       row = y + (k << top);
+      layer = z;
     });
-    for (int y = row; y < row + (1 << top); y += TileCounts::rows) {
-      count(0, column, y, 1);
-      add_poses(column, y, std::max<std::size_t>(1, counts_.largest()));
+    for (int z = layer; z < layer + (1 << top) && z <= layers_.last; ++z) {
+      for (int y = row; y < row + (1 << top); y += TileCounts::rows) {
+        count(0, column, y, z, 1);
+        add_poses(column, y, z, std::max<std::size_t>(1, counts_.largest()));
+      }
     }
     return {std::move(found_), bound};
   }
 
   /// All poses that bring at least so many points into contact.
   [[nodiscard]] FoundPoses search(std::size_t least) {
-    for_each_top_tile([&](int x, int y) { descend(pyramid_.top_level(), x, y, least); });
+    for_each_top_tile([&](int x, int y, int z) { descend(pyramid_.top_level(), x, y, z, least); });
     return std::move(found_);
   }
 
@@ -73,21 +92,24 @@ class RotationSearch {
   void for_each_top_tile(Visit visit) const {
     const Translations all = translations(points_, pyramid_.frame());
     const int top = pyramid_.top_level();
-    for (int y = all.first_row; y <= all.last_row; y += TileCounts::rows << top) {
-      for (int x = all.first_column; x <= all.last_column; x += TileCounts::columns << top) visit(x, y);
+    for (int z = layers_.first; z <= layers_.last; z += 1 << top) {
+      for (int y = all.first_row; y <= all.last_row; y += TileCounts::rows << top) {
+        for (int x = all.first_column; x <= all.last_column; x += TileCounts::columns << top) visit(x, y, z);
+      }
     }
   }
 
-  void count(int level, int column, int row, std::size_t least) {
-    found_.points_tested += pyramid_.count(level, points_, column, row, least, counts_);
+  void count(int level, int column, int row, int layer, std::size_t least) {
+    found_.points_tested += pyramid_.count(level, points_, column, row, least, counts_, layer);
     if (level == 0) found_.tested += std::size_t{TileCounts::columns} * TileCounts::rows;
   }
 
-  void descend(int level, int column, int row, std::size_t least) {
-    count(level, column, row, least);
-    if (level == 0) return add_poses(column, row, least);
+  void descend(int level, int column, int row, int layer, std::size_t least) {
+    count(level, column, row, layer, least);
+    if (level == 0) return add_poses(column, row, layer, least);
     const TileCounts::Mask promising = counts_.at_least(least);
-    // A quarter of the nodes makes a tile of the level below.
+    // A quarter of the nodes makes a tile of the level below; in space, one for each half of the layers.
+    const int half_layers = 1 << (level - 1);
     constexpr int half_columns = TileCounts::columns / 2;
     constexpr int half_rows = TileCounts::rows / 2;
     for (int k = 0; k < TileCounts::rows; k += half_rows) {
@@ -95,18 +117,19 @@ class RotationSearch {
         std::uint64_t any = 0;
         for (int r = k; r < k + half_rows; ++r) any |= promising[static_cast<std::size_t>(r)] >> i;
         if (static_cast<std::uint32_t>(any) == 0) continue;
-        descend(level - 1, column + (i << level), row + (k << level), least);
+        for (int z = layer; z < layer + 2 * half_layers && z <= layers_.last; z += half_layers)
+          descend(level - 1, column + (i << level), row + (k << level), z, least);
       }
     }
   }
 
   /// Those of the tile just counted, of level 0.
-  void add_poses(int column, int row, std::size_t least) {
+  void add_poses(int column, int row, int layer, std::size_t least) {
     const TileCounts::Mask nodes = counts_.at_least(least);
     for (int k = 0; k < TileCounts::rows; ++k) {
       for (std::uint64_t left = nodes[static_cast<std::size_t>(k)]; left != 0; left &= left - 1) {
         const int i = std::countr_zero(left);
-        const GridPose pose{counts_.at(i, k), rotation_, row + k, column + i};
+        const GridPose pose{counts_.at(i, k), rotation_, row + k, column + i, layer};
         add(found_.best, robots_.of(pose), pose);
       }
     }
@@ -121,6 +144,7 @@ class RotationSearch {
   const ContactPyramid& pyramid_;
   std::size_t rotation_;
   CellPoints points_;
+  Layers layers_;
   RobotCells robots_;
   TileCounts counts_;
   FoundPoses found_;
@@ -129,11 +153,12 @@ class RotationSearch {
 }  // namespace
 
 GridSearchResult search_grid(const ContactPyramid& pyramid, const Points& points,
-                             const Pose2& local_from_robot, const GridSearchRule& rule, int threads) {
+                             const Pose2& local_from_robot, const GridSearchRule& rule, int threads,
+                             double robot_height) {
   const CellFrame& frame = pyramid.frame();
   const PoseGrid grid(points, frame.cell, rule.min_rotation_step);
   const auto rotation = [&](std::size_t index) {
-    return RotationSearch(pyramid, grid, index, local_from_robot, rule);
+    return RotationSearch(pyramid, grid, index, local_from_robot, robot_height, rule);
   };
   std::vector<std::size_t> bounds(grid.rotations());
   std::vector<FoundPoses> found(grid.rotations());
@@ -158,9 +183,7 @@ GridSearchResult search_grid(const ContactPyramid& pyramid, const Points& points
     });
     best.add(found);
   }
-  return best.result([&](const GridPose& pose) {
-    return grid.pose(pose.rotation, pose.column, pose.row, frame.min_x, frame.min_y);
-  });
+  return best.result(grid, frame);
 }
 
 }  // namespace glocal

@@ -18,8 +18,12 @@ namespace glocal {
 /// `points_tested` counts looks at a point, each of which serves the 512 nodes of a tile.
 /// All rotations are searched depth first from the top of the pyramid, those that look best in a first look
 /// before the others. The answer does not depend on the number of threads.
+///
+/// Over a pyramid in space, the local frame stands upright in the map, and translations are by whole layers,
+/// too: all that leave the robot, which is at `robot_height` (m) in the local frame, at the height of one of
+/// the pyramid's layers.
 [[nodiscard]] GridSearchResult search_grid(const ContactPyramid& pyramid, const Points& points,
                                            const Pose2& local_from_robot, const GridSearchRule& rule,
-                                           int threads);
+                                           int threads, double robot_height = 0.0);
 
 }  // namespace glocal

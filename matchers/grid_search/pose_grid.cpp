@@ -18,8 +18,10 @@ PoseGrid::PoseGrid(const Points& points, double cell, double min_rotation_step)
     : points_(points), cell_(cell), middle_x_(middle_of(points.x)), middle_y_(middle_of(points.y)) {
   constexpr double max_rotation_step = 0.1;
   double radius = 0.0;
+  layers_.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     radius = std::max(radius, std::hypot(points.x[i] - middle_x_, points.y[i] - middle_y_));
+    layers_.push_back(static_cast<std::int32_t>(std::floor(points.z[i] / cell)));
   }
   const double step = std::min(max_rotation_step, std::max(min_rotation_step, cell / radius));
   rotations_ = static_cast<std::size_t>(std::ceil(2.0 * std::numbers::pi / step));
@@ -39,7 +41,7 @@ CellPoints PoseGrid::cells(std::size_t rotation) const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double x = points_.x[i] - middle_x_;
     const double y = points_.y[i] - middle_y_;
-    cells.push_back(cell_of(c * x - s * y), cell_of(s * x + c * y));
+    cells.push_back(cell_of(c * x - s * y), cell_of(s * x + c * y), layers_[i]);
   }
   return cells;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "glocal/points.hpp"
 #include "matchers/grid_search/contact_pyramid.hpp"
@@ -11,7 +13,8 @@ namespace glocal {
 /// Poses of a local map. The points are turned about the middle of the rectangle they fill, by whole steps,
 /// and moved by whole cells: once turned, each lies in the cell that its coordinates over the side of a cell,
 /// rounded down, name, and translations keep it in the same place within its cell. So what cells the points
-/// of a grid pose lie in is a matter of integers.
+/// of a grid pose lie in is a matter of integers. In space, so it is with layers: heights do not change as
+/// the points are turned.
 class PoseGrid {
  public:
   /// `cell` in m. A rotation by one step moves the farthest point by one cell, but is not smaller than
@@ -30,6 +33,7 @@ class PoseGrid {
   const Points& points_;
   double cell_;
   double middle_x_, middle_y_;
+  std::vector<std::int32_t> layers_;  ///< Of the points.
   std::size_t rotations_;
 };
 

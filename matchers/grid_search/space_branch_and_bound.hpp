@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "glocal/contact.hpp"
+#include "glocal/strategies.hpp"
+#include "matchers/grid_search/contact_pyramid.hpp"
+#include "matchers/grid_search/grid_matcher.hpp"
+
+namespace glocal {
+
+/// Exact matching on a grid of upright poses: x, y, z and yaw. What it does not find is not there, as long as
+/// the robot is between the map's lowest and highest points.
+///
+/// As in the plane, a pose of the grid is as good as the share of points that come to lie in a cell whose
+/// centre is within contact_epsilon of a point of the map; cells are cubes. Poses stay on the grid. Their
+/// score is that share, their quality Omega (eq. 4) of all points.
+class SpaceBranchAndBound final : public Matcher {
+ public:
+  /// Throws ConfigError where the map is too large for a contact grid or a pyramid.
+  SpaceBranchAndBound(const GridMatching& params, const StageSetup& setup);
+
+  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
+                                  Rng& rng) override;
+  void reset() override {}
+
+ private:
+  GridMatching params_;
+  int threads_;
+  std::shared_ptr<const ContactIndex> contact_;
+  std::shared_ptr<const ContactPyramid> pyramid_;
+};
+
+}  // namespace glocal
