@@ -47,15 +47,8 @@ Triple ordered_triple(const Points& points, const TripleBatch& batch, std::size_
   return in_order_of_relation(points, {batch.first[i], batch.second[i], batch.third[i]});
 }
 
-/// Whether a motion lays surfaces on surfaces, at all corners of two triples.
-bool surfaces_agree(const RigidMotion& motion, const Points& from_normals, const Triple& from,
-                    const Points& to_normals, const Triple& to) {
-  constexpr float least_cosine = 0.755F;  // 41 degrees, as for contact of surfels
-  for (std::size_t corner = 0; corner < 3; ++corner) {
-    const Point normal = motion.turned(from_normals[from[corner]]);
-    if (std::abs(dot(normal, to_normals[to[corner]])) < least_cosine) return false;
-  }
-  return true;
+Normals normals_of(const Points& normals, const Triple& triple) {
+  return {normals[triple[0]], normals[triple[1]], normals[triple[2]]};
 }
 
 /// The motion as one of a robot that stands upright, if it is about that: triangles are a few degrees off.
@@ -140,7 +133,7 @@ MatchResult SpaceRansam::test_hypotheses(const SurfacePoints& local, const Quali
     const Triangle triangle = triangle_of(local.points, from);
     Pose3 pose = least_squares_motion(triangle, triangle_of(map_->points, to));  // eq. 3
     RigidMotion motion(pose);
-    if (!surfaces_agree(motion, local.normals, from, map_->normals, to)) continue;
+    if (!surfaces_agree(motion, normals_of(local.normals, from), normals_of(map_->normals, to))) continue;
     if (upright_) {
       const auto upright = upright_motion(motion, triangle);
       if (!upright) continue;

@@ -144,4 +144,12 @@ Pose3 least_squares_motion(const Triangle& from, const Triangle& to) {
   return {to_middle - rotated(turn, from_middle), turn};
 }
 
+bool surfaces_agree(const RigidMotion& motion, const Normals& from, const Normals& to) {
+  constexpr float least_cosine = 0.755F;  // as for contact of surfels
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    if (std::abs(dot(motion.turned(from[corner]), to[corner])) < least_cosine) return false;
+  }
+  return true;
+}
+
 }  // namespace glocal

@@ -6,6 +6,7 @@
 
 #include "glocal/pose3.hpp"
 #include "matchers/common/triangle.hpp"
+#include "matchers/in_space/rigid_motion.hpp"
 
 namespace glocal {
 
@@ -24,5 +25,13 @@ using Triangle = std::array<Vector3, 3>;
 /// 3, with centroids). It lays one plane on the other and turns in it, which is optimal for coplanar points
 /// (Horn 1987, closed form). Neither triangle has all its corners on a line.
 [[nodiscard]] Pose3 least_squares_motion(const Triangle& from, const Triangle& to);
+
+/// Unit normals of the surfaces that a triangle's corners lie on.
+using Normals = std::array<Point, 3>;
+
+/// Whether a motion turns the normal at each corner to within 41 degrees of that of its partner. n and -n are
+/// the same. That tells a triangle from its mirror image where its surfaces are neither in its plane nor
+/// upright on it.
+[[nodiscard]] bool surfaces_agree(const RigidMotion& motion, const Normals& from, const Normals& to);
 
 }  // namespace glocal

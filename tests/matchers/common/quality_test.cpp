@@ -46,6 +46,24 @@ TEST(QualityTest, IsTheShareOfPointsInContact) {
   }
 }
 
+TEST(QualityTest, PosesInSpaceAreJudgedAsThoseInThePlane) {
+  Rng rng(1);
+  const QualityTest test(points_with_contact(40, 30), contact_of_world(), {}, 0.7, rng);
+  Points memory;
+  // Turned over about the wall that the points in contact lie along: these stay where they are.
+  const RigidMotion over(Pose3({}, exponential({radians(180.0), 0.0, 0.0})));
+  const RigidMotion away(Pose3({-5.0, 0.0, 0.0}, {}));
+  for (std::uint32_t start = 0; start < 100; ++start) {
+    const auto judged = test.test(over, start << 25U, memory);
+    ASSERT_TRUE(judged.quality);
+    EXPECT_DOUBLE_EQ(*judged.quality, 0.75);
+    EXPECT_EQ(judged.points_tested, 40U);
+    const auto given_up = test.test(away, start << 25U, memory);
+    EXPECT_FALSE(given_up.quality);
+    EXPECT_LT(given_up.points_tested, 40U);
+  }
+}
+
 TEST(QualityTest, PosesOfABatchAreJudgedEachByItself) {
   // Moved by 5 m, no point is in contact.
   Rng rng(1);

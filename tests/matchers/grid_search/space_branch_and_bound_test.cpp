@@ -1,0 +1,278 @@
+#include "matchers/grid_search/space_branch_and_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "glocal/error.hpp"
+#include "matchers/grid_search/branch_and_bound.hpp"
+#include "matchers/grid_search/grid_search.hpp"
+#include "matchers/in_space/hall_map.hpp"
+#include "matchers/in_space/scanned_hall.hpp"
+#include "matchers/same_answer.hpp"
+
+namespace glocal::space_branch_and_bound_test {
+namespace {
+
+constexpr double cell = 0.3;
+constexpr double epsilon = 0.3;
+constexpr double robot_height = 0.4;
+const Pose2 local_from_robot{0.7, -0.4, 1.0};
+
+/// Points of a small, high room.
+Points random_map(Rng& rng) {
+  Points map;
+  for (int i = 0; i < 150; ++i) {
+    map.push_back({static_cast<float>(rng.uniform(-2.0, 2.0)), static_cast<float>(rng.uniform(1.0, 4.0)),
+                   static_cast<float>(rng.uniform(-1.0, 2.0))});
+  }
+  return map;
+}
+
+Points random_local(Rng& rng) {
+  Points local;
+  for (int i = 0; i < 14; ++i) {
+    local.push_back({static_cast<float>(rng.uniform(0.0, 2.0)), static_cast<float>(rng.uniform(-1.0, 1.0)),
+                     static_cast<float>(rng.uniform(-1.0, 1.5))});
+  }
+  return local;
+}
+
+/// Which cells of the frame are in contact, by the distances from their centres to all points.
+std::vector<std::uint8_t> cells_in_contact(const Points& map, const CellFrame& frame) {
+  std::vector<std::uint8_t> contact;
+  for (int layer = 0; layer < frame.layers; ++layer) {
+    for (int row = 0; row < frame.rows; ++row) {
+      for (int column = 0; column < frame.columns; ++column) {
+        const double x = frame.min_x + (column + 0.5) * cell;
+        const double y = frame.min_y + (row + 0.5) * cell;
+        const double z = frame.min_z + (layer + 0.5) * cell;
+        bool any = false;
+        for (std::size_t i = 0; i < map.size() && !any; ++i)
+          any = std::hypot(map.x[i] - x, map.y[i] - y, map.z[i] - z) <= epsilon;
+        contact.push_back(any ? 1 : 0);
+      }
+    }
+  }
+  return contact;
+}
+
+/// The contact of the best pose in each cell of robot poses, falling: of all poses of the grid, counted one
+/// point at a time.
+std::vector<std::size_t> brute_force(const Points& map, const Points& local, const CellFrame& frame,
+                                     const GridSearchRule& rule) {
+  const std::vector<std::uint8_t> contact = cells_in_contact(map, frame);
+  const PoseGrid grid(local, cell, rule.min_rotation_step);
+  const double side = rule.distance / std::numbers::sqrt2;
+  const PoseBinning binning{side, square_parts_of_a_turn(rule.rotation)};
+  std::map<std::pair<PoseCell, int>, std::size_t> best;
+  for (std::size_t rotation = 0; rotation < grid.rotations(); ++rotation) {
+    const CellPoints points = grid.cells(rotation);
+    for (int layer = -20; layer < frame.layers + 20; ++layer) {
+      const double z = frame.min_z + cell * layer + robot_height;
+      if (z < frame.min_z || z >= frame.min_z + cell * frame.layers) continue;
+      for (int row = -20; row < frame.rows + 20; ++row) {
+        for (int column = -20; column < frame.columns + 20; ++column) {
+          std::size_t in_contact = 0;
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            const int c = points.columns()[i] + column;
+            const int r = points.rows()[i] + row;
+            const int l = points.layers()[i] + layer;
+            if (c < 0 || r < 0 || l < 0 || c >= frame.columns || r >= frame.rows || l >= frame.layers)
+              continue;
+            in_contact += contact[static_cast<std::size_t>((l * frame.rows + r) * frame.columns + c)];
+          }
+          if (in_contact == 0) continue;
+          const Pose2 robot = grid.pose(rotation, column, row, frame.min_x, frame.min_y) * local_from_robot;
+          std::size_t& most = best[{binning.cell_of(robot), static_cast<int>(std::floor(z / side))}];
+          most = std::max(most, in_contact);
+        }
+      }
+    }
+  }
+  std::vector<std::size_t> contacts;
+  for (const auto& [place, most] : best) contacts.push_back(most);
+  std::sort(contacts.begin(), contacts.end(), std::greater<>());
+  return contacts;
+}
+
+std::vector<std::size_t> contacts_of(const GridSearchResult& result) {
+  std::vector<std::size_t> contacts;
+  for (const auto& pose : result.poses) contacts.push_back(pose.in_contact);
+  return contacts;
+}
+
+TEST(GridSearchInSpace, FindsWhatBruteForceFinds) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Rng rng(seed);
+    const Points map = random_map(rng);
+    const Points local = random_local(rng);
+    const ContactPyramid pyramid(map, cell, epsilon, 2, Motion::upright);
+    GridSearchRule rule{.min_rotation_step = 0.1, .distance = 0.8, .rotation = 0.4, .max_poses = 1000000};
+    std::vector<std::size_t> best = brute_force(map, local, pyramid.frame(), rule);
+    const auto found = [&] {
+      return contacts_of(search_grid(pyramid, local, local_from_robot, rule, 1, robot_height));
+    };
+    EXPECT_EQ(found(), best);
+    for (const std::size_t limit : {std::size_t{100}, std::size_t{10}, std::size_t{1}}) {
+      ASSERT_GT(best.size(), limit);
+      best.resize(limit);
+      rule.max_poses = limit;
+      EXPECT_EQ(found(), best);
+    }
+  }
+}
+
+TEST(GridSearchInSpace, PosesBringAsManyPointsIntoContactAsTheySay) {
+  Rng rng(4);
+  const Points map = random_map(rng);
+  const Points local = random_local(rng);
+  const ContactPyramid pyramid(map, cell, epsilon, 2, Motion::upright);
+  const std::vector<std::uint8_t> contact = cells_in_contact(map, pyramid.frame());
+  const CellFrame& frame = pyramid.frame();
+  const GridSearchResult found = search_grid(pyramid, local, local_from_robot,
+                                             {.min_quality = 0.6, .min_rotation_step = 0.1}, 1, robot_height);
+  ASSERT_FALSE(found.poses.empty());
+  for (const auto& pose : found.poses) {
+    const Pose2& above = pose.map_from_local;
+    const Points there = moved(local, Pose3({above.x, above.y, pose.z}, turn_about_z(above.theta)));
+    std::size_t in_contact = 0;
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      const int c = static_cast<int>(std::floor((there.x[i] - frame.min_x) / cell));
+      const int r = static_cast<int>(std::floor((there.y[i] - frame.min_y) / cell));
+      const int l = static_cast<int>(std::floor((there.z[i] - frame.min_z) / cell));
+      if (c < 0 || r < 0 || l < 0 || c >= frame.columns || r >= frame.rows || l >= frame.layers) continue;
+      in_contact += contact[static_cast<std::size_t>((l * frame.rows + r) * frame.columns + c)];
+    }
+    EXPECT_EQ(pose.in_contact, in_contact);
+  }
+}
+
+TEST(ContactPyramidInSpace, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
+  Rng rng(5);
+  const Points map = random_map(rng);
+  const ContactPyramid pyramid(map, cell, epsilon, 2, Motion::upright);
+  const CellFrame& frame = pyramid.frame();
+  const std::vector<std::uint8_t> contact = cells_in_contact(map, frame);
+  const auto is_in_contact = [&](int c, int r, int l) {
+    return c >= 0 && r >= 0 && l >= 0 && c < frame.columns && r < frame.rows && l < frame.layers &&
+           contact[static_cast<std::size_t>((l * frame.rows + r) * frame.columns + c)] != 0;
+  };
+  const auto between = [&](int least, int most) {
+    return least + static_cast<int>(rng.below(static_cast<std::uint32_t>(most - least)));
+  };
+  TileCounts counts;
+  for (int i = 0; i < 200; ++i) {
+    CellPoints points;
+    for (int k = 0; k < 30; ++k) points.push_back(between(-10, 10), between(-10, 10), between(-6, 6));
+    const int level = between(0, 3);
+    const int size = 1 << level;
+    const int column = between(-20, 20);
+    const int row = between(-20, 20);
+    const int layer = between(-8, 16);
+    pyramid.count(level, points, column, row, 0, counts, layer);
+    const int node_column = between(0, 16);
+    const int node_row = between(0, TileCounts::rows);
+    std::size_t windows = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      bool any = false;
+      for (int l = 0; l < size; ++l) {
+        for (int r = 0; r < size; ++r) {
+          for (int c = 0; c < size; ++c) {
+            any = any ||
+                  is_in_contact(points.columns()[k] + column + node_column * size + c,
+                                points.rows()[k] + row + node_row * size + r, points.layers()[k] + layer + l);
+          }
+        }
+      }
+      if (any) ++windows;
+    }
+    ASSERT_EQ(counts.at(node_column, node_row), windows);
+  }
+}
+
+TEST(ContactPyramidInSpace, RefusesAMapThatIsTooLarge) {
+  Points map;
+  map.push_back({0.0F, 0.0F, 0.0F});
+  map.push_back({100.0F, 100.0F, 100.0F});
+  EXPECT_NO_THROW(ContactPyramid(map, 0.5, 0.5, 2, Motion::upright));
+  EXPECT_THROW(ContactPyramid(map, 0.05, 0.1, 2, Motion::upright), ConfigError);
+}
+
+const GridMatching coarse{
+    .contact_epsilon = 0.2, .cell = 0.2, .min_rotation_step_deg = 2.0, .max_points = 100, .max_poses = 10};
+
+MatchResult match(const LocalMap& local, int threads = 1) {
+  SpaceBranchAndBound matcher(coarse,
+                              {.map = test::hall_map(), .threads = threads, .motion = Motion::upright});
+  Rng rng(1);
+  return matcher.match(local, {}, 0.3, rng);
+}
+
+/// A local map whose frame is not the robot's.
+LocalMap local_at(const Pose3& map_from_robot) {
+  LocalMap local;
+  local.local_from_robot = {{1.5, -0.7, 0.6}, turn_about_z(0.9)};
+  local.points = moved(test::scan_of(test::hall(), map_from_robot), local.local_from_robot);
+  local.ends = {local.points.size()};
+  return local;
+}
+
+TEST(SpaceBranchAndBound, FindsThePose) {
+  const Pose3 truth{{8.0, 4.0, 1.2}, turn_about_z(-2.5)};
+  const LocalMap local = local_at(truth);
+  const MatchResult result = match(local);
+  ASSERT_FALSE(result.hypotheses.empty());
+  const Pose3 robot = result.hypotheses.front().map_from_local * local.local_from_robot;
+  EXPECT_LT(distance(robot, truth), 0.3);
+  EXPECT_LT(rotation_between(robot, truth), radians(4.0));
+  double last = 1.0;
+  for (const Hypothesis& h : result.hypotheses) {
+    EXPECT_EQ(h.map_from_local.rotation.x, 0.0);
+    EXPECT_EQ(h.map_from_local.rotation.y, 0.0);
+    EXPECT_GE(h.score, 0.3);
+    EXPECT_LE(h.score, last);
+    last = h.score;
+    const auto contact = contact_index(*test::hall_map(), "bitset", 0.2);
+    EXPECT_EQ(h.quality, contact->share(moved(local.points, h.map_from_local), Transform(Pose2{})));
+  }
+}
+
+TEST(SpaceBranchAndBound, HypothesesAreDistinct) {
+  const LocalMap local = local_at({{8.0, 4.0, 1.2}, turn_about_z(-2.5)});
+  const MatchResult result = match(local);
+  for (std::size_t i = 0; i < result.hypotheses.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Pose3 a = result.hypotheses[i].map_from_local * local.local_from_robot;
+      const Pose3 b = result.hypotheses[k].map_from_local * local.local_from_robot;
+      EXPECT_TRUE(distance(a, b) >= coarse.candidate.distance ||
+                  rotation_between(a, b) >= radians(coarse.candidate.rotation_deg));
+    }
+  }
+}
+
+TEST(SpaceBranchAndBound, AnswersAlikeForAnyNumberOfThreads) {
+  const LocalMap local = local_at({{4.0, 5.0, 1.5}, turn_about_z(1.0)});
+  test::expect_same_answer(match(local, 1), match(local, 2));
+}
+
+TEST(SpaceBranchAndBound, FindsNothingForAnEmptyLocalMap) {
+  EXPECT_TRUE(match({}).hypotheses.empty());
+}
+
+TEST(SpaceBranchAndBound, IsTheSearchOfUprightPoses) {
+  for (const Motion motion : {Motion::planar, Motion::upright}) {
+    const auto made = BranchAndBound::make(coarse, {.map = test::hall_map(), .motion = motion});
+    EXPECT_EQ(dynamic_cast<const SpaceBranchAndBound*>(made.get()) != nullptr, motion == Motion::upright);
+  }
+}
+
+}  // namespace
+}  // namespace glocal::space_branch_and_bound_test
