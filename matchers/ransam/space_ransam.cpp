@@ -61,8 +61,8 @@ std::optional<RigidMotion> upright_motion(const RigidMotion& motion, const Trian
 }
 
 std::shared_ptr<const SurfacePoints> surfaces_of(const GlobalMap& map, float voxel_size) {
-  auto surfaces = map.index<SurfacePoints>(fmt::format("{}", voxel_size),
-                                           [&] { return SurfacePoints(map.points(), voxel_size); });
+  auto surfaces = map.index<SurfacePoints>(
+      fmt::format("{}", voxel_size), [&] { return SurfacePoints(map.points(), map.points(), voxel_size); });
   if (surfaces->points.empty()) {
     throw ConfigError({{"", 0, 0,
                         fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: ransam needs "
@@ -74,11 +74,11 @@ std::shared_ptr<const SurfacePoints> surfaces_of(const GlobalMap& map, float vox
 
 }  // namespace
 
-SurfacePoints::SurfacePoints(const Points& cloud, float voxel_size) {
+SurfacePoints::SurfacePoints(const Points& cloud, const Points& some, float voxel_size) {
   const Surfels surfels = surfels_of(cloud, voxel_size, std::nullopt);
   const SurfelContact contact(surfels, voxel_size, false);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Point p = cloud[i];
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const Point p = some[i];
     const std::uint32_t k = contact.nearest(p);
     if (k == VoxelTable::none) continue;
     const SurfelContact::Plane& plane = contact.plane(k);
@@ -106,7 +106,7 @@ MatchResult SpaceRansam::match(const LocalMap& local, const Observation& /*lates
   if (local.points.empty()) return {};
   const TripleMatching::Draws draws{rng.next(), rng.next()};
   const QualityTest quality(local.points, contact_, extrapolation_rule(params_), omega_max, rng);
-  const SurfacePoints surfaces(spread_evenly(local.points, voxel_size_), voxel_size_);
+  const SurfacePoints surfaces(local.points, spread_evenly(local.points, voxel_size_), voxel_size_);
   if (surfaces.points.empty()) return {};
   // A triangle of the map that is larger than the whole local map has no partner there.
   const TriangleRule rule{.cell = params_.relation_cell,

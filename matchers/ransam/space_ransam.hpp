@@ -10,10 +10,10 @@
 
 namespace glocal {
 
-/// Those points of a cloud that lie on a surface, with its normal, which may look to either side.
+/// Those of some points of a cloud that lie on a surface, with its normal, which may look to either side.
 struct SurfacePoints {
   /// Surfaces are surfels of voxels of a side (m). Throws ConfigError if the cloud reaches too far.
-  SurfacePoints(const Points& cloud, float voxel_size);
+  SurfacePoints(const Points& cloud, const Points& some, float voxel_size);
 
   Points points;   ///< m
   Points normals;  ///< Unit length.

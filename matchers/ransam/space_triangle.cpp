@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace glocal {
 namespace {
@@ -104,11 +105,17 @@ void find_relations_in_space(const Points& points, const TripleBatch& batch, con
 }
 
 Triple in_order_of_relation(const Points& points, const Triple& triple) {
-  const std::array<float, 3> squares = squared_sides(points, triple);
-  std::array<std::size_t, 3> order = {0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t k) { return squares[i] > squares[k]; });
-  return {triple[order[0]], triple[order[1]], triple[order[2]]};
+  std::array<float, 3> squares = squared_sides(points, triple);
+  Triple ordered = triple;
+  const auto put_in_order = [&](std::size_t i, std::size_t k) {
+    if (squares[i] >= squares[k]) return;
+    std::swap(squares[i], squares[k]);
+    std::swap(ordered[i], ordered[k]);
+  };
+  put_in_order(0, 1);
+  put_in_order(1, 2);
+  put_in_order(0, 1);
+  return ordered;
 }
 
 Pose3 least_squares_motion(const Triangle& from, const Triangle& to) {
