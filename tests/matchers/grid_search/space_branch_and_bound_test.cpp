@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
-#include <tuple>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -45,30 +45,52 @@ Points random_local(Rng& rng) {
   return local;
 }
 
-/// Which cells of the frame are in contact, by the distances from their centres to all points.
-std::vector<std::uint8_t> cells_in_contact(const Points& map, const CellFrame& frame) {
-  std::vector<std::uint8_t> contact;
-  for (int layer = 0; layer < frame.layers; ++layer) {
-    for (int row = 0; row < frame.rows; ++row) {
-      for (int column = 0; column < frame.columns; ++column) {
-        const double x = frame.min_x + (column + 0.5) * cell;
-        const double y = frame.min_y + (row + 0.5) * cell;
-        const double z = frame.min_z + (layer + 0.5) * cell;
-        bool any = false;
-        for (std::size_t i = 0; i < map.size() && !any; ++i)
-          any = std::hypot(map.x[i] - x, map.y[i] - y, map.z[i] - z) <= epsilon;
-        contact.push_back(any ? 1 : 0);
+/// Which cells of a frame are in contact, by the distances from their centres to all points.
+class ContactCells {
+ public:
+  ContactCells(const Points& map, const CellFrame& frame) : frame_(frame) {
+    for (int layer = 0; layer < frame.layers; ++layer) {
+      for (int row = 0; row < frame.rows; ++row) {
+        for (int column = 0; column < frame.columns; ++column) {
+          const double x = frame.min_x + (column + 0.5) * cell;
+          const double y = frame.min_y + (row + 0.5) * cell;
+          const double z = frame.min_z + (layer + 0.5) * cell;
+          bool any = false;
+          for (std::size_t i = 0; i < map.size() && !any; ++i)
+            any = std::hypot(map.x[i] - x, map.y[i] - y, map.z[i] - z) <= epsilon;
+          cells_.push_back(any ? 1 : 0);
+        }
       }
     }
   }
-  return contact;
-}
+
+  [[nodiscard]] bool contain(int column, int row, int layer) const {
+    if (column < 0 || row < 0 || layer < 0 || column >= frame_.columns || row >= frame_.rows ||
+        layer >= frame_.layers)
+      return false;
+    const auto line = static_cast<std::size_t>(layer) * static_cast<std::size_t>(frame_.rows) +
+                      static_cast<std::size_t>(row);
+    return cells_[line * static_cast<std::size_t>(frame_.columns) + static_cast<std::size_t>(column)] != 0;
+  }
+  /// Points in contact after a translation.
+  [[nodiscard]] std::size_t count(const CellPoints& points, int column, int row, int layer) const {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (contain(points.columns()[i] + column, points.rows()[i] + row, points.layers()[i] + layer)) ++n;
+    }
+    return n;
+  }
+
+ private:
+  CellFrame frame_;
+  std::vector<std::uint8_t> cells_;
+};
 
 /// The contact of the best pose in each cell of robot poses, falling: of all poses of the grid, counted one
 /// point at a time.
 std::vector<std::size_t> brute_force(const Points& map, const Points& local, const CellFrame& frame,
                                      const GridSearchRule& rule) {
-  const std::vector<std::uint8_t> contact = cells_in_contact(map, frame);
+  const ContactCells contact(map, frame);
   const PoseGrid grid(local, cell, rule.min_rotation_step);
   const double side = rule.distance / std::numbers::sqrt2;
   const PoseBinning binning{side, square_parts_of_a_turn(rule.rotation)};
@@ -80,15 +102,7 @@ std::vector<std::size_t> brute_force(const Points& map, const Points& local, con
       if (z < frame.min_z || z >= frame.min_z + cell * frame.layers) continue;
       for (int row = -20; row < frame.rows + 20; ++row) {
         for (int column = -20; column < frame.columns + 20; ++column) {
-          std::size_t in_contact = 0;
-          for (std::size_t i = 0; i < points.size(); ++i) {
-            const int c = points.columns()[i] + column;
-            const int r = points.rows()[i] + row;
-            const int l = points.layers()[i] + layer;
-            if (c < 0 || r < 0 || l < 0 || c >= frame.columns || r >= frame.rows || l >= frame.layers)
-              continue;
-            in_contact += contact[static_cast<std::size_t>((l * frame.rows + r) * frame.columns + c)];
-          }
+          const std::size_t in_contact = contact.count(points, column, row, layer);
           if (in_contact == 0) continue;
           const Pose2 robot = grid.pose(rotation, column, row, frame.min_x, frame.min_y) * local_from_robot;
           std::size_t& most = best[{binning.cell_of(robot), static_cast<int>(std::floor(z / side))}];
@@ -135,7 +149,7 @@ TEST(GridSearchInSpace, PosesBringAsManyPointsIntoContactAsTheySay) {
   const Points map = random_map(rng);
   const Points local = random_local(rng);
   const ContactPyramid pyramid(map, cell, epsilon, 2, Motion::upright);
-  const std::vector<std::uint8_t> contact = cells_in_contact(map, pyramid.frame());
+  const ContactCells contact(map, pyramid.frame());
   const CellFrame& frame = pyramid.frame();
   const GridSearchResult found = search_grid(pyramid, local, local_from_robot,
                                              {.min_quality = 0.6, .min_rotation_step = 0.1}, 1, robot_height);
@@ -145,11 +159,12 @@ TEST(GridSearchInSpace, PosesBringAsManyPointsIntoContactAsTheySay) {
     const Points there = moved(local, Pose3({above.x, above.y, pose.z}, turn_about_z(above.theta)));
     std::size_t in_contact = 0;
     for (std::size_t i = 0; i < there.size(); ++i) {
-      const int c = static_cast<int>(std::floor((there.x[i] - frame.min_x) / cell));
-      const int r = static_cast<int>(std::floor((there.y[i] - frame.min_y) / cell));
-      const int l = static_cast<int>(std::floor((there.z[i] - frame.min_z) / cell));
-      if (c < 0 || r < 0 || l < 0 || c >= frame.columns || r >= frame.rows || l >= frame.layers) continue;
-      in_contact += contact[static_cast<std::size_t>((l * frame.rows + r) * frame.columns + c)];
+      const auto number = [](double value, double least) {
+        return static_cast<int>(std::floor((value - least) / cell));
+      };
+      if (contact.contain(number(there.x[i], frame.min_x), number(there.y[i], frame.min_y),
+                          number(there.z[i], frame.min_z)))
+        ++in_contact;
     }
     EXPECT_EQ(pose.in_contact, in_contact);
   }
@@ -160,11 +175,7 @@ TEST(ContactPyramidInSpace, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
   const Points map = random_map(rng);
   const ContactPyramid pyramid(map, cell, epsilon, 2, Motion::upright);
   const CellFrame& frame = pyramid.frame();
-  const std::vector<std::uint8_t> contact = cells_in_contact(map, frame);
-  const auto is_in_contact = [&](int c, int r, int l) {
-    return c >= 0 && r >= 0 && l >= 0 && c < frame.columns && r < frame.rows && l < frame.layers &&
-           contact[static_cast<std::size_t>((l * frame.rows + r) * frame.columns + c)] != 0;
-  };
+  const ContactCells contact(map, frame);
   const auto between = [&](int least, int most) {
     return least + static_cast<int>(rng.below(static_cast<std::uint32_t>(most - least)));
   };
@@ -186,9 +197,9 @@ TEST(ContactPyramidInSpace, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
       for (int l = 0; l < size; ++l) {
         for (int r = 0; r < size; ++r) {
           for (int c = 0; c < size; ++c) {
-            any = any ||
-                  is_in_contact(points.columns()[k] + column + node_column * size + c,
-                                points.rows()[k] + row + node_row * size + r, points.layers()[k] + layer + l);
+            any = any || contact.contain(points.columns()[k] + column + node_column * size + c,
+                                         points.rows()[k] + row + node_row * size + r,
+                                         points.layers()[k] + layer + l);
           }
         }
       }
