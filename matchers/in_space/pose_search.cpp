@@ -193,11 +193,12 @@ void polish(std::vector<FoundPose>& found, Scene& scene, const PointContact& poi
   constexpr std::size_t few = 3;
   constexpr std::size_t large_sample = 1500;
   constexpr int steps = 10;
+  constexpr double slack = 0.02;  // contact hardly tells centimetres, the sum of many residuals does
   const SurfelSample sample = sample_of(scene.source.surfels, large_sample, rng);
   for (std::size_t i = 0; i < std::min(few, found.size()); ++i) {
     FoundPose pose = settled(found[i].target_from_source, sample, steps, scene, point_contact, params);
     pose.rounds = found[i].rounds;
-    if (pose.score > found[i].score) found[i] = pose;
+    if (pose.score + slack >= found[i].score) found[i] = pose;
   }
   std::stable_sort(found.begin(), found.end(), has_higher_score);
 }

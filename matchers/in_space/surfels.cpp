@@ -96,6 +96,30 @@ std::optional<Point> normal_within(const FilledVoxels& filled, std::size_t k, fl
   return plane_normal(moments);
 }
 
+/// The mean of a voxel's points, moved along the normal to the mean of the voxels around it: where voxels cut
+/// a surface of some thickness along it, their own means are beside it.
+Point on_surface(const FilledVoxels& filled, std::size_t k, const Point& normal) {
+  constexpr float voxels = 1.5F;
+  const Point p = filled.means[k];
+  const Voxel centre = filled.numbers.voxel_of(p);
+  const float radius = voxels * filled.numbers.side();
+  float sum = 0.0F;
+  float n = 0.0F;
+  for (std::int32_t z = centre.z - 1; z <= centre.z + 1; ++z) {
+    for (std::int32_t y = centre.y - 1; y <= centre.y + 1; ++y) {
+      for (std::int32_t x = centre.x - 1; x <= centre.x + 1; ++x) {
+        const std::uint32_t neighbour = filled.numbers.at(Voxel{x, y, z});
+        if (neighbour == VoxelTable::none) continue;
+        const Point offset = filled.means[neighbour] - p;
+        if (dot(offset, offset) > radius * radius) continue;
+        sum += dot(offset, normal);
+        n += 1.0F;
+      }
+    }
+  }
+  return p + (sum / n) * normal;
+}
+
 /// Directions in equal parts of a cube's faces.
 std::size_t direction_bin(const Point& n) {
   constexpr float parts = 6.0F;
@@ -140,7 +164,7 @@ Surfels surfels_of(const Points& cloud, float voxel_size, const std::optional<Po
     if (!normal) continue;
     const Point p = filled.means[k];
     if (seen_from && dot(*normal, *seen_from - p) < 0.0F) normal = -1.0F * *normal;
-    surfels.points.push_back(p);
+    surfels.points.push_back(on_surface(filled, k, *normal));
     surfels.normals.push_back(*normal);
   }
   surfels.weights = balanced_weights(surfels.normals);
