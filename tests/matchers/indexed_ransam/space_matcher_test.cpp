@@ -114,7 +114,7 @@ Pose3 somewhere(Rng& rng, bool upright) {
   const Vector3 place{rng.uniform(1.0, 7.5), rng.uniform(1.0, 5.0), rng.uniform(0.8, 1.5)};
   const Quaternion turn = turn_about_z(rng.uniform(-3.1, 3.1));
   if (upright) return {place, turn};
-  return {place, turn * exponential({rng.uniform(-0.6, 0.6), rng.uniform(-0.6, 0.6), 0.0})};
+  return {place, turn * exponential({rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), 0.0})};
 }
 
 SpaceMatcher matcher(Motion motion, const SpaceMatcher::Params& params = {.pairs = 100000},
@@ -126,7 +126,8 @@ bool is_near(const Pose3& a, const Pose3& b) {
   return distance(a, b) < 0.1 && rotation_between(a, b) < radians(2.0);
 }
 
-TEST(SpaceMatcher, FindsThePoseOfATiltedSensor) {
+/// A sensor that lies on its side may see floor, ceiling and two walls alone: these leave it free to slide.
+TEST(SpaceMatcher, FindsASensorThatIsHeldAnyWayUnlessItMaySlide) {
   Rng rng(1);
   int right = 0;
   for (std::uint64_t i = 0; i < 10; ++i) {
@@ -134,10 +135,13 @@ TEST(SpaceMatcher, FindsThePoseOfATiltedSensor) {
     const Seen seen(truth);
     Rng draws(i);
     const auto found = matcher(Motion::free).match(seen.local, seen.latest, 0.1, draws).hypotheses;
-    ASSERT_FALSE(found.empty());
-    if (is_near(found.front().map_from_local, truth)) ++right;
+    ASSERT_GE(found.size(), 2U);
+    const bool may_slide = found[1].score > found[0].score - 0.005;
+    const bool is_right = is_near(found[0].map_from_local, truth);
+    EXPECT_TRUE(is_right || may_slide) << "pose " << i;
+    if (is_right) ++right;
   }
-  EXPECT_GE(right, 9);
+  EXPECT_GE(right, 8);
 }
 
 TEST(SpaceMatcher, UprightPosesTurnAboutZAlone) {
