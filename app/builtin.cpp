@@ -2,6 +2,7 @@
 
 #include "clustering/register.hpp"
 #include "local_mappers/register.hpp"
+#include "matchers/in_space/surfel_pair_registrar.hpp"
 #include "matchers/register.hpp"
 #include "raters/register.hpp"
 #include "sources/register.hpp"
@@ -15,6 +16,8 @@ void register_builtin_strategies(Catalog& catalog) {
   register_matchers(catalog);
   register_clustering(catalog);
   register_raters(catalog);
+  catalog.cloud_registrars.add<SurfelPairRegistrar>(
+      "surfel_pairs", "Pairs of surfels that are alike, judged by what each cloud saw through.");
 }
 
 }  // namespace glocal

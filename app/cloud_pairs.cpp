@@ -179,7 +179,10 @@ std::string table_of(const std::vector<PairOutcome>& outcomes) {
 
 std::string json_line(const PairOutcome& outcome) {
   const Registration& r = outcome.registration;
-  nlohmann::ordered_json json = {{"source", outcome.pair.source}, {"target", outcome.pair.target}};
+  nlohmann::ordered_json json;
+  if (!outcome.method.empty()) json["method"] = outcome.method;
+  json["source"] = outcome.pair.source;
+  json["target"] = outcome.pair.target;
   json["target_from_source"] = nullptr;
   if (r.target_from_source) {
     const Pose3& pose = *r.target_from_source;

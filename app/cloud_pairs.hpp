@@ -28,6 +28,7 @@ struct CloudPair {
 /// A pair, and what came of it.
 struct PairOutcome {
   CloudPair pair;
+  std::string method = {};  ///< The cloud registrar's name, where it was asked for by name.
   Registration registration = {};
   double cpu_s = 0.0;  ///< CPU time without reading files, s.
   /// Whether the pose found is right; none where the true one is not known.
@@ -43,7 +44,8 @@ struct PairOutcome {
 /// A row for each class and one for all, classes in the order in which they are first met.
 [[nodiscard]] std::string table_of(const std::vector<PairOutcome>& outcomes);
 
-/// An outcome on one line: source, target, target_from_source, verdict, overlap, cpu_s and more.
+/// An outcome on one line: method (if it has a name), source, target, target_from_source, verdict, overlap,
+/// cpu_s and more.
 [[nodiscard]] std::string json_line(const PairOutcome& outcome);
 
 }  // namespace glocal::app

@@ -11,6 +11,8 @@
 
 #include "app/cloud_pairs.hpp"
 #include "app/commands.hpp"
+#include "config/nearest.hpp"
+#include "config/reader.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "glocal/error.hpp"
@@ -23,8 +25,9 @@ namespace {
 struct RegisterOptions {
   std::string source, target, pairs;
   std::string out;
-  double voxel_size = 0.0;  ///< m; 0: made from the clouds.
-  double within = 0.0;      ///< m; 0: 1.5 voxels.
+  std::vector<std::string> methods;  ///< Cloud registrars by name; none: glocal's own.
+  double voxel_size = 0.0;           ///< m; 0: made from the clouds.
+  double within = 0.0;               ///< m; 0: 1.5 voxels.
   double unit = 1.0;
   double max_size_gb = default_max_size_gb;
   std::uint64_t seed = 42;
@@ -46,16 +49,18 @@ Point place_of(const Pose3& viewpoint) {
   return {static_cast<float>(viewpoint.x), static_cast<float>(viewpoint.y), static_cast<float>(viewpoint.z)};
 }
 
-PairOutcome outcome_of(CloudPair pair, const Cloud& source, const Cloud& target,
-                       const RegisterOptions& options) {
+/// What one method makes of a pair; an empty name stands for glocal's own.
+PairOutcome outcome_of(CloudPair pair, const Cloud& source, const Cloud& target, const std::string& method,
+                       const RegisterOptions& options, const CloudRegistrars& registrars) {
   RegistrationOptions registration;
   if (options.voxel_size > 0.0) registration.voxel_size = options.voxel_size;
   registration.source_seen_from = place_of(source.viewpoint);
   registration.target_seen_from = place_of(target.viewpoint);
   registration.seed = options.seed;
-  PairOutcome outcome{.pair = std::move(pair)};
+  PairOutcome outcome{.pair = std::move(pair), .method = method};
   const double begin = cpu_seconds();
-  outcome.registration = register_clouds(source.points, target.points, registration);
+  const auto registrar = registrars.make({method.empty() ? "surfel_pairs" : method}, registration);
+  outcome.registration = registrar->find(source.points, target.points);
   outcome.cpu_s = cpu_seconds() - begin;
   if (outcome.pair.target_from_source) {
     constexpr double voxels = 1.5;
@@ -69,7 +74,8 @@ PairOutcome outcome_of(CloudPair pair, const Cloud& source, const Cloud& target,
 
 std::string text_of(const PairOutcome& outcome) {
   const Registration& r = outcome.registration;
-  std::string text = fmt::format("{}: {}\n", r.is_match ? "match" : "no match", r.why);
+  std::string text = outcome.method.empty() ? "" : outcome.method + "\n";
+  text += fmt::format("{}: {}\n", r.is_match ? "match" : "no match", r.why);
   if (!r.target_from_source) return text;
   const Pose3& pose = *r.target_from_source;
   const std::array<double, 9> m = matrix_of(pose.rotation);
@@ -103,51 +109,84 @@ Points joined(const Points& source, const Points& target, const Pose3& target_fr
   return all;
 }
 
-void register_pair(const RegisterOptions& options) {
-  const Cloud source = read(options.source, options);
-  const Cloud target = read(options.target, options);
-  AtomicFiles files(options.force);
-  // Before any work is done for it.
-  if (!options.out.empty() && !options.force && std::filesystem::exists(options.out))
-    throw ConfigError({{options.out, 0, 0, "there is a file already; give another name, or --force"}});
-  const PairOutcome outcome =
-      outcome_of({options.source, options.target, options.source, options.target}, source, target, options);
-  fmt::print("{}", options.json ? json_line(outcome) : text_of(outcome));
-  if (options.out.empty()) return;
+void write_joined(const PairOutcome& outcome, const Cloud& source, const Cloud& target,
+                  const RegisterOptions& options) {
   if (!outcome.registration.is_match) {
     spdlog::warn("{} is not written: there is no match", options.out);
     return;
   }
+  AtomicFiles files(options.force);
   files.add(options.out, pcd(joined(source.points, target.points, *outcome.registration.target_from_source)));
   files.commit();
 }
 
-void register_pairs(const RegisterOptions& options) {
-  std::vector<PairOutcome> outcomes;
-  for (const CloudPair& pair : read_cloud_pairs(options.pairs)) {
-    outcomes.push_back(
-        outcome_of(pair, read(pair.source_file, options), read(pair.target_file, options), options));
-    if (options.json) fmt::print("{}", json_line(outcomes.back()));
+void register_pair(const RegisterOptions& options, const std::vector<std::string>& methods,
+                   const CloudRegistrars& registrars) {
+  const Cloud source = read(options.source, options);
+  const Cloud target = read(options.target, options);
+  // Before any work is done for it.
+  if (!options.out.empty() && !options.force && std::filesystem::exists(options.out))
+    throw ConfigError({{options.out, 0, 0, "there is a file already; give another name, or --force"}});
+  for (const std::string& method : methods) {
+    const PairOutcome outcome = outcome_of({options.source, options.target, options.source, options.target},
+                                           source, target, method, options, registrars);
+    fmt::print("{}", options.json ? json_line(outcome) : text_of(outcome));
+    if (!options.out.empty()) write_joined(outcome, source, target, options);
   }
-  if (!options.json) fmt::print("{}", table_of(outcomes));
 }
 
-void run(const RegisterOptions& options) {
+void register_pairs(const RegisterOptions& options, const std::vector<std::string>& methods,
+                    const CloudRegistrars& registrars) {
+  std::vector<std::vector<PairOutcome>> outcomes(methods.size());
+  for (const CloudPair& pair : read_cloud_pairs(options.pairs)) {
+    const Cloud source = read(pair.source_file, options);
+    const Cloud target = read(pair.target_file, options);
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      outcomes[i].push_back(outcome_of(pair, source, target, methods[i], options, registrars));
+      if (options.json) fmt::print("{}", json_line(outcomes[i].back()));
+    }
+  }
+  if (options.json) return;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    if (!methods[i].empty()) fmt::print("{}{}\n", i == 0 ? "" : "\n", methods[i]);
+    fmt::print("{}", table_of(outcomes[i]));
+  }
+}
+
+/// The methods that are asked for; an empty name where none is.
+std::vector<std::string> methods_of(const RegisterOptions& options, const CloudRegistrars& registrars) {
+  if (options.methods.empty()) return {""};
+  std::vector<Fault> faults;
+  for (const std::string& method : options.methods) {
+    if (registrars.find(method) == nullptr) {
+      faults.push_back({"--method", 0, 0,
+                        fmt::format("there is no cloud registrar '{}'{}", method,
+                                    suggestion(method, names_of(registrars), "there are"))});
+    }
+  }
+  if (!options.out.empty() && options.methods.size() > 1)
+    faults.push_back({"--method", 0, 0, "--out takes the pose of one method; name one"});
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  return options.methods;
+}
+
+void run(const RegisterOptions& options, const CloudRegistrars& registrars) {
+  const std::vector<std::string> methods = methods_of(options, registrars);
   if (!options.pairs.empty()) {
     if (!options.source.empty() || !options.out.empty())
       throw ConfigError(
           {{"--pairs", 0, 0, "names the clouds by itself; leave out SOURCE, TARGET and --out"}});
-    register_pairs(options);
+    register_pairs(options, methods, registrars);
   } else if (options.source.empty() || options.target.empty()) {
     throw ConfigError({{"register", 0, 0, "needs two clouds, SOURCE and TARGET, or --pairs FILE.csv"}});
   } else {
-    register_pair(options);
+    register_pair(options, methods, registrars);
   }
 }
 
 }  // namespace
 
-void add_register(CLI::App& app, Context& /*context*/) {
+void add_register(CLI::App& app, Context& context) {
   auto options = std::make_shared<RegisterOptions>();
   CLI::App* command =
       app.add_subcommand("register", "Find the pose of one cloud in another, without any guess.");
@@ -156,6 +195,10 @@ void add_register(CLI::App& app, Context& /*context*/) {
   command->add_option("-o,--out", options->out, "PCD file for both clouds, joined in the target's frame");
   command->add_option("--pairs", options->pairs,
                       "CSV file of pairs (source,target,tx,ty,tz,qx,qy,qz,qw,class): a table by class");
+  command
+      ->add_option("--method", options->methods,
+                   "How, by name (see glocal list cloud_registrar); several at once are compared")
+      ->delimiter(',');
   command
       ->add_option("--voxel-size", options->voxel_size,
                    "Side of voxels, m (made from the clouds unless given)")
@@ -173,7 +216,7 @@ void add_register(CLI::App& app, Context& /*context*/) {
   command->add_option("--seed", options->seed, "Fixes all random numbers")->capture_default_str();
   command->add_flag("--json", options->json, "One line of JSON a pair");
   command->add_flag("--force", options->force, "Replace the file that --out names");
-  command->callback([options] { run(*options); });
+  command->callback([options, &context] { run(*options, context.catalog.cloud_registrars); });
 }
 
 }  // namespace glocal::app

@@ -114,9 +114,10 @@ NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Poin
   return sums.equations(matches);
 }
 
-Registration register_scan(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                           const Points& normals, const Pose2& start, const LineRegistrationParams& params) {
-  Registration result{start, 0};
+ScanRegistration register_scan(const PointGrid& grid, const LocalMap& map, const Points& hits,
+                               const Points& normals, const Pose2& start,
+                               const LineRegistrationParams& params) {
+  ScanRegistration result{start, 0};
   for (int iteration = 0; iteration < params.max_iterations; ++iteration) {
     NormalEquations equations = linearise(grid, map, hits, normals, result.local_from_robot, params);
     result.matches = equations.matches;

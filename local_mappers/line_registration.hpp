@@ -37,15 +37,15 @@ struct NormalEquations {
                                         const Points& normals, const Pose2& local_from_robot,
                                         const LineRegistrationParams& params);
 
-struct Registration {
+struct ScanRegistration {
   Pose2 local_from_robot;
   int matches = 0;  ///< In the last iteration.
 };
 
 /// Iterates Gauss-Newton steps from `start` until they are below 0.1 mm and 0.1 mrad. Directions the points
 /// do not determine (along a bare corridor) stay at `start`.
-[[nodiscard]] Registration register_scan(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                                         const Points& normals, const Pose2& start,
-                                         const LineRegistrationParams& params);
+[[nodiscard]] ScanRegistration register_scan(const PointGrid& grid, const LocalMap& map, const Points& hits,
+                                             const Points& normals, const Pose2& start,
+                                             const LineRegistrationParams& params);
 
 }  // namespace glocal

@@ -132,7 +132,8 @@ Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& 
 
 Pose2 ScanMatching::refine(const Scan& scan, const Points& normals, const Pose2& found,
                            const Pose2& predicted) const {
-  const Registration refined = register_scan(grid(), map(), scan.hits, normals, found, params_.refinement);
+  const ScanRegistration refined =
+      register_scan(grid(), map(), scan.hits, normals, found, params_.refinement);
   const bool sound =
       refined.matches >= params_.min_matches &&
       distance(refined.local_from_robot, found) <= params_.max_correction &&

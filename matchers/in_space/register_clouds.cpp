@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "matchers/in_space/cloud_resolution.hpp"
+#include "glocal/cloud_resolution.hpp"
 #include "matchers/in_space/point_to_plane.hpp"
 #include "matchers/in_space/pose_search.hpp"
 

@@ -102,7 +102,7 @@ TEST(LineRegistration, BringsAScanBackOntoItself) {
   const Scan scan = test::scan_from(test::furnished_room(), {2, 2, 0.3}, {}, rng);
   const ScanMap world(scan);
   const Points normals = scan_normals(scan.hits, {}, {});
-  const Registration found =
+  const ScanRegistration found =
       register_scan(world.grid, world.map, scan.hits, normals, {0.05, -0.04, 0.03}, LineRegistrationParams{});
   EXPECT_NEAR(found.local_from_robot.x, 0.0, 2e-3);
   EXPECT_NEAR(found.local_from_robot.y, 0.0, 2e-3);
@@ -115,7 +115,7 @@ TEST(LineRegistration, ABareCorridorLeavesTheWayAlongItAlone) {
   const Scan scan = test::scan_from(test::bare_corridor(), {0, 0, 0}, {.max_range = 8.0}, rng);
   const ScanMap world(scan);
   const Points normals = scan_normals(scan.hits, {}, {});
-  const Registration found =
+  const ScanRegistration found =
       register_scan(world.grid, world.map, scan.hits, normals, {0.1, 0.05, 0.02}, LineRegistrationParams{});
   EXPECT_NEAR(found.local_from_robot.x, 0.1, 0.01);
   EXPECT_NEAR(found.local_from_robot.y, 0.0, 2e-3);
@@ -126,7 +126,7 @@ TEST(LineRegistration, WithoutMatchesItStays) {
   const ScanMap world(Scan{});
   Points hits;
   hits.push_back({1, 1, 0});
-  const Registration found = register_scan(world.grid, world.map, hits, hits, {0.1, 0.2, 0.3}, {});
+  const ScanRegistration found = register_scan(world.grid, world.map, hits, hits, {0.1, 0.2, 0.3}, {});
   EXPECT_EQ(found.local_from_robot, (Pose2{0.1, 0.2, 0.3}));
   EXPECT_EQ(found.matches, 0);
 }

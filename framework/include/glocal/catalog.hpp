@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "glocal/cloud_registrar.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/motion.hpp"
 #include "glocal/registry.hpp"
@@ -55,15 +56,16 @@ struct Catalog {
   Registry<Rater, StageSetup> raters{"rater"};
   Registry<ThresholdPolicy, StageSetup> threshold_policies{"threshold_policy"};
   Registry<VerdictRule, StageSetup> verdict_rules{"verdict_rule"};
+  CloudRegistrars cloud_registrars{"cloud_registrar"};
 
-  /// Every registry, in the order of the data's way.
-  [[nodiscard]] std::array<RegistryBase*, 9> registries() {
+  /// Every registry, in the order of the data's way; last what no localizer has.
+  [[nodiscard]] std::array<RegistryBase*, 10> registries() {
     return {&map_sources, &observation_sources, &local_mappers, &contact_indexes, &matchers, &clusterers,
-            &raters,      &threshold_policies,  &verdict_rules};
+            &raters,      &threshold_policies,  &verdict_rules, &cloud_registrars};
   }
-  [[nodiscard]] std::array<const RegistryBase*, 9> registries() const {
+  [[nodiscard]] std::array<const RegistryBase*, 10> registries() const {
     return {&map_sources, &observation_sources, &local_mappers, &contact_indexes, &matchers, &clusterers,
-            &raters,      &threshold_policies,  &verdict_rules};
+            &raters,      &threshold_policies,  &verdict_rules, &cloud_registrars};
   }
 };
 

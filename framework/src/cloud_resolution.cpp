@@ -1,4 +1,4 @@
-#include "matchers/in_space/cloud_resolution.hpp"
+#include "glocal/cloud_resolution.hpp"
 
 #include <algorithm>
 #include <cmath>
