@@ -83,6 +83,29 @@ TEST_F(RegisterCommand, MakesATableOfPairs) {
   EXPECT_EQ(n, 2U);
 }
 
+TEST_F(RegisterCommand, ComparesMethodsByName) {
+  std::ofstream(file("pairs.csv")) << "source,target\nsource.pcd,target.pcd\n";
+  const Answer unnamed = run("register --json --pairs " + file("pairs.csv"));
+  EXPECT_FALSE(nlohmann::json::parse(unnamed.out).contains("method"));
+  const Answer named = run("register --json --method surfel_pairs --pairs " + file("pairs.csv"));
+  EXPECT_EQ(named.exit_code, 0) << named.err;
+  auto json = nlohmann::json::parse(named.out);
+  EXPECT_EQ(json["method"], "surfel_pairs");
+  EXPECT_EQ(json["target_from_source"], nlohmann::json::parse(unnamed.out)["target_from_source"]);
+  const Answer table = run("register --method surfel_pairs,surfel_pairs --pairs " + file("pairs.csv"));
+  EXPECT_THAT(table.out, StartsWith("surfel_pairs\nclass "));
+  EXPECT_THAT(table.out, HasSubstr("\n\nsurfel_pairs\nclass "));
+
+  const std::string clouds = file("source.pcd") + " " + file("target.pcd");
+  EXPECT_THAT(run("register --method surfel_pairs " + clouds).out, StartsWith("surfel_pairs\nmatch: "));
+  const Answer wrong = run("register --method surfel_pair " + clouds);
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err,
+              HasSubstr("there is no cloud registrar 'surfel_pair' (did you mean 'surfel_pairs'?)"));
+  EXPECT_THAT(run("register --method surfel_pairs,surfel_pairs " + clouds + " --out " + file("both.pcd")).err,
+              HasSubstr("--out takes the pose of one method"));
+}
+
 TEST_F(RegisterCommand, NamesAllFaultsOfAList) {
   std::ofstream(file("pairs.csv"))
       << "source,target,tx,ty,tz,qx,qy,qz,qw\nsource.pcd,none.pcd,1,2,3,0,0,0,1\n"
