@@ -198,7 +198,8 @@ void add_register(CLI::App& app, Context& context) {
   command
       ->add_option("--method", options->methods,
                    "How, by name (see glocal list cloud_registrar); several at once are compared")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command
       ->add_option("--voxel-size", options->voxel_size,
                    "Side of voxels, m (made from the clouds unless given)")

@@ -4,6 +4,7 @@
 
 #include "icp.hpp"
 #include "kd_tree_contact.hpp"
+#include "plugins/common/feature_registrar.hpp"
 #include "prerejective.hpp"
 
 GLOCAL_PLUGIN("glocal_pcl", "0.1.0", catalog) {
@@ -13,6 +14,8 @@ GLOCAL_PLUGIN("glocal_pcl", "0.1.0", catalog) {
   catalog.contact_indexes.add<PclKdTreeContact>("pcl_kd_tree",
                                                 "PCL's kd-tree: exact, and many times slower.");
   catalog.matchers.add<PclIcp>("pcl_icp", "PCL's ICP from starts all over the map, coarse to fine.");
-  catalog.matchers.add<PclPrerejective>(
-      "pcl_prerejective", "PCL's SampleConsensusPrerejective: triples of points with like FPFH features.");
+  const char* const prerejective =
+      "PCL's SampleConsensusPrerejective: triples of points with like FPFH features.";
+  catalog.matchers.add<PclPrerejective>("pcl_prerejective", prerejective);
+  catalog.cloud_registrars.add<FeatureRegistrar<PrerejectiveSearch>>("pcl_prerejective", prerejective);
 }

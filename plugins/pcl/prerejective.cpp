@@ -1,12 +1,10 @@
 #include "prerejective.hpp"
 
 #include <pcl/features/fpfh.h>
-#include <pcl/registration/sample_consensus_prerejective.h>
 #include <pcl/registration/transformation_estimation_2D.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 namespace glocal {
@@ -38,14 +36,13 @@ Normals::Ptr normals_in_plane(const Cloud::Ptr& points, double radius) {
   return result;
 }
 
-std::shared_ptr<PclPrerejective::Features> features(const Cloud::Ptr& points,
-                                                    const PclPrerejective::Params& params) {
+std::shared_ptr<Features> features(const Cloud::Ptr& points, const PclPrerejective::Params& params) {
   pcl::FPFHEstimation<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> estimation;
   estimation.setInputCloud(points);
   estimation.setInputNormals(normals_in_plane(points, params.normal_radius));
   estimation.setSearchMethod(std::make_shared<Tree>());
   estimation.setRadiusSearch(params.feature_radius);
-  auto result = std::make_shared<PclPrerejective::Features>();
+  auto result = std::make_shared<Features>();
   estimation.compute(*result);
   return result;
 }
@@ -54,26 +51,23 @@ std::shared_ptr<PclPrerejective::Features> features(const Cloud::Ptr& points,
 
 void describe(ParamVisitor& v, PclPrerejective::Params& p) {
   v.field("runs", p.runs, {.doc = "Independent searches in a step; each gives one pose at most.", .min = 1});
-  v.field("iterations", p.iterations,
-          {.doc = "Triples drawn in each search.", .min = 1, .audience = Audience::tuner});
+  describe_prerejection(v, p);
   v.field("normal_radius", p.normal_radius,
           {.doc = "Neighbourhood that gives a point's normal.", .unit = "m", .above = 0.0});
   v.field("feature_radius", p.feature_radius,
           {.doc = "Neighbourhood that gives a point's feature; must be larger.", .unit = "m", .above = 0.0});
-  v.field(
-      "candidates", p.candidates,
-      {.doc = "Number of points with the nearest features from which a point's partner is drawn.", .min = 1});
-  v.field("similarity", p.similarity,
-          {.doc = "Triples whose sides are less alike (shorter by longer one) are rejected.",
-           .min = 0.0,
-           .max = 0.999});
   v.field("inlier_distance", p.inlier_distance,
           {.doc = "Distance at which a point counts as inlier.", .unit = "m", .above = 0.0});
-  v.field("inlier_fraction", p.inlier_fraction,
-          {.doc = "Share of inliers a pose needs.", .min = 0.0, .max = 1.0});
   v.field("refinement", p.refinement, {.doc = "ICP from the poses found."});
   describe_contact_epsilon(v, p.contact_epsilon);
+  v.field("in_space", p.in_space,
+          {.doc = "The search where the motion is not planar; none of the above counts there."});
   v.require(p.feature_radius > p.normal_radius, "feature_radius", "must be above normal_radius");
+}
+
+std::unique_ptr<Matcher> PclPrerejective::make(const Params& params, const StageSetup& setup) {
+  if (setup.motion == Motion::planar) return std::make_unique<PclPrerejective>(params, setup);
+  return std::make_unique<FeatureMatcher<PrerejectiveSearch>>(params.in_space, setup);
 }
 
 PclPrerejective::PclPrerejective(const Params& params, const StageSetup& setup)
@@ -85,24 +79,17 @@ PclPrerejective::PclPrerejective(const Params& params, const StageSetup& setup)
 
 MatchResult PclPrerejective::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
                                    Rng& rng) {
-  constexpr std::size_t points_drawn = 3;
   if (local.points.size() < points_drawn) return {};
-  // PCL draws from std::rand(); nothing else does while a step runs.
-  std::srand(static_cast<unsigned>(rng.next()));
+  const OwnRandomNumbers random_numbers(rng.next());
   const Cloud::Ptr source = cloud(local.points);
-  pcl::SampleConsensusPrerejective<pcl::PointXYZ, pcl::PointXYZ, pcl::FPFHSignature33> align;
+  Prerejection align;
   align.setTransformationEstimation(
       std::make_shared<pcl::registration::TransformationEstimation2D<pcl::PointXYZ, pcl::PointXYZ>>());
   align.setInputSource(source);
   align.setSourceFeatures(features(source, params_));
   align.setInputTarget(map_);
   align.setTargetFeatures(map_features_);
-  align.setMaximumIterations(params_.iterations);
-  align.setNumberOfSamples(points_drawn);
-  align.setCorrespondenceRandomness(params_.candidates);
-  align.setSimilarityThreshold(static_cast<float>(params_.similarity));
-  align.setMaxCorrespondenceDistance(params_.inlier_distance);
-  align.setInlierFraction(static_cast<float>(params_.inlier_fraction));
+  set_up(align, params_, params_.inlier_distance);
 
   std::vector<Pose2> found;
   Cloud moved;

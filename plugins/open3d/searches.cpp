@@ -1,4 +1,4 @@
-#include "feature_cloud.hpp"
+#include "searches.hpp"
 
 #include <omp.h>
 #include <open3d/pipelines/registration/FastGlobalRegistration.h>
@@ -51,8 +51,8 @@ Pose3 pose_of(const Eigen::Matrix4d& matrix) {
 }
 
 /// The same measure for every search.
-MatchedPose judged(const FeatureCloud& source, const FeatureCloud& target, double voxel_size,
-                 const Eigen::Matrix4d& target_from_source) {
+MatchedPose judged(const Open3dCloud& source, const Open3dCloud& target, double voxel_size,
+                   const Eigen::Matrix4d& target_from_source) {
   constexpr double voxels = 1.5;
   const registration::RegistrationResult result = registration::EvaluateRegistration(
       source.points, target.points, voxels * voxel_size, target_from_source);
@@ -61,7 +61,7 @@ MatchedPose judged(const FeatureCloud& source, const FeatureCloud& target, doubl
 
 }  // namespace
 
-FeatureCloud::FeatureCloud(const Points& all, double voxel_size, const Vector3& normals_towards) {
+Open3dCloud::Open3dCloud(const Points& all, double voxel_size, const Vector3& normals_towards) {
   constexpr double normal_voxels = 2.0;
   constexpr int normal_neighbours = 30;
   constexpr double feature_voxels = 5.0;
@@ -98,8 +98,8 @@ void describe(ParamVisitor& v, RansacSearch& p) {
            .audience = Audience::expert});
 }
 
-std::optional<MatchedPose> RansacSearch::find(const FeatureCloud& source, const FeatureCloud& target,
-                                            double voxel_size, std::uint64_t seed) const {
+std::optional<MatchedPose> RansacSearch::find(const Open3dCloud& source, const Open3dCloud& target,
+                                              double voxel_size, std::uint64_t seed) const {
   if (source.size() < fewest_points || target.size() < fewest_points) return std::nullopt;
   constexpr int drawn = 3;
   const double distance = inlier_distance * voxel_size;
@@ -131,8 +131,8 @@ void describe(ParamVisitor& v, FastGlobalSearch& p) {
            .audience = Audience::expert});
 }
 
-std::optional<MatchedPose> FastGlobalSearch::find(const FeatureCloud& source, const FeatureCloud& target,
-                                                double voxel_size, std::uint64_t seed) const {
+std::optional<MatchedPose> FastGlobalSearch::find(const Open3dCloud& source, const Open3dCloud& target,
+                                                  double voxel_size, std::uint64_t seed) const {
   if (source.size() < fewest_points || target.size() < fewest_points) return std::nullopt;
   registration::FastGlobalRegistrationOption option;
   option.maximum_correspondence_distance_ = inlier_distance * voxel_size;

@@ -1,36 +1,34 @@
-// Open3D's global registration of two clouds.
+// Searches for one cloud in another by features of their points, as cloud registrars.
 #pragma once
 
 #include <fmt/format.h>
 
-#include "feature_cloud.hpp"
 #include "glocal/cloud_registrar.hpp"
 #include "glocal/cloud_resolution.hpp"
-#include "glocal/params.hpp"
 
 namespace glocal {
 
-/// Registers clouds by one of the searches, with its published settings.
+/// Registers clouds by a search (feature_matcher.hpp says what that is), with its published settings.
 template <class Search>
-class Open3dRegistrar final : public CloudRegistrar {
+class FeatureRegistrar final : public CloudRegistrar {
  public:
   using Params = Search;
 
-  Open3dRegistrar(const Params& search, const RegistrationOptions& options)
+  FeatureRegistrar(const Params& search, const RegistrationOptions& options)
       : search_(search), options_(options) {}
 
   [[nodiscard]] Registration find(const Points& source, const Points& target) override {
     Registration result;
     result.voxel_size = options_.voxel_size.value_or(double{cloud_resolution(source, target)});
-    const FeatureCloud from = features(source, options_.source_seen_from, result.voxel_size);
-    const FeatureCloud to = features(target, options_.target_seen_from, result.voxel_size);
+    const Cloud from = cloud_of(source, options_.source_seen_from, result.voxel_size);
+    const Cloud to = cloud_of(target, options_.target_seen_from, result.voxel_size);
     const auto found = search_.find(from, to, result.voxel_size, options_.seed);
     if (!found) {
       result.why = fmt::format("no pose: {} and {} voxels have points", from.size(), to.size());
       return result;
     }
     result.is_match = true;
-    result.why = "not judged: the method gives a pose for any clouds";
+    result.why = "not judged: the method trusts every pose it gives";
     result.target_from_source = found->target_from_source;
     result.overlap = result.score = found->overlap;
     result.rmse = found->rmse;
@@ -38,8 +36,10 @@ class Open3dRegistrar final : public CloudRegistrar {
   }
 
  private:
-  static FeatureCloud features(const Points& cloud, const Point& seen_from, double voxel_size) {
-    return {cloud, voxel_size, {seen_from.x, seen_from.y, seen_from.z}};
+  using Cloud = typename Search::Cloud;
+
+  static Cloud cloud_of(const Points& points, const Point& seen_from, double voxel_size) {
+    return {points, voxel_size, {seen_from.x, seen_from.y, seen_from.z}};
   }
 
   Search search_;
