@@ -7,6 +7,7 @@
 #include "glocal/builtin.hpp"
 #include "glocal/yaml.hpp"
 #include "loading/plugin_loader.hpp"
+#include "plugins/feature_search_tests.hpp"
 #include "test_world.hpp"
 
 namespace glocal::test::pcl_test {
@@ -102,3 +103,10 @@ TEST_F(Pcl, AMapWithoutFreeSpaceIsRefused) {
 
 }  // namespace
 }  // namespace glocal::test::pcl_test
+
+namespace glocal::test::feature_search_tests {
+
+INSTANTIATE_TEST_SUITE_P(Pcl, FeatureSearch, testing::Values(Search{"pcl_prerejective", GLOCAL_PCL_PLUGIN}),
+                         [](const auto& search) { return search.param.name; });
+
+}  // namespace glocal::test::feature_search_tests
