@@ -139,7 +139,7 @@ TEST_P(FeatureSearch, AMapWithFewPointsIsRefused) {
   MapData data;
   data.points = few_points();
   EXPECT_THAT(config_error(folder_ / "", [&] { (void)matcher_on(std::move(data)); }),
-              HasSubstr("the map has 3 voxels of 0.10 m with points; features need 10 or more"));
+              HasSubstr("voxels of 0.10 m with points; features need 10 or more"));
 }
 
 }  // namespace glocal::test::feature_search_tests
