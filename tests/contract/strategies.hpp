@@ -126,6 +126,7 @@ class Contract : public ::testing::Test {
                               "verdict_rule/consecutive_rating",
                               "cloud_registrar/open3d_fgr",
                               "cloud_registrar/open3d_ransac",
+                              "cloud_registrar/pcl_prerejective",
                               "cloud_registrar/surfel_pairs"}) {
       fillers_[stage] = [](AnyParams&) {};
     }
