@@ -82,7 +82,8 @@ Registration register_clouds(const Points& source, const Points& target, const R
   const Rng rng(options.seed);
   const PairRule rule = pair_rule(voxel_size, !result.sensors_known);
   const PairTable pairs(to.surfels, rule, pairs_in_table, rng.stream({table}));
-  const std::vector<FoundPose> found = PoseSearch(to, pairs, rule, {.rounds = 40}).find(from, rng.stream({search}));
+  const std::vector<FoundPose> found =
+      PoseSearch(to, pairs, rule, {.rounds = 40}).find(from, rng.stream({search}));
   if (found.empty()) {
     result.why = "no two pieces of surface fix a pose: are the clouds flat, or too sparse for their voxels?";
     return result;

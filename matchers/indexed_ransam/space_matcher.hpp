@@ -27,8 +27,9 @@ struct SpaceIndex {
 /// alike. The best distinct poses are refined point to plane, carried to the next step beside fresh ones, and
 /// judged by contact with normals and by what the latest scan looked through.
 ///
-/// Hypotheses are the best distinct poses; their score is the contact (mean of the share of surfels and of the
-/// share of points) less `seen_through_weight` times the share of the map's surfels that the latest scan looked through.
+/// Hypotheses are the best distinct poses; their score is the contact (mean of the share of surfels and of
+/// the share of points) less `seen_through_weight` times the share of the map's surfels that the latest scan
+/// looked through.
 class SpaceMatcher final : public Matcher {
  public:
   struct Params {
