@@ -84,8 +84,7 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
 
 /// Contact of the local map at a robot pose, in [0, 1].
 double contact_at(const Replayed& step, const ContactIndex& contact, const Pose3& map_from_robot) {
-  const Points in_map = moved(step.local.points, map_from_robot * inverse(step.local.local_from_robot));
-  return contact.share(in_map, Transform(Pose2{}));
+  return contact.share(step.local.points, map_from_robot * inverse(step.local.local_from_robot));
 }
 
 bool agree(const Pose3& a, const Pose3& b, const EvaluationConfig& limits) {

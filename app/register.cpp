@@ -45,17 +45,13 @@ double cpu_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-Point place_of(const Pose3& viewpoint) {
-  return {static_cast<float>(viewpoint.x), static_cast<float>(viewpoint.y), static_cast<float>(viewpoint.z)};
-}
-
 /// What one method makes of a pair; an empty name stands for glocal's own.
 PairOutcome outcome_of(CloudPair pair, const Cloud& source, const Cloud& target, const std::string& method,
                        const RegisterOptions& options, const CloudRegistrars& registrars) {
   RegistrationOptions registration;
   if (options.voxel_size > 0.0) registration.voxel_size = options.voxel_size;
-  registration.source_seen_from = place_of(source.viewpoint);
-  registration.target_seen_from = place_of(target.viewpoint);
+  registration.source_seen_from = as_point(source.viewpoint.translation());
+  registration.target_seen_from = as_point(target.viewpoint.translation());
   registration.seed = options.seed;
   PairOutcome outcome{.pair = std::move(pair), .method = method};
   const double begin = cpu_seconds();
@@ -102,10 +98,8 @@ std::string text_of(const PairOutcome& outcome) {
 Points joined(const Points& source, const Points& target, const Pose3& target_from_source) {
   Points all = target;
   all.reserve(target.size() + source.size());
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    const Vector3 p = target_from_source * Vector3{source.x[i], source.y[i], source.z[i]};
-    all.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-  }
+  const Points in_target = moved(source, target_from_source);
+  for (std::size_t i = 0; i < in_target.size(); ++i) all.push_back(in_target[i]);
   return all;
 }
 

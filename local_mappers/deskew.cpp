@@ -24,9 +24,7 @@ std::optional<Scan> deskewed(const Scan& scan, const SteadyMotion& motion) {
       const double share = -time / motion.seconds;
       now_from_then = {share * now_from_last.translation(), exponential(share * turn)};
     }
-    const Point p = scan.hits[i];
-    const Vector3 hit = now_from_then * Vector3{p.x, p.y, p.z};
-    still.hits.push_back({static_cast<float>(hit.x), static_cast<float>(hit.y), static_cast<float>(hit.z)});
+    still.hits.push_back(as_point(now_from_then * as_vector(scan.hits[i])));
   }
   return still;
 }

@@ -146,9 +146,8 @@ void LidarOdometry::add(const Observation& observation) {
     misfits_ = 0;
   }
   const Pose3& local_from_robot = map().local_from_robot;
-  const Vector3 sensor = local_from_robot * Vector3{scan.origin.x, scan.origin.y, scan.origin.z};
   map_.add(misfits_ > misfits_before ? Points{} : moved(scan.hits, local_from_robot),
-           {static_cast<float>(sensor.x), static_cast<float>(sensor.y), static_cast<float>(sensor.z)}, way_);
+           as_point(local_from_robot * as_vector(scan.origin)), way_);
   forget();
 }
 

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "local_mappers/gauss_newton.hpp"
+
 namespace glocal {
 
 namespace {
@@ -64,16 +66,7 @@ void describe(ParamVisitor& v, LineRegistrationParams& p) {
            .min = 0.0,
            .max = 180.0,
            .formerly = "max_normal_angle"});
-  v.field("pointwise_weight", p.pointwise_weight,
-          {.doc = "Weight of matches without normals, which count point to point; others have weight 1.",
-           .min = 0.0,
-           .max = 1.0});
-  v.field("max_iterations", p.max_iterations, {.doc = "Gauss-Newton steps.", .min = 1, .max = 1000});
-  v.field("damping", p.damping,
-          {.doc = "Added to the diagonal of the normal equations per match: keeps directions still that no "
-                  "match sees.",
-           .max = 1.0,
-           .above = 0.0});
+  describe_gauss_newton(v, p);
 }
 
 NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Points& hits,

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "local_mappers/gauss_newton.hpp"
+
 namespace glocal {
 namespace {
 
@@ -49,16 +51,7 @@ Eigen::Vector3d vector_of(const Point& p) {
 }  // namespace
 
 void describe(ParamVisitor& v, PlaneRegistrationParams& p) {
-  v.field("pointwise_weight", p.pointwise_weight,
-          {.doc = "Weight of matches without normals, which count point to point; others have weight 1.",
-           .min = 0.0,
-           .max = 1.0});
-  v.field("max_iterations", p.max_iterations, {.doc = "Gauss-Newton steps.", .min = 1, .max = 1000});
-  v.field("damping", p.damping,
-          {.doc = "Added to the diagonal of the normal equations per match: keeps directions still that no "
-                  "match sees.",
-           .max = 1.0,
-           .above = 0.0});
+  describe_gauss_newton(v, p);
 }
 
 PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, const Point& sensor,
@@ -70,7 +63,7 @@ PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, 
   for (int iteration = 0; iteration < params.max_iterations; ++iteration) {
     Pose3& pose = result.local_from_robot;
     const Points placed = moved(hits, pose);
-    const Vector3 sensor_in_local = pose * Vector3{sensor.x, sensor.y, sensor.z};
+    const Vector3 sensor_in_local = pose * as_vector(sensor);
     const Eigen::Vector3d eye(sensor_in_local.x, sensor_in_local.y, sensor_in_local.z);
     const Eigen::Vector3d robot(pose.x, pose.y, pose.z);
     SpatialNormalEquations equations(limits.kernel);

@@ -81,7 +81,7 @@ Scan lidar_scan(const LidarParams& lidar, const LidarPath& map_from_lidar,
       const bool is_seen = range >= lidar.min_range && range <= lidar.max_range;
       if (!is_seen || is_dropped) continue;
       const Vector3 hit = (is_outlier ? anything : range) * direction;
-      scan.hits.push_back({static_cast<float>(hit.x), static_cast<float>(hit.y), static_cast<float>(hit.z)});
+      scan.hits.push_back(as_point(hit));
       if (lidar.scan_time > 0.0) scan.times.push_back(static_cast<float>(time));
     }
   }

@@ -43,7 +43,7 @@ bool near_free_cell(const Pose3& pose, const OccupancyGrid& grid, double reach) 
 /// Whether the map has a point within `reach` of the pose.
 bool near_point(const Pose3& pose, const GlobalMap& map, double reach) {
   Points place;
-  place.push_back({static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.z)});
+  place.push_back(as_point(pose.translation()));
   return contact_index(map, "kd_tree", reach)->count(place, 0, 1, Transform(Pose2{})) > 0;
 }
 

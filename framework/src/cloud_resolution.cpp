@@ -40,4 +40,10 @@ float cloud_resolution(const Points& a, const Points& b) {
   return static_cast<float>(std::exp2(power / per_octave));
 }
 
+double map_voxel_size(double resolution) {
+  constexpr double points_apart = 3.0;
+  constexpr double finest = 0.1;
+  return std::max(points_apart * resolution, finest);
+}
+
 }  // namespace glocal

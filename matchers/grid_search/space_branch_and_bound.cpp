@@ -35,8 +35,7 @@ MatchResult SpaceBranchAndBound::match(const LocalMap& local, const Observation&
                  rotation_between(robot, other) < radians(params_.candidate.rotation_deg);
         });
     if (is_known) continue;
-    // Contact indexes move points in the plane only.
-    const double omega = contact_->share(moved(local.points, map_from_local), Transform(Pose2{}));
+    const double omega = contact_->share(local.points, map_from_local);
     result.points_tested += local.points.size();
     result.hypotheses.push_back(
         {.map_from_local = map_from_local,

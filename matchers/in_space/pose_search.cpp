@@ -62,13 +62,6 @@ struct Scene {
   SearchEffort effort;
 };
 
-/// Whether a motion that a pair proposes can be that of clouds which both stand upright: normals are a few
-/// degrees off.
-bool is_about_upright(const RigidMotion& motion) {
-  constexpr float least_cosine = 0.97F;  // 14 degrees
-  return motion.rotation[8] > least_cosine;
-}
-
 /// What pairs of a round propose, seen off by a few surfels.
 std::vector<Proposal> proposals(Scene& scene, const PairTable& pairs, const PairSampler& sampler,
                                 const PairRule& rule, const PoseSearchParams& params, Rng& rng) {

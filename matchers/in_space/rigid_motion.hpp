@@ -34,8 +34,7 @@ struct RigidMotion {
 
   RigidMotion() = default;
   explicit RigidMotion(const Pose3& target_from_source)
-      : translation{static_cast<float>(target_from_source.x), static_cast<float>(target_from_source.y),
-                    static_cast<float>(target_from_source.z)} {
+      : translation(as_point(target_from_source.translation())) {
     const std::array<double, 9> matrix = matrix_of(target_from_source.rotation);
     for (std::size_t i = 0; i < 9; ++i) rotation[i] = static_cast<float>(matrix[i]);
   }
@@ -57,7 +56,7 @@ struct RigidMotion {
   [[nodiscard]] Pose3 pose() const {
     std::array<double, 9> matrix{};
     for (std::size_t i = 0; i < 9; ++i) matrix[i] = static_cast<double>(rotation[i]);
-    return {{translation.x, translation.y, translation.z}, quaternion_of(matrix)};
+    return {as_vector(translation), quaternion_of(matrix)};
   }
 };
 
@@ -68,6 +67,13 @@ struct RigidMotion {
   back.rotation = {r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]};
   back.translation = -1.0F * motion.turned_back(motion.translation);
   return back;
+}
+
+/// Whether a motion that a few points propose can be one of clouds which both stand upright: such motions are
+/// a few degrees off.
+[[nodiscard]] inline bool is_about_upright(const RigidMotion& motion) {
+  constexpr float least_cosine = 0.97F;  // 14 degrees
+  return motion.rotation[8] >= least_cosine;
 }
 
 /// The turn about z, with a shift, that is nearest to a motion and moves one point as it does.

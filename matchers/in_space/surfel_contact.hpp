@@ -12,6 +12,9 @@
 
 namespace glocal {
 
+/// Of normals that may be of one surface: 41 degrees.
+inline constexpr float least_cosine_of_normals = 0.755F;
+
 /// Contact of surfels: a point within a voxel of the plane of the nearest surfel, which is at most two voxels
 /// away, and with a normal that is turned by 41 degrees at most.
 class SurfelContact {
@@ -32,10 +35,9 @@ class SurfelContact {
   [[nodiscard]] const Plane& plane(std::uint32_t k) const { return planes_[k]; }
   /// Whether a point with a normal lies on surfel k.
   [[nodiscard]] bool lies_on(std::uint32_t k, const Point& p, const Point& normal) const {
-    constexpr float least_cosine = 0.755F;
     const Plane& plane = planes_[k];
     const float cosine = dot(plane.normal, normal);
-    if ((one_side_ ? cosine : std::abs(cosine)) < least_cosine) return false;
+    if ((one_side_ ? cosine : std::abs(cosine)) < least_cosine_of_normals) return false;
     return std::abs(dot(plane.normal, p) - plane.distance) < nearest_.side();
   }
   [[nodiscard]] bool touches(const Point& p, const Point& normal) const {

@@ -5,17 +5,11 @@
 #include <algorithm>
 #include <chrono>
 
+#include "glocal/cloud_resolution.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
-
-/// The side of voxels (m) that suits a map whose points are so far apart (m; 0 if not known).
-double fitting_voxel_size(double resolution) {
-  constexpr double points_apart = 3.0;
-  constexpr double finest = 0.1;
-  return std::max(points_apart * resolution, finest);
-}
 
 /// The local map's surfels, finer than those of the map: a narrow view has few. With the view of the latest
 /// scan: where a local map of many scans was seen from is not known.
@@ -98,8 +92,7 @@ SpaceMatcher::SpaceMatcher(const Params& params, const Answer& answer, const Sta
     : params_(params),
       answer_(answer),
       upright_(setup.motion == Motion::upright),
-      voxel_size_(
-          static_cast<float>(params.voxel_size.value_or(fitting_voxel_size(setup.map->resolution())))),
+      voxel_size_(static_cast<float>(params.voxel_size.value_or(map_voxel_size(setup.map->resolution())))),
       contact_(contact_index(*setup.map, "bitset", answer.contact_epsilon)) {
   const std::string key = fmt::format("{} {}", voxel_size_, params.pairs);
   index_ = setup.map->index<SpaceIndex>(key, [&] {
@@ -142,10 +135,9 @@ MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest
   const PoseSearch search(index_->map, index_->pairs, index_->rule, search_params());
   const PreparedCloud source = prepared(local, latest.scan, voxel_size_);
   const Points sample = evenly_sampled(local.points);
-  // Contact indexes move points in the plane only.
   const auto contact_of = [&](const Points& points, const Pose3& map_from_local) {
     result.points_tested += points.size();
-    return contact_->share(moved(points, map_from_local), Transform(Pose2{}));
+    return contact_->share(points, map_from_local);
   };
   const PointContact contact_of_sample = [&](const RigidMotion& map_from_local) {
     return contact_of(sample, map_from_local.pose());

@@ -38,8 +38,7 @@ double diagonal(const Points& points) {
 }
 
 Triangle triangle_of(const Points& points, const Triple& triple) {
-  const auto corner = [&](std::uint32_t i) { return Vector3{points.x[i], points.y[i], points.z[i]}; };
-  return {corner(triple[0]), corner(triple[1]), corner(triple[2])};
+  return {as_vector(points[triple[0]]), as_vector(points[triple[1]]), as_vector(points[triple[2]])};
 }
 
 /// A triple of a batch, in the order of relations.
@@ -51,13 +50,10 @@ Normals normals_of(const Points& normals, const Triple& triple) {
   return {normals[triple[0]], normals[triple[1]], normals[triple[2]]};
 }
 
-/// The motion as one of a robot that stands upright, if it is about that: triangles are a few degrees off.
+/// The motion as one of a robot that stands upright, if it is about that.
 std::optional<RigidMotion> upright_motion(const RigidMotion& motion, const Triangle& triangle) {
-  constexpr float least_cosine = 0.97F;  // 14 degrees
-  if (motion.rotation[8] < least_cosine) return std::nullopt;
-  const Vector3 middle = 1.0 / 3.0 * (triangle[0] + triangle[1] + triangle[2]);
-  return made_upright(
-      motion, {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)});
+  if (!is_about_upright(motion)) return std::nullopt;
+  return made_upright(motion, as_point(1.0 / 3.0 * (triangle[0] + triangle[1] + triangle[2])));
 }
 
 std::shared_ptr<const SurfacePoints> surfaces_of(const GlobalMap& map, float voxel_size) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "matchers/in_space/surfel_contact.hpp"
+
 namespace glocal {
 namespace {
 
@@ -152,9 +154,8 @@ Pose3 least_squares_motion(const Triangle& from, const Triangle& to) {
 }
 
 bool surfaces_agree(const RigidMotion& motion, const Normals& from, const Normals& to) {
-  constexpr float least_cosine = 0.755F;  // as for contact of surfels
   for (std::size_t corner = 0; corner < 3; ++corner) {
-    if (std::abs(dot(motion.turned(from[corner]), to[corner])) < least_cosine) return false;
+    if (std::abs(dot(motion.turned(from[corner]), to[corner])) < least_cosine_of_normals) return false;
   }
   return true;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "glocal/catalog.hpp"
+#include "glocal/cloud_resolution.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/error.hpp"
 #include "glocal/params.hpp"
@@ -60,7 +61,7 @@ class FeatureMatcher final : public Matcher {
   FeatureMatcher(const Params& params, const StageSetup& setup)
       : params_(params),
         upright_(setup.motion == Motion::upright),
-        voxel_size_(params.voxel_size.value_or(fitting_voxel_size(setup.map->resolution()))),
+        voxel_size_(params.voxel_size.value_or(map_voxel_size(setup.map->resolution()))),
         map_(features_of(*setup.map, voxel_size_)),
         contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))) {}
 
@@ -75,8 +76,7 @@ class FeatureMatcher final : public Matcher {
       ++result.proposals;
       const Pose3& map_from_local = found->target_from_source;
       if (upright_ && map_from_local.tilt() > most_tilt) continue;
-      // Contact indexes move points in the plane only.
-      const double omega = contact_->share(moved(local.points, map_from_local), Transform(Pose2{}));
+      const double omega = contact_->share(local.points, map_from_local);
       result.points_tested += local.points.size();
       if (omega >= omega_max) result.hypotheses.push_back(Hypothesis::by_contact(map_from_local, omega));
     }
@@ -99,13 +99,6 @@ class FeatureMatcher final : public Matcher {
   };
 
   static constexpr double most_tilt = radians(15.0);
-
-  /// The side of voxels (m) that suits a map whose points are so far apart (m; 0 if not known).
-  static double fitting_voxel_size(double resolution) {
-    constexpr double points_apart = 3.0;
-    constexpr double finest = 0.1;
-    return std::max(points_apart * resolution, finest);
-  }
 
   /// Features need a side for each normal. Where a map was seen from is not known: its middle is taken.
   static Vector3 middle_of(const Points& points) {

@@ -181,9 +181,8 @@ Scan CloudDrive::scan_of(const Cloud& cloud) const {
     in_range = means_of_groups(in_range, groups);
     if (has_times) scan.times = mean_times(scan.times, groups);
   }
-  const Vector3 origin = robot_from_sensor_.translation();
   scan.hits = moved(in_range, robot_from_sensor_);
-  scan.origin = {static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z)};
+  scan.origin = as_point(robot_from_sensor_.translation());
   return scan;
 }
 

@@ -59,6 +59,10 @@ class ContactIndex {
     return static_cast<double>(count(points, 0, points.size(), map_from_points)) /
            static_cast<double>(points.size());
   }
+  /// The same after a motion in space: indexes themselves move points in the plane only.
+  [[nodiscard]] double share(const Points& points, const Pose3& map_from_points) const {
+    return share(moved(points, map_from_points), Transform(Pose2{}));
+  }
 };
 
 /// What a contact index is made from.

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 
 namespace glocal {
 
@@ -53,10 +53,16 @@ struct Points {
   friend bool operator==(const Points&, const Points&) = default;
 };
 
-struct Pose3;
-
 /// The points as they are in the target's frame.
 [[nodiscard]] Points moved(const Points& points, const Pose3& target_from_source);
+
+[[nodiscard]] inline Vector3 as_vector(const Point& p) {
+  return {p.x, p.y, p.z};
+}
+/// In single precision.
+[[nodiscard]] inline Point as_point(const Vector3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 /// A pose in the plane with its sine and cosine at hand, for moving many points. Heights stay as they are.
 class Transform {
