@@ -1,0 +1,68 @@
+#include "sources/bags/chunked_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace glocal::bags {
+
+void ChunkedFile::rewind(const std::vector<bool>& wanted) {
+  wanted_ = wanted;
+  next_chunk_ = 0;
+  open_bytes_ = 0;
+  open_ = {};
+  last_ = nullptr;
+  std::stable_sort(chunks_.begin(), chunks_.end(),
+                   [](const ChunkSpan& a, const ChunkSpan& b) { return a.first_ns < b.first_ns; });
+}
+
+std::optional<FileMessage> ChunkedFile::next() {
+  step_over_last();
+  // What is not open yet has nothing earlier than the first stamp of the next chunk.
+  while (next_chunk_ < chunks_.size() &&
+         (open_.empty() || chunks_[next_chunk_].first_ns <= open_.top()->entry().stamp_ns))
+    open_next_chunk();
+  if (open_.empty()) return std::nullopt;
+  last_ = open_.top();
+  open_.pop();
+  const ChunkEntry& entry = last_->entry();
+  return FileMessage{entry.connection, entry.stamp_ns,
+                     std::string_view(last_->chunk.bytes).substr(entry.offset, entry.size),
+                     place_in(last_->span, entry.offset)};
+}
+
+void ChunkedFile::step_over_last() {
+  if (!last_) return;
+  if (++last_->next < last_->chunk.entries.size()) {
+    open_.push(std::move(last_));
+  } else {
+    open_bytes_ -= last_->chunk.bytes.size();
+  }
+  last_ = nullptr;
+}
+
+void ChunkedFile::open_next_chunk() {
+  constexpr std::uint64_t most_open = 1ULL << 30U;
+  const ChunkSpan& span = chunks_[next_chunk_++];
+  auto open = std::make_shared<OpenChunk>(OpenChunk{span, load(span), 0});
+  auto& entries = open->chunk.entries;
+  const auto is_outside = [&](const ChunkEntry& e) { return e.stamp_ns < span.first_ns; };
+  if (std::any_of(entries.begin(), entries.end(), is_outside))
+    note_(fmt::format(
+        "{}: byte {}: the chunk has messages before the time that the file says it begins at; they "
+        "may come out of order",
+        file_.name(), span.offset));
+  std::erase_if(entries, [&](const ChunkEntry& e) { return !wanted_[e.connection]; });
+  if (entries.empty()) return;
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const ChunkEntry& a, const ChunkEntry& b) { return a.stamp_ns < b.stamp_ns; });
+  open_bytes_ += open->chunk.bytes.size();
+  if (open_bytes_ > most_open)
+    file_.refuse(span.offset,
+                 "more than 1 GiB of chunks overlap in time; write the recording anew, in order of "
+                 "time");
+  open_.push(std::move(open));
+}
+
+}  // namespace glocal::bags

@@ -1,0 +1,85 @@
+// Recordings whose messages come in chunks, perhaps out of order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <queue>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sources/bags/recording_file.hpp"
+
+namespace glocal::bags {
+
+/// A piece of the file with messages.
+struct ChunkSpan {
+  std::uint64_t offset = 0;   ///< Of its first byte in the file.
+  std::uint64_t size = 0;     ///< Bytes in the file.
+  std::int64_t first_ns = 0;  ///< Stamps of its messages, as the file says them.
+  std::int64_t last_ns = 0;
+};
+
+/// A message in a chunk.
+struct ChunkEntry {
+  std::int64_t stamp_ns = 0;
+  std::size_t connection = 0;
+  std::size_t offset = 0, size = 0;  ///< In the chunk's bytes.
+};
+
+/// A chunk, unpacked.
+struct Chunk {
+  std::string bytes;
+  std::vector<ChunkEntry> entries;  ///< As they lie in the chunk.
+};
+
+/// Reads chunks in order of their first stamps, and the messages of those that overlap in order of theirs. At
+/// most 1 GiB of chunks is held at a time.
+class ChunkedFile : public RecordingFile {
+ public:
+  void rewind(const std::vector<bool>& wanted) override;
+  [[nodiscard]] std::optional<FileMessage> next() override;
+
+ protected:
+  ChunkedFile(const std::filesystem::path& file, Note note) : file_(file), note_(std::move(note)) {}
+
+  /// The chunk, unpacked and read.
+  [[nodiscard]] virtual Chunk load(const ChunkSpan& span) = 0;
+
+  /// Of bytes of an unpacked chunk.
+  [[nodiscard]] Place place_in(const ChunkSpan& span, std::size_t at) const {
+    return {file_.name(), at, span.offset};
+  }
+
+  FileBytes file_;
+  Note note_;
+  std::vector<ChunkSpan> chunks_;
+
+ private:
+  struct OpenChunk {
+    ChunkSpan span;
+    Chunk chunk;
+    std::size_t next = 0;
+    [[nodiscard]] const ChunkEntry& entry() const { return chunk.entries[next]; }
+  };
+  /// Whose next message comes later; of equal ones that which lies behind.
+  struct IsLater {
+    bool operator()(const std::shared_ptr<OpenChunk>& a, const std::shared_ptr<OpenChunk>& b) const {
+      const std::int64_t at = a->entry().stamp_ns, bt = b->entry().stamp_ns;
+      return at != bt ? at > bt : a->span.offset > b->span.offset;
+    }
+  };
+
+  void open_next_chunk();
+  void step_over_last();
+
+  std::vector<bool> wanted_;
+  std::size_t next_chunk_ = 0;
+  std::uint64_t open_bytes_ = 0;
+  std::priority_queue<std::shared_ptr<OpenChunk>, std::vector<std::shared_ptr<OpenChunk>>, IsLater> open_;
+  std::shared_ptr<OpenChunk> last_;  ///< Whose message was given out last; not in the heap.
+};
+
+}  // namespace glocal::bags

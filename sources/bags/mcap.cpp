@@ -1,0 +1,215 @@
+#include "sources/bags/mcap.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "sources/bags/chunked_file.hpp"
+#include "sources/bags/unpacked.hpp"
+
+namespace glocal::bags {
+namespace {
+
+constexpr std::string_view mcap_mark("\x89MCAP0\r\n", 8);
+constexpr std::uint64_t record_head = 9;  ///< Opcode and length.
+
+enum class McapOp : std::uint8_t {
+  footer = 2,
+  schema = 3,
+  channel = 4,
+  message = 5,
+  chunk = 6,
+  data_end = 15
+};
+
+struct McapRecord {
+  McapOp op = McapOp::footer;
+  std::uint64_t size = 0;  ///< Of what follows its head.
+};
+
+std::int64_t stamp_of(std::uint64_t ns) {
+  return static_cast<std::int64_t>(ns);
+}
+
+class McapFile final : public ChunkedFile {
+ public:
+  McapFile(const std::filesystem::path& file, Note note) : ChunkedFile(file, std::move(note)) {
+    scan();
+    // Only a summary names the channels of chunks outside of them.
+    if (!has_summary_) {
+      for (const ChunkSpan& span : chunks_) static_cast<void>(load(span));
+    }
+    is_open_ = true;
+  }
+
+  [[nodiscard]] const char* format() const override { return "MCAP"; }
+
+ private:
+  /// Goes through all records and skips what chunks hold. Messages outside of chunks are taken together as
+  /// uncompressed ones.
+  void scan() {
+    std::uint64_t at = mcap_mark.size();
+    bool is_behind_data = false, has_end = false;
+    while (at < file_.size() && !has_end) {
+      const auto record = record_at(at);
+      if (!record) {
+        note_(fmt::format("{}: byte {}: the recording ends within a record; what comes before it is read",
+                          file_.name(), at));
+        break;
+      }
+      is_behind_data |= record->op == McapOp::data_end;
+      has_end = record->op == McapOp::footer;
+      has_summary_ |= is_behind_data && record->op == McapOp::channel;
+      note_record(at, *record);
+      at += record_head + record->size;
+    }
+    if (at == mcap_mark.size()) file_.refuse(at, "the recording has no whole record; get a fresh copy");
+    if (!has_end && at == file_.size())
+      note_(fmt::format("{}: byte {}: the recording ends without a footer; it may lack messages",
+                        file_.name(), at));
+  }
+
+  [[nodiscard]] std::optional<McapRecord> record_at(std::uint64_t at) const {
+    const std::string_view head = file_.peek(at);
+    if (head.size() < record_head) return std::nullopt;
+    FieldReader reader(head, {file_.name(), at});
+    const auto op = static_cast<McapOp>(reader.number<std::uint8_t>());
+    const auto size = reader.number<std::uint64_t>();
+    if (size > file_.size() - at - record_head) return std::nullopt;
+    return McapRecord{op, size};
+  }
+
+  void note_record(std::uint64_t at, const McapRecord& record) {
+    const std::uint64_t begin = at + record_head;
+    const auto reader = [&](std::string_view bytes) {
+      return FieldReader(
+          bytes.substr(0, static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), record.size))),
+          {file_.name(), begin});
+    };
+    if (record.op != McapOp::message) loose_messages_end_ = 0;
+    if (record.op == McapOp::schema || record.op == McapOp::channel) {
+      const std::string bytes = file_.read(begin, record.size);
+      FieldReader fields = reader(bytes);
+      note_channel_or_schema(record.op, fields);
+    } else if (record.op == McapOp::chunk) {
+      FieldReader fields = reader(file_.peek(begin));
+      const auto first = fields.number<std::uint64_t>(), last = fields.number<std::uint64_t>();
+      chunks_.push_back({at, record_head + record.size, stamp_of(first), stamp_of(last)});
+    } else if (record.op == McapOp::message) {
+      FieldReader fields = reader(file_.peek(begin));
+      static_cast<void>(fields.number<std::uint16_t>());
+      static_cast<void>(fields.number<std::uint32_t>());
+      add_loose_message(at, record_head + record.size, stamp_of(fields.number<std::uint64_t>()));
+    }
+  }
+
+  /// Messages that follow each other make a chunk.
+  void add_loose_message(std::uint64_t at, std::uint64_t size, std::int64_t stamp_ns) {
+    constexpr std::uint64_t enough = 1U << 20U;
+    if (size > largest_chunk)
+      file_.refuse(
+          at, fmt::format("a message of {} bytes is announced, at most {} are allowed", size, largest_chunk));
+    if (at != loose_messages_end_ || chunks_.back().size > enough) {
+      chunks_.push_back({at, size, stamp_ns, stamp_ns});
+    } else {
+      ChunkSpan& span = chunks_.back();
+      span.size += size;
+      span.first_ns = std::min(span.first_ns, stamp_ns);
+      span.last_ns = std::max(span.last_ns, stamp_ns);
+    }
+    loose_messages_end_ = at + size;
+  }
+
+  void note_channel_or_schema(McapOp op, FieldReader& fields) {
+    const auto id = fields.number<std::uint16_t>();
+    if (op == McapOp::schema) {
+      const std::string_view name = fields.text();
+      static_cast<void>(fields.text());  // The definition's language.
+      schemas_.try_emplace(id, normal_type(name), std::string(fields.text()));
+      return;
+    }
+    const auto schema = fields.number<std::uint16_t>();
+    const std::string_view topic = fields.text(), encoding = fields.text();
+    if (!channels_.try_emplace(id, connections_.size()).second) return;
+    // A channel without a schema has 0.
+    const auto found = schemas_.find(schema);
+    if (schema != 0 && found == schemas_.end())
+      fields.refuse(fmt::format(
+          "channel {} has the schema {}, which no record before it is; get a fresh copy", id, schema));
+    const auto& [type, definition] = found == schemas_.end() ? no_schema_ : found->second;
+    connections_.push_back({std::string(topic), type, std::string(encoding), definition});
+  }
+
+  [[nodiscard]] Chunk load(const ChunkSpan& span) override {
+    const bool is_chunk = static_cast<McapOp>(file_.peek(span.offset).front()) == McapOp::chunk;
+    Chunk chunk;
+    chunk.bytes = is_chunk ? unpacked_chunk(span) : file_.read(span.offset, span.size);
+    FieldReader records(chunk.bytes, is_chunk ? place_in(span, 0) : Place{file_.name(), span.offset});
+    while (!records.at_end()) {
+      const auto op = static_cast<McapOp>(records.number<std::uint8_t>());
+      const std::string_view record = records.take(records.number<std::uint64_t>());
+      const std::size_t offset = records.at() - record.size();
+      FieldReader fields(record, place_in(span, offset));
+      if ((op == McapOp::schema || op == McapOp::channel) && !is_open_) note_channel_or_schema(op, fields);
+      if (op == McapOp::message) chunk.entries.push_back(entry_of(fields, offset));
+    }
+    return chunk;
+  }
+
+  [[nodiscard]] std::string unpacked_chunk(const ChunkSpan& span) const {
+    const Place in_file{file_.name(), span.offset};
+    const std::string record = file_.read(span.offset + record_head, span.size - record_head);
+    FieldReader fields(record, {file_.name(), span.offset + record_head});
+    static_cast<void>(fields.take(2 * sizeof(std::uint64_t)));  // First and last stamp.
+    const auto size = fields.number<std::uint64_t>();
+    const auto crc = fields.number<std::uint32_t>();
+    const std::string_view compression = fields.text();
+    const std::string_view packed = fields.take(fields.number<std::uint64_t>());
+    std::string bytes = unpacked(compression, packed, size, in_file);
+    const auto found = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+    if (crc != 0 && crc != found)
+      in_file.refuse(
+          0, fmt::format("the chunk's CRC-32 is {:08x} where {:08x} is announced: it is damaged; get a "
+                         "fresh copy",
+                         found, crc));
+    return bytes;
+  }
+
+  /// `offset`: of the record in the chunk.
+  [[nodiscard]] ChunkEntry entry_of(FieldReader& fields, std::size_t offset) const {
+    const auto id = fields.number<std::uint16_t>();
+    static_cast<void>(fields.number<std::uint32_t>());  // Sequence.
+    const auto stamp = fields.number<std::uint64_t>();
+    static_cast<void>(fields.number<std::uint64_t>());  // Time of publishing.
+    const auto channel = channels_.find(id);
+    if (channel == channels_.end())
+      fields.refuse(
+          fmt::format("the message is of channel {}, which the recording does not name; repair it with "
+                      "'mcap recover'",
+                      id));
+    return {stamp_of(stamp), channel->second, offset + fields.at(), fields.rest().size()};
+  }
+
+  std::map<std::uint16_t, std::pair<std::string, std::string>> schemas_;  ///< Type and definition.
+  std::pair<std::string, std::string> no_schema_;
+  std::map<std::uint16_t, std::size_t> channels_;
+  std::uint64_t loose_messages_end_ = 0;  ///< 0: the record before was none.
+  bool has_summary_ = false;
+  bool is_open_ = false;  ///< From then on there are no new channels.
+};
+
+}  // namespace
+
+bool is_mcap(std::string_view beginning) {
+  return beginning.starts_with(mcap_mark);
+}
+
+std::unique_ptr<RecordingFile> open_mcap(const std::filesystem::path& file, const Note& note) {
+  return std::make_unique<McapFile>(file, note);
+}
+
+}  // namespace glocal::bags

@@ -1,0 +1,119 @@
+#include "sources/bags/recording.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/bags/mcap.hpp"
+#include "sources/bags/ros1_bag.hpp"
+#include "sources/bags/sqlite_bag.hpp"
+
+namespace glocal::bags {
+
+namespace fs = std::filesystem;
+
+struct Recording::Part {
+  std::unique_ptr<RecordingFile> file;
+  std::vector<std::size_t> connections;  ///< Index in the recording of each of the file's.
+  std::optional<FileMessage> message;    ///< The next one.
+};
+
+std::string normal_type(std::string_view type) {
+  std::string normal(type);
+  const std::size_t at = normal.find("/msg/");
+  if (at != std::string::npos) normal.erase(at, 4);
+  return normal;
+}
+
+namespace {
+
+/// The files of a ROS 2 recording's folder.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const fs::path extension = entry.path().extension();
+    if (extension == ".db3" || extension == ".mcap") files.push_back(entry.path());
+  }
+  if (files.empty())
+    throw ConfigError(
+        {{folder.string(), 0, 0, "is a folder without .db3 or .mcap files; a recording of ROS 2 has them"}});
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::unique_ptr<RecordingFile> open_file(const fs::path& file, const Note& note) {
+  const FileBytes bytes(file);
+  const std::string_view beginning = bytes.peek(0);
+  if (is_ros1_bag(beginning)) return open_ros1_bag(file, note);
+  if (is_mcap(beginning)) return open_mcap(file, note);
+  if (is_sqlite(beginning)) return open_sqlite_bag(file);
+  bytes.refuse(0, beginning.empty()
+                      ? "the file is empty; get a fresh copy"
+                      : "begins like no recording; bags of ROS 1 (.bag) and ROS 2 (.db3) and MCAP can "
+                        "be read, and compressed files after unpacking");
+}
+
+}  // namespace
+
+Recording::Recording(const fs::path& path)
+    : connections_(std::make_unique<std::vector<Connection>>()),
+      warnings_(std::make_unique<std::vector<std::string>>()) {
+  if (!fs::is_directory(path)) {
+    open(path);
+  } else {
+    for (const fs::path& file : files_in(path)) open(file);
+  }
+  rewind();
+}
+
+Recording::~Recording() = default;
+Recording::Recording(Recording&&) noexcept = default;
+Recording& Recording::operator=(Recording&&) noexcept = default;
+
+void Recording::open(const fs::path& file) {
+  const auto note = [warnings = warnings_.get()](const std::string& text) {
+    if (std::find(warnings->begin(), warnings->end(), text) == warnings->end()) warnings->push_back(text);
+  };
+  auto part = std::make_unique<Part>();
+  part->file = open_file(file, note);
+  format_ = part->file->format();
+  for (const Connection& connection : part->file->connections()) {
+    // Files of one recording have the same connections.
+    const auto known = parts_.empty() ? connections_->end()
+                                      : std::find(connections_->begin(), connections_->end(), connection);
+    part->connections.push_back(static_cast<std::size_t>(known - connections_->begin()));
+    if (known == connections_->end()) connections_->push_back(connection);
+  }
+  parts_.push_back(std::move(part));
+}
+
+void Recording::rewind(const std::optional<std::set<std::string>>& topics) {
+  last_ = nullptr;
+  for (const auto& part : parts_) {
+    std::vector<bool> wanted;
+    for (const Connection& connection : part->file->connections())
+      wanted.push_back(!topics || topics->contains(connection.topic));
+    part->file->rewind(wanted);
+    part->message.reset();
+  }
+  is_begun_ = false;
+}
+
+std::optional<RecordedMessage> Recording::next() {
+  // Files are first read here, not when the recording is opened or rewound.
+  for (const auto& part : parts_) {
+    if (!is_begun_ || part.get() == last_) part->message = part->file->next();
+  }
+  is_begun_ = true;
+  last_ = nullptr;
+  for (const auto& part : parts_) {
+    if (part->message && (last_ == nullptr || part->message->stamp_ns < last_->message->stamp_ns))
+      last_ = part.get();
+  }
+  if (last_ == nullptr) return std::nullopt;
+  const FileMessage& message = *last_->message;
+  return RecordedMessage{&(*connections_)[last_->connections[message.connection]], message.stamp_ns,
+                         message.bytes, message.place};
+}
+
+}  // namespace glocal::bags

@@ -1,0 +1,78 @@
+// What robots have recorded, in their own formats: ROS 1 bags, ROS 2 bags (SQLite) and MCAP.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sources/bags/file_bytes.hpp"
+
+namespace glocal::bags {
+
+/// A stream of messages of one type.
+struct Connection {
+  std::string topic;
+  std::string type;        ///< As `sensor_msgs/LaserScan`, in ROS 1 and 2 alike.
+  std::string encoding;    ///< Of its messages: ros1, cdr, or another one, which is not decoded (json …).
+  std::string definition;  ///< Of the type, as the file has it; perhaps empty.
+
+  friend bool operator==(const Connection&, const Connection&) = default;
+};
+
+/// A message as it was recorded.
+struct RecordedMessage {
+  const Connection* connection = nullptr;  ///< Of the recording, and valid as long as it is.
+  std::int64_t stamp_ns = 0;  ///< When it was received, ns since 1970 (or the simulation's start).
+  std::string_view bytes;     ///< Serialized; valid until the next message is read.
+  Place place;                ///< Of the bytes, for what is said of them.
+};
+
+/// `sensor_msgs/msg/LaserScan` is `sensor_msgs/LaserScan`.
+[[nodiscard]] std::string normal_type(std::string_view type);
+
+class RecordingFile;
+
+/// A recording, message by message. Memory holds the chunks that overlap in time, up to 1 GiB (more are
+/// refused), and 32 bytes for each chunk of the file.
+class Recording {
+ public:
+  /// Opens a file, whose format its content tells, or a folder of ROS 2 (.db3 or .mcap files that are read as
+  /// one). Throws ConfigError with file, byte, rule and fix for what is no recording, is of version 1, is
+  /// encrypted or damaged. A recording that ends early is read up to its last whole chunk, with a warning.
+  explicit Recording(const std::filesystem::path& path);
+  ~Recording();
+  Recording(Recording&&) noexcept;
+  Recording& operator=(Recording&&) noexcept;
+
+  /// "ROS 1 bag 2.0", "ROS 2 bag (SQLite)" or "MCAP".
+  [[nodiscard]] const std::string& format() const { return format_; }
+  /// All that the recording names; several may have the same topic.
+  [[nodiscard]] const std::vector<Connection>& connections() const { return *connections_; }
+  /// Goes to the start; from there on only messages of these topics are read, or of all.
+  void rewind(const std::optional<std::set<std::string>>& topics = std::nullopt);
+  /// The next message in order of receipt; none at the end. Throws ConfigError for damaged data.
+  [[nodiscard]] std::optional<RecordedMessage> next();
+  /// What its user should be told, a sentence each; may grow while messages are read.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return *warnings_; }
+
+ private:
+  struct Part;
+
+  void open(const std::filesystem::path& file);
+
+  std::string format_;
+  // Others point to these, also after a move.
+  std::unique_ptr<std::vector<Connection>> connections_;
+  std::unique_ptr<std::vector<std::string>> warnings_;
+  std::vector<std::unique_ptr<Part>> parts_;
+  Part* last_ = nullptr;   ///< Whose message was given out last.
+  bool is_begun_ = false;  ///< Whether each part has its next message.
+};
+
+}  // namespace glocal::bags

@@ -1,0 +1,219 @@
+#include "sources/bags/ros1_bag.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "sources/bags/chunked_file.hpp"
+#include "sources/bags/unpacked.hpp"
+#include "sources/text_lines.hpp"
+
+namespace glocal::bags {
+namespace {
+
+constexpr std::string_view version_2 = "#ROSBAG V2.0\n";
+
+enum class Ros1Op : std::uint8_t { message = 2, bag = 3, chunk = 5, chunk_info = 6, connection = 7 };
+
+/// `name=value` fields of a record's header.
+class HeaderFields {
+ public:
+  HeaderFields(std::string_view bytes, const Place& place) : place_(place) {
+    FieldReader reader(bytes, place);
+    while (!reader.at_end()) {
+      const std::string_view field = reader.text();
+      const std::size_t equals = field.find('=');
+      if (equals == std::string_view::npos) reader.refuse("a header's field has no '='; get a fresh copy");
+      fields_[field.substr(0, equals)] = field.substr(equals + 1);
+    }
+  }
+
+  [[nodiscard]] std::string_view text(std::string_view name) const {
+    const auto field = fields_.find(name);
+    return field == fields_.end() ? std::string_view() : field->second;
+  }
+  template <class T>
+  [[nodiscard]] T number(std::string_view name) const {
+    if (text(name).size() != sizeof(T))
+      place_.refuse(0, fmt::format("the record's header has no field '{}' of {} bytes; get a fresh copy",
+                                   name, sizeof(T)));
+    return FieldReader(text(name), place_).number<T>();
+  }
+  /// ns
+  [[nodiscard]] std::int64_t time(std::string_view name) const {
+    const auto value = number<std::uint64_t>(name);
+    constexpr std::uint64_t low = 0xFFFFFFFFU;
+    return static_cast<std::int64_t>(value & low) * 1'000'000'000 + static_cast<std::int64_t>(value >> 32U);
+  }
+  [[nodiscard]] Ros1Op op() const { return static_cast<Ros1Op>(number<std::uint8_t>("op")); }
+
+ private:
+  Place place_;
+  std::map<std::string_view, std::string_view> fields_;
+};
+
+class Ros1Bag final : public ChunkedFile {
+ public:
+  Ros1Bag(const std::filesystem::path& file, Note note) : ChunkedFile(file, std::move(note)) {
+    check_version();
+    scan();
+    for (ChunkSpan& span : chunks_) {
+      const auto times = times_.find(span.offset);
+      if (times != times_.end()) {
+        std::tie(span.first_ns, span.last_ns) = times->second;
+      } else {
+        take_times_from_messages(span);
+      }
+    }
+    is_open_ = true;
+  }
+
+  [[nodiscard]] const char* format() const override { return "ROS 1 bag 2.0"; }
+
+ private:
+  /// A record of the file: its header, and where its data is.
+  struct Record {
+    std::string header;
+    std::uint64_t data = 0, data_size = 0;
+  };
+
+  void check_version() const {
+    const std::string_view line = file_.peek(0).substr(0, file_.peek(0).find('\n') + 1);
+    if (line != version_2)
+      file_.refuse(0, fmt::format("is a bag of ROS 1 that begins with '{}'; only version 2.0 can be read: "
+                                  "convert it with ROS (rosbag fix)",
+                                  shown(line)));
+  }
+
+  /// Goes through all records and skips what chunks hold. An index is not needed for it.
+  void scan() {
+    std::uint64_t at = version_2.size();
+    while (at < file_.size()) {
+      const auto record = record_at(at);
+      if (!record) {
+        note_(fmt::format("{}: byte {}: the file ends within a record; what comes before it is read",
+                          file_.name(), at));
+        break;
+      }
+      note_record(at, *record);
+      at = record->data + record->data_size;
+    }
+    if (at == version_2.size()) file_.refuse(at, "the bag has no whole record; get a fresh copy");
+  }
+
+  /// None if the file ends before the record does.
+  [[nodiscard]] std::optional<Record> record_at(std::uint64_t at) const {
+    constexpr std::uint64_t largest_header = 1U << 20U, length_size = 4;
+    const auto length_at = [&](std::uint64_t offset) -> std::optional<std::uint32_t> {
+      const std::string_view bytes = file_.peek(offset);
+      if (bytes.size() < length_size) return std::nullopt;
+      return FieldReader(bytes, {file_.name(), offset}).number<std::uint32_t>();
+    };
+    const auto header_size = length_at(at);
+    if (!header_size) return std::nullopt;
+    if (*header_size > largest_header)
+      file_.refuse(at,
+                   fmt::format("a record's header of {} bytes is announced, at most {} are allowed; get a "
+                               "fresh copy",
+                               *header_size, largest_header));
+    const std::uint64_t data_length = at + length_size + *header_size;
+    const auto data_size = length_at(data_length);
+    if (!data_size || *data_size > file_.size() - data_length - length_size) return std::nullopt;
+    return Record{file_.read(at + length_size, *header_size), data_length + length_size, *data_size};
+  }
+
+  void note_record(std::uint64_t at, const Record& record) {
+    const HeaderFields header(record.header, {file_.name(), at});
+    switch (header.op()) {
+      case Ros1Op::bag:
+        if (!header.text("encryptor").empty())
+          file_.refuse(at, fmt::format("the bag is encrypted ({}); decrypt it with ROS (rosbag decrypt)",
+                                       shown(header.text("encryptor"))));
+        break;
+      case Ros1Op::chunk:
+        chunks_.push_back({at, record.data + record.data_size - at, 0, 0});
+        break;
+      case Ros1Op::chunk_info:
+        times_[header.number<std::uint64_t>("chunk_pos")] = {header.time("start_time"),
+                                                             header.time("end_time")};
+        break;
+      case Ros1Op::connection:
+        note_connection(header, file_.read(record.data, record.data_size), {file_.name(), record.data});
+        break;
+      default:
+        break;
+    }
+  }
+
+  void note_connection(const HeaderFields& header, std::string_view data, const Place& place) {
+    const auto id = header.number<std::uint32_t>("conn");
+    if (!ids_.try_emplace(id, connections_.size()).second) return;
+    const HeaderFields fields(data, place);
+    connections_.push_back({std::string(header.text("topic")), normal_type(fields.text("type")), "ros1",
+                            std::string(fields.text("message_definition"))});
+  }
+
+  /// For chunks that no index knows.
+  void take_times_from_messages(ChunkSpan& span) {
+    const Chunk chunk = load(span);
+    for (const ChunkEntry& entry : chunk.entries) {
+      const bool is_first = &entry == &chunk.entries.front();
+      span.first_ns = is_first ? entry.stamp_ns : std::min(span.first_ns, entry.stamp_ns);
+      span.last_ns = is_first ? entry.stamp_ns : std::max(span.last_ns, entry.stamp_ns);
+    }
+  }
+
+  [[nodiscard]] Chunk load(const ChunkSpan& span) override {
+    const auto record = record_at(span.offset);
+    if (!record) file_.refuse(span.offset, "the file has become shorter while it was read");
+    const Place in_file{file_.name(), span.offset};
+    const HeaderFields header(record->header, in_file);
+    Chunk chunk{unpacked(header.text("compression"), file_.read(record->data, record->data_size),
+                         header.number<std::uint32_t>("size"), in_file),
+                {}};
+    FieldReader records(chunk.bytes, place_in(span, 0));
+    while (!records.at_end()) {
+      const Place place = place_in(span, records.at());
+      const HeaderFields fields(records.text(), place);
+      const std::string_view data = records.text();
+      const std::size_t offset = records.at() - data.size();
+      if (fields.op() == Ros1Op::connection && !is_open_)
+        note_connection(fields, data, place_in(span, offset));
+      if (fields.op() == Ros1Op::message)
+        chunk.entries.push_back({fields.time("time"),
+                                 connection_of(fields.number<std::uint32_t>("conn"), place), offset,
+                                 data.size()});
+    }
+    return chunk;
+  }
+
+  [[nodiscard]] std::size_t connection_of(std::uint32_t id, const Place& place) const {
+    const auto found = ids_.find(id);
+    if (found == ids_.end())
+      place.refuse(0,
+                   fmt::format("the message is of connection {}, which the bag does not name; repair it with "
+                               "ROS (rosbag reindex)",
+                               id));
+    return found->second;
+  }
+
+  std::map<std::uint64_t, std::pair<std::int64_t, std::int64_t>> times_;  ///< Of chunks, by offset.
+  std::map<std::uint32_t, std::size_t> ids_;
+  bool is_open_ = false;  ///< From then on there are no new connections.
+};
+
+}  // namespace
+
+bool is_ros1_bag(std::string_view beginning) {
+  // Version 1.1 and 1.2 begin with #ROSRECORD or #ROSLOG.
+  return beginning.starts_with("#ROS");
+}
+
+std::unique_ptr<RecordingFile> open_ros1_bag(const std::filesystem::path& file, const Note& note) {
+  return std::make_unique<Ros1Bag>(file, note);
+}
+
+}  // namespace glocal::bags

@@ -1,0 +1,135 @@
+#include "sources/bags/sqlite_bag.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <map>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/bags/unpacked.hpp"
+
+namespace glocal::bags {
+namespace {
+
+class SqliteBag final : public RecordingFile {
+ public:
+  explicit SqliteBag(const std::filesystem::path& file) : name_(file.string()) {
+    open();
+    require_table("topics");
+    require_table("messages");
+    read_topics();
+  }
+
+  [[nodiscard]] const char* format() const override { return "ROS 2 bag (SQLite)"; }
+
+  void rewind(const std::vector<bool>& wanted) override {
+    wanted_ = wanted;
+    messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages ORDER BY timestamp, id");
+  }
+
+  [[nodiscard]] std::optional<FileMessage> next() override {
+    while (step(messages_)) {
+      sqlite3_stmt* row = messages_.get();
+      const std::int64_t id = sqlite3_column_int64(row, 0);
+      const Place place{name_, 0, std::nullopt, id};
+      const auto topic = ids_.find(sqlite3_column_int64(row, 1));
+      if (topic == ids_.end())
+        place.refuse(0, fmt::format("the message is of topic {}, which the table of topics does not have",
+                                    sqlite3_column_int64(row, 1)));
+      if (!wanted_[topic->second]) continue;
+      return FileMessage{topic->second, sqlite3_column_int64(row, 2), blob(row, 3), place};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  using Statement = std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)>;
+
+  void open() {
+    sqlite3* database = nullptr;
+    const int answer =
+        sqlite3_open_v2(uri().c_str(), &database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    database_.reset(database);
+    if (answer != SQLITE_OK) refuse("cannot be opened");
+    sqlite3_limit(database, SQLITE_LIMIT_LENGTH, static_cast<int>(largest_chunk));
+    // What the file brings along is data, not code.
+    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    sqlite3_exec(database, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+  }
+
+  /// Immutable: SQLite then makes no files beside it, and reads folders that cannot be written to.
+  [[nodiscard]] std::string uri() const {
+    std::string escaped;
+    for (const char c : std::filesystem::absolute(name_).string()) {
+      const bool is_special = c == '%' || c == '?' || c == '#';
+      escaped += is_special ? fmt::format("%{:02x}", static_cast<unsigned char>(c)) : std::string(1, c);
+    }
+    return "file:" + escaped + "?immutable=1";
+  }
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    const char* const why = database_ ? sqlite3_errmsg(database_.get()) : "no memory";
+    throw ConfigError({{name_, 0, 0, fmt::format("{} as a bag of ROS 2: {}; get a fresh copy", what, why)}});
+  }
+
+  [[nodiscard]] Statement prepare(const char* query) const {
+    sqlite3_stmt* statement = nullptr;
+    if (sqlite3_prepare_v2(database_.get(), query, -1, &statement, nullptr) != SQLITE_OK)
+      refuse("cannot be read");
+    return {statement, sqlite3_finalize};
+  }
+
+  /// Whether there is one more row.
+  [[nodiscard]] bool step(const Statement& statement) const {
+    const int answer = sqlite3_step(statement.get());
+    if (answer != SQLITE_ROW && answer != SQLITE_DONE) refuse("cannot be read");
+    return answer == SQLITE_ROW;
+  }
+
+  static std::string_view blob(sqlite3_stmt* row, int column) {
+    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(row, column));
+    return bytes == nullptr
+               ? std::string_view()
+               : std::string_view(bytes, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
+  }
+
+  /// A view under the table's name could compute without end.
+  void require_table(const char* table) const {
+    const Statement query =
+        prepare("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ? AND rootpage > 0");
+    sqlite3_bind_text(query.get(), 1, table, -1, SQLITE_STATIC);
+    if (!step(query))
+      throw ConfigError(
+          {{name_, 0, 0,
+            fmt::format("is an SQLite database without the table '{}' of a bag of ROS 2", table)}});
+  }
+
+  void read_topics() {
+    const Statement query = prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id");
+    while (step(query)) {
+      ids_.try_emplace(sqlite3_column_int64(query.get(), 0), connections_.size());
+      connections_.push_back({std::string(blob(query.get(), 1)), normal_type(blob(query.get(), 2)),
+                              std::string(blob(query.get(), 3)), ""});
+    }
+  }
+
+  std::string name_;
+  std::unique_ptr<sqlite3, decltype(&sqlite3_close)> database_{nullptr, sqlite3_close};
+  Statement messages_{nullptr, sqlite3_finalize};
+  std::map<std::int64_t, std::size_t> ids_;
+  std::vector<bool> wanted_;
+};
+
+}  // namespace
+
+bool is_sqlite(std::string_view beginning) {
+  return beginning.starts_with(std::string_view("SQLite format 3\0", 16));
+}
+
+std::unique_ptr<RecordingFile> open_sqlite_bag(const std::filesystem::path& file) {
+  return std::make_unique<SqliteBag>(file);
+}
+
+}  // namespace glocal::bags

@@ -1,0 +1,21 @@
+// Compressed chunks of recordings.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "sources/bags/file_bytes.hpp"
+
+namespace glocal::bags {
+
+/// Larger chunks are refused. The usual ones have 1 to 10 MB.
+inline constexpr std::uint64_t largest_chunk = 256ULL << 20U;
+
+/// The bytes of a chunk. `compression`: none (also ""), bz2, lz4 (the frame format) or zstd. Memory grows
+/// with what is really unpacked, up to `size`, which is announced. Throws ConfigError for other compressions,
+/// damaged data, and data that does not unpack to `size` bytes or is larger than `largest_chunk`.
+[[nodiscard]] std::string unpacked(std::string_view compression, std::string_view packed, std::uint64_t size,
+                                   const Place& place);
+
+}  // namespace glocal::bags
