@@ -26,6 +26,7 @@ struct Context {
 /// subcommand runs. To be called after the subcommands have been added.
 void add_plugins(CLI::App& app, Context& context);
 
+void add_bag(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_compare(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);

@@ -81,11 +81,11 @@ class Ros1Bag final : public ChunkedFile {
   };
 
   void check_version() const {
-    const std::string_view line = file_.peek(0).substr(0, file_.peek(0).find('\n') + 1);
-    if (line != version_2)
+    const std::string_view beginning = file_.peek(0);
+    if (!beginning.starts_with(version_2))
       file_.refuse(0, fmt::format("is a bag of ROS 1 that begins with '{}'; only version 2.0 can be read: "
                                   "convert it with ROS (rosbag fix)",
-                                  shown(line)));
+                                  shown(beginning.substr(0, beginning.find('\n')))));
   }
 
   /// Goes through all records and skips what chunks hold. An index is not needed for it.

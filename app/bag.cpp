@@ -1,0 +1,113 @@
+// glocal bag: look at robots' own recordings.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "glocal/pose2.hpp"
+#include "sources/bags/recording_summary.hpp"
+
+namespace glocal::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct BagOptions {
+  std::string file;
+  bool json = false;
+};
+
+double seconds(std::int64_t ns) {
+  return static_cast<double>(ns) * 1e-9;
+}
+
+std::string text_of(const bags::LaserScan& scan) {
+  return fmt::format("{} beams over {:.1f} deg, range {:.2f} to {:.2f} m", scan.ranges.size(),
+                     degrees(scan.angle_max - scan.angle_min), scan.range_min, scan.range_max);
+}
+
+void show(const bags::Recording& recording, const bags::RecordingSummary& summary) {
+  fmt::print("format      {}\n", recording.format());
+  fmt::print("messages    {}\n", summary.messages);
+  fmt::print("time        {:.3f} s, from {:.3f} s on\n", seconds(summary.last_ns - summary.first_ns),
+             seconds(summary.first_ns));
+  if (!summary.odometry.empty()) fmt::print("path        {:.2f} m by {}\n", summary.path_m, summary.odometry);
+  fmt::print("topics\n");
+  std::size_t topic_width = 0, type_width = 0;
+  for (const bags::TopicSummary& topic : summary.topics) {
+    topic_width = std::max(topic_width, topic.topic.size());
+    type_width = std::max(type_width, topic.type.size());
+  }
+  for (const bags::TopicSummary& topic : summary.topics) {
+    fmt::print("  {:{}}  {:{}} {:8} {:8.2f} Hz  {}\n", topic.topic, topic_width, topic.type, type_width,
+               topic.messages, topic.rate_hz(), fmt::join(topic.frames, " "));
+    if (topic.first_scan) fmt::print("  {:{}}  {}\n", "", topic_width, text_of(*topic.first_scan));
+  }
+  if (!summary.parents.empty()) fmt::print("frames\n{}", bags::frame_tree(summary.parents));
+}
+
+Json json_of(const bags::TopicSummary& topic) {
+  Json json = {{"topic", topic.topic},
+               {"type", topic.type},
+               {"encoding", topic.encoding},
+               {"messages", topic.messages},
+               {"rate_hz", topic.rate_hz()},
+               {"first_s", seconds(topic.first_ns)},
+               {"last_s", seconds(topic.last_ns)},
+               {"frames", topic.frames},
+               {"unreadable", topic.unreadable}};
+  if (topic.first_scan) {
+    const bags::LaserScan& scan = *topic.first_scan;
+    json["scan"] = {{"beams", scan.ranges.size()},
+                    {"angle_deg", degrees(scan.angle_max - scan.angle_min)},
+                    {"range_min_m", scan.range_min},
+                    {"range_max_m", scan.range_max}};
+  }
+  return json;
+}
+
+Json json_of(const bags::Recording& recording, const bags::RecordingSummary& summary) {
+  Json json = {{"format", recording.format()},
+               {"messages", summary.messages},
+               {"first_s", seconds(summary.first_ns)},
+               {"last_s", seconds(summary.last_ns)},
+               {"odometry", summary.odometry},
+               {"path_m", summary.path_m},
+               {"topics", Json::array()},
+               {"parents", summary.parents}};
+  for (const bags::TopicSummary& topic : summary.topics) json["topics"].push_back(json_of(topic));
+  return json;
+}
+
+void info(const BagOptions& options) {
+  bags::Recording recording(options.file);
+  std::vector<std::string> remarks;
+  const bags::RecordingSummary summary = bags::summarize_recording(recording, remarks);
+  for (const std::string& warning : recording.warnings()) spdlog::warn("{}", warning);
+  for (const std::string& remark : remarks) spdlog::warn("{}", remark);
+  if (!options.json) return show(recording, summary);
+  // Names in files may be of any bytes.
+  fmt::print("{}\n", json_of(recording, summary).dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void add_bag(CLI::App& app, Context& /*context*/) {
+  auto options = std::make_shared<BagOptions>();
+  CLI::App* bag = app.add_subcommand("bag", "Look at robots' own recordings: ROS bags and MCAP.");
+  bag->require_subcommand(1);
+  CLI::App* info_command =
+      bag->add_subcommand("info", "Show topics, rates, frames, scans and the way driven.");
+  info_command->add_option("FILE", options->file, "ROS 1 bag, ROS 2 bag (.db3 or its folder) or MCAP")
+      ->required();
+  info_command->add_flag("--json", options->json, "As JSON");
+  info_command->callback([options] { info(*options); });
+}
+
+}  // namespace glocal::app

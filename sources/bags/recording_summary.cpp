@@ -1,0 +1,149 @@
+#include "sources/bags/recording_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/bags/message_reader.hpp"
+
+namespace glocal::bags {
+namespace {
+
+/// A robot has some dozens. More are not noted, whatever a damaged file says.
+constexpr std::size_t most_frames = 10'000, deepest_frame = 50;
+
+/// The way along poses that come one after the other.
+struct DrivenWay {
+  std::optional<Pose3> last;
+  double length_m = 0.0;
+
+  void go_to(const Pose3& pose) {
+    if (last) length_m += distance(*last, pose);
+    last = pose;
+  }
+};
+
+class Summarizer {
+ public:
+  void take(const RecordedMessage& message) {
+    RecordingSummary& s = summary_;
+    if (s.messages++ == 0) s.first_ns = message.stamp_ns;
+    s.last_ns = std::max(s.last_ns, message.stamp_ns);
+    TopicSummary& topic = topics_[{message.connection->topic, message.connection->type}];
+    if (topic.messages++ == 0) topic.first_ns = message.stamp_ns;
+    topic.last_ns = message.stamp_ns;
+    try {
+      if (is_readable(*message.connection)) look_into(message, topic);
+    } catch (const ConfigError& error) {
+      if (topic.unreadable++ == 0) remarks_.emplace_back(error.what());
+    }
+  }
+
+  void name(const Connection& connection) {
+    TopicSummary& topic = topics_[{connection.topic, connection.type}];
+    topic.topic = connection.topic;
+    topic.type = connection.type;
+    topic.encoding = connection.encoding;
+  }
+
+  RecordingSummary finish(std::vector<std::string>& remarks) {
+    remarks.insert(remarks.end(), remarks_.begin(), remarks_.end());
+    for (auto& [key, topic] : topics_) summary_.topics.push_back(std::move(topic));
+    choose_odometry();
+    return std::move(summary_);
+  }
+
+ private:
+  void look_into(const RecordedMessage& message, TopicSummary& topic) {
+    const std::string& type = message.connection->type;
+    if (type == "sensor_msgs/LaserScan") {
+      LaserScan scan = read_laser_scan(message);
+      note_frame(scan.header.frame, topic);
+      if (!topic.first_scan) topic.first_scan = std::move(scan);
+    } else if (type == "sensor_msgs/PointCloud2") {
+      note_frame(read_point_cloud(message).header.frame, topic);
+    } else if (type == "nav_msgs/Odometry") {
+      const Odometry odometry = read_odometry(message);
+      note_frame(odometry.header.frame, topic);
+      by_odometry_[topic.topic].go_to(odometry.frame_from_child);
+    } else if (type == "nav_msgs/OccupancyGrid") {
+      note_frame(read_occupancy_grid(message).header.frame, topic);
+    } else if (is_pose(type)) {
+      note_frame(read_pose(message).header.frame, topic);
+    } else if (has_transforms(type)) {
+      for (const FrameTransform& transform : read_transforms(message)) {
+        note_frame(transform.header.frame, topic);
+        note_transform(transform);
+      }
+    }
+  }
+
+  static void note_frame(const std::string& frame, TopicSummary& topic) {
+    if (topic.frames.size() < most_frames) topic.frames.insert(frame);
+  }
+
+  void note_transform(const FrameTransform& transform) {
+    auto& parents = summary_.parents;
+    if (parents.size() >= most_frames && !parents.contains(transform.child_frame)) return;
+    parents[transform.child_frame] = transform.header.frame;
+    if (transform.header.frame == "odom")
+      by_tf_["odom -> " + transform.child_frame].go_to(transform.parent_from_child);
+  }
+
+  void choose_odometry() {
+    const auto& ways = by_odometry_.empty() ? by_tf_ : by_odometry_;
+    if (ways.empty()) return;
+    summary_.odometry = ways.begin()->first;
+    summary_.path_m = ways.begin()->second.length_m;
+  }
+
+  RecordingSummary summary_;
+  std::map<std::pair<std::string, std::string>, TopicSummary> topics_;
+  std::map<std::string, DrivenWay> by_odometry_, by_tf_;
+  std::vector<std::string> remarks_;
+};
+
+using Children = std::map<std::string, std::vector<std::string>>;
+
+void add_branch(const std::string& frame, std::size_t depth, const Children& children, std::string& text) {
+  text += std::string(2 * depth, ' ') + (depth < deepest_frame ? frame : "…") + "\n";
+  if (depth >= deepest_frame) return;
+  const auto own = children.find(frame);
+  if (own == children.end()) return;
+  for (const std::string& child : own->second) add_branch(child, depth + 1, children, text);
+}
+
+}  // namespace
+
+double TopicSummary::rate_hz() const {
+  if (messages < 2 || last_ns <= first_ns) return 0.0;
+  return static_cast<double>(messages - 1) / (static_cast<double>(last_ns - first_ns) * 1e-9);
+}
+
+RecordingSummary summarize_recording(Recording& recording, std::vector<std::string>& remarks) {
+  Summarizer summarizer;
+  std::set<std::string> foreign;
+  for (const Connection& connection : recording.connections()) {
+    summarizer.name(connection);
+    if (!is_readable(connection)) foreign.insert(connection.encoding);
+  }
+  for (const std::string& encoding : foreign)
+    remarks.push_back(fmt::format("messages encoded as '{}' are counted, but not read", encoding));
+  recording.rewind();
+  while (const auto message = recording.next()) summarizer.take(*message);
+  return summarizer.finish(remarks);
+}
+
+std::string frame_tree(const std::map<std::string, std::string>& parents) {
+  Children children;
+  for (const auto& [child, parent] : parents) children[parent].push_back(child);
+  std::string text;
+  for (const auto& [parent, own] : children) {
+    if (!parents.contains(parent)) add_branch(parent, 0, children, text);
+  }
+  return text;
+}
+
+}  // namespace glocal::bags
