@@ -50,7 +50,7 @@ class Recordings : public testing::Test {
       try {
         Recording recording(folder_ / "cut");
         static_cast<void>(content(recording));
-        if (n < whole_) EXPECT_FALSE(recording.warnings().empty());
+        EXPECT_TRUE(n >= whole_ || !recording.warnings().empty());
       } catch (const ConfigError&) {
       }
     }
