@@ -27,11 +27,6 @@ double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-9;
 }
 
-std::string text_of(const bags::LaserScan& scan) {
-  return fmt::format("{} beams over {:.1f} deg, range {:.2f} to {:.2f} m", scan.ranges.size(),
-                     degrees(scan.angle_max - scan.angle_min), scan.range_min, scan.range_max);
-}
-
 void show(const bags::Recording& recording, const bags::RecordingSummary& summary) {
   fmt::print("format      {}\n", recording.format());
   fmt::print("messages    {}\n", summary.messages);

@@ -40,6 +40,7 @@ void simulate(const SimulateOptions& options, Context& context) {
   std::set<std::filesystem::path> inputs{std::filesystem::absolute(options.experiment.file)};
   SourceSetup setup;
   setup.seed = seed_of(RandomPart::observation_source, experiment);
+  setup.motion = experiment.localizer.motion;
   setup.warn = [](const std::string& text) { spdlog::warn(text); };
   setup.note_input = [&](const std::filesystem::path& file) {
     inputs.insert(std::filesystem::absolute(file));

@@ -58,6 +58,25 @@ std::vector<std::vector<std::size_t>> places_on(const PathSegments& segments,
   return places;
 }
 
+void describe_keyframes(ParamVisitor& v, KeyframeRule& rule) {
+  v.field("keyframe_distance", rule.distance,
+          {.doc = "A scan is used once odometry has moved this far since the last one used, or turned by "
+                  "keyframe_angle_deg; 0 uses every scan.",
+           .unit = "m",
+           .min = 0.0,
+           .audience = Audience::tuner});
+  v.field("keyframe_angle_deg", rule.angle_deg,
+          {.doc = "A scan is used once odometry has turned this much since the last one used, or moved by "
+                  "keyframe_distance; 0 uses every scan.",
+           .unit = "deg",
+           .min = 0.0,
+           .formerly = "keyframe_angle"});
+}
+
+bool is_keyframe(const Pose3& last, const Pose3& now, const KeyframeRule& rule) {
+  return distance(last, now) >= rule.distance || rotation_between(last, now) >= radians(rule.angle_deg);
+}
+
 std::vector<Pose3> sparse_path(const std::vector<Pose3>& path) {
   constexpr double spacing = 0.25;  // m
   std::vector<Pose3> sparse;

@@ -26,6 +26,18 @@ void require_rising(ParamVisitor& v, const PathSegments& segments);
                                                               const std::string& file,
                                                               const std::string& what);
 
+/// Which observations of a drive are used.
+struct KeyframeRule {
+  double distance = 0.25;    ///< m
+  double angle_deg = 11.46;  ///< 0.2 rad
+};
+
+/// The fields `keyframe_distance` and `keyframe_angle_deg`.
+void describe_keyframes(ParamVisitor& v, KeyframeRule& rule);
+
+/// Whether the robot has moved or turned far enough since the last observation that was used.
+[[nodiscard]] bool is_keyframe(const Pose3& last, const Pose3& now, const KeyframeRule& rule);
+
 /// Poses of a path at least 0.25 m apart.
 [[nodiscard]] std::vector<Pose3> sparse_path(const std::vector<Pose3>& path);
 

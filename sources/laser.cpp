@@ -65,8 +65,7 @@ CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
 
 LogParams scan_limits(const LaserParams& laser) {
   LogParams limits;
-  limits.keyframe_distance = 0.0;
-  limits.keyframe_angle_deg = 0.0;
+  limits.keyframes = {0.0, 0.0};
   limits.min_range = 1e-6;  // 0 says nothing
   limits.max_range = laser.max_range;
   limits.free_range = laser.max_range;

@@ -20,11 +20,6 @@ std::vector<CarmenScan> of_laser(std::vector<CarmenScan> scans, const std::strin
   return scans;
 }
 
-bool is_keyframe(const CarmenScan& last, const CarmenScan& scan, const LogParams& params) {
-  return distance(last.odom_from_robot, scan.odom_from_robot) >= params.keyframe_distance ||
-         rotation_between(last.odom_from_robot, scan.odom_from_robot) >= radians(params.keyframe_angle_deg);
-}
-
 }  // namespace
 
 void describe(ParamVisitor& v, LogParams& p) {
@@ -33,18 +28,7 @@ void describe(ParamVisitor& v, LogParams& p) {
           {.doc = "Which laser: front (FLASER lines, or ROBOTLASER1 where there are none) or rear (RLASER).",
            .choices = {"front", "rear"}});
   describe_segments(v, p.segments);
-  v.field("keyframe_distance", p.keyframe_distance,
-          {.doc = "A scan is used once odometry has moved this far since the last one used, or turned by "
-                  "keyframe_angle_deg; 0 uses every scan.",
-           .unit = "m",
-           .min = 0.0,
-           .audience = Audience::tuner});
-  v.field("keyframe_angle_deg", p.keyframe_angle_deg,
-          {.doc = "A scan is used once odometry has turned this much since the last one used, or moved by "
-                  "keyframe_distance; 0 uses every scan.",
-           .unit = "deg",
-           .min = 0.0,
-           .formerly = "keyframe_angle"});
+  describe_keyframes(v, p.keyframes);
   v.field("max_range", p.max_range,
           {.doc = "Readings from here on count as no return.",
            .unit = "m",
@@ -94,8 +78,9 @@ LogDrive read_log_drive(const LogParams& params) {
   for (std::size_t segment = 0; segment < places.size(); ++segment) {
     const std::size_t first = drive.frames.size();
     for (const std::size_t i : places[segment]) {
-      const bool is_used = drive.frames.size() == first ||
-                           is_keyframe(drive.scans[drive.frames.back().scan], drive.scans[i], params);
+      const bool is_used =
+          drive.frames.size() == first || is_keyframe(drive.scans[drive.frames.back().scan].odom_from_robot,
+                                                      drive.scans[i].odom_from_robot, params.keyframes);
       if (is_used) drive.frames.push_back({i, static_cast<int>(segment)});
     }
   }

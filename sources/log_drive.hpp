@@ -19,8 +19,7 @@ struct LogParams {
   FilePath path;
   std::string laser = "front";
   PathSegments segments{{0.0, 1.0}};
-  double keyframe_distance = 0.25;
-  double keyframe_angle_deg = 11.46;
+  KeyframeRule keyframes;
   double max_range = 20.0;
   double min_range = 0.1;
   double free_range = 8.0;

@@ -154,8 +154,7 @@ std::vector<Pose3> path_of(const std::vector<PlacedScan>& placed) {
 }  // namespace
 
 LogMap::Params::Params() {
-  log.keyframe_distance = 0.0;
-  log.keyframe_angle_deg = 0.0;
+  log.keyframes = {0.0, 0.0};
 }
 
 void describe(ParamVisitor& v, LogMap::Params& p) {

@@ -30,6 +30,7 @@ void require_contract(const char* kind, const StrategyChoice& source, Check chec
 
 MapData load_map(const Experiment& experiment, const Catalog& catalog, SourceSetup setup) {
   setup.seed = seed_of(RandomPart::map_source, experiment);
+  setup.motion = experiment.localizer.motion;
   MapData map = catalog.map_sources.make(experiment.map, setup)->load();
   require_contract("map source", experiment.map, [&] { check_map(map, experiment.localizer.motion); });
   return map;
@@ -37,6 +38,7 @@ MapData load_map(const Experiment& experiment, const Catalog& catalog, SourceSet
 
 Drive load_drive(const Experiment& experiment, const Catalog& catalog, SourceSetup setup) {
   setup.seed = seed_of(RandomPart::observation_source, experiment);
+  setup.motion = experiment.localizer.motion;
   Drive drive = read_drive(*catalog.observation_sources.make(experiment.observations, setup));
   require_contract("observation source", experiment.observations, [&] {
     for (const Sample& sample : drive.samples) check_sample(sample, experiment.localizer.motion);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "glocal/error.hpp"
 #include "sources/bags/message_reader.hpp"
 #include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"
@@ -111,6 +112,15 @@ void check_layout(const MessageReader& reader, const CloudLayout& layout, const 
 }
 
 }  // namespace
+
+std::optional<Header> readable_header(const RecordedMessage& message) {
+  try {
+    MessageReader reader(message);
+    return read_header(reader);
+  } catch (const ConfigError&) {
+    return std::nullopt;
+  }
+}
 
 LaserScan read_laser_scan(const RecordedMessage& message) {
   MessageReader reader(message);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ struct Header {
   std::int64_t stamp_ns = 0;  ///< When it was measured.
   std::string frame;          ///< Without the slash that old names begin with.
 };
+
+/// The header alone, of messages that begin with one; none if it breaks its definition.
+[[nodiscard]] std::optional<Header> readable_header(const RecordedMessage& message);
 
 /// sensor_msgs/LaserScan; angles in rad about the frame's z axis, ranges in m, times in s.
 struct LaserScan {

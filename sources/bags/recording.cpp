@@ -85,6 +85,7 @@ void Recording::open(const fs::path& file) {
     if (known == connections_->end()) connections_->push_back(connection);
   }
   parts_.push_back(std::move(part));
+  files_.push_back(file);
 }
 
 void Recording::rewind(const std::optional<std::set<std::string>>& topics) {

@@ -52,6 +52,8 @@ class Recording {
 
   /// "ROS 1 bag 2.0", "ROS 2 bag (SQLite)" or "MCAP".
   [[nodiscard]] const std::string& format() const { return format_; }
+  /// The files that are read as one recording.
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
   /// All that the recording names; several may have the same topic.
   [[nodiscard]] const std::vector<Connection>& connections() const { return *connections_; }
   /// Goes to the start; from there on only messages of these topics are read, or of all.
@@ -67,6 +69,7 @@ class Recording {
   void open(const std::filesystem::path& file);
 
   std::string format_;
+  std::vector<std::filesystem::path> files_;
   // Others point to these, also after a move.
   std::unique_ptr<std::vector<Connection>> connections_;
   std::unique_ptr<std::vector<std::string>> warnings_;

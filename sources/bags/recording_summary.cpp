@@ -1,6 +1,7 @@
 #include "sources/bags/recording_summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -134,6 +135,17 @@ RecordingSummary summarize_recording(Recording& recording, std::vector<std::stri
   recording.rewind();
   while (const auto message = recording.next()) summarizer.take(*message);
   return summarizer.finish(remarks);
+}
+
+std::string text_of(const LaserScan& scan) {
+  return fmt::format("{} beams over {:.1f} deg, range {:.2f} to {:.2f} m", scan.ranges.size(),
+                     degrees(scan.angle_max - scan.angle_min), scan.range_min, scan.range_max);
+}
+
+std::string text_of(const TopicSummary& topic) {
+  return fmt::format("{}: {:.1f} Hz, {}, frame {}", topic.topic, topic.rate_hz(),
+                     topic.first_scan ? text_of(*topic.first_scan) : topic.type,
+                     fmt::join(topic.frames, " "));
 }
 
 std::string frame_tree(const std::map<std::string, std::string>& parents) {

@@ -40,6 +40,11 @@ struct RecordingSummary {
 /// single messages is counted, and the first of a topic is told in `remarks`.
 [[nodiscard]] RecordingSummary summarize_recording(Recording& recording, std::vector<std::string>& remarks);
 
+/// "1440 beams over 359.7 deg, range 0.50 to 250.00 m"
+[[nodiscard]] std::string text_of(const LaserScan& scan);
+/// "/scan: 10.0 Hz, 1440 beams over 359.7 deg, range 0.50 to 250.00 m, frame laser"
+[[nodiscard]] std::string text_of(const TopicSummary& topic);
+
 /// The tree of frames, a line each, indented below its parent; 50 levels of it.
 [[nodiscard]] std::string frame_tree(const std::map<std::string, std::string>& parents);
 

@@ -3,27 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "glocal/voxel_filter.hpp"
 #include "sources/clouds/cloud_file.hpp"
+#include "sources/clouds/thinning.hpp"
 
 namespace glocal {
-namespace {
-
-/// The mean of each group's times. To first order it is when the mean of the group's points was measured.
-std::vector<float> mean_times(const std::vector<float>& times, const VoxelGroups& groups) {
-  std::vector<double> sums(groups.count, 0.0);
-  std::vector<double> counts(groups.count, 0.0);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    sums[groups.of_point[i]] += times[i];
-    counts[groups.of_point[i]] += 1.0;
-  }
-  std::vector<float> means(groups.count);
-  for (std::size_t i = 0; i < groups.count; ++i) means[i] = static_cast<float>(sums[i] / counts[i]);
-  return means;
-}
-
-}  // namespace
-
 void describe(ParamVisitor& v, SensorMount& p) {
   constexpr double far = 100.0;
   v.field("x", p.x, {.doc = "Forward of the robot's origin.", .unit = "m", .min = -far, .max = far});
@@ -58,17 +41,7 @@ void describe(ParamVisitor& v, CloudDrive::Params& p) {
           {.doc = "What the poses of both files are of.", .choices = {"robot", "sensor"}});
   v.field("sensor", p.sensor, {.doc = "Where the sensor is on the robot; x is forward and z is up."});
   describe_segments(v, p.segments);
-  v.field("keyframe_distance", p.keyframe_distance,
-          {.doc = "A cloud is used once odometry has moved this far since the last one used, or turned by "
-                  "keyframe_angle_deg; 0 uses every cloud.",
-           .unit = "m",
-           .min = 0.0,
-           .audience = Audience::tuner});
-  v.field("keyframe_angle_deg", p.keyframe_angle_deg,
-          {.doc = "A cloud is used once odometry has turned this much since the last one used, or moved by "
-                  "keyframe_distance; 0 uses every cloud.",
-           .unit = "deg",
-           .min = 0.0});
+  describe_keyframes(v, p.keyframes);
   v.field("min_range", p.min_range,
           {.doc = "Points nearer to the sensor are dropped: the robot itself.",
            .unit = "m",
@@ -133,18 +106,14 @@ std::vector<DriveCloud> CloudDrive::picked(const std::vector<DriveCloud>& clouds
   for (std::size_t segment = 0; segment < places.size(); ++segment) {
     const std::size_t first = used.size();
     for (const std::size_t i : places[segment]) {
-      if (used.size() > first && !is_keyframe(used.back(), clouds[i])) continue;
+      const bool is_used = used.size() == first || !clouds[i].odometry ||
+                           is_keyframe(*used.back().odometry, *clouds[i].odometry, params_.keyframes);
+      if (!is_used) continue;
       used.push_back(clouds[i]);
       used.back().segment = static_cast<int>(clouds[i].odometry ? segment : i);
     }
   }
   return used;
-}
-
-bool CloudDrive::is_keyframe(const DriveCloud& last, const DriveCloud& now) const {
-  if (!now.odometry) return true;
-  return distance(*last.odometry, *now.odometry) >= params_.keyframe_distance ||
-         rotation_between(*last.odometry, *now.odometry) >= radians(params_.keyframe_angle_deg);
 }
 
 std::optional<Sample> CloudDrive::next() {
@@ -176,11 +145,7 @@ Scan CloudDrive::scan_of(const Cloud& cloud) const {
     in_range.push_back(p);
     if (has_times) scan.times.push_back(static_cast<float>(cloud.times[i] - stamp));
   }
-  if (params_.voxel_size > 0.0) {
-    const VoxelGroups groups = voxel_groups(in_range, params_.voxel_size);
-    in_range = means_of_groups(in_range, groups);
-    if (has_times) scan.times = mean_times(scan.times, groups);
-  }
+  if (params_.voxel_size > 0.0) thin_out(in_range, scan.times, params_.voxel_size);
   scan.hits = moved(in_range, robot_from_sensor_);
   scan.origin = as_point(robot_from_sensor_.translation());
   return scan;

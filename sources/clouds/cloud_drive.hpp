@@ -37,8 +37,7 @@ class CloudDrive final : public ObservationSource {
     std::string poses_of = "robot";
     SensorMount sensor;
     PathSegments segments{{0.0, 1.0}};
-    double keyframe_distance = 0.25;
-    double keyframe_angle_deg = 11.46;
+    KeyframeRule keyframes;
     double min_range = 0.5;
     double max_range = 100.0;
     double voxel_size = 0.1;
@@ -59,7 +58,6 @@ class CloudDrive final : public ObservationSource {
   [[nodiscard]] Scan scan_of(const Cloud& cloud) const;
   /// Those of the segments that are keyframes.
   [[nodiscard]] std::vector<DriveCloud> picked(const std::vector<DriveCloud>& clouds) const;
-  [[nodiscard]] bool is_keyframe(const DriveCloud& last, const DriveCloud& now) const;
 
   Params params_;
   Warn warn_;

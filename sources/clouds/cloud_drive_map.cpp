@@ -73,8 +73,7 @@ class CubeSums {
 }  // namespace
 
 CloudDriveMap::Params::Params() {
-  drive.keyframe_distance = 0.0;
-  drive.keyframe_angle_deg = 0.0;
+  drive.keyframes = {0.0, 0.0};
   drive.voxel_size = 0.0;
 }
 

@@ -15,6 +15,9 @@
 #include "matchers/grid_search/exhaustive.hpp"
 #include "matchers/mcl/mcl.hpp"
 #include "octree_files.hpp"
+#include "sources/bags/bag_drive.hpp"
+#include "sources/bags/bag_map.hpp"
+#include "sources/bags/message_writer.hpp"
 #include "sources/carmen_log.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/clouds/cloud_drive_map.hpp"
@@ -89,6 +92,16 @@ class Contract : public ::testing::Test {
       p.merge_rotation_deg = 2.9;
       p.contact_epsilon = 0.3;
     });
+    bags::RobotRecording recording;
+    for (const int i : {0, 1}) {
+      const std::int64_t stamp = i * 100'000'000;
+      recording.transform("odom", "base_link", stamp, Pose2{0.5 * i, 0.0, 0.0});
+      recording.scan("/scan", stamp, {.frame = "base_link", .angle_increment = 0.5F, .ranges = {2.0F, 3.0F}});
+    }
+    recording.grid("/map", 0, 0.1F, 3, {0, 0, 100});
+    const FilePath bag = file_path(folder_.write("drive.mcap", recording.bytes()));
+    fill<BagDrive::Params>("observation_source/bag", [&, bag](auto& p) { p.path = bag; });
+    fill<BagMap::Params>("map_source/bag_map", [&, bag](auto& p) { p.path = bag; });
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };

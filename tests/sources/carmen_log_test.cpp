@@ -50,7 +50,7 @@ TEST(CarmenLog, TakesKeyframesByDistance) {
   const test::TemporaryFolder folder;
   LogParams params = params_for(folder.write("a.log", straight_drive(11)));
   EXPECT_THAT(stamps(read_all(params)), ElementsAre(0, 3, 6, 9));
-  params.keyframe_distance = 0.0;
+  params.keyframes.distance = 0.0;
   EXPECT_EQ(read_all(params).size(), 11U);
 }
 
@@ -64,7 +64,7 @@ TEST(CarmenLog, TakesKeyframesByAngle) {
 TEST(CarmenLog, TakesSegmentsByShareOfThePath) {
   const test::TemporaryFolder folder;
   LogParams params = params_for(folder.write("a.log", straight_drive(11)));
-  params.keyframe_distance = 0.0;
+  params.keyframes.distance = 0.0;
   params.segments = {{0.05, 0.25}, {0.75, 1.0}};
   const auto samples = read_all(params);
   EXPECT_THAT(stamps(samples), ElementsAre(1, 2, 8, 9, 10));
@@ -139,7 +139,7 @@ TEST(CarmenLog, ChoosesTheLaser) {
   LogParams params =
       params_for(folder.write("a.log", flaser(0, 0, 1) + "RLASER 2 1 1 0 0 0 0 0 0 2 h 0\n" +
                                            "ROBOTLASER1 0 0 1 1 30 0 0 1 1 0 0 0 0 0 0 0 0 0 0 0 0 3 h 0\n"));
-  params.keyframe_distance = 0.0;
+  params.keyframes.distance = 0.0;
   EXPECT_THAT(stamps(read_all(params)), ElementsAre(1));
   params.laser = "rear";
   EXPECT_THAT(stamps(read_all(params)), ElementsAre(2));

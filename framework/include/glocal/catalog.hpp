@@ -22,7 +22,8 @@ using Warn = std::function<void(const std::string&)>;
 
 /// What sources may use when they are made.
 struct SourceSetup {
-  std::uint64_t seed = 0;  ///< The experiment's seed, for simulated noise.
+  std::uint64_t seed = 0;          ///< The experiment's seed, for simulated noise.
+  Motion motion = Motion::planar;  ///< What of the robot's pose is looked for; poses keep to it.
   Warn warn = [](const std::string&) {};
   /// To be called with every file read, for the record of a run's inputs.
   std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};

@@ -51,6 +51,7 @@ struct FieldInfo {
   bool required = false;        ///< The file must give it.
   bool may_be_missing = false;  ///< For paths: whoever reads the file says what to do where there is none.
   bool is_folder = false;       ///< For paths: a folder is needed, not a file.
+  bool may_be_folder = false;   ///< For paths: a folder or a file.
   Audience audience = Audience::everyone;
   const char* formerly = "";  ///< What the field was called before; empty if nothing else.
   std::vector<FormerChoice> former_choices = {};  ///< For strings.

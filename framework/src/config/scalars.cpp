@@ -254,11 +254,11 @@ Refusal take_value(const YamlNode& node, const FieldInfo& info, FilePath& value)
   }
   FilePath path{node.text, {}};
   if (auto refusal = resolve(node.text, node.place.origin->folder, path.resolved)) return refusal;
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(path.resolved, ignored);
   if (info.is_folder) {
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(path.resolved, ignored))
-      return "is no folder: " + path.resolved.string();
-  } else if (!info.may_be_missing) {
+    if (!is_folder) return "is no folder: " + path.resolved.string();
+  } else if (!info.may_be_missing && !(is_folder && info.may_be_folder)) {
     if (auto refusal = why_unreadable(path.resolved)) return refusal;
   }
   value = std::move(path);

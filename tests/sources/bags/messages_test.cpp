@@ -8,7 +8,7 @@
 
 #include "files.hpp"
 #include "sources/bags/message_reader.hpp"
-#include "sources/bags/recordings.hpp"
+#include "sources/bags/message_writer.hpp"
 
 namespace glocal::test::bags::messages_test {
 namespace {
@@ -16,49 +16,6 @@ namespace {
 using namespace glocal::bags;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-/// Writes fields as ROS 1 or CDR has them.
-class Writer {
- public:
-  explicit Writer(const std::string& encoding, std::endian order = std::endian::little)
-      : is_ros1_(encoding == "ros1"), order_(order) {}
-
-  template <class T>
-  Writer& number(T value) {
-    if (!is_ros1_) bytes_.resize((bytes_.size() + sizeof(T) - 1) / sizeof(T) * sizeof(T), '\0');
-    std::string own = le(value);
-    if (order_ == std::endian::big) std::reverse(own.begin(), own.end());
-    bytes_ += own;
-    return *this;
-  }
-  Writer& text(const std::string& text) {
-    number(static_cast<std::uint32_t>(text.size() + (is_ros1_ ? 0 : 1)));
-    bytes_ += is_ros1_ ? text : text + '\0';
-    return *this;
-  }
-  Writer& raw(const std::string& bytes) {
-    number(static_cast<std::uint32_t>(bytes.size()));
-    bytes_ += bytes;
-    return *this;
-  }
-  Writer& header(const std::string& frame) {
-    if (is_ros1_) number<std::uint32_t>(77);
-    return number<std::uint32_t>(5).number<std::uint32_t>(6).text(frame);
-  }
-  Writer& pose() {
-    for (const double v : {1.0, 2.0, 3.0, 0.0, 0.0, 0.6, 0.8}) number(v);
-    return *this;
-  }
-  [[nodiscard]] std::string bytes() const {
-    if (is_ros1_) return bytes_;
-    return std::string(order_ == std::endian::big ? "\0\0\0\0" : "\0\1\0\0", 4) + bytes_;
-  }
-
- private:
-  bool is_ros1_;
-  std::endian order_;
-  std::string bytes_;
-};
 
 struct Serialization {
   std::string encoding;

@@ -1,0 +1,425 @@
+#include "sources/bags/bag_drive.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "glocal/error.hpp"
+#include "sources/bags/sensor_scan.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr double ns_per_s = 1e9;
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(seconds * ns_per_s));
+}
+
+double seconds(std::int64_t ns) {
+  return static_cast<double>(ns) / ns_per_s;
+}
+
+bags::DriveTopics topics_of(const BagDrive::Params& params) {
+  return {.scans = params.scans,
+          .odometry = params.odometry,
+          .odom_frame = params.odom_frame,
+          .base_frame = params.base_frame,
+          .reference = params.reference.topic,
+          .sensor_is_given = params.sensor_from == "given"};
+}
+
+/// By number, the message of a topic that was made nearest to each of these times and at most so far from it;
+/// `none` where there is none.
+std::vector<std::size_t> nearest_messages(const std::vector<std::int64_t>& of_messages,
+                                          const std::vector<std::int64_t>& times, std::int64_t farthest_ns) {
+  std::vector<std::pair<std::int64_t, std::size_t>> by_stamp;
+  for (std::size_t i = 0; i < of_messages.size(); ++i) by_stamp.emplace_back(of_messages[i], i);
+  std::sort(by_stamp.begin(), by_stamp.end());
+  std::vector<std::size_t> nearest;
+  for (const std::int64_t time : times) {
+    const auto after = std::lower_bound(by_stamp.begin(), by_stamp.end(), std::pair(time, std::size_t{0}));
+    auto best = after;
+    if (after != by_stamp.begin() &&
+        (after == by_stamp.end() || time - (after - 1)->first < after->first - time))
+      best = after - 1;
+    const bool is_near = best != by_stamp.end() && std::abs(best->first - time) <= farthest_ns;
+    nearest.push_back(is_near ? best->second : none);
+  }
+  return nearest;
+}
+
+/// The earliest and the latest time, s; both 0 where there is none.
+std::pair<double, double> time_span(const bags::SensorScan& rays) {
+  double first = 0.0, last = 0.0;
+  for (const auto* times : {&rays.hit_times, &rays.free_times}) {
+    for (const float time : *times) {
+      first = std::min(first, double{time});
+      last = std::max(last, double{time});
+    }
+  }
+  return {first, last};
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, BagReference& p) {
+  v.field("topic", p.topic,
+          {.doc = "Topic with the robot's poses: geometry_msgs/PoseStamped, PoseWithCovarianceStamped or "
+                  "nav_msgs/Odometry. Empty: none."});
+  v.field("frame", p.frame, {.doc = "Frame of tf in which the robot's pose is the reference. Empty: none."});
+  v.field("x", p.x, {.doc = "Of the poses' frame in the map.", .unit = "m"});
+  v.field("y", p.y, {.doc = "Of the poses' frame in the map.", .unit = "m"});
+  v.field("z", p.z, {.doc = "Of the poses' frame in the map.", .unit = "m"});
+  v.field("yaw_deg", p.yaw_deg,
+          {.doc = "Of the poses' frame in the map.", .unit = "deg", .min = -360.0, .max = 360.0});
+  v.field("time_shift", p.time_shift,
+          {.doc = "Added to the stamps of reference poses.", .unit = "s", .min = -1e6, .max = 1e6});
+  v.require(p.topic.empty() || p.frame.empty(), "frame", "must be empty where topic is given");
+}
+
+void describe(ParamVisitor& v, BagDrive::Params& p) {
+  v.field("path", p.path,
+          {.doc = "ROS 1 bag, ROS 2 bag (.db3 or its folder) or MCAP file.",
+           .required = true,
+           .may_be_folder = true});
+  v.field("scans", p.scans,
+          {.doc = "Topics with scans (LaserScan, PointCloud2). Those of the first one say when observations "
+                  "are, and which; those of others are added. Empty: the only one there is."});
+  v.field("odometry", p.odometry,
+          {.doc = "Topic with odometry (nav_msgs/Odometry). Empty: tf, or else the only one there is."});
+  v.field("odom_frame", p.odom_frame, {.doc = "Frame of tf that odometry counts from. Empty: odom."});
+  v.field("base_frame", p.base_frame,
+          {.doc = "Frame of the robot. Empty: base_footprint or base_link, or that of the odometry."});
+  v.field("sensor_from", p.sensor_from,
+          {.doc = "Who says where the sensor is on the robot: tf, or `sensor` does.",
+           .choices = {"tf", "given"}});
+  v.field("sensor", p.sensor, {.doc = "Where the sensor is, if that is given."});
+  v.field("reference", p.reference, {.doc = "Reference poses, for the evaluation."});
+  describe_segments(v, p.segments);
+  describe_keyframes(v, p.keyframes);
+  v.field("min_range", p.min_range,
+          {.doc = "Readings below this are dropped: dirt on the glass, or the robot itself.",
+           .unit = "m",
+           .min = 0.0,
+           .audience = Audience::expert});
+  v.field("max_range", p.max_range,
+          {.doc = "Readings from here on count as no return; the messages' own limit holds as well.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::tuner});
+  v.field(
+      "free_range", p.free_range,
+      {.doc =
+           "How far the way of a reading without return is taken to be free (at most max_range); 0: not at "
+           "all.",
+       .unit = "m",
+       .min = 0.0,
+       .audience = Audience::expert});
+  v.field("heights", p.heights,
+          {.doc = "Ends of rays from the first to the second of these heights above the robot's origin are "
+                  "used. Empty: "
+                  "all. Where the motion is planar, clouds need this.",
+           .unit = "m",
+           .max_items = 2});
+  v.field("voxel_size", p.voxel_size,
+          {.doc = "Clouds: side of the cubes whose points are replaced by their mean; 0 takes all points.",
+           .unit = "m",
+           .min = 0.0,
+           .max = 100.0,
+           .audience = Audience::tuner});
+  v.field("deskew", p.deskew,
+          {.doc = "odometry: rays are moved to where the robot was at the scan's stamp. none: they are left "
+                  "as measured, "
+                  "with their times.",
+           .choices = {"odometry", "none"}});
+  v.field(
+      "max_gap", p.max_gap,
+      {.doc =
+           "Poses are interpolated between two that are at most this far apart, and scans of several topics "
+           "joined that are.",
+       .unit = "s",
+       .max = 3600.0,
+       .above = 0.0,
+       .audience = Audience::expert});
+  require_rising(v, p.segments);
+  v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
+  v.require(p.heights.empty() || (p.heights.size() == 2 && p.heights[0] < p.heights[1]), "heights",
+            "must be two heights, the lower one first");
+  v.require(p.sensor_from == "tf" || p.scans.size() < 2, "sensor_from",
+            "must be tf where scans of several topics are joined");
+}
+
+/// Moves the ends of rays to where the robot is at the observation's stamp.
+class BagDrive::RayMover {
+ public:
+  /// The sensor's pose in that robot's frame when the first ray was measured and the last one, and these
+  /// times, s.
+  RayMover(const Pose3& first, const Pose3& last, const std::pair<double, double>& span)
+      : motion_(first, last), first_time_(span.first), duration_(span.second - span.first) {}
+
+  [[nodiscard]] Vector3 moved(const Point& p, double time) const {
+    return motion_.at(duration_ > 0.0 ? (time - first_time_) / duration_ : 0.0) * as_vector(p);
+  }
+
+ private:
+  bags::EvenMotion motion_;
+  double first_time_, duration_;
+};
+
+BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
+    : params_(params),
+      is_planar_(setup.motion == Motion::planar),
+      warn_(setup.warn),
+      max_gap_ns_(nanoseconds(params.max_gap)),
+      recording_(params.path.resolved) {
+  const std::string file = params.path.resolved.string();
+  std::vector<std::string> remarks;
+  contents_ = bags::read_contents(recording_, topics_of(params), file, remarks);
+  for (const std::string& remark : recording_.warnings()) warn_(remark);
+  for (const std::string& remark : remarks) warn_(file + ": " + remark);
+  for (const auto& part : recording_.files()) setup.note_input(part);
+  const bool has_clouds = std::any_of(contents_.scans.begin(), contents_.scans.end(),
+                                      [](const bags::ScanTopic& scan) { return scan.are_clouds; });
+  if (is_planar_ && has_clouds && params.heights.empty()) {
+    throw ConfigError(
+        {{file, 0, 0,
+          "has clouds, and the motion is planar: set heights, such as [0.2, 1.5], to those of the map's "
+          "walls, or localizer.motion to upright"}});
+  }
+  pick(frames_of_first_topic());
+  join_other_topics();
+  warn_of_references();
+  std::set<std::string> topics;
+  for (const bags::ScanTopic& scan : contents_.scans) topics.insert(scan.topic);
+  recording_.rewind(topics);
+  read_.assign(contents_.scans.size(), 0);
+}
+
+std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
+  constexpr double longest_pause = 60.0;  // s
+  const bags::ScanTopic& scans = contents_.scans.front();
+  const std::string at = fmt::format("{}: {}", params_.path.resolved.string(), scans.topic);
+  std::vector<Frame> frames;
+  std::size_t backwards = 0, lost = 0;
+  int pauses = 0;
+  std::int64_t last = std::numeric_limits<std::int64_t>::min();
+  for (std::size_t i = 0; i < scans.stamps_ns.size(); ++i) {
+    const std::int64_t stamp = scans.stamps_ns[i];
+    if (stamp <= last) {
+      ++backwards;
+      continue;
+    }
+    if (i > 0 && seconds(stamp - last) > longest_pause) {
+      warn_(fmt::format("{}: stamps jump by {:.0f} s; what follows is a drive of its own", at,
+                        seconds(stamp - last)));
+      ++pauses;
+    }
+    last = stamp;
+    const auto odometry = contents_.odometry_at(stamp, max_gap_ns_);
+    if (!odometry || !robot_from_sensor(scans.frame, stamp)) {
+      ++lost;
+      continue;
+    }
+    frames.push_back({stamp, i, is_planar_ ? Pose3(seen_from_above(*odometry)) : *odometry, pauses});
+  }
+  if (backwards > 0)
+    warn_(fmt::format("{}: {} scans are left out, as their stamps stand still or run backwards", at,
+                      backwards));
+  if (frames.empty()) {
+    throw ConfigError({{params_.path.resolved.string(), 0, 0,
+                        fmt::format("{} has {} scans, and for none of them is it known where the robot and "
+                                    "its sensor were within {} s; "
+                                    "check the stamps, or set odometry, odom_frame, base_frame or max_gap",
+                                    scans.topic, scans.stamps_ns.size(), params_.max_gap)}});
+  }
+  if (lost > 0)
+    warn_(fmt::format("{}: {} of {} scans are left out, as {} is not known within {} s of their stamps", at,
+                      lost, scans.stamps_ns.size(), contents_.odometry.empty() ? "tf" : contents_.odometry,
+                      params_.max_gap));
+  return frames;
+}
+
+void BagDrive::pick(const std::vector<Frame>& frames) {
+  std::vector<double> lengths(frames.size(), 0.0);
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const bool goes_on = frames[i].segment == frames[i - 1].segment;
+    lengths[i] =
+        lengths[i - 1] + (goes_on ? distance(frames[i - 1].odom_from_robot, frames[i].odom_from_robot) : 0.0);
+  }
+  const auto places = places_on(params_.segments, lengths, params_.path.resolved.string(), "scan");
+  int segment = -1;
+  for (const std::vector<std::size_t>& part : places) {
+    std::optional<int> pauses;
+    for (const std::size_t i : part) {
+      const bool begins = pauses != frames[i].segment;
+      if (begins) ++segment;
+      pauses = frames[i].segment;
+      if (!begins &&
+          !is_keyframe(frames_.back().odom_from_robot, frames[i].odom_from_robot, params_.keyframes))
+        continue;
+      wanted_[{0, frames[i].number}] = {frames_.size()};
+      frames_.push_back(frames[i]);
+      frames_.back().segment = segment;
+    }
+  }
+}
+
+void BagDrive::join_other_topics() {
+  std::vector<std::int64_t> stamps;
+  for (const Frame& frame : frames_) stamps.push_back(frame.stamp_ns);
+  for (std::size_t topic = 1; topic < contents_.scans.size(); ++topic) {
+    const auto nearest = nearest_messages(contents_.scans[topic].stamps_ns, stamps, max_gap_ns_);
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      if (nearest[i] == none) continue;
+      wanted_[{topic, nearest[i]}].push_back(i);
+      ++frames_[i].scans;
+    }
+    const auto alone = std::count(nearest.begin(), nearest.end(), none);
+    if (alone > 0)
+      warn_(fmt::format("{}: {} of {} observations are without a scan of {}", params_.path.resolved.string(),
+                        alone, frames_.size(), contents_.scans[topic].topic));
+  }
+}
+
+void BagDrive::warn_of_references() const {
+  if (params_.reference.topic.empty() && params_.reference.frame.empty()) return;
+  const auto without = std::count_if(frames_.begin(), frames_.end(),
+                                     [&](const Frame& frame) { return !reference_at(frame.stamp_ns); });
+  if (without == 0) return;
+  warn_(fmt::format("{}: {} of {} observations are without reference pose", params_.path.resolved.string(),
+                    without, frames_.size()));
+}
+
+std::optional<Pose3> BagDrive::robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) const {
+  if (params_.sensor_from == "given") return glocal::robot_from_sensor(params_.sensor);
+  return contents_.tree.pose(contents_.base_frame, frame, stamp_ns, max_gap_ns_);
+}
+
+std::optional<Pose3> BagDrive::reference_at(std::int64_t stamp_ns) const {
+  const BagReference& r = params_.reference;
+  const std::int64_t then = stamp_ns - nanoseconds(r.time_shift);
+  std::optional<Pose3> pose;
+  if (!r.topic.empty()) {
+    pose = contents_.reference.size() > 0 ? contents_.reference.at(then, max_gap_ns_) : std::nullopt;
+  } else if (!r.frame.empty()) {
+    pose = contents_.tree.pose(r.frame, contents_.base_frame, then, max_gap_ns_);
+  }
+  if (!pose) return std::nullopt;
+  const Pose3 map_from_robot = Pose3({r.x, r.y, r.z}, turn_about_z(radians(r.yaw_deg))) * *pose;
+  return is_planar_ ? Pose3(seen_from_above(map_from_robot)) : map_from_robot;
+}
+
+std::optional<Sample> BagDrive::next() {
+  while (next_ < frames_.size()) {
+    const auto pending = pending_.find(next_);
+    if (pending != pending_.end() && pending->second.missing == 0) {
+      const Joined joined = std::move(pending->second);
+      pending_.erase(pending);
+      const Frame& frame = frames_[next_++];
+      if (!joined.is_usable) continue;
+      return Sample{{seconds(frame.stamp_ns), joined.scan, frame.odom_from_robot},
+                    reference_at(frame.stamp_ns),
+                    frame.segment};
+    }
+    const auto message = recording_.next();
+    if (!message) return std::nullopt;
+    take(*message);
+  }
+  return std::nullopt;
+}
+
+void BagDrive::take(const bags::RecordedMessage& message) {
+  const auto& scans = contents_.scans;
+  const auto topic = std::find_if(scans.begin(), scans.end(), [&](const bags::ScanTopic& scan) {
+    return scan.topic == message.connection->topic && bags::has_scans(message.connection->type);
+  });
+  if (topic == scans.end()) return;
+  const auto header = bags::readable_header(message);
+  if (!header) return;  // Nor was it counted when the contents were read.
+  const auto t = static_cast<std::size_t>(topic - scans.begin());
+  const auto frames = wanted_.find({t, read_[t]++});
+  if (frames == wanted_.end()) return;
+  const auto rays = rays_of(message, topic->are_clouds);
+  for (const std::size_t i : frames->second) {
+    Joined& joined = pending_.try_emplace(i, Joined{.missing = frames_[i].scans}).first->second;
+    --joined.missing;
+    joined.is_usable = joined.is_usable && rays && add(*rays, *header, frames_[i], joined.scan);
+  }
+}
+
+std::optional<bags::SensorScan> BagDrive::rays_of(const bags::RecordedMessage& message, bool is_cloud) {
+  const bags::RangeLimits limits{params_.min_range, params_.max_range, params_.free_range,
+                                 params_.voxel_size};
+  try {
+    return is_cloud ? bags::rays_of(bags::read_point_cloud(message), limits)
+                    : bags::rays_of(bags::read_laser_scan(message), limits);
+  } catch (const ConfigError& error) {
+    warn_once(fmt::format("a scan of {} is left out: {}", message.connection->topic, error.what()));
+    return std::nullopt;
+  }
+}
+
+std::optional<BagDrive::RayMover> BagDrive::mover_of(const bags::Header& header, const Frame& frame,
+                                                     const std::pair<double, double>& span) const {
+  const auto sensor_at = [&](double time) -> std::optional<Pose3> {
+    const std::int64_t stamp = header.stamp_ns + nanoseconds(time);
+    const auto then_from_sensor = robot_from_sensor(header.frame, stamp);
+    const auto odom_from_then = contents_.odometry_at(stamp, max_gap_ns_);
+    const auto odom_from_now = contents_.odometry_at(frame.stamp_ns, max_gap_ns_);
+    if (!then_from_sensor || !odom_from_then || !odom_from_now) return std::nullopt;
+    return inverse(*odom_from_now) * *odom_from_then * *then_from_sensor;
+  };
+  if (params_.deskew == "none") {
+    const auto sensor = robot_from_sensor(header.frame, header.stamp_ns);
+    return sensor ? std::optional(RayMover(*sensor, *sensor, {0.0, 0.0})) : std::nullopt;
+  }
+  const auto first = sensor_at(span.first), last = sensor_at(span.second);
+  return first && last ? std::optional(RayMover(*first, *last, span)) : std::nullopt;
+}
+
+bool BagDrive::add(const bags::SensorScan& rays, const bags::Header& header, const Frame& frame, Scan& scan) {
+  const auto mover = mover_of(header, frame, time_span(rays));
+  if (!mover) {
+    warn_once(
+        fmt::format("the scan at {:.3f} s is left out, as it is not known where the robot was until its end",
+                    seconds(header.stamp_ns)));
+    return false;
+  }
+  const auto is_wanted = [&](double z) {
+    return params_.heights.empty() || (z >= params_.heights[0] && z <= params_.heights[1]);
+  };
+  const auto place = [&](const Point& end, double time, Points& ends) {
+    const Vector3 p = mover->moved(end, time);
+    if (!is_wanted(p.z)) return false;
+    ends.push_back(as_point({p.x, p.y, is_planar_ ? 0.0 : p.z}));
+    return true;
+  };
+  const bool several = contents_.scans.size() > 1;
+  const bool keeps_times = params_.deskew == "none" && (several || !rays.hit_times.empty());
+  const double since_stamp = seconds(header.stamp_ns - frame.stamp_ns);
+  for (std::size_t i = 0; i < rays.hits.size(); ++i) {
+    const double time = rays.hit_times.empty() ? 0.0 : rays.hit_times[i];
+    if (place(rays.hits[i], time, scan.hits) && keeps_times)
+      scan.times.push_back(static_cast<float>(since_stamp + time));
+  }
+  for (std::size_t i = 0; i < rays.free_ends.size(); ++i)
+    place(rays.free_ends[i], rays.free_times.empty() ? 0.0 : rays.free_times[i], scan.free_ends);
+  // Of several sensors the rays begin halfway between them.
+  const Vector3 share = (1.0 / static_cast<double>(frame.scans)) * mover->moved({}, 0.0);
+  scan.origin = as_point(as_vector(scan.origin) + Vector3{share.x, share.y, is_planar_ ? 0.0 : share.z});
+  return true;
+}
+
+void BagDrive::warn_once(const std::string& text) {
+  if (has_warned_) return;
+  has_warned_ = true;
+  warn_(params_.path.resolved.string() + ": " + text + "; others like it are not told");
+}
+
+}  // namespace glocal

@@ -1,0 +1,101 @@
+#include "sources/bags/bag_map.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/bags/messages.hpp"
+#include "sources/bags/recording.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr const char* grid_type = "nav_msgs/OccupancyGrid";
+
+[[noreturn]] void fail(const BagMap::Params& params, const std::string& message) {
+  throw ConfigError({{params.path.resolved.string(), 0, 0, message}});
+}
+
+std::string topic_of(const bags::Recording& recording, const BagMap::Params& params) {
+  std::set<std::string> topics;
+  for (const bags::Connection& connection : recording.connections()) {
+    if (connection.type == grid_type) topics.insert(connection.topic);
+  }
+  if (topics.empty())
+    fail(params, fmt::format("has no map ({}); glocal bag info shows what it has", grid_type));
+  if (params.topic.empty() && topics.size() > 1)
+    fail(params, fmt::format("has several maps; set topic to one of {}", fmt::join(topics, ", ")));
+  if (!params.topic.empty() && !topics.contains(params.topic))
+    fail(params,
+         fmt::format("has no map on {}; set topic to one of {}", params.topic, fmt::join(topics, ", ")));
+  return params.topic.empty() ? *topics.begin() : params.topic;
+}
+
+bags::GridMessage last_grid(bags::Recording& recording, const std::string& topic,
+                            const BagMap::Params& params) {
+  std::optional<bags::GridMessage> last;
+  recording.rewind(std::set{topic});
+  while (const auto message = recording.next()) {
+    if (message->connection->type == grid_type) last = bags::read_occupancy_grid(*message);
+  }
+  if (!last) fail(params, fmt::format("has no message on {}", topic));
+  return std::move(*last);
+}
+
+/// -1, and whatever else is no share, is unknown.
+Cell cell_of(std::int8_t percent, const BagMap::Params& params) {
+  const double occupancy = percent / 100.0;
+  if (percent < 0 || percent > 100) return Cell::unknown;
+  if (occupancy > params.occupied_thresh) return Cell::occupied;
+  return occupancy < params.free_thresh ? Cell::free : Cell::unknown;
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, BagMap::Params& p) {
+  v.field("path", p.path,
+          {.doc = "ROS 1 bag, ROS 2 bag (.db3 or its folder) or MCAP file.",
+           .required = true,
+           .may_be_folder = true});
+  v.field("topic", p.topic,
+          {.doc = "Topic with the map (nav_msgs/OccupancyGrid). Empty: the only one there is."});
+  v.field("occupied_thresh", p.occupied_thresh,
+          {.doc = "Cells more likely to be occupied than this are.", .min = 0.0, .max = 1.0});
+  v.field("free_thresh", p.free_thresh,
+          {.doc = "Cells less likely to be occupied than this are free.", .min = 0.0, .max = 1.0});
+  v.require(p.free_thresh < p.occupied_thresh, "free_thresh", "must be below occupied_thresh");
+}
+
+MapData BagMap::load() {
+  bags::Recording recording(params_.path.resolved);
+  for (const auto& file : recording.files()) setup_.note_input(file);
+  const std::string topic = topic_of(recording, params_);
+  const bags::GridMessage grid = last_grid(recording, topic, params_);
+  for (const std::string& warning : recording.warnings()) setup_.warn(warning);
+  if (static_cast<double>(grid.cells.size()) > max_grid_cells)
+    fail(params_,
+         fmt::format("the map of {} has {} x {} cells, more than {:g}; record it with a coarser resolution",
+                     topic, grid.width, grid.height, max_grid_cells));
+  constexpr double level = 1e-6;  // rad
+  if (grid.frame_from_grid.tilt() > level)
+    fail(params_,
+         fmt::format("the map of {} is tilted against its frame; only level maps can be used", topic));
+  MapData map;
+  map.grid = {seen_from_above(grid.frame_from_grid), grid.resolution, static_cast<int>(grid.width),
+              static_cast<int>(grid.height), std::vector<Cell>(grid.cells.size())};
+  std::transform(grid.cells.begin(), grid.cells.end(), map.grid.cells.begin(),
+                 [&](std::int8_t percent) { return cell_of(percent, params_); });
+  map.points = occupied_centres(map.grid);
+  if (map.points.empty())
+    fail(params_,
+         fmt::format("the map of {} has no occupied cell; check occupied_thresh, or take another topic",
+                     topic));
+  return map;
+}
+
+}  // namespace glocal

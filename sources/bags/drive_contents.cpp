@@ -1,0 +1,239 @@
+#include "sources/bags/drive_contents.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/bags/message_reader.hpp"
+#include "sources/bags/messages.hpp"
+#include "sources/bags/recording_summary.hpp"
+
+namespace glocal::bags {
+namespace {
+
+constexpr const char* odometry_type = "nav_msgs/Odometry";
+
+bool is_reference_type(std::string_view type) {
+  return is_pose(type) || type == odometry_type;
+}
+
+std::vector<std::string> topics_of(const Recording& recording, bool (*is_wanted)(std::string_view)) {
+  std::set<std::string> topics;
+  for (const Connection& connection : recording.connections()) {
+    if (is_readable(connection) && is_wanted(connection.type)) topics.insert(connection.topic);
+  }
+  return {topics.begin(), topics.end()};
+}
+
+/// The way through a recording that finds out what a drive is made of.
+class ContentsReader {
+ public:
+  ContentsReader(Recording& recording, const DriveTopics& wanted, const std::string& file)
+      : recording_(recording), wanted_(wanted), file_(file) {}
+
+  DriveContents read(std::vector<std::string>& remarks) {
+    choose_scans();
+    check_topic(wanted_.odometry, odometry_topics_, odometry_type, "odometry");
+    check_topic(wanted_.reference, topics_of(recording_, is_reference_type), "poses", "reference.topic");
+    go_through();
+    contents_.tree.settle();
+    for (auto& [topic, odometry] : odometry_) odometry.poses.settle();
+    contents_.reference.settle();
+    choose_frames();
+    check_sensors();
+    for (const auto& [topic, text] : unreadable_)
+      remarks.push_back(
+          fmt::format("{} messages of {} are left out; the first: {}", text.first, topic, text.second));
+    return std::move(contents_);
+  }
+
+ private:
+  struct OdometryTopic {
+    PoseTrack poses;
+    std::string frame, child;
+  };
+
+  [[noreturn]] void fail(const std::string& message) const { throw ConfigError({{file_, 0, 0, message}}); }
+
+  void check_topic(const std::string& topic, const std::vector<std::string>& there, const std::string& what,
+                   const std::string& key) const {
+    if (topic.empty() || std::find(there.begin(), there.end(), topic) != there.end()) return;
+    fail(fmt::format("has no topic {} with {}; {}", topic, what,
+                     there.empty() ? fmt::format("it has none at all: leave out {}", key)
+                                   : fmt::format("set {} to one of {}", key, fmt::join(there, ", "))));
+  }
+
+  void choose_scans() {
+    const std::vector<std::string> there = topics_of(recording_, has_scans);
+    if (there.empty())
+      fail(
+          "has no scans (sensor_msgs/LaserScan, sensor_msgs/PointCloud2); glocal bag info shows what it has");
+    for (const std::string& topic : wanted_.scans) check_topic(topic, there, "scans", "scans");
+    if (wanted_.scans.empty() && there.size() > 1) {
+      std::string list;
+      for (const TopicSummary& topic : summary().topics) {
+        if (has_scans(topic.type)) list += "\n  " + text_of(topic);
+      }
+      fail("has several topics with scans; set scans to those of one sensor, or of several alike:" + list);
+    }
+    for (const std::string& topic : wanted_.scans.empty() ? there : wanted_.scans)
+      contents_.scans.emplace_back().topic = topic;
+  }
+
+  [[nodiscard]] RecordingSummary summary() const {
+    std::vector<std::string> ignored;
+    return summarize_recording(recording_, ignored);
+  }
+
+  void go_through() {
+    std::set<std::string> topics;
+    for (const Connection& connection : recording_.connections()) {
+      if (has_transforms(connection.type) || connection.type == odometry_type ||
+          connection.topic == wanted_.reference)
+        topics.insert(connection.topic);
+    }
+    for (const ScanTopic& scan : contents_.scans) topics.insert(scan.topic);
+    recording_.rewind(topics);
+    while (const auto message = recording_.next()) {
+      if (!is_readable(*message->connection)) continue;
+      try {
+        take(*message);
+      } catch (const ConfigError& error) {
+        auto& [count, first] = unreadable_[message->connection->topic];
+        if (count++ == 0) first = error.what();
+      }
+    }
+  }
+
+  void take(const RecordedMessage& message) {
+    const std::string& type = message.connection->type;
+    const std::string& topic = message.connection->topic;
+    if (has_transforms(type)) {
+      for (const FrameTransform& transform : read_transforms(message))
+        contents_.tree.add(transform, topic.ends_with("tf_static"));
+    } else if (has_scans(type)) {
+      take_scan(message);
+    } else if (type == odometry_type) {
+      const Odometry odometry = read_odometry(message);
+      auto& [poses, frame, child] = odometry_[topic];
+      poses.add(odometry.header.stamp_ns, odometry.frame_from_child);
+      frame = odometry.header.frame;
+      child = odometry.child_frame;
+      if (topic == wanted_.reference) add_reference(odometry.header, odometry.frame_from_child);
+    } else if (is_pose(type)) {
+      const StampedFramePose pose = read_pose(message);
+      add_reference(pose.header, pose.pose);
+    }
+  }
+
+  void add_reference(const Header& header, const Pose3& pose) {
+    contents_.reference_frame = header.frame;
+    contents_.reference.add(header.stamp_ns, pose);
+  }
+
+  void take_scan(const RecordedMessage& message) {
+    const auto scans =
+        std::find_if(contents_.scans.begin(), contents_.scans.end(),
+                     [&](const ScanTopic& scan) { return scan.topic == message.connection->topic; });
+    if (scans == contents_.scans.end()) return;
+    const auto header = readable_header(message);
+    if (!header) return;
+    if (scans->stamps_ns.empty()) scans->frame = header->frame;
+    scans->are_clouds = message.connection->type == "sensor_msgs/PointCloud2";
+    scans->stamps_ns.push_back(header->stamp_ns);
+  }
+
+  /// tf's odometry before that of a topic, as it is that of which all else in the tree knows.
+  void choose_frames() {
+    DriveContents& c = contents_;
+    const TransformTree& tree = c.tree;
+    c.odom_frame = wanted_.odom_frame.empty() ? "odom" : wanted_.odom_frame;
+    std::vector<std::string> bases = {wanted_.base_frame};
+    if (wanted_.base_frame.empty()) bases = {"base_footprint", "base_link"};
+    const auto base = std::find_if(bases.begin(), bases.end(), [&](const std::string& frame) {
+      return frame != c.odom_frame && tree.connects(c.odom_frame, frame);
+    });
+    if (wanted_.odometry.empty() && base != bases.end()) {
+      c.base_frame = *base;
+      return;
+    }
+    choose_odometry_topic(bases);
+  }
+
+  void choose_odometry_topic(const std::vector<std::string>& bases) {
+    DriveContents& c = contents_;
+    std::vector<std::string> topics;
+    for (const auto& [topic, odometry] : odometry_) topics.push_back(topic);
+    if (!wanted_.odometry.empty()) topics = {wanted_.odometry};
+    if (topics.empty() || !odometry_.contains(topics.front()))
+      fail(fmt::format(
+          "has no odometry: tf does not connect {} with {}, and there is no topic of {}; set odom_frame and "
+          "base_frame to frames of the tree, which is\n{}",
+          c.odom_frame, fmt::join(bases, " or "), odometry_type, tree_text()));
+    if (topics.size() > 1)
+      fail(fmt::format("has several topics with odometry; set odometry to one of {}",
+                       fmt::join(topics, ", ")));
+    const auto& [poses, frame, child] = odometry_.at(topics.front());
+    c.odometry = topics.front();
+    c.odom_frame = frame;
+    c.base_frame = wanted_.base_frame.empty() ? child : wanted_.base_frame;
+    c.odom_from_child = poses;
+    if (c.base_frame == child) return;
+    if (!c.tree.is_still(child, c.base_frame))
+      fail(fmt::format(
+          "odometry of {} says where {} is, and tf does not say where {} is on it; set base_frame to {}",
+          c.odometry, child, c.base_frame, child));
+    c.child_from_base = *c.tree.pose(child, c.base_frame, 0, 0);
+  }
+
+  void check_sensors() const {
+    if (wanted_.sensor_is_given) return;
+    for (const ScanTopic& scan : contents_.scans) {
+      if (scan.stamps_ns.empty() || contents_.tree.connects(contents_.base_frame, scan.frame)) continue;
+      fail(
+          fmt::format("tf does not connect {}, the frame of {}, with {}; set base_frame to another one, or "
+                      "sensor_from to "
+                      "given and sensor to where it is on the robot; the tree is\n{}",
+                      scan.frame, scan.topic, contents_.base_frame, tree_text()));
+    }
+  }
+
+  [[nodiscard]] std::string tree_text() const {
+    const std::string text = frame_tree(contents_.tree.parents());
+    return text.empty() ? "empty" : text;
+  }
+
+  Recording& recording_;
+  const DriveTopics& wanted_;
+  const std::string& file_;
+  std::vector<std::string> odometry_topics_ =
+      topics_of(recording_, [](std::string_view type) { return type == odometry_type; });
+  DriveContents contents_;
+  std::map<std::string, OdometryTopic> odometry_;
+  std::map<std::string, std::pair<std::size_t, std::string>> unreadable_;
+};
+
+}  // namespace
+
+bool has_scans(std::string_view type) {
+  return type == "sensor_msgs/LaserScan" || type == "sensor_msgs/PointCloud2";
+}
+
+std::optional<Pose3> DriveContents::odometry_at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
+  if (odometry.empty()) return tree.pose(odom_frame, base_frame, stamp_ns, max_gap_ns);
+  const auto odom_from = odom_from_child.at(stamp_ns, max_gap_ns);
+  return odom_from ? std::optional(*odom_from * child_from_base) : std::nullopt;
+}
+
+DriveContents read_contents(Recording& recording, const DriveTopics& wanted, const std::string& file,
+                            std::vector<std::string>& remarks) {
+  return ContentsReader(recording, wanted, file).read(remarks);
+}
+
+}  // namespace glocal::bags

@@ -1,0 +1,59 @@
+// What of a recording a drive is made of: its scans, and where the robot and its sensors are.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sources/bags/pose_track.hpp"
+#include "sources/bags/recording.hpp"
+#include "sources/bags/transform_tree.hpp"
+
+namespace glocal::bags {
+
+/// What is asked for by name. What is empty is found out.
+struct DriveTopics {
+  std::vector<std::string> scans =
+      {};                        ///< LaserScan or PointCloud2; the first one says when observations are.
+  std::string odometry = {};     ///< nav_msgs/Odometry; empty: tf, or else the only such topic.
+  std::string odom_frame = {};   ///< For tf; empty: odom.
+  std::string base_frame = {};   ///< Empty: base_footprint, base_link, or whose pose odometry says.
+  std::string reference = {};    ///< PoseStamped, PoseWithCovarianceStamped or Odometry; perhaps empty.
+  bool sensor_is_given = false;  ///< Then tf need not say where the sensor is.
+};
+
+/// The scans of a topic.
+struct ScanTopic {
+  std::string topic;
+  bool are_clouds = false;
+  std::string frame;                    ///< Of the first one.
+  std::vector<std::int64_t> stamps_ns;  ///< In order of receipt: of measurement, as the header has it.
+};
+
+/// Everything but the scans themselves.
+struct DriveContents {
+  std::vector<ScanTopic> scans;  ///< In the order asked for.
+  TransformTree tree;
+  std::string base_frame;
+  std::string odom_frame;
+  std::string odometry;       ///< Topic; empty where tf has the odometry.
+  PoseTrack odom_from_child;  ///< Of that topic.
+  Pose3 child_from_base;
+  std::string reference_frame;  ///< Of the reference's poses.
+  PoseTrack reference;          ///< Of that topic; empty if there is none.
+
+  /// None where it is not known at this time.
+  [[nodiscard]] std::optional<Pose3> odometry_at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
+};
+
+/// Reads all but the scans' content, and finds out what is not asked for by name. Throws ConfigError, with
+/// what there is, for topics that are missing, several where one is needed, and frames that tf does not
+/// connect. What the user should know is added to `remarks`.
+[[nodiscard]] DriveContents read_contents(Recording& recording, const DriveTopics& wanted,
+                                          const std::string& file, std::vector<std::string>& remarks);
+
+/// Topics with scans.
+[[nodiscard]] bool has_scans(std::string_view type);
+
+}  // namespace glocal::bags

@@ -1,0 +1,33 @@
+#include "sources/bags/pose_track.hpp"
+
+#include <algorithm>
+
+namespace glocal::bags {
+
+void PoseTrack::settle() {
+  std::stable_sort(poses_.begin(), poses_.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  // Of equal stamps the last one: from the back, unique() keeps the first that it meets.
+  const auto same_stamp = [](const auto& a, const auto& b) { return a.first == b.first; };
+  poses_.erase(poses_.begin(), std::unique(poses_.rbegin(), poses_.rend(), same_stamp).base());
+  is_still_ = !poses_.empty() && std::all_of(poses_.begin(), poses_.end(), [&](const auto& stamped) {
+    return stamped.second == poses_.front().second;
+  });
+}
+
+std::optional<Pose3> PoseTrack::at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
+  if (is_still_) return poses_.front().second;
+  const auto after =
+      std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,
+                       [](const auto& pose, std::int64_t stamp) { return pose.first < stamp; });
+  if (after == poses_.end()) return std::nullopt;
+  if (after->first == stamp_ns) return after->second;
+  if (after == poses_.begin()) return std::nullopt;
+  const auto before = after - 1;
+  if (after->first - before->first > max_gap_ns) return std::nullopt;
+  const double share =
+      static_cast<double>(stamp_ns - before->first) / static_cast<double>(after->first - before->first);
+  return EvenMotion(before->second, after->second).at(share);
+}
+
+}  // namespace glocal::bags

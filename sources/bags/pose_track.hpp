@@ -1,0 +1,55 @@
+// Poses over time, and those between them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "glocal/pose3.hpp"
+
+namespace glocal::bags {
+
+/// A straight and even motion from one pose to another one, with an even turn.
+class EvenMotion {
+ public:
+  EvenMotion(const Pose3& from, const Pose3& to)
+      : from_(from),
+        way_(to.translation() - from.translation()),
+        turn_(logarithm(inverse(from.rotation) * to.rotation)) {}
+
+  /// The pose after a share of it.
+  [[nodiscard]] Pose3 at(double share) const {
+    return {from_.translation() + share * way_, from_.rotation * exponential(share * turn_)};
+  }
+
+ private:
+  Pose3 from_;
+  Vector3 way_, turn_;
+};
+
+/// Poses of one frame in another, by their stamps (ns).
+class PoseTrack {
+ public:
+  void add(std::int64_t stamp_ns, const Pose3& pose) { poses_.emplace_back(stamp_ns, pose); }
+  /// To be called once all poses are there: sorts them; of those with equal stamps the last one stays.
+  void settle();
+
+  [[nodiscard]] std::size_t size() const { return poses_.size(); }
+  /// Of the first and the last pose; there is one.
+  [[nodiscard]] std::int64_t first_ns() const { return poses_.front().first; }
+  [[nodiscard]] std::int64_t last_ns() const { return poses_.back().first; }
+  /// Whether all poses are the same one.
+  [[nodiscard]] bool is_still() const { return is_still_; }
+
+  /// The pose at a time: between two that are at most `max_gap_ns` apart, as an even motion has it. A track
+  /// that is still has its pose at all times. None otherwise.
+  [[nodiscard]] std::optional<Pose3> at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
+
+ private:
+  std::vector<std::pair<std::int64_t, Pose3>> poses_;
+  bool is_still_ = false;
+};
+
+}  // namespace glocal::bags
