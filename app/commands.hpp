@@ -33,6 +33,7 @@ void add_describe(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_figures(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
+void add_localize(CLI::App& app, Context& context);
 void add_map(CLI::App& app, Context& context);
 void add_mapping(CLI::App& app, Context& context);
 void add_new_plugin(CLI::App& app, Context& context);

@@ -17,6 +17,7 @@ namespace {
 
 void add_all(CLI::App& app, glocal::app::Context& context) {
   using namespace glocal::app;
+  add_localize(app, context);
   add_run(app, context);
   add_check(app, context);
   add_list(app, context);

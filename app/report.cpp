@@ -8,21 +8,13 @@
 
 #include "app/commands.hpp"
 #include "app/named_runs.hpp"
+#include "app/report_file.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "report/page.hpp"
 #include "report/page_text.hpp"
-#include "report/report_data.hpp"
 
 namespace glocal::app {
 namespace {
-
-struct ReportOptions {
-  std::vector<std::string> folders;
-  std::string out = "report.html";
-  std::string baseline;
-  ReportLimits limits;
-  bool force = false;
-};
 
 std::string title_of(const std::vector<NamedRun>& runs) {
   std::string title = runs.front().name;
@@ -30,7 +22,9 @@ std::string title_of(const std::vector<NamedRun>& runs) {
   return title;
 }
 
-void write_report(const ReportOptions& options) {
+}  // namespace
+
+std::filesystem::path write_report(const ReportOptions& options) {
   ReportData data(options.limits);
   const auto runs =
       read_runs(options.folders, [&](const std::filesystem::path& folder) { return data.add(folder); });
@@ -38,10 +32,8 @@ void write_report(const ReportOptions& options) {
   AtomicFiles files(options.force);
   files.add(options.out, page_with(page_text, title_of(runs), json));
   files.commit();
-  fmt::print("{}\n", std::filesystem::absolute(options.out).lexically_normal().string());
+  return std::filesystem::absolute(options.out).lexically_normal();
 }
-
-}  // namespace
 
 void add_report(CLI::App& app, Context& /*context*/) {
   auto options = std::make_shared<ReportOptions>();
@@ -56,7 +48,7 @@ void add_report(CLI::App& app, Context& /*context*/) {
                    "Best clusters to keep of each step (default: all that the run has listed)")
       ->check(CLI::Range(0, 1'000'000));
   command->add_flag("--force", options->force, "Replace the file if it exists");
-  command->callback([options] { write_report(*options); });
+  command->callback([options] { fmt::print("{}\n", write_report(*options).string()); });
 }
 
 }  // namespace glocal::app

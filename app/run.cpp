@@ -3,15 +3,14 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/run_report.hpp"
 #include "app/watch_server.hpp"
@@ -20,17 +19,6 @@
 
 namespace glocal::app {
 namespace {
-
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
-
-/// The first ends the run in good order, after the steps that are under way; the second, at once.
-void interrupt(int signal) {
-  if (interrupted.exchange(true)) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-}
 
 /// What --watch stands for without a port.
 constexpr const char* any_port = "any";
@@ -52,18 +40,17 @@ class Waiting {
 
   /// Good as long as this object is.
   RunnerCallbacks callbacks() {
-    return {
-        .counted = [this](std::size_t trials) { progress_.emplace(!quiet_, trials); },
-        .begin = [this](const LoadedVariant& variant) { begin(variant); },
-        .trials = {[this](std::size_t trial, const StepRecord& record, const Localizer& now) {
-                     step(trial, record, now);
-                   },
-                   [this](const TrialRecord& record) { finish(record); }, [] { return interrupted.load(); }},
-        .note =
-            [this](const std::string& text) {
-              if (!quiet_) spdlog::info(text);
-            },
-        .warn = [](const std::string& text) { spdlog::warn(text); }};
+    return {.counted = [this](std::size_t trials) { progress_.emplace(!quiet_, trials); },
+            .begin = [this](const LoadedVariant& variant) { begin(variant); },
+            .trials = {[this](std::size_t trial, const StepRecord& record, const Localizer& now) {
+                         step(trial, record, now);
+                       },
+                       [this](const TrialRecord& record) { finish(record); }, is_interrupted},
+            .note =
+                [this](const std::string& text) {
+                  if (!quiet_) spdlog::info(text);
+                },
+            .warn = [](const std::string& text) { spdlog::warn(text); }};
   }
 
   /// Takes the bar off the terminal.
@@ -97,13 +84,6 @@ class Waiting {
   std::size_t longest_trial_ = 1;  ///< Steps.
 };
 
-int exit_code_of(const RunResult& result) {
-  if (!result.complete) return 3;
-  const bool any_failed = std::any_of(result.variants.begin(), result.variants.end(),
-                                      [](const VariantResult& variant) { return variant.failed > 0; });
-  return any_failed ? 1 : 0;
-}
-
 void print_result(const RunResult& result) {
   std::vector<std::pair<std::string, nlohmann::ordered_json>> summaries;
   for (const VariantResult& variant : result.variants) {
@@ -124,8 +104,7 @@ void run(const RunCommand& command, Context& context) {
   options.plugins = context.plugins.loaded();
   LiveRun live(variants.front().experiment.name);
   std::optional<WatchServer> server;
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  listen_to_interrupts();
   if (!command.watch.empty()) {
     server.emplace(command.watch == any_port ? 0 : std::stoi(command.watch), live);
     spdlog::info("watch: http://127.0.0.1:{}/", server->port());
@@ -136,7 +115,7 @@ void run(const RunCommand& command, Context& context) {
                                .run();
   waiting.end();
   live.end();
-  if (!interrupted) live.wait_until_told(longest_farewell);
+  if (!is_interrupted()) live.wait_until_told(longest_farewell);
   context.exit_code = exit_code_of(result);
   if (!command.quiet) print_result(result);
 }

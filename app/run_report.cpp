@@ -7,6 +7,13 @@
 
 namespace glocal::app {
 
+int exit_code_of(const RunResult& result) {
+  if (!result.complete) return 3;
+  const bool any_failed = std::any_of(result.variants.begin(), result.variants.end(),
+                                      [](const VariantResult& variant) { return variant.failed > 0; });
+  return any_failed ? 1 : 0;
+}
+
 void print_summary(const nlohmann::ordered_json& s, const std::filesystem::path& folder) {
   const auto& trials = s["trials"];
   fmt::print("{}, seed {}{}\n", s["name"].get<std::string>(), s["seed"].get<std::uint64_t>(),

@@ -1,4 +1,4 @@
-// What glocal run says at its end.
+// What commands that run experiments say at their end.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "glocal/run_experiment.hpp"
+
 namespace glocal::app {
+
+/// 0; 1 if a trial has failed, 3 if the run was stopped.
+[[nodiscard]] int exit_code_of(const RunResult& result);
 
 /// The figures of one run, from its summary.
 void print_summary(const nlohmann::ordered_json& summary, const std::filesystem::path& folder);

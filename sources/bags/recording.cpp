@@ -18,6 +18,10 @@ struct Recording::Part {
   std::optional<FileMessage> message;    ///< The next one.
 };
 
+bool begins_recording(std::string_view beginning) {
+  return is_ros1_bag(beginning) || is_mcap(beginning) || is_sqlite(beginning);
+}
+
 std::string normal_type(std::string_view type) {
   std::string normal(type);
   const std::size_t at = normal.find("/msg/");

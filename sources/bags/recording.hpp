@@ -33,6 +33,9 @@ struct RecordedMessage {
   Place place;                ///< Of the bytes, for what is said of them.
 };
 
+/// Whether a file that begins so (64 bytes, or fewer) is of one of the formats below.
+[[nodiscard]] bool begins_recording(std::string_view beginning);
+
 /// `sensor_msgs/msg/LaserScan` is `sensor_msgs/LaserScan`.
 [[nodiscard]] std::string normal_type(std::string_view type);
 

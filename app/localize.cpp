@@ -1,0 +1,180 @@
+// glocal localize: an answer from a map and a log, without an experiment file.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "app/commands.hpp"
+#include "app/experiment_options.hpp"
+#include "app/interrupts.hpp"
+#include "app/localize_plan.hpp"
+#include "app/report_file.hpp"
+#include "app/run_report.hpp"
+#include "evaluation/results/atomic_file.hpp"
+#include "evaluation/running/experiment_runner.hpp"
+
+namespace glocal::app {
+namespace {
+
+struct LocalizeOptions {
+  LocalizeRequest request;
+  ExperimentOptions changes;
+  std::string out;
+  bool force = false;
+};
+
+std::string text_of(const Pose3& pose, Motion motion) {
+  const std::string height = motion == Motion::planar ? "" : fmt::format(" z {:.2f}", pose.z);
+  return fmt::format("x {:.2f} y {:.2f}{} heading {:.1f} deg", pose.x, pose.y, height,
+                     degrees(pose.heading()));
+}
+
+/// "right: 0.01 m and 0.5 deg off the reference", or nothing without a reference.
+std::string judged(const TrialRecord& trial) {
+  if (!trial.error) return "";
+  return fmt::format(" ({}: {:.3f} m and {:.2f} deg off the reference)", to_string(trial.outcome),
+                     trial.error->translation_m, degrees(trial.error->rotation_rad));
+}
+
+/// Tells what is found while it is found.
+class Narrator {
+ public:
+  RunnerCallbacks callbacks() {
+    RunnerCallbacks callbacks;
+    callbacks.begin = [this](const LoadedVariant& variant) { begin(variant); };
+    callbacks.trials = {[this](std::size_t, const StepRecord& record, const Localizer&) { step(record); },
+                        [this](const TrialRecord& trial) { finish(trial); }, is_interrupted};
+    callbacks.note = [](const std::string& text) { spdlog::info(text); };
+    callbacks.warn = [](const std::string& text) { spdlog::warn(text); };
+    return callbacks;
+  }
+
+ private:
+  void begin(const LoadedVariant& variant) {
+    const LoadedExperiment& loaded = variant.loaded;
+    drive_ = &loaded.drive;
+    motion_ = variant.experiment.localizer.motion;
+    tells_steps_ = loaded.starts.size() == 1;
+    first_sample_ = loaded.starts.front();
+    fmt::print("map         {} points\n", loaded.map->points().size());
+    fmt::print("drive       {} observations over {:.1f} m, {} {}\n\n", drive_->samples.size(),
+               drive_->path_m.back(), loaded.starts.size(), tells_steps_ ? "start" : "starts");
+  }
+
+  void step(const StepRecord& record) const {
+    if (!tells_steps_) return;
+    const StepResult& result = record.result;
+    const auto pose = result.estimate();
+    const auto& estimate = result.verdict.estimate;
+    const double way = drive_->path_m[first_sample_ + result.step] - drive_->path_m[first_sample_];
+    fmt::print("step {:3}  {:6.2f} m  {:13}  {}{}\n", result.step + 1, way, to_string(result.verdict.kind),
+               pose ? text_of(*pose, motion_) : "no pose",
+               estimate ? fmt::format(", {:.0f} %", 100.0 * estimate->confidence) : "");
+    if (result.verdict.why != last_why_) fmt::print("          {}\n", result.verdict.why);
+    last_why_ = result.verdict.why;
+  }
+
+  void finish(const TrialRecord& trial) const {
+    const std::string from = tells_steps_ ? "" : fmt::format("from {:.1f} m: ", trial.start_m);
+    if (trial.outcome == Outcome::failed) {
+      spdlog::error("{}{}", from, trial.why);
+    } else if (trial.pose) {
+      fmt::print("{}localized after {} {}, {:.2f} m: {}{}\n", from, trial.steps,
+                 trial.steps == 1 ? "step" : "steps", trial.distance_m, text_of(*trial.pose, motion_),
+                 judged(trial));
+    } else {
+      const auto guess = trial.records.empty() ? std::nullopt : trial.records.back().result.estimate();
+      fmt::print("{}not localized in {} steps, {:.2f} m: {}{}\n", from, trial.steps, trial.distance_m,
+                 trial.why, guess ? "; the best guess is " + text_of(*guess, motion_) : "");
+    }
+  }
+
+  const Drive* drive_ = nullptr;
+  Motion motion_ = Motion::planar;
+  bool tells_steps_ = true;
+  std::size_t first_sample_ = 0;
+  mutable std::string last_why_;
+};
+
+/// Of several starts.
+void print_figures(const RunResult& result) {
+  std::ifstream file(result.variants.front().summary);
+  const auto summary = nlohmann::ordered_json::parse(file);
+  if (summary["trials"]["count"].get<int>() < 2) return;
+  fmt::print("\n");
+  print_summary(summary, result.folder);
+}
+
+/// The same experiment again is no reason to stop: a run that was interrupted is gone on with.
+void write_experiment(const std::string& file, const std::string& content, bool replace) {
+  std::ostringstream before;
+  before << std::ifstream(file).rdbuf();
+  if (before.str() == content) return;
+  AtomicFiles files(replace);
+  files.add(file, content);
+  files.commit();
+}
+
+void localize(const LocalizeOptions& options, Context& context) {
+  const LocalizePlan plan = plan_localization(options.request);
+  const std::string out = options.out.empty() ? "results/" + plan.name : options.out;
+  const std::string file = out + ".yaml";
+  write_experiment(file, plan.experiment, options.force);
+  for (const std::string& choice : plan.choices) fmt::print("{}\n", choice);
+  fmt::print("experiment  {}\n", file);
+  std::fflush(stdout);
+
+  listen_to_interrupts();
+  Narrator narrator;
+  RunOptions run{.out = out, .force = options.force};
+  run.plugins = context.plugins.loaded();
+  const RunResult result = ExperimentRunner(options.changes.read_variants(file, context), file,
+                                            context.catalog, std::move(run), narrator.callbacks())
+                               .run();
+  print_figures(result);
+  context.exit_code = exit_code_of(result);
+  ReportOptions report{.folders = {result.folder.string()}, .out = out + ".html", .force = options.force};
+  fmt::print("report      {}\n", write_report(report).string());
+}
+
+}  // namespace
+
+void add_localize(CLI::App& app, Context& context) {
+  auto options = std::make_shared<LocalizeOptions>();
+  LocalizeRequest& request = options->request;
+  CLI::App* command = app.add_subcommand(
+      "localize",
+      "Find a robot on a map from what it has recorded; no experiment file is needed, one is written.");
+  command
+      ->add_option("MAP", request.map, "Map server's YAML, cloud (PCD, PLY), octree, or recording with a map")
+      ->required();
+  command->add_option("LOG", request.log, "ROS bag, MCAP, CARMEN log, or folder of clouds with odometry.tum")
+      ->required();
+  CLI::Option* start = command->add_option("--start", request.start_m, "Begin so far along the drive, m")
+                           ->check(CLI::NonNegativeNumber);
+  CLI::Option* every =
+      command->add_option("--every", request.every_m, "Begin anew every so many metres, knowing nothing")
+          ->check(CLI::PositiveNumber);
+  command->add_flag("--whole", request.whole, "Go on to the end of the drive")
+      ->excludes(start)
+      ->excludes(every);
+  start->excludes(every);
+  command->add_option("--scans", request.scans, "Topics with scans (default: those of the widest view)");
+  command->add_option(
+      "--odometry", request.odometry,
+      "Topic with odometry, or for a folder of clouds the file (default: tf, or the only one)");
+  command->add_option(
+      "--reference", request.reference,
+      "Reference poses, only to judge the answer: topic or frame of tf, or for clouds a file");
+  options->changes.add_overrides_to(*command);
+  command->add_option("--out", options->out, "Folder for the results (default: results/localize_LOG)");
+  command->add_flag("--force", options->force, "Replace earlier results");
+  command->callback([options, &context] { localize(*options, context); });
+}
+
+}  // namespace glocal::app

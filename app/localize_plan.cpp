@@ -1,0 +1,233 @@
+#include "app/localize_plan.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "config/scalars.hpp"
+#include "glocal/error.hpp"
+#include "glocal/yaml.hpp"
+#include "sources/bags/drive_contents.hpp"
+#include "sources/bags/recording.hpp"
+#include "sources/bags/recording_summary.hpp"
+#include "sources/clouds/cloud_file.hpp"
+#include "sources/ros_map.hpp"
+
+namespace glocal::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A name and its value, as lines of YAML.
+std::string entry(const std::string& name, const std::string& value) {
+  return fmt::format("{}: {}", name, to_yaml(std::string_view(value)));
+}
+
+std::string path_entry(const std::string& name, const fs::path& path) {
+  return entry(name, fs::absolute(path).lexically_normal().string());
+}
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+  throw ConfigError({{file.string(), 0, 0, what}});
+}
+
+std::string beginning_of(const fs::path& file) {
+  if (!fs::exists(file)) refuse(file, "there is no such file or folder");
+  if (fs::is_directory(file)) return "";
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(64, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
+}
+
+bool is_folder_with(const fs::path& folder, bool (*is_wanted)(const fs::path&)) {
+  if (!fs::is_directory(folder)) return false;
+  const fs::directory_iterator files(folder);
+  return std::any_of(begin(files), end(files), [&](const auto& file) { return is_wanted(file.path()); });
+}
+
+bool is_recording(const fs::path& path) {
+  const auto is_part = [](const fs::path& file) {
+    return file.extension() == ".db3" || file.extension() == ".mcap";
+  };
+  return bags::begins_recording(beginning_of(path)) || is_folder_with(path, is_part);
+}
+
+/// How a map is read.
+struct MapChoice {
+  std::string yaml, text;
+  bool in_space = false;
+  double resolution = 0.0;  ///< m; 0 if not known.
+};
+
+MapChoice choose_map(const fs::path& map) {
+  const std::string beginning = beginning_of(map);
+  const std::string path = path_entry("path", map);
+  if (is_recording(map)) return {fmt::format("bag_map: {{{}}}", path), "a map recorded as a message"};
+  if (beginning.starts_with("# Octomap")) return {fmt::format("octomap: {{{}}}", path), "an octree", true};
+  if (has_name_of_cloud(map)) return {fmt::format("point_cloud: {{{}}}", path), "a cloud of points", true};
+  if (map.extension() != ".yaml" && map.extension() != ".yml")
+    refuse(map,
+           "is no map that is known: a map server's YAML, a cloud (PCD, PLY), an octree (.bt, .ot) or a "
+           "recording "
+           "with a nav_msgs/OccupancyGrid");
+  ParamsOf<RosMapFile> file;
+  read_yaml(map, file);
+  return {fmt::format("ros_map: {{{}}}", path),
+          fmt::format("a map server's, cells of {} m", file.value.resolution), false, file.value.resolution};
+}
+
+/// How a log is read.
+struct LogChoice {
+  std::string yaml;
+  std::vector<std::string> texts;
+};
+
+/// Lasers before clouds in the plane, clouds before lasers in space; then the widest view, and the most
+/// beams. With those that have the same: robots with a laser at each end have two alike.
+std::vector<const bags::TopicSummary*> choose_scans(const bags::RecordingSummary& summary, bool in_space) {
+  const auto rank = [&](const bags::TopicSummary& topic) {
+    const bool is_cloud = !topic.first_scan;
+    const double view = is_cloud ? 0.0 : std::abs(topic.first_scan->angle_max - topic.first_scan->angle_min);
+    const std::size_t beams = is_cloud ? 0 : topic.first_scan->ranges.size();
+    return std::tuple(is_cloud == in_space, std::round(degrees(view)), beams);
+  };
+  std::vector<const bags::TopicSummary*> topics;
+  for (const bags::TopicSummary& topic : summary.topics) {
+    if (bags::has_scans(topic.type) && topic.messages > 0) topics.push_back(&topic);
+  }
+  if (topics.empty()) return {};
+  const auto best = rank(**std::max_element(
+      topics.begin(), topics.end(), [&](const auto* a, const auto* b) { return rank(*a) < rank(*b); }));
+  std::erase_if(topics, [&](const auto* topic) { return rank(*topic) != best; });
+  if (!topics.front()->first_scan) topics.resize(1);
+  return topics;
+}
+
+LogChoice choose_recording(const LocalizeRequest& request, const MapChoice& map) {
+  bags::Recording recording(request.log);
+  std::vector<std::string> remarks;
+  const bags::RecordingSummary summary = bags::summarize_recording(recording, remarks);
+  LogChoice choice;
+  bags::DriveTopics topics{.scans = request.scans, .odometry = request.odometry};
+  const auto chosen = choose_scans(summary, map.in_space);
+  if (topics.scans.empty()) {
+    for (const bags::TopicSummary* topic : chosen) topics.scans.push_back(topic->topic);
+  }
+  const bags::DriveContents contents = bags::read_contents(recording, topics, request.log.string(), remarks);
+  choice.texts.push_back(fmt::format("log         {}, {:.1f} s, {:.1f} m", recording.format(),
+                                     static_cast<double>(summary.last_ns - summary.first_ns) * 1e-9,
+                                     summary.path_m));
+  for (const bags::TopicSummary& topic : summary.topics) {
+    if (!bags::has_scans(topic.type)) continue;
+    const bool is_used =
+        std::find(topics.scans.begin(), topics.scans.end(), topic.topic) != topics.scans.end();
+    choice.texts.push_back(fmt::format("{}{}", is_used ? "scans       " : "not used    ", text_of(topic)));
+  }
+  choice.texts.push_back(fmt::format("robot       {}, odometry {} from {}", contents.base_frame,
+                                     contents.odometry.empty() ? "by tf" : "of " + contents.odometry,
+                                     contents.odom_frame));
+  std::vector<std::string> quoted;
+  for (const std::string& topic : topics.scans) quoted.push_back(to_yaml(std::string_view(topic)));
+  choice.yaml = fmt::format("bag:\n    {}\n    scans: [{}]\n    {}\n", path_entry("path", request.log),
+                            fmt::join(quoted, ", "), entry("base_frame", contents.base_frame));
+  if (contents.odometry.empty()) {
+    choice.yaml += fmt::format("    {}\n", entry("odom_frame", contents.odom_frame));
+  } else {
+    choice.yaml += fmt::format("    {}\n", entry("odometry", contents.odometry));
+  }
+  const bool has_clouds = contents.scans.front().are_clouds;
+  if (has_clouds && !map.in_space) {
+    choice.yaml += "    heights: [0.2, 1.5]\n";
+    choice.texts.emplace_back("heights     0.2 m to 1.5 m of the clouds, above the robot's origin");
+  }
+  if (!request.reference.empty())
+    choice.yaml +=
+        fmt::format("    reference: {{{}}}\n",
+                    entry(request.reference.starts_with('/') ? "topic" : "frame", request.reference));
+  return choice;
+}
+
+LogChoice choose_clouds(const LocalizeRequest& request) {
+  LogChoice choice{fmt::format("cloud_drive:\n    {}\n", path_entry("folder", request.log)),
+                   {"log         a folder of clouds"}};
+  fs::path odometry = request.odometry;
+  for (const char* name : {"odometry.tum", "odom.tum"}) {
+    if (odometry.empty() && fs::exists(request.log / name)) odometry = request.log / name;
+  }
+  if (!odometry.empty()) {
+    choice.yaml += fmt::format("    {}\n", path_entry("odometry", odometry));
+    choice.texts.push_back(fmt::format("odometry    {}", odometry.filename().string()));
+  }
+  if (!request.reference.empty())
+    choice.yaml += fmt::format("    {}\n", path_entry("reference", request.reference));
+  return choice;
+}
+
+LogChoice choose_log(const LocalizeRequest& request, const MapChoice& map) {
+  if (is_recording(request.log)) return choose_recording(request, map);
+  if (is_folder_with(request.log, has_name_of_cloud)) return choose_clouds(request);
+  if (fs::is_directory(request.log))
+    refuse(request.log, "is a folder with neither clouds nor .db3 or .mcap files");
+  return {fmt::format("carmen_log:\n    {}\n", path_entry("path", request.log)), {"log         CARMEN"}};
+}
+
+std::string trials_of(const LocalizeRequest& request) {
+  if (request.whole) return "whole: true";
+  const std::string where = request.every_m > 0.0 ? fmt::format("every_m: {}", request.every_m)
+                                                  : fmt::format("starts_m: [{}]", request.start_m);
+  return where + ", max_steps: 200";
+}
+
+/// Letters, digits, '_' and '-' of a file's name.
+std::string name_of(const fs::path& log) {
+  std::string name = fs::absolute(log).lexically_normal().filename().string();
+  if (name.empty()) name = fs::absolute(log).lexically_normal().parent_path().filename().string();
+  name = name.substr(0, name.find('.'));
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-') c = '_';
+  }
+  constexpr std::size_t longest = 80;
+  return name.empty() ? "drive" : "localize_" + name.substr(0, longest);
+}
+
+}  // namespace
+
+LocalizePlan plan_localization(const LocalizeRequest& request) {
+  const MapChoice map = choose_map(request.map);
+  const LogChoice log = choose_log(request, map);
+  LocalizePlan plan{.name = name_of(request.log), .experiment = {}, .choices = {"map         " + map.text}};
+  plan.choices.insert(plan.choices.end(), log.texts.begin(), log.texts.end());
+  // Plans and sensors are off by centimetres, however fine a map's cells are.
+  constexpr double finest = 0.05, least_epsilon = 0.1;  // m
+  const bool is_fine = map.resolution > 0.0 && map.resolution < finest;
+  if (is_fine)
+    plan.choices.push_back(fmt::format(
+        "contact     within {} m: the map's cells are finer than maps and sensors are true", least_epsilon));
+  plan.experiment = fmt::format(
+      "# Written by glocal localize.\n"
+      "schema: 1\n"
+      "{}\n"
+      "seed: 1\n"
+      "map:\n"
+      "  {}\n"
+      "observations:\n"
+      "  {}"
+      "trials: {{{}}}\n"
+      "localizer:\n"
+      "{}{}"
+      "  matcher: indexed_ransam\n"
+      "  threshold_policy:\n"
+      "    fixed: {{omega_max: 0.1}}\n"
+      "  verdict_rule: staged_margin\n",
+      entry("name", plan.name), map.yaml, log.yaml, trials_of(request),
+      map.in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "",
+      is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "");
+  return plan;
+}
+
+}  // namespace glocal::app

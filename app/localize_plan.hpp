@@ -1,0 +1,32 @@
+// From a map and a log to an experiment: what `glocal localize` chooses by itself.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glocal::app {
+
+/// What is to be localized, and from where on. At most one of every_m and whole is given.
+struct LocalizeRequest {
+  std::filesystem::path map, log;
+  std::vector<std::string> scans;  ///< Topics of a recording; empty: chosen.
+  std::string odometry;            ///< Of a recording: topic. Of a folder of clouds: file of poses.
+  std::string reference;  ///< Of a recording: topic or frame of tf. Of a folder of clouds: file of poses.
+  double start_m = 0.0;   ///< Along the drive.
+  double every_m = 0.0;   ///< Way between starts; 0: a single one.
+  bool whole = false;     ///< Goes on after the declaration, to the end of the drive.
+};
+
+struct LocalizePlan {
+  std::string name;                  ///< Fit for a folder.
+  std::string experiment;            ///< YAML, with absolute paths.
+  std::vector<std::string> choices;  ///< What was chosen, "scans: /front, the widest view".
+};
+
+/// Looks into both, and decides by their content: map server's YAML, cloud, octree or recording; recording,
+/// CARMEN log or folder of clouds. Throws ConfigError for what is none of these, and where a reader does.
+[[nodiscard]] LocalizePlan plan_localization(const LocalizeRequest& request);
+
+}  // namespace glocal::app
