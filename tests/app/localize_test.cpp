@@ -1,0 +1,113 @@
+// glocal localize.
+#include <gmock/gmock.h>
+
+#include "app/program.hpp"
+#include "files.hpp"
+#include "sources/bags/message_writer.hpp"
+#include "sources/carmen_parser.hpp"
+
+namespace glocal::test::localize_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A simulated room: a map, and a drive as a log and as a recording.
+class Localize : public CommandLine {
+ protected:
+  Localize() {
+    write_world();
+    folder_.write("room.yaml",
+                  "schema: 1\nname: room\n"
+                  "map:\n  simulation: {world: world.yaml, resolution: 0.05}\n"
+                  "observations:\n  simulation: {world: world.yaml, laser: {fov_deg: 270}}\n"
+                  "trials: {whole: true}\n");
+    EXPECT_EQ(run("simulate " + file("room.yaml") + " --out " + file("room")).exit_code, 0);
+    write_recording();
+  }
+
+  /// A scan a second; a laser that looks the same way as the robot.
+  void write_recording() const {
+    bags::RobotRecording recording;
+    for (const CarmenScan& scan : read_carmen_log(file("room/drive.log"))) {
+      const auto stamp = static_cast<std::int64_t>(scan.stamp * 1e9);
+      recording.transform("odom", "base_link", stamp, scan.odom_from_robot);
+      recording.transform("base_link", "laser", stamp, {}, "/tf_static");
+      recording.pose("/truth", stamp, "map", *scan.map_from_robot);
+      recording.scan("/scan", stamp,
+                     {.angle_min = static_cast<float>(scan.start_angle),
+                      .angle_increment = static_cast<float>(scan.angle_step),
+                      .range_max = static_cast<float>(scan.max_range),
+                      .ranges = scan.ranges});
+      recording.scan("/narrow", stamp, {.angle_increment = 0.01F, .ranges = {1.0F, 1.0F, 1.0F}});
+    }
+    folder_.write("room/drive.mcap", recording.bytes());
+  }
+
+  [[nodiscard]] Answer localize(const std::string& log, const std::string& options = "") const {
+    return run("localize " + file("room/map.yaml") + " " + file(log) + " --out " + file("answer") + " " +
+               options);
+  }
+};
+
+TEST_F(Localize, AMapAndARecordingAreEnough) {
+  const Answer answer = localize("room/drive.mcap", "--reference /truth");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("scans       /scan: 1.0 Hz, 541 beams over 270.0 deg"));
+  EXPECT_THAT(answer.out, HasSubstr("not used    /narrow"));
+  EXPECT_THAT(answer.out, HasSubstr("robot       base_link, odometry by tf from odom"));
+  EXPECT_THAT(answer.out, HasSubstr("step   1    0.00 m"));
+  EXPECT_THAT(answer.out, HasSubstr("localized after "));
+  EXPECT_THAT(answer.out, HasSubstr("(right: 0.0"));
+  EXPECT_THAT(content(file("answer.html")), HasSubstr("<html"));
+}
+
+TEST_F(Localize, TheExperimentThatItWritesGivesTheSameAnswer) {
+  ASSERT_EQ(localize("room/drive.mcap").exit_code, 0);
+  ASSERT_EQ(run("run " + file("answer.yaml") + " --out " + file("again")).exit_code, 0);
+  EXPECT_EQ(content(file("again/trials.jsonl")), content(file("answer/trials.jsonl")));
+  EXPECT_THAT(content(file("answer.yaml")), HasSubstr("scans: [\"/scan\"]"));
+}
+
+TEST_F(Localize, CarmenLogsAreReadAsWell) {
+  const Answer answer = localize("room/drive.log", "--every 3");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("from 0.0 m: localized after "));
+  EXPECT_THAT(answer.out, HasSubstr("  trials              "));
+  EXPECT_THAT(answer.out, Not(HasSubstr(" wrong: ")));
+}
+
+TEST_F(Localize, AnAnswerThatIsInTheWayStays) {
+  ASSERT_EQ(localize("room/drive.mcap").exit_code, 0);
+  const Answer other = localize("room/drive.mcap", "--start 2");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("answer.yaml"));
+  EXPECT_EQ(localize("room/drive.mcap", "--start 2 --force").exit_code, 0);
+}
+
+TEST_F(Localize, WhatIsNeitherMapNorLogIsRefused) {
+  folder_.write("notes.txt", "hello\n");
+  const Answer no_map = run("localize " + file("notes.txt") + " " + file("room/drive.mcap"));
+  EXPECT_EQ(no_map.exit_code, 2);
+  EXPECT_THAT(no_map.err, HasSubstr("notes.txt: error: is no map that is known"));
+  const Answer no_log = localize("absent.bag");
+  EXPECT_EQ(no_log.exit_code, 2);
+  EXPECT_THAT(no_log.err, HasSubstr("absent.bag: error: there is no such file or folder"));
+  EXPECT_EQ(content(file("answer.yaml")), "");
+}
+
+TEST_F(Localize, ARealDriveIsFoundInItsBuildingsPlan) {
+  const auto folder = dataset("bags/jarvis");
+  if (folder.empty()) GTEST_SKIP() << "set GLOCAL_DATASETS to run this";
+  const Answer answer =
+      run("localize " + (folder / "i-108_10mm.yaml").string() + " " +
+          (folder / "jarvis_circular_path_fast.bag").string() +
+          " --every 2 --reference /pose_ground_truth --set observations.bag.reference.x=14.60635" +
+          " --set observations.bag.reference.y=3.34242 --set observations.bag.reference.yaw_deg=-1.53605" +
+          " --set observations.bag.reference.time_shift=0.135 --out " + file("answer"));
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("trials              6: 6 right, 0 wrong, 0 undecided"));
+}
+
+}  // namespace
+}  // namespace glocal::test::localize_test
