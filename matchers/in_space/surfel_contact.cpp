@@ -1,19 +1,20 @@
 #include "matchers/in_space/surfel_contact.hpp"
 
-namespace glocal {
+#include <utility>
 
-SurfelContact::SurfelContact(const Surfels& surfels, float voxel_size, bool one_side)
-    : nearest_(surfels.points, voxel_size, 2), one_side_(one_side) {
-  planes_.reserve(surfels.size());
+namespace glocal {
+namespace {
+
+FixedVoxelTable nearest_surfels(const Surfels& surfels, const VoxelRegion& region) {
+  VoxelTable nearest(region);
   for (std::size_t i = 0; i < surfels.size(); ++i) {
     const Point p = surfels.points[i];
-    planes_.push_back({surfels.normals[i], dot(surfels.normals[i], p)});
-    const Voxel centre = nearest_.voxel_of(p);
+    const Voxel centre = region.voxel_of(p);
     for (std::int32_t z = centre.z - 1; z <= centre.z + 1; ++z) {
       for (std::int32_t y = centre.y - 1; y <= centre.y + 1; ++y) {
         for (std::int32_t x = centre.x - 1; x <= centre.x + 1; ++x) {
-          std::uint32_t& slot = nearest_.slot({x, y, z});
-          const Point middle = nearest_.centre_of({x, y, z});
+          std::uint32_t& slot = nearest.slot({x, y, z});
+          const Point middle = region.centre_of({x, y, z});
           const auto squared = [&](const Point& q) { return dot(q - middle, q - middle); };
           if (slot == VoxelTable::none || squared(p) < squared(surfels.points[slot]))
             slot = static_cast<std::uint32_t>(i);
@@ -21,6 +22,24 @@ SurfelContact::SurfelContact(const Surfels& surfels, float voxel_size, bool one_
       }
     }
   }
+  return std::move(nearest).fixed();
+}
+
+}  // namespace
+
+SurfelContact::SurfelContact(const Surfels& surfels, float voxel_size, bool one_side)
+    : SurfelContact(surfels, nearest_surfels(surfels, region_of(surfels, voxel_size)), one_side) {}
+
+SurfelContact::SurfelContact(const Surfels& surfels, FixedVoxelTable nearest, bool one_side)
+    : nearest_(std::move(nearest)), one_side_(one_side) {
+  planes_.reserve(surfels.size());
+  for (std::size_t i = 0; i < surfels.size(); ++i)
+    planes_.push_back({surfels.normals[i], dot(surfels.normals[i], surfels.points[i])});
+}
+
+VoxelRegion SurfelContact::region_of(const Surfels& surfels, float voxel_size) {
+  constexpr int margin = 2;
+  return {surfels.points, voxel_size, margin};
 }
 
 }  // namespace glocal

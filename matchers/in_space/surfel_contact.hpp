@@ -26,8 +26,13 @@ class SurfelContact {
   };
 
   /// Whether normals on both sides tell which side of a surface was seen: then surfels seen from opposite
-  /// sides do not touch. Throws ConfigError if the cloud reaches too far (VoxelTable).
+  /// sides do not touch. Throws ConfigError if the cloud reaches too far (VoxelRegion).
   SurfelContact(const Surfels& surfels, float voxel_size, bool one_side);
+  /// As that, where the numbers of the nearest surfels are known, in region_of() the surfels.
+  SurfelContact(const Surfels& surfels, FixedVoxelTable nearest, bool one_side);
+
+  [[nodiscard]] static VoxelRegion region_of(const Surfels& surfels, float voxel_size);
+  [[nodiscard]] const FixedVoxelTable& nearest_numbers() const { return nearest_; }
 
   /// The nearest surfel, roughly; VoxelTable::none if none is near.
   [[nodiscard]] std::uint32_t nearest(const Point& p) const { return nearest_.at(p); }
@@ -46,11 +51,13 @@ class SurfelContact {
   }
   /// How far from the plane of a surfel a point may be, m.
   [[nodiscard]] float reach() const { return nearest_.side(); }
-  [[nodiscard]] std::size_t memory_bytes() const { return nearest_.memory_bytes(); }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return nearest_.memory_bytes() + planes_.size() * sizeof(Plane);
+  }
 
  private:
   std::vector<Plane> planes_;
-  VoxelTable nearest_;
+  FixedVoxelTable nearest_;
   bool one_side_;
 };
 

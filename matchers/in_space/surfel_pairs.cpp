@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace glocal {
 namespace {
@@ -34,6 +35,10 @@ PairGeometry geometry_of(const Surfels& surfels, const SurfelPair& pair, bool bo
     if (dot(g.second, g.line) < 0.0F) g.second = -1.0F * g.second;
   }
   return g;
+}
+
+int bucket_bits(std::size_t pairs) {
+  return static_cast<int>(std::bit_width(pairs));
 }
 
 /// v without its part along a unit vector.
@@ -120,7 +125,7 @@ std::optional<std::pair<SurfelPair, PairRelation>> PairSampler::draw(Rng& rng) c
 }
 
 PairTable::PairTable(const Surfels& surfels, const PairRule& rule, std::size_t pairs, Rng rng)
-    : bucket_bits_(static_cast<int>(std::bit_width(pairs))) {
+    : bucket_bits_(bucket_bits(pairs)) {
   const PairSampler sampler(surfels, rule);
   std::vector<std::pair<std::uint32_t, SurfelPair>> drawn;
   drawn.reserve(pairs);
@@ -131,12 +136,21 @@ PairTable::PairTable(const Surfels& surfels, const PairRule& rule, std::size_t p
         drawn.emplace_back(static_cast<std::uint32_t>(bucket_of(pair->second)), pair->first);
     }
   }
-  starts_.assign((std::size_t{1} << bucket_bits_) + 1, 0);
-  for (const auto& [bucket, pair] : drawn) ++starts_[bucket + 1];
-  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-  pairs_.resize(drawn.size());
-  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-  for (const auto& [bucket, pair] : drawn) pairs_[next[bucket]++] = pair;
+  std::vector<std::uint32_t> starts(starts_for(pairs), 0);
+  for (const auto& [bucket, pair] : drawn) ++starts[bucket + 1];
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+  std::vector<SurfelPair> sorted(drawn.size());
+  for (const auto& [bucket, pair] : drawn) sorted[next[bucket]++] = pair;
+  starts_ = SharedArray(std::move(starts));
+  pairs_ = SharedArray(std::move(sorted));
+}
+
+PairTable::PairTable(std::size_t asked, SharedArray<std::uint32_t> starts, SharedArray<SurfelPair> pairs)
+    : bucket_bits_(bucket_bits(asked)), starts_(std::move(starts)), pairs_(std::move(pairs)) {}
+
+std::size_t PairTable::starts_for(std::size_t asked) {
+  return (std::size_t{1} << bucket_bits(asked)) + 1;
 }
 
 std::size_t PairTable::bucket_of(const PairRelation& relation) const {
@@ -145,7 +159,7 @@ std::size_t PairTable::bucket_of(const PairRelation& relation) const {
 
 std::span<const SurfelPair> PairTable::find(const PairRelation& relation) const {
   const std::size_t bucket = bucket_of(relation);
-  return std::span(pairs_).subspan(starts_[bucket], starts_[bucket + 1] - starts_[bucket]);
+  return pairs_.span().subspan(starts_[bucket], starts_[bucket + 1] - starts_[bucket]);
 }
 
 RigidMotion motion_between(const Surfels& source, const SurfelPair& a, const Surfels& target,

@@ -18,7 +18,7 @@ struct FilledVoxels {
 };
 
 FilledVoxels filled_voxels(const Points& cloud, float side, int margin) {
-  FilledVoxels filled{VoxelTable(cloud, side, margin), {}};
+  FilledVoxels filled{VoxelTable(VoxelRegion(cloud, side, margin)), {}};
   std::vector<float> counts;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     std::uint32_t& number = filled.numbers.slot(filled.numbers.voxel_of(cloud[i]));
@@ -137,7 +137,8 @@ std::size_t direction_bin(const Point& n) {
   return bin(n.z > 0.0F ? 4 : 5, n.x, n.y, az);
 }
 
-/// 1 / sqrt(how many share the direction), scaled.
+}  // namespace
+
 std::vector<float> balanced_weights(const Points& normals) {
   std::array<float, std::size_t{6} * 36> counts{};
   for (std::size_t i = 0; i < normals.size(); ++i) counts[direction_bin(normals[i])] += 1.0F;
@@ -150,8 +151,6 @@ std::vector<float> balanced_weights(const Points& normals) {
   for (float& weight : weights) weight *= static_cast<float>(normals.size()) / sum;
   return weights;
 }
-
-}  // namespace
 
 Surfels surfels_of(const Points& cloud, float voxel_size, const std::optional<Point>& seen_from) {
   constexpr float near = 2.5F;

@@ -20,7 +20,7 @@ std::pair<float, float> range_of(const std::vector<float>& values) {
 
 }  // namespace
 
-VoxelTable::VoxelTable(const Points& points, float side, int margin) : side_(side), scale_(1.0F / side) {
+VoxelRegion::VoxelRegion(const Points& points, float side, int margin) : side_(side), scale_(1.0F / side) {
   constexpr double most_bricks = 134'217'728.0;
   const std::array<std::pair<float, float>, 3> ranges = {range_of(points.x), range_of(points.y),
                                                          range_of(points.z)};
@@ -43,16 +43,16 @@ VoxelTable::VoxelTable(const Points& points, float side, int margin) : side_(sid
   min_ = {ranges[0].first - around, ranges[1].first - around, ranges[2].first - around};
   brick_columns_ = static_cast<std::size_t>(bricks[0]);
   brick_rows_ = static_cast<std::size_t>(bricks[1]);
-  bricks_.assign(brick_columns_ * brick_rows_ * static_cast<std::size_t>(bricks[2]), none);
+  brick_layers_ = static_cast<std::size_t>(bricks[2]);
 }
 
 std::uint32_t& VoxelTable::slot(const Voxel& v) {
   std::uint32_t& brick = bricks_[brick_of(v)];
   if (brick == none) {
-    brick = static_cast<std::uint32_t>(cells_.size() / cells_per_brick);
-    cells_.resize(cells_.size() + cells_per_brick, none);
+    brick = static_cast<std::uint32_t>(voxels_.size() / voxels_per_brick);
+    voxels_.resize(voxels_.size() + voxels_per_brick, none);
   }
-  return cells_[brick * cells_per_brick + place_in_brick(v)];
+  return voxels_[brick * voxels_per_brick + place_in_brick(v)];
 }
 
 }  // namespace glocal

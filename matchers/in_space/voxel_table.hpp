@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "glocal/points.hpp"
+#include "matchers/common/shared_array.hpp"
 
 namespace glocal {
 
@@ -16,17 +18,17 @@ struct Voxel {
   std::int32_t x = 0, y = 0, z = 0;
 };
 
-/// Numbers of voxels, in bricks of 8 x 8 x 8 voxels that exist only where a number was set. Finding one takes
-/// two steps, whatever the size of the region.
-class VoxelTable {
+/// A region of space, cut into voxels, and these into bricks of 8 x 8 x 8.
+class VoxelRegion {
  public:
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t voxels_per_brick = 512;
 
   /// Of the points' region and `margin` voxels around it. Throws ConfigError if the region has more than
   /// 2^36 voxels.
-  VoxelTable(const Points& points, float side, int margin);
+  VoxelRegion(const Points& points, float side, int margin);
 
   [[nodiscard]] float side() const { return side_; }
+  [[nodiscard]] std::size_t bricks() const { return brick_columns_ * brick_rows_ * brick_layers_; }
   /// Of a point within the region.
   [[nodiscard]] Voxel voxel_of(const Point& p) const {
     const auto cell = [&](float v, float least) { return static_cast<std::int32_t>((v - least) * scale_); };
@@ -38,31 +40,18 @@ class VoxelTable {
     };
     return {at(min_.x, v.x), at(min_.y, v.y), at(min_.z, v.z)};
   }
-  /// The number of the voxel that a point is in, or `none`; so for points anywhere, and for NaN.
-  [[nodiscard]] std::uint32_t at(const Point& p) const {
+  /// Whether a point is within the region; not for NaN.
+  [[nodiscard]] bool contains(const Point& p) const {
     const float x = (p.x - min_.x) * scale_;
     const float y = (p.y - min_.y) * scale_;
     const float z = (p.z - min_.z) * scale_;
-    if (!(x >= 0.0F && x < most_[0] && y >= 0.0F && y < most_[1] && z >= 0.0F && z < most_[2])) return none;
-    return number({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), static_cast<std::int32_t>(z)});
+    return x >= 0.0F && x < most_[0] && y >= 0.0F && y < most_[1] && z >= 0.0F && z < most_[2];
   }
-  /// The voxel's number, or `none`.
-  [[nodiscard]] std::uint32_t at(const Voxel& v) const {
-    if (static_cast<std::uint32_t>(v.x) >= size_[0] || static_cast<std::uint32_t>(v.y) >= size_[1] ||
-        static_cast<std::uint32_t>(v.z) >= size_[2])
-      return none;
-    return number(v);
+  [[nodiscard]] bool contains(const Voxel& v) const {
+    return static_cast<std::uint32_t>(v.x) < size_[0] && static_cast<std::uint32_t>(v.y) < size_[1] &&
+           static_cast<std::uint32_t>(v.z) < size_[2];
   }
-  /// Where to write the number of a voxel that is within the region.
-  [[nodiscard]] std::uint32_t& slot(const Voxel& v);
-
-  [[nodiscard]] std::size_t memory_bytes() const {
-    return (bricks_.size() + cells_.size()) * sizeof(std::uint32_t);
-  }
-
- private:
-  static constexpr std::size_t cells_per_brick = 512;
-
+  /// Of a voxel within the region.
   [[nodiscard]] std::size_t brick_of(const Voxel& v) const {
     return (static_cast<std::size_t>(v.z >> 3) * brick_rows_ + static_cast<std::size_t>(v.y >> 3)) *
                brick_columns_ +
@@ -72,18 +61,61 @@ class VoxelTable {
     return static_cast<std::size_t>((v.z & 7) << 6 | (v.y & 7) << 3 | (v.x & 7));
   }
 
-  [[nodiscard]] std::uint32_t number(const Voxel& v) const {
-    const std::uint32_t brick = bricks_[brick_of(v)];
-    return brick == none ? none : cells_[brick * cells_per_brick + place_in_brick(v)];
-  }
-
+ private:
   float side_, scale_;
   Point min_;                            ///< Outer corner of voxel (0, 0, 0).
   std::array<std::uint32_t, 3> size_{};  ///< Voxels along each axis.
   std::array<float, 3> most_{};          ///< The same, to compare with.
-  std::size_t brick_columns_ = 0, brick_rows_ = 0;
-  std::vector<std::uint32_t> bricks_;  ///< Number of each brick, or `none`.
-  std::vector<std::uint32_t> cells_;   ///< Brick by brick.
+  std::size_t brick_columns_ = 0, brick_rows_ = 0, brick_layers_ = 0;
+};
+
+/// Numbers of a region's voxels. Only bricks in which a number was set take memory; finding a number takes
+/// two steps, whatever the size of the region. `Numbers` keeps them: an array of std::uint32_t.
+template <class Numbers>
+class NumberedVoxels : public VoxelRegion {
+ public:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  /// `bricks` has the number of each brick of the region, or `none`, and `voxels` the numbers of the voxels,
+  /// brick by brick.
+  NumberedVoxels(const VoxelRegion& region, Numbers bricks, Numbers voxels)
+      : VoxelRegion(region), bricks_(std::move(bricks)), voxels_(std::move(voxels)) {}
+
+  /// The number of the voxel that a point is in, or `none`; so for points anywhere, and for NaN.
+  [[nodiscard]] std::uint32_t at(const Point& p) const { return contains(p) ? number(voxel_of(p)) : none; }
+  /// The voxel's number, or `none`.
+  [[nodiscard]] std::uint32_t at(const Voxel& v) const { return contains(v) ? number(v) : none; }
+
+  [[nodiscard]] const Numbers& brick_numbers() const { return bricks_; }
+  [[nodiscard]] const Numbers& voxel_numbers() const { return voxels_; }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return (bricks_.size() + voxels_.size()) * sizeof(std::uint32_t);
+  }
+
+ protected:
+  Numbers bricks_, voxels_;
+
+ private:
+  [[nodiscard]] std::uint32_t number(const Voxel& v) const {
+    const std::uint32_t brick = bricks_[brick_of(v)];
+    return brick == none ? none : voxels_[brick * voxels_per_brick + place_in_brick(v)];
+  }
+};
+
+/// Numbers that cannot change any more.
+using FixedVoxelTable = NumberedVoxels<SharedArray<std::uint32_t>>;
+
+/// Numbers that are still being set.
+class VoxelTable : public NumberedVoxels<std::vector<std::uint32_t>> {
+ public:
+  explicit VoxelTable(const VoxelRegion& region)
+      : NumberedVoxels(region, std::vector<std::uint32_t>(region.bricks(), none), {}) {}
+
+  /// Where to write the number of a voxel that is within the region.
+  [[nodiscard]] std::uint32_t& slot(const Voxel& v);
+  [[nodiscard]] FixedVoxelTable fixed() && {
+    return {*this, SharedArray(std::move(bricks_)), SharedArray(std::move(voxels_))};
+  }
 };
 
 }  // namespace glocal

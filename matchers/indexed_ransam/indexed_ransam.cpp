@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 
 #include "matchers/indexed_ransam/proposals.hpp"
 
@@ -27,6 +28,11 @@ JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
           .contact_epsilon = contact_epsilon,
           .kernel = p.refinement.kernel,
           .uncertainty = p.uncertainty};
+}
+
+/// Empty if the index is to be built.
+std::filesystem::path file_of_index(const IndexedRansam::Params& p, const StageSetup& setup) {
+  return setup.use_saved && !p.index_file.text.empty() ? p.index_file.resolved : std::filesystem::path{};
 }
 
 }  // namespace
@@ -156,7 +162,7 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field(
       "space", p.space,
       {.doc = "The search where localizer.motion is not planar: of the fields above, only contact_epsilon, "
-              "best and carried count there.",
+              "best, carried and index_file count there.",
        .audience = Audience::tuner});
   v.require(
       p.exact_search.after_steps == 0 || !p.contact_epsilon || p.exact_search.cell <= *p.contact_epsilon,
@@ -167,8 +173,11 @@ std::unique_ptr<Matcher> IndexedRansam::make(const Params& params, const StageSe
   if (setup.motion == Motion::planar) return std::make_unique<IndexedRansam>(params, setup);
   const SpaceMatcher::Answer answer{.best = static_cast<std::size_t>(params.best),
                                     .carried = static_cast<std::size_t>(params.carried),
-                                    .contact_epsilon = setup.epsilon(params.contact_epsilon)};
-  return std::make_unique<SpaceMatcher>(params.space, answer, setup);
+                                    .contact_epsilon = setup.epsilon(params.contact_epsilon),
+                                    .index_file = file_of_index(params, setup)};
+  auto matcher = std::make_unique<SpaceMatcher>(params.space, answer, setup);
+  if (!answer.index_file.empty()) setup.note_input(answer.index_file);
+  return matcher;
 }
 
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
@@ -182,16 +191,16 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
              distance_field(*map_, params.field_cell)),
       exact_search_(params.exact_search, params.candidate, params.min_contact, *map_,
                     setup.epsilon(params.contact_epsilon), setup.threads) {
-  const bool is_saved = setup.use_saved && !params.index_file.text.empty();
+  const std::filesystem::path file = file_of_index(params, setup);
   const auto start = std::chrono::steady_clock::now();
-  index_ = relation_index(*map_, relation_, is_saved ? params.index_file.resolved : "", setup.threads);
+  index_ = relation_index(*map_, relation_, file, setup.threads);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   map_index_ = std::visit(
       [&](const auto& index) {
         return MapIndexInfo{index.size(), index.memory_bytes(), time.count()};
       },
       *index_);
-  if (is_saved) setup.note_input(params.index_file.resolved);
+  if (!file.empty()) setup.note_input(file);
 }
 
 std::optional<std::string> IndexedRansam::saved_index() const {

@@ -88,10 +88,8 @@ OrientedPairIndex::OrientedPairIndex(const SavedIndex& saved, const OrientedPair
   pairs_ = saved.section<OrientedPair>(4);
 
   const std::size_t points = oriented_points_.size();
-  if (oriented_points_.y.size() != points || oriented_points_.angle.size() != points ||
-      begins_.size() != bins() + 1) {
-    saved.fail("the index is damaged: its parts do not fit together");
-  }
+  saved.expect_fit(oriented_points_.y.size() == points && oriented_points_.angle.size() == points &&
+                   begins_.size() == bins() + 1);
   for (const auto* values : {&oriented_points_.x, &oriented_points_.y, &oriented_points_.angle})
     saved.expect_finite(*values);
   saved.expect_bins(begins_.span(), pairs_.size());

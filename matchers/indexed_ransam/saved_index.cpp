@@ -23,8 +23,9 @@ constexpr std::array<char, 8> magic = {'g', 'l', 'o', 'c', 'a', 'l', 'i', 'x'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
 /// Counts up when the format changes, or what goes into an index of the same map and rule.
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 constexpr std::size_t alignment = 64;
+constexpr const char* names_missing_points = "the index is damaged: it names points that it does not have";
 
 /// The file begins with this; then come the places of all sections, and the sections: first the texts of rule
 /// and kind.
@@ -115,6 +116,7 @@ std::uint64_t digest_of(const GlobalMap& map) {
   const Pose2& pose = grid.map_from_grid;
   std::uint64_t all = digest(map.points().x, 0);
   all = digest(map.points().y, all);
+  all = digest(map.points().z, all);
   all = digest(std::vector{pose.x, pose.y, pose.theta, grid.resolution}, all);
   all = digest(std::vector{grid.width, grid.height}, all);
   return digest(grid.cells, all);
@@ -205,11 +207,19 @@ void SavedIndex::expect_finite(std::span<const float> values) const {
   }
 }
 
+void SavedIndex::expect_fit(bool parts_fit) const {
+  if (!parts_fit) fail("the index is damaged: its parts do not fit together");
+}
+
 void SavedIndex::expect_numbers_below(std::size_t points, std::span<const std::uint32_t> numbers) const {
   const auto largest = std::max_element(numbers.begin(), numbers.end());
-  if (largest != numbers.end() && *largest >= points) {
-    fail("the index is damaged: it names points that it does not have");
-  }
+  if (largest != numbers.end() && *largest >= points) fail(names_missing_points);
+}
+
+void SavedIndex::expect_below_or(std::uint32_t none, std::size_t points,
+                                 std::span<const std::uint32_t> numbers) const {
+  const auto is_good = [&](std::uint32_t number) { return number < points || number == none; };
+  if (!std::all_of(numbers.begin(), numbers.end(), is_good)) fail(names_missing_points);
 }
 
 std::string SavedIndex::text(std::size_t section) const {

@@ -9,36 +9,11 @@
 #include <span>
 #include <string>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "glocal/global_map.hpp"
+#include "matchers/common/shared_array.hpp"
 
 namespace glocal {
-
-/// Values that cannot change any more: owned, or part of a mapped file, which stays open for as long as
-/// somebody can look at them.
-template <class T>
-class SharedArray {
- public:
-  SharedArray() = default;
-  explicit SharedArray(std::vector<T> values) {
-    const auto owned = std::make_shared<const std::vector<T>>(std::move(values));
-    values_ = *owned;
-    owner_ = owned;
-  }
-  SharedArray(std::span<const T> values, std::shared_ptr<const void> owner)
-      : values_(values), owner_(std::move(owner)) {}
-
-  [[nodiscard]] std::span<const T> span() const { return values_; }
-  [[nodiscard]] std::vector<T> copy() const { return {values_.begin(), values_.end()}; }
-  [[nodiscard]] std::size_t size() const { return values_.size(); }
-  [[nodiscard]] const T& operator[](std::size_t i) const { return values_[i]; }
-
- private:
-  std::span<const T> values_;
-  std::shared_ptr<const void> owner_;
-};
 
 /// What an index was made from.
 struct IndexOrigin {
@@ -84,6 +59,8 @@ class SavedIndex {
   void expect_bins(std::span<const std::uint32_t> begins, std::size_t items) const;
   /// Coordinates and angles of points.
   void expect_finite(std::span<const float> values) const;
+  /// Whether sections of these sizes belong to one index.
+  void expect_fit(bool parts_fit) const;
   /// Items that consist of the numbers of points.
   template <class T>
   void expect_below(std::size_t points, std::span<const T> items) const {
@@ -91,6 +68,8 @@ class SavedIndex {
     expect_numbers_below(points, {reinterpret_cast<const std::uint32_t*>(items.data()),
                                   items.size() * sizeof(T) / sizeof(std::uint32_t)});
   }
+  /// Numbers of points, or `none`.
+  void expect_below_or(std::uint32_t none, std::size_t points, std::span<const std::uint32_t> numbers) const;
 
   /// Throws ConfigError: the file is at fault, and this is what is wrong with it.
   [[noreturn]] void fail(const std::string& what) const;

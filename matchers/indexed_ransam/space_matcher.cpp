@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "glocal/cloud_resolution.hpp"
 #include "glocal/error.hpp"
@@ -30,6 +29,11 @@ Points evenly_sampled(const Points& points) {
   Points sample;
   for (std::size_t i = 0; i < points.size(); i += step) sample.push_back(points[i]);
   return sample;
+}
+
+SpaceIndexRule index_rule(const SpaceMatcher::Params& params, const GlobalMap& map) {
+  return {.voxel_size = static_cast<float>(params.voxel_size.value_or(map_voxel_size(map.resolution()))),
+          .pairs = static_cast<std::size_t>(params.pairs)};
 }
 
 }  // namespace
@@ -83,37 +87,29 @@ void describe(ParamVisitor& v, SpaceMatcher::Params& p) {
            .audience = Audience::tuner});
 }
 
-SpaceIndex::SpaceIndex(const Points& map_points, float voxel_size, std::size_t n)
-    : map(map_points, voxel_size, std::nullopt, false),
-      rule(pair_rule(voxel_size, true)),
-      pairs(map.surfels, rule, n, Rng(1)) {}
-
 SpaceMatcher::SpaceMatcher(const Params& params, const Answer& answer, const StageSetup& setup)
     : params_(params),
       answer_(answer),
       upright_(setup.motion == Motion::upright),
-      voxel_size_(static_cast<float>(params.voxel_size.value_or(map_voxel_size(setup.map->resolution())))),
-      contact_(contact_index(*setup.map, "bitset", answer.contact_epsilon)) {
-  const std::string key = fmt::format("{} {}", voxel_size_, params.pairs);
-  index_ = setup.map->index<SpaceIndex>(key, [&] {
-    const auto start = std::chrono::steady_clock::now();
-    SpaceIndex index(setup.map->points(), voxel_size_, static_cast<std::size_t>(params.pairs));
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    index.build_ms = time.count();
-    return index;
-  });
+      map_(setup.map),
+      rule_(index_rule(params, *setup.map)),
+      contact_(contact_index(*setup.map, "bitset", answer.contact_epsilon)),
+      index_(space_index(*setup.map, rule_, answer.index_file)) {
   if (index_->pairs.size() == 0) {
     throw ConfigError(
         {{"", 0, 0,
           fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: indexed_ransam "
                       "needs them where the motion is not planar",
-                      voxel_size_)}});
+                      rule_.voxel_size)}});
   }
 }
 
 std::optional<MapIndexInfo> SpaceMatcher::map_index() const {
-  const std::size_t bytes = index_->pairs.memory_bytes() + index_->map.contact.memory_bytes();
-  return MapIndexInfo{index_->pairs.size(), bytes, index_->build_ms};
+  return MapIndexInfo{index_->pairs.size(), index_->memory_bytes(), index_->build_ms};
+}
+
+std::optional<std::string> SpaceMatcher::saved_index() const {
+  return glocal::saved_index(*index_, *map_, rule_);
 }
 
 PoseSearchParams SpaceMatcher::search_params() const {
@@ -132,8 +128,8 @@ MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest
   if (local.points.empty()) return result;
   if (local.epoch != epoch_) reset();
   epoch_ = local.epoch;
-  const PoseSearch search(index_->map, index_->pairs, index_->rule, search_params());
-  const PreparedCloud source = prepared(local, latest.scan, voxel_size_);
+  const PoseSearch search(index_->map, index_->pairs, index_->pair_rule, search_params());
+  const PreparedCloud source = prepared(local, latest.scan, rule_.voxel_size);
   const Points sample = evenly_sampled(local.points);
   const auto contact_of = [&](const Points& points, const Pose3& map_from_local) {
     result.points_tested += points.size();

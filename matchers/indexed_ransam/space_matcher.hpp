@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "glocal/catalog.hpp"
@@ -10,18 +12,9 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "matchers/in_space/pose_search.hpp"
+#include "matchers/indexed_ransam/space_index.hpp"
 
 namespace glocal {
-
-/// A map of points made ready for a search in space.
-struct SpaceIndex {
-  SpaceIndex(const Points& map_points, float voxel_size, std::size_t pairs);
-
-  PreparedCloud map;
-  PairRule rule;
-  PairTable pairs;
-  double build_ms = 0.0;
-};
 
 /// Indexed random sample matching in space: pairs of surfels of the local map meet pairs of the map that are
 /// alike. The best distinct poses are refined point to plane, carried to the next step beside fresh ones, and
@@ -45,18 +38,21 @@ class SpaceMatcher final : public Matcher {
   };
   /// What it has in common with the search in the plane.
   struct Answer {
-    std::size_t best = 10;         ///< How many poses become hypotheses.
-    std::size_t carried = 10;      ///< How many of these are carried to the next step.
-    double contact_epsilon = 0.1;  ///< m; for Omega.
+    std::size_t best = 10;                  ///< How many poses become hypotheses.
+    std::size_t carried = 10;               ///< How many of these are carried to the next step.
+    double contact_epsilon = 0.1;           ///< m; for Omega.
+    std::filesystem::path index_file = {};  ///< To be read instead of building the index; empty for none.
   };
 
-  /// Throws ConfigError where the map is too large, or has hardly any surfaces.
+  /// Throws ConfigError where the map is too large, or has hardly any surfaces, or index_file is not the
+  /// index of this map and these parameters.
   SpaceMatcher(const Params& params, const Answer& answer, const StageSetup& setup);
 
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
   void reset() override { carried_.clear(); }
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override;
+  [[nodiscard]] std::optional<std::string> saved_index() const override;
 
  private:
   [[nodiscard]] PoseSearchParams search_params() const;
@@ -64,7 +60,8 @@ class SpaceMatcher final : public Matcher {
   Params params_;
   Answer answer_;
   bool upright_;
-  float voxel_size_;
+  std::shared_ptr<const GlobalMap> map_;
+  SpaceIndexRule rule_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const SpaceIndex> index_;
   std::vector<RigidMotion> carried_;  ///< map_from_local of the last step's best.

@@ -144,9 +144,7 @@ TriangleIndex::TriangleIndex(const SavedIndex& saved) {
   triangles_ = saved.section<Triple>(4);
 
   const auto relations = relations_.span();
-  if (points_.y.size() != points_.x.size() || begins_.size() != relations.size() + 1) {
-    saved.fail("the index is damaged: its parts do not fit together");
-  }
+  saved.expect_fit(points_.y.size() == points_.x.size() && begins_.size() == relations.size() + 1);
   if (!std::is_sorted(relations.begin(), relations.end())) {
     saved.fail("the index is damaged: its relations are not in order");
   }

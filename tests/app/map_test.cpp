@@ -192,6 +192,33 @@ TEST_F(MapIndexCommand, AnIndexThatDoesNotFitIsRefusedUntilItIsBuiltAnew) {
   EXPECT_EQ(run_room("b", longer).exit_code, 0);
 }
 
+TEST_F(MapIndexCommand, ARunInSpaceWithASavedIndexGivesTheSameAnswers) {
+  std::ofstream(file("room.yaml"))
+      << "schema: 1\n"
+         "name: room\n"
+         "map: {simulation: {world: world.yaml, resolution: 0.1, points: space}}\n"
+         "observations: {simulation: {world: world.yaml, lidar: {beams: 16, height: 0.9}}}\n"
+         "trials: {whole: true, max_steps: 3}\n"
+         "localizer: {motion: upright, local_mapper: odometry, matcher: indexed_ransam}\n";
+  const Answer answer = build();
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  ASSERT_EQ(run_room("built").exit_code, 0);
+  const Answer read = run_room("read", use_);
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  for (const char* same : {"trials.jsonl", "trajectories/trial_0000_estimate.tum"}) {
+    EXPECT_NE(content(file(std::string("built/") + same)), "") << same;
+    EXPECT_EQ(content(file(std::string("read/") + same)), content(file(std::string("built/") + same)));
+  }
+  EXPECT_EQ(json("read/summary.json")["map"]["index"]["bytes"],
+            json("built/summary.json")["map"]["index"]["bytes"]);
+  EXPECT_TRUE(json("read/provenance.json")["inputs_sha256"].contains(file("room.index")));
+
+  const Answer other_map =
+      run("check " + file("room.yaml") + " --set map.simulation.resolution=0.12 " + use_);
+  EXPECT_EQ(other_map.exit_code, 2);
+  EXPECT_THAT(other_map.err, HasSubstr("the index belongs to another map"));
+}
+
 TEST_F(MapIndexCommand, AMatcherWithoutAnIndexIsRefused) {
   const Answer answer = build("--set localizer.matcher=ransam");
   EXPECT_EQ(answer.exit_code, 2);

@@ -2,7 +2,9 @@
 #include "matchers/indexed_ransam/saved_index.hpp"
 
 #include "fuzz/harness.hpp"
+#include "matchers/in_space/pose_search.hpp"
 #include "matchers/indexed_ransam/oriented_pair_index.hpp"
+#include "matchers/indexed_ransam/space_index.hpp"
 #include "matchers/indexed_ransam/triangle_index.hpp"
 
 namespace glocal::fuzz {
@@ -30,6 +32,31 @@ void read_triangles(const SavedIndex& saved) {
   }
 }
 
+/// A floor and a wall, 2 m x 1 m each.
+Points corner() {
+  Points points;
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 10; ++k) {
+      const float along = 0.1F * static_cast<float>(i);
+      const float across = 0.1F * static_cast<float>(k);
+      points.push_back({along, across, 0.0F});
+      points.push_back({along, 0.0F, across});
+    }
+  }
+  return points;
+}
+
+void read_surfel_pairs(const SavedIndex& saved) {
+  // A single pair, and few buckets.
+  const SpaceIndexRule space{.voxel_size = 0.25F, .pairs = 1};
+  const SpaceIndex index(saved, space);
+  must_hold(index.map.surfels.weights.size() == index.map.surfels.size(), "a surfel has no weight");
+  const PreparedCloud source(corner(), space.voxel_size, Point{1.0F, 0.5F, 0.5F}, false);
+  const PoseSearch search(index.map, index.pairs, index.pair_rule, {.rounds = 2, .draws = 20, .refined = 2});
+  for (const FoundPose& found : search.find(source, Rng(1)))
+    must_hold(found.score <= 1.0, "a pose has more contact than there is");
+}
+
 }  // namespace
 }  // namespace glocal::fuzz
 
@@ -38,6 +65,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto file = fuzz::write("map.index", with_checksum(fuzz::text_of(data, size)));
   return fuzz::answer([&] {
     const SavedIndex saved(file, fuzz::origin);
-    saved.kind() == TriangleIndex::kind ? fuzz::read_triangles(saved) : fuzz::read_pairs(saved);
+    if (saved.kind() == TriangleIndex::kind) return fuzz::read_triangles(saved);
+    if (saved.kind() == SpaceIndex::kind) return fuzz::read_surfel_pairs(saved);
+    fuzz::read_pairs(saved);
   });
 }

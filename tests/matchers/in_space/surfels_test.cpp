@@ -20,7 +20,7 @@ const Pose3 place({5.0, 4.5, 1.2}, exponential({0.2, -0.1, 0.7}));
 TEST(VoxelTable, KeepsNumbersWhereTheyWereSet) {
   Points points;
   for (const Point& p : {Point{-3.0F, 0.0F, 1.0F}, Point{5.0F, 2.0F, 9.0F}}) points.push_back(p);
-  VoxelTable table(points, 0.5F, 1);
+  VoxelTable table(VoxelRegion(points, 0.5F, 1));
   EXPECT_EQ(table.at(points[0]), VoxelTable::none);
   table.slot(table.voxel_of(points[0])) = 7;
   table.slot(table.voxel_of(points[1])) = 8;

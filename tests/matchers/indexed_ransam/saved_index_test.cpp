@@ -70,8 +70,8 @@ TEST_F(SavedIndexFile, SaysWhatIsWrongWithItAndHowToBuildItAnew) {
       {fault_of("schema: 1\nname: not an index, but a file that is long enough to be one\n"),
        "this is not an index of a map"},
       {fault_of(reversed), "saved on a machine of another byte order"},
-      {fault_of(newer), "has version 9 of the format; this program reads version 2"},
-      {fault_of(older), "has version 1 of the format; this program reads version 2"},
+      {fault_of(newer), "has version 9 of the format; this program reads version 3"},
+      {fault_of(older), "has version 1 of the format; this program reads version 3"},
       {fault_of(good.substr(0, good.size() - 1)), "is not whole: the file has"},
       {fault_of(good + "x"), "is not whole: the file has"},
       {fault_of(good, {78, origin.rule}), "belongs to another map"},
@@ -117,6 +117,7 @@ TEST(MapDigest, DependsOnEveryPointAndEveryCell) {
   EXPECT_EQ(as_it_is, digest_of(*glocal::test::small_world()));
   EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.points.x.back() += 0.001F; }));
   EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.points.y.front() += 0.001F; }));
+  EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.points.z.back() += 0.001F; }));
   EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.points.push_back({1.0F, 1.0F, 0.0F}); }));
   EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.grid.cell(81, 91) = Cell::unknown; }));
   EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.grid.map_from_grid.x = 0.0; }));
