@@ -73,9 +73,7 @@ LoadedExperiment& ExperimentLoader::load(Experiment& experiment) {
     sources_ = std::move(wanted);
     source_inputs_ = loaded_.inputs;
   } else {
-    const GlobalMap& map = *loaded_.map;
-    loaded_.map = std::make_shared<const GlobalMap>(
-        MapData{map.points(), map.normals(), map.grid(), map.path(), map.resolution()});
+    loaded_.map = std::make_shared<const GlobalMap>(loaded_.map->data());
     loaded_.inputs = source_inputs_;
   }
   return loaded_;

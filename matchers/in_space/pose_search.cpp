@@ -149,8 +149,8 @@ double looked_through(const RigidMotion& motion, const PreparedCloud& target, co
   return all > 0.0 ? seen_through / all : 0.0;
 }
 
-FoundPose judged(const RigidMotion& motion, Scene& scene, const PointContact& point_contact,
-                 double seen_through_weight) {
+FoundPose judged(const RigidMotion& motion, Scene& scene, const PointJudge& judge_points,
+                 const PoseSearchParams& params) {
   FoundPose pose{.target_from_source = motion};
   const Agreement of_source = agreement_of(scene.source.surfels, motion, scene.target);
   pose.contact = of_source.contact;
@@ -162,18 +162,23 @@ FoundPose judged(const RigidMotion& motion, Scene& scene, const PointContact& po
   } else if (scene.source.view) {
     pose.seen_through = looked_through(motion, scene.target, scene.source);
   }
-  if (point_contact) pose.contact = (pose.contact + point_contact(motion)) / 2.0;
+  if (judge_points) {
+    const PointEvidence evidence = judge_points(motion);
+    pose.contact = (pose.contact + evidence.contact) / 2.0;
+    pose.in_free_space = evidence.in_free_space;
+  }
   scene.effort.points_tested += scene.source.surfels.size();
-  pose.score = pose.contact - seen_through_weight * pose.seen_through;
+  pose.score = pose.contact - params.seen_through_weight * pose.seen_through -
+               params.free_space_weight * pose.in_free_space;
   return pose;
 }
 
 /// A pose refined by a sample of the source, and judged by all of it.
 FoundPose settled(const RigidMotion& motion, const SurfelSample& sample, int steps, Scene& scene,
-                  const PointContact& point_contact, const PoseSearchParams& params) {
+                  const PointJudge& judge_points, const PoseSearchParams& params) {
   const RigidMotion best =
       refined(motion, sample, sample.size(), scene.target.contact, steps, params.upright);
-  return judged(best, scene, point_contact, params.seen_through_weight);
+  return judged(best, scene, judge_points, params);
 }
 
 bool has_higher_score(const FoundPose& a, const FoundPose& b) {
@@ -181,7 +186,7 @@ bool has_higher_score(const FoundPose& a, const FoundPose& b) {
 }
 
 /// Refines the best few once more, by a larger sample and to the end.
-void polish(std::vector<FoundPose>& found, Scene& scene, const PointContact& point_contact,
+void polish(std::vector<FoundPose>& found, Scene& scene, const PointJudge& judge_points,
             const PoseSearchParams& params, Rng& rng) {
   constexpr std::size_t few = 3;
   constexpr std::size_t large_sample = 1500;
@@ -189,7 +194,7 @@ void polish(std::vector<FoundPose>& found, Scene& scene, const PointContact& poi
   constexpr double slack = 0.02;  // contact hardly tells centimetres, the sum of many residuals does
   const SurfelSample sample = sample_of(scene.source.surfels, large_sample, rng);
   for (std::size_t i = 0; i < std::min(few, found.size()); ++i) {
-    FoundPose pose = settled(found[i].target_from_source, sample, steps, scene, point_contact, params);
+    FoundPose pose = settled(found[i].target_from_source, sample, steps, scene, judge_points, params);
     pose.rounds = found[i].rounds;
     if (pose.score + slack >= found[i].score) found[i] = pose;
   }
@@ -232,7 +237,7 @@ PairRule pair_rule(float voxel_size, bool both_sides) {
 }
 
 std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
-                                        std::span<const RigidMotion> known, const PointContact& point_contact,
+                                        std::span<const RigidMotion> known, const PointJudge& judge_points,
                                         SearchEffort* effort) const {
   constexpr std::size_t alike = 4;  // proposals of the same pose that may be among the best
   constexpr int steps = 6;
@@ -243,7 +248,7 @@ std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
   scene.source_sample = sample_of(source.surfels, whole_sample, rng);
   if (target_.view) scene.target_sample = sample_of(target_.surfels, third_look, rng);
   const auto settle = [&](const RigidMotion& motion, std::size_t round) {
-    add(found, settled(motion, scene.source_sample, steps, scene, point_contact, params_), round, voxel_size);
+    add(found, settled(motion, scene.source_sample, steps, scene, judge_points, params_), round, voxel_size);
   };
   for (const RigidMotion& motion : known) settle(motion, 0);
   std::stable_sort(found.begin(), found.end(), has_higher_score);
@@ -265,7 +270,7 @@ std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
     for (const RigidMotion& motion : distinct) settle(motion, round);
     std::stable_sort(found.begin(), found.end(), has_higher_score);
   }
-  polish(found, scene, point_contact, params_, rng);
+  polish(found, scene, judge_points, params_, rng);
   if (effort != nullptr) {
     effort->proposals += scene.effort.proposals;
     effort->points_tested += scene.effort.points_tested;

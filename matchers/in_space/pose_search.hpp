@@ -22,6 +22,7 @@ struct PoseSearchParams {
   std::size_t looked_at = 400;  ///< Poses of a round that are refined a little and judged by both sides.
   std::size_t refined = 12;     ///< Distinct poses of a round that are refined and judged by all surfels.
   double seen_through_weight = 5.0;
+  double free_space_weight = 0.0;
   bool upright = false;  ///< Both z axes point up: poses turn about z alone.
 };
 
@@ -29,13 +30,14 @@ struct PoseSearchParams {
 struct FoundPose {
   RigidMotion target_from_source;
   /// Share of surfels in contact, by weight; of both clouds where both have a view. Where the search is told
-  /// the contact of points, the mean of that and this.
+  /// the evidence of points, the mean of their contact and this.
   double contact = 0.0;
   /// Share that the other's sensor looked through. Of a target without a view, which is taken for a map:
   /// share of what the source's sensor looked through among what it looked at.
   double seen_through = 0.0;
-  double score = 0.0;      ///< Contact less the weighted share that was seen through.
-  std::size_t rounds = 1;  ///< In how many rounds it was found.
+  double in_free_space = 0.0;  ///< Share of points, where the search is told their evidence.
+  double score = 0.0;          ///< Contact less the weighted shares.
+  std::size_t rounds = 1;      ///< In how many rounds it was found.
 };
 
 /// What a search has cost.
@@ -44,9 +46,12 @@ struct SearchEffort {
   std::size_t points_tested = 0;  ///< Single surfels tested for contact.
 };
 
-/// The share of the source's points in contact with the target, where that is known more finely than by
-/// surfels.
-using PointContact = std::function<double(const RigidMotion& target_from_source)>;
+/// Shares of the source's points, where the target is known more finely than by surfels; in [0, 1].
+struct PointEvidence {
+  double contact = 0.0;
+  double in_free_space = 0.0;  ///< Where the target is known to be free, away from anything.
+};
+using PointJudge = std::function<PointEvidence(const RigidMotion& target_from_source)>;
 
 /// The rule for pairs in voxels of a side (m).
 [[nodiscard]] PairRule pair_rule(float voxel_size, bool both_sides);
@@ -64,7 +69,7 @@ class PoseSearch {
   /// as a round. `effort` is added to.
   [[nodiscard]] std::vector<FoundPose> find(const PreparedCloud& source, Rng rng,
                                             std::span<const RigidMotion> known = {},
-                                            const PointContact& point_contact = {},
+                                            const PointJudge& judge_points = {},
                                             SearchEffort* effort = nullptr) const;
 
  private:

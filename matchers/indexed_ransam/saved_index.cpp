@@ -119,7 +119,11 @@ std::uint64_t digest_of(const GlobalMap& map) {
   all = digest(map.points().z, all);
   all = digest(std::vector{pose.x, pose.y, pose.theta, grid.resolution}, all);
   all = digest(std::vector{grid.width, grid.height}, all);
-  return digest(grid.cells, all);
+  all = digest(grid.cells, all);
+  const FreeVoxels& free = map.free_voxels();
+  const Pose2& voxels = free.map_from_voxels();
+  all = digest(std::vector{voxels.x, voxels.y, voxels.theta, free.side()}, all);
+  return digest(std::as_bytes(free.bricks()), all);
 }
 
 std::string saved_index(const std::string& kind, const IndexOrigin& origin,

@@ -21,7 +21,7 @@ struct IndexOrigin {
   std::string rule;       ///< "min_length 0.5, max_length 6": everything else it depends on.
 };
 
-/// Of a map's points and cells.
+/// Of a map's points, cells and free voxels.
 [[nodiscard]] std::uint64_t digest_of(const GlobalMap& map);
 
 /// The content of a file with an index of this kind in these sections.

@@ -85,6 +85,12 @@ void describe(ParamVisitor& v, SpaceMatcher::Params& p) {
            .min = 0.0,
            .max = 100.0,
            .audience = Audience::tuner});
+  v.field("free_space_weight", p.free_space_weight,
+          {.doc = "What the share of points that lie where the map is known to be free takes from the score; "
+                  "of no effect on maps that know of no free space in three dimensions.",
+           .min = 0.0,
+           .max = 100.0,
+           .audience = Audience::tuner});
 }
 
 SpaceMatcher::SpaceMatcher(const Params& params, const Answer& answer, const StageSetup& setup)
@@ -119,7 +125,19 @@ PoseSearchParams SpaceMatcher::search_params() const {
           .looked_at = static_cast<std::size_t>(params_.looked_at),
           .refined = static_cast<std::size_t>(params_.refined),
           .seen_through_weight = params_.seen_through_weight,
+          .free_space_weight = params_.free_space_weight,
           .upright = upright_};
+}
+
+double SpaceMatcher::free_space_violation(const Points& points, const Pose3& map_from_points) const {
+  const FreeVoxels& free = map_->free_voxels();
+  if (free.empty()) return 0.0;
+  const Points in_map = moved(points, map_from_points);
+  std::size_t violating = 0;
+  for (std::size_t i = 0; i < in_map.size(); ++i) {
+    if (free.contains(in_map[i]) && contact_->count(in_map, i, 1, Transform(Pose2{})) == 0) ++violating;
+  }
+  return static_cast<double>(violating) / static_cast<double>(points.size());
 }
 
 MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest, double omega_max,
@@ -135,11 +153,12 @@ MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest
     result.points_tested += points.size();
     return contact_->share(points, map_from_local);
   };
-  const PointContact contact_of_sample = [&](const RigidMotion& map_from_local) {
-    return contact_of(sample, map_from_local.pose());
+  const PointJudge judge_sample = [&](const RigidMotion& map_from_local) {
+    const Pose3 pose = map_from_local.pose();
+    return PointEvidence{contact_of(sample, pose), free_space_violation(sample, pose)};
   };
   SearchEffort effort;
-  std::vector<FoundPose> found = search.find(source, rng, carried_, contact_of_sample, &effort);
+  std::vector<FoundPose> found = search.find(source, rng, carried_, judge_sample, &effort);
   if (found.size() > answer_.best) found.resize(answer_.best);
   result.proposals = effort.proposals;
   result.points_tested += effort.points_tested;
@@ -150,7 +169,11 @@ MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest
     if (pose.score < omega_max) continue;
     const Pose3 map_from_local = pose.target_from_source.pose();
     const double omega = contact_of(local.points, map_from_local);
-    result.hypotheses.push_back({.map_from_local = map_from_local, .quality = omega, .score = pose.score});
+    Hypothesis& h = result.hypotheses.emplace_back();
+    h.map_from_local = map_from_local;
+    h.quality = omega;
+    h.score = pose.score;
+    if (!map_->free_voxels().empty()) h.free_space_violation = pose.in_free_space;
   }
   return result;
 }

@@ -18,11 +18,12 @@ namespace glocal {
 
 /// Indexed random sample matching in space: pairs of surfels of the local map meet pairs of the map that are
 /// alike. The best distinct poses are refined point to plane, carried to the next step beside fresh ones, and
-/// judged by contact with normals and by what the latest scan looked through.
+/// judged by contact with normals, by what the latest scan looked through and by points where the map is
+/// free.
 ///
 /// Hypotheses are the best distinct poses; their score is the contact (mean of the share of surfels and of
 /// the share of points) less `seen_through_weight` times the share of the map's surfels that the latest scan
-/// looked through.
+/// looked through, and less `free_space_weight` times the share of points where the map is free.
 class SpaceMatcher final : public Matcher {
  public:
   struct Params {
@@ -35,6 +36,7 @@ class SpaceMatcher final : public Matcher {
     int looked_at = 400;
     int refined = 12;
     double seen_through_weight = 1.0;
+    double free_space_weight = 1.0;
   };
   /// What it has in common with the search in the plane.
   struct Answer {
@@ -56,6 +58,8 @@ class SpaceMatcher final : public Matcher {
 
  private:
   [[nodiscard]] PoseSearchParams search_params() const;
+  /// Share of points where the map is known to be free, away from its points.
+  [[nodiscard]] double free_space_violation(const Points& points, const Pose3& map_from_points) const;
 
   Params params_;
   Answer answer_;

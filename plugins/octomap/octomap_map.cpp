@@ -16,6 +16,9 @@ struct Voxel {
   int x, y, z;
 };
 
+/// The number of the voxel that begins at the tree's origin.
+constexpr int middle = 1 << 15;
+
 /// Calls visit(voxel, occupied) for each smallest voxel whose centre lies between the heights. Leaves of any
 /// size are taken apart.
 template <class Visit>
@@ -69,10 +72,12 @@ void describe(ParamVisitor& v, OctomapMap::Params& p) {
           {.doc = "A cell of the plan is occupied if so many voxels above one another are.",
            .min = 1,
            .max = 65536});
-  v.field("points", p.points,
-          {.doc = "Points of the map: the plan's occupied cells, or every occupied voxel in space. There a "
-                  "cell of the plan is free if one of its voxels is: a robot may be over a floor.",
-           .choices = {"plan", "space"}});
+  v.field(
+      "points", p.points,
+      {.doc = "Points of the map: the plan's occupied cells, or every occupied voxel in space. There a "
+              "cell of the plan is free if one of its voxels is: a robot may be over a floor; and the map "
+              "knows of its free voxels.",
+       .choices = {"plan", "space"}});
   v.field("tree_pose", p.tree_pose,
           {.doc = "Pose of the tree's frame in the map's: x, y (m), yaw (deg).",
            .min = -1e6,
@@ -110,16 +115,23 @@ MapData OctomapMap::load() {
   grid.width = extent.max_x - extent.min_x + 1;
   grid.height = extent.max_y - extent.min_y + 1;
   constexpr double most_cells = 64e6;
+  constexpr std::size_t most_bricks = 4'000'000;
   if (static_cast<double>(grid.width) * grid.height > most_cells) {
     refuse("covers more than 64 million cells; cut it smaller, or reduce its depth");
   }
   const auto cells = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
+  if (in_space) map.free_voxels = FreeVoxels(map_from_tree, side);
   std::vector<int> occupied_voxels(cells, 0);
   grid.cells.assign(cells, Cell::unknown);
   for_each_voxel(*tree, params_, [&](const Voxel& v, bool occupied) {
     const std::size_t cell = grid.index(v.x - extent.min_x, v.y - extent.min_y);
     if (!occupied) {
       grid.cells[cell] = Cell::free;
+      if (in_space) map.free_voxels.add(v.x - middle, v.y - middle, v.z - middle);
+      if (map.free_voxels.bricks().size() > most_bricks)
+        refuse(
+            "has free space in more than 4 million cubes of 8 voxels a side; cut it smaller, or reduce its "
+            "depth");
       return;
     }
     ++occupied_voxels[cell];

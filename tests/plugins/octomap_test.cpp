@@ -69,6 +69,25 @@ TEST_F(Octomap, PointsInSpaceAreTheOccupiedVoxels) {
   EXPECT_NEAR(map.points.z[1], 1.05, 1e-6);
 }
 
+TEST_F(Octomap, InSpaceTheFreeVoxelsAreKnown) {
+  const std::string tree =
+      bt_file({{}, {.x = 32790, .log_odds = -1.0F}, {.x = 32767, .z = 32778, .log_odds = -1.0F}}, 0.1);
+  const FreeVoxels free = load(tree, "points: space\n").free_voxels;
+  EXPECT_TRUE(free.contains({2.25F, 0.05F, 0.05F}));
+  EXPECT_TRUE(free.contains({-0.05F, 0.05F, 1.05F}));
+  EXPECT_FALSE(free.contains({0.05F, 0.05F, 0.05F}));   // occupied
+  EXPECT_FALSE(free.contains({-0.05F, 0.05F, 0.05F}));  // unknown
+  EXPECT_FALSE(free.contains({2.25F, 0.05F, 0.15F}));
+  const FreeVoxels low = load(tree, "points: space\nmax_height: 0.5\n").free_voxels;
+  EXPECT_TRUE(low.contains({2.25F, 0.05F, 0.05F}));
+  EXPECT_FALSE(low.contains({-0.05F, 0.05F, 1.05F}));
+  // Turned to the left, and moved.
+  const FreeVoxels turned = load(tree, "points: space\ntree_pose: [1, 2, 90]\n").free_voxels;
+  EXPECT_TRUE(turned.contains({0.95F, 4.25F, 0.05F}));
+  EXPECT_FALSE(turned.contains({2.25F, 0.05F, 0.05F}));
+  EXPECT_TRUE(load(tree).free_voxels.empty());
+}
+
 TEST_F(Octomap, InSpaceThePlanIsFreeOverAFloor) {
   // A floor with a free voxel over it, a column without any, and a free voxel alone.
   const std::string tree = bt_file({{},

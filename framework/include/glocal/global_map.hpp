@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "glocal/free_voxels.hpp"
 #include "glocal/occupancy_grid.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose3.hpp"
@@ -24,6 +25,8 @@ struct MapData {
   std::vector<Pose3> path;  ///< Robot poses the map was made from, in order; empty if not known.
   /// m; how far apart neighbouring points lie, of a map without cells; 0 if not known.
   double resolution = 0.0;
+  /// Of a map of points in space: what it knows to be free there; empty if it knows of none.
+  FreeVoxels free_voxels = {};
 };
 
 /// The known map, immutable, with indexes that are built once for all who ask.
@@ -31,9 +34,11 @@ class GlobalMap {
  public:
   explicit GlobalMap(MapData data) : data_(std::move(data)) {}
 
+  [[nodiscard]] const MapData& data() const { return data_; }
   [[nodiscard]] const Points& points() const { return data_.points; }
   [[nodiscard]] const Points& normals() const { return data_.normals; }
   [[nodiscard]] const OccupancyGrid& grid() const { return data_.grid; }
+  [[nodiscard]] const FreeVoxels& free_voxels() const { return data_.free_voxels; }
   [[nodiscard]] const std::vector<Pose3>& path() const { return data_.path; }
   /// m; the side of the grid's cells, or else as the source says; 0 if not known.
   [[nodiscard]] double resolution() const {

@@ -105,7 +105,7 @@ TEST_F(SavedIndexFile, ASectionThatIsNotThereIsRefused) {
   EXPECT_THAT(config_error(folder(), [&] { (void)saved.section<double>(0); }), HasSubstr("no place"));
 }
 
-TEST(MapDigest, DependsOnEveryPointAndEveryCell) {
+TEST(MapDigest, DependsOnEveryPointCellAndFreeVoxel) {
   const auto digest_with = [](auto change) {
     MapData data;
     data.points = glocal::test::small_world_points();
@@ -121,6 +121,17 @@ TEST(MapDigest, DependsOnEveryPointAndEveryCell) {
   EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.points.push_back({1.0F, 1.0F, 0.0F}); }));
   EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.grid.cell(81, 91) = Cell::unknown; }));
   EXPECT_NE(as_it_is, digest_with([](MapData& data) { data.grid.map_from_grid.x = 0.0; }));
+  const auto digest_with_free = [&](double side, int layer) {
+    return digest_with([&](MapData& data) {
+      data.free_voxels = FreeVoxels({}, side);
+      data.free_voxels.add(1, 2, 3);
+      data.free_voxels.add(1, 2, layer);
+    });
+  };
+  EXPECT_NE(as_it_is, digest_with_free(0.1, 3));
+  EXPECT_EQ(digest_with_free(0.1, 3), digest_with_free(0.1, 3));
+  EXPECT_NE(digest_with_free(0.1, 3), digest_with_free(0.1, 4));
+  EXPECT_NE(digest_with_free(0.1, 3), digest_with_free(0.2, 3));
 }
 
 /// An oriented point pair index of a hundred points, and files of it.

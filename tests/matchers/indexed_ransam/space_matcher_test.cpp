@@ -215,6 +215,111 @@ TEST(SpaceMatcher, WhatTheLatestScanLookedThroughSpeaksAgainstAPose) {
   EXPECT_GT(loss(outdated), 0.05);
 }
 
+constexpr double voxel_side = 0.1;
+
+bool is_inside(const Box& box, const std::array<double, 3>& p) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (p[axis] < box.least[axis] || p[axis] > box.most[axis]) return false;
+  }
+  return true;
+}
+
+/// All voxels in the hall whose middle is in none of the boxes.
+FreeVoxels free_around(const std::vector<Box>& boxes) {
+  FreeVoxels free({}, voxel_side);
+  for (int i = 0; i < 120; ++i) {
+    for (int j = 0; j < 80; ++j) {
+      for (int k = 0; k < 30; ++k) {
+        const std::array middle = {voxel_side * (i + 0.5), voxel_side * (j + 0.5), voxel_side * (k + 0.5)};
+        if (std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return is_inside(box, middle); }))
+          free.add(i, j, k);
+      }
+    }
+  }
+  return free;
+}
+
+/// The hall before its furniture came but for the first piece, and whether it is known to be empty.
+std::shared_ptr<const GlobalMap> before_the_furniture(bool is_known) {
+  const std::vector<Box> first = {furniture[0]};
+  MapData data = map_of(first)->data();
+  if (is_known) data.free_voxels = free_around(first);
+  return std::make_shared<const GlobalMap>(std::move(data));
+}
+
+TEST(SpaceMatcher, PointsWhereTheMapIsFreeSpeakAgainstAPose) {
+  const Pose3 truth{{5.0, 3.5, 1.0}, turn_about_z(0.4)};
+  const Seen seen(truth);
+  const auto best = [&](bool is_known, double weight) {
+    Rng rng(1);
+    const SpaceMatcher::Params params{
+        .pairs = 100000, .seen_through_weight = 0.0, .free_space_weight = weight};
+    SpaceMatcher made = matcher(Motion::upright, params, before_the_furniture(is_known));
+    return made.match(seen.local, seen.latest, 0.0, rng).hypotheses.at(0);
+  };
+  const Hypothesis unknown = best(false, 1.0);
+  EXPECT_FALSE(unknown.free_space_violation);
+  EXPECT_EQ(unknown.score, best(false, 0.0).score);
+  const Hypothesis unweighted = best(true, 0.0);
+  EXPECT_EQ(unweighted.score, unknown.score);
+  const Hypothesis known = best(true, 1.0);
+  ASSERT_TRUE(is_near(known.map_from_local, truth));
+  ASSERT_TRUE(is_near(unweighted.map_from_local, truth));
+  EXPECT_NEAR(known.score, unweighted.score - known.free_space_violation.value(), 0.01);
+
+  // The points one by one: in the hall, outside of its first piece of furniture, and away from both.
+  const Points in_map = moved(seen.local.points, known.map_from_local);
+  std::size_t violating = 0;
+  for (std::size_t i = 0; i < in_map.size(); ++i) {
+    const Vector3 p = as_vector(in_map[i]);
+    const std::array<double, 3> at = {p.x, p.y, p.z};
+    Box smaller = hall;
+    Box larger = furniture[0];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      smaller.least[axis] += 0.1;
+      smaller.most[axis] -= 0.1;
+      larger.least[axis] -= 0.1;
+      larger.most[axis] += 0.1;
+    }
+    if (is_inside(smaller, at) && !is_inside(larger, at)) ++violating;
+  }
+  const double share = static_cast<double>(violating) / static_cast<double>(in_map.size());
+  EXPECT_GT(share, 0.05);
+  EXPECT_NEAR(known.free_space_violation.value(), share, 0.02);
+}
+
+TEST(SpaceMatcher, OfTwoHallsThatLookAlikeItTakesTheOneWhereNothingIsKnownToBeFree) {
+  // Both lack what the robot sees; the second is 20 m farther on.
+  const Vector3 farther{20.0, 0.0, 0.0};
+  const std::vector<Box> first = {furniture[0]};
+  MapData data = map_of(first)->data();
+  const Points once = data.points;
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    const Point p = once[i];
+    data.points.push_back({p.x + static_cast<float>(farther.x), p.y, p.z});
+  }
+  data.free_voxels = free_around(first);
+  const auto map = std::make_shared<const GlobalMap>(std::move(data));
+  const Pose3 truth{{5.0, 3.5, 1.0}, turn_about_z(0.4)};
+  const Pose3 other{truth.translation() + farther, truth.rotation};
+  const Seen seen(truth);
+  const auto scores = [&](double weight) {
+    Rng rng(1);
+    SpaceMatcher made = matcher(Motion::upright, {.pairs = 100000, .free_space_weight = weight}, map);
+    std::array<double, 2> found{};
+    for (const Hypothesis& h : made.match(seen.local, seen.latest, 0.0, rng).hypotheses) {
+      if (is_near(h.map_from_local, truth)) found[0] = h.score;
+      if (is_near(h.map_from_local, other)) found[1] = h.score;
+    }
+    return found;
+  };
+  const auto [same_here, same_there] = scores(0.0);
+  EXPECT_GT(same_here, 0.5);
+  EXPECT_NEAR(same_here, same_there, 0.02);
+  const auto [here, there] = scores(1.0);
+  EXPECT_GT(there, here + 0.05);
+}
+
 TEST(SpaceMatcher, TheBestPosesAreCarriedToTheNextStep) {
   const Pose3 truth{{3.0, 2.5, 1.0}, turn_about_z(-2.0)};
   Seen seen(truth);
