@@ -11,9 +11,9 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/filled_params.hpp"
 #include "app/map_align.hpp"
 #include "app/map_index.hpp"
-#include "config/overrides.hpp"
 #include "config/reader.hpp"
 #include "config/text_file.hpp"
 #include "config/yaml_parser.hpp"
@@ -52,14 +52,6 @@ bool is_ros_map(const std::string& file) {
 MapData load(const ExperimentOptions& input, Context& context) {
   if (is_ros_map(input.file)) return RosMap({{input.file, input.file}}, warning_setup()).load();
   return load_map(input.read(context), context.catalog, warning_setup());
-}
-
-/// Fills parameters from a tree into which some values are put.
-void fill(AnyParams& params, YamlNode tree, const std::vector<Override>& values) {
-  std::vector<Fault> faults;
-  apply_overrides(tree, values, params, faults);
-  read_params(tree, params, faults);
-  if (!faults.empty()) throw ConfigError(std::move(faults));
 }
 
 /// The parameters of log_map, from `--set name=value`.

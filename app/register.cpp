@@ -4,13 +4,17 @@
 
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/cloud_pairs.hpp"
 #include "app/commands.hpp"
+#include "app/experiment_options.hpp"
+#include "app/filled_params.hpp"
 #include "config/nearest.hpp"
 #include "config/reader.hpp"
 #include "evaluation/results/atomic_file.hpp"
@@ -22,10 +26,13 @@
 namespace glocal::app {
 namespace {
 
+constexpr const char* own_method = "surfel_pairs";
+
 struct RegisterOptions {
   std::string source, target, pairs;
   std::string out;
   std::vector<std::string> methods;  ///< Cloud registrars by name; none: glocal's own.
+  ExperimentOptions parameters;      ///< Of these: only --set.
   double voxel_size = 0.0;           ///< m; 0: made from the clouds.
   double within = 0.0;               ///< m; 0: 1.5 voxels.
   double unit = 1.0;
@@ -33,6 +40,38 @@ struct RegisterOptions {
   std::uint64_t seed = 42;
   bool json = false;
   bool force = false;
+};
+
+/// Cloud registrars with their parameters, by their names.
+struct Methods {
+  std::map<std::string, StrategyChoice> choices;
+};
+
+struct ParamsOfMethod {
+  AnyParams* params = nullptr;
+};
+
+void describe(ParamVisitor& v, ParamsOfMethod& p) {
+  p.params->visit(v);
+}
+
+void describe(ParamVisitor& v, Methods& m) {
+  for (auto& [name, choice] : m.choices) {
+    ParamsOfMethod params{&*choice.params};
+    v.field(name, params, {.doc = "Parameters of the cloud registrar."});
+  }
+}
+
+/// How clouds are registered.
+struct Registering {
+  std::vector<std::string> methods;  ///< In the order asked for; an empty name stands for glocal's own.
+  const CloudRegistrars* registrars = nullptr;
+  Methods params;
+
+  [[nodiscard]] std::unique_ptr<CloudRegistrar> make(const std::string& method,
+                                                     const RegistrationOptions& options) const {
+    return registrars->make(params.choices.at(method.empty() ? own_method : method), options);
+  }
 };
 
 Cloud read(const std::filesystem::path& file, const RegisterOptions& options) {
@@ -45,9 +84,9 @@ double cpu_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// What one method makes of a pair; an empty name stands for glocal's own.
+/// What one method makes of a pair.
 PairOutcome outcome_of(CloudPair pair, const Cloud& source, const Cloud& target, const std::string& method,
-                       const RegisterOptions& options, const CloudRegistrars& registrars) {
+                       const RegisterOptions& options, const Registering& registering) {
   RegistrationOptions registration;
   if (options.voxel_size > 0.0) registration.voxel_size = options.voxel_size;
   registration.source_seen_from = as_point(source.viewpoint.translation());
@@ -55,7 +94,7 @@ PairOutcome outcome_of(CloudPair pair, const Cloud& source, const Cloud& target,
   registration.seed = options.seed;
   PairOutcome outcome{.pair = std::move(pair), .method = method};
   const double begin = cpu_seconds();
-  const auto registrar = registrars.make({method.empty() ? "surfel_pairs" : method}, registration);
+  const auto registrar = registering.make(method, registration);
   outcome.registration = registrar->find(source.points, target.points);
   outcome.cpu_s = cpu_seconds() - begin;
   if (outcome.pair.target_from_source) {
@@ -114,29 +153,28 @@ void write_joined(const PairOutcome& outcome, const Cloud& source, const Cloud& 
   files.commit();
 }
 
-void register_pair(const RegisterOptions& options, const std::vector<std::string>& methods,
-                   const CloudRegistrars& registrars) {
+void register_pair(const RegisterOptions& options, const Registering& registering) {
   const Cloud source = read(options.source, options);
   const Cloud target = read(options.target, options);
   // Before any work is done for it.
   if (!options.out.empty() && !options.force && std::filesystem::exists(options.out))
     throw ConfigError({{options.out, 0, 0, "there is a file already; give another name, or --force"}});
-  for (const std::string& method : methods) {
+  for (const std::string& method : registering.methods) {
     const PairOutcome outcome = outcome_of({options.source, options.target, options.source, options.target},
-                                           source, target, method, options, registrars);
+                                           source, target, method, options, registering);
     fmt::print("{}", options.json ? json_line(outcome) : text_of(outcome));
     if (!options.out.empty()) write_joined(outcome, source, target, options);
   }
 }
 
-void register_pairs(const RegisterOptions& options, const std::vector<std::string>& methods,
-                    const CloudRegistrars& registrars) {
+void register_pairs(const RegisterOptions& options, const Registering& registering) {
+  const std::vector<std::string>& methods = registering.methods;
   std::vector<std::vector<PairOutcome>> outcomes(methods.size());
   for (const CloudPair& pair : read_cloud_pairs(options.pairs)) {
     const Cloud source = read(pair.source_file, options);
     const Cloud target = read(pair.target_file, options);
     for (std::size_t i = 0; i < methods.size(); ++i) {
-      outcomes[i].push_back(outcome_of(pair, source, target, methods[i], options, registrars));
+      outcomes[i].push_back(outcome_of(pair, source, target, methods[i], options, registering));
       if (options.json) fmt::print("{}", json_line(outcomes[i].back()));
     }
   }
@@ -164,17 +202,30 @@ std::vector<std::string> methods_of(const RegisterOptions& options, const CloudR
   return options.methods;
 }
 
-void run(const RegisterOptions& options, const CloudRegistrars& registrars) {
+/// With the parameters that are set. Throws ConfigError where these belong to no method that is asked for.
+Registering registering_of(const RegisterOptions& options, const CloudRegistrars& registrars) {
+  ParamsOf<Methods> params;
   const std::vector<std::string> methods = methods_of(options, registrars);
+  for (const std::string& method : methods) {
+    const StrategyChoice choice = registrars.choose(method.empty() ? own_method : method);
+    params.value.choices.emplace(choice.name, choice);
+  }
+  const auto origin = std::make_shared<Origin>(Origin{"register", std::filesystem::current_path()});
+  fill(params, make_node(NodeKind::map, {origin}), options.parameters.overrides());
+  return {methods, &registrars, std::move(params.value)};
+}
+
+void run(const RegisterOptions& options, const CloudRegistrars& registrars) {
+  const Registering registering = registering_of(options, registrars);
   if (!options.pairs.empty()) {
     if (!options.source.empty() || !options.out.empty())
       throw ConfigError(
           {{"--pairs", 0, 0, "names the clouds by itself; leave out SOURCE, TARGET and --out"}});
-    register_pairs(options, methods, registrars);
+    register_pairs(options, registering);
   } else if (options.source.empty() || options.target.empty()) {
     throw ConfigError({{"register", 0, 0, "needs two clouds, SOURCE and TARGET, or --pairs FILE.csv"}});
   } else {
-    register_pair(options, methods, registrars);
+    register_pair(options, registering);
   }
 }
 
@@ -194,6 +245,8 @@ void add_register(CLI::App& app, Context& context) {
                    "How, by name (see glocal list cloud_registrar); several at once are compared")
       ->delimiter(',')
       ->allow_extra_args(false);
+  options->parameters.add_set_to(*command,
+                                 "Change a parameter of a method: open3d_fgr.iterations=100 (repeatable)");
   command
       ->add_option("--voxel-size", options->voxel_size,
                    "Side of voxels, m (made from the clouds unless given)")

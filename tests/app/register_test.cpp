@@ -106,6 +106,44 @@ TEST_F(RegisterCommand, ComparesMethodsByName) {
               HasSubstr("--out takes the pose of one method"));
 }
 
+TEST_F(RegisterCommand, SetsTheParametersOfItsMethods) {
+  const std::string clouds = file("source.pcd") + " " + file("target.pcd");
+  const std::string plugin = " --plugin " + std::string(GLOCAL_TEST_PLUGINS) + "/every_kind.so ";
+  const auto x_of = [&](const std::string& options) {
+    const Answer answer = run("register --json --method ahead " + clouds + plugin + options);
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    return nlohmann::json::parse(answer.out)["target_from_source"]["translation"][0].get<double>();
+  };
+  EXPECT_EQ(x_of(""), 1.0);
+  EXPECT_EQ(x_of("--set ahead.by=2.5"), 2.5);
+  EXPECT_EQ(x_of("--set ahead.by=2.5 --set ahead.by=3"), 3.0);
+  // Those of one method leave another alone.
+  const std::string both = "register --method surfel_pairs,ahead " + clouds + plugin;
+  const Answer answer = run(both + "--json --set ahead.by=2.5");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto own = nlohmann::json::parse(answer.out.substr(0, answer.out.find('\n')));
+  const auto unset = nlohmann::json::parse(run("register --json " + clouds).out);
+  EXPECT_EQ(own["target_from_source"], unset["target_from_source"]);
+
+  const auto fault = [&](const std::string& options) {
+    const Answer refused = run("register " + clouds + plugin + options);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.out, "");
+    return refused.err;
+  };
+  EXPECT_THAT(fault("--method ahead --set ahead.bye=2"),
+              HasSubstr("--set ahead.bye=2: error: ahead: unknown key 'bye' (did you mean 'by'?)"));
+  EXPECT_THAT(fault("--method ahead --set ahead.by=-2"),
+              HasSubstr("--set ahead.by=-2: error: ahead: by: -2 is out of range"));
+  EXPECT_THAT(fault("--method ahead --set ahead=2"), HasSubstr("--set ahead=2: error: ahead"));
+  EXPECT_THAT(fault("--method ahead --set ahed.by=2"),
+              HasSubstr("--set ahed.by=2: error: unknown key 'ahed' (did you mean 'ahead'?)"));
+  // It is not asked for.
+  EXPECT_THAT(fault("--set ahead.by=2"),
+              HasSubstr("--set ahead.by=2: error: unknown key 'ahead' (known keys: surfel_pairs)"));
+  EXPECT_THAT(fault("--method ahead --set ahead.by"), HasSubstr("not of the form path=value"));
+}
+
 TEST_F(RegisterCommand, NamesAllFaultsOfAList) {
   std::ofstream(file("pairs.csv"))
       << "source,target,tx,ty,tz,qx,qy,qz,qw\nsource.pcd,none.pcd,1,2,3,0,0,0,1\n"

@@ -53,8 +53,8 @@ class PluginCommand : public CommandLine {
 TEST_F(PluginCommand, StrategiesOfEveryKindAreListedAndDescribed) {
   const Answer list = run("list --plugin " + plugin("every_kind"));
   ASSERT_EQ(list.exit_code, 0) << list.err;
-  for (const char* name :
-       {"room", "standing", "last_scan", "oracle", "each_alone", "all_alike", "always_half", "at_once"}) {
+  for (const char* name : {"room", "standing", "last_scan", "oracle", "each_alone", "all_alike",
+                           "always_half", "at_once", "ahead"}) {
     EXPECT_THAT(list.out, HasSubstr(name));
     EXPECT_EQ(run("describe " + std::string(name) + " --plugin " + plugin("every_kind")).exit_code, 0)
         << name;

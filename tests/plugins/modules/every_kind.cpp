@@ -127,6 +127,29 @@ class AtOnce final : public VerdictRule {
   void reset() override {}
 };
 
+/// Says the same of all clouds.
+class Ahead final : public CloudRegistrar {
+ public:
+  struct Params {
+    double by = 1.0;
+  };
+  explicit Ahead(const Params& params) : by_(params.by) {}
+  Registration find(const Points& /*source*/, const Points& /*target*/) override {
+    Registration result;
+    result.is_match = true;
+    result.why = "all clouds are alike";
+    result.target_from_source = Pose3{{by_, 0.0, 0.0}, {}};
+    result.voxel_size = 0.1;
+    return result;
+  }
+
+ private:
+  double by_;
+};
+void describe(ParamVisitor& v, Ahead::Params& p) {
+  v.field("by", p.by, {.doc = "How far.", .unit = "m", .min = 0.0});
+}
+
 }  // namespace
 
 GLOCAL_PLUGIN("every_kind", "1.2.3", catalog) {
@@ -138,4 +161,5 @@ GLOCAL_PLUGIN("every_kind", "1.2.3", catalog) {
   catalog.raters.add<AllAlike>("all_alike", "Every cluster is as good as any other.");
   catalog.threshold_policies.add<Fixed>("always_half", "Always 0.5.");
   catalog.verdict_rules.add<AtOnce>("at_once", "Takes the first guess.");
+  catalog.cloud_registrars.add<Ahead>("ahead", "The source is ahead.");
 }
