@@ -24,6 +24,9 @@ class Itinerary {
   /// Goes on with the way point nearest to a place (of a list's several, the first).
   void go_on_near(const Position& place);
 
+  /// Goes on to where next() has said last.
+  void go_on() { has_to_get_there_ = true; }
+
  private:
   [[nodiscard]] std::size_t next_of_tour();
 

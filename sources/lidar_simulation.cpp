@@ -22,14 +22,16 @@ Pose2 between(const Pose2& from, const Pose2& to, double share) {
 }  // namespace
 
 LidarSimulation::LidarSimulation(const DriveParams& params, const SourceSetup& setup)
+    : LidarSimulation(params, setup, planned_drive(params, setup)) {}
+
+LidarSimulation::LidarSimulation(const DriveParams& params, const SourceSetup& setup, PlannedDrive drive)
     : lidar_(params.lidar),
       step_seconds_(params.step_seconds),
       file_(params.world.resolved.string()),
-      world_(read_world(params.world.resolved)),
+      world_(std::move(drive.world)),
       scene_(world_),
-      robot_(world_, params, setup.seed),
+      robot_(std::move(drive.route), params, setup.seed),
       swaying_(lidar_.tilt_deg, robot_.stream(DriveStream::sway, 0)) {
-  setup.note_input(params.world.resolved);
   if (!world_.cloud.text.empty()) setup.note_input(world_.cloud.resolved);
   check_height();
   check_ways();

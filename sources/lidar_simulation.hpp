@@ -16,13 +16,15 @@ namespace glocal {
 /// does; its height stands still, as the floor is level, and its roll and pitch are measured by gravity.
 class LidarSimulation final : public ObservationSource {
  public:
-  /// Throws ConfigError for a faulty world, a sensor above the ceiling, and a drive through the world's
-  /// cloud.
+  /// Throws ConfigError where planned_drive() does, for a sensor above the ceiling, and for a drive through
+  /// the world's cloud.
   LidarSimulation(const DriveParams& params, const SourceSetup& setup);
 
   [[nodiscard]] std::optional<Sample> next() override;
 
  private:
+  LidarSimulation(const DriveParams& params, const SourceSetup& setup, PlannedDrive drive);
+
   /// Where the sensor is, `time` seconds (0 or less) after a step.
   [[nodiscard]] Pose3 pose_at(const DriveStep& step, double time) const;
   [[nodiscard]] Pose3 odometry(const DriveStep& step) const;

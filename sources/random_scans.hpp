@@ -14,12 +14,6 @@
 
 namespace glocal {
 
-/// Distance (m) from a place on the map along a unit vector to where the ray enters an occupied cell;
-/// infinite if there is none within `reach` (m). Not a number where it has gone farther than `max_unknown`
-/// (m) through unknown cells, or off the grid, before: nobody knows what is there.
-[[nodiscard]] double ray_distance(const OccupancyGrid& grid, const Position& origin,
-                                  const Position& direction, double reach, double max_unknown);
-
 /// Poses drawn uniformly in the free cells of a map, headings too, and a scan cast through the map's cells at
 /// each. Odometry means nothing: every scan is a segment of its own.
 class RandomScans final : public ObservationSource {

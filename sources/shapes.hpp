@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "glocal/pose3.hpp"
@@ -9,6 +10,15 @@
 namespace glocal {
 
 using Position = std::array<double, 2>;  ///< x, y (m)
+
+[[nodiscard]] inline double distance(const Position& a, const Position& b) {
+  return std::hypot(b[0] - a[0], b[1] - a[1]);
+}
+
+/// A share of the straight way from a place to another.
+[[nodiscard]] inline Position between(const Position& a, const Position& b, double share) {
+  return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+}
 
 /// Heights are those of things that stand on the floor, m; in the plane nobody asks for them.
 struct Segment {

@@ -18,9 +18,7 @@ Simulation::Simulation(const Params& params, const SourceSetup& setup)
     : params_(params),
       seed_(setup.seed),
       scan_limits_(scan_limits(params.laser)),
-      simulator_(params, setup.seed) {
-  setup.note_input(params.world.resolved);
-}
+      simulator_(params, setup) {}
 
 std::optional<Sample> Simulation::next() {
   const std::optional<CarmenScan> scan = simulator_.next();
@@ -35,7 +33,7 @@ std::optional<Recording> Simulation::recording() const {
   Recording recording{.file_name = "drive.log", .content = {}, .observations = 0, .source = {}};
   log->value.path = {recording.file_name, recording.file_name};
   recording.source = {"carmen_log", std::move(log)};
-  DriveSimulator simulator(params_, seed_);
+  DriveSimulator simulator(params_, {.seed = seed_});
   while (const auto scan = simulator.next()) {
     recording.content += carmen_lines(*scan);
     ++recording.observations;

@@ -14,14 +14,14 @@
 
 namespace glocal {
 
-/// A drive through a simulated world, with a planar laser.
+/// A drive through a simulated world or a map, with a planar laser.
 class Simulation final : public ObservationSource {
  public:
   using Params = DriveParams;
 
   /// A Simulation, or a LidarSimulation where there is a lidar.
   static std::unique_ptr<ObservationSource> make(const Params& params, const SourceSetup& setup);
-  /// Throws ConfigError for a faulty world.
+  /// Throws ConfigError where planned_drive() does.
   Simulation(const Params& params, const SourceSetup& setup);
 
   [[nodiscard]] std::optional<Sample> next() override;

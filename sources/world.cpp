@@ -68,14 +68,6 @@ Shapes shapes_where(const World& world, bool Presence::*present) {
   return shapes;
 }
 
-double distance(const Position& a, const Position& b) {
-  return std::hypot(b[0] - a[0], b[1] - a[1]);
-}
-
-Position between(const Position& a, const Position& b, double share) {
-  return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
-}
-
 Position walked(const std::vector<Position>& points, double way) {
   double length = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) length += distance(points[i - 1], points[i]);

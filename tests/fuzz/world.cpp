@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     DriveParams drive;
     drive.world = {file.string(), file};
     drive.tour_legs = 10;
-    static_cast<void>(route_of(world, drive, Rng(1)));
+    static_cast<void>(route_of(WorldWays(world), drive, Rng(1)));
     static_cast<void>(SimulatedMap({{file.string(), file}, 1.0}, {}).load());
   });
 }

@@ -44,7 +44,7 @@ TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
   params.laser.yaw_deg = 10.0;
   SourceSetup setup;
   setup.seed = 5;
-  DriveSimulator simulator(params, setup.seed);
+  DriveSimulator simulator(params, setup);
   std::string lines;
   while (const auto scan = simulator.next()) lines += carmen_lines(*scan);
 

@@ -4,54 +4,27 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 #include <utility>
 
 #include "files.hpp"
+#include "sources/plan.hpp"
 
 namespace glocal::random_scans_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A ROS map of rows of cells, the highest y first: # occupied, . free, ? unknown.
-class Plan {
- public:
-  explicit Plan(const std::vector<std::string>& rows, const std::string& origin = "[0, 0, 0]") {
-    std::string image = "P5 " + std::to_string(rows[0].size()) + " " + std::to_string(rows.size()) + " 255\n";
-    for (const std::string& row : rows) {
-      for (const char cell : row) image += static_cast<char>(cell == '#' ? 0 : cell == '.' ? 254 : 205);
-    }
-    folder_.write("map.pgm", image);
-    file_ = folder_.write("map.yaml", "image: map.pgm\nresolution: 0.5\norigin: " + origin + "\n");
-  }
+RandomScans::Params params_of(const test::Plan& plan) {
+  RandomScans::Params params;
+  params.map.path = plan.file();
+  return params;
+}
 
-  [[nodiscard]] RandomScans::Params params() const {
-    RandomScans::Params params;
-    params.map.path = test::file_path(file_);
-    return params;
-  }
-  [[nodiscard]] OccupancyGrid grid() const { return RosMap(params().map, {}).load().grid; }
-  [[nodiscard]] std::string fault_of(const RandomScans::Params& params) const {
-    return test::config_error(file_.parent_path(), [&] { RandomScans(params, {}); });
-  }
-
- private:
-  test::TemporaryFolder folder_;
-  std::filesystem::path file_;
-};
-
-const std::vector<std::string> room{
-    "?##########?",  //
-    "#..........#",  //
-    "#..........#",  //
-    "#....#.....#",  //
-    "#..........#",  //
-    "#..........?",  //
-    "?##########?",
-};
+std::string fault_of(const RandomScans::Params& params, const test::Plan& plan) {
+  return test::config_error(plan.folder(), [&] { RandomScans(params, {}); });
+}
 
 std::vector<Sample> read_all(const RandomScans::Params& params, std::uint64_t seed = 1) {
   RandomScans source(params, {.seed = seed});
@@ -60,45 +33,10 @@ std::vector<Sample> read_all(const RandomScans::Params& params, std::uint64_t se
   return samples;
 }
 
-TEST(RayDistance, IsThatToTheCellsBorder) {
-  const OccupancyGrid grid = Plan(room).grid();
-  const Position place{1.25,
-                       1.75};  // Free space is x 0.5 to 5.5 m, y 0.5 to 3 m, the pillar x 2.5, y 1.5 on.
-  EXPECT_NEAR(ray_distance(grid, place, {1, 0}, 10.0, 0.0), 1.25, 1e-12) << "the pillar";
-  EXPECT_NEAR(ray_distance(grid, place, {-1, 0}, 10.0, 0.0), 0.75, 1e-12);
-  EXPECT_NEAR(ray_distance(grid, place, {0, 1}, 10.0, 0.0), 1.25, 1e-12);
-  EXPECT_NEAR(ray_distance(grid, place, {0, -1}, 10.0, 0.0), 1.25, 1e-12);
-  EXPECT_NEAR(ray_distance(grid, place, {0.6, 0.8}, 10.0, 0.0), 1.25 / 0.8, 1e-12) << "the upper wall";
-  EXPECT_NEAR(ray_distance(grid, place, {-0.6, -0.8}, 10.0, 0.0), 0.75 / 0.6, 1e-12) << "the left wall";
-}
-
-TEST(RayDistance, IsInfiniteBeyondReachAndUnknownBehindTheMap) {
-  const OccupancyGrid grid = Plan(room).grid();
-  EXPECT_EQ(ray_distance(grid, {1.25, 1.25}, {1, 0}, 4.0, 0.0), std::numeric_limits<double>::infinity());
-  EXPECT_NEAR(ray_distance(grid, {1.25, 1.25}, {1, 0}, 10.0, 0.0), 4.25, 1e-12);
-  EXPECT_TRUE(std::isnan(ray_distance(grid, {1.25, 0.75}, {1, 0}, 10.0, 0.0))) << "the hole in the wall";
-  EXPECT_TRUE(std::isnan(ray_distance(Plan({"..#"}).grid(), {0.25, 0.25}, {0, 1}, 10.0, 0.0))) << "the rim";
-}
-
-TEST(RayDistance, PassesBlurredRimsOfWalls) {
-  // The rim is 1 m thick from x = 1 on, then from x = 3 on 1.5 m.
-  const OccupancyGrid grid = Plan({"..??#???#"}).grid();
-  EXPECT_NEAR(ray_distance(grid, {0.25, 0.25}, {1, 0}, 10.0, 1.1), 1.75, 1e-12);
-  EXPECT_TRUE(std::isnan(ray_distance(grid, {0.25, 0.25}, {1, 0}, 10.0, 0.4)));
-  EXPECT_TRUE(std::isnan(ray_distance(grid, {0.25, 0.25}, {-1, 0}, 10.0, 1.1))) << "off the grid";
-}
-
-TEST(RayDistance, FollowsATurnedMap) {
-  // Turned by 90 degrees about the origin: what was x is y, what was y is -x.
-  const OccupancyGrid grid = Plan(room, "[0, 0, 1.5707963267948966]").grid();
-  EXPECT_NEAR(ray_distance(grid, {-1.75, 1.25}, {0, 1}, 10.0, 0.0), 1.25, 1e-9) << "the pillar";
-  EXPECT_NEAR(ray_distance(grid, {-1.75, 1.25}, {1, 0}, 10.0, 0.0), 1.25, 1e-9);
-}
-
 TEST(RandomScans, LieInFreeCellsFarEnoughFromOthers) {
-  const Plan plan(room);
+  const test::Plan plan(test::room_plan);
   const OccupancyGrid grid = plan.grid();
-  RandomScans::Params params = plan.params();
+  RandomScans::Params params = params_of(plan);
   params.count = 200;
   params.clearance = 0.4;
   const auto samples = read_all(params);
@@ -122,8 +60,8 @@ TEST(RandomScans, LieInFreeCellsFarEnoughFromOthers) {
 }
 
 TEST(RandomScans, LookInAllDirections) {
-  const Plan plan(room);
-  RandomScans::Params params = plan.params();
+  const test::Plan plan(test::room_plan);
+  RandomScans::Params params = params_of(plan);
   params.count = 400;
   std::array<int, 4> quadrants{};
   for (const Sample& sample : read_all(params)) {
@@ -134,8 +72,8 @@ TEST(RandomScans, LookInAllDirections) {
 }
 
 TEST(RandomScans, SeeTheCellsAroundThem) {
-  const Plan plan(room);
-  RandomScans::Params params = plan.params();
+  const test::Plan plan(test::room_plan);
+  RandomScans::Params params = params_of(plan);
   params.count = 50;
   params.laser.noise = 0.0;
   params.laser.max_range = 2.0;
@@ -169,17 +107,17 @@ TEST(RandomScans, SeeTheCellsAroundThem) {
 }
 
 TEST(RandomScans, AreSegmentsOfTheirOwn) {
-  const Plan plan(room);
-  const auto samples = read_all(plan.params());
+  const test::Plan plan(test::room_plan);
+  const auto samples = read_all(params_of(plan));
   ASSERT_EQ(samples.size(), 100U);
   for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(samples[i].segment, static_cast<int>(i));
 }
 
 TEST(RandomScans, DependOnTheirSeedOnly) {
-  const Plan plan(room);
-  const auto a = read_all(plan.params(), 7);
-  const auto b = read_all(plan.params(), 7);
-  const auto c = read_all(plan.params(), 8);
+  const test::Plan plan(test::room_plan);
+  const auto a = read_all(params_of(plan), 7);
+  const auto b = read_all(params_of(plan), 7);
+  const auto c = read_all(params_of(plan), 8);
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(*a[i].map_from_robot, *b[i].map_from_robot);
     EXPECT_EQ(a[i].observation.scan.hits, b[i].observation.scan.hits);
@@ -189,14 +127,14 @@ TEST(RandomScans, DependOnTheirSeedOnly) {
 }
 
 TEST(RandomScans, SayWhyThereAreNone) {
-  const Plan plan(room);
-  RandomScans::Params params = plan.params();
+  const test::Plan plan(test::room_plan);
+  RandomScans::Params params = params_of(plan);
   params.clearance = 2.0;
-  EXPECT_EQ(plan.fault_of(params),
+  EXPECT_EQ(fault_of(params, plan),
             "map.yaml: error: has no free cell 2 m away from all that is not free; lower clearance, or take "
             "another map");
   params.map.path = test::file_path("missing.yaml");
-  EXPECT_NE(plan.fault_of(params).find("missing.yaml"), std::string::npos);
+  EXPECT_NE(fault_of(params, plan).find("missing.yaml"), std::string::npos);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST(Route, TakesStepsAndTurnsOnTheSpot) {
   const test::TemporaryFolder folder;
   DriveParams params;
   params.world = test::file_path(folder.write("world.yaml", room));
-  const auto poses = route_of(read_world(params.world.resolved), params, Rng(1)).poses;
+  const auto poses = route_of(WorldWays(read_world(params.world.resolved)), params, Rng(1)).poses;
   ASSERT_EQ(poses.size(), 8U);  // The start, 3 steps of 0.5 m, 2 turns of 45 degrees, 2 steps of 0.5 m.
   expect_near(poses[0], {1, 1, 0});
   expect_near(poses[1], {1.5, 1, 0});
@@ -88,7 +88,7 @@ TEST(Route, OfATourKeepsToTheWaysAndTurnsBackAtDeadEndsOnly) {
   params.world = test::file_path(folder.write("world.yaml", triangle));
   params.tour_legs = 200;
   const World world = read_world(params.world.resolved);
-  const auto corners = corners_of(route_of(world, params, Rng(3)).poses);
+  const auto corners = corners_of(route_of(WorldWays(world), params, Rng(3)).poses);
   ASSERT_EQ(corners.size(), 201U);
   const std::set<std::pair<Position, Position>> ways{
       {{1, 1}, {4, 1}}, {{4, 1}, {4, 5}}, {{1, 1}, {4, 5}}, {{1, 1}, {1, 3}}};
@@ -99,8 +99,10 @@ TEST(Route, OfATourKeepsToTheWaysAndTurnsBackAtDeadEndsOnly) {
     EXPECT_EQ(corners[i - 1], (Position{1, 3})) << "the dead end";
   }
   EXPECT_EQ(driven, ways);
-  EXPECT_EQ(route_of(world, params, Rng(3)).poses, route_of(world, params, Rng(3)).poses);
-  EXPECT_NE(route_of(world, params, Rng(3)).poses, route_of(world, params, Rng(4)).poses);
+  EXPECT_EQ(route_of(WorldWays(world), params, Rng(3)).poses,
+            route_of(WorldWays(world), params, Rng(3)).poses);
+  EXPECT_NE(route_of(WorldWays(world), params, Rng(3)).poses,
+            route_of(WorldWays(world), params, Rng(4)).poses);
 }
 
 TEST(Route, GoesOnWhereTheRobotIsCarriedTo) {
@@ -109,7 +111,7 @@ TEST(Route, GoesOnWhereTheRobotIsCarriedTo) {
   params.step_length = 0.5;
   params.step_turn_deg = 180.0;
   params.kidnappings = {{.after_m = 2.1, .to = {4, 4}, .heading_deg = 180.0}};
-  const Route route = route_of(read_world(params.world.resolved), params, Rng(1));
+  const Route route = route_of(WorldWays(read_world(params.world.resolved)), params, Rng(1));
   // 2.5 m along x, to (4, 4); a turn, 1 m to the nearest way point (4, 5), a turn, 5 m to (1, 1), a turn, 2
   // m.
   ASSERT_EQ(route.carried, (std::vector<std::size_t>{6}));
@@ -134,7 +136,8 @@ TEST(Route, SaysWhyARobotCannotBeCarriedThere) {
       folder.write("world.yaml", std::string(triangle) + "rectangles: [{centre: [6, 3], size: [1, 4]}]\n"));
   const auto fault = [&](const Kidnapping& kidnapping) {
     params.kidnappings = {kidnapping};
-    return test::config_error(params.world.resolved.parent_path(), [&] { DriveSimulator(params, 1); });
+    return test::config_error(params.world.resolved.parent_path(),
+                              [&] { DriveSimulator(params, {.seed = 1}); });
   };
   EXPECT_EQ(
       fault({.after_m = 2.0, .to = {7.5, 3}}),
@@ -371,11 +374,12 @@ TEST(Route, OfMoreThanAMillionObservationsIsRefused) {
   params.world = test::file_path(folder.write("world.yaml", room));
   params.tour_legs = 100000;
   params.step_length = 0.001;
-  EXPECT_EQ(test::config_error(
-                folder.path(),
-                [&] { static_cast<void>(route_of(read_world(params.world.resolved), params, Rng(1))); }),
-            "error: simulation: the drive has more than a million observations; raise step_length and "
-            "step_turn_deg, or lower tour_legs");
+  EXPECT_EQ(
+      test::config_error(
+          folder.path(),
+          [&] { static_cast<void>(route_of(WorldWays(read_world(params.world.resolved)), params, Rng(1))); }),
+      "error: simulation: the drive has more than a million observations; raise step_length and "
+      "step_turn_deg, or lower tour_legs");
 }
 
 TEST(Route, OfATourBetweenManyPlacesIsQuick) {
@@ -387,7 +391,7 @@ TEST(Route, OfATourBetweenManyPlacesIsQuick) {
   params.tour_legs = 2000;
   params.step_length = 1e6;
   params.step_turn_deg = 180.0;
-  EXPECT_GT(route_of(world, params, Rng(1)).poses.size(), 2000U);
+  EXPECT_GT(route_of(WorldWays(world), params, Rng(1)).poses.size(), 2000U);
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+// Where a simulated robot drives, and what is there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/occupancy_grid.hpp"
+#include "glocal/rng.hpp"
+#include "sources/drive_params.hpp"
+#include "sources/ways.hpp"
+#include "sources/world.hpp"
+
+namespace glocal {
+
+/// Streams of random numbers, one for each thing that is drawn on a drive.
+enum class DriveStream : std::uint64_t { laser, odometry, tour, lidar, sway, tilt, people, boxes };
+
+/// The robot's poses, one for each observation.
+struct Route {
+  std::vector<Pose2> poses;
+  std::vector<std::size_t> carried;  ///< Those the robot was carried to, by their indexes.
+};
+
+/// Straight from corner to corner of the ways, with turns on the spot. Throws ConfigError for a kidnapping to
+/// where the drive cannot go on, or after its end.
+[[nodiscard]] Route route_of(const Ways& ways, const DriveParams& params, Rng rng);
+
+/// What is there when a robot drives, and where it drives.
+struct PlannedDrive {
+  World world;                       ///< Of a map: only what nobody has mapped.
+  std::optional<OccupancyGrid> map;  ///< That the robot drives in, if it is one.
+  Route route;
+};
+
+/// Throws ConfigError for a faulty world or map, where route_of(), MapWays and drawn_boxes() do, and for
+/// boxes and people in a world with a cloud.
+[[nodiscard]] PlannedDrive planned_drive(const DriveParams& params, const SourceSetup& setup);
+
+}  // namespace glocal
