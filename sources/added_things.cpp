@@ -46,11 +46,12 @@ std::vector<char> taken_cells(const OccupancyGrid& grid, const std::vector<std::
   for (const std::vector<Position>& way : ways) mark_cells_of(way, grid, is_way);
   std::vector<char> is_taken(grid.cells.size());
   for (std::size_t i = 0; i < is_taken.size(); ++i) is_taken[i] = grid.cells[i] == Cell::free ? 0 : 1;
+  const NearCells near_cells(clearance, grid);
   for (int row = 0; row < grid.height; ++row) {
     for (int column = 0; column < grid.width; ++column) {
       if (is_way[grid.index(column, row)] == 0) continue;
       is_taken[grid.index(column, row)] = 1;
-      mark_cells_near(column, row, clearance, grid, is_taken);
+      near_cells.mark(column, row, is_taken);
     }
   }
   return is_taken;
@@ -114,10 +115,11 @@ std::vector<Rectangle> drawn_boxes(int count, const OccupancyGrid& grid, const C
   std::vector<Rectangle> boxes;
   for (int draws = 0; boxes.size() < static_cast<std::size_t>(count); ++draws) {
     if (draws == most_draws) {
-      throw ConfigError({{file, 0, 0,
-                          fmt::format("boxes: there is room for {} of {} boxes on free space off the ways of "
-                                      "robot and people; lower boxes, people or clearance",
-                                      boxes.size(), count)}});
+      throw ConfigError(
+          {{file, 0, 0,
+            fmt::format("boxes: room was found for {} of {} boxes on free space off the ways of "
+                        "robot and people; lower boxes, people or clearance",
+                        boxes.size(), count)}});
     }
     const Rectangle box = drawn_box(region, rng);
     const std::vector<std::size_t> cells = cells_under(box, grid);

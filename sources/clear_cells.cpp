@@ -7,16 +7,27 @@
 
 namespace glocal {
 
-void mark_cells_near(int column, int row, double distance, const OccupancyGrid& grid,
-                     std::vector<char>& marks) {
+NearCells::NearCells(double distance, const OccupancyGrid& grid) : width_(grid.width), height_(grid.height) {
   const double reach = distance / grid.resolution;
-  const int cells = static_cast<int>(std::ceil(reach));
-  for (int r = std::max(row - cells, 0); r <= std::min(row + cells, grid.height - 1); ++r) {
-    for (int c = std::max(column - cells, 0); c <= std::min(column + cells, grid.width - 1); ++c) {
-      const int between_columns = std::max(std::abs(c - column) - 1, 0);
-      const int between_rows = std::max(std::abs(r - row) - 1, 0);
-      if (std::hypot(between_columns, between_rows) < reach) marks[grid.index(c, r)] = 1;
-    }
+  // From border to border, so that neighbours have no distance.
+  const auto is_near = [&](int columns, int rows) {
+    return std::hypot(std::max(columns - 1, 0), std::max(rows - 1, 0)) < reach;
+  };
+  for (int rows = 0; is_near(0, rows) && rows < height_ + 2; ++rows) {
+    int columns = 0;
+    while (is_near(columns + 1, rows) && columns < width_ + 2) ++columns;
+    half_widths_.push_back(columns);
+  }
+}
+
+void NearCells::mark(int column, int row, std::vector<char>& marks) const {
+  const int rows = static_cast<int>(half_widths_.size());
+  for (int r = std::max(row - rows + 1, 0); r <= std::min(row + rows - 1, height_ - 1); ++r) {
+    const int half_width = half_widths_[static_cast<std::size_t>(std::abs(r - row))];
+    const int first = std::max(column - half_width, 0);
+    const int last = std::min(column + half_width, width_ - 1);
+    const auto of_row = marks.begin() + static_cast<std::ptrdiff_t>(r) * width_;
+    if (first <= last) std::fill(of_row + first, of_row + last + 1, 1);
   }
 }
 
@@ -25,13 +36,14 @@ std::vector<char> clear_cells(const OccupancyGrid& grid, double clearance) {
     return column >= 0 && row >= 0 && column < grid.width && row < grid.height &&
            grid.cell(column, row) == Cell::free;
   };
+  const NearCells near_cells(clearance, grid);
   std::vector<char> is_near(grid.cells.size(), 0);
   for (int row = -1; row <= grid.height; ++row) {
     for (int column = -1; column <= grid.width; ++column) {
       // Others are farther from any free cell than one of these.
       const bool borders_on_free = is_free(column - 1, row) || is_free(column + 1, row) ||
                                    is_free(column, row - 1) || is_free(column, row + 1);
-      if (!is_free(column, row) && borders_on_free) mark_cells_near(column, row, clearance, grid, is_near);
+      if (!is_free(column, row) && borders_on_free) near_cells.mark(column, row, is_near);
     }
   }
   std::vector<char> is_clear(grid.cells.size());

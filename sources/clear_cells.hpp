@@ -10,10 +10,19 @@
 
 namespace glocal {
 
-/// Marks the cells that have a place nearer than `distance` (m) to a place in the cell (column, row), which
-/// may lie outside of the grid. `marks` has one for each cell.
-void mark_cells_near(int column, int row, double distance, const OccupancyGrid& grid,
-                     std::vector<char>& marks);
+/// Marks the cells around others.
+class NearCells {
+ public:
+  /// Cells that have a place nearer than `distance` (m) to a place in the cell in the middle.
+  NearCells(double distance, const OccupancyGrid& grid);
+
+  /// The middle may lie outside of the grid. `marks` has one for each cell.
+  void mark(int column, int row, std::vector<char>& marks) const;
+
+ private:
+  int width_, height_;            ///< Of the grid, in cells.
+  std::vector<int> half_widths_;  ///< By how many rows away: columns to either side of the middle.
+};
 
 /// One mark for each cell: whether it is free, and every place in it is at least `clearance` (m) away from
 /// every cell that is not. What lies outside of the grid is not free either.

@@ -13,7 +13,7 @@
 namespace glocal {
 namespace {
 
-/// Of a grid's neighbouring cells: first those over a side, then those over a corner.
+/// To a neighbouring cell: first those over a side, then those over the corner between a side and the next.
 struct Step {
   int columns;
   int rows;
@@ -22,23 +22,25 @@ struct Step {
 /// Costs in units of a twelfth of a cell: 17 / 12 is the square root of 2 but for 0.2 %.
 constexpr std::uint32_t straight_cost = 12;
 constexpr std::uint32_t diagonal_cost = 17;
-constexpr std::array<Step, 8> steps{{{1, 0, straight_cost},
-                                     {0, 1, straight_cost},
-                                     {-1, 0, straight_cost},
-                                     {0, -1, straight_cost},
-                                     {1, 1, diagonal_cost},
-                                     {-1, 1, diagonal_cost},
-                                     {-1, -1, diagonal_cost},
-                                     {1, -1, diagonal_cost}}};
+constexpr std::size_t sides = 4;
+constexpr std::array<Step, 2 * sides> steps{{{1, 0, straight_cost},
+                                             {0, 1, straight_cost},
+                                             {-1, 0, straight_cost},
+                                             {0, -1, straight_cost},
+                                             {1, 1, diagonal_cost},
+                                             {-1, 1, diagonal_cost},
+                                             {-1, -1, diagonal_cost},
+                                             {1, -1, diagonal_cost}}};
 
 /// Cells to be looked at, the cheapest first and of equal ones the last: a bucket for each cost (Dial,
 /// "Algorithm 360: Shortest-path forest with topological ordering", CACM 1969). What is put in costs at most
 /// 63 more than what was taken out last.
 class OpenCells {
  public:
+  OpenCells(std::uint32_t cell, std::uint32_t cost) : cost_(cost) { put(cell, cost); }
+
   [[nodiscard]] bool empty() const { return count_ == 0; }
   void put(std::uint32_t cell, std::uint32_t cost) {
-    if (empty()) cost_ = cost;
     buckets_[cost % buckets_.size()].push_back(cell);
     ++count_;
   }
@@ -54,7 +56,7 @@ class OpenCells {
 
  private:
   std::array<std::vector<std::uint32_t>, 64> buckets_;
-  std::uint32_t cost_ = 0;
+  std::uint32_t cost_;
   std::size_t count_ = 0;
 };
 
@@ -192,23 +194,20 @@ std::vector<std::uint32_t> ClearRegion::cells_between(std::uint32_t from, std::u
   };
   std::vector<std::uint32_t> costs(is_inside_.size(), 0);  // one more than they are; 0: not yet seen
   std::vector<std::uint8_t> last_steps(is_inside_.size(), 0);
-  OpenCells open;
+  OpenCells open(from, cost_left(from));
   costs[from] = 1;
-  open.put(from, cost_left(from));
   for (bool is_there = from == to; !is_there && !open.empty();) {
     const auto [cell, cost] = open.take();
     is_there = cell == to;
     if (costs[cell] - 1 + cost_left(cell) != cost) continue;  // a cheaper way to it was found meanwhile
-    const int column = column_of(cell);
-    const int row = row_of(cell);
+    std::array<bool, steps.size()> is_open{};
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const Step& step = steps[i];
-      if (!holds_cell(column + step.columns, row + step.rows) || !holds_cell(column + step.columns, row) ||
-          !holds_cell(column, row + step.rows)) {
-        continue;
-      }
-      const std::uint32_t next = static_cast<std::uint32_t>(row + step.rows) * width +
-                                 static_cast<std::uint32_t>(column + step.columns);
+      const bool is_beside_open = i < sides || (is_open[i - sides] && is_open[(i + 1) % sides]);
+      is_open[i] = is_beside_open && holds_cell(column_of(cell) + step.columns, row_of(cell) + step.rows);
+      if (!is_open[i]) continue;
+      const std::uint32_t next = static_cast<std::uint32_t>(row_of(cell) + step.rows) * width +
+                                 static_cast<std::uint32_t>(column_of(cell) + step.columns);
       const std::uint32_t next_cost = costs[cell] + step.cost;
       if (costs[next] != 0 && costs[next] <= next_cost) continue;
       costs[next] = next_cost;

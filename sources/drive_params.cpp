@@ -25,12 +25,15 @@ void describe(ParamVisitor& v, OdometryParams& p) {
 void describe(ParamVisitor& v, Kidnapping& p) {
   v.field("after_m", p.after_m,
           {.doc = "Way driven before the robot is carried away.", .unit = "m", .min = 0.0, .required = true});
-  v.field("to", p.to,
-          {.doc = "Where the robot is put down, [x, y]; from there it drives to the nearest way point.",
-           .unit = "m",
-           .min_items = 2,
-           .max_items = 2,
-           .required = true});
+  v.field(
+      "to", p.to,
+      {.doc =
+           "Where the robot is put down, [x, y]; from there it drives to the nearest way point of a world, "
+           "or in a map to where it was going.",
+       .unit = "m",
+       .min_items = 2,
+       .max_items = 2,
+       .required = true});
   v.field("heading_deg", p.heading_deg,
           {.doc = "Heading of the robot where it is put down.", .unit = "deg", .min = -360.0, .max = 360.0});
 }

@@ -27,6 +27,11 @@ std::optional<DriveStep> DrivingRobot::next() {
   return step;
 }
 
+void DrivingRobot::start_over() {
+  step_ = 0;
+  odom_from_robot_ = {};
+}
+
 Rng DrivingRobot::stream(DriveStream stream, std::size_t step) const {
   return rng_.stream({static_cast<std::uint64_t>(stream), step});
 }

@@ -29,6 +29,7 @@ class DrivingRobot {
 
   /// The next step; none at the end of the drive.
   [[nodiscard]] std::optional<DriveStep> next();
+  void start_over();
   [[nodiscard]] const Route& route() const { return route_; }
   /// What is drawn for a step.
   [[nodiscard]] Rng stream(DriveStream stream, std::size_t step) const;
@@ -53,6 +54,7 @@ class DriveSimulator {
   /// The scan of the next step, with its reference pose; none at the end of the drive. Rays that meet nothing
   /// within the laser's range read max_range, those that are lost in unknown cells of a map 0.
   [[nodiscard]] std::optional<CarmenScan> next();
+  void start_over() { robot_.start_over(); }
 
  private:
   DriveSimulator(const DriveParams& params, std::uint64_t seed, PlannedDrive drive);

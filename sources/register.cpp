@@ -17,7 +17,8 @@ void register_sources(Catalog& catalog) {
   catalog.observation_sources.add<BagDrive>("bag", "A drive recorded by a robot: ROS bag or MCAP.");
   catalog.observation_sources.add<CarmenLog>("carmen_log", "A drive recorded as a CARMEN log.");
   catalog.observation_sources.add<CloudDrive>("cloud_drive", "A drive recorded as clouds of points.");
-  catalog.observation_sources.add<Simulation>("simulation", "A drive through a simulated world, or through a ROS map.");
+  catalog.observation_sources.add<Simulation>("simulation",
+                                              "A drive through a simulated world, or through a ROS map.");
   catalog.observation_sources.add<RandomScans>("random_scans", "Single scans at random places of a ROS map.");
   catalog.map_sources.add<BagMap>("bag_map", "A map recorded as a message: ROS bag or MCAP.");
   catalog.map_sources.add<LogMap>("log_map", "A map from the reference poses of a CARMEN log.");

@@ -15,10 +15,7 @@ std::unique_ptr<ObservationSource> Simulation::make(const Params& params, const 
 }
 
 Simulation::Simulation(const Params& params, const SourceSetup& setup)
-    : params_(params),
-      seed_(setup.seed),
-      scan_limits_(scan_limits(params.laser)),
-      simulator_(params, setup) {}
+    : scan_limits_(scan_limits(params.laser)), simulator_(params, setup) {}
 
 std::optional<Sample> Simulation::next() {
   const std::optional<CarmenScan> scan = simulator_.next();
@@ -33,7 +30,8 @@ std::optional<Recording> Simulation::recording() const {
   Recording recording{.file_name = "drive.log", .content = {}, .observations = 0, .source = {}};
   log->value.path = {recording.file_name, recording.file_name};
   recording.source = {"carmen_log", std::move(log)};
-  DriveSimulator simulator(params_, {.seed = seed_});
+  DriveSimulator simulator = simulator_;
+  simulator.start_over();
   while (const auto scan = simulator.next()) {
     recording.content += carmen_lines(*scan);
     ++recording.observations;

@@ -1,7 +1,6 @@
 // Simulated observations, and the map that goes with them.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -29,8 +28,6 @@ class Simulation final : public ObservationSource {
   [[nodiscard]] std::optional<Recording> recording() const override;
 
  private:
-  Params params_;
-  std::uint64_t seed_;
   LogParams scan_limits_;
   DriveSimulator simulator_;
 };

@@ -1,6 +1,7 @@
 // glocal simulate.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/program.hpp"
@@ -41,6 +42,37 @@ TEST_F(SimulateCommand, WhatItWritesRunsLikeTheSimulation) {
   };
   EXPECT_EQ(first_line("a/trajectories/trial_0000_reference.tum"),
             first_line("b/trajectories/trial_0000_reference.tum"));
+}
+
+TEST_F(SimulateCommand, WritesADriveInAMap) {
+  Answer answer = run("simulate " + file("experiment.yaml") + " --out " + file("mapped"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  std::ofstream(file("tour.yaml")) << "schema: 1\n"
+                                      "name: tour\n"
+                                      "map: {ros_map: {path: mapped/map.yaml}}\n"
+                                      "observations:\n"
+                                      "  simulation:\n"
+                                      "    map: mapped/map.yaml\n"
+                                      "    tour_legs: 5\n"
+                                      "    boxes: 3\n"
+                                      "    people: 2\n"
+                                      "    kidnappings: [{after_m: 5, to: [1, 1]}]\n"
+                                      "trials: {whole: true}\n"
+                                      "localizer: {matcher: {ransam: {iterations: 5000}}}\n";
+  answer = run("simulate " + file("tour.yaml") + " --seed 5 --out " + file("recorded"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  answer = run("run " + file("tour.yaml") + " --seed 5 --quiet --out " + file("a"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  answer = run("run " + file("recorded/experiment.yaml") + " --quiet --out " + file("b"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(content(file("recorded/map.pgm")), content(file("mapped/map.pgm")));
+  const auto poses = [&](const std::string& results) {
+    const std::string text = content(file(results + "/trajectories/trial_0000_reference.tum"));
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_GT(poses("a"), 30);
+  EXPECT_EQ(poses("a"), poses("b"));
+  EXPECT_THAT(content(file("a/provenance.json")), HasSubstr("mapped/map.pgm")) << "what was read";
 }
 
 TEST_F(SimulateCommand, TheSameSeedGivesTheSameBytes) {
