@@ -111,6 +111,7 @@ std::vector<Walker> drawn_people(int count, const ClearRegion& region, Rng rng) 
 std::vector<Rectangle> drawn_boxes(int count, const OccupancyGrid& grid, const ClearRegion& region,
                                    const std::vector<std::vector<Position>>& ways, double clearance, Rng rng,
                                    const std::string& file) {
+  if (count == 0) return {};
   std::vector<char> is_taken = taken_cells(grid, ways, clearance);
   std::vector<Rectangle> boxes;
   for (int draws = 0; boxes.size() < static_cast<std::size_t>(count); ++draws) {

@@ -175,8 +175,9 @@ std::uint32_t ClearRegion::cell_of(const Position& on_grid) const {
 }
 
 Position ClearRegion::centre_of(std::uint32_t cell) const {
-  const std::uint32_t width = static_cast<std::uint32_t>(width_);
-  return {cell % width + 0.5, cell / width + 0.5};
+  const std::uint32_t column = cell % static_cast<std::uint32_t>(width_);
+  const std::uint32_t row = cell / static_cast<std::uint32_t>(width_);
+  return {column + 0.5, row + 0.5};
 }
 
 /// From the first to the last, both included. A step over a corner needs the cells at both of its sides, so

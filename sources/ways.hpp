@@ -12,6 +12,7 @@
 
 namespace glocal {
 
+/// What a drive through a world and one through a map have in common.
 class Ways {
  public:
   virtual ~Ways() = default;
