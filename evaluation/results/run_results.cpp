@@ -52,6 +52,7 @@ void RunResults::finish(const TrialRecord& trial) {
   }
   const Trajectories trajectories = tum_trajectories(trial);
   write(fmt::format("trajectories/trial_{:04}_estimate.tum", trial.trial), trajectories.estimate);
+  write(fmt::format("trajectories/trial_{:04}_localized.tum", trial.trial), trajectories.localized);
   if (!trajectories.reference.empty())
     write(fmt::format("trajectories/trial_{:04}_reference.tum", trial.trial), trajectories.reference);
   for (const auto& [name, content] : take_maps(trial.trial)) write(name, content);

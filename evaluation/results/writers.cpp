@@ -112,6 +112,8 @@ Trajectories tum_trajectories(const TrialRecord& trial) {
   for (const StepRecord& step : trial.records) {
     if (const auto estimate = step.result.estimate())
       result.estimate += tum_line(step.result.stamp, *estimate);
+    if (const auto& declared = step.result.verdict.map_from_robot)
+      result.localized += tum_line(step.result.stamp, *declared);
     if (step.reference) result.reference += tum_line(step.result.stamp, *step.reference);
   }
   return result;

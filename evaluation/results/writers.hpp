@@ -26,7 +26,8 @@ namespace glocal {
 
 /// A trajectory as evo reads it: stamp x y z qx qy qz qw on each line. Steps without a pose are left out.
 struct Trajectories {
-  std::string estimate;
+  std::string estimate;   ///< What was thought best in each step, declared or not.
+  std::string localized;  ///< Declared poses: of steps with the verdict localized.
   std::string reference;
 };
 [[nodiscard]] Trajectories tum_trajectories(const TrialRecord& trial);

@@ -94,7 +94,10 @@ TEST_F(RunResultsTest, FilesAreInTheOrderOfTrialsWhoeverWroteThem) {
   }
   EXPECT_EQ(content(path() / "trials.jsonl"), trials);
   EXPECT_EQ(content(path() / "steps.jsonl"), steps);
-  EXPECT_TRUE(fs::exists(path() / "trajectories/trial_0003_estimate.tum"));
+  for (int trial = 0; trial < 4; ++trial) {
+    for (const char* what : {"estimate", "localized"})
+      EXPECT_TRUE(fs::exists(path() / fmt::format("trajectories/trial_{:04}_{}.tum", trial, what)));
+  }
   auto json = summary.to_json({"a", 1, true, 1, 1.0, 1.0});
   auto expected_json = expected.to_json({"a", 1, true, 1, 1.0, 1.0});
   json.erase("peak_rss_mb");

@@ -181,7 +181,18 @@ TEST(Tum, IsOneLineForEachPose) {
   EXPECT_EQ(tum.estimate,
             "100.000000 1.000000 -2.500000 0 0 0 0.000000000 1.000000000\n"
             "101.000000 1.000000 -2.500000 0 0 0 1.000000000 0.000000000\n");
+  EXPECT_EQ(tum.localized, "") << "no pose was declared";
   EXPECT_EQ(tum.reference, "100.500000 0.125000 3.000000 0 0 0 0.707106781 0.707106781\n");
+}
+
+TEST(Tum, OfDeclaredPosesHasNoOthers) {
+  TrialRecord trial;
+  for (std::size_t i = 0; i < 3; ++i) trial.records.push_back(step_record(i, {1.0, 2.0, 0.0}));
+  Verdict& verdict = trial.records[1].result.verdict;
+  verdict.kind = VerdictKind::localized;
+  verdict.map_from_robot = Pose2{4.0, 5.0, radians(180.0)};
+  EXPECT_EQ(tum_trajectories(trial).localized,
+            "100.500000 4.000000 5.000000 0 0 0 1.000000000 0.000000000\n");
 }
 
 }  // namespace
