@@ -29,6 +29,7 @@ void add_plugins(CLI::App& app, Context& context);
 void add_bag(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_compare(CLI::App& app, Context& context);
+void add_convert(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_figures(CLI::App& app, Context& context);

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
+#include "app/log_kind.hpp"
 #include "config/scalars.hpp"
 #include "glocal/error.hpp"
 #include "glocal/yaml.hpp"
@@ -32,29 +32,6 @@ std::string path_entry(const std::string& name, const fs::path& path) {
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
   throw ConfigError({{file.string(), 0, 0, what}});
-}
-
-std::string beginning_of(const fs::path& file) {
-  if (!fs::exists(file)) refuse(file, "there is no such file or folder");
-  if (fs::is_directory(file)) return "";
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(64, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  return bytes;
-}
-
-bool is_folder_with(const fs::path& folder, bool (*is_wanted)(const fs::path&)) {
-  if (!fs::is_directory(folder)) return false;
-  const fs::directory_iterator files(folder);
-  return std::any_of(begin(files), end(files), [&](const auto& file) { return is_wanted(file.path()); });
-}
-
-bool is_recording(const fs::path& path) {
-  const auto is_part = [](const fs::path& file) {
-    return file.extension() == ".db3" || file.extension() == ".mcap";
-  };
-  return bags::begins_recording(beginning_of(path)) || is_folder_with(path, is_part);
 }
 
 /// How a map is read.
@@ -146,19 +123,16 @@ LogChoice choose_recording(const LocalizeRequest& request, const MapChoice& map)
     choice.texts.emplace_back("heights     0.2 m to 1.5 m of the clouds, above the robot's origin");
   }
   if (!request.reference.empty())
-    choice.yaml +=
-        fmt::format("    reference: {{{}}}\n",
-                    entry(request.reference.starts_with('/') ? "topic" : "frame", request.reference));
+    choice.yaml += fmt::format("    reference: {{{}}}\n",
+                               entry(is_topic(request.reference) ? "topic" : "frame", request.reference));
   return choice;
 }
 
 LogChoice choose_clouds(const LocalizeRequest& request) {
   LogChoice choice{fmt::format("cloud_drive:\n    {}\n", path_entry("folder", request.log)),
                    {"log         a folder of clouds"}};
-  fs::path odometry = request.odometry;
-  for (const char* name : {"odometry.tum", "odom.tum"}) {
-    if (odometry.empty() && fs::exists(request.log / name)) odometry = request.log / name;
-  }
+  const fs::path odometry =
+      request.odometry.empty() ? odometry_of_clouds(request.log) : fs::path(request.odometry);
   if (!odometry.empty()) {
     choice.yaml += fmt::format("    {}\n", path_entry("odometry", odometry));
     choice.texts.push_back(fmt::format("odometry    {}", odometry.filename().string()));
@@ -169,10 +143,9 @@ LogChoice choose_clouds(const LocalizeRequest& request) {
 }
 
 LogChoice choose_log(const LocalizeRequest& request, const MapChoice& map) {
-  if (is_recording(request.log)) return choose_recording(request, map);
-  if (is_folder_with(request.log, has_name_of_cloud)) return choose_clouds(request);
-  if (fs::is_directory(request.log))
-    refuse(request.log, "is a folder with neither clouds nor .db3 or .mcap files");
+  const LogKind kind = kind_of_log(request.log);
+  if (kind == LogKind::recording) return choose_recording(request, map);
+  if (kind == LogKind::clouds) return choose_clouds(request);
   return {fmt::format("carmen_log:\n    {}\n", path_entry("path", request.log)), {"log         CARMEN"}};
 }
 

@@ -34,6 +34,7 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_simulate(app, context);
   add_map(app, context);
   add_bag(app, context);
+  add_convert(app, context);
   add_mapping(app, context);
   add_new_plugin(app, context);
 }

@@ -41,12 +41,17 @@ void AtomicFiles::add(const fs::path& file, std::string_view content) {
       target.parent_path() / fmt::format(".{}.{}.unfinished", target.filename().string(), ::getpid());
   fs::remove(temporary, error);
   pending_.push_back({target, temporary});
-  check(append_to_file(temporary, content), file);
-  check(sync_to_disk(temporary), file);
+  append(content);
+}
+
+void AtomicFiles::append(std::string_view content) {
+  const Pending& last = pending_.back();
+  check(append_to_file(last.temporary, content), last.file);
 }
 
 void AtomicFiles::commit() {
   std::error_code error;
+  for (const Pending& pending : pending_) check(sync_to_disk(pending.temporary), pending.file);
   for (const Pending& pending : pending_) {
     fs::rename(pending.temporary, pending.file, error);
     check(error, pending.file);

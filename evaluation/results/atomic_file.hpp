@@ -21,6 +21,8 @@ class AtomicFiles {
   /// Writes a file under its temporary name. Folders above it are made. Throws ConfigError if it exists and
   /// may not be replaced.
   void add(const std::filesystem::path& file, std::string_view content);
+  /// The same for a file that is written piece by piece: adds to the file that was added last.
+  void append(std::string_view content);
   void commit();
 
  private:

@@ -35,6 +35,19 @@ TEST(AtomicFiles, AppearTogetherWhenCommitted) {
   EXPECT_EQ(entries(folder / "sub"), 2);
 }
 
+TEST(AtomicFiles, CanBeWrittenPieceByPiece) {
+  const test::TemporaryFolder folder;
+  AtomicFiles files(false);
+  files.add(folder / "a.txt", "first");
+  files.add(folder / "b.txt", "");
+  files.append("second, ");
+  files.append("third");
+  EXPECT_FALSE(fs::exists(folder / "b.txt"));
+  files.commit();
+  EXPECT_EQ(content(folder / "a.txt"), "first");
+  EXPECT_EQ(content(folder / "b.txt"), "second, third");
+}
+
 TEST(AtomicFiles, LeaveNothingWithoutCommit) {
   const test::TemporaryFolder folder;
   folder.write("b.txt", "old");

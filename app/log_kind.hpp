@@ -1,0 +1,29 @@
+// What a recorded drive is, as its files tell.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace glocal::app {
+
+enum class LogKind { recording, clouds, carmen };
+
+/// The first bytes of a file, up to 64; none of a folder. Throws ConfigError if there is neither.
+[[nodiscard]] std::string beginning_of(const std::filesystem::path& file);
+
+/// Whether it is a recording of ROS 1 or 2, or MCAP.
+[[nodiscard]] bool is_recording(const std::filesystem::path& path);
+
+/// What a drive is read as. Files that are nothing else are taken to be CARMEN logs. Throws ConfigError if
+/// nothing is there, and for folders without clouds or parts of recordings.
+[[nodiscard]] LogKind kind_of_log(const std::filesystem::path& log);
+
+/// The file of odometry in a folder of clouds; empty if there is none.
+[[nodiscard]] std::filesystem::path odometry_of_clouds(const std::filesystem::path& folder);
+
+/// Reference poses of a recording are named by a topic, which begins with a slash, or a frame of tf.
+[[nodiscard]] inline bool is_topic(const std::string& name) {
+  return name.starts_with('/');
+}
+
+}  // namespace glocal::app

@@ -1,0 +1,36 @@
+#include "sources/conversion/cloud_folder.hpp"
+
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/clouds/cloud_file.hpp"
+
+namespace glocal {
+
+CloudFolderReader::CloudFolderReader(const DriveFiles& files, const Warn& warn)
+    : clouds_(drive_clouds(files, warn)), sensors_{{"/points", "lidar", true, Pose3{}}} {
+  for (const DriveCloud& cloud : clouds_) {
+    if (!cloud.odometry)
+      throw ConfigError({{files.folder.string(), 0, 0,
+                          "has no odometry.tum, and a recording says where the robot was at each scan; give "
+                          "the file with --odometry"}});
+    check_stamp(cloud.stamp, cloud.file.string());
+  }
+}
+
+std::optional<DriveScan> CloudFolderReader::next() {
+  if (next_ == clouds_.size()) return std::nullopt;
+  const DriveCloud& source = clouds_[next_++];
+  Cloud cloud = read_cloud(source.file);
+  DriveScan scan;
+  scan.stamp_ns = nanoseconds_of(source.stamp);
+  scan.odom_from_robot = *source.odometry;
+  scan.map_from_robot = source.reference;
+  scan.rays = bags::PointCloud{{scan.stamp_ns, sensors_.front().frame},
+                               std::move(cloud.points),
+                               std::move(cloud.times),
+                               cloud.not_finite};
+  return scan;
+}
+
+}  // namespace glocal

@@ -1,0 +1,137 @@
+#include "sources/conversion/recording_drive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "sources/bags/cdr_writer.hpp"
+#include "sources/bags/message_definitions.hpp"
+#include "sources/bags/message_reader.hpp"
+
+namespace glocal {
+namespace {
+
+constexpr std::int64_t longest_gap_ns = 500'000'000;  ///< Between poses that others are interpolated from.
+
+constexpr const char* odom_frame = "odom";
+constexpr const char* base_frame = "base_link";
+
+}  // namespace
+
+RecordingDriveReader::RecordingDriveReader(const std::filesystem::path& path, const RecordingChoice& choice,
+                                           Warn warn)
+    : file_(path.string()), choice_(choice), warn_(std::move(warn)), recording_(path) {
+  std::vector<std::string> remarks;
+  contents_ = bags::read_contents(recording_, choice.topics, file_, remarks);
+  for (const std::string& remark : recording_.warnings()) warn_(remark);
+  for (const std::string& remark : remarks) warn_(file_ + ": " + remark);
+  if (!choice.reference_frame.empty() &&
+      !contents_.tree.connects(choice.reference_frame, contents_.base_frame))
+    throw ConfigError({{file_, 0, 0,
+                        fmt::format("tf does not connect {} with {}; give --reference a topic or a frame of "
+                                    "the tree, which glocal bag info shows",
+                                    choice.reference_frame, contents_.base_frame)}});
+  std::set<std::string> topics;
+  for (const bags::ScanTopic& scan : contents_.scans) {
+    topics.insert(scan.topic);
+    const bool is_still = contents_.tree.is_still(contents_.base_frame, scan.frame);
+    sensors_.push_back(
+        {scan.topic, scan.frame, scan.are_clouds,
+         is_still ? contents_.tree.pose(contents_.base_frame, scan.frame, 0, longest_gap_ns) : std::nullopt});
+  }
+  recording_.rewind(topics);
+}
+
+std::optional<DriveScan> RecordingDriveReader::next() {
+  while (const auto message = recording_.next()) {
+    if (!bags::is_readable(*message->connection) || !bags::has_scans(message->connection->type)) continue;
+    try {
+      if (auto scan = scan_of(*message)) return scan;
+      ++without_pose_;
+    } catch (const ConfigError&) {
+      ++unreadable_;
+    }
+  }
+  warn_of_lost();
+  return std::nullopt;
+}
+
+std::optional<DriveScan> RecordingDriveReader::scan_of(const bags::RecordedMessage& message) {
+  const auto sensor = std::find_if(sensors_.begin(), sensors_.end(), [&](const DriveSensor& s) {
+    return s.topic == message.connection->topic;
+  });
+  DriveScan scan;
+  scan.sensor = static_cast<std::size_t>(sensor - sensors_.begin());
+  bags::Header header;
+  if (sensor->has_clouds) {
+    header = std::get<bags::PointCloud>(scan.rays = bags::read_point_cloud(message)).header;
+  } else {
+    header = std::get<bags::LaserScan>(scan.rays = bags::read_laser_scan(message)).header;
+  }
+  scan.stamp_ns = header.stamp_ns;
+  const auto odometry = contents_.odometry_at(header.stamp_ns, longest_gap_ns);
+  const auto mount = contents_.tree.pose(contents_.base_frame, header.frame, header.stamp_ns, longest_gap_ns);
+  if (!odometry || !mount) return std::nullopt;
+  scan.odom_from_robot = *odometry;
+  scan.robot_from_sensor = *mount;
+  scan.map_from_robot = reference_at(header.stamp_ns);
+  return scan;
+}
+
+std::optional<Pose3> RecordingDriveReader::reference_at(std::int64_t stamp_ns) const {
+  if (contents_.reference.size() > 0) return contents_.reference.at(stamp_ns, longest_gap_ns);
+  if (choice_.reference_frame.empty()) return std::nullopt;
+  return contents_.tree.pose(choice_.reference_frame, contents_.base_frame, stamp_ns, longest_gap_ns);
+}
+
+void RecordingDriveReader::warn_of_lost() {
+  if (without_pose_ > 0)
+    warn_(
+        fmt::format("{}: {} scans are left out, as it is not known where the robot and its sensor were at "
+                    "their time",
+                    file_, without_pose_));
+  if (unreadable_ > 0)
+    warn_(fmt::format("{}: {} scans are left out, as they break their definition", file_, unreadable_));
+  without_pose_ = unreadable_ = 0;
+}
+
+McapDriveWriter::McapDriveWriter(std::vector<DriveSensor> sensors, bags::McapWriter::Sink sink)
+    : sensors_(std::move(sensors)), writer_(std::move(sink)) {}
+
+void McapDriveWriter::send(const std::string& topic, const std::string& type, std::int64_t stamp_ns,
+                           const std::string& message) {
+  auto channel = channels_.find(topic);
+  if (channel == channels_.end())
+    channel = channels_.emplace(topic, writer_.add_channel(topic, type, bags::definition_of(type))).first;
+  writer_.write(channel->second, stamp_ns, message);
+}
+
+void McapDriveWriter::send_fixed_poses(std::int64_t stamp_ns) {
+  std::vector<bags::FrameTransform> fixed;
+  for (const DriveSensor& sensor : sensors_) {
+    if (sensor.robot_from_sensor)
+      fixed.push_back({{stamp_ns, base_frame}, sensor.frame, *sensor.robot_from_sensor});
+  }
+  if (!fixed.empty()) send("/tf_static", "tf2_msgs/TFMessage", stamp_ns, bags::serialized(fixed));
+}
+
+void McapDriveWriter::write(const DriveScan& scan) {
+  if (channels_.empty()) send_fixed_poses(scan.stamp_ns);
+  const DriveSensor& sensor = sensors_[scan.sensor];
+  std::vector<bags::FrameTransform> moving = {
+      {{scan.stamp_ns, odom_frame}, base_frame, scan.odom_from_robot}};
+  if (!sensor.robot_from_sensor)
+    moving.push_back({{scan.stamp_ns, base_frame}, sensor.frame, scan.robot_from_sensor});
+  send("/tf", "tf2_msgs/TFMessage", scan.stamp_ns, bags::serialized(moving));
+  if (scan.map_from_robot)
+    send("/reference", "geometry_msgs/PoseStamped", scan.stamp_ns,
+         bags::serialized(bags::StampedFramePose{{scan.stamp_ns, "map"}, *scan.map_from_robot, {}}));
+  const std::string type = sensor.has_clouds ? "sensor_msgs/PointCloud2" : "sensor_msgs/LaserScan";
+  send(sensor.topic, type, scan.stamp_ns,
+       std::visit([](const auto& rays) { return bags::serialized(rays); }, scan.rays));
+}
+
+}  // namespace glocal

@@ -1,0 +1,125 @@
+// glocal convert.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+#include "sources/bags/recordings.hpp"
+
+namespace glocal::test::convert_test {
+namespace {
+
+using testing::HasSubstr;
+
+class ConvertCommand : public CommandLine {
+ protected:
+  ConvertCommand() {
+    std::ofstream(file("drive.log")) << "TRUEPOS 5 6 0 0 0 0 1.5 host 1.5\n"
+                                        "FLASER 3 1 2 3 0.1 0 0 0 0 0 1.5 host 1.5\n"
+                                        "FLASER 3 1 2 3 1.1 0 0 1 0 0 2.5 host 2.5\n";
+  }
+  [[nodiscard]] Answer convert(const std::string& in, const std::string& out, const std::string& more = "") {
+    return run("convert " + file(in) + " " + file(out) + " " + more);
+  }
+  void expect_fault(const Answer& answer, const std::string& text) {
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_THAT(answer.err, HasSubstr(text));
+  }
+  [[nodiscard]] std::ptrdiff_t entries() const {
+    return std::distance(std::filesystem::directory_iterator(folder_.path()),
+                         std::filesystem::directory_iterator());
+  }
+};
+
+TEST_F(ConvertCommand, ALogBecomesMcapAndALogAgain) {
+  const Answer there = convert("drive.log", "drive.mcap");
+  ASSERT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_EQ(there.out, "2 scans, 1 of them with reference pose, in " + file("drive.mcap") + "\n");
+  const Answer info = run("bag info --json " + file("drive.mcap"));
+  const auto json = nlohmann::json::parse(info.out);
+  EXPECT_EQ(json["path_m"], 1.0);
+  EXPECT_EQ(json["topics"][0]["topic"], "/reference");
+  EXPECT_EQ(json["topics"][1]["scan"]["beams"], 3);
+  const Answer back = convert("drive.mcap", "back.log", "--reference /reference");
+  ASSERT_EQ(back.exit_code, 0) << back.err;
+  EXPECT_THAT(content(file("back.log")), HasSubstr("TRUEPOS 5 6 0 "));
+  EXPECT_THAT(content(file("back.log")),
+              HasSubstr(" 80 0 0 3 1 2 3 0 0.1 0 0 0 0 0 0 0 0 0 0 1.500000 glocal"));
+}
+
+TEST_F(ConvertCommand, McapCanBeCopied) {
+  ASSERT_EQ(convert("drive.log", "drive.mcap").exit_code, 0);
+  const Answer answer = convert("drive.mcap", "copy.mcap");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out, "6 messages in " + file("copy.mcap") + "\n");
+  EXPECT_EQ(content(file("copy.mcap")).size(), content(file("drive.mcap")).size());
+}
+
+TEST_F(ConvertCommand, MessagesOfRos1ThatAreNotKnownAreLeftOut) {
+  using namespace bags;
+  const std::string header = le<std::uint32_t>(0) + ros1_time(5, 6) + sized("map");
+  const std::string pose(7 * 8, '\0');
+  folder_.write("a.bag", ros1_magic + ros1_bag_header() +
+                             ros1_chunk(ros1_connection(0, "/pose", "geometry_msgs/PoseStamped") +
+                                        ros1_connection(1, "/imu", "sensor_msgs/Imu") +
+                                        ros1_message(0, 5, header + pose) + ros1_message(1, 6, "imu") +
+                                        ros1_message(1, 7, "imu")));
+  const Answer answer = convert("a.bag", "a.mcap");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out, "1 messages in " + file("a.mcap") + "\n");
+  EXPECT_THAT(answer.err,
+              HasSubstr("a.bag: 2 messages of /imu are left out: the definition of sensor_msgs/Imu "
+                        "for ROS 2 is not known"));
+  const auto info = nlohmann::json::parse(run("bag info --json " + file("a.mcap")).out);
+  EXPECT_EQ(info["topics"][0]["type"], "geometry_msgs/PoseStamped");
+  EXPECT_EQ(info["topics"][0]["encoding"], "cdr");
+}
+
+TEST_F(ConvertCommand, AFolderOfCloudsBecomesMcapAndAFolderAgain) {
+  std::filesystem::create_directory(file("clouds"));
+  for (const char* name : {"clouds/10.250000.pcd", "clouds/10.750000.pcd"}) {
+    std::ofstream(file(name)) << "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\n"
+                                 "HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n";
+  }
+  const std::string odometry =
+      "10.250000 0.000000 0.000000 0.500000 0.000000000 0.000000000 0.000000000 1.000000000\n"
+      "10.750000 1.000000 0.000000 0.500000 0.600000000 0.000000000 0.000000000 0.800000000\n";
+  std::ofstream(file("clouds/odometry.tum")) << odometry;
+  ASSERT_EQ(convert("clouds", "drive.mcap").exit_code, 0);
+  const Answer back = convert("drive.mcap", "back/");
+  ASSERT_EQ(back.exit_code, 0) << back.err;
+  EXPECT_EQ(content(file("back/odometry.tum")), odometry);
+  EXPECT_TRUE(std::filesystem::exists(file("back/10.250000.pcd")));
+  EXPECT_TRUE(std::filesystem::exists(file("back/10.750000.pcd")));
+  EXPECT_FALSE(std::filesystem::exists(file("back/reference.tum")));
+  EXPECT_EQ(convert("back", "again.mcap").exit_code, 0);
+  EXPECT_EQ(content(file("again.mcap")), content(file("drive.mcap")));
+  EXPECT_EQ(convert("drive.mcap", "back/", "--force").exit_code, 0);
+
+  expect_fault(convert("drive.mcap", "a.log"), "has clouds, which cannot be written as a CARMEN log");
+  expect_fault(convert("clouds", "a.log"), "has clouds, which cannot be written as a CARMEN log");
+  expect_fault(convert("clouds", "other/"), "is a folder of clouds already; name OUT *.mcap");
+  expect_fault(convert("drive.log", "other/"), "has planar scans, which are no clouds in space");
+  expect_fault(convert("drive.mcap", "back/"), "the folder exists and is not empty");
+}
+
+TEST_F(ConvertCommand, WhatCannotBeIsSaidAndLeavesNothing) {
+  ASSERT_EQ(convert("drive.log", "drive.mcap").exit_code, 0);
+  expect_fault(convert("drive.log", "other.log"), "is a CARMEN log already; name OUT *.mcap");
+  expect_fault(convert("drive.log", "a.bag"), "a.bag: error: the name says no format");
+  expect_fault(convert("none.log", "a.mcap"), "none.log: error: there is no such file or folder");
+  expect_fault(convert("drive.log", "drive.mcap"), "drive.mcap: error: the file exists");
+  expect_fault(convert("drive.log", "a.mcap", "--scans /scan"),
+               "a CARMEN log says which scans, odometry and reference poses it has: leave out --scans");
+  expect_fault(convert("drive.mcap", "a.mcap", "--scans /scan"),
+               "all topics of a recording are copied to MCAP: leave out --scans");
+  expect_fault(convert("drive.mcap", "a.log", "--reference world"),
+               "tf does not connect world with base_link");
+  std::ofstream(file("bad.log")) << "FLASER 3 1 2 3 0.1 0 0 0 0 0 1.5 host 1.5\nFLASER 3 1\n";
+  expect_fault(convert("bad.log", "drive.mcap", "--force"), "bad.log:2: error: FLASER says 3 readings");
+  EXPECT_EQ(entries(), 5) << "two logs, a recording, and what the commands said";
+  EXPECT_EQ(convert("drive.log", "drive.mcap", "--force").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace glocal::test::convert_test
