@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 struct ConvertOptions {
   std::string in, out;
-  std::string scans, odometry, base_frame, reference;
+  std::string scans, odometry, odom_frame, base_frame, reference;
   double max_range = sick_range;
   bool force = false;
 };
@@ -82,6 +82,7 @@ std::unique_ptr<DriveReader> open_recording(const ConvertOptions& options) {
   RecordingChoice choice;
   if (!options.scans.empty()) choice.topics.scans = {options.scans};
   choice.topics.odometry = options.odometry;
+  choice.topics.odom_frame = options.odom_frame;
   choice.topics.base_frame = options.base_frame;
   (is_topic(options.reference) ? choice.topics.reference : choice.reference_frame) = options.reference;
   return std::make_unique<RecordingDriveReader>(options.in, choice, warn);
@@ -91,7 +92,8 @@ std::unique_ptr<DriveReader> open_recording(const ConvertOptions& options) {
 void refuse_choices(const ConvertOptions& options, const std::string& why) {
   for (const auto& [name, value] :
        {std::pair("--scans", options.scans), std::pair("--odometry", options.odometry),
-        std::pair("--base-frame", options.base_frame), std::pair("--reference", options.reference)}) {
+        std::pair("--odom-frame", options.odom_frame), std::pair("--base-frame", options.base_frame),
+        std::pair("--reference", options.reference)}) {
     if (!value.empty()) refuse(options.in, fmt::format("{}: leave out {}", why, name));
   }
 }
@@ -119,7 +121,8 @@ std::unique_ptr<DriveReader> open_carmen(const ConvertOptions& options) {
 
 std::unique_ptr<DriveReader> open_clouds(const ConvertOptions& options) {
   for (const auto& [name, value] :
-       {std::pair("--scans", options.scans), std::pair("--base-frame", options.base_frame)}) {
+       {std::pair("--scans", options.scans), std::pair("--odom-frame", options.odom_frame),
+        std::pair("--base-frame", options.base_frame)}) {
     if (!value.empty())
       refuse(options.in, fmt::format("a folder of clouds has no topics: leave out {}", name));
   }
@@ -213,6 +216,8 @@ void add_convert(CLI::App& app, Context& context) {
   command->add_option("--scans", options->scans, "Topic with scans, where there are several");
   command->add_option("--odometry", options->odometry,
                       "Topic with odometry, or for clouds the file (default: tf, or the only one)");
+  command->add_option("--odom-frame", options->odom_frame,
+                      "Frame of tf that odometry counts from (default: odom)");
   command->add_option("--base-frame", options->base_frame,
                       "Frame of the robot (default: base_footprint or base_link)");
   command->add_option("--reference", options->reference,
