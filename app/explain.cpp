@@ -35,6 +35,7 @@ struct Replayed {
   StepResult result;
   LocalMap local;
   Pose3 map_from_robot;  ///< Reference.
+  PoseGate gate;
   double driven_m = 0.0;
 };
 
@@ -78,7 +79,7 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
     }
     result = localizer.step(samples[i].observation);
   }
-  return {std::move(result), localizer.local_map(), *samples[index].map_from_robot,
+  return {std::move(result), localizer.local_map(), *samples[index].map_from_robot, localizer.gate(),
           loaded.drive.path_m[index] - loaded.drive.path_m[start]};
 }
 
@@ -188,6 +189,9 @@ void explain(const ExplainOptions& options, Context& context) {
     if (declared && agree(*result.verdict.map_from_robot, truth, limits))
       return "nowhere: declared, and right";
     if (hypothesis < std::ssize(result.hypotheses)) return lost_after_matcher(result, cluster);
+    if (!step.gate.allows(truth * inverse(step.local.local_from_robot)))
+      return fmt::format("excluded: localizer.prior leaves only {}, and the reference is none of these",
+                         to_string(step.gate.prior()));
     if (!agree(fitted, truth, limits))
       return "unclear: the local map does not fit where the reference says it was";
     const Replayed open = replay(options, experiment, context.catalog, loaded, Threshold::none);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
@@ -23,6 +24,7 @@ namespace {
 
 struct LocalizeOptions {
   LocalizeRequest request;
+  std::vector<double> region, heading;  ///< As given.
   ExperimentOptions changes;
   std::string out;
   bool force = false;
@@ -120,8 +122,18 @@ void write_experiment(const std::string& file, const std::string& content, bool 
   files.commit();
 }
 
+/// What is wrong with it, the experiment's reader says.
+Prior prior_of(const LocalizeOptions& options) {
+  Prior prior;
+  if (!options.region.empty()) prior.region = {options.region[0], options.region[1], options.region[2]};
+  if (!options.heading.empty()) prior.heading = {options.heading[0], options.heading[1]};
+  return prior;
+}
+
 void localize(const LocalizeOptions& options, Context& context) {
-  const LocalizePlan plan = plan_localization(options.request);
+  LocalizeRequest request = options.request;
+  request.prior = prior_of(options);
+  const LocalizePlan plan = plan_localization(request);
   const std::string out = options.out.empty() ? "results/" + plan.name : options.out;
   const std::string file = out + ".yaml";
   write_experiment(file, plan.experiment, options.force);
@@ -171,6 +183,14 @@ void add_localize(CLI::App& app, Context& context) {
   command->add_option(
       "--reference", request.reference,
       "Reference poses, only to judge the answer: topic or frame of tf, or for clouds a file");
+  command->add_option("--region", options->region, "Look only at starts so near to a place on the map, m")
+      ->type_name("X Y RADIUS")
+      ->expected(3);
+  command
+      ->add_option("--heading", options->heading,
+                   "Look only at starts with headings half the width or less from this one, deg")
+      ->type_name("DEG WIDTH")
+      ->expected(2);
   options->changes.add_overrides_to(*command);
   command->add_option("--out", options->out, "Folder for the results (default: results/localize_LOG)");
   command->add_flag("--force", options->force, "Replace earlier results");

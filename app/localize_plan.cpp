@@ -156,6 +156,19 @@ std::string trials_of(const LocalizeRequest& request) {
   return where + ", max_steps: 200";
 }
 
+/// A line of the localizer's keys; nothing without a prior.
+std::string prior_entry(const Prior& prior) {
+  if (!prior.is_given()) return "";
+  std::vector<std::string> keys;
+  const StartRegion& region = prior.region;
+  if (region.is_given())
+    keys.push_back(fmt::format("region: {{x: {}, y: {}, radius: {}}}", *region.x, *region.y, *region.radius));
+  const StartHeading& heading = prior.heading;
+  if (heading.is_given())
+    keys.push_back(fmt::format("heading: {{deg: {}, width_deg: {}}}", *heading.deg, *heading.width_deg));
+  return fmt::format("  prior: {{{}}}\n", fmt::join(keys, ", "));
+}
+
 /// Letters, digits, '_' and '-' of a file's name.
 std::string name_of(const fs::path& log) {
   std::string name = fs::absolute(log).lexically_normal().filename().string();
@@ -181,6 +194,8 @@ LocalizePlan plan_localization(const LocalizeRequest& request) {
   if (is_fine)
     plan.choices.push_back(fmt::format(
         "contact     within {} m: the map's cells are finer than maps and sensors are true", least_epsilon));
+  if (request.prior.is_given())
+    plan.choices.push_back(fmt::format("prior       only {}", to_string(request.prior)));
   plan.experiment = fmt::format(
       "# Written by glocal localize.\n"
       "schema: 1\n"
@@ -192,14 +207,14 @@ LocalizePlan plan_localization(const LocalizeRequest& request) {
       "  {}"
       "trials: {{{}}}\n"
       "localizer:\n"
-      "{}{}"
+      "{}{}{}"
       "  matcher: indexed_ransam\n"
       "  threshold_policy:\n"
       "    fixed: {{omega_max: 0.1}}\n"
       "  verdict_rule: staged_margin\n",
       entry("name", plan.name), map.yaml, log.yaml, trials_of(request),
       map.in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "",
-      is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "");
+      is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "", prior_entry(request.prior));
   return plan;
 }
 

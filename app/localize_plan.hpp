@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "glocal/prior.hpp"
+
 namespace glocal::app {
 
 /// What is to be localized, and from where on. At most one of every_m and whole is given.
@@ -17,6 +19,7 @@ struct LocalizeRequest {
   double start_m = 0.0;   ///< Along the drive.
   double every_m = 0.0;   ///< Way between starts; 0: a single one.
   bool whole = false;     ///< Goes on after the declaration, to the end of the drive.
+  Prior prior;            ///< Of each start.
 };
 
 struct LocalizePlan {

@@ -9,6 +9,7 @@
 
 #include "glocal/pose2.hpp"
 #include "glocal/pose_cells.hpp"
+#include "glocal/prior.hpp"
 #include "matchers/grid_search/contact_pyramid.hpp"
 #include "matchers/grid_search/pose_grid.hpp"
 
@@ -20,6 +21,7 @@ struct GridSearchRule {
   double distance = 0.4;             ///< m; robot poses in a cell of this diagonal …
   double rotation = 0.2;             ///< rad; … and this size count as one.
   std::size_t max_poses = 50;
+  PoseGate gate = {};  ///< Only poses that it allows are searched for.
 };
 
 struct GridSearchResult {

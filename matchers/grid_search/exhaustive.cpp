@@ -98,7 +98,8 @@ GridSearchResult Exhaustive::search(const Points& points, const Pose2& local_fro
     parallel_for(threads_, found.size(), [&](std::size_t i) {
       const Pose2 at_zero = grid.pose(begin + i, 0, 0, frame_.min_x, frame_.min_y);
       const RobotCells robots(at_zero * local_from_robot, 0.0, frame_.cell, rule);
-      found[i] = search_rotation(grid, begin + i, points, robots, best.least());
+      const AllowedTranslations allowed(rule.gate, at_zero, frame_.cell);
+      found[i] = search_rotation(grid, begin + i, points, robots, allowed, best.least());
     });
     best.add(found);
   }
@@ -106,7 +107,8 @@ GridSearchResult Exhaustive::search(const Points& points, const Pose2& local_fro
 }
 
 FoundPoses Exhaustive::search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
-                                       const RobotCells& robots, std::size_t least) const {
+                                       const RobotCells& robots, const AllowedTranslations& allowed,
+                                       std::size_t least) const {
   const Translations all = translations(grid.cells(rotation), frame_);
   const Pose2 at_zero = grid.pose(rotation, 0, 0, frame_.min_x, frame_.min_y);
   const Transform turned(at_zero);
@@ -114,6 +116,7 @@ FoundPoses Exhaustive::search_rotation(const PoseGrid& grid, std::size_t rotatio
   FoundPoses found;
   for (int row = all.first_row; row <= all.last_row; ++row) {
     for (int column = all.first_column; column <= all.last_column; ++column) {
+      if (!allowed.any(column, row)) continue;
       candidates.add({turned.cosine(), turned.sine(), static_cast<float>(at_zero.x + frame_.cell * column),
                       static_cast<float>(at_zero.y + frame_.cell * row)},
                      {.rotation = rotation, .row = row, .column = column});

@@ -33,7 +33,8 @@ class Exhaustive final : public GridMatcher {
   [[nodiscard]] GridSearchResult search(const Points& points, const Pose2& local_from_robot,
                                         const GridSearchRule& rule) const override;
   [[nodiscard]] FoundPoses search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
-                                           const RobotCells& robots, std::size_t least) const;
+                                           const RobotCells& robots, const AllowedTranslations& allowed,
+                                           std::size_t least) const;
 
   int threads_;
   CellFrame frame_;

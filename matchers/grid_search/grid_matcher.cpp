@@ -45,12 +45,13 @@ std::size_t most_points(const GridMatching& p) {
   return p.max_points > 0 ? static_cast<std::size_t>(p.max_points) : TileCounts::most_points;
 }
 
-GridSearchRule search_rule(const GridMatching& p, double omega_max) {
+GridSearchRule search_rule(const GridMatching& p, double omega_max, const PoseGate& gate) {
   return {.min_quality = omega_max,
           .min_rotation_step = radians(p.min_rotation_step_deg),
           .distance = p.candidate.distance,
           .rotation = radians(p.candidate.rotation_deg),
-          .max_poses = static_cast<std::size_t>(p.max_poses)};
+          .max_poses = static_cast<std::size_t>(p.max_poses),
+          .gate = gate};
 }
 
 GridMatcher::GridMatcher(const GridMatching& params, const GlobalMap& map,
@@ -66,7 +67,7 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
   if (local.points.empty()) return result;
   const Points sample = sample_of(local.points, most_points(params_), rng);
   const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
-  const GridSearchResult found = search(sample, local_from_robot, search_rule(params_, omega_max));
+  const GridSearchResult found = search(sample, local_from_robot, search_rule(params_, omega_max, gate_));
   result.proposals = found.tested;
   result.points_tested = found.points_tested;
   std::vector<Candidate> candidates;

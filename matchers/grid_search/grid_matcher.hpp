@@ -28,7 +28,7 @@ void describe(ParamVisitor& v, GridMatching& p);
 
 /// By how many points a local map is searched for.
 [[nodiscard]] std::size_t most_points(const GridMatching& p);
-[[nodiscard]] GridSearchRule search_rule(const GridMatching& p, double omega_max);
+[[nodiscard]] GridSearchRule search_rule(const GridMatching& p, double omega_max, const PoseGate& gate);
 
 /// Matching by a search of a grid of poses. A pose of the grid turns the local map by whole steps about its
 /// middle and moves it by whole cells (PoseGrid). A local map of more than max_points is searched for by a
@@ -43,6 +43,7 @@ class GridMatcher : public Matcher {
   /// `contact` judges hypotheses. Throws ConfigError where the map is too large for a distance field.
   GridMatcher(const GridMatching& params, const GlobalMap& map, std::shared_ptr<const ContactIndex> contact);
 
+  void restrict_to(const PoseGate& gate) final { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) final;
   void reset() final {}
@@ -54,6 +55,7 @@ class GridMatcher : public Matcher {
   GridMatching params_;
   std::shared_ptr<const ContactIndex> contact_;
   CandidateRefiner refiner_;
+  PoseGate gate_;
 };
 
 }  // namespace glocal

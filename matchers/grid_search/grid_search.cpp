@@ -52,6 +52,8 @@ class RotationSearch {
         rotation_(rotation),
         points_(grid.cells(rotation)),
         layers_(layers_of_robot(pyramid, robot_height)),
+        allowed_(rule.gate, grid.pose(rotation, 0, 0, pyramid.frame().min_x, pyramid.frame().min_y),
+                 pyramid.frame().cell),
         robots_(grid.pose(rotation, 0, 0, pyramid.frame().min_x, pyramid.frame().min_y) * local_from_robot,
                 pyramid.frame().min_z + robot_height, pyramid.frame().cell, rule) {}
 
@@ -94,7 +96,9 @@ class RotationSearch {
     const int top = pyramid_.top_level();
     for (int z = layers_.first; z <= layers_.last; z += 1 << top) {
       for (int y = all.first_row; y <= all.last_row; y += TileCounts::rows << top) {
-        for (int x = all.first_column; x <= all.last_column; x += TileCounts::columns << top) visit(x, y, z);
+        for (int x = all.first_column; x <= all.last_column; x += TileCounts::columns << top) {
+          if (allowed_.any(x, y, TileCounts::columns << top, TileCounts::rows << top)) visit(x, y, z);
+        }
       }
     }
   }
@@ -117,6 +121,9 @@ class RotationSearch {
         std::uint64_t any = 0;
         for (int r = k; r < k + half_rows; ++r) any |= promising[static_cast<std::size_t>(r)] >> i;
         if (static_cast<std::uint32_t>(any) == 0) continue;
+        if (!allowed_.any(column + (i << level), row + (k << level), half_columns << level,
+                          half_rows << level))
+          continue;
         for (int z = layer; z < layer + 2 * half_layers && z <= layers_.last; z += half_layers)
           descend(level - 1, column + (i << level), row + (k << level), z, least);
       }
@@ -129,6 +136,7 @@ class RotationSearch {
     for (int k = 0; k < TileCounts::rows; ++k) {
       for (std::uint64_t left = nodes[static_cast<std::size_t>(k)]; left != 0; left &= left - 1) {
         const int i = std::countr_zero(left);
+        if (!allowed_.any(column + i, row + k)) continue;
         const GridPose pose{counts_.at(i, k), rotation_, row + k, column + i, layer};
         add(found_.best, robots_.of(pose), pose);
       }
@@ -145,6 +153,7 @@ class RotationSearch {
   std::size_t rotation_;
   CellPoints points_;
   Layers layers_;
+  AllowedTranslations allowed_;
   RobotCells robots_;
   TileCounts counts_;
   FoundPoses found_;

@@ -19,8 +19,8 @@ MatchResult SpaceBranchAndBound::match(const LocalMap& local, const Observation&
   if (local.points.empty()) return result;
   const Points sample = sample_of(local.points, most_points(params_), rng);
   const GridSearchResult found =
-      search_grid(*pyramid_, sample, seen_from_above(local.local_from_robot), search_rule(params_, omega_max),
-                  threads_, local.local_from_robot.z);
+      search_grid(*pyramid_, sample, seen_from_above(local.local_from_robot),
+                  search_rule(params_, omega_max, gate_), threads_, local.local_from_robot.z);
   result.proposals = found.tested;
   result.points_tested = found.points_tested;
   for (const GridSearchResult::Pose& pose : found.poses) {

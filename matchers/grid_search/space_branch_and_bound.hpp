@@ -20,6 +20,7 @@ class SpaceBranchAndBound final : public Matcher {
   /// Throws ConfigError where the map is too large for a contact grid or a pyramid.
   SpaceBranchAndBound(const GridMatching& params, const StageSetup& setup);
 
+  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
   void reset() override {}
@@ -29,6 +30,7 @@ class SpaceBranchAndBound final : public Matcher {
   int threads_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const ContactPyramid> pyramid_;
+  PoseGate gate_;
 };
 
 }  // namespace glocal

@@ -62,6 +62,10 @@ struct Scene {
   SearchEffort effort;
 };
 
+bool is_allowed(const RigidMotion& motion, const PoseGate& gate) {
+  return gate.is_open() || gate.allows(motion.pose());
+}
+
 /// What pairs of a round propose, seen off by a few surfels.
 std::vector<Proposal> proposals(Scene& scene, const PairTable& pairs, const PairSampler& sampler,
                                 const PairRule& rule, const PoseSearchParams& params, Rng& rng) {
@@ -87,6 +91,7 @@ std::vector<Proposal> proposals(Scene& scene, const PairTable& pairs, const Pair
                                      scene.source.surfels.points[pair->first.second]);
         proposal.motion = made_upright(proposal.motion, middle);
       }
+      if (!is_allowed(proposal.motion, params.gate)) continue;
       const auto look = [&](std::size_t begin, std::size_t end) {
         scene.effort.points_tested += end - begin;
         return evidence(scene.source_sample, begin, end, proposal.motion, scene.target,
@@ -196,7 +201,8 @@ void polish(std::vector<FoundPose>& found, Scene& scene, const PointJudge& judge
   for (std::size_t i = 0; i < std::min(few, found.size()); ++i) {
     FoundPose pose = settled(found[i].target_from_source, sample, steps, scene, judge_points, params);
     pose.rounds = found[i].rounds;
-    if (pose.score + slack >= found[i].score) found[i] = pose;
+    if (pose.score + slack >= found[i].score && is_allowed(pose.target_from_source, params.gate))
+      found[i] = pose;
   }
   std::stable_sort(found.begin(), found.end(), has_higher_score);
 }
@@ -248,7 +254,8 @@ std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
   scene.source_sample = sample_of(source.surfels, whole_sample, rng);
   if (target_.view) scene.target_sample = sample_of(target_.surfels, third_look, rng);
   const auto settle = [&](const RigidMotion& motion, std::size_t round) {
-    add(found, settled(motion, scene.source_sample, steps, scene, judge_points, params_), round, voxel_size);
+    const FoundPose pose = settled(motion, scene.source_sample, steps, scene, judge_points, params_);
+    if (is_allowed(pose.target_from_source, params_.gate)) add(found, pose, round, voxel_size);
   };
   for (const RigidMotion& motion : known) settle(motion, 0);
   std::stable_sort(found.begin(), found.end(), has_higher_score);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "glocal/params.hpp"
+#include "glocal/prior.hpp"
 #include "glocal/rng.hpp"
 #include "matchers/in_space/prepared_cloud.hpp"
 #include "matchers/in_space/surfel_pairs.hpp"
@@ -24,6 +25,7 @@ struct PoseSearchParams {
   double seen_through_weight = 5.0;
   double free_space_weight = 0.0;
   bool upright = false;  ///< Both z axes point up: poses turn about z alone.
+  PoseGate gate = {};    ///< Poses that it does not allow are not found.
 };
 
 /// A pose of the source in the target.

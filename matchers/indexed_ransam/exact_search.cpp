@@ -48,8 +48,11 @@ bool ExactSearch::is_due(const std::vector<Hypothesis>& best) {
   return true;
 }
 
-GridSearchResult ExactSearch::search(const Points& points, const Pose2& local_from_robot) const {
-  return search_grid(*pyramid_, points, local_from_robot, grid_, threads_);
+GridSearchResult ExactSearch::search(const Points& points, const Pose2& local_from_robot,
+                                     const PoseGate& gate) const {
+  GridSearchRule rule = grid_;
+  rule.gate = gate;
+  return search_grid(*pyramid_, points, local_from_robot, rule, threads_);
 }
 
 }  // namespace glocal

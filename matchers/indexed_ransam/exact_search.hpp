@@ -37,8 +37,9 @@ class ExactSearch {
   [[nodiscard]] bool is_due(const std::vector<Hypothesis>& best);
   void reset() { undecided_ = 0; }
 
-  /// The best poses of the whole map, by the contact of these points of a local map.
-  [[nodiscard]] GridSearchResult search(const Points& points, const Pose2& local_from_robot) const;
+  /// The best poses that are allowed in the whole map, by the contact of these points of a local map.
+  [[nodiscard]] GridSearchResult search(const Points& points, const Pose2& local_from_robot,
+                                        const PoseGate& gate) const;
 
  private:
   ExactSearchRule rule_;

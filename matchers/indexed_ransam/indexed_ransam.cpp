@@ -224,13 +224,14 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   judge_.take_in(local, latest.scan);
   const Points sample = sample_of(local.points, static_cast<std::size_t>(params_.contact_points), rng);
 
-  StepCandidates candidates(*contact_, sample, params_.min_contact);
+  StepCandidates candidates(*contact_, sample, params_.min_contact, gate_);
   for (const Pose2& pose : carried_) candidates.add(pose);
   propose(*index_, relation_, local, draws_of_step(), rng,
           [&](const MotionBatch& poses, std::size_t size) { candidates.test(poses, size); });
   std::vector<Hypothesis> best = settled(candidates, local, sample, result);
   if (exact_search_.is_due(best)) {
-    const GridSearchResult found = exact_search_.search(sample, seen_from_above(local.local_from_robot));
+    const GridSearchResult found =
+        exact_search_.search(sample, seen_from_above(local.local_from_robot), gate_);
     for (const GridSearchResult::Pose& pose : found.poses) candidates.add(pose.map_from_local);
     result.proposals += found.tested;
     result.points_tested += found.points_tested;

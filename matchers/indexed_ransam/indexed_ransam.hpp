@@ -73,6 +73,7 @@ class IndexedRansam final : public Matcher {
   /// index_file is not the index of this map and these parameters.
   IndexedRansam(const Params& params, const StageSetup& setup);
 
+  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
   void reset() override;
@@ -93,6 +94,7 @@ class IndexedRansam final : public Matcher {
   CandidateRefiner refiner_;
   PoseJudge judge_;
   ExactSearch exact_search_;
+  PoseGate gate_;
   std::vector<Pose2> carried_;  ///< map_from_local of the last step's best.
   int epoch_ = 0;               ///< Of the local map in whose frame they are.
   int steps_ = 0;               ///< In that frame.

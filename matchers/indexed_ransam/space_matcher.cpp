@@ -126,7 +126,8 @@ PoseSearchParams SpaceMatcher::search_params() const {
           .refined = static_cast<std::size_t>(params_.refined),
           .seen_through_weight = params_.seen_through_weight,
           .free_space_weight = params_.free_space_weight,
-          .upright = upright_};
+          .upright = upright_,
+          .gate = gate_};
 }
 
 double SpaceMatcher::free_space_violation(const Points& points, const Pose3& map_from_points) const {

@@ -50,6 +50,7 @@ class SpaceMatcher final : public Matcher {
   /// index of this map and these parameters.
   SpaceMatcher(const Params& params, const Answer& answer, const StageSetup& setup);
 
+  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
   void reset() override { carried_.clear(); }
@@ -68,6 +69,7 @@ class SpaceMatcher final : public Matcher {
   SpaceIndexRule rule_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const SpaceIndex> index_;
+  PoseGate gate_;
   std::vector<RigidMotion> carried_;  ///< map_from_local of the last step's best.
   int epoch_ = 0;                     ///< Of the local map in whose frame they are.
 };

@@ -25,6 +25,7 @@ void StepCandidates::test(const MotionBatch& map_from_local, std::size_t size) {
       points_tested_ += looked_at;
       continue;
     }
+    if (!gate_.is_open() && !gate_.allows(map_from_local[i].pose())) continue;
     points_tested_ += sample_.size();
     const double share = contact_.share(sample_, map_from_local[i]);
     if (share >= min_contact_) candidates_.push_back({map_from_local[i].pose(), share});
@@ -33,6 +34,7 @@ void StepCandidates::test(const MotionBatch& map_from_local, std::size_t size) {
 
 void StepCandidates::refine(const CandidateRefiner& refiner, const Pose2& local_from_robot) {
   candidates_ = refiner.refined(std::move(candidates_), local_from_robot, sample_, sample_);
+  std::erase_if(candidates_, [&](const Candidate& c) { return !gate_.allows(c.map_from_local); });
 }
 
 }  // namespace glocal

@@ -7,6 +7,7 @@
 #include "glocal/contact.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose2.hpp"
+#include "glocal/prior.hpp"
 #include "matchers/common/candidates.hpp"
 
 namespace glocal {
@@ -15,9 +16,9 @@ namespace glocal {
 class StepCandidates {
  public:
   /// `min_contact`: what a proposed pose needs before it is refined, as the right one may have little then.
-  /// All that is given must outlive this.
-  StepCandidates(const ContactIndex& contact, const Points& sample, double min_contact)
-      : contact_(contact), sample_(sample), min_contact_(min_contact) {}
+  /// Candidates that `gate` does not allow are left out. All that is given must outlive this.
+  StepCandidates(const ContactIndex& contact, const Points& sample, double min_contact, const PoseGate& gate)
+      : contact_(contact), sample_(sample), min_contact_(min_contact), gate_(gate) {}
 
   /// A pose that is known to be worth it.
   void add(const Pose2& map_from_local);
@@ -35,6 +36,7 @@ class StepCandidates {
   const ContactIndex& contact_;
   const Points& sample_;
   double min_contact_;
+  const PoseGate& gate_;
   std::vector<Candidate> candidates_;
   std::size_t tested_ = 0;
   std::size_t points_tested_ = 0;

@@ -153,8 +153,10 @@ MatchResult Ransam::test_hypotheses(const LocalMap& local, const QualityTest& qu
   const QualityTest::Outcome outcome = quality.test(poses, local_triples.size, starts);
   MatchResult found{
       .hypotheses = {}, .proposals = local_triples.size, .points_tested = outcome.points_tested};
-  for (const auto& [i, omega] : outcome.passed)
-    found.hypotheses.push_back(Hypothesis::by_contact(poses[i].pose(), omega));
+  for (const auto& [i, omega] : outcome.passed) {
+    const Hypothesis h = Hypothesis::by_contact(poses[i].pose(), omega);
+    if (gate_.allows(h.map_from_local)) found.hypotheses.push_back(h);
+  }
   return found;
 }
 

@@ -50,6 +50,7 @@ class Ransam final : public Matcher {
   /// Throws ConfigError where the map is too large for a contact grid.
   Ransam(const Params& params, const StageSetup& setup);
 
+  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
   void reset() override { beams_.clear(); }
@@ -65,6 +66,7 @@ class Ransam final : public Matcher {
   StageSetup setup_;
   std::shared_ptr<const ContactIndex> contact_;
   TripleMatching matching_;
+  PoseGate gate_;
   BeamEvidence beams_;
   std::shared_ptr<const ClearanceGrid> clearance_;  ///< Null where beams are not asked.
 };

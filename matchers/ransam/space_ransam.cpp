@@ -136,6 +136,7 @@ MatchResult SpaceRansam::test_hypotheses(const SurfacePoints& local, const Quali
       motion = *upright;
       pose = motion.pose();
     }
+    if (!gate_.allows(pose)) continue;
     const auto start = static_cast<std::uint32_t>(mix64(local_triples.numbers[i]));
     const QualityTest::Judged judged = quality.test(motion, start, memory);
     found.points_tested += judged.points_tested;

@@ -32,6 +32,7 @@ class SpaceRansam final : public Matcher {
   /// to be asked.
   SpaceRansam(const Ransam::Params& params, const StageSetup& setup);
 
+  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
   void reset() override {}
@@ -47,6 +48,7 @@ class SpaceRansam final : public Matcher {
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const SurfacePoints> map_;
   TripleMatching matching_;
+  PoseGate gate_;
 };
 
 }  // namespace glocal

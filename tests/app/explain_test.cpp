@@ -189,5 +189,14 @@ TEST_F(ExplainCommand, ReportsFaults) {
   EXPECT_THAT(answer.err, HasSubstr(fmt::format("it ended with a declaration in step {}", steps - 1)));
 }
 
+TEST_F(ExplainCommand, SaysThatThePriorExcludesThePose) {
+  run_lab("--set 'localizer.prior.heading={deg: 0, width_deg: 2}'");
+  const double start = recorded(0)["reference"]["theta"].get<double>();
+  ASSERT_GT(std::abs(start), 0.02) << "outside of the prior";
+  EXPECT_EQ(lost(3),
+            "lost        excluded: localizer.prior leaves only starts with headings of 0 ± 1 deg, and the "
+            "reference is none of these\n");
+}
+
 }  // namespace
 }  // namespace glocal::test::explain_test

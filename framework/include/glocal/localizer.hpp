@@ -9,6 +9,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/motion.hpp"
 #include "glocal/params.hpp"
+#include "glocal/prior.hpp"
 #include "glocal/running_stage.hpp"
 #include "glocal/unknown_place.hpp"
 
@@ -19,6 +20,7 @@ struct LocalizerConfig {
   Motion motion = Motion::planar;  ///< What of the robot's pose is looked for.
   /// m; epsilon of eq. 4 for all stages without one of their own. None: twice the map's resolution.
   std::optional<double> contact_epsilon = {};
+  Prior prior = {};  ///< Outside of it nothing is looked for.
   StrategyChoice local_mapper;
   StrategyChoice matcher;
   StrategyChoice clusterer;
@@ -41,7 +43,8 @@ struct LocalizerConfig {
 class Localizer {
  public:
   /// `seed` fixes all random numbers; motion and contact_epsilon of the setup are overruled by those of
-  /// `config`; throws ConfigError where a strategy cannot work with this motion or this map.
+  /// `config`; throws ConfigError where a strategy cannot work with this motion or this map, or the map has
+  /// nothing where the prior is.
   Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup, std::uint64_t seed);
 
   /// From now on this policy says which score is asked for, and not the configured one.
@@ -58,6 +61,8 @@ class Localizer {
   /// The local map after the last step.
   [[nodiscard]] const LocalMap& local_map() const { return local_mapper_->map(); }
   [[nodiscard]] std::vector<MapFile> local_map_files() const { return local_mapper_->files(); }
+  /// Which poses of the local map counted in the last step.
+  [[nodiscard]] const PoseGate& gate() const { return gate_; }
   /// What the matcher has made of the map.
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const { return matcher_->map_index(); }
 
@@ -71,6 +76,7 @@ class Localizer {
   void in_stage(RunningStage& stage, std::size_t step, Work work) const;
 
   Motion motion_;
+  Prior prior_;
   std::unique_ptr<LocalMapper> local_mapper_;
   std::unique_ptr<Matcher> matcher_;
   std::unique_ptr<Clusterer> clusterer_;
@@ -79,6 +85,8 @@ class Localizer {
   std::unique_ptr<VerdictRule> verdict_rule_;
   Stages stages_;
   UnknownPlaceMonitor unknown_place_;
+  StartInLocalMap start_;  ///< Followed where a prior is given.
+  PoseGate gate_;
   Rng seed_;
   std::uint64_t trial_ = 0;
   Rng rng_;  ///< Of the trial.

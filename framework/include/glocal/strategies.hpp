@@ -19,6 +19,7 @@
 #include "glocal/local_map.hpp"
 #include "glocal/observation.hpp"
 #include "glocal/params.hpp"
+#include "glocal/prior.hpp"
 #include "glocal/rng.hpp"
 #include "glocal/step_result.hpp"
 
@@ -95,6 +96,10 @@ struct MapIndexInfo {
 class Matcher {
  public:
   virtual ~Matcher() = default;
+  /// Says which poses of the local map count in match() from now on; called before each where a prior is
+  /// given. All others are dropped after it, so a matcher that answers with its best few must not spend them
+  /// there.
+  virtual void restrict_to(const PoseGate& /*gate*/) {}
   [[nodiscard]] virtual MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                           Rng& rng) = 0;
   virtual void reset() = 0;

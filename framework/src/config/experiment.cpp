@@ -56,6 +56,8 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
        .unit = "m",
        .above = 0.0,
        .audience = Audience::tuner});
+  v.field("prior", c.prior,
+          {.doc = "What is known of where a trial begins; nothing is looked for outside of it."});
   stage_field(v, "local_mapper", c.local_mapper, s.catalog->local_mappers, c.motion,
               {.doc = "Joins scans into the local map."});
   stage_field(v, "matcher", c.matcher, s.catalog->matchers, c.motion,

@@ -51,6 +51,13 @@ void sort_by_rating(std::vector<Cluster>& clusters, std::vector<Rating>& ratings
   ratings = std::move(sorted_ratings);
 }
 
+/// Says what the verdict leaves out of account.
+void add_prior(Verdict& verdict, const Prior& prior) {
+  verdict.why +=
+      fmt::format("{}only {} were looked at{}", verdict.why.empty() ? "" : "; ", to_string(prior),
+                  verdict.kind == VerdictKind::unknown_place ? ": the robot is perhaps outside" : "");
+}
+
 }  // namespace
 
 double contact_epsilon_on(const GlobalMap& map, const LocalizerConfig& config) {
@@ -77,9 +84,12 @@ std::optional<std::string> why_unfit(const StrategyChoice& choice, const Registr
 Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup,
                      std::uint64_t seed)
     : motion_(config.motion),
+      prior_(config.prior),
       unknown_place_(config.unknown_place, *setup.map, contact_epsilon_on(*setup.map, config)),
       seed_(seed),
       rng_(seed_.stream({0})) {
+  if (const auto why = why_nowhere(prior_, *setup.map))
+    throw ConfigError({{"", 0, 0, "localizer.prior.region: " + *why}});
   setup.contact_epsilon = contact_epsilon_on(*setup.map, config);
   setup.motion = motion_;
   const auto make = [&](const auto& registry, const StrategyChoice& choice, RunningStage& stage) {
@@ -140,6 +150,10 @@ StepResult Localizer::step(const Observation& observation) {
   result.local_from_robot = local.local_from_robot;
   result.local_map_epoch = local.epoch;
   result.local_map_points = local.points.size();
+  if (prior_.is_given()) {
+    start_.follow(local, observation.odom_from_robot);
+    gate_ = PoseGate(prior_, start_.local_from_start());
+  }
 
   in_stage(stages_.threshold_policy, result.step, [&] {
     result.omega_max = threshold_policy_->omega_max();
@@ -148,9 +162,11 @@ StepResult Localizer::step(const Observation& observation) {
   in_stage(stages_.matcher, result.step, [&] {
     Rng rng = rng_.stream({result.step, matching});
     MatchResult match;
+    if (!gate_.is_open()) matcher_->restrict_to(gate_);
     timed(result.stage_ms.match, [&] { match = matcher_->match(local, observation, result.omega_max, rng); });
     check_match(match, result.omega_max, motion_);
     result.hypotheses = std::move(match.hypotheses);
+    std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return !gate_.allows(h.map_from_local); });
     result.proposals = match.proposals;
     result.points_tested = match.points_tested;
   });
@@ -184,6 +200,7 @@ StepResult Localizer::step(const Observation& observation) {
         {},
         fmt::format("only {:.0f} % of what was last seen is on the map", 100.0 * *result.omega_place)};
   }
+  if (!gate_.is_open()) add_prior(result.verdict, prior_);
   return result;
 }
 
@@ -192,6 +209,7 @@ void Localizer::reset(std::uint64_t trial) {
   rng_ = seed_.stream({trial});
   step_ = 0;
   unknown_place_.reset();
+  start_.reset();
   const auto reset = [&](RunningStage& stage, auto& strategy) {
     in_stage(stage, RunningStage::before_first, [&] { strategy->reset(); });
   };

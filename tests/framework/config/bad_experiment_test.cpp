@@ -128,6 +128,25 @@ TEST_F(ExperimentFile, AStageThatCannotDoTheMotionIsNamedWhereItIsChosen) {
       ElementsAre("e.yaml:10:11: error: localizer: motion: 'sideways' is not one of planar, upright, free"));
 }
 
+TEST_F(ExperimentFile, APriorIsGivenAsAWholeOrNotAtAll) {
+  const auto faults_with = [&](const std::string& prior) {
+    return faults_of(replaced(valid, "localizer:\n", "localizer:\n  prior: " + prior + "\n"));
+  };
+  EXPECT_THAT(faults_with("{}"), ElementsAre());
+  EXPECT_THAT(faults_with("{region: {x: 1, y: -2, radius: 0.5}, heading: {deg: -90, width_deg: 360}}"),
+              ElementsAre());
+  EXPECT_THAT(
+      faults_with("{region: {x: 1, radius: 5}}"),
+      ElementsAre("e.yaml:10:18: error: localizer.prior.region: x, y and radius must be given together"));
+  EXPECT_THAT(
+      faults_with("{heading: {width_deg: 5}}"),
+      ElementsAre("e.yaml:10:19: error: localizer.prior.heading: deg and width_deg must be given together"));
+  EXPECT_THAT(faults_with("{region: {x: 1, y: 2, radius: 0}}"),
+              ElementsAre(HasSubstr("localizer.prior.region: radius: 0 is out of range, must be > 0")));
+  EXPECT_THAT(faults_with("{heading: {deg: 0, width_deg: 361}}"),
+              ElementsAre(HasSubstr("localizer.prior.heading: width_deg: 361 is out of range, must be")));
+}
+
 TEST_F(ExperimentFile, EachFaultHasItsPlaceAndRule) {
   const std::vector<Case> cases = {
       // Keys.

@@ -23,6 +23,7 @@ struct Script {
   std::function<MatchResult(double omega_max, Rng& rng)> match = [](double, Rng&) { return MatchResult{}; };
   std::function<void(Rng& rng)> cluster = [](Rng&) {};
   std::vector<double> r;  ///< Of the clusters, in the order of their hypotheses.
+  PoseGate gate;          ///< What the matcher was told last.
   std::function<Verdict(const StepResult&)> judge = [](const StepResult&) { return Verdict{}; };
 };
 
@@ -52,6 +53,10 @@ struct FakeMapper final : Fake<LocalMapper> {
 
 struct FakeMatcher final : Fake<Matcher> {
   using Fake::Fake;
+  void restrict_to(const PoseGate& gate) override {
+    note("restrict");
+    script_->gate = gate;
+  }
   [[nodiscard]] MatchResult match(const LocalMap& /*local*/, const Observation& /*latest*/, double omega_max,
                                   Rng& rng) override {
     note("match");

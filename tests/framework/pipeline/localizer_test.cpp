@@ -331,6 +331,108 @@ TEST_F(LocalizerTest, PosesInSpaceGoAllTheWay) {
   EXPECT_THROW(static_cast<void>(make().step({})), StrategyError) << "where the motion is planar";
 }
 
+class WithPrior : public LocalizerTest {
+ protected:
+  /// The map is its origin: the region must not be far from it.
+  [[nodiscard]] Localizer make_with(const Prior& prior) {
+    LocalizerConfig config = follow(script_);
+    config.prior = prior;
+    return {config, catalog_, {map_of_one_point(), 1}, 1};
+  }
+
+  static Prior around(double x, double y) { return {.region = {x, y, 1.0}, .heading = {}}; }
+
+  /// Where the hypotheses of a step put the robot, by x.
+  static std::vector<double> places(const StepResult& result) {
+    std::vector<double> x;
+    for (const Hypothesis& h : result.hypotheses) x.push_back(h.map_from_robot.x);
+    return x;
+  }
+};
+
+TEST_F(WithPrior, NothingOutsideOfItGoesOn) {
+  give({Hypothesis::by_contact(Pose2{9, 0, 0}, 0.9), Hypothesis::by_contact(Pose2{3.5, 0, 0}, 0.8),
+        Hypothesis::by_contact(Pose2{1.5, 0, 0}, 0.7), Hypothesis::by_contact(Pose2{2.5, 0, 0}, 0.6)},
+       {0.5, 0.4});
+  Localizer localizer = make_with(around(3, 0));
+  const StepResult result = localizer.step({});
+  EXPECT_THAT(places(result), ElementsAre(3.5, 2.5));
+  EXPECT_EQ(result.clusters.size(), 2U);
+  EXPECT_EQ(result.omega_best, 0.8);
+  EXPECT_EQ(result.proposals, 70U);
+}
+
+TEST_F(WithPrior, TheMatcherIsToldBeforeItMatches) {
+  Localizer localizer = make_with(around(3, 0));
+  static_cast<void>(localizer.step({}));
+  EXPECT_THAT(script_->calls,
+              ElementsAre("add", "omega_max", "restrict", "match", "update", "cluster", "rate", "judge"));
+  EXPECT_TRUE(script_->gate.allows(Pose2{3, 0.9, 2}));
+  EXPECT_FALSE(script_->gate.allows(Pose2{3, 1.1, 2}));
+}
+
+TEST_F(WithPrior, ItIsAboutTheStartAndNotAboutWhereTheRobotIs) {
+  give({Hypothesis::by_contact(Pose2{3, 0, 0}, 0.9), Hypothesis::by_contact(Pose2{13, 0, 0}, 0.9)}, {0.5});
+  Localizer localizer = make_with(around(3, 0));
+  static_cast<void>(localizer.step({}));
+  script_->local.local_from_robot = Pose2{10, 0, 0};
+  EXPECT_THAT(places(localizer.step({.odom_from_robot = Pose2{10, 0, 0}})), ElementsAre(13.0));
+
+  // The local map begins anew 2 m farther on: the start is 12 m behind its origin.
+  script_->local.local_from_robot = {};
+  script_->local.epoch = 1;
+  give({Hypothesis::by_contact(Pose2{3, 0, 0}, 0.9), Hypothesis::by_contact(Pose2{15, 0, 0}, 0.9)}, {0.5});
+  EXPECT_THAT(places(localizer.step({.odom_from_robot = Pose2{12, 0, 0}})), ElementsAre(15.0));
+
+  // Another trial has a start of its own.
+  localizer.reset(1);
+  EXPECT_THAT(places(localizer.step({.odom_from_robot = Pose2{12, 0, 0}})), ElementsAre(3.0));
+}
+
+TEST_F(WithPrior, EveryVerdictSaysWhatWasLookedAt) {
+  const Prior prior{.region = {3.0, 4.0, 5.0}, .heading = {90.0, 40.0}};
+  const std::string looked_at =
+      "only starts within 5 m of x 3, y 4 with headings of 90 ± 20 deg were looked at";
+  Localizer localizer = make_with(prior);
+  EXPECT_EQ(localizer.step({}).verdict.why, looked_at);
+  for (const VerdictKind kind : {VerdictKind::searching, VerdictKind::ambiguous, VerdictKind::localized}) {
+    script_->judge = [&](const StepResult&) {
+      Verdict verdict{kind, std::nullopt, {}, "as it is"};
+      if (kind == VerdictKind::localized) verdict.map_from_robot = Pose2{3, 4, 1};
+      if (kind == VerdictKind::ambiguous) verdict.candidates = {Pose2{3, 4, 1}, Pose2{2, 4, 1}};
+      return verdict;
+    };
+    EXPECT_EQ(localizer.step({}).verdict.why, "as it is; " + looked_at);
+  }
+  script_->judge = [](const StepResult&) { return Verdict{VerdictKind::searching, {}, {}, "as it is"}; };
+  EXPECT_EQ(make().step({}).verdict.why, "as it is");
+}
+
+TEST_F(WithPrior, InAnUnknownPlaceTheRobotIsPerhapsOutsideOfIt) {
+  // One of eight points is on the map.
+  for (int i = 0; i < 8; ++i) script_->local.points.push_back({static_cast<float>(i), 0.0F, 0.0F});
+  script_->local.ends = {8};
+  give({Hypothesis::by_contact({}, 0.9)}, {0.5});
+  LocalizerConfig config = follow(script_);
+  config.unknown_place = {.max_contact = 0.2};
+  config.prior = around(0, 0.5);
+  Localizer localizer(config, catalog_, {map_of_one_point(), 1}, 1);
+  EXPECT_EQ(localizer.step({}).verdict.why,
+            "only 12 % of what was last seen is on the map; only starts within 1 m of x 0, y 0.5 were looked "
+            "at: the robot is perhaps outside");
+}
+
+TEST_F(WithPrior, ARegionOffTheMapIsRefused) {
+  EXPECT_NO_THROW(static_cast<void>(make_with(around(-90, 0))));
+  try {
+    static_cast<void>(make_with(around(300, 0)));
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("localizer.prior.region: the map has nothing within 1 m of x 300"));
+  }
+}
+
 /// Writes down the contact_epsilon that it is made with.
 class EpsilonWitness final : public Clusterer {
  public:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -171,6 +172,33 @@ TEST_P(GridSearch, WithALimitFindsTheBest) {
     best.resize(limit);
     rule.max_poses = limit;
     EXPECT_EQ(contacts_of(search_grid(pyramid, p.local, p.local_from_robot, rule, 1)), best);
+  }
+}
+
+TEST_P(GridSearch, OfAllPosesItFindsTheBestThatAreAllowed) {
+  const Problem p = problem();
+  const ContactPyramid pyramid(p.map, cell, epsilon, 3);
+  const Pose2 local_from_start{-0.5, 0.3, 2.0};
+  std::vector<GridPose> all = brute_force(p, pyramid, 1);
+  for (const Prior& prior :
+       {Prior{.region = {2.1, 2.3, 1.5}, .heading = {}}, Prior{.region = {}, .heading = {-100.0, 130.0}},
+        Prior{.region = {0.1, 3.3, 3.0}, .heading = {30.0, 200.0}}}) {
+    const PoseGate gate(prior, local_from_start);
+    GridSearchRule rule{.min_rotation_step = 0.001, .max_poses = 1000000, .gate = gate};
+    std::vector<GridPose> allowed;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(allowed), [&](const GridPose& pose) {
+      const Pose2 start = pose.map_from_local * local_from_start;
+      const double turn = degrees(start.theta) - prior.heading.deg.value_or(0.0);
+      return std::hypot(start.x - prior.region.x.value_or(0.0), start.y - prior.region.y.value_or(0.0)) <=
+                 prior.region.radius.value_or(1e9) &&
+             std::abs(std::remainder(turn, 360.0)) <= prior.heading.width_deg.value_or(360.0) / 2.0;
+    });
+    std::vector<std::size_t> best = best_of_cells(allowed, p.local_from_robot, rule);
+    ASSERT_GT(best.size(), 20U);
+    EXPECT_EQ(contacts_of(search_grid(pyramid, p.local, p.local_from_robot, rule, 1)), best);
+    rule.max_poses = 20;
+    best.resize(20);
+    EXPECT_EQ(contacts_of(search_grid(pyramid, p.local, p.local_from_robot, rule, 2)), best);
   }
 }
 

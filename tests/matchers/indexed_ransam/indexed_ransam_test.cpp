@@ -110,6 +110,53 @@ TEST(IndexedRansam, TheBestPosesAreCarriedToTheNextStep) {
   EXPECT_GT(matcher.match(local, {}, 0.1, rng).proposals, 0U);
 }
 
+/// The same room twelve times, 20 m apart: as many right poses.
+std::shared_ptr<const GlobalMap> twelve_worlds() {
+  MapData data;
+  const Points room = test::small_world_points();
+  for (int i = 0; i < 12; ++i) {
+    for (std::size_t k = 0; k < room.size(); ++k)
+      data.points.push_back({room.x[k] + 20.0F * static_cast<float>(i), room.y[k], 0.0F});
+  }
+  return std::make_shared<const GlobalMap>(std::move(data));
+}
+
+// Of fewer candidates than there are right poses, each is where the prior says, in the first step and in
+// those that carry poses on.
+TEST(IndexedRansam, LookAlikesOutsideOfAPriorTakeNoPlaceOfTheRightPose) {
+  const Pose2 in_room{5.5, 2.5, 0.7};
+  const LocalMap local = local_map_at(in_room, 4.0);
+  const Pose2 local_from_start{-1.0, 2.0, 0.3};
+  for (const int room : {0, 7, 11}) {
+    const Pose2 truth{in_room.x + 20.0 * room, in_room.y, in_room.theta};
+    const Pose2 start = truth * local_from_start;
+    const PoseGate gate({.region = {start.x + 1.0, start.y, 2.0}, .heading = {}}, local_from_start);
+    IndexedRansam matcher({.candidates = 4, .best = 2, .carried = 2}, {twelve_worlds(), 1});
+    matcher.restrict_to(gate);
+    Rng rng(3);
+    for (int step = 0; step < 6; ++step) {
+      const auto found = matcher.match(local, {}, 0.1, rng).hypotheses;
+      for (const Hypothesis& h : found) EXPECT_TRUE(gate.allows(h.map_from_local));
+      if (step < 4) continue;
+      ASSERT_FALSE(found.empty());
+      EXPECT_LT(distance(found.front().map_from_local, truth), 0.05) << room;
+    }
+  }
+}
+
+TEST(IndexedRansam, TheExactSearchKeepsToThePrior) {
+  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 4.0);
+  const PoseGate gate({.region = {145.0, 2.5, 2.0}, .heading = {}}, {});  // the room from x = 140 m on
+  IndexedRansam::Params params{.iterations = 0, .first_iterations = 0, .best = 2};
+  params.exact_search = {.after_steps = 1, .max_poses = 4};
+  IndexedRansam matcher(params, {twelve_worlds(), 1});
+  matcher.restrict_to(gate);
+  Rng rng(3);
+  const auto found = matcher.match(local, {}, 0.1, rng).hypotheses;
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(distance(found.front().map_from_local, Pose2{145.5, 2.5, 0.7}), 0.05);
+}
+
 TEST(IndexedRansam, LargeLocalMapsDoNotStarveTheDraws) {
   // Two walls far apart: most pairs of points are longer than any oriented point pair.
   LocalMap local;

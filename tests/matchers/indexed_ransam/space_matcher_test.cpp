@@ -192,6 +192,30 @@ TEST(SpaceMatcher, FindsTheRobotInWhateverFrameTheLocalMapIs) {
   EXPECT_TRUE(is_near(found.front().map_from_local * seen.local.local_from_robot, truth));
 }
 
+// Turned half about its middle, an empty hall is the same.
+TEST(SpaceMatcher, OfTwoPosesThatAreAlikeItFindsTheOneThatThePriorAllows) {
+  const auto empty = map_of({});
+  const Pose3 truth({3.0, 2.5, 1.0}, turn_about_z(0.4));
+  const Pose3 alike = Pose3({12.0, 8.0, 0.0}, turn_about_z(radians(180.0))) * truth;
+  Seen seen(truth);
+  seen.local.points = {};
+  seen.latest = {};
+  const Points walls = moved(empty->points(), inverse(truth));
+  for (std::size_t i = 0; i < walls.size(); i += 7) seen.local.points.push_back(walls[i]);
+  seen.local.ends = {seen.local.points.size()};
+  for (const Pose3& wanted : {truth, alike}) {
+    const PoseGate gate({.region = {wanted.x + 1.0, wanted.y, 2.0}, .heading = {}}, {});
+    SpaceMatcher one({.pairs = 100000}, {.best = 1, .carried = 1}, {.map = empty, .motion = Motion::upright});
+    one.restrict_to(gate);
+    Rng rng(5);
+    for (int step = 0; step < 2; ++step) {
+      const auto found = one.match(seen.local, seen.latest, 0.1, rng).hypotheses;
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_TRUE(is_near(found.front().map_from_local, wanted)) << step;
+    }
+  }
+}
+
 TEST(SpaceMatcher, WhatTheLatestScanLookedThroughSpeaksAgainstAPose) {
   // A cupboard of the map that is gone.
   std::vector<Box> before = furniture;

@@ -44,6 +44,25 @@ TEST(Ransam, FindsThePose) {
   EXPECT_LT(rotation_between(result.hypotheses.front().map_from_local, truth), radians(2.0));
 }
 
+TEST(Ransam, APriorLeavesThoseHypothesesThatItAllows) {
+  const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
+  const PoseGate gate({.region = {2.5, 6.0, 1.0}, .heading = {-40.0, 60.0}}, {});
+  Ransam ransam({.iterations = 50000}, {test::small_world(), 1});
+  const auto match_again = [&] {
+    Rng rng(1);
+    return ransam.match(local, {}, 0.6, rng).hypotheses;
+  };
+  std::vector<Hypothesis> all = match_again();
+  const std::size_t everywhere = all.size();
+  std::erase_if(all, [&](const Hypothesis& h) { return !gate.allows(h.map_from_local); });
+  ASSERT_GT(all.size(), 10U);
+  ASSERT_LT(all.size(), everywhere);
+  ransam.restrict_to(gate);
+  const std::vector<Hypothesis> left = match_again();
+  ASSERT_EQ(left.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(left[i].map_from_local, all[i].map_from_local);
+}
+
 TEST(Ransam, HypothesesAreWhatTheContractSays) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
   const double omega_max = 0.6;

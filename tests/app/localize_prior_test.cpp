@@ -1,0 +1,75 @@
+// glocal localize --region and --heading.
+#include <gmock/gmock.h>
+
+#include "app/room.hpp"
+
+namespace glocal::test::localize_prior_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A world that is the same when it is turned by 180 degrees about (6, 3), and a drive in it, as files.
+class LocalizeWithPrior : public Room {
+ protected:
+  LocalizeWithPrior() {
+    std::ofstream(file("world.yaml")) << "size: [12, 6]\n"
+                                         "walls:\n"
+                                         "  - {points: [[0, 0], [12, 0], [12, 6], [0, 6]], closed: true}\n"
+                                         "  - {points: [[4, 0], [4, 2]]}\n"
+                                         "  - {points: [[8, 6], [8, 4]]}\n"
+                                         "free_from: [[1, 1]]\n"
+                                         "way_points: [[2, 3], [10, 3], [10, 1.5]]\n";
+    const Answer answer = run("simulate " + file("room.yaml") + " --out " + file("recorded"));
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  }
+
+  [[nodiscard]] Answer localize(const std::string& options) const {
+    return run("localize " + file("recorded/map.yaml") + " " + file("recorded/drive.log") +
+               " --force --out " + file("found") + " " + options);
+  }
+
+  /// Where it is said to be, and how it is judged.
+  [[nodiscard]] Json trial() const { return Json::parse(content(file("found/trials.jsonl"))); }
+};
+
+TEST_F(LocalizeWithPrior, ARegionSettlesWhatSymmetryLeavesOpen) {
+  const Answer anywhere = localize("");
+  ASSERT_EQ(anywhere.exit_code, 0) << anywhere.err;
+  EXPECT_EQ(trial()["outcome"], "undecided");
+  EXPECT_THAT(content(file("found.yaml")), Not(HasSubstr("prior")));
+
+  // The drive begins at (2, 3); its image at (10, 3).
+  const Answer left = localize("--region 2.5 3 3");
+  ASSERT_EQ(left.exit_code, 0) << left.err;
+  EXPECT_EQ(trial()["outcome"], "right") << left.out;
+  EXPECT_THAT(trial()["why"].get<std::string>(),
+              HasSubstr("; only starts within 3 m of x 2.5, y 3 were looked at"));
+  EXPECT_THAT(left.out, HasSubstr("prior       only starts within 3 m of x 2.5, y 3\n"));
+  EXPECT_THAT(content(file("found.yaml")), HasSubstr("  prior: {region: {x: 2.5, y: 3, radius: 3}}\n"));
+
+  const Answer right = localize("--region 10 3 3");
+  ASSERT_EQ(right.exit_code, 0) << right.err;
+  EXPECT_EQ(trial()["outcome"], "wrong") << "as the region is";
+}
+
+TEST_F(LocalizeWithPrior, AHeadingDoesSo) {
+  const Answer answer = localize("--heading -10 90");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(trial()["outcome"], "right") << answer.out;
+  EXPECT_THAT(content(file("found.yaml")), HasSubstr("  prior: {heading: {deg: -10, width_deg: 90}}\n"));
+}
+
+TEST_F(LocalizeWithPrior, WhatCannotBeIsRefused) {
+  const Answer off = localize("--region -200 3 3");
+  EXPECT_EQ(off.exit_code, 2);
+  EXPECT_THAT(off.err, HasSubstr("localizer.prior.region: the map has nothing within 3 m of x -200, y 3"));
+  const Answer flat = localize("--region 2 3 0");
+  EXPECT_EQ(flat.exit_code, 2);
+  EXPECT_THAT(flat.err, HasSubstr("localizer.prior.region.radius"));
+  EXPECT_NE(localize("--region 2 3").exit_code, 0);
+  EXPECT_NE(localize("--heading 90").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace glocal::test::localize_prior_test
