@@ -137,10 +137,10 @@ TEST_F(ExperimentFile, APriorIsGivenAsAWholeOrNotAtAll) {
               ElementsAre());
   EXPECT_THAT(
       faults_with("{region: {x: 1, radius: 5}}"),
-      ElementsAre("e.yaml:10:18: error: localizer.prior.region: x, y and radius must be given together"));
+      ElementsAre("e.yaml:10:19: error: localizer.prior.region: x, y and radius must be given together"));
   EXPECT_THAT(
       faults_with("{heading: {width_deg: 5}}"),
-      ElementsAre("e.yaml:10:19: error: localizer.prior.heading: deg and width_deg must be given together"));
+      ElementsAre("e.yaml:10:20: error: localizer.prior.heading: deg and width_deg must be given together"));
   EXPECT_THAT(faults_with("{region: {x: 1, y: 2, radius: 0}}"),
               ElementsAre(HasSubstr("localizer.prior.region: radius: 0 is out of range, must be > 0")));
   EXPECT_THAT(faults_with("{heading: {deg: 0, width_deg: 361}}"),

@@ -133,6 +133,14 @@ trials:
 localizer:
   motion: planar
   contact_epsilon: auto
+  prior:
+    region:
+      x: auto
+      y: auto
+      radius: auto
+    heading:
+      deg: auto
+      width_deg: auto
   local_mapper: scan_matching
   matcher:
     ransam:
@@ -178,7 +186,7 @@ TEST_F(RoundTrip, WhatFollowsFromTheMapIsAComment) {
   EXPECT_THAT(written,
               testing::HasSubstr(
                   "\nlocalizer:\n  motion: planar\n  contact_epsilon: auto  # 0.06 m here, twice the map's "
-                  "resolution\n  local_mapper: scan_matching\n"));
+                  "resolution\n  prior:\n"));
   Experiment again = read("again.yaml", written);
   EXPECT_EQ(effective_yaml(again, catalog_), effective_yaml(e, catalog_));
   e.localizer.contact_epsilon = 0.05;

@@ -376,17 +376,17 @@ TEST_F(WithPrior, ItIsAboutTheStartAndNotAboutWhereTheRobotIs) {
   Localizer localizer = make_with(around(3, 0));
   static_cast<void>(localizer.step({}));
   script_->local.local_from_robot = Pose2{10, 0, 0};
-  EXPECT_THAT(places(localizer.step({.odom_from_robot = Pose2{10, 0, 0}})), ElementsAre(13.0));
+  EXPECT_THAT(places(localizer.step({0.0, {}, Pose2{10, 0, 0}})), ElementsAre(13.0));
 
   // The local map begins anew 2 m farther on: the start is 12 m behind its origin.
   script_->local.local_from_robot = {};
   script_->local.epoch = 1;
   give({Hypothesis::by_contact(Pose2{3, 0, 0}, 0.9), Hypothesis::by_contact(Pose2{15, 0, 0}, 0.9)}, {0.5});
-  EXPECT_THAT(places(localizer.step({.odom_from_robot = Pose2{12, 0, 0}})), ElementsAre(15.0));
+  EXPECT_THAT(places(localizer.step({0.0, {}, Pose2{12, 0, 0}})), ElementsAre(15.0));
 
   // Another trial has a start of its own.
   localizer.reset(1);
-  EXPECT_THAT(places(localizer.step({.odom_from_robot = Pose2{12, 0, 0}})), ElementsAre(3.0));
+  EXPECT_THAT(places(localizer.step({0.0, {}, Pose2{12, 0, 0}})), ElementsAre(3.0));
 }
 
 TEST_F(WithPrior, EveryVerdictSaysWhatWasLookedAt) {
