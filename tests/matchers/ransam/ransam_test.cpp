@@ -47,7 +47,7 @@ TEST(Ransam, FindsThePose) {
 TEST(Ransam, APriorLeavesThoseHypothesesThatItAllows) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
   const PoseGate gate({.region = {2.5, 6.0, 1.0}, .heading = {-40.0, 60.0}}, {});
-  Ransam ransam({.iterations = 50000}, {test::small_world(), 1});
+  Ransam ransam({.iterations = 50000, .max_hypotheses = 1000000}, {test::small_world(), 1});
   const auto match_again = [&] {
     Rng rng(1);
     return ransam.match(local, {}, 0.6, rng).hypotheses;
