@@ -146,6 +146,11 @@ LogChoice choose_log(const LocalizeRequest& request, const MapChoice& map) {
   const LogKind kind = kind_of_log(request.log);
   if (kind == LogKind::recording) return choose_recording(request, map);
   if (kind == LogKind::clouds) return choose_clouds(request);
+  if (!request.scans.empty() || !request.odometry.empty() || !request.reference.empty())
+    refuse(
+        request.log,
+        "is taken for a CARMEN log, which has its scans, odometry and reference poses in itself: leave out "
+        "--scans, --odometry and --reference");
   return {fmt::format("carmen_log:\n    {}\n", path_entry("path", request.log)), {"log         CARMEN"}};
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "evaluation/running/reference_fit.hpp"
 #include "glocal/error.hpp"
 #include "pipeline/stage_contracts.hpp"
 
@@ -55,6 +56,9 @@ LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& ca
   loaded.map_build_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   loaded.drive = load_drive(experiment, catalog, setup);
+  const auto doubt =
+      doubt_of_references(loaded.drive, *loaded.map, contact_epsilon_on(*loaded.map, experiment.localizer));
+  if (doubt) warn(*doubt);
   loaded.starts = trial_starts(experiment.trials, loaded.drive, *loaded.map);
   return loaded;
 }

@@ -93,6 +93,9 @@ TEST_F(Localize, WhatIsNeitherMapNorLogIsRefused) {
   const Answer no_log = localize("absent.bag");
   EXPECT_EQ(no_log.exit_code, 2);
   EXPECT_THAT(no_log.err, HasSubstr("absent.bag: error: there is no such file or folder"));
+  const Answer too_much = localize("room/drive.log", "--reference /truth");
+  EXPECT_EQ(too_much.exit_code, 2);
+  EXPECT_THAT(too_much.err, HasSubstr("drive.log: error: is taken for a CARMEN log"));
   EXPECT_EQ(content(file("answer.yaml")), "");
 }
 

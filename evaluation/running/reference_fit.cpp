@@ -1,0 +1,53 @@
+#include "evaluation/running/reference_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "glocal/contact.hpp"
+
+namespace glocal {
+namespace {
+
+/// `most` of n things, evenly spread.
+std::vector<std::size_t> evenly(std::size_t n, std::size_t most) {
+  std::vector<std::size_t> picked;
+  const std::size_t count = std::min(n, most);
+  for (std::size_t i = 0; i < count; ++i) picked.push_back(i * n / count);
+  return picked;
+}
+
+}  // namespace
+
+std::optional<double> reference_fit(const Drive& drive, const GlobalMap& map, double epsilon) {
+  constexpr std::size_t scans = 50, hits_of_scan = 200;
+  std::vector<const Sample*> judged;
+  for (const Sample& sample : drive.samples) {
+    if (sample.map_from_robot && !sample.observation.scan.hits.empty()) judged.push_back(&sample);
+  }
+  if (judged.empty()) return std::nullopt;
+  Points ends;
+  for (const std::size_t i : evenly(judged.size(), scans)) {
+    const Points placed = moved(judged[i]->observation.scan.hits, *judged[i]->map_from_robot);
+    for (const std::size_t k : evenly(placed.size(), hits_of_scan)) ends.push_back(placed[k]);
+  }
+  // Not one of the map's indexes, whose time to build is counted when a strategy asks for them.
+  return KdTreeContact(map.points(), epsilon).share(ends, Transform(Pose2{}));
+}
+
+std::optional<std::string> doubt_of_references(const Drive& drive, const GlobalMap& map, double epsilon) {
+  constexpr double least = 0.15;
+  constexpr double least_reach = 0.1;  // m; references and maps are off by centimetres, however fine the map
+  const double reach = std::max(epsilon, least_reach);
+  const auto share = reference_fit(drive, map, reach);
+  if (!share || *share >= least) return std::nullopt;
+  return fmt::format(
+      "at the reference poses only {:.0f} % of what is seen lies within {:g} m of the map: they are in "
+      "another frame than "
+      "the map, or of another time than the scans, and the answers cannot be judged by them",
+      100.0 * *share, reach);
+}
+
+}  // namespace glocal
