@@ -47,7 +47,7 @@ TEST(ExactSearch, IsNeverDueWhereItIsOff) {
 TEST(ExactSearch, FindsThePoseInTheWholeMap) {
   const Pose2 truth{5.5, 2.5, 0.7};
   const Points points = test::seen_from(test::small_world_points(), truth, 3.0);
-  const GridSearchResult found = search_after(1).search(points, {});
+  const GridSearchResult found = search_after(1).search(points, {}, {});
   ASSERT_FALSE(found.poses.empty());
   EXPECT_LT(distance(found.poses.front().map_from_local, truth), 0.1);
   EXPECT_LT(rotation_between(found.poses.front().map_from_local, truth), radians(3.0));

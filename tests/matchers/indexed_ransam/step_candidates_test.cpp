@@ -30,6 +30,7 @@ class StepCandidatesTest : public testing::Test {
  protected:
   std::shared_ptr<const GlobalMap> map_ = test::small_world();
   std::shared_ptr<const ContactIndex> contact_ = contact_index(*map_, "bitset", 0.1);
+  PoseGate open_;
   Rng rng_{1};
   Points sample_ = sample_of(test::seen_from(map_->points(), truth, 3.0), 128, rng_);
 };
@@ -37,7 +38,7 @@ class StepCandidatesTest : public testing::Test {
 TEST_F(StepCandidatesTest, AreThePosesWithEnoughContact) {
   const MotionBatch batch = poses(200);
   for (const double least : {0.0, 0.2, 0.6}) {
-    StepCandidates candidates(*contact_, sample_, least);
+    StepCandidates candidates(*contact_, sample_, least, open_);
     candidates.test(batch, 200);
     // The cheap look spares the closer one where even it is below the least, and loses next to nothing.
     std::size_t expected = 0;
@@ -55,7 +56,7 @@ TEST_F(StepCandidatesTest, AreThePosesWithEnoughContact) {
 }
 
 TEST_F(StepCandidatesTest, KeepWhatIsAddedWhateverItsContact) {
-  StepCandidates candidates(*contact_, sample_, 0.9);
+  StepCandidates candidates(*contact_, sample_, 0.9, open_);
   candidates.add({-50.0, 0.0, 0.0});
   ASSERT_EQ(candidates.all().size(), 1U);
   EXPECT_EQ(candidates.all().front().quality, 0.0);
@@ -63,7 +64,7 @@ TEST_F(StepCandidatesTest, KeepWhatIsAddedWhateverItsContact) {
 }
 
 TEST_F(StepCandidatesTest, AreDistinctAndFitBetterOnceRefined) {
-  StepCandidates candidates(*contact_, sample_, 0.2);
+  StepCandidates candidates(*contact_, sample_, 0.2, open_);
   candidates.add(truth * Pose2{0.08, -0.05, 0.03});
   candidates.add(truth * Pose2{-0.06, 0.04, -0.02});
   candidates.add({1.0, 8.0, 1.0});

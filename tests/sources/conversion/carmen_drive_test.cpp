@@ -37,7 +37,7 @@ class Conversion : public testing::Test {
     params.laser.outliers = 0.02;
     params.laser.x = 0.2;
     params.laser.yaw_deg = 10.0;
-    DriveSimulator simulator(params, 5);
+    DriveSimulator simulator(params, {.seed = 5});
     std::string lines;
     while (const auto scan = simulator.next()) lines += carmen_lines(*scan);
     return folder_.write("drive.log", lines);
