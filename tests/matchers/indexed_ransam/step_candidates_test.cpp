@@ -63,6 +63,22 @@ TEST_F(StepCandidatesTest, KeepWhatIsAddedWhateverItsContact) {
   EXPECT_EQ(candidates.tested(), 0U);
 }
 
+TEST_F(StepCandidatesTest, LeaveOutWhatThePriorExcludes) {
+  const MotionBatch batch = poses(200);
+  Prior prior;
+  prior.region = {truth.x, truth.y, 0.12};
+  const PoseGate gate(prior, {});
+  StepCandidates all(*contact_, sample_, 0.2, open_);
+  StepCandidates allowed(*contact_, sample_, 0.2, gate);
+  all.test(batch, 200);
+  allowed.test(batch, 200);
+  std::size_t expected = 0;
+  for (const Candidate& candidate : all.all())
+    expected += distance(candidate.map_from_local, truth) <= 0.12 ? 1 : 0;
+  EXPECT_EQ(allowed.all().size(), expected);
+  EXPECT_LT(expected, all.all().size());
+}
+
 TEST_F(StepCandidatesTest, AreDistinctAndFitBetterOnceRefined) {
   StepCandidates candidates(*contact_, sample_, 0.2, open_);
   candidates.add(truth * Pose2{0.08, -0.05, 0.03});
