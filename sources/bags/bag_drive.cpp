@@ -182,7 +182,7 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
   std::vector<std::string> remarks;
   contents_ = bags::read_contents(recording_, topics_of(params), file, remarks);
   for (const std::string& remark : recording_.warnings()) warn_(remark);
-  for (const std::string& remark : remarks) warn_(file + ": " + remark);
+  for (const std::string& remark : remarks) warn_(fmt::format("{}: {}", file, remark));
   for (const auto& part : recording_.files()) setup.note_input(part);
   const bool has_clouds = std::any_of(contents_.scans.begin(), contents_.scans.end(),
                                       [](const bags::ScanTopic& scan) { return scan.are_clouds; });
