@@ -79,13 +79,13 @@ class GrowingFile {
 };
 
 std::unique_ptr<DriveReader> open_recording(const ConvertOptions& options) {
-  RecordingChoice choice;
-  if (!options.scans.empty()) choice.topics.scans = {options.scans};
-  choice.topics.odometry = options.odometry;
-  choice.topics.odom_frame = options.odom_frame;
-  choice.topics.base_frame = options.base_frame;
-  (is_topic(options.reference) ? choice.topics.reference : choice.reference_frame) = options.reference;
-  return std::make_unique<RecordingDriveReader>(options.in, choice, warn);
+  bags::DriveTopics topics;
+  if (!options.scans.empty()) topics.scans = {options.scans};
+  topics.odometry = options.odometry;
+  topics.odom_frame = options.odom_frame;
+  topics.base_frame = options.base_frame;
+  (is_topic(options.reference) ? topics.reference : topics.reference_frame) = options.reference;
+  return std::make_unique<RecordingDriveReader>(options.in, topics, warn);
 }
 
 /// What only some inputs have is not to be passed over in silence.
@@ -168,8 +168,7 @@ void tell_mount(const Pose3& robot_from_sensor) {
   const std::array<double, 9> m = matrix_of(robot_from_sensor.rotation);
   fmt::print(
       "the sensor's place: --set 'observations.cloud_drive.sensor={{x: {:.6g}, y: {:.6g}, z: {:.6g}, "
-      "roll_deg: "
-      "{:.6g}, pitch_deg: {:.6g}, yaw_deg: {:.6g}}}'\n",
+      "roll_deg: {:.6g}, pitch_deg: {:.6g}, yaw_deg: {:.6g}}}'\n",
       robot_from_sensor.x, robot_from_sensor.y, robot_from_sensor.z, degrees(std::atan2(m[7], m[8])),
       degrees(std::asin(std::clamp(-m[6], -1.0, 1.0))), degrees(std::atan2(m[3], m[0])));
 }

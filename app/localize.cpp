@@ -68,7 +68,7 @@ class Narrator {
                drive_->path_m.back(), loaded.starts.size(), tells_steps_ ? "start" : "starts");
   }
 
-  void step(const StepRecord& record) const {
+  void step(const StepRecord& record) {
     if (!tells_steps_) return;
     const StepResult& result = record.result;
     const auto pose = result.estimate();
@@ -100,7 +100,7 @@ class Narrator {
   Motion motion_ = Motion::planar;
   bool tells_steps_ = true;
   std::size_t first_sample_ = 0;
-  mutable std::string last_why_;
+  std::string last_why_;
 };
 
 /// Of several starts.

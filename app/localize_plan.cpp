@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "app/log_kind.hpp"
 #include "config/scalars.hpp"
 #include "glocal/error.hpp"
 #include "glocal/yaml.hpp"
 #include "sources/bags/drive_contents.hpp"
+#include "sources/bags/file_bytes.hpp"
 #include "sources/bags/recording.hpp"
 #include "sources/bags/recording_summary.hpp"
 #include "sources/clouds/cloud_file.hpp"
@@ -41,17 +43,20 @@ struct MapChoice {
   double resolution = 0.0;  ///< m; 0 if not known.
 };
 
+bool is_octree(const fs::path& map) {
+  return !fs::is_directory(map) && bags::FileBytes(map).peek(0).starts_with("# Octomap");
+}
+
 MapChoice choose_map(const fs::path& map) {
-  const std::string beginning = beginning_of(map);
+  expect_there(map);
   const std::string path = path_entry("path", map);
-  if (is_recording(map)) return {fmt::format("bag_map: {{{}}}", path), "a map recorded as a message"};
-  if (beginning.starts_with("# Octomap")) return {fmt::format("octomap: {{{}}}", path), "an octree", true};
+  if (bags::is_recording(map)) return {fmt::format("bag_map: {{{}}}", path), "a map recorded as a message"};
+  if (is_octree(map)) return {fmt::format("octomap: {{{}}}", path), "an octree", true};
   if (has_name_of_cloud(map)) return {fmt::format("point_cloud: {{{}}}", path), "a cloud of points", true};
   if (map.extension() != ".yaml" && map.extension() != ".yml")
     refuse(map,
            "is no map that is known: a map server's YAML, a cloud (PCD, PLY), an octree (.bt, .ot) or a "
-           "recording "
-           "with a nav_msgs/OccupancyGrid");
+           "recording with a nav_msgs/OccupancyGrid");
   ParamsOf<RosMapFile> file;
   read_yaml(map, file);
   return {fmt::format("ros_map: {{{}}}", path),
@@ -66,59 +71,64 @@ struct LogChoice {
 
 /// Lasers before clouds in the plane, clouds before lasers in space; then the widest view, and the most
 /// beams. With those that have the same: robots with a laser at each end have two alike.
-std::vector<const bags::TopicSummary*> choose_scans(const bags::RecordingSummary& summary, bool in_space) {
+std::vector<std::string> choose_scans(const bags::RecordingSummary& summary, bool in_space) {
   const auto rank = [&](const bags::TopicSummary& topic) {
     const bool is_cloud = !topic.first_scan;
     const double view = is_cloud ? 0.0 : std::abs(topic.first_scan->angle_max - topic.first_scan->angle_min);
     const std::size_t beams = is_cloud ? 0 : topic.first_scan->ranges.size();
     return std::tuple(is_cloud == in_space, std::round(degrees(view)), beams);
   };
-  std::vector<const bags::TopicSummary*> topics;
-  for (const bags::TopicSummary& topic : summary.topics) {
-    if (bags::has_scans(topic.type) && topic.messages > 0) topics.push_back(&topic);
+  std::vector<bags::TopicSummary> topics = summary.topics;
+  std::erase_if(topics, [](const auto& t) { return !bags::has_scans(t.type) || t.messages == 0; });
+  std::stable_sort(topics.begin(), topics.end(),
+                   [&](const auto& a, const auto& b) { return rank(a) > rank(b); });
+  std::vector<std::string> names;
+  for (const bags::TopicSummary& topic : topics) {
+    const bool is_best = rank(topic) == rank(topics.front());
+    if (is_best && (names.empty() || topic.first_scan)) names.push_back(topic.topic);
   }
-  if (topics.empty()) return {};
-  const auto best = rank(**std::max_element(
-      topics.begin(), topics.end(), [&](const auto* a, const auto* b) { return rank(*a) < rank(*b); }));
-  std::erase_if(topics, [&](const auto* topic) { return rank(*topic) != best; });
-  if (!topics.front()->first_scan) topics.resize(1);
-  return topics;
+  return names;
+}
+
+std::vector<std::string> recording_texts(const bags::Recording& recording,
+                                         const bags::RecordingSummary& summary,
+                                         const bags::DriveContents& contents) {
+  std::vector<std::string> texts = {
+      fmt::format("log         {}, {:.1f} s, {:.1f} m", recording.format(),
+                  static_cast<double>(summary.last_ns - summary.first_ns) * 1e-9, summary.path_m)};
+  for (const bags::TopicSummary& topic : summary.topics) {
+    if (!bags::has_scans(topic.type)) continue;
+    const bool is_used = std::any_of(contents.scans.begin(), contents.scans.end(),
+                                     [&](const auto& scan) { return scan.topic == topic.topic; });
+    texts.push_back(fmt::format("{}{}", is_used ? "scans       " : "not used    ", text_of(topic)));
+  }
+  texts.push_back(fmt::format("robot       {}, odometry {} from {}", contents.base_frame,
+                              contents.odometry.empty() ? "by tf" : "of " + contents.odometry,
+                              contents.odom_frame));
+  return texts;
+}
+
+std::string recording_yaml(const LocalizeRequest& request, const bags::DriveContents& contents) {
+  std::vector<std::string> scans;
+  for (const bags::ScanTopic& scan : contents.scans) scans.push_back(to_yaml(std::string_view(scan.topic)));
+  std::string yaml = fmt::format("bag:\n    {}\n    scans: [{}]\n    {}\n", path_entry("path", request.log),
+                                 fmt::join(scans, ", "), entry("base_frame", contents.base_frame));
+  yaml += fmt::format("    {}\n", contents.odometry.empty() ? entry("odom_frame", contents.odom_frame)
+                                                            : entry("odometry", contents.odometry));
+  return yaml;
 }
 
 LogChoice choose_recording(const LocalizeRequest& request, const MapChoice& map) {
   bags::Recording recording(request.log);
-  std::vector<std::string> remarks;
-  const bags::RecordingSummary summary = bags::summarize_recording(recording, remarks);
-  LogChoice choice;
-  bags::DriveTopics topics{.scans = request.scans, .odometry = request.odometry};
-  const auto chosen = choose_scans(summary, map.in_space);
-  if (topics.scans.empty()) {
-    for (const bags::TopicSummary* topic : chosen) topics.scans.push_back(topic->topic);
-  }
-  const bags::DriveContents contents = bags::read_contents(recording, topics, request.log.string(), remarks);
-  choice.texts.push_back(fmt::format("log         {}, {:.1f} s, {:.1f} m", recording.format(),
-                                     static_cast<double>(summary.last_ns - summary.first_ns) * 1e-9,
-                                     summary.path_m));
-  for (const bags::TopicSummary& topic : summary.topics) {
-    if (!bags::has_scans(topic.type)) continue;
-    const bool is_used =
-        std::find(topics.scans.begin(), topics.scans.end(), topic.topic) != topics.scans.end();
-    choice.texts.push_back(fmt::format("{}{}", is_used ? "scans       " : "not used    ", text_of(topic)));
-  }
-  choice.texts.push_back(fmt::format("robot       {}, odometry {} from {}", contents.base_frame,
-                                     contents.odometry.empty() ? "by tf" : "of " + contents.odometry,
-                                     contents.odom_frame));
-  std::vector<std::string> quoted;
-  for (const std::string& topic : topics.scans) quoted.push_back(to_yaml(std::string_view(topic)));
-  choice.yaml = fmt::format("bag:\n    {}\n    scans: [{}]\n    {}\n", path_entry("path", request.log),
-                            fmt::join(quoted, ", "), entry("base_frame", contents.base_frame));
-  if (contents.odometry.empty()) {
-    choice.yaml += fmt::format("    {}\n", entry("odom_frame", contents.odom_frame));
-  } else {
-    choice.yaml += fmt::format("    {}\n", entry("odometry", contents.odometry));
-  }
-  const bool has_clouds = contents.scans.front().are_clouds;
-  if (has_clouds && !map.in_space) {
+  std::vector<std::string> told_by_the_source;
+  const bags::RecordingSummary summary = bags::summarize_recording(recording, told_by_the_source);
+  const bags::DriveTopics topics{
+      .scans = request.scans.empty() ? choose_scans(summary, map.in_space) : request.scans,
+      .odometry = request.odometry};
+  const bags::DriveContents contents =
+      bags::read_contents(recording, topics, request.log.string(), [](const std::string&) {});
+  LogChoice choice{recording_yaml(request, contents), recording_texts(recording, summary, contents)};
+  if (contents.scans.front().are_clouds && !map.in_space) {
     choice.yaml += "    heights: [0.2, 1.5]\n";
     choice.texts.emplace_back("heights     0.2 m to 1.5 m of the clouds, above the robot's origin");
   }

@@ -8,11 +8,8 @@ namespace glocal::app {
 
 enum class LogKind { recording, clouds, carmen };
 
-/// The first bytes of a file, up to 64; none of a folder. Throws ConfigError if there is neither.
-[[nodiscard]] std::string beginning_of(const std::filesystem::path& file);
-
-/// Whether it is a recording of ROS 1 or 2, or MCAP.
-[[nodiscard]] bool is_recording(const std::filesystem::path& path);
+/// Throws ConfigError if there is neither such a file nor such a folder.
+void expect_there(const std::filesystem::path& path);
 
 /// What a drive is read as. Files that are nothing else are taken to be CARMEN logs. Throws ConfigError if
 /// nothing is there, and for folders without clouds or parts of recordings.

@@ -45,8 +45,8 @@ std::optional<std::string> doubt_of_references(const Drive& drive, const GlobalM
   if (!share || *share >= least) return std::nullopt;
   return fmt::format(
       "at the reference poses only {:.0f} % of what is seen lies within {:g} m of the map: they are in "
-      "another frame than "
-      "the map, or of another time than the scans, and the answers cannot be judged by them",
+      "another frame than the map, or of another time than the scans, and the answers cannot be judged by "
+      "them",
       100.0 * *share, reach);
 }
 

@@ -31,6 +31,7 @@ bags::DriveTopics topics_of(const BagDrive::Params& params) {
           .odom_frame = params.odom_frame,
           .base_frame = params.base_frame,
           .reference = params.reference.topic,
+          .reference_frame = params.reference.frame,
           .sensor_is_given = params.sensor_from == "given"};
 }
 
@@ -135,8 +136,8 @@ void describe(ParamVisitor& v, BagDrive::Params& p) {
            .audience = Audience::tuner});
   v.field("deskew", p.deskew,
           {.doc = "odometry: rays are moved to where the robot was at the scan's stamp. none: they are left "
-                  "as measured, "
-                  "with their times.",
+                  "as measured, with their "
+                  "times.",
            .choices = {"odometry", "none"}});
   v.field(
       "max_gap", p.max_gap,
@@ -179,10 +180,7 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
       max_gap_ns_(nanoseconds(params.max_gap)),
       recording_(params.path.resolved) {
   const std::string file = params.path.resolved.string();
-  std::vector<std::string> remarks;
-  contents_ = bags::read_contents(recording_, topics_of(params), file, remarks);
-  for (const std::string& remark : recording_.warnings()) warn_(remark);
-  for (const std::string& remark : remarks) warn_(fmt::format("{}: {}", file, remark));
+  contents_ = bags::read_contents(recording_, topics_of(params), file, warn_);
   for (const auto& part : recording_.files()) setup.note_input(part);
   const bool has_clouds = std::any_of(contents_.scans.begin(), contents_.scans.end(),
                                       [](const bags::ScanTopic& scan) { return scan.are_clouds; });
@@ -303,13 +301,7 @@ std::optional<Pose3> BagDrive::robot_from_sensor(const std::string& frame, std::
 
 std::optional<Pose3> BagDrive::reference_at(std::int64_t stamp_ns) const {
   const BagReference& r = params_.reference;
-  const std::int64_t then = stamp_ns - nanoseconds(r.time_shift);
-  std::optional<Pose3> pose;
-  if (!r.topic.empty()) {
-    pose = contents_.reference.size() > 0 ? contents_.reference.at(then, max_gap_ns_) : std::nullopt;
-  } else if (!r.frame.empty()) {
-    pose = contents_.tree.pose(r.frame, contents_.base_frame, then, max_gap_ns_);
-  }
+  const auto pose = contents_.reference_at(stamp_ns - nanoseconds(r.time_shift), max_gap_ns_);
   if (!pose) return std::nullopt;
   const Pose3 map_from_robot = Pose3({r.x, r.y, r.z}, turn_about_z(radians(r.yaw_deg))) * *pose;
   return is_planar_ ? Pose3(seen_from_above(map_from_robot)) : map_from_robot;

@@ -37,19 +37,21 @@ class ContentsReader {
   ContentsReader(Recording& recording, const DriveTopics& wanted, const std::string& file)
       : recording_(recording), wanted_(wanted), file_(file) {}
 
-  DriveContents read(std::vector<std::string>& remarks) {
+  DriveContents read(const Warn& warn) {
     choose_scans();
     check_topic(wanted_.odometry, odometry_topics_, odometry_type, "odometry");
     check_topic(wanted_.reference, topics_of(recording_, is_reference_type), "poses", "reference.topic");
     go_through();
+    contents_.reference_frame = wanted_.reference_frame;
     contents_.tree.settle();
     for (auto& [topic, odometry] : odometry_) odometry.poses.settle();
     contents_.reference.settle();
     choose_frames();
     check_sensors();
+    for (const std::string& warning : recording_.warnings()) warn(warning);
     for (const auto& [topic, text] : unreadable_)
-      remarks.push_back(
-          fmt::format("{} messages of {} are left out; the first: {}", text.first, topic, text.second));
+      warn(fmt::format("{}: {} messages of {} are left out; the first: {}", file_, text.first, topic,
+                       text.second));
     return std::move(contents_);
   }
 
@@ -125,16 +127,12 @@ class ContentsReader {
       poses.add(odometry.header.stamp_ns, odometry.frame_from_child);
       frame = odometry.header.frame;
       child = odometry.child_frame;
-      if (topic == wanted_.reference) add_reference(odometry.header, odometry.frame_from_child);
+      if (topic == wanted_.reference)
+        contents_.reference.add(odometry.header.stamp_ns, odometry.frame_from_child);
     } else if (is_pose(type)) {
       const StampedFramePose pose = read_pose(message);
-      add_reference(pose.header, pose.pose);
+      contents_.reference.add(pose.header.stamp_ns, pose.pose);
     }
-  }
-
-  void add_reference(const Header& header, const Pose3& pose) {
-    contents_.reference_frame = header.frame;
-    contents_.reference.add(header.stamp_ns, pose);
   }
 
   void take_scan(const RecordedMessage& message) {
@@ -231,9 +229,14 @@ std::optional<Pose3> DriveContents::odometry_at(std::int64_t stamp_ns, std::int6
   return odom_from ? std::optional(*odom_from * child_from_base) : std::nullopt;
 }
 
+std::optional<Pose3> DriveContents::reference_at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
+  return reference_frame.empty() ? reference.at(stamp_ns, max_gap_ns)
+                                 : tree.pose(reference_frame, base_frame, stamp_ns, max_gap_ns);
+}
+
 DriveContents read_contents(Recording& recording, const DriveTopics& wanted, const std::string& file,
-                            std::vector<std::string>& remarks) {
-  return ContentsReader(recording, wanted, file).read(remarks);
+                            const Warn& warn) {
+  return ContentsReader(recording, wanted, file).read(warn);
 }
 
 }  // namespace glocal::bags

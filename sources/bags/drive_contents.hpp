@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "glocal/catalog.hpp"
 #include "sources/bags/pose_track.hpp"
 #include "sources/bags/recording.hpp"
 #include "sources/bags/transform_tree.hpp"
@@ -15,12 +16,13 @@ namespace glocal::bags {
 /// What is asked for by name. What is empty is found out.
 struct DriveTopics {
   std::vector<std::string> scans =
-      {};                        ///< LaserScan or PointCloud2; the first one says when observations are.
-  std::string odometry = {};     ///< nav_msgs/Odometry; empty: tf, or else the only such topic.
-  std::string odom_frame = {};   ///< For tf; empty: odom.
-  std::string base_frame = {};   ///< Empty: base_footprint, base_link, or whose pose odometry says.
-  std::string reference = {};    ///< PoseStamped, PoseWithCovarianceStamped or Odometry; perhaps empty.
-  bool sensor_is_given = false;  ///< Then tf need not say where the sensor is.
+      {};                            ///< LaserScan or PointCloud2; the first one says when observations are.
+  std::string odometry = {};         ///< nav_msgs/Odometry; empty: tf, or else the only such topic.
+  std::string odom_frame = {};       ///< For tf; empty: odom.
+  std::string base_frame = {};       ///< Empty: base_footprint, base_link, or whose pose odometry says.
+  std::string reference = {};        ///< PoseStamped, PoseWithCovarianceStamped or Odometry; perhaps empty.
+  std::string reference_frame = {};  ///< Of tf, in which the robot's pose is the reference; perhaps empty.
+  bool sensor_is_given = false;      ///< Then tf need not say where the sensor is.
 };
 
 /// The scans of a topic.
@@ -40,18 +42,20 @@ struct DriveContents {
   std::string odometry;       ///< Topic; empty where tf has the odometry.
   PoseTrack odom_from_child;  ///< Of that topic.
   Pose3 child_from_base;
-  std::string reference_frame;  ///< Of the reference's poses.
-  PoseTrack reference;          ///< Of that topic; empty if there is none.
+  PoseTrack reference;          ///< Of the topic; empty if there is none.
+  std::string reference_frame;  ///< Of tf; empty if there is none.
 
-  /// None where it is not known at this time.
+  /// The robot in odom_frame; none where it is not known at this time.
   [[nodiscard]] std::optional<Pose3> odometry_at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
+  /// The robot in the reference's frame; none where it is not known at this time.
+  [[nodiscard]] std::optional<Pose3> reference_at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
 };
 
 /// Reads all but the scans' content, and finds out what is not asked for by name. Throws ConfigError, with
 /// what there is, for topics that are missing, several where one is needed, and frames that tf does not
-/// connect. What the user should know is added to `remarks`.
+/// connect. Warns of what the recording warns of, and of messages that cannot be read.
 [[nodiscard]] DriveContents read_contents(Recording& recording, const DriveTopics& wanted,
-                                          const std::string& file, std::vector<std::string>& remarks);
+                                          const std::string& file, const Warn& warn);
 
 /// Topics with scans.
 [[nodiscard]] bool has_scans(std::string_view type);

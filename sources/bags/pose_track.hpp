@@ -37,9 +37,6 @@ class PoseTrack {
   void settle();
 
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
-  /// Of the first and the last pose; there is one.
-  [[nodiscard]] std::int64_t first_ns() const { return poses_.front().first; }
-  [[nodiscard]] std::int64_t last_ns() const { return poses_.back().first; }
   /// Whether all poses are the same one.
   [[nodiscard]] bool is_still() const { return is_still_; }
 

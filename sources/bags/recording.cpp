@@ -18,10 +18,6 @@ struct Recording::Part {
   std::optional<FileMessage> message;    ///< The next one.
 };
 
-bool begins_recording(std::string_view beginning) {
-  return is_ros1_bag(beginning) || is_mcap(beginning) || is_sqlite(beginning);
-}
-
 std::string normal_type(std::string_view type) {
   std::string normal(type);
   const std::size_t at = normal.find("/msg/");
@@ -31,16 +27,13 @@ std::string normal_type(std::string_view type) {
 
 namespace {
 
-/// The files of a ROS 2 recording's folder.
+/// The files of a ROS 2 recording's folder, in order; none if it is none.
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path extension = entry.path().extension();
     if (extension == ".db3" || extension == ".mcap") files.push_back(entry.path());
   }
-  if (files.empty())
-    throw ConfigError(
-        {{folder.string(), 0, 0, "is a folder without .db3 or .mcap files; a recording of ROS 2 has them"}});
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -59,13 +52,24 @@ std::unique_ptr<RecordingFile> open_file(const fs::path& file, const Note& note)
 
 }  // namespace
 
+bool is_recording(const fs::path& path) {
+  if (fs::is_directory(path)) return !files_in(path).empty();
+  const FileBytes bytes(path);
+  const std::string_view beginning = bytes.peek(0);
+  return is_ros1_bag(beginning) || is_mcap(beginning) || is_sqlite(beginning);
+}
+
 Recording::Recording(const fs::path& path)
     : connections_(std::make_unique<std::vector<Connection>>()),
       warnings_(std::make_unique<std::vector<std::string>>()) {
   if (!fs::is_directory(path)) {
     open(path);
   } else {
-    for (const fs::path& file : files_in(path)) open(file);
+    const std::vector<fs::path> files = files_in(path);
+    if (files.empty())
+      throw ConfigError(
+          {{path.string(), 0, 0, "is a folder without .db3 or .mcap files; a recording of ROS 2 has them"}});
+    for (const fs::path& file : files) open(file);
   }
   rewind();
 }

@@ -33,8 +33,9 @@ struct RecordedMessage {
   Place place;                ///< Of the bytes, for what is said of them.
 };
 
-/// Whether a file that begins so (64 bytes, or fewer) is of one of the formats below.
-[[nodiscard]] bool begins_recording(std::string_view beginning);
+/// Whether a path is that of a Recording: a file that begins as one, or a folder with .db3 or .mcap files.
+/// Throws ConfigError if it can be read neither as a file nor as a folder.
+[[nodiscard]] bool is_recording(const std::filesystem::path& path);
 
 /// `sensor_msgs/msg/LaserScan` is `sensor_msgs/LaserScan`.
 [[nodiscard]] std::string normal_type(std::string_view type);

@@ -29,11 +29,6 @@ void TransformTree::settle() {
   }
 }
 
-bool TransformTree::knows(const std::string& frame) const {
-  return parents_.contains(frame) ||
-         std::any_of(parents_.begin(), parents_.end(), [&](const auto& p) { return p.second == frame; });
-}
-
 std::vector<std::string> TransformTree::line_of(const std::string& frame) const {
   std::vector<std::string> line = {frame};
   // Frames of damaged recordings may be their own ancestors.

@@ -21,7 +21,6 @@ class TransformTree {
   /// was named most often.
   void settle();
 
-  [[nodiscard]] bool knows(const std::string& frame) const;
   /// Whether there is a way through the tree from one frame to the other; each frame has one to itself.
   [[nodiscard]] bool connects(const std::string& a, const std::string& b) const;
   /// The pose of a frame in another one. None if no way connects them, or a transform on the way is not known

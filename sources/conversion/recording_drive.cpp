@@ -21,28 +21,27 @@ constexpr const char* base_frame = "base_link";
 
 }  // namespace
 
-RecordingDriveReader::RecordingDriveReader(const std::filesystem::path& path, const RecordingChoice& choice,
+RecordingDriveReader::RecordingDriveReader(const std::filesystem::path& path, const bags::DriveTopics& topics,
                                            Warn warn)
-    : file_(path.string()), choice_(choice), warn_(std::move(warn)), recording_(path) {
-  std::vector<std::string> remarks;
-  contents_ = bags::read_contents(recording_, choice.topics, file_, remarks);
-  for (const std::string& remark : recording_.warnings()) warn_(remark);
-  for (const std::string& remark : remarks) warn_(file_ + ": " + remark);
-  if (!choice.reference_frame.empty() &&
-      !contents_.tree.connects(choice.reference_frame, contents_.base_frame))
+    : file_(path.string()),
+      warn_(std::move(warn)),
+      recording_(path),
+      contents_(bags::read_contents(recording_, topics, file_, warn_)) {
+  if (!contents_.reference_frame.empty() &&
+      !contents_.tree.connects(contents_.reference_frame, contents_.base_frame))
     throw ConfigError({{file_, 0, 0,
                         fmt::format("tf does not connect {} with {}; give --reference a topic or a frame of "
                                     "the tree, which glocal bag info shows",
-                                    choice.reference_frame, contents_.base_frame)}});
-  std::set<std::string> topics;
+                                    contents_.reference_frame, contents_.base_frame)}});
+  std::set<std::string> with_scans;
   for (const bags::ScanTopic& scan : contents_.scans) {
-    topics.insert(scan.topic);
+    with_scans.insert(scan.topic);
     const bool is_still = contents_.tree.is_still(contents_.base_frame, scan.frame);
     sensors_.push_back(
         {scan.topic, scan.frame, scan.are_clouds,
          is_still ? contents_.tree.pose(contents_.base_frame, scan.frame, 0, longest_gap_ns) : std::nullopt});
   }
-  recording_.rewind(topics);
+  recording_.rewind(with_scans);
 }
 
 std::optional<DriveScan> RecordingDriveReader::next() {
@@ -77,14 +76,8 @@ std::optional<DriveScan> RecordingDriveReader::scan_of(const bags::RecordedMessa
   if (!odometry || !mount) return std::nullopt;
   scan.odom_from_robot = *odometry;
   scan.robot_from_sensor = *mount;
-  scan.map_from_robot = reference_at(header.stamp_ns);
+  scan.map_from_robot = contents_.reference_at(header.stamp_ns, longest_gap_ns);
   return scan;
-}
-
-std::optional<Pose3> RecordingDriveReader::reference_at(std::int64_t stamp_ns) const {
-  if (contents_.reference.size() > 0) return contents_.reference.at(stamp_ns, longest_gap_ns);
-  if (choice_.reference_frame.empty()) return std::nullopt;
-  return contents_.tree.pose(choice_.reference_frame, contents_.base_frame, stamp_ns, longest_gap_ns);
 }
 
 void RecordingDriveReader::warn_of_lost() {

@@ -16,30 +16,22 @@
 
 namespace glocal {
 
-/// What of a recording is wanted.
-struct RecordingChoice {
-  bags::DriveTopics topics = {};
-  std::string reference_frame = {};  ///< Of tf, in which the robot's pose is the reference; perhaps empty.
-};
-
 /// The scans of a recording. Memory holds its poses, and of its scans the stamps. Scans at whose time it is
 /// not known where the robot or its sensor was, and those that cannot be read, are left out, with a warning
 /// at the end.
 class RecordingDriveReader final : public DriveReader {
  public:
   /// Throws ConfigError where Recording and bags::read_contents() do.
-  RecordingDriveReader(const std::filesystem::path& path, const RecordingChoice& choice, Warn warn);
+  RecordingDriveReader(const std::filesystem::path& path, const bags::DriveTopics& topics, Warn warn);
 
   [[nodiscard]] const std::vector<DriveSensor>& sensors() const override { return sensors_; }
   [[nodiscard]] std::optional<DriveScan> next() override;
 
  private:
   [[nodiscard]] std::optional<DriveScan> scan_of(const bags::RecordedMessage& message);
-  [[nodiscard]] std::optional<Pose3> reference_at(std::int64_t stamp_ns) const;
   void warn_of_lost();
 
   std::string file_;
-  RecordingChoice choice_;
   Warn warn_;
   bags::Recording recording_;
   bags::DriveContents contents_;

@@ -56,12 +56,12 @@ class PoseGate {
   PoseGate() = default;
   /// Those that put the start of the trial, where it lies in the local map, where the prior has it.
   PoseGate(const Prior& prior, const Pose3& local_from_start)
-      : is_open_(!prior.is_given()), prior_(prior), local_from_start_(local_from_start) {}
+      : prior_(prior), local_from_start_(local_from_start) {}
 
   /// Whether it allows every pose.
-  [[nodiscard]] bool is_open() const { return is_open_; }
+  [[nodiscard]] bool is_open() const { return !prior_.is_given(); }
   [[nodiscard]] bool allows(const Pose3& map_from_local) const {
-    return is_open_ || prior_.allows(map_from_local * local_from_start_);
+    return is_open() || prior_.allows(map_from_local * local_from_start_);
   }
 
   /// For searches that leave out many poses at once.
@@ -69,7 +69,6 @@ class PoseGate {
   [[nodiscard]] const Pose3& local_from_start() const { return local_from_start_; }
 
  private:
-  bool is_open_ = true;
   Prior prior_;
   Pose3 local_from_start_;
 };

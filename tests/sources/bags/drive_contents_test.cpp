@@ -23,7 +23,8 @@ class DriveOf : public testing::Test {
  protected:
   DriveContents read(const DriveTopics& wanted = {}) {
     Recording recording(folder_.write("drive.mcap", recording_.bytes()));
-    return read_contents(recording, wanted, (folder_ / "drive.mcap").string(), remarks_);
+    return read_contents(recording, wanted, (folder_ / "drive.mcap").string(),
+                         [this](const std::string& text) { remarks_.push_back(text); });
   }
   std::string fault(const DriveTopics& wanted = {}) {
     return config_error(folder_.path(), [&] { read(wanted); });

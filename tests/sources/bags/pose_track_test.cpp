@@ -51,8 +51,9 @@ TEST(PoseTrack, ThatIsStillHoldsAtAllTimes) {
 TEST(PoseTrack, SortsAndKeepsTheLastOfEqualStamps) {
   const PoseTrack track = track_of({{200, {2.0, 0.0, 0.0}}, {100, {7.0, 0.0, 0.0}}, {100, {1.0, 0.0, 0.0}}});
   EXPECT_EQ(track.size(), 2U);
-  EXPECT_EQ(track.first_ns(), 100);
-  EXPECT_EQ(track.last_ns(), 200);
+  EXPECT_FALSE(track.at(99, 1000));
+  EXPECT_FALSE(track.at(201, 1000));
+  EXPECT_EQ(track.at(200, 1)->x, 2.0);
   EXPECT_EQ(track.at(100, 1)->x, 1.0);
   EXPECT_NEAR(track.at(150, 100)->x, 1.5, 1e-12);
 }

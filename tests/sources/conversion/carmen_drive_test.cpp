@@ -49,7 +49,7 @@ class Conversion : public testing::Test {
     counts_ = pass_on(reader, writer, "drive.log", warn());
     return folder_.write("drive.mcap", bytes);
   }
-  std::filesystem::path as_log(const std::filesystem::path& recording, const RecordingChoice& choice) {
+  std::filesystem::path as_log(const std::filesystem::path& recording, const bags::DriveTopics& choice) {
     RecordingDriveReader reader(recording, choice, warn());
     std::string text;
     CarmenDriveWriter writer("drive.mcap", [&](std::string_view more) { text += more; });
@@ -81,7 +81,7 @@ void expect_near(const Points& a, const Points& b) {
 TEST_F(Conversion, ALogComesBackFromMcapAsItWas) {
   const auto log = simulated_log();
   const auto before = read_carmen_log(log);
-  const auto after = read_carmen_log(as_log(as_mcap(log), {.topics = {.reference = "/reference"}}));
+  const auto after = read_carmen_log(as_log(as_mcap(log), {.reference = "/reference"}));
   ASSERT_EQ(after.size(), before.size());
   EXPECT_EQ(counts_.scans, before.size());
   EXPECT_EQ(counts_.references, before.size());
