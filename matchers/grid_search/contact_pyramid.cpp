@@ -3,189 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "glocal/error.hpp"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "matchers/grid_search/contact_pyramid.cpp"
-#include <hwy/foreach_target.h>  // compiles this file once for each instruction set
-#include <hwy/highway.h>
-
-HWY_BEFORE_NAMESPACE();
-namespace glocal::HWY_NAMESPACE {
-namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using Words = hn::CappedTag<std::uint64_t, TileCounts::rows>;
-using V = hn::Vec<Words>;
-
-/// Full adder in each bit: sum + a + b = 2 * carry + sum.
-HWY_INLINE V add(V& sum, V a, V b) {
-  const V either = hn::Xor(sum, a);
-  const V carry = hn::Or(hn::And(sum, a), hn::And(either, b));
-  sum = hn::Xor(either, b);
-  return carry;
-}
-
-/// Adds the bits that eight points find to the counts of some rows of a tile (Harley and Seal's counter).
-template <class Bits>
-HWY_INLINE void add_eight(const Bits& bits, std::uint64_t* planes, std::size_t planes_size) {
-  const Words d;
-  constexpr std::size_t stride = TileCounts::rows;
-  V ones = hn::LoadU(d, planes);
-  V twos = hn::LoadU(d, planes + stride);
-  V fours = hn::LoadU(d, planes + 2 * stride);
-  V a = add(ones, bits(0), bits(1));
-  V b = add(ones, bits(2), bits(3));
-  const V c = add(twos, a, b);
-  a = add(ones, bits(4), bits(5));
-  b = add(ones, bits(6), bits(7));
-  V carry = add(fours, c, add(twos, a, b));
-  hn::StoreU(ones, d, planes);
-  hn::StoreU(twos, d, planes + stride);
-  hn::StoreU(fours, d, planes + 2 * stride);
-  for (std::size_t k = 3; k < planes_size; ++k) {
-    const V plane = hn::LoadU(d, planes + k * stride);
-    hn::StoreU(hn::Xor(plane, carry), d, planes + k * stride);
-    carry = hn::And(plane, carry);
-  }
-}
-
-/// Adds the bits found by looks [begin, begin + n), n a multiple of eight.
-void add_looks_in_vectors(const std::uint64_t* level, std::size_t rows, const TileLooks& looks,
-                          std::size_t begin, std::size_t n, std::uint64_t* planes, std::size_t planes_size) {
-  const Words d;
-  for (std::size_t row = 0; row < TileCounts::rows; row += hn::Lanes(d)) {
-    for (std::size_t i = begin; i < begin + n; i += 8) {
-      const auto bits = [&](std::size_t k) HWY_ATTR {
-        const std::uint64_t* words = level + looks.words[i + k] + row;
-        const int shift = static_cast<int>(looks.shifts[i + k]);
-        const V low = hn::ShiftRightSame(hn::LoadU(d, words), shift);
-        const V high = hn::ShiftLeftSame(hn::ShiftLeft<1>(hn::LoadU(d, words + rows)), 63 - shift);
-        return hn::Or(low, high);
-      };
-      add_eight(bits, planes + row, planes_size);
-    }
-  }
-}
-
-/// The looks of those of n points that meet a tile; n is a multiple of every vector's length. Writes whole
-/// vectors. Returns how many they are. `layers` are looked at in space alone.
-template <bool in_space>
-HWY_INLINE std::size_t find_looks(const TileLayout& tile, const std::int32_t* columns,
-                                  const std::int32_t* rows, const std::int32_t* layers, std::size_t n,
-                                  TileLooks& looks) {
-  const hn::CappedTag<std::int32_t, 16> d;
-  const hn::Rebind<std::uint32_t, decltype(d)> words;
-  const auto low_bits = hn::Set(d, (1 << tile.level) - 1);
-  const auto within = [&](auto value, std::int32_t last) HWY_ATTR {
-    return hn::And(hn::Gt(value, hn::Set(d, -1)), hn::Lt(value, hn::Set(d, last + 1)));
-  };
-  std::size_t size = 0;
-  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const auto x = hn::Add(hn::LoadU(d, columns + i), hn::Set(d, tile.column));
-    const auto y = hn::Add(hn::LoadU(d, rows + i), hn::Set(d, tile.row));
-    const auto first = hn::Add(hn::ShiftRightSame(x, tile.level), hn::Set(d, TileCounts::columns));
-    const auto line = hn::Add(hn::ShiftRightSame(y, tile.level), hn::Set(d, TileCounts::rows));
-    const auto phase = hn::Or(hn::ShiftLeftSame(hn::And(y, low_bits), tile.level), hn::And(x, low_bits));
-    const auto column = hn::Add(hn::Mul(phase, hn::Set(d, tile.words)), hn::ShiftRight<6>(first));
-    auto word = hn::Add(hn::Mul(column, hn::Set(d, tile.rows)), line);
-    auto meets = hn::And(within(first, tile.last_column), within(line, tile.last_row));
-    if constexpr (in_space) {
-      const auto layer = hn::Add(hn::LoadU(d, layers + i), hn::Set(d, tile.layer));
-      word = hn::Add(word, hn::Mul(layer, hn::Set(d, tile.layer_words)));
-      meets = hn::And(meets, within(layer, tile.last_layer));
-    }
-    hn::CompressStore(hn::BitCast(words, hn::And(first, hn::Set(d, 63))), hn::RebindMask(words, meets), words,
-                      looks.shifts.data() + size);
-    size += hn::CompressStore(hn::BitCast(words, word), hn::RebindMask(words, meets), words,
-                              looks.words.data() + size);
-  }
-  return size;
-}
-
-std::size_t find_looks_in_plane(const TileLayout& tile, const std::int32_t* columns, const std::int32_t* rows,
-                                std::size_t n, TileLooks& looks) {
-  return find_looks<false>(tile, columns, rows, nullptr, n, looks);
-}
-
-std::size_t find_looks_in_space(const TileLayout& tile, const std::int32_t* columns, const std::int32_t* rows,
-                                const std::int32_t* layers, std::size_t n, TileLooks& looks) {
-  return find_looks<true>(tile, columns, rows, layers, n, looks);
-}
-
-}  // namespace
-}  // namespace glocal::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 namespace glocal {
-
-HWY_EXPORT(add_looks_in_vectors);
-HWY_EXPORT(find_looks_in_plane);
-HWY_EXPORT(find_looks_in_space);
-
-namespace {
-
-constexpr int word_bits = 64;
-/// Points and looks come in multiples of this: a vector of the widest instruction set.
-constexpr std::size_t lanes = 16;
-
-int low_bits(int value, int n) {
-  return value & ((1 << n) - 1);
-}
-
-}  // namespace
-
-void CellPoints::push_back(std::int32_t column, std::int32_t row, std::int32_t layer) {
-  constexpr std::int32_t far_away = -(1 << 29);
-  if (size_ == columns_.size()) {
-    columns_.resize(size_ + lanes, far_away);
-    rows_.resize(size_ + lanes, far_away);
-    layers_.resize(size_ + lanes, far_away);
-  }
-  columns_[size_] = column;
-  rows_[size_] = row;
-  layers_[size_] = layer;
-  ++size_;
-}
-
-std::size_t TileCounts::at(int column, int row) const {
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < planes_.size(); ++k) {
-    count |= (planes_[k][static_cast<std::size_t>(row)] >> column & 1U) << k;
-  }
-  return count;
-}
-
-void TileCounts::find_largest() {
-  Mask nodes;
-  nodes.fill(~std::uint64_t{0});
-  largest_ = 0;
-  for (std::size_t k = planes_.size(); k-- > 0;) {
-    Mask with_bit;
-    std::uint64_t any = 0;
-    for (std::size_t row = 0; row < rows; ++row) any |= with_bit[row] = nodes[row] & planes_[k][row];
-    if (any == 0) continue;
-    nodes = with_bit;
-    largest_ |= std::size_t{1} << k;
-  }
-}
-
-TileCounts::Mask TileCounts::at_least(std::size_t count) const {
-  Mask nodes;
-  nodes.fill(count >> planes_.size() == 0 ? ~std::uint64_t{0} : 0);
-  // From the lowest bit on: whether the bits so far are at least those of `count`.
-  for (std::size_t k = 0; k < planes_.size(); ++k) {
-    const bool needed = (count >> k & 1U) != 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-      nodes[row] = needed ? nodes[row] & planes_[k][row] : nodes[row] | planes_[k][row];
-    }
-  }
-  return nodes;
-}
 
 void check_cell(double cell, double epsilon) {
   if (cell <= epsilon) return;
@@ -224,141 +46,81 @@ CellFrame cell_frame(const Points& map_points, double cell, double epsilon, Moti
           .layers = static_cast<int>(layers)};
 }
 
-struct ContactPyramid::Windows {
-  int border;  ///< How many cells before the first one they begin, at most.
-  std::size_t width, height, depth;
-  std::vector<std::uint8_t> bytes;
+namespace {
 
-  Windows(const CellFrame& frame, int cells_before, int layers_before)
-      : border(cells_before),
-        width(static_cast<std::size_t>(frame.columns + cells_before)),
-        height(static_cast<std::size_t>(frame.rows + cells_before)),
-        depth(static_cast<std::size_t>(frame.layers + layers_before)),
-        bytes(width * height * depth, 0) {}
-
-  /// Four windows make one of twice the side, or eight in space; those read have not been replaced yet.
-  void join(std::size_t half) {
-    const std::size_t layer = width * height;
-    for (std::size_t row = 0; row < height * depth; ++row) {
-      for (std::size_t i = row * width; i + half < (row + 1) * width; ++i) bytes[i] |= bytes[i + half];
-    }
-    for (std::size_t z = 0; z < depth; ++z) {
-      for (std::size_t i = z * layer; i + half * width < (z + 1) * layer; ++i)
-        bytes[i] |= bytes[i + half * width];
-    }
-    for (std::size_t i = 0; i + half * layer < bytes.size(); ++i) bytes[i] |= bytes[i + half * layer];
+/// Four windows make one of twice the side, or eight in space; those read have not been replaced yet.
+void join(Windows& windows, std::size_t half) {
+  std::vector<std::uint8_t>& bytes = windows.bytes;
+  const std::size_t layer = windows.width * windows.height;
+  for (std::size_t row = 0; row < windows.height * windows.depth; ++row) {
+    for (std::size_t i = row * windows.width; i + half < (row + 1) * windows.width; ++i)
+      bytes[i] |= bytes[i + half];
   }
-};
+  for (std::size_t z = 0; z < windows.depth; ++z) {
+    for (std::size_t i = z * layer; i + half * windows.width < (z + 1) * layer; ++i)
+      bytes[i] |= bytes[i + half * windows.width];
+  }
+  for (std::size_t i = 0; i + half * layer < bytes.size(); ++i) bytes[i] |= bytes[i + half * layer];
+}
 
-ContactPyramid::ContactPyramid(const Points& map_points, double cell, double epsilon, int top_level,
-                               Motion motion)
-    : frame_(cell_frame(map_points, cell, epsilon, motion)), in_space_(motion != Motion::planar) {
-  const int border = (1 << top_level) - 1;
-  if (in_space_) layers_before_ = border;
-  Windows windows(frame_, border, layers_before_);
-  const auto window = [&](int column, int row, int layer) -> std::uint8_t& {
-    const auto line = static_cast<std::size_t>(layer + layers_before_) * windows.height +
-                      static_cast<std::size_t>(row + border);
-    return windows.bytes[line * windows.width + static_cast<std::size_t>(column + border)];
+}  // namespace
+
+Windows cells_near(const Points& map_points, const CellFrame& frame, double epsilon, bool anywhere,
+                   int before, Motion motion) {
+  const bool in_space = motion != Motion::planar;
+  const int layers_before = in_space ? before : 0;
+  Windows windows{.columns_before = before,
+                  .rows_before = before,
+                  .layers_before = layers_before,
+                  .width = static_cast<std::size_t>(frame.columns + before),
+                  .height = static_cast<std::size_t>(frame.rows + before),
+                  .depth = static_cast<std::size_t>(frame.layers + layers_before),
+                  .in_space = in_space};
+  const double half_cell = anywhere ? 0.5 : 0.0;
+  const double reach = epsilon / frame.cell;
+  const auto first = [&](double centre) {
+    return std::max(0, static_cast<int>(std::ceil(centre - reach - half_cell)));
+  };
+  const auto square = [&](double distance) {
+    const double beyond = std::max(0.0, std::abs(distance) - half_cell);
+    return beyond * beyond;
   };
   for (std::size_t i = 0; i < map_points.size(); ++i) {
     // In cells, relative to the centre of cell (0, 0, 0).
-    const double x = (map_points.x[i] - frame_.min_x) / cell - 0.5;
-    const double y = (map_points.y[i] - frame_.min_y) / cell - 0.5;
-    const double z = in_space_ ? (map_points.z[i] - frame_.min_z) / cell - 0.5 : 0.0;
-    const double reach = epsilon / cell;
-    const auto first = [&](double centre) {
-      return std::max(0, static_cast<int>(std::ceil(centre - reach)));
-    };
-    for (int l = first(z); l < frame_.layers && l <= z + reach; ++l) {
-      for (int r = first(y); r < frame_.rows && r <= y + reach; ++r) {
-        for (int c = first(x); c < frame_.columns && c <= x + reach; ++c) {
-          if ((c - x) * (c - x) + (r - y) * (r - y) + (l - z) * (l - z) <= reach * reach) window(c, r, l) = 1;
+    const double x = (map_points.x[i] - frame.min_x) / frame.cell - 0.5;
+    const double y = (map_points.y[i] - frame.min_y) / frame.cell - 0.5;
+    const double z = in_space ? (map_points.z[i] - frame.min_z) / frame.cell - 0.5 : 0.0;
+    for (int l = first(z); l < frame.layers && l <= z + reach + half_cell; ++l) {
+      for (int r = first(y); r < frame.rows && r <= y + reach + half_cell; ++r) {
+        for (int c = first(x); c < frame.columns && c <= x + reach + half_cell; ++c) {
+          if (square(c - x) + square(r - y) + square(l - z) <= reach * reach) windows.at(c, r, l) = 1;
         }
       }
     }
   }
-  for (int level = 0; level <= top_level; ++level) {
-    if (level > 0) windows.join(std::size_t{1} << (level - 1));
-    add_level(level, windows);
-  }
+  return windows;
 }
 
-void ContactPyramid::add_level(int level, const Windows& windows) {
-  const auto nodes = [&](int cells) { return ((cells - 1) >> level) + 1; };
-  Level l;
-  // A tile may begin a whole tile before the first windows and end as far behind the last.
-  l.last_column = nodes(frame_.columns) + TileCounts::columns - 1;
-  l.last_row = nodes(frame_.rows) + TileCounts::rows - 1;
-  l.words = l.last_column / word_bits + 2;
-  l.rows = l.last_row + TileCounts::rows;
-  l.layer_words = (l.words * l.rows) << (2 * level);
-  l.bits.assign(static_cast<std::size_t>(l.layer_words) * windows.depth, 0);
-  for (std::size_t i = 0; i < windows.bytes.size(); ++i) {
-    if (windows.bytes[i] == 0) continue;
-    const std::size_t line_of_windows = i / windows.width;
-    const int column = static_cast<int>(i % windows.width) - windows.border;
-    const int row = static_cast<int>(line_of_windows % windows.height) - windows.border;
-    const std::size_t layer = line_of_windows / windows.height;
-    const auto phase = static_cast<std::size_t>(low_bits(row, level) << level | low_bits(column, level));
-    const int bit = (column >> level) + TileCounts::columns;
-    const int line = (row >> level) + TileCounts::rows;
-    const std::size_t column_of_words =
-        phase * static_cast<std::size_t>(l.words) + static_cast<std::size_t>(bit / word_bits);
-    l.bits[layer * static_cast<std::size_t>(l.layer_words) +
-           column_of_words * static_cast<std::size_t>(l.rows) + static_cast<std::size_t>(line)] |=
-        std::uint64_t{1} << (bit % word_bits);
+ContactPyramid::ContactPyramid(const Points& map_points, double cell, double epsilon, int top_level,
+                               Motion motion)
+    : frame_(cell_frame(map_points, cell, epsilon, motion)), in_space_(motion != Motion::planar) {
+  Windows windows = cells_near(map_points, frame_, epsilon, false, (1 << top_level) - 1, motion);
+  for (int level = 0; level <= top_level; ++level) {
+    if (level > 0) join(windows, std::size_t{1} << (level - 1));
+    levels_.emplace_back(level, windows);
   }
-  levels_.push_back(std::move(l));
 }
 
 std::size_t ContactPyramid::memory_bytes() const {
-  std::size_t words = 0;
-  for (const Level& level : levels_) words += level.bits.size();
-  return words * sizeof(std::uint64_t);
+  std::size_t bytes = 0;
+  for (const WindowBits& level : levels_) bytes += level.memory_bytes();
+  return bytes;
 }
 
 std::size_t ContactPyramid::count(int level, const CellPoints& points, int column, int row, std::size_t least,
                                   TileCounts& counts, int layer) const {
-  const Level& l = levels_[static_cast<std::size_t>(level)];
-  TileLooks& looks = counts.looks_;
-  looks.words.resize(points.columns_.size() + lanes);
-  looks.shifts.resize(points.columns_.size() + lanes);
-  const TileLayout tile{.level = level,
-                        .column = column,
-                        .row = row,
-                        .words = l.words,
-                        .rows = l.rows,
-                        .last_column = l.last_column,
-                        .last_row = l.last_row,
-                        .layer = layer + layers_before_,
-                        .layer_words = l.layer_words,
-                        .last_layer = frame_.layers + layers_before_ - 1};
-  const std::int32_t* columns = points.columns_.data();
-  const std::int32_t* rows = points.rows_.data();
-  const std::size_t padded = points.columns_.size();
-  const std::size_t n = in_space_
-                            ? HWY_DYNAMIC_DISPATCH(find_looks_in_space)(tile, columns, rows,
-                                                                        points.layers_.data(), padded, looks)
-                            : HWY_DYNAMIC_DISPATCH(find_looks_in_plane)(tile, columns, rows, padded, looks);
-  // The first words are empty: nothing is in contact so far before the first cell.
-  constexpr std::ptrdiff_t group = 8;
-  std::fill_n(looks.words.begin() + static_cast<std::ptrdiff_t>(n), group, 0);
-  std::fill_n(looks.shifts.begin() + static_cast<std::ptrdiff_t>(n), group, 0);
-
-  counts.planes_.assign(std::max<std::size_t>(3, static_cast<std::size_t>(std::bit_width(n))), {});
-  counts.largest_ = 0;
-  constexpr std::size_t stretch = 64;
-  std::size_t looked_at = 0;
-  while (looked_at < n && counts.largest() + (n - looked_at) >= least) {
-    const std::size_t now = std::min(stretch, n - looked_at);
-    HWY_DYNAMIC_DISPATCH(add_looks_in_vectors)
-    (l.bits.data(), static_cast<std::size_t>(l.rows), looks, looked_at, (now + group - 1) / group * group,
-     counts.planes_.front().data(), counts.planes_.size());
-    counts.find_largest();
-    looked_at += now;
-  }
-  return looked_at;
+  counts.clear();
+  return levels_[static_cast<std::size_t>(level)].add(points, column, row, layer, least, 0, counts);
 }
 
 std::shared_ptr<const ContactPyramid> contact_pyramid(const GlobalMap& map, double cell, double epsilon,
@@ -371,4 +133,3 @@ std::shared_ptr<const ContactPyramid> contact_pyramid(const GlobalMap& map, doub
 }
 
 }  // namespace glocal
-#endif

@@ -5,14 +5,11 @@
 #include <numbers>
 
 namespace glocal {
-namespace {
 
 double middle_of(const std::vector<float>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return 0.5 * (double{*low} + double{*high});
 }
-
-}  // namespace
 
 PoseGrid::PoseGrid(const Points& points, double cell, double min_rotation_step)
     : points_(points), cell_(cell), middle_x_(middle_of(points.x)), middle_y_(middle_of(points.y)) {

@@ -11,6 +11,9 @@
 
 namespace glocal {
 
+/// Half way between the least and the largest.
+[[nodiscard]] double middle_of(const std::vector<float>& values);
+
 /// Poses of a local map. The points are turned about the middle of the rectangle they fill, by whole steps,
 /// and moved by whole cells: once turned, each lies in the cell that its coordinates over the side of a cell,
 /// rounded down, name, and translations keep it in the same place within its cell. So what cells the points

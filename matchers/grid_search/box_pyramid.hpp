@@ -1,0 +1,93 @@
+// How many points of a local map can be in contact, at most, over boxes of poses.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "glocal/global_map.hpp"
+#include "glocal/points.hpp"
+#include "glocal/pose2.hpp"
+#include "matchers/grid_search/contact_pyramid.hpp"
+#include "matchers/grid_search/window_bits.hpp"
+
+namespace glocal {
+
+/// The boxes that together are all poses of a local map in the plane: translations by [column, column + 2^l)
+/// and [row, row + 2^l) cells, any real numbers, after rotations by an interval of angles about the middle of
+/// the points. An interval of level l moves the farthest point by 2^l cells; its halves are those of level
+/// l - 1.
+class PoseBoxes {
+ public:
+  /// At least one point; translations are those to the cells of `frame`.
+  PoseBoxes(const Points& points, const CellFrame& frame, int top_level);
+
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+  [[nodiscard]] std::size_t rotations(int level) const { return top_rotations_ << (top_level_ - level); }
+  /// The middle of an interval, rad.
+  [[nodiscard]] double angle(int level, std::size_t rotation) const;
+  /// Half of its width, rad.
+  [[nodiscard]] double half_width(int level) const;
+  /// How far the rotations of an interval move a place of the local frame to either side, m.
+  [[nodiscard]] double sway(int level, double local_x, double local_y) const;
+  /// map_from_local for the middle of an interval and a translation in cells.
+  [[nodiscard]] Pose2 pose(int level, std::size_t rotation, double column, double row) const;
+
+  /// How many groups a level has: points of group g (from 1 on) are moved by at most g / groups of what the
+  /// farthest point is.
+  [[nodiscard]] static int groups(int level) { return level < 2 ? 1 << level : 4; }
+  /// How many cells the window of a point is wider than its node.
+  [[nodiscard]] static int wider(int level, int group) { return 1 + group * ((1 << level) / groups(level)); }
+  /// The points of each group, turned but not moved: the cell behind the first one that an interval can put
+  /// them into, by as much as the window is wider.
+  [[nodiscard]] std::vector<CellPoints> cells(int level, std::size_t rotation) const;
+  /// The cells that the points of level 0 lie in at the middle of each box.
+  [[nodiscard]] CellPoints middle_cells(std::size_t rotation) const;
+
+ private:
+  CellFrame frame_;
+  int top_level_;
+  double middle_x_, middle_y_;
+  double radius_ = 0.0;  ///< Of the farthest point, m.
+  Points points_;        ///< From the middle, by rising distance.
+  std::vector<double> distances_;
+  std::size_t top_rotations_ = 1;
+};
+
+/// Windows over the cells that are anywhere within epsilon of a map: for each level and group those that the
+/// points of a box can meet. A point whose window is empty is in contact at no pose of the box.
+class BoxPyramid {
+ public:
+  /// Windows of the top level are 0.45 to 0.85 m wide where cells are 0.05 m.
+  static constexpr int default_top_level = 3;
+
+  /// `cell` and `epsilon` in m. Throws ConfigError if it would need more than 1 GiB.
+  BoxPyramid(const Points& map_points, double cell, double epsilon, int top_level = default_top_level);
+
+  [[nodiscard]] const CellFrame& frame() const { return frame_; }
+  [[nodiscard]] int top_level() const { return static_cast<int>(levels_.size()) - 1; }
+  /// What is counted in a box of level 0 is within epsilon + delta of the map at its middle, m.
+  [[nodiscard]] double delta() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  /// For each of the 64 x 8 neighbouring boxes of a level, the first of which begins at (column, row), how
+  /// many points can be in contact at most. Stops early where no box can reach `least`; the counts are then
+  /// too small, but all below `least`. Returns how many points were looked at.
+  std::size_t count(int level, const std::vector<CellPoints>& points, int column, int row, std::size_t least,
+                    TileCounts& counts) const;
+
+  /// For the same boxes of level 0, how many points are in contact at the middle of each, by the cells they
+  /// lie in: one is in contact if its centre is within epsilon.
+  void count_middles(const CellPoints& points, int column, int row, TileCounts& counts) const;
+
+ private:
+  CellFrame frame_;
+  std::vector<std::vector<WindowBits>> levels_;  ///< One for each group.
+  WindowBits middles_;
+};
+
+/// The pyramid over a map, built once per map.
+[[nodiscard]] std::shared_ptr<const BoxPyramid> box_pyramid(const GlobalMap& map, double cell,
+                                                            double epsilon);
+
+}  // namespace glocal

@@ -1,0 +1,120 @@
+// Counts of points in contact for many neighbouring translations at once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace glocal {
+
+/// The cells that rotated points lie in, relative to a translation yet to be found.
+class CellPoints {
+ public:
+  /// Bits in the plane have no layers.
+  void push_back(std::int32_t column, std::int32_t row, std::int32_t layer = 0);
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::span<const std::int32_t> columns() const { return {columns_.data(), size_}; }
+  [[nodiscard]] std::span<const std::int32_t> rows() const { return {rows_.data(), size_}; }
+  [[nodiscard]] std::span<const std::int32_t> layers() const { return {layers_.data(), size_}; }
+
+ private:
+  friend class WindowBits;
+  /// A multiple of every vector's length of them; beyond the last, so far away that nothing is there.
+  std::vector<std::int32_t> columns_, rows_, layers_;
+  std::size_t size_ = 0;
+};
+
+/// Where in a level's bits the points that meet a tile find those of its nodes.
+struct TileLooks {
+  std::vector<std::uint32_t> words;   ///< The word of the tile's first row and column.
+  std::vector<std::uint32_t> shifts;  ///< The bit in it.
+  std::size_t size = 0;
+};
+
+/// What finding them takes.
+struct TileLayout {
+  int level;
+  int column, row;           ///< Of the tile's first node, in cells.
+  std::int32_t words, rows;  ///< See WindowBits.
+  std::int32_t last_column, last_row;
+  int layer;  ///< What is added to a point's layer to have that of its windows.
+  std::int32_t layer_words, last_layer;
+};
+
+/// A count for each node of a tile of 64 x 8 neighbours. Bit k of the count of node (column, row) is bit
+/// `column` of planes[k][row], so that a few logical operations count for all nodes of a tile at once.
+class TileCounts {
+ public:
+  static constexpr int columns = 64;
+  static constexpr int rows = 8;
+  static constexpr std::size_t most_points = (std::size_t{1} << 20U) - 1;
+  /// One bit for each node.
+  using Mask = std::array<std::uint64_t, rows>;
+
+  /// All counts are 0 from now on.
+  void clear();
+
+  [[nodiscard]] std::size_t at(int column, int row) const;
+  [[nodiscard]] std::size_t largest() const { return largest_; }
+  [[nodiscard]] Mask at_least(std::size_t count) const;
+
+ private:
+  friend class WindowBits;
+  void find_largest();
+
+  std::vector<Mask> planes_ = std::vector<Mask>(3);
+  std::size_t largest_ = 0;
+  std::size_t points_ = 0;  ///< That can have been counted.
+  TileLooks looks_;         ///< Of the last tile; kept for their memory.
+};
+
+/// Windows over the cells of a map: a byte for each, which says whether one of its cells is in contact.
+struct Windows {
+  /// How many cells before the first one they begin, at most.
+  int columns_before = 0, rows_before = 0, layers_before = 0;
+  std::size_t width = 0, height = 0, depth = 1;
+  bool in_space = false;
+  std::vector<std::uint8_t> bytes =
+      std::vector<std::uint8_t>(width * height * depth);  ///< Columns, then rows, then layers.
+
+  [[nodiscard]] std::uint8_t& at(int column, int row, int layer) {
+    const auto line = static_cast<std::size_t>(layer + layers_before) * height +
+                      static_cast<std::size_t>(row + rows_before);
+    return bytes[line * width + static_cast<std::size_t>(column + columns_before)];
+  }
+};
+
+/// The bits of windows of one size, sorted by where a window begins within 2^level cells, so that the nodes
+/// of a tile, 2^level cells apart, are neighbouring bits: one word for each row of a tile. Node (i, k) of a
+/// tile at (column, row) stands for the translations by [column + i * 2^level, column + (i + 1) * 2^level)
+/// cells and rows likewise. In space each layer of windows has its own bits, and all nodes of a tile have the
+/// same translation by layers.
+class WindowBits {
+ public:
+  /// Windows with a cell in contact begin at most 2^level - 1 cells before the first column and row.
+  WindowBits(int level, const Windows& windows);
+
+  /// Adds to the count of each node of a tile how many points find a window in contact. Stops early where no
+  /// node can reach `least`, though `behind` points that are to be added after these were all in contact; the
+  /// counts are then too small, but too small to reach it. Returns how many points were looked at. At most
+  /// TileCounts::most_points in all.
+  std::size_t add(const CellPoints& points, int column, int row, int layer, std::size_t least,
+                  std::size_t behind, TileCounts& counts) const;
+
+  [[nodiscard]] std::size_t memory_bytes() const { return bits_.size() * sizeof(std::uint64_t); }
+
+ private:
+  int level_;
+  int layers_before_;
+  bool in_space_;
+  std::int32_t words_ = 0;  ///< In a row of windows that begin at the same place within 2^level cells.
+  std::int32_t rows_ = 0;   ///< Of such windows; words of one column of words are neighbours.
+  std::int32_t last_column_ = 0, last_row_ = 0;  ///< Of tiles that meet windows in contact.
+  std::int32_t last_layer_ = 0;
+  std::int32_t layer_words_ = 0;  ///< In a layer of windows.
+  std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace glocal
