@@ -7,6 +7,7 @@
 #include "matchers/mcl/mcl.hpp"
 #include "matchers/ransac/ransac.hpp"
 #include "matchers/ransam/ransam.hpp"
+#include "matchers/grid_search/whole_map.hpp"
 
 namespace glocal {
 
@@ -26,6 +27,9 @@ void register_matchers(Catalog& catalog) {
   catalog.matchers.add<Ransam>("ransam",
                                "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",
                                {.contact = ContactChoice(catalog.contact_indexes)});
+  catalog.verifiers.add<NoVerifier>("none", "Every pose that the verdict rule declares is declared.");
+  catalog.verifiers.add<WholeMap>(
+      "whole_map", "Branch and bound over all poses: a declared pose has no rival, or is not declared.");
 }
 
 }  // namespace glocal

@@ -26,6 +26,7 @@ class ConsecutiveRating final : public VerdictRule {
 
   explicit ConsecutiveRating(const Params& params) : params_(params) {}
   [[nodiscard]] Verdict judge(const StepResult& step) override;
+  void refute(const Verification& /*verification*/) override { last_.reset(); }
   void reset() override { last_.reset(); }
 
  private:

@@ -36,6 +36,12 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
            .min_items = 1,
            .max_items = 100,
            .audience = Audience::tuner});
+  v.field(
+      "certified_stages", p.certified_stages,
+      {.doc = "Margins that are enough, too, where localizer.verifier certifies that no pose elsewhere has "
+              "more contact.",
+       .max_items = 100,
+       .audience = Audience::tuner});
   v.field("rival_distance", p.rival_distance,
           {.doc = "A hypothesis is a rival of the best one if it is farther away than this, or turned by "
                   "more than rival_rotation_deg.",
@@ -98,6 +104,21 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
            .audience = Audience::expert});
 }
 
+StagedMargin::StagedMargin(const Params& params, const StageSetup& setup)
+    : params_(params),
+      stages_(params.stages),
+      certified_stages_(setup.has_verifier ? params.certified_stages : std::vector<Stage>{}) {}
+
+/// A rival that was not known of was there all the time, so no margin has been kept. Without one there is
+/// another chance to be certified once a stage is reached anew.
+void StagedMargin::refute(const Verification& verification) {
+  certified_stages_.begin_anew();
+  is_declared_ = false;
+  const bool has_rival = !verification.rivals.empty() &&
+                         verification.rivals.front().score >= verification.score - verification.margin;
+  if (has_rival || !verification.certificate) begin_anew();
+}
+
 void StagedMargin::reset() {
   begin_anew();
   best_.reset();
@@ -105,7 +126,8 @@ void StagedMargin::reset() {
 }
 
 void StagedMargin::begin_anew() {
-  kept_.assign(params_.stages.size(), {});
+  stages_.begin_anew();
+  certified_stages_.begin_anew();
   steps_ = 0;
   distance_ = 0.0;
   is_declared_ = false;
@@ -127,14 +149,15 @@ Verdict StagedMargin::judge(const StepResult& step) {
   distance_ += driven;
 
   const double margin = margin_of(step);
-  const bool is_clear = reaches_a_stage(margin, driven);
+  const bool is_clear = stages_.is_reached(margin, driven);
+  const bool is_clear_if_certified = certified_stages_.is_reached(margin, driven);
   const std::optional<double>& violation = step.hypotheses.front().free_space_violation;
   const bool is_consistent = !violation || *violation <= params_.max_free_space_violation;
-  if (is_steady(turn_rate_deg) && is_clear && is_consistent) is_declared_ = true;
-  const bool is_margin_lost =
-      std::all_of(kept_.begin(), kept_.end(), [](const Kept& kept) { return kept.steps == 0; });
-  if (is_margin_lost) is_declared_ = false;
+  const bool may_be_declared = is_steady(turn_rate_deg) && is_consistent;
+  if (may_be_declared && (is_clear || is_clear_if_certified)) is_declared_ = true;
+  if (stages_.is_lost() && certified_stages_.is_lost()) is_declared_ = false;
   Verdict verdict = is_declared_ ? localized(step, margin) : undecided(step, margin);
+  verdict.needs_certificate = is_declared_ && !(may_be_declared && is_clear);
   verdict.estimate = {pose, confidence(margin), covariance(step.hypotheses)};
   verdict.evidence = {{"margin", margin},
                       {"steps", static_cast<double>(steps_)},
@@ -154,13 +177,12 @@ bool StagedMargin::is_steady(double turn_rate_deg) {
   return !since_turn_ || *since_turn_ >= params_.steady_steps;
 }
 
-/// Counts a step for each stage, and says whether one is reached.
-bool StagedMargin::reaches_a_stage(double margin_now, double driven) {
+bool StagedMargin::Ladder::is_reached(double margin, double driven) {
   bool reached = false;
-  for (std::size_t i = 0; i < params_.stages.size(); ++i) {
-    const Stage& stage = params_.stages[i];
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    const Stage& stage = stages_[i];
     Kept& kept = kept_[i];
-    if (margin_now < stage.margin) {
+    if (margin < stage.margin) {
       kept = {};
       continue;
     }
@@ -169,6 +191,10 @@ bool StagedMargin::reaches_a_stage(double margin_now, double driven) {
     reached = reached || (kept.steps >= stage.steps && kept.distance >= stage.distance);
   }
   return reached;
+}
+
+bool StagedMargin::Ladder::is_lost() const {
+  return std::all_of(kept_.begin(), kept_.end(), [](const Kept& kept) { return kept.steps == 0; });
 }
 
 Verdict StagedMargin::localized(const StepResult& step, double margin) const {

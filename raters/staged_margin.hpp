@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "glocal/catalog.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "raters/followed_pose.hpp"
@@ -13,7 +15,8 @@ namespace glocal {
 /// Localized once the best hypothesis has been clearly better than every rival, a pose far from it, for long
 /// enough: the clearer, the sooner. The best hypothesis must stay the same, moved by the local motion;
 /// another best one, a step without any, or another local map begins anew. That, or a margin below every
-/// stage's, takes the verdict back.
+/// stage's, takes the verdict back. Where declarations are verified, there are lower stages, too, for poses
+/// that the verifier certifies to have no more contact anywhere else.
 ///
 /// Believes in the best hypothesis, with a confidence by a logistic model and the covariance of the matcher,
 /// widened by hypotheses near it that are about as good.
@@ -36,6 +39,7 @@ class StagedMargin final : public VerdictRule {
   };
   struct Params {
     std::vector<Stage> stages = {{0.30, 3, 0.0}, {0.25, 4, 1.0}, {0.20, 5, 2.0}, {0.10, 8, 3.0}};
+    std::vector<Stage> certified_stages = {{0.25, 2, 0.0}, {0.20, 3, 0.0}, {0.15, 4, 1.0}, {0.10, 5, 2.0}};
     double rival_distance = 1.0;
     double rival_rotation_deg = 30.0;
     double same_distance = 0.5;
@@ -49,8 +53,9 @@ class StagedMargin final : public VerdictRule {
     int max_candidates = 10;
   };
 
-  explicit StagedMargin(const Params& params) : params_(params), kept_(params.stages.size()) {}
+  StagedMargin(const Params& params, const StageSetup& setup);
   [[nodiscard]] Verdict judge(const StepResult& step) override;
+  void refute(const Verification& verification) override;
   void reset() override;
 
  private:
@@ -59,9 +64,22 @@ class StagedMargin final : public VerdictRule {
     int steps = 0;
     double distance = 0.0;
   };
+  /// Stages of one kind, and how long each has been kept.
+  class Ladder {
+   public:
+    explicit Ladder(std::vector<Stage> stages) : stages_(std::move(stages)), kept_(stages_.size()) {}
+    void begin_anew() { kept_.assign(stages_.size(), {}); }
+    /// Counts a step for each stage, and says whether one is reached.
+    [[nodiscard]] bool is_reached(double margin, double driven);
+    /// Whether not even the least margin was kept in the last step.
+    [[nodiscard]] bool is_lost() const;
+
+   private:
+    std::vector<Stage> stages_;
+    std::vector<Kept> kept_;
+  };
   void begin_anew();
   [[nodiscard]] double margin_of(const StepResult& step) const;
-  [[nodiscard]] bool reaches_a_stage(double margin_now, double driven);
   [[nodiscard]] bool is_steady(double turn_rate_deg);
   [[nodiscard]] Verdict localized(const StepResult& step, double margin) const;
   [[nodiscard]] Verdict undecided(const StepResult& step, double margin) const;
@@ -72,7 +90,8 @@ class StagedMargin final : public VerdictRule {
   [[nodiscard]] bool are_rivals(const Pose3& a, const Pose3& b) const;
 
   Params params_;
-  std::vector<Kept> kept_;  ///< One for each stage.
+  Ladder stages_;
+  Ladder certified_stages_;  ///< None where nothing is verified.
   std::optional<FollowedPose> best_;
   int steps_ = 0;             ///< In which the best pose has been the same.
   double distance_ = 0.0;     ///< m; driven in these.

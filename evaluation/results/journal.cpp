@@ -28,7 +28,7 @@ PoseError error_of(const Json& json) {
 Json to_json(const TrialFigures& figures) {
   Json step_ms = Json::array();
   for (const StageTimes& ms : figures.step_ms)
-    step_ms.push_back({ms.local_map, ms.match, ms.cluster, ms.rate});
+    step_ms.push_back({ms.local_map, ms.match, ms.cluster, ms.rate, ms.verify});
   Json later_errors = Json::array();
   for (const PoseError& error : figures.later_errors) later_errors.push_back(to_json(error));
   return {{"outcome", to_string(figures.outcome)}, {"steps", figures.steps},
@@ -43,7 +43,7 @@ TrialFigures figures_of(const Json& json) {
   figures.distance_m = json.at("distance_m");
   figures.error = error_of(json.at("error"));
   for (const Json& ms : json.at("step_ms"))
-    figures.step_ms.push_back({ms.at(0), ms.at(1), ms.at(2), ms.at(3)});
+    figures.step_ms.push_back({ms.at(0), ms.at(1), ms.at(2), ms.at(3), ms.at(4)});
   for (const Json& error : json.at("later_errors")) figures.later_errors.push_back(error_of(error));
   return figures;
 }

@@ -60,6 +60,7 @@ void Summary::add(const TrialFigures& trial) {
     ms_.match.push_back(ms.match);
     ms_.cluster.push_back(ms.cluster);
     ms_.rate.push_back(ms.rate);
+    if (ms.verify > 0.0) ms_.verify.push_back(ms.verify);
     ms_.total.push_back(ms.total());
   }
   for (const PoseError& error : trial.later_errors) {
@@ -72,6 +73,11 @@ Json Summary::figures() const {
   Json trials = {{"count", count_}, {"right", right_}, {"wrong", wrong_}, {"undecided", undecided_}};
   if (declared_ > 0) trials["declared_without_reference"] = declared_;
   if (failed_ > 0) trials["failed"] = failed_;
+  Json stage_ms = {{"local_map", spread(ms_.local_map)},
+                   {"match", spread(ms_.match)},
+                   {"cluster", spread(ms_.cluster)},
+                   {"rate", spread(ms_.rate)}};
+  if (!ms_.verify.empty()) stage_ms["verify"] = spread(ms_.verify);
   return {{"trials", std::move(trials)},
           {"steps", ms_.total.size()},
           {"success_rate", with_interval(wilson(right_, count_))},
@@ -85,11 +91,7 @@ Json Summary::figures() const {
             {"translation_error_m", spread(later_translations_m_)},
             {"rotation_error_deg", spread(later_rotations_deg_)}}},
           {"step_ms", spread(ms_.total)},
-          {"stage_ms",
-           {{"local_map", spread(ms_.local_map)},
-            {"match", spread(ms_.match)},
-            {"cluster", spread(ms_.cluster)},
-            {"rate", spread(ms_.rate)}}}};
+          {"stage_ms", std::move(stage_ms)}};
 }
 
 Json Summary::to_json(const Run& run) const {

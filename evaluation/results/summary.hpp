@@ -43,7 +43,7 @@ class Summary {
 
  private:
   struct Values {
-    std::vector<double> local_map, match, cluster, rate, total;
+    std::vector<double> local_map, match, cluster, rate, verify, total;
   };
   std::size_t count_ = 0, right_ = 0, wrong_ = 0, undecided_ = 0, declared_ = 0, failed_ = 0;
   std::vector<double> steps_, distances_m_;             ///< Of right trials.

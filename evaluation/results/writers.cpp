@@ -39,6 +39,29 @@ void add_estimate(Json& json, const PoseEstimate& estimate, const std::optional<
   if (nees) json["nees"] = *nees;
 }
 
+Json to_json(const Verification& v, const Certificate& certificate) {
+  return {{"contact", certificate.contact},   {"at_most", certificate.at_most},
+          {"distance_m", v.distance},         {"rotation_deg", degrees(v.rotation)},
+          {"epsilon_m", certificate.epsilon}, {"delta_m", certificate.delta}};
+}
+
+Json to_json(const Verification& v, Motion motion) {
+  constexpr std::size_t most_rivals = 5;
+  Json rivals = Json::array();
+  for (std::size_t i = 0; i < std::min(v.rivals.size(), most_rivals); ++i) {
+    rivals.push_back({{"pose", to_json(v.rivals[i].map_from_robot, motion)},
+                      {"contact", v.rivals[i].quality},
+                      {"score", v.rivals[i].score}});
+  }
+  Json json = {{"refuted", v.is_refuted},
+               {"score", v.score},
+               {"margin", v.margin},
+               {"points_tested", v.points_tested},
+               {"rivals", std::move(rivals)}};
+  if (v.certificate) json["certificate"] = to_json(v, *v.certificate);
+  return json;
+}
+
 std::string tum_line(double stamp, const Pose3& pose) {
   return fmt::format("{:.6f} {}\n", stamp, tum_text(pose));
 }
@@ -59,6 +82,7 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
                {"omega_best", step.omega_best},
                {"score_best", step.score_best},
                {"omega_max", step.omega_max}};
+  if (step.verification) json["stage_ms"]["verify"] = step.stage_ms.verify;
   if (step.omega_place) json["omega_place"] = *step.omega_place;
   json["proposals"] = step.proposals;
   json["points_tested"] = step.points_tested;
@@ -72,6 +96,7 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
     for (const Pose3& pose : step.verdict.candidates) candidates.push_back(to_json(pose, step.motion));
     json["candidates"] = std::move(candidates);
   }
+  if (step.verification) json["verification"] = to_json(*step.verification, step.motion);
   for (const Evidence& e : step.verdict.evidence) json["evidence"][e.name] = e.value;
   json["local_from_robot"] = to_json(step.local_from_robot, step.motion);
   if (const auto estimate = step.estimate()) json["estimate"] = to_json(*estimate, step.motion);
@@ -103,6 +128,10 @@ std::string trial_line(const TrialRecord& trial) {
   if (trial.pose) json["pose"] = to_json(*trial.pose, trial.motion);
   if (trial.error) add_error(json, *trial.error);
   if (trial.estimate) add_estimate(json, *trial.estimate, trial.nees);
+  if (trial.verification && trial.verification->certificate) {
+    json["certificate"] = to_json(*trial.verification, *trial.verification->certificate);
+    json["verify_ms"] = trial.verify_ms;
+  }
   json["why"] = trial.why;
   return json.dump() + "\n";
 }

@@ -43,6 +43,7 @@ void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfi
   trial.outcome = judge(trial.error, limits);
   trial.estimate = record.result.verdict.estimate;
   trial.nees = record.nees;
+  trial.verification = record.result.verification;
 }
 
 /// Texts of plugins may be in any encoding; what is written is UTF-8.
@@ -128,6 +129,7 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
     if (record.pose) continue;
     record.steps = i - start_sample + 1;
     record.distance_m = drive.path_m[i] - record.start_m;
+    record.verify_ms += step.result.stage_ms.verify;
     record.why = step.result.verdict.why;
     if (step.result.verdict.kind == VerdictKind::localized) declare(record, step, experiment.evaluation);
   }

@@ -40,13 +40,15 @@ struct TrialRecord {
   Motion motion = Motion::planar;  ///< Says how poses are written.
   std::optional<Pose3> start_reference;
   Outcome outcome = Outcome::undecided;
-  std::size_t steps = 0;                 ///< Up to the declaration; all of them if there is none.
-  double distance_m = 0.0;               ///< Driven in these steps.
-  std::optional<Pose3> pose;             ///< Declared robot pose.
-  std::optional<PoseError> error;        ///< Of the declared pose.
-  std::optional<PoseEstimate> estimate;  ///< Of the rule that declared it, where it has one.
-  std::optional<double> nees;            ///< Normalised error squared of that, where it has a covariance.
-  std::string why;                       ///< Of the declaration, of the exception, or else of the last step.
+  std::size_t steps = 0;                     ///< Up to the declaration; all of them if there is none.
+  double distance_m = 0.0;                   ///< Driven in these steps.
+  std::optional<Pose3> pose;                 ///< Declared robot pose.
+  std::optional<PoseError> error;            ///< Of the declared pose.
+  std::optional<PoseEstimate> estimate;      ///< Of the rule that declared it, where it has one.
+  std::optional<double> nees;                ///< Normalised error squared of that, where it has a covariance.
+  std::optional<Verification> verification;  ///< Of the declaration, where it was verified …
+  double verify_ms = 0.0;                    ///< … and how long that took, with what was refuted before.
+  std::string why;  ///< Of the declaration, of the exception, or else of the last step.
   std::vector<StepRecord>
       records;  ///< Every step, also those after the declaration. Local maps are not kept.
 };

@@ -249,6 +249,18 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   return result;
 }
 
+std::vector<Hypothesis> IndexedRansam::take_up(std::vector<Hypothesis> found, const LocalMap& local) {
+  std::vector<Candidate> candidates;
+  for (const Hypothesis& h : found) candidates.push_back({seen_from_above(h.map_from_local), h.quality});
+  found = judge_.best_of(candidates, local, local.points);
+  for (Hypothesis& h : found) {
+    carried_.push_back(seen_from_above(h.map_from_local));
+    h = judge_.told(h, local, local.points);
+    h.score = std::max(h.score, 0.0);
+  }
+  return found;
+}
+
 /// More in the first steps, when nothing is carried yet.
 std::size_t IndexedRansam::draws_of_step() {
   return static_cast<std::size_t>(steps_++ < params_.first_steps ? params_.first_iterations

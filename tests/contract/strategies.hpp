@@ -137,6 +137,8 @@ class Contract : public ::testing::Test {
                               "clusterer/pose_grid",
                               "threshold_policy/sliding_window",
                               "verdict_rule/consecutive_rating",
+                              "verifier/none",
+                              "verifier/whole_map",
                               "cloud_registrar/open3d_fgr",
                               "cloud_registrar/open3d_ransac",
                               "cloud_registrar/pcl_prerejective",

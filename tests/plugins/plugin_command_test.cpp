@@ -204,7 +204,7 @@ TEST_F(PluginCommand, WhatIsNoPluginIsRefused) {
 }
 
 TEST_F(PluginCommand, WhatDoesNotFitThisProgramIsRefused) {
-  expect_refused(plugin("wrong_tag"), {"API version (it: 999, glocal: 4)",
+  expect_refused(plugin("wrong_tag"), {"API version (it: 999, glocal: 5)",
                                        "size of Hypothesis (it: none, glocal: ", "build it again"});
   expect_refused(plugin("missing_dependency"), {"libgone.so", "install what is missing"});
   expect_refused(plugin("duplicate"),
@@ -214,7 +214,7 @@ TEST_F(PluginCommand, WhatDoesNotFitThisProgramIsRefused) {
 TEST_F(PluginCommand, WhatThrowsWhileItIsLoadedIsRefused) {
   expect_refused(plugin("throws_loading"), {"threw an exception while it was loaded: no device"});
   expect_refused(plugin("throws_registering"),
-                 {"threw an exception while it registered its strategies: no licence for 10 registries"});
+                 {"threw an exception while it registered its strategies: no licence for 11 registries"});
 }
 
 TEST_F(PluginCommand, APluginExportsNothingButItsEntry) {

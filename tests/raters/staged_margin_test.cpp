@@ -24,7 +24,7 @@ StepResult step(double best, double rival, double driven = 0.0, int epoch = 0) {
 }
 
 TEST(StagedMargin, AClearLeadIsEnoughAfterThreeSteps) {
-  StagedMargin rule({});
+  StagedMargin rule({}, {});
   EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::searching);
   EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::searching);
   const Verdict verdict = rule.judge(step(0.9, 0.55));
@@ -35,7 +35,7 @@ TEST(StagedMargin, AClearLeadIsEnoughAfterThreeSteps) {
 TEST(StagedMargin, ASmallerLeadMustLastLongerAndOverSomeWay) {
   // 0.22 needs 5 steps and 2 m.
   for (const double each : {0.3, 0.6}) {
-    StagedMargin rule({});
+    StagedMargin rule({}, {});
     int declared_in = 0;
     for (int i = 1; i <= 10 && declared_in == 0; ++i) {
       if (rule.judge(step(0.9, 0.68, each * i)).kind == VerdictKind::localized) declared_in = i;
@@ -46,7 +46,7 @@ TEST(StagedMargin, ASmallerLeadMustLastLongerAndOverSomeWay) {
 }
 
 TEST(StagedMargin, OneStepWithoutTheLeadBeginsAnew) {
-  StagedMargin rule({});
+  StagedMargin rule({}, {});
   (void)rule.judge(step(0.9, 0.5));
   (void)rule.judge(step(0.9, 0.5));
   EXPECT_EQ(rule.judge(step(0.9, 0.7)).kind, VerdictKind::searching);
@@ -56,7 +56,7 @@ TEST(StagedMargin, OneStepWithoutTheLeadBeginsAnew) {
 }
 
 TEST(StagedMargin, AnotherBestPoseBeginsAnewAndTakesTheVerdictBack) {
-  StagedMargin rule({});
+  StagedMargin rule({}, {});
   for (int i = 0; i < 5; ++i) (void)rule.judge(step(0.9, 0.5));
   StepResult other = step(0.9, 0.5);
   std::swap(other.hypotheses[0].map_from_robot, other.hypotheses[1].map_from_robot);
@@ -67,7 +67,7 @@ TEST(StagedMargin, AnotherBestPoseBeginsAnewAndTakesTheVerdictBack) {
 
 TEST(StagedMargin, AnotherLocalFrameOrAStepWithoutHypothesesBeginsAnew) {
   for (const bool empty : {true, false}) {
-    StagedMargin rule({});
+    StagedMargin rule({}, {});
     for (int i = 0; i < 3; ++i) (void)rule.judge(step(0.9, 0.5));
     if (empty) {
       EXPECT_EQ(rule.judge({}).kind, VerdictKind::searching);
@@ -79,7 +79,7 @@ TEST(StagedMargin, AnotherLocalFrameOrAStepWithoutHypothesesBeginsAnew) {
 }
 
 TEST(StagedMargin, PosesNearTheBestAreNoRivals) {
-  StagedMargin rule({});
+  StagedMargin rule({}, {});
   StepResult near = step(0.9, 0.88);
   near.hypotheses[1].map_from_robot = here * Pose2{0.5, 0.0, radians(20.0)};
   // The only rivals can be below Omega_max: a margin of 0.8.
@@ -92,7 +92,7 @@ TEST(StagedMargin, PosesNearTheBestAreNoRivals) {
 }
 
 TEST(StagedMargin, RivalsOfTheSameQualityAreCandidates) {
-  StagedMargin rule({});
+  StagedMargin rule({}, {});
   const Verdict verdict = rule.judge(step(0.9, 0.87));
   EXPECT_EQ(verdict.kind, VerdictKind::ambiguous);
   ASSERT_EQ(verdict.candidates.size(), 2U);
@@ -102,7 +102,7 @@ TEST(StagedMargin, RivalsOfTheSameQualityAreCandidates) {
 }
 
 TEST(StagedMargin, StaysDeclaredUntilTheLeadIsBelowEveryStages) {
-  StagedMargin rule({});
+  StagedMargin rule({}, {});
   for (int i = 0; i < 3; ++i) (void)rule.judge(step(0.9, 0.5));
   EXPECT_EQ(rule.judge(step(0.9, 0.78)).kind, VerdictKind::localized);
   EXPECT_EQ(rule.judge(step(0.9, 0.82)).kind, VerdictKind::ambiguous);
@@ -110,7 +110,7 @@ TEST(StagedMargin, StaysDeclaredUntilTheLeadIsBelowEveryStages) {
 }
 
 TEST(StagedMargin, ARobotThatTurnsFastIsNotDeclaredUntilSomeStepsLater) {
-  StagedMargin rule({});
+  StagedMargin rule({}, {});
   std::vector<VerdictKind> kinds;
   // 70 degrees a second up to step 3; then it stands.
   for (int i = 0; i < 7; ++i) {
@@ -129,7 +129,7 @@ TEST(StagedMargin, ARobotThatTurnsFastIsNotDeclaredUntilSomeStepsLater) {
 }
 
 TEST(StagedMargin, AViolationOfFreeSpaceForbidsADeclaration) {
-  StagedMargin rule({.max_free_space_violation = 0.4});
+  StagedMargin rule({.max_free_space_violation = 0.4}, {});
   StepResult violating = step(0.9, 0.5);
   violating.hypotheses.front().free_space_violation = 0.41;
   for (int i = 0; i < 5; ++i) EXPECT_EQ(rule.judge(violating).kind, VerdictKind::searching) << i;
@@ -138,7 +138,7 @@ TEST(StagedMargin, AViolationOfFreeSpaceForbidsADeclaration) {
 }
 
 TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
-  StagedMargin rule({.confidence = {.bias = -1.0, .margin = 10.0, .steps = 2.0, .most = 0.9}});
+  StagedMargin rule({.confidence = {.bias = -1.0, .margin = 10.0, .steps = 2.0, .most = 0.9}}, {});
   Verdict verdict = rule.judge(step(0.9, 0.7));
   ASSERT_TRUE(verdict.estimate);
   EXPECT_EQ(verdict.estimate->map_from_robot, here);
@@ -151,7 +151,7 @@ TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
 
 TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
   const PoseCovariance own{.xx = 0.01, .yy = 0.04, .tt = 0.001};
-  StagedMargin rule({.spread_margin = 0.05});
+  StagedMargin rule({.spread_margin = 0.05}, {});
   StepResult one = step(0.9, 0.2);
   one.hypotheses[0].covariance = own;
   EXPECT_EQ(rule.judge(one).estimate->covariance, own);
@@ -164,6 +164,58 @@ TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
   EXPECT_NEAR(wide->yy, 0.04 + 0.5 * 0.04, 1e-12);
   EXPECT_NEAR(wide->yt, 0.5 * 0.02, 1e-12);
   EXPECT_NEAR(wide->tt, 0.001 + 0.5 * 0.01, 1e-12);
+}
+
+/// Where declarations are verified.
+StagedMargin verified() {
+  StageSetup setup;
+  setup.has_verifier = true;
+  return {StagedMargin::Params{}, setup};
+}
+
+/// What a verifier says that found a rival with this score, of a pose that has 0.9.
+Verification with_rival(double score) {
+  Verification verification;
+  verification.margin = 0.05;
+  verification.score = 0.9;
+  verification.rivals.push_back(Hypothesis::by_contact(there, score));
+  verification.certificate = {.contact = 0.9, .at_most = 0.95};
+  return verification;
+}
+
+TEST(StagedMargin, LowerStagesNeedACertificateAndSomeoneWhoGivesIt) {
+  StagedMargin alone({}, {});
+  StagedMargin rule = verified();
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(alone.judge(step(0.9, 0.65)).kind, VerdictKind::searching);
+    const Verdict verdict = rule.judge(step(0.9, 0.65));
+    EXPECT_EQ(verdict.kind, i < 1 ? VerdictKind::searching : VerdictKind::localized);
+    EXPECT_EQ(verdict.needs_certificate, i == 1);
+  }
+  // A lead that lasts long enough by itself does not.
+  StagedMargin clear = verified();
+  for (int i = 0; i < 2; ++i) (void)clear.judge(step(0.9, 0.5));
+  EXPECT_FALSE(clear.judge(step(0.9, 0.5)).needs_certificate);
+}
+
+TEST(StagedMargin, WithoutCertificateTheLeadGoesOnCounting) {
+  // 0.35 is enough by itself after three steps, and with a certificate after two.
+  StagedMargin rule = verified();
+  (void)rule.judge(step(0.9, 0.55));
+  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::localized);
+  rule.refute(with_rival(0.5));
+  const Verdict third = rule.judge(step(0.9, 0.55));
+  EXPECT_EQ(third.kind, VerdictKind::localized);
+  EXPECT_FALSE(third.needs_certificate);
+}
+
+TEST(StagedMargin, ARivalThatWasNotKnownBeginsAnew) {
+  StagedMargin rule = verified();
+  (void)rule.judge(step(0.9, 0.55));
+  (void)rule.judge(step(0.9, 0.55));
+  rule.refute(with_rival(0.88));
+  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::searching);
+  EXPECT_TRUE(rule.judge(step(0.9, 0.55)).needs_certificate);
 }
 
 }  // namespace

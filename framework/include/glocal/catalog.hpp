@@ -35,6 +35,7 @@ struct StageSetup {
   int threads = 1;
   double contact_epsilon = 0.10;   ///< m; said once for all stages.
   Motion motion = Motion::planar;  ///< What of the robot's pose is looked for; said once for all stages.
+  bool has_verifier = false;       ///< Whether what is declared is verified.
   /// To be called with every file read while the stage is made, for the record of a run's inputs.
   std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
   /// Whether files are read in which a stage has saved what it makes of the map; else it makes that anew.
@@ -57,16 +58,19 @@ struct Catalog {
   Registry<Rater, StageSetup> raters{"rater"};
   Registry<ThresholdPolicy, StageSetup> threshold_policies{"threshold_policy"};
   Registry<VerdictRule, StageSetup> verdict_rules{"verdict_rule"};
+  Registry<Verifier, StageSetup> verifiers{"verifier"};
   CloudRegistrars cloud_registrars{"cloud_registrar"};
 
   /// Every registry, in the order of the data's way; last what no localizer has.
-  [[nodiscard]] std::array<RegistryBase*, 10> registries() {
-    return {&map_sources, &observation_sources, &local_mappers, &contact_indexes, &matchers, &clusterers,
-            &raters,      &threshold_policies,  &verdict_rules, &cloud_registrars};
+  [[nodiscard]] std::array<RegistryBase*, 11> registries() {
+    return {&map_sources,   &observation_sources, &local_mappers,   &contact_indexes,
+            &matchers,      &clusterers,          &raters,          &threshold_policies,
+            &verdict_rules, &verifiers,           &cloud_registrars};
   }
-  [[nodiscard]] std::array<const RegistryBase*, 10> registries() const {
-    return {&map_sources, &observation_sources, &local_mappers, &contact_indexes, &matchers, &clusterers,
-            &raters,      &threshold_policies,  &verdict_rules, &cloud_registrars};
+  [[nodiscard]] std::array<const RegistryBase*, 11> registries() const {
+    return {&map_sources,   &observation_sources, &local_mappers,   &contact_indexes,
+            &matchers,      &clusterers,          &raters,          &threshold_policies,
+            &verdict_rules, &verifiers,           &cloud_registrars};
   }
 };
 

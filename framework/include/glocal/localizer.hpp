@@ -27,6 +27,7 @@ struct LocalizerConfig {
   StrategyChoice rater;
   StrategyChoice threshold_policy;
   StrategyChoice verdict_rule;
+  StrategyChoice verifier;
   UnknownPlaceParams unknown_place;
 };
 
@@ -69,11 +70,14 @@ class Localizer {
  private:
   /// Those of the strategies below.
   struct Stages {
-    RunningStage local_mapper, matcher, clusterer, rater, threshold_policy, verdict_rule;
+    RunningStage local_mapper, matcher, clusterer, rater, threshold_policy, verdict_rule, verifier;
   };
   /// Does a strategy's work in this step, and checks it. What either throws becomes a StrategyError.
   template <class Work>
   void in_stage(RunningStage& stage, std::size_t step, Work work) const;
+
+  /// Lets the verifier look for rivals of a pose when it is declared: with one, it is not.
+  void verify(StepResult& result, const LocalMap& local);
 
   Motion motion_;
   Prior prior_;
@@ -83,10 +87,12 @@ class Localizer {
   std::unique_ptr<Rater> rater_;
   std::unique_ptr<ThresholdPolicy> threshold_policy_;
   std::unique_ptr<VerdictRule> verdict_rule_;
+  std::unique_ptr<Verifier> verifier_;
   Stages stages_;
   UnknownPlaceMonitor unknown_place_;
   StartInLocalMap start_;  ///< Followed where a prior is given.
   PoseGate gate_;
+  bool is_verified_ = false;  ///< What is declared since some steps.
   Rng seed_;
   std::uint64_t trial_ = 0;
   Rng rng_;  ///< Of the trial.

@@ -36,6 +36,29 @@ struct Evidence {
   double value = 0.0;
 };
 
+/// What is known of all poses once the whole map was searched.
+struct Certificate {
+  double contact = 0.0;  ///< Of the declared pose: share of points within epsilon of the map, in [0, 1].
+  double at_most = 0.0;  ///< No rival, found or not, has a larger share.
+  double epsilon = 0.0;  ///< m
+  /// m; the search counts for a whole box of poses at once: what it counts is within epsilon + delta of the
+  /// map at the middle of the box, and has all that is within epsilon at any pose of it.
+  double delta = 0.0;
+};
+
+/// What a verifier says of a pose that a verdict rule declares.
+struct Verification {
+  double distance = 1.0;  ///< m; a pose whose robot is farther away than this is a rival …
+  double rotation = 0.0;  ///< rad; … as is one that is turned by more.
+  /// The best ones that the search brought, judged as the matcher judges its own; falling score.
+  std::vector<Hypothesis> rivals = {};
+  double margin = 0.0;            ///< A rival refutes the declaration if its score is lower by no more.
+  double score = 0.0;             ///< Of the declared pose. The localizer sets it.
+  bool is_refuted = false;        ///< The localizer sets it.
+  std::size_t points_tested = 0;  ///< Looks at a point.
+  std::optional<Certificate> certificate = {};  ///< None where the search was given up.
+};
+
 /// What a verdict rule says, and why.
 struct Verdict {
   VerdictKind kind = VerdictKind::searching;
@@ -44,6 +67,8 @@ struct Verdict {
   std::string why;                            ///< One sentence for a person.
   std::optional<PoseEstimate> estimate = {};  ///< None where the rule has none.
   std::vector<Evidence> evidence = {};        ///< For whoever studies the rule.
+  /// Localized only if a verifier certifies that no pose elsewhere has more contact.
+  bool needs_certificate = false;
 };
 
 /// Wall-clock time of each stage, ms.
@@ -52,8 +77,9 @@ struct StageTimes {
   double match = 0.0;
   double cluster = 0.0;
   double rate = 0.0;
+  double verify = 0.0;
 
-  [[nodiscard]] double total() const { return local_map + match + cluster + rate; }
+  [[nodiscard]] double total() const { return local_map + match + cluster + rate + verify; }
 };
 
 /// Everything a localization step has found out.
@@ -76,6 +102,7 @@ struct StepResult {
   std::vector<Cluster> clusters;       ///< Falling rating.
   std::vector<Rating> ratings;         ///< One for each cluster.
   Verdict verdict;
+  std::optional<Verification> verification;  ///< Of a pose that was declared, or would have been.
   StageTimes stage_ms;
 
   /// Robot pose the verdict rule believes in, else that of the best-rated cluster; declared or not.

@@ -102,6 +102,13 @@ class Matcher {
   virtual void restrict_to(const PoseGate& /*gate*/) {}
   [[nodiscard]] virtual MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                           Rng& rng) = 0;
+  /// Judges poses of the local map of the last match() that a verifier has found by contact, as match()
+  /// judges its own, and carries them on to the next step, where it does either; here it does neither.
+  /// Falling score.
+  [[nodiscard]] virtual std::vector<Hypothesis> take_up(std::vector<Hypothesis> found,
+                                                        const LocalMap& /*local*/) {
+    return found;
+  }
   virtual void reset() = 0;
   /// For the record of a run; none if there is no index worth a word.
   [[nodiscard]] virtual std::optional<MapIndexInfo> map_index() const { return std::nullopt; }
@@ -145,7 +152,22 @@ class VerdictRule {
  public:
   virtual ~VerdictRule() = default;
   [[nodiscard]] virtual Verdict judge(const StepResult& step) = 0;
+  /// The pose that judge() has just declared is not: it has a rival that the rule did not know of, or lacks
+  /// the certificate that the verdict needs.
+  virtual void refute(const Verification& /*verification*/) {}
   virtual void reset() = 0;
+};
+
+/// Looks on the whole map for rivals of a pose that is about to be declared.
+/// Contract: the answer does not depend on the number of threads; every rival has its share of points in
+/// contact as quality and score, falling; the certificate holds for every pose, found or not.
+class Verifier {
+ public:
+  virtual ~Verifier() = default;
+  /// Of the pose of a local map with points. Poses that `gate` does not allow are no rivals. None if nothing
+  /// is ever verified.
+  [[nodiscard]] virtual std::optional<Verification> verify(const LocalMap& local, const Pose3& map_from_local,
+                                                           const PoseGate& gate) = 0;
 };
 
 }  // namespace glocal

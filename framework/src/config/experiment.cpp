@@ -70,6 +70,8 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
               {.doc = "Says which score a hypothesis must reach."});
   stage_field(v, "verdict_rule", c.verdict_rule, s.catalog->verdict_rules, c.motion,
               {.doc = "Says whether the answer can be trusted."});
+  stage_field(v, "verifier", c.verifier, s.catalog->verifiers, c.motion,
+              {.doc = "Looks on the whole map for rivals of a pose that is about to be declared."});
   v.field("unknown_place", c.unknown_place,
           {.doc = "When the robot counts as somewhere the map does not show."});
 }
@@ -273,6 +275,7 @@ Experiment default_experiment() {
                  .rater = {"cluster_rating"},
                  .threshold_policy = {"sliding_window"},
                  .verdict_rule = {"consecutive_rating"},
+                 .verifier = {"none"},
                  .unknown_place = {}};
   return e;
 }

@@ -58,6 +58,50 @@ void add_prior(Verdict& verdict, const Prior& prior) {
                   verdict.kind == VerdictKind::unknown_place ? ": the robot is perhaps outside" : "");
 }
 
+/// The best score of a hypothesis that is no rival of this pose.
+double score_near(const Pose3& map_from_robot, const StepResult& result) {
+  const Verification& v = *result.verification;
+  for (const Hypothesis& h : result.hypotheses) {
+    if (distance(h.map_from_robot, map_from_robot) <= v.distance &&
+        rotation_between(h.map_from_robot, map_from_robot) <= v.rotation)
+      return h.score;
+  }
+  return result.score_best;
+}
+
+/// Takes the verdict back where a rival is about as good, or the search was given up; else tells the
+/// certificate.
+void judge_by(Verification& v, Verdict& verdict) {
+  std::vector<Pose3> candidates = {*verdict.map_from_robot};
+  for (const Hypothesis& rival : v.rivals) {
+    if (rival.score >= v.score - v.margin) candidates.push_back(rival.map_from_robot);
+  }
+  const std::size_t rivals = candidates.size() - 1;
+  const bool is_topped = v.certificate && v.certificate->at_most > v.certificate->contact;
+  v.is_refuted = rivals > 0 || !v.certificate || (verdict.needs_certificate && is_topped);
+  if (!v.is_refuted) {
+    verdict.why += fmt::format("; {:.0f} % contact, and at most {:.0f} % at any pose elsewhere",
+                               100.0 * v.certificate->contact, 100.0 * v.certificate->at_most);
+    return;
+  }
+  verdict.kind = rivals > 0 ? VerdictKind::ambiguous : VerdictKind::searching;
+  verdict.map_from_robot.reset();
+  verdict.why = "the best pose was about to be declared, but ";
+  if (rivals > 0) {
+    verdict.why += fmt::format("a search of the whole map found {} about as good",
+                               rivals == 1 ? "another one" : fmt::format("{} others", rivals));
+  } else if (is_topped) {
+    verdict.why += fmt::format("it has {:.0f} % contact, and up to {:.0f} % cannot be ruled out elsewhere",
+                               100.0 * v.certificate->contact, 100.0 * v.certificate->at_most);
+  } else {
+    verdict.why += "the search of the whole map was given up: too many poses are about as good";
+  }
+  if (verdict.estimate)
+    verdict.estimate->confidence =
+        std::min(verdict.estimate->confidence, 1.0 / static_cast<double>(rivals + 1));
+  if (rivals > 0) verdict.candidates = std::move(candidates);
+}
+
 }  // namespace
 
 double contact_epsilon_on(const GlobalMap& map, const LocalizerConfig& config) {
@@ -92,6 +136,7 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
     throw ConfigError({{"", 0, 0, "localizer.prior.region: " + *why}});
   setup.contact_epsilon = contact_epsilon_on(*setup.map, config);
   setup.motion = motion_;
+  setup.has_verifier = config.verifier.name != "none";
   const auto make = [&](const auto& registry, const StrategyChoice& choice, RunningStage& stage) {
     if (const auto why = why_unfit(choice, registry, motion_)) throw ConfigError({{"", 0, 0, *why}});
     stage = {.kind = registry.kind(), .name = choice.name};
@@ -104,6 +149,7 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
   rater_ = make(catalog.raters, config.rater, stages_.rater);
   threshold_policy_ = make(catalog.threshold_policies, config.threshold_policy, stages_.threshold_policy);
   verdict_rule_ = make(catalog.verdict_rules, config.verdict_rule, stages_.verdict_rule);
+  verifier_ = make(catalog.verifiers, config.verifier, stages_.verifier);
 }
 
 void Localizer::use(std::unique_ptr<ThresholdPolicy> threshold_policy) {
@@ -200,8 +246,35 @@ StepResult Localizer::step(const Observation& observation) {
         {},
         fmt::format("only {:.0f} % of what was last seen is on the map", 100.0 * *result.omega_place)};
   }
+  verify(result, local);
   if (!gate_.is_open()) add_prior(result.verdict, prior_);
   return result;
+}
+
+void Localizer::verify(StepResult& result, const LocalMap& local) {
+  if (result.verdict.kind != VerdictKind::localized) is_verified_ = false;
+  if (result.verdict.kind != VerdictKind::localized || is_verified_ || local.points.empty()) return;
+  const Pose3 declared = *result.verdict.map_from_robot;
+  std::optional<Verification>& verification = result.verification;
+  in_stage(stages_.verifier, result.step, [&] {
+    timed(result.stage_ms.verify, [&] {
+      verification = verifier_->verify(local, declared * inverse(local.local_from_robot), gate_);
+    });
+    if (verification) check_verification(*verification, motion_);
+  });
+  is_verified_ = true;
+  if (!verification) return;
+  in_stage(stages_.matcher, result.step, [&] {
+    timed(result.stage_ms.verify,
+          [&] { verification->rivals = matcher_->take_up(std::move(verification->rivals), local); });
+    for (Hypothesis& h : verification->rivals) h.map_from_robot = h.map_from_local * local.local_from_robot;
+    check_hypotheses(verification->rivals, 0.0, motion_);
+  });
+  verification->score = score_near(declared, result);
+  judge_by(*verification, result.verdict);
+  if (!verification->is_refuted) return;
+  is_verified_ = false;
+  in_stage(stages_.verdict_rule, result.step, [&] { verdict_rule_->refute(*verification); });
 }
 
 void Localizer::reset(std::uint64_t trial) {
@@ -210,6 +283,7 @@ void Localizer::reset(std::uint64_t trial) {
   step_ = 0;
   unknown_place_.reset();
   start_.reset();
+  is_verified_ = false;
   const auto reset = [&](RunningStage& stage, auto& strategy) {
     in_stage(stage, RunningStage::before_first, [&] { strategy->reset(); });
   };

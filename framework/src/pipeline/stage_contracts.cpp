@@ -128,10 +128,10 @@ void check_threshold(double omega_max) {
   require(is_share(omega_max), "omega_max() is {}, not in [0, 1]", omega_max);
 }
 
-void check_match(const MatchResult& match, double omega_max, Motion motion) {
+void check_hypotheses(const std::vector<Hypothesis>& hypotheses, double omega_max, Motion motion) {
   double before = 1.0;
-  for (std::size_t i = 0; i < match.hypotheses.size(); ++i) {
-    const Hypothesis& hypothesis = match.hypotheses[i];
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    const Hypothesis& hypothesis = hypotheses[i];
     check_pose(hypothesis.map_from_local, motion, "hypothesis {}", i);
     require(is_share(hypothesis.quality), "hypothesis {} has the quality {}, not in [0, 1]", i,
             hypothesis.quality);
@@ -143,6 +143,10 @@ void check_match(const MatchResult& match, double omega_max, Motion motion) {
     require(hypothesis.support > 0, "hypothesis {} has no support; it stands for itself at least", i);
     before = hypothesis.score;
   }
+}
+
+void check_match(const MatchResult& match, double omega_max, Motion motion) {
+  check_hypotheses(match.hypotheses, omega_max, motion);
 }
 
 void check_clusters(const std::vector<Cluster>& clusters, std::size_t hypotheses, Motion motion) {
@@ -191,6 +195,19 @@ void check_verdict(const Verdict& verdict, Motion motion) {
   check_pose(verdict.estimate->map_from_robot, motion, "the estimate");
   require(is_share(verdict.estimate->confidence), "the estimate has the confidence {}, not in [0, 1]",
           verdict.estimate->confidence);
+}
+
+void check_verification(const Verification& verification, Motion motion) {
+  check_hypotheses(verification.rivals, 0.0, motion);
+  require(is_share(verification.margin), "the margin is {}, not in [0, 1]", verification.margin);
+  require(verification.distance >= 0.0 && verification.rotation >= 0.0,
+          "rivals are {} m away and turned by {} rad, which is below 0", verification.distance,
+          verification.rotation);
+  if (!verification.certificate) return;
+  const Certificate& certificate = *verification.certificate;
+  require(is_share(certificate.contact) && is_share(certificate.at_most),
+          "the certificate tells shares of {} and {}, not in [0, 1]", certificate.contact,
+          certificate.at_most);
 }
 
 }  // namespace glocal

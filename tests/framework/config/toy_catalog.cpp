@@ -47,6 +47,15 @@ struct ToyVerdict final : VerdictRule {
   void reset() override {}
 };
 
+struct ToyVerifier final : Verifier {
+  using Params = Nothing;
+  explicit ToyVerifier(const Params& /*params*/) {}
+  std::optional<Verification> verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
+                                     const PoseGate& /*gate*/) override {
+    return std::nullopt;
+  }
+};
+
 }  // namespace
 
 ToyMap::ToyMap(const Params& /*params*/) {}
@@ -130,6 +139,7 @@ void register_toys(Catalog& c) {
   c.raters.add<ToyRater>("cluster_rating", "Rates nothing.");
   c.threshold_policies.add<ToyPolicy>("sliding_window", "Asks for one half.");
   c.verdict_rules.add<ToyVerdict>("consecutive_rating", "Never sure.");
+  c.verifiers.add<ToyVerifier>("none", "Verifies nothing.");
 }
 
 }  // namespace glocal::test

@@ -25,6 +25,9 @@ struct Script {
   std::vector<double> r;  ///< Of the clusters, in the order of their hypotheses.
   PoseGate gate;          ///< What the matcher was told last.
   std::function<Verdict(const StepResult&)> judge = [](const StepResult&) { return Verdict{}; };
+  std::function<std::optional<Verification>(const Pose3& map_from_local)> verify = [](const Pose3&) {
+    return std::nullopt;
+  };
 };
 
 struct FakeParams {
@@ -61,6 +64,11 @@ struct FakeMatcher final : Fake<Matcher> {
                                   Rng& rng) override {
     note("match");
     return script_->match(omega_max, rng);
+  }
+  [[nodiscard]] std::vector<Hypothesis> take_up(std::vector<Hypothesis> found,
+                                                const LocalMap& /*local*/) override {
+    note("take up");
+    return found;
   }
   void reset() override { note("reset matcher"); }
 };
@@ -116,7 +124,17 @@ struct FakeVerdict final : Fake<VerdictRule> {
     note("judge");
     return script_->judge(step);
   }
+  void refute(const Verification& /*verification*/) override { note("refute"); }
   void reset() override { note("reset verdict"); }
+};
+
+struct FakeVerifier final : Fake<Verifier> {
+  using Fake::Fake;
+  [[nodiscard]] std::optional<Verification> verify(const LocalMap& /*local*/, const Pose3& map_from_local,
+                                                   const PoseGate& /*gate*/) override {
+    note("verify");
+    return script_->verify(map_from_local);
+  }
 };
 
 /// Delivers what it is given.
@@ -143,6 +161,7 @@ inline void register_fake_stages(Catalog& catalog) {
   catalog.raters.add<FakeRater>("fake", "Gives given ratings.");
   catalog.threshold_policies.add<FakeThreshold>("fake", "Gives given thresholds.");
   catalog.verdict_rules.add<FakeVerdict>("fake", "Gives given verdicts.");
+  catalog.verifiers.add<FakeVerifier>("fake", "Gives given verifications.");
 }
 
 /// All stages follow one script; no place is unknown.
@@ -159,6 +178,7 @@ inline LocalizerConfig follow(const std::shared_ptr<Script>& script) {
           .rater = stage(),
           .threshold_policy = stage(),
           .verdict_rule = stage(),
+          .verifier = stage(),
           .unknown_place = {.max_contact = 0.0}};
 }
 

@@ -127,6 +127,16 @@ class AtOnce final : public VerdictRule {
   void reset() override {}
 };
 
+class Trusting final : public Verifier {
+ public:
+  using Params = NoParams;
+  explicit Trusting(const Params& /*params*/) {}
+  std::optional<Verification> verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
+                                     const PoseGate& /*gate*/) override {
+    return std::nullopt;
+  }
+};
+
 /// Says the same of all clouds.
 class Ahead final : public CloudRegistrar {
  public:
@@ -161,5 +171,6 @@ GLOCAL_PLUGIN("every_kind", "1.2.3", catalog) {
   catalog.raters.add<AllAlike>("all_alike", "Every cluster is as good as any other.");
   catalog.threshold_policies.add<Fixed>("always_half", "Always 0.5.");
   catalog.verdict_rules.add<AtOnce>("at_once", "Takes the first guess.");
+  catalog.verifiers.add<Trusting>("trusting", "Believes all that is declared.");
   catalog.cloud_registrars.add<Ahead>("ahead", "The source is ahead.");
 }

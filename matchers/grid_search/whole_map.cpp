@@ -1,0 +1,105 @@
+#include "matchers/grid_search/whole_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "matchers/grid_search/rival_search.hpp"
+
+namespace glocal {
+namespace {
+
+/// m; as matchers have it, so that they share the field.
+constexpr double field_cell = 0.05;
+
+}  // namespace
+
+void describe(ParamVisitor& v, WholeMap::Params& p) {
+  v.field("margin", p.margin,
+          {.doc = "Poses are searched for whose contact is at most this much lower than the declared pose's, "
+                  "and one whose score is at most this much lower refutes the declaration.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::tuner});
+  v.field("distance", p.distance,
+          {.doc = "A pose is a rival of the declared one if it is farther away than this, or turned by more "
+                  "than rotation_deg.",
+           .unit = "m",
+           .above = 0.0});
+  v.field("rotation_deg", p.rotation_deg,
+          {.doc = "A pose is a rival of the declared one if it is turned by more than this, or farther away "
+                  "than distance.",
+           .unit = "deg",
+           .max = 180.0,
+           .above = 0.0});
+  describe_contact_epsilon(v, p.contact_epsilon);
+  v.field("cell", p.cell,
+          {.doc = "Side of the smallest boxes of translations; at most contact_epsilon.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.require(!p.contact_epsilon || p.cell <= *p.contact_epsilon, "cell", "must be at most contact_epsilon");
+  v.field("max_rivals", p.max_rivals,
+          {.doc = "Number of rivals that are judged: those with the most contact.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::expert});
+  v.field("max_looks", p.max_looks,
+          {.doc = "A search that looks at more points is given up, and nothing is declared in this step.",
+           .min = 1,
+           .max = 2e9,
+           .audience = Audience::expert});
+}
+
+WholeMap::WholeMap(const Params& params, const StageSetup& setup)
+    : params_(params),
+      epsilon_(setup.epsilon(params.contact_epsilon)),
+      threads_(setup.threads),
+      contact_(contact_index(*setup.map, "kd_tree", epsilon_)),
+      field_(distance_field(*setup.map, field_cell)),
+      pyramid_(box_pyramid(*setup.map, params.cell, epsilon_)) {}
+
+std::optional<Verification> WholeMap::verify(const LocalMap& local, const Pose3& map_from_local,
+                                             const PoseGate& gate) {
+  const auto points = static_cast<double>(local.points.size());
+  const Pose2 declared = seen_from_above(map_from_local);
+  const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
+  const double contact = contact_->share(local.points, Transform(declared));
+  const double least = std::max(1.0, std::ceil((contact - params_.margin) * points));
+  const RivalRule rule{.distance = params_.distance,
+                       .rotation = radians(params_.rotation_deg),
+                       .most_rivals = static_cast<std::size_t>(params_.max_rivals),
+                       .most_looks = static_cast<std::size_t>(params_.max_looks)};
+  const RivalSearchResult found =
+      search_rivals(*pyramid_, local.points, local_from_robot, declared * local_from_robot,
+                    static_cast<std::size_t>(least), rule, gate, threads_);
+  Verification result{.distance = rule.distance, .rotation = rule.rotation, .margin = params_.margin};
+  result.points_tested = found.looks;
+  for (const RivalSearchResult::Rival& rival : found.rivals) {
+    const Pose2 refined = refined_pose(*field_, local.points, rival.map_from_local, {});
+    for (const Pose2& pose : {rival.map_from_local, refined}) add_rival(pose, declared, local, gate, result);
+  }
+  std::stable_sort(result.rivals.begin(), result.rivals.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  if (found.is_complete)
+    result.certificate = {.contact = contact,
+                          .at_most = static_cast<double>(found.at_most) / points,
+                          .epsilon = epsilon_,
+                          .delta = pyramid_->delta()};
+  return result;
+}
+
+/// Unless it is none, or stands for one that is there.
+void WholeMap::add_rival(const Pose2& map_from_local, const Pose2& declared, const LocalMap& local,
+                         const PoseGate& gate, Verification& result) const {
+  const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
+  const Pose2 robot = map_from_local * local_from_robot;
+  const Pose2 declared_robot = declared * local_from_robot;
+  const bool is_rival = distance(robot, declared_robot) > result.distance ||
+                        rotation_between(robot, declared_robot) > result.rotation;
+  if (!is_rival || !gate.allows(Pose3(map_from_local))) return;
+  result.rivals.push_back(
+      Hypothesis::by_contact(map_from_local, contact_->share(local.points, Transform(map_from_local))));
+}
+
+}  // namespace glocal

@@ -1,0 +1,161 @@
+// What becomes of a declaration that a verifier looks at.
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "framework/pipeline/fakes.hpp"
+#include "glocal/localizer.hpp"
+
+namespace glocal::test::verification_test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+
+class WithVerifier : public testing::Test {
+ protected:
+  WithVerifier() : localizer_(follow(script_), registered(catalog_), {map_of_one_point(), 1}, 1) {
+    script_->local.points.push_back({});
+    script_->local.ends = {1};
+    const Hypothesis best{.map_from_local = declared_, .quality = 0.9, .score = 0.8};
+    script_->match = [=](double, Rng&) { return MatchResult{{best}, 1, 1}; };
+    script_->r = {1.0};
+    script_->judge = [this](const StepResult&) {
+      return Verdict{VerdictKind::localized, declared_, {}, "sure", PoseEstimate{declared_, 0.99}};
+    };
+  }
+
+  static const Catalog& registered(Catalog& catalog) {
+    register_fake_stages(catalog);
+    return catalog;
+  }
+
+  /// What the verifier finds from now on: rivals with these scores, 5 m apart.
+  void find(const std::vector<double>& scores, bool is_complete = true) {
+    Verification found{.distance = 1.0, .rotation = 0.5, .margin = 0.1};
+    for (std::size_t i = 0; i < scores.size(); ++i)
+      found.rivals.push_back(
+          Hypothesis::by_contact(Pose2{5.0 * static_cast<double>(i + 1), 0.0, 0.0}, scores[i]));
+    if (is_complete) found.certificate = {.contact = 0.9, .at_most = 0.85, .epsilon = 0.1, .delta = 0.14};
+    script_->verify = [found](const Pose3&) { return found; };
+  }
+
+  StepResult step() {
+    script_->calls.clear();
+    return localizer_.step({});
+  }
+
+  const Pose3 declared_ = Pose2{0.2, 0.1, 0.0};
+  std::shared_ptr<Script> script_ = std::make_shared<Script>();
+  Catalog catalog_;
+  Localizer localizer_;
+};
+
+TEST_F(WithVerifier, ADeclarationWithoutRivalStandsAndTellsItsCertificate) {
+  find({0.65});
+  const StepResult result = step();
+  EXPECT_EQ(result.verdict.kind, VerdictKind::localized);
+  EXPECT_EQ(result.verdict.why, "sure; 90 % contact, and at most 85 % at any pose elsewhere");
+  ASSERT_TRUE(result.verification);
+  EXPECT_FALSE(result.verification->is_refuted);
+  EXPECT_EQ(result.verification->score, 0.8);
+  EXPECT_EQ(result.verification->certificate->at_most, 0.85);
+  EXPECT_THAT(script_->calls, Contains("take up"));
+}
+
+TEST_F(WithVerifier, ARivalWithinTheMarginRefutesIt) {
+  find({0.95, 0.72, 0.65});
+  const StepResult result = step();
+  EXPECT_EQ(result.verdict.kind, VerdictKind::ambiguous);
+  EXPECT_FALSE(result.verdict.map_from_robot);
+  EXPECT_THAT(result.verdict.candidates, ElementsAre(declared_, Pose2{5, 0, 0}, Pose2{10, 0, 0}));
+  EXPECT_THAT(result.verdict.why, HasSubstr("found 2 others about as good"));
+  EXPECT_DOUBLE_EQ(result.verdict.estimate->confidence, 1.0 / 3.0);
+  EXPECT_TRUE(result.verification->is_refuted);
+  EXPECT_EQ(script_->calls.back(), "refute");
+}
+
+TEST_F(WithVerifier, AVerdictThatNeedsACertificateStandsOnlyIfNoPoseElsewhereHasMoreContact) {
+  script_->judge = [this](const StepResult&) {
+    Verdict verdict{VerdictKind::localized, declared_, {}, "sure"};
+    verdict.needs_certificate = true;
+    return verdict;
+  };
+  find({});
+  EXPECT_EQ(step().verdict.kind, VerdictKind::localized);
+  localizer_.reset(1);
+  script_->verify = [](const Pose3&) {
+    Verification found;
+    found.certificate = {.contact = 0.9, .at_most = 0.92};
+    return found;
+  };
+  const StepResult result = step();
+  EXPECT_EQ(result.verdict.kind, VerdictKind::searching);
+  EXPECT_THAT(result.verdict.why,
+              EndsWith("it has 90 % contact, and up to 92 % cannot be ruled out elsewhere"));
+  EXPECT_TRUE(result.verification->is_refuted);
+}
+
+TEST_F(WithVerifier, ASearchThatWasGivenUpDeclaresNothing) {
+  find({}, false);
+  const StepResult result = step();
+  EXPECT_EQ(result.verdict.kind, VerdictKind::searching);
+  EXPECT_FALSE(result.verdict.map_from_robot);
+  EXPECT_THAT(result.verdict.why, HasSubstr("given up"));
+}
+
+TEST_F(WithVerifier, WhatIsDeclaredIsVerifiedOnceAndAnewOnceItWasLost) {
+  find({});
+  EXPECT_TRUE(step().verification);
+  EXPECT_FALSE(step().verification);
+  EXPECT_EQ(step().verdict.kind, VerdictKind::localized);
+  const auto sure = script_->judge;
+  script_->judge = [](const StepResult&) { return Verdict{VerdictKind::searching, {}, {}, "lost"}; };
+  EXPECT_FALSE(step().verification);
+  script_->judge = sure;
+  EXPECT_TRUE(step().verification);
+  localizer_.reset(1);
+  EXPECT_TRUE(step().verification);
+}
+
+TEST_F(WithVerifier, WhatWasRefutedIsVerifiedInEachStep) {
+  find({0.9});
+  EXPECT_TRUE(step().verification);
+  find({});
+  EXPECT_EQ(step().verdict.kind, VerdictKind::localized);
+}
+
+TEST_F(WithVerifier, WithoutOneDeclarationsStand) {
+  const StepResult result = step();
+  EXPECT_EQ(result.verdict.kind, VerdictKind::localized);
+  EXPECT_EQ(result.verdict.why, "sure");
+  EXPECT_FALSE(result.verification);
+}
+
+TEST_F(WithVerifier, TheVerifierIsAskedOfTheLocalMapsPose) {
+  script_->local.local_from_robot = Pose2{1.0, 0.0, 0.0};
+  Pose3 asked;
+  script_->verify = [&](const Pose3& map_from_local) {
+    asked = map_from_local;
+    return std::nullopt;
+  };
+  step();
+  EXPECT_NEAR(asked.x, declared_.x - 1.0, 1e-12);
+}
+
+TEST_F(WithVerifier, NamesAVerifierThatBreaksItsContract) {
+  find({1.5});
+  try {
+    step();
+    FAIL();
+  } catch (const StrategyError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "verifier 'fake' breaks its contract in step 0: hypothesis 0 has the quality 1.5, not in [0, 1]");
+  }
+}
+
+}  // namespace
+}  // namespace glocal::test::verification_test
