@@ -133,7 +133,7 @@ Prior prior_of(const LocalizeOptions& options) {
 void localize(const LocalizeOptions& options, Context& context) {
   LocalizeRequest request = options.request;
   request.prior = prior_of(options);
-  const LocalizePlan plan = plan_localization(request);
+  const LocalizePlan plan = plan_localization(request, context.catalog);
   const std::string out = options.out.empty() ? "results/" + plan.name : options.out;
   const std::string file = out + ".yaml";
   write_experiment(file, plan.experiment, options.force);

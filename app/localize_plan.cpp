@@ -16,6 +16,7 @@
 #include "sources/bags/recording.hpp"
 #include "sources/bags/recording_summary.hpp"
 #include "sources/clouds/cloud_file.hpp"
+#include "sources/clouds/octree_reader.hpp"
 #include "sources/ros_map.hpp"
 
 namespace glocal::app {
@@ -43,15 +44,24 @@ struct MapChoice {
   double resolution = 0.0;  ///< m; 0 if not known.
 };
 
-bool is_octree(const fs::path& map) {
-  return !fs::is_directory(map) && bags::FileBytes(map).peek(0).starts_with("# Octomap");
+bool is_file_of_octree(const fs::path& map) {
+  return !fs::is_directory(map) && is_octree(bags::FileBytes(map).peek(0));
 }
 
-MapChoice choose_map(const fs::path& map) {
+/// The plugin knows of free voxels, too.
+MapChoice choose_octree(const std::string& path, const Catalog& catalog) {
+  if (catalog.map_sources.find("octomap") != nullptr)
+    return {fmt::format("octomap: {{{}}}", path), "an octree", true};
+  return {fmt::format("point_cloud: {{{}}}", path),
+          "an octree, its occupied voxels only: the plugin octomap, which reads the free ones, is not loaded",
+          true};
+}
+
+MapChoice choose_map(const fs::path& map, const Catalog& catalog) {
   expect_there(map);
   const std::string path = path_entry("path", map);
   if (bags::is_recording(map)) return {fmt::format("bag_map: {{{}}}", path), "a map recorded as a message"};
-  if (is_octree(map)) return {fmt::format("octomap: {{{}}}", path), "an octree", true};
+  if (is_file_of_octree(map)) return choose_octree(path, catalog);
   if (has_name_of_cloud(map)) return {fmt::format("point_cloud: {{{}}}", path), "a cloud of points", true};
   if (map.extension() != ".yaml" && map.extension() != ".yml")
     refuse(map,
@@ -198,8 +208,8 @@ std::string name_of(const fs::path& log) {
 
 }  // namespace
 
-LocalizePlan plan_localization(const LocalizeRequest& request) {
-  const MapChoice map = choose_map(request.map);
+LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& catalog) {
+  const MapChoice map = choose_map(request.map, catalog);
   const LogChoice log = choose_log(request, map);
   LocalizePlan plan{.name = name_of(request.log), .experiment = {}, .choices = {"map         " + map.text}};
   plan.choices.insert(plan.choices.end(), log.texts.begin(), log.texts.end());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "glocal/catalog.hpp"
 #include "glocal/prior.hpp"
 
 namespace glocal::app {
@@ -29,7 +30,8 @@ struct LocalizePlan {
 };
 
 /// Looks into both, and decides by their content: map server's YAML, cloud, octree or recording; recording,
-/// CARMEN log or folder of clouds. Throws ConfigError for what is none of these, and where a reader does.
-[[nodiscard]] LocalizePlan plan_localization(const LocalizeRequest& request);
+/// CARMEN log or folder of clouds. An octree needs its plugin in `catalog` for its free voxels. Throws
+/// ConfigError for what is none of these, and where a reader does.
+[[nodiscard]] LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& catalog);
 
 }  // namespace glocal::app

@@ -235,7 +235,7 @@ void add_register(CLI::App& app, Context& context) {
   auto options = std::make_shared<RegisterOptions>();
   CLI::App* command =
       app.add_subcommand("register", "Find the pose of one cloud in another, without any guess.");
-  command->add_option("SOURCE", options->source, "Cloud: PCD, PLY or KITTI's .bin");
+  command->add_option("SOURCE", options->source, "Cloud: PCD, PLY, KITTI's .bin or OctoMap's .bt");
   command->add_option("TARGET", options->target, "Cloud in whose frame the source is sought");
   command->add_option("-o,--out", options->out, "PCD file for both clouds, joined in the target's frame");
   command->add_option("--pairs", options->pairs,

@@ -25,7 +25,8 @@ void register_sources(Catalog& catalog) {
   catalog.map_sources.add<CloudDriveMap>("cloud_drive",
                                          "A map in space from the reference poses of a drive of clouds.");
   catalog.map_sources.add<RosMap>("ros_map", "A map of the ROS map server: a YAML file and an image.");
-  catalog.map_sources.add<PointCloudMap>("point_cloud", "A cloud of points: PCD, PLY or KITTI.");
+  catalog.map_sources.add<PointCloudMap>("point_cloud",
+                                         "A cloud of points: PCD, PLY, KITTI, or OctoMap's .bt.");
   catalog.map_sources.add<SimulatedMap>("simulation", "The map of a simulated world.");
 }
 

@@ -22,8 +22,7 @@ double distance_to_level(double height, double z, double rise) {
 
 Scene::Scene(const World& world) : world_(world), reality_(shapes_in_reality(world)) {
   if (world.cloud.text.empty()) return;
-  const Cloud cloud = read_cloud(world.cloud.resolved, {});
-  cloud_.emplace(cloud.points, world.cloud_voxel_size, world.cloud.resolved.string());
+  cloud_.emplace(read_cloud(world.cloud.resolved, {}), world.cloud_voxel_size, world.cloud.resolved.string());
 }
 
 void Scene::look_around(const Position& place, double reach, double time) {

@@ -191,10 +191,11 @@ void describe(ParamVisitor& v, World& p) {
            .min = 0.0,
            .max = lengths});
   v.field("cloud", p.cloud,
-          {.doc = "Cloud of points (PCD, PLY or KITTI) that is there, too, for a lidar: with a floor of its "
-                  "own, and places that may lie outside of size."});
+          {.doc = "Cloud of points (PCD, PLY, KITTI or OctoMap's .bt) that is there, too, for a lidar: with "
+                  "a floor of its own, and places that may lie outside of size."});
   v.field("cloud_voxel_size", p.cloud_voxel_size,
-          {.doc = "Rays end where they enter a cube of this side that holds points of the cloud.",
+          {.doc = "Rays end where they enter a cube of this side that holds points of the cloud. The voxels "
+                  "of an octree stay as they are.",
            .unit = "m",
            .min = 0.01,
            .max = 10.0});

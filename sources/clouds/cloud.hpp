@@ -20,6 +20,7 @@ struct Cloud {
   Points normals;              ///< Unit normals, one for each point; empty unless all points have one.
   std::vector<double> times;   ///< s since the earliest point, one for each point; empty if not known.
   Pose3 viewpoint;             ///< Where a PCD file says the sensor was, m; the identity if nothing is said.
+  double voxel_size = 0.0;     ///< Side of the cubes whose centres the points of an octree are, m; else 0.
   std::size_t not_finite = 0;  ///< Points left out.
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "sources/clouds/kitti_reader.hpp"
+#include "sources/clouds/octree_reader.hpp"
 #include "sources/clouds/pcd_reader.hpp"
 #include "sources/clouds/ply_reader.hpp"
 
@@ -42,12 +43,15 @@ Cloud read_cloud(const std::filesystem::path& file, const CloudOptions& options)
   const std::string content = read_decompressed(file, options.max_size_gb);
   if (is_ply(content)) return read_ply_cloud(content, name, options);
   if (is_pcd(content)) return read_pcd_cloud(content, name, options);
+  if (is_octree(content)) return read_octree_cloud(content, name, options);
   if (cloud_extension(file) == ".bin") return read_kitti_cloud(content, name, options);
   if (content.starts_with("LASF"))
     refuse_cloud(name, 0, "is a LAS file; convert it to PCD or PLY: pdal translate FILE.las FILE.ply");
-  refuse_cloud(name, 0,
-               "is neither a PCD nor a PLY file by its first line, nor a cloud of KITTI by its name (*.bin); "
-               "convert it to one of them");
+  refuse_cloud(
+      name, 0,
+      "is neither a PCD file, a PLY file nor an octree (.bt) by its first line, nor a cloud of KITTI by "
+      "its name (*.bin); "
+      "convert it to one of them");
 }
 
 std::array<double, 3> principal_spreads(const Points& points) {

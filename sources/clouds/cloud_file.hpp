@@ -10,11 +10,12 @@
 
 namespace glocal {
 
-/// The cloud in a file: PCD or PLY, known by what the file begins with, or KITTI's, known by its name
-/// (*.bin); perhaps compressed (gzip, bzip2, xz). Throws ConfigError with what is wrong, and where.
+/// The cloud in a file: PCD, PLY or OctoMap's binary tree, known by what the file begins with, or KITTI's,
+/// known by its name (*.bin); perhaps compressed (gzip, bzip2, xz). Throws ConfigError with what is wrong,
+/// and where.
 [[nodiscard]] Cloud read_cloud(const std::filesystem::path& file, const CloudOptions& options = {});
 
-/// Whether read_cloud() might read a file of this name.
+/// Whether a file of this name might be a cloud that a sensor has measured: no octree, which is a map.
 [[nodiscard]] bool has_name_of_cloud(const std::filesystem::path& file);
 
 /// Standard deviations along the principal axes, m, falling. A single point has none.

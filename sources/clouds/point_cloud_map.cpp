@@ -38,7 +38,9 @@ float nearest_squared(const Points& points, const Point& p) {
 
 void describe(ParamVisitor& v, PointCloudMap::Params& p) {
   v.field("path", p.path,
-          {.doc = "Cloud of points: PCD, PLY or KITTI (*.bin); plain, gzip, bzip2 or xz.", .required = true});
+          {.doc = "Cloud of points: PCD, PLY, KITTI (*.bin) or the occupied voxels of OctoMap's *.bt; plain, "
+                  "gzip, bzip2 or xz.",
+           .required = true});
   describe_cloud_unit(v, p.unit);
   v.field(
       "voxel_size", p.voxel_size,
@@ -72,7 +74,11 @@ MapData PointCloudMap::load() {
     map.points = std::move(cloud.points);
     map.normals = std::move(cloud.normals);
   }
-  map.resolution = params_.voxel_size > 0.0 ? params_.voxel_size : typical_spacing(map.points);
+  if (params_.voxel_size > 0.0) {
+    map.resolution = params_.voxel_size;
+  } else {
+    map.resolution = cloud.voxel_size > 0.0 ? cloud.voxel_size : typical_spacing(map.points);
+  }
   if (!params_.trajectory.text.empty()) {
     for (const StampedPose& pose : read_trajectory(params_.trajectory.resolved, params_.max_size_gb).poses)
       map.path.push_back(pose.pose);

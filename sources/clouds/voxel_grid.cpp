@@ -11,19 +11,24 @@
 
 namespace glocal {
 
-VoxelGrid::VoxelGrid(const Points& points, double side, const std::string& file) : side_(side) {
+VoxelGrid::VoxelGrid(const Cloud& cloud, double side, const std::string& file)
+    : side_(cloud.voxel_size > 0.0 ? cloud.voxel_size : side) {
+  const Points& points = cloud.points;
   const auto lowest = [&](const std::vector<float>& v) { return *std::min_element(v.begin(), v.end()); };
   const auto cubes = [&](const std::vector<float>& v) {
-    return std::floor((*std::max_element(v.begin(), v.end()) - lowest(v)) / side) + 1.0;
+    return std::floor((*std::max_element(v.begin(), v.end()) - lowest(v)) / side_) + 1.0;
   };
   constexpr double most_cubes = 4e9;
   if (!(cubes(points.x) * cubes(points.y) * cubes(points.z) <= most_cubes)) {
-    throw ConfigError({{file, 0, 0,
-                        fmt::format("its extent is more than 4000 million cubes of {} m; raise "
-                                    "cloud_voxel_size, or cut the cloud smaller",
-                                    side)}});
+    throw ConfigError(
+        {{file, 0, 0,
+          fmt::format("its extent is more than 4000 million cubes of {} m; cut it smaller, or, if it "
+                      "is no octree, raise cloud_voxel_size",
+                      side_)}});
   }
-  corner_ = {lowest(points.x), lowest(points.y), lowest(points.z)};
+  // Points of an octree lie in the middle of its voxels.
+  const double margin = cloud.voxel_size / 2.0;
+  corner_ = {lowest(points.x) - margin, lowest(points.y) - margin, lowest(points.z) - margin};
   // One more than needed, as the farthest point may be rounded into the next.
   size_ = {static_cast<int>(cubes(points.x)) + 1, static_cast<int>(cubes(points.y)) + 1,
            static_cast<int>(cubes(points.z)) + 1};

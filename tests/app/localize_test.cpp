@@ -3,6 +3,7 @@
 
 #include "app/program.hpp"
 #include "files.hpp"
+#include "octree_files.hpp"
 #include "sources/bags/message_writer.hpp"
 #include "sources/carmen_parser.hpp"
 
@@ -110,6 +111,15 @@ TEST_F(Localize, ARealDriveIsFoundInItsBuildingsPlan) {
           " --set observations.bag.reference.time_shift=0.135 --out " + file("answer"));
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("trials              6: 6 right, 0 wrong, 0 undecided"));
+}
+
+TEST_F(Localize, WithoutItsPluginAnOctreeIsACloudOfOccupiedVoxels) {
+  folder_.write("tree.bt", bt_file({{}, {.x = 32800}, {.y = 32800}}, 0.1));
+  const std::string answer = "localize " + file("tree.bt") + " " + file("room/drive.mcap") + " --out ";
+  EXPECT_THAT(run(answer + file("answer")).out,
+              HasSubstr("map         an octree, its occupied voxels only: the plugin octomap, which reads "
+                        "the free ones, is not loaded\n"));
+  EXPECT_THAT(content(file("answer.yaml")), HasSubstr("point_cloud: {path: "));
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ inline void check_cloud(const Cloud& cloud) {
 
 /// Tries a reader of one format; no byte behind the input belongs to it.
 template <class Read>
-int try_cloud(const std::uint8_t* data, std::size_t size, Read read) {
+int try_cloud(const std::uint8_t* data, std::size_t size, Read read, const CloudOptions& options = {}) {
   return answer([&] {
-    check_cloud(read(std::string_view(reinterpret_cast<const char*>(data), size), "cloud", CloudOptions{}));
+    check_cloud(read(std::string_view(reinterpret_cast<const char*>(data), size), "cloud", options));
   });
 }
 

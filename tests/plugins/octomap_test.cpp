@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -179,6 +180,36 @@ TEST_F(Octomap, TheSharedTreeIsAsLargeAsItsDescriptionSays) {
   EXPECT_NEAR(map.grid.resolution, 0.08, 1e-9);
   EXPECT_NEAR(map.grid.width * 0.08, 39.0, 0.1);
   EXPECT_NEAR(map.grid.height * 0.08, 15.0, 0.1);
+}
+
+/// Numbers of voxels along x, y and z, in order.
+std::vector<std::array<long, 3>> voxels_at(const Points& points, double side) {
+  const auto number = [&](float centre) { return std::lround(centre / side - 0.5); };
+  std::vector<std::array<long, 3>> voxels;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    voxels.push_back({number(points.x[i]), number(points.y[i]), number(points.z[i])});
+  std::sort(voxels.begin(), voxels.end());
+  return voxels;
+}
+
+TEST_F(Octomap, WithoutThePluginATreeHasTheSameOccupiedVoxels) {
+  const auto expect_same = [&](const std::string& path, double side) {
+    StrategyChoice choice = catalog_.map_sources.choose("point_cloud");
+    read_yaml(folder_.write("cloud.yaml", "path: \"" + path + "\"\n"), *choice.params);
+    const MapData cloud = catalog_.map_sources.make(choice, {})->load();
+    const MapData tree = load_file(path, "points: space\n");
+    EXPECT_NEAR(cloud.resolution, tree.grid.resolution, 1e-9);
+    EXPECT_EQ(voxels_at(cloud.points, side), voxels_at(tree.points, side)) << path;
+  };
+  folder_.write("tree", bt_file({{.depth = 13},
+                                 {.x = 34000, .y = 31000, .z = 36000},
+                                 {.x = 32000, .log_odds = -1.0F, .depth = 12},
+                                 {.x = 31500, .y = 33333, .z = 30001, .depth = 15}},
+                                0.25));
+  expect_same("tree", 0.25);
+  const auto file = dataset("octomap/geb079.bt");
+  if (file.empty()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
+  expect_same(file, 0.08);
 }
 
 /// What a robot at the origin sees in a square room of 8 m with somebody 2 m before it, or not.

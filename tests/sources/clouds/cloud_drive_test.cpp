@@ -145,8 +145,8 @@ TEST_F(CloudDriveTest, IsRefusedWhereACloudIsNone) {
   folder_.write("0.pcd", "nothing");
   EXPECT_EQ(
       test::config_error(folder_.path(), [&] { static_cast<void>(read()); }),
-      "0.pcd: error: is neither a PCD nor a PLY file by its first line, nor a cloud of KITTI by its name "
-      "(*.bin); convert it to one of them");
+      "0.pcd: error: is neither a PCD file, a PLY file nor an octree (.bt) by its first line, nor a cloud of "
+      "KITTI by its name (*.bin); convert it to one of them");
 }
 
 /// The scans were made in the map: each point is near one of the map's, at the reference pose.

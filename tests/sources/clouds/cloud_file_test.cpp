@@ -7,6 +7,7 @@
 
 #include "evaluation/results/pcd.hpp"
 #include "files.hpp"
+#include "octree_files.hpp"
 #include "sources/clouds/cloud_files.hpp"
 
 namespace glocal::cloud_file_test {
@@ -27,6 +28,8 @@ TEST(CloudFile, IsKnownByWhatItBeginsWith) {
             points);
   EXPECT_EQ(read_cloud(folder.write("b.bin", bytes(1.0F, 2.0F, 3.0F, 0.5F, 4.0F, 5.0F, 6.0F, 0.5F))).points,
             points);
+  EXPECT_EQ(read_cloud(folder.write("c.pcd", test::bt_file({{}}, 2.0))).points,
+            (Points{{1.0F}, {1.0F}, {1.0F}}));
 }
 
 TEST(CloudFile, OfAnotherFormatIsRefused) {
@@ -37,8 +40,8 @@ TEST(CloudFile, OfAnotherFormatIsRefused) {
   };
   EXPECT_EQ(
       fault("a.xyz", "1 2 3\n"),
-      "a.xyz: error: is neither a PCD nor a PLY file by its first line, nor a cloud of KITTI by its name "
-      "(*.bin); convert it to one of them");
+      "a.xyz: error: is neither a PCD file, a PLY file nor an octree (.bt) by its first line, nor a cloud of "
+      "KITTI by its name (*.bin); convert it to one of them");
   EXPECT_EQ(fault("a.las", "LASF...."),
             "a.las: error: is a LAS file; convert it to PCD or PLY: pdal translate FILE.las FILE.ply");
   EXPECT_EQ(fault("a.bin", bytes(1.0F, 2.0F, 3.0F, 4.0F, 5.0F)),
@@ -50,7 +53,8 @@ TEST(CloudFile, OfAnotherFormatIsRefused) {
 TEST(CloudFile, HasANameToGoBy) {
   for (const char* name : {"a.pcd", "a.ply", "0001.bin", "a.pcd.gz", "a.bin.xz"})
     EXPECT_TRUE(has_name_of_cloud(name));
-  for (const char* name : {"poses.tum", "a.txt", "a.gz", "pcd"}) EXPECT_FALSE(has_name_of_cloud(name));
+  for (const char* name : {"map.bt", "poses.tum", "a.txt", "a.gz", "pcd"})
+    EXPECT_FALSE(has_name_of_cloud(name));
 }
 
 /// Corners of a box.
