@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "sources/clouds/voxel_grid.hpp"
+#include "sources/clouds/cloud_voxels.hpp"
 #include "sources/world.hpp"
 
 namespace glocal {
@@ -25,7 +25,7 @@ class Scene {
  private:
   World world_;
   Shapes reality_;
-  std::optional<VoxelGrid> cloud_;
+  std::optional<CloudVoxels> cloud_;
   Shapes near_;         ///< What look_around() has found.
   double reach_ = 0.0;  ///< m
 };

@@ -1,4 +1,4 @@
-#include "sources/clouds/voxel_grid.hpp"
+#include "sources/clouds/cloud_voxels.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 namespace glocal {
 
-VoxelGrid::VoxelGrid(const Cloud& cloud, double side, const std::string& file)
+CloudVoxels::CloudVoxels(const Cloud& cloud, double side, const std::string& file)
     : side_(cloud.voxel_size > 0.0 ? cloud.voxel_size : side) {
   const Points& points = cloud.points;
   const auto lowest = [&](const std::vector<float>& v) { return *std::min_element(v.begin(), v.end()); };
@@ -39,7 +39,7 @@ VoxelGrid::VoxelGrid(const Cloud& cloud, double side, const std::string& file)
   }
 }
 
-double VoxelGrid::ray_distance(const Vector3& origin, const Vector3& direction, double reach) const {
+double CloudVoxels::ray_distance(const Vector3& origin, const Vector3& direction, double reach) const {
   // Looked at from beyond the last cube that matters, as rays stop before the cube they end in.
   const double length = reach + 2.0 * side_;
   double distance = std::numeric_limits<double>::infinity();
@@ -52,19 +52,19 @@ double VoxelGrid::ray_distance(const Vector3& origin, const Vector3& direction, 
   return distance <= reach ? distance : std::numeric_limits<double>::infinity();
 }
 
-std::array<double, 3> VoxelGrid::in_cubes(const Vector3& place) const {
+std::array<double, 3> CloudVoxels::in_cubes(const Vector3& place) const {
   const Vector3 from_corner = place - corner_;
   return {from_corner.x / side_, from_corner.y / side_, from_corner.z / side_};
 }
 
-bool VoxelGrid::holds(const Cube& cube) const {
+bool CloudVoxels::holds(const Cube& cube) const {
   for (std::size_t axis = 0; axis < cube.size(); ++axis) {
     if (cube[axis] < 0 || cube[axis] >= size_[axis]) return false;
   }
   return true;
 }
 
-std::size_t VoxelGrid::index_of(const Cube& cube) const {
+std::size_t CloudVoxels::index_of(const Cube& cube) const {
   const auto at = [](int number) { return static_cast<std::size_t>(number); };
   return (at(cube[2]) * at(size_[1]) + at(cube[1])) * at(size_[0]) + at(cube[0]);
 }

@@ -13,11 +13,11 @@
 namespace glocal {
 
 /// Cubes over the extent of a cloud: occupied where there are points, empty elsewhere. A bit for each.
-class VoxelGrid {
+class CloudVoxels {
  public:
   /// The voxels of an octree as they are; of another cloud cubes of this `side`, m. `file` is the cloud's.
   /// Throws ConfigError if there would be too many cubes.
-  VoxelGrid(const Cloud& cloud, double side, const std::string& file);
+  CloudVoxels(const Cloud& cloud, double side, const std::string& file);
 
   /// Distance from a place along a unit vector to where the ray enters an occupied cube, m; infinite if there
   /// is none within `reach` (m).
