@@ -29,10 +29,9 @@ LidarSimulation::LidarSimulation(const DriveParams& params, const SourceSetup& s
       step_seconds_(params.step_seconds),
       file_(params.world.resolved.string()),
       world_(std::move(drive.world)),
-      scene_(world_),
+      scene_(world_, std::move(drive.cloud)),
       robot_(std::move(drive.route), params, setup.seed),
       swaying_(lidar_.tilt_deg, robot_.stream(DriveStream::sway, 0)) {
-  if (!world_.cloud.text.empty()) setup.note_input(world_.cloud.resolved);
   check_height();
   check_ways();
 }

@@ -98,6 +98,12 @@ std::vector<std::vector<Position>> ways_of(const Route& route) {
   return ways;
 }
 
+std::vector<Position> places_on(const Route& route) {
+  std::vector<Position> places;
+  for (const Pose2& pose : route.poses) places.push_back({pose.x, pose.y});
+  return places;
+}
+
 /// People walk where they like, and boxes stand where neither they nor the robot come by.
 void add_things(PlannedDrive& drive, const OccupancyGrid& grid, const ClearRegion& region,
                 const DriveParams& params, std::uint64_t seed) {
@@ -113,15 +119,18 @@ void add_things(PlannedDrive& drive, const OccupancyGrid& grid, const ClearRegio
 
 PlannedDrive drive_in_world(const DriveParams& params, const SourceSetup& setup) {
   setup.note_input(params.world.resolved);
-  PlannedDrive drive{read_world(params.world.resolved), {}, {}};
+  PlannedDrive drive{read_world(params.world.resolved), {}, {}, {}};
   drive.route = route_of(WorldWays(drive.world), params, stream_of(DriveStream::tour, setup.seed));
-  if (params.boxes == 0 && params.people == 0) return drive;
-  if (!drive.world.cloud.text.empty()) {
-    throw ConfigError({{file_of(params), 0, 0,
-                        "cloud: nobody knows where it is free within a cloud; leave out boxes and people, or "
-                        "list them in the file of the world"}});
+  const bool has_things = params.boxes > 0 || params.people > 0;
+  const bool has_cloud = !drive.world.cloud.text.empty();
+  if (has_cloud && (has_things || params.lidar.beams > 0)) {
+    setup.note_input(drive.world.cloud.resolved);
+    drive.cloud = voxels_of(drive.world);
   }
-  const OccupancyGrid grid = reality_of(drive.world);
+  if (!has_things) return drive;
+  const OccupancyGrid grid =
+      has_cloud ? floor_near(places_on(drive.route), drive.world, *drive.cloud, file_of(params))
+                : reality_of(drive.world);
   const ClearRegion region = checked_region(ClearRegion::largest(grid, clear_cells(grid, params.clearance)),
                                             params.clearance, file_of(params));
   add_things(drive, grid, region, params, setup.seed);
@@ -129,7 +138,7 @@ PlannedDrive drive_in_world(const DriveParams& params, const SourceSetup& setup)
 }
 
 PlannedDrive drive_in_map(const DriveParams& params, const SourceSetup& setup) {
-  PlannedDrive drive{{}, RosMap({params.map}, setup).load().grid, {}};
+  PlannedDrive drive{{}, RosMap({params.map}, setup).load().grid, {}, {}};
   const OccupancyGrid& grid = *drive.map;
   const Rng rng = stream_of(DriveStream::tour, setup.seed);
   const MapWays ways = params.way_points.empty()

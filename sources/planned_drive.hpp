@@ -9,6 +9,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/occupancy_grid.hpp"
 #include "glocal/rng.hpp"
+#include "sources/clouds/cloud_voxels.hpp"
 #include "sources/drive_params.hpp"
 #include "sources/ways.hpp"
 #include "sources/world.hpp"
@@ -33,10 +34,11 @@ struct PlannedDrive {
   World world;                       ///< Of a map: only what nobody has mapped.
   std::optional<OccupancyGrid> map;  ///< That the robot drives in, if it is one.
   Route route;
+  std::optional<CloudVoxels> cloud;  ///< Of the world, if it has one that somebody asks for.
 };
 
-/// Throws ConfigError for a faulty world or map, where route_of(), MapWays and drawn_boxes() do, and for
-/// boxes and people in a world with a cloud.
+/// Throws ConfigError for a faulty world or map, and where route_of(), MapWays, drawn_boxes() and
+/// floor_near() do.
 [[nodiscard]] PlannedDrive planned_drive(const DriveParams& params, const SourceSetup& setup);
 
 }  // namespace glocal

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
-
-#include "sources/clouds/cloud_file.hpp"
 
 namespace glocal {
 namespace {
@@ -20,10 +19,8 @@ double distance_to_level(double height, double z, double rise) {
 
 }  // namespace
 
-Scene::Scene(const World& world) : world_(world), reality_(shapes_in_reality(world)) {
-  if (world.cloud.text.empty()) return;
-  cloud_.emplace(read_cloud(world.cloud.resolved, {}), world.cloud_voxel_size, world.cloud.resolved.string());
-}
+Scene::Scene(World world, std::optional<CloudVoxels> cloud)
+    : world_(std::move(world)), reality_(shapes_in_reality(world_)), cloud_(std::move(cloud)) {}
 
 void Scene::look_around(const Position& place, double reach, double time) {
   reach_ = reach;

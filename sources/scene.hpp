@@ -11,8 +11,8 @@ namespace glocal {
 /// What is there in reality: things, people, floor and ceiling, and the world's cloud.
 class Scene {
  public:
-  /// Throws ConfigError if the world's cloud is none.
-  explicit Scene(const World& world);
+  /// `cloud`: the world's, if it has one.
+  explicit Scene(World world, std::optional<CloudVoxels> cloud = {});
 
   /// What may be within `reach` (m) of a place at a time (s after the start).
   void look_around(const Position& place, double reach, double time);

@@ -52,6 +52,23 @@ double CloudVoxels::ray_distance(const Vector3& origin, const Vector3& direction
   return distance <= reach ? distance : std::numeric_limits<double>::infinity();
 }
 
+Vector3 CloudVoxels::centre_near(const Vector3& place) const {
+  const auto at = in_cubes(place);
+  const auto centre = [&](double in_cubes) { return (std::floor(in_cubes) + 0.5) * side_; };
+  return corner_ + Vector3{centre(at[0]), centre(at[1]), centre(at[2])};
+}
+
+bool CloudVoxels::is_occupied(const Vector3& place) const {
+  Cube cube{};
+  const auto at = in_cubes(place);
+  for (std::size_t axis = 0; axis < cube.size(); ++axis) {
+    // Negated so that NaN falls outside.
+    if (!(at[axis] >= 0.0 && at[axis] < size_[axis])) return false;
+    cube[axis] = static_cast<int>(at[axis]);
+  }
+  return occupied_[index_of(cube)];
+}
+
 std::array<double, 3> CloudVoxels::in_cubes(const Vector3& place) const {
   const Vector3 from_corner = place - corner_;
   return {from_corner.x / side_, from_corner.y / side_, from_corner.z / side_};

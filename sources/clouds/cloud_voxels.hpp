@@ -23,6 +23,13 @@ class CloudVoxels {
   /// is none within `reach` (m).
   [[nodiscard]] double ray_distance(const Vector3& origin, const Vector3& direction, double reach) const;
 
+  /// Of a cube, m.
+  [[nodiscard]] double side() const { return side_; }
+  /// The centre of the cube around a place, m, whether there is one or not.
+  [[nodiscard]] Vector3 centre_near(const Vector3& place) const;
+  /// Whether the cube around a place holds points.
+  [[nodiscard]] bool is_occupied(const Vector3& place) const;
+
  private:
   using Cube = std::array<int, 3>;
   [[nodiscard]] std::array<double, 3> in_cubes(const Vector3& place) const;

@@ -12,6 +12,7 @@
 #include "files.hpp"
 #include "glocal/catalog.hpp"
 #include "glocal/yaml.hpp"
+#include "octree_files.hpp"
 #include "sources/lidar.hpp"
 #include "sources/scene.hpp"
 #include "sources/simulation.hpp"
@@ -255,6 +256,44 @@ TEST_F(LidarDrive, CastsRaysInACloud) {
       fault("lidar: {beams: 4}\n"),
       HasSubstr("world.yaml: error: way_points: 1 m over the floor the way from [2.80, 3.00] to [3.40, "
                 "3.00] meets a point of the cloud; move the way points, or change floor"));
+}
+
+TEST_F(LidarDrive, MeetsThingsAndPeopleInAnOctree) {
+  // A wall of voxels from x = 6 m to 6.1 m and another one from y = 7 m to 7.1 m, up to 3 m.
+  std::vector<test::TreeLeaf> leaves;
+  for (int i = 0; i < 70; ++i) {
+    for (int z = 0; z < 30; ++z) {
+      leaves.push_back({.x = 32768 + 60, .y = 32768 + i, .z = 32768 + z});
+      leaves.push_back({.x = 32768 + i, .y = 32768 + 70, .z = 32768 + z});
+    }
+  }
+  folder_.write("walls.bt", test::bt_file(leaves, 0.1));
+  const std::string world =
+      "size: [6, 7]\ncloud: walls.bt\nfree_from: [[1, 1]]\nway_points: [[1, 3], [1.5, 3]]\n";
+  params_.lidar = exact(2, -10.0, 0.0, 90.0);
+  const double slope = std::tan(radians(10.0));
+  // From (1, 3, 1), looking along x. Behind and to the right there is nothing; below 10 degrees the walls are
+  // met 5 m away, 0.12 m over the floor, and 4 m away, at 0.29 m.
+  const auto hits_of = [&](const std::string& things) {
+    set_world(world + things);
+    return read_all()[0].observation.scan;
+  };
+  const Scan walls = hits_of("");
+  ASSERT_EQ(walls.hits.size(), 4U);
+  EXPECT_NEAR(norm(hit(walls, 0) - Vector3{5.0, 0.0, -5.0 * slope}), 0.0, 1e-5);
+  EXPECT_NEAR(norm(hit(walls, 1) - Vector3{5.0, 0.0, 0.0}), 0.0, 1e-5);
+  EXPECT_NEAR(norm(hit(walls, 2) - Vector3{0.0, 4.0, -4.0 * slope}), 0.0, 1e-5);
+  EXPECT_NEAR(norm(hit(walls, 3) - Vector3{0.0, 4.0, 0.0}), 0.0, 1e-5);
+  // A box of 0.8 m from x = 3 m on, which the level ray passes over, and somebody of a radius of 0.2 m whose
+  // middle is at y = 5.5 m.
+  const Scan things = hits_of(
+      "rectangles: [{centre: [3.5, 3], size: [1, 1], height: 0.8, on_map: false}]\n"
+      "people: [{points: [[1, 5.5]]}]\n");
+  ASSERT_EQ(things.hits.size(), 4U);
+  EXPECT_NEAR(norm(hit(things, 0) - Vector3{2.0, 0.0, -2.0 * slope}), 0.0, 1e-5);
+  EXPECT_NEAR(norm(hit(things, 1) - Vector3{5.0, 0.0, 0.0}), 0.0, 1e-5);
+  EXPECT_NEAR(norm(hit(things, 2) - Vector3{0.0, 2.3, -2.3 * slope}), 0.0, 1e-5);
+  EXPECT_NEAR(norm(hit(things, 3) - Vector3{0.0, 2.3, 0.0}), 0.0, 1e-5);
 }
 
 TEST_F(LidarDrive, SaysWhatIsWrong) {

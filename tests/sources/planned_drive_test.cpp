@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "glocal/yaml.hpp"
+#include "octree_files.hpp"
 #include "sources/plan.hpp"
+#include "sources/scene.hpp"
 #include "sources/simulation.hpp"
 #include "sources/world_grid.hpp"
 
@@ -256,17 +259,154 @@ TEST(PlannedDrive, ShowsBoxesToALidar) {
   EXPECT_GT(on_boxes, 500U);
 }
 
-TEST(PlannedDrive, RefusesBoxesInACloud) {
-  const test::TemporaryFolder folder;
-  folder.write("cloud.pcd", "");
-  DriveParams params;
-  params.world = test::file_path(folder.write("world.yaml", std::string(hall) + "cloud: cloud.pcd\n"));
-  params.people = 1;
-  EXPECT_EQ(
-      test::config_error(params.world.resolved.parent_path(),
-                         [&] { static_cast<void>(planned_drive(params, {})); }),
-      "world.yaml: error: cloud: nobody knows where it is free within a cloud; leave out boxes and people, "
-      "or list them in the file of the world");
+/// A hall of 20 m x 8 m whose floor at -0.5 m, wall along y = 6 m and pillar are voxels of 0.1 m.
+class OctreeHall : public testing::Test {
+ protected:
+  OctreeHall() {
+    std::vector<test::TreeLeaf> leaves;
+    const auto put = [&](int x, int y, int z) {
+      leaves.push_back({.x = 32768 + x, .y = 32768 + y, .z = 32768 + z});
+    };
+    for (int x = 0; x < 200; ++x) {
+      for (int y = 0; y < 80; ++y) put(x, y, -5);
+      for (int z = -4; z < 20; ++z) put(x, 60, z);
+    }
+    for (int z = -4; z < 20; ++z) put(100, 30, z);
+    folder_.write("hall.bt", test::bt_file(leaves, 0.1));
+    params_.world =
+        test::file_path(folder_.write("world.yaml",
+                                      "size: [20, 8]\ncloud: hall.bt\nfloor: -0.45\nfree_from: [[1, 1]]\n"
+                                      "way_points: [[1, 2], [18, 2]]\n"));
+    params_.boxes = 6;
+    params_.people = 4;
+    params_.lidar.beams = 16;
+    params_.lidar.min_range = 0.0;
+    params_.lidar.noise = params_.lidar.outliers = params_.lidar.dropped = 0.0;
+  }
+
+  test::TemporaryFolder folder_;
+  DriveParams params_;
+};
+
+/// Distance to a box on a floor, by the slabs between its pairs of faces; infinite if it is not met.
+double distance_to_box(const Rectangle& box, double floor, const Vector3& origin, const Vector3& direction) {
+  const Pose3 map_from_box({box.centre[0], box.centre[1], floor}, turn_about_z(radians(box.angle_deg)));
+  const Vector3 from = inverse(map_from_box) * origin;
+  const Vector3 along = rotated(inverse(map_from_box).rotation, direction);
+  double enter = 0.0;
+  double leave = 1e9;
+  const auto cut = [&](double low, double high, double at, double step) {
+    enter = std::max(enter, std::min((low - at) / step, (high - at) / step));
+    leave = std::min(leave, std::max((low - at) / step, (high - at) / step));
+  };
+  cut(-box.size[0] / 2.0, box.size[0] / 2.0, from.x, along.x);
+  cut(-box.size[1] / 2.0, box.size[1] / 2.0, from.y, along.y);
+  cut(0.0, box.height, from.z, along.z);
+  return enter < leave ? enter : std::numeric_limits<double>::infinity();
+}
+
+/// The same of a column that is met from outside, by its side or its top.
+double distance_to_column(const Circle& column, double floor, const Vector3& origin,
+                          const Vector3& direction) {
+  const double dx = origin.x - column.centre[0];
+  const double dy = origin.y - column.centre[1];
+  const double a = direction.x * direction.x + direction.y * direction.y;
+  const double b = dx * direction.x + dy * direction.y;
+  const double root = std::sqrt(b * b - a * (dx * dx + dy * dy - column.radius * column.radius));
+  const double to_top = (floor + column.height - origin.z) / direction.z;
+  const double at_side = origin.z + (-b - root) / a * direction.z - floor;
+  if (at_side >= 0.0 && at_side <= column.height && b < 0.0) return (-b - root) / a;
+  const bool is_on_top =
+      to_top > 0.0 && std::hypot(dx + to_top * direction.x, dy + to_top * direction.y) < column.radius;
+  return is_on_top ? to_top : std::numeric_limits<double>::infinity();
+}
+
+TEST_F(OctreeHall, HasBoxesAndPeopleOnItsFloor) {
+  const PlannedDrive drive = planned_drive(params_, {.seed = 3});
+  ASSERT_EQ(drive.world.rectangles.size(), 6U);
+  ASSERT_EQ(drive.world.people.size(), 4U);
+  const Shapes boxes = shapes_in_reality(drive.world);
+  for (const Pose2& pose : drive.route.poses) EXPECT_GE(clearance(boxes, {pose.x, pose.y}), 0.3);
+  const auto expect_free = [](const Position& place, double margin) {
+    EXPECT_GE(place[0], margin);
+    EXPECT_LE(place[0], 20.0 - margin);
+    EXPECT_GE(place[1], margin);
+    EXPECT_LE(place[1], 6.0 - margin) << "not behind the wall";
+    EXPECT_GE(std::max(std::abs(place[0] - 10.05), std::abs(place[1] - 3.05)), 0.05 + margin) << "the pillar";
+  };
+  for (const Rectangle& box : drive.world.rectangles) {
+    EXPECT_FALSE(box.presence.on_map);
+    expect_free({box.centre[0], box.centre[1]}, 0.1);
+  }
+  for (const Segment& side : boxes.segments) expect_free(side.from, 0.0);
+  for (const Walker& walker : drive.world.people) {
+    for (std::size_t i = 1; i < walker.points.size(); ++i) {
+      for (int k = 0; k <= 50; ++k)
+        expect_free(between(walker.points[i - 1], walker.points[i], k / 50.0), 0.15);
+    }
+  }
+  EXPECT_EQ(planned_drive(params_, {.seed = 3}).world.rectangles[0].centre, drive.world.rectangles[0].centre);
+  EXPECT_NE(planned_drive(params_, {.seed = 4}).world.rectangles[0].centre, drive.world.rectangles[0].centre);
+}
+
+TEST_F(OctreeHall, ShowsThemToALidar) {
+  const PlannedDrive drive = planned_drive(params_, {.seed = 3});
+  constexpr double floor = -0.45;
+  std::size_t step = 0;
+  int on_boxes = 0;
+  int on_people = 0;
+  int on_voxels = 0;
+  Scene scene(drive.world, drive.cloud);
+  for (const Pose2& pose : drive.route.poses) {
+    const double time = static_cast<double>(step++) * params_.step_seconds;
+    scene.look_around({pose.x, pose.y}, 30.0, time);
+    for (int ray = 0; ray < 2000; ++ray) {
+      const double azimuth = 0.1 + 2.0 * pi * ray / 100.0;
+      const double elevation = radians(-15.0 + 1.4 * (ray / 100));
+      const Vector3 origin{pose.x, pose.y, floor + 1.0};
+      const Vector3 direction{std::cos(elevation) * std::cos(azimuth),
+                              std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+      double box = std::numeric_limits<double>::infinity();
+      for (const Rectangle& b : drive.world.rectangles)
+        box = std::min(box, distance_to_box(b, floor, origin, direction));
+      double person = std::numeric_limits<double>::infinity();
+      for (const Circle& column : people_at(drive.world, time)) {
+        const double away = std::hypot(column.centre[0] - pose.x, column.centre[1] - pose.y);
+        if (away > column.radius)
+          person = std::min(person, distance_to_column(column, floor, origin, direction));
+      }
+      const double voxel = scene.cloud_distance(origin, direction, 30.0);
+      const double expected = std::min({box, person, voxel});
+      const double distance = scene.ray_distance(origin, direction);
+      if (expected < 30.0) {
+        ASSERT_NEAR(distance, expected, 1e-9) << "step " << step << ", ray " << ray;
+      }
+      on_boxes += box < std::min({person, voxel, 30.0}) ? 1 : 0;
+      on_people += person < std::min({box, voxel, 30.0}) ? 1 : 0;
+      on_voxels += voxel < std::min(box, person) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(on_boxes, 500);
+  EXPECT_GT(on_people, 500);
+  EXPECT_GT(on_voxels, 10000);
+}
+
+TEST_F(OctreeHall, IsReadOnlyByThoseWhoAskForIt) {
+  const auto inputs = [&] {
+    std::vector<std::string> names;
+    SourceSetup setup;
+    setup.note_input = [&](const std::filesystem::path& file) { names.push_back(file.filename()); };
+    static_cast<void>(planned_drive(params_, setup));
+    return names;
+  };
+  const std::vector<std::string> both = {"world.yaml", "hall.bt"};
+  EXPECT_EQ(inputs(), both);
+  params_.boxes = params_.people = 0;
+  EXPECT_EQ(inputs(), both);
+  params_.lidar = {};
+  EXPECT_EQ(inputs(), (std::vector<std::string>{"world.yaml"}));
+  params_.people = 1;
+  EXPECT_EQ(inputs(), both);
 }
 
 TEST(PlannedDrive, NotesTheFilesItReads) {
