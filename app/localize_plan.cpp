@@ -236,10 +236,12 @@ LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& ca
       "  matcher: indexed_ransam\n"
       "  threshold_policy:\n"
       "    fixed: {{omega_max: 0.1}}\n"
-      "  verdict_rule: staged_margin\n",
+      "  verdict_rule: staged_margin\n"
+      "{}",
       entry("name", plan.name), map.yaml, log.yaml, trials_of(request),
       map.in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "",
-      is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "", prior_entry(request.prior));
+      is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "", prior_entry(request.prior),
+      map.in_space ? "" : "  verifier: whole_map\n");
   return plan;
 }
 

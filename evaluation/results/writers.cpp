@@ -128,10 +128,8 @@ std::string trial_line(const TrialRecord& trial) {
   if (trial.pose) json["pose"] = to_json(*trial.pose, trial.motion);
   if (trial.error) add_error(json, *trial.error);
   if (trial.estimate) add_estimate(json, *trial.estimate, trial.nees);
-  if (trial.verification && trial.verification->certificate) {
+  if (trial.verification && trial.verification->certificate)
     json["certificate"] = to_json(*trial.verification, *trial.verification->certificate);
-    json["verify_ms"] = trial.verify_ms;
-  }
   json["why"] = trial.why;
   return json.dump() + "\n";
 }

@@ -129,7 +129,6 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
     if (record.pose) continue;
     record.steps = i - start_sample + 1;
     record.distance_m = drive.path_m[i] - record.start_m;
-    record.verify_ms += step.result.stage_ms.verify;
     record.why = step.result.verdict.why;
     if (step.result.verdict.kind == VerdictKind::localized) declare(record, step, experiment.evaluation);
   }

@@ -46,8 +46,7 @@ struct TrialRecord {
   std::optional<PoseError> error;            ///< Of the declared pose.
   std::optional<PoseEstimate> estimate;      ///< Of the rule that declared it, where it has one.
   std::optional<double> nees;                ///< Normalised error squared of that, where it has a covariance.
-  std::optional<Verification> verification;  ///< Of the declaration, where it was verified …
-  double verify_ms = 0.0;                    ///< … and how long that took, with what was refuted before.
+  std::optional<Verification> verification;  ///< Of the declaration, where it was verified.
   std::string why;  ///< Of the declaration, of the exception, or else of the last step.
   std::vector<StepRecord>
       records;  ///< Every step, also those after the declaration. Local maps are not kept.

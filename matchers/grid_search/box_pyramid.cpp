@@ -7,7 +7,10 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 
+#include "glocal/parallel.hpp"
 #include "matchers/grid_search/pose_grid.hpp"
 
 namespace glocal {
@@ -27,7 +30,7 @@ void slide(int cells, int behind, int ahead, Entered entered, Mark mark) {
 
 /// Windows of `behind` + `ahead` cells on either axis, of which `behind` come before the cell that names
 /// them.
-Windows widened(Windows cells, int behind, int ahead) {
+Windows widened(const Windows& cells, int behind, int ahead) {
   constexpr int never = std::numeric_limits<int>::min() / 2;
   const int columns = static_cast<int>(cells.width);
   const int rows = static_cast<int>(cells.height);
@@ -138,16 +141,23 @@ CellPoints PoseBoxes::middle_cells(std::size_t rotation) const {
   return cells;
 }
 
-BoxPyramid::BoxPyramid(const Points& map_points, double cell, double epsilon, int top_level)
+BoxPyramid::BoxPyramid(const Points& map_points, double cell, double epsilon, int top_level, int threads)
     : frame_(cell_frame(map_points, cell, epsilon + cell)),
       middles_(0, cells_near(map_points, frame_, epsilon, false, 0, Motion::planar)) {
   const Windows cells = cells_near(map_points, frame_, epsilon, true, 0, Motion::planar);
+  std::vector<std::pair<int, int>> levels_and_groups;
   for (int level = 0; level <= top_level; ++level) {
-    std::vector<WindowBits> groups;
     for (int group = 1; group <= PoseBoxes::groups(level); ++group)
-      groups.emplace_back(level, widened(cells, PoseBoxes::wider(level, group), 1 << level));
-    levels_.push_back(std::move(groups));
+      levels_and_groups.emplace_back(level, group);
   }
+  std::vector<std::optional<WindowBits>> bits(levels_and_groups.size());
+  parallel_for(threads, bits.size(), [&](std::size_t i) {
+    const auto [level, group] = levels_and_groups[i];
+    bits[i].emplace(level, widened(cells, PoseBoxes::wider(level, group), 1 << level));
+  });
+  levels_.resize(static_cast<std::size_t>(top_level) + 1);
+  for (std::size_t i = 0; i < bits.size(); ++i)
+    levels_[static_cast<std::size_t>(levels_and_groups[i].first)].push_back(std::move(*bits[i]));
 }
 
 /// At the middle of a box a point lies in the middle one of three cells along either axis, or half a cell
@@ -183,12 +193,13 @@ void BoxPyramid::count_middles(const CellPoints& points, int column, int row, Ti
   middles_.add(points, column, row, 0, 0, 0, counts);
 }
 
-std::shared_ptr<const BoxPyramid> box_pyramid(const GlobalMap& map, double cell, double epsilon) {
+std::shared_ptr<const BoxPyramid> box_pyramid(const GlobalMap& map, double cell, double epsilon,
+                                              int threads) {
   check_cell(cell, epsilon);
   constexpr double top_box = 0.4;  // m; larger ones bound nothing indoors
   const int top_level = std::max(0, static_cast<int>(std::lround(std::log2(top_box / cell))));
   return map.index<BoxPyramid>(fmt::format("{} {}", cell, epsilon),
-                               [&] { return BoxPyramid(map.points(), cell, epsilon, top_level); });
+                               [&] { return BoxPyramid(map.points(), cell, epsilon, top_level, threads); });
 }
 
 }  // namespace glocal

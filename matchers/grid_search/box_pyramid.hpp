@@ -62,7 +62,8 @@ class BoxPyramid {
   static constexpr int default_top_level = 3;
 
   /// `cell` and `epsilon` in m. Throws ConfigError if it would need more than 1 GiB.
-  BoxPyramid(const Points& map_points, double cell, double epsilon, int top_level = default_top_level);
+  BoxPyramid(const Points& map_points, double cell, double epsilon, int top_level = default_top_level,
+             int threads = 1);
 
   [[nodiscard]] const CellFrame& frame() const { return frame_; }
   [[nodiscard]] int top_level() const { return static_cast<int>(levels_.size()) - 1; }
@@ -87,7 +88,7 @@ class BoxPyramid {
 };
 
 /// The pyramid over a map, built once per map.
-[[nodiscard]] std::shared_ptr<const BoxPyramid> box_pyramid(const GlobalMap& map, double cell,
-                                                            double epsilon);
+[[nodiscard]] std::shared_ptr<const BoxPyramid> box_pyramid(const GlobalMap& map, double cell, double epsilon,
+                                                            int threads);
 
 }  // namespace glocal

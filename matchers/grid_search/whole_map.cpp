@@ -57,7 +57,7 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
       threads_(setup.threads),
       contact_(contact_index(*setup.map, "kd_tree", epsilon_)),
       field_(distance_field(*setup.map, field_cell)),
-      pyramid_(box_pyramid(*setup.map, params.cell, epsilon_)) {}
+      pyramid_(box_pyramid(*setup.map, params.cell, epsilon_, setup.threads)) {}
 
 std::optional<Verification> WholeMap::verify(const LocalMap& local, const Pose3& map_from_local,
                                              const PoseGate& gate) {

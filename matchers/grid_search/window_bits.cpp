@@ -201,19 +201,26 @@ WindowBits::WindowBits(int level, const Windows& windows)
   rows_ = last_row_ + TileCounts::rows;
   layer_words_ = (words_ * rows_) << (2 * level);
   bits_.assign(static_cast<std::size_t>(layer_words_) * windows.depth, 0);
-  for (std::size_t i = 0; i < windows.bytes.size(); ++i) {
-    if (windows.bytes[i] == 0) continue;
-    const std::size_t line_of_windows = i / windows.width;
-    const int column = static_cast<int>(i % windows.width) - windows.columns_before;
-    const int row = static_cast<int>(line_of_windows % windows.height) - windows.rows_before;
-    const std::size_t layer = line_of_windows / windows.height;
-    const auto phase = static_cast<std::size_t>(low_bits(row, level) << level | low_bits(column, level));
-    const int bit = (column >> level) + TileCounts::columns;
-    const int line = (row >> level) + TileCounts::rows;
-    const std::size_t column_of_words =
-        phase * static_cast<std::size_t>(words_) + static_cast<std::size_t>(bit / word_bits);
-    bits_[layer * static_cast<std::size_t>(layer_words_) + column_of_words * static_cast<std::size_t>(rows_) +
-          static_cast<std::size_t>(line)] |= std::uint64_t{1} << (bit % word_bits);
+  const std::uint8_t* byte = windows.bytes.data();
+  for (std::size_t layer = 0; layer < windows.depth; ++layer) {
+    for (std::size_t line = 0; line < windows.height; ++line, byte += windows.width)
+      add_row(layer, static_cast<int>(line) - windows.rows_before, byte, windows);
+  }
+}
+
+void WindowBits::add_row(std::size_t layer, int row, const std::uint8_t* bytes, const Windows& windows) {
+  const auto word_of = [&](int column) {
+    const auto phase = static_cast<std::size_t>(low_bits(row, level_) << level_ | low_bits(column, level_));
+    const auto bit = static_cast<std::size_t>((column >> level_) + TileCounts::columns);
+    const std::size_t column_of_words = phase * static_cast<std::size_t>(words_) + bit / word_bits;
+    return column_of_words * static_cast<std::size_t>(rows_);
+  };
+  std::uint64_t* line = bits_.data() + layer * static_cast<std::size_t>(layer_words_) +
+                        static_cast<std::size_t>((row >> level_) + TileCounts::rows);
+  for (std::size_t i = 0; i < windows.width; ++i) {
+    if (bytes[i] == 0) continue;
+    const int column = static_cast<int>(i) - windows.columns_before;
+    line[word_of(column)] |= std::uint64_t{1} << static_cast<unsigned>(low_bits(column >> level_, 6));
   }
 }
 

@@ -79,10 +79,15 @@ struct Windows {
   std::vector<std::uint8_t> bytes =
       std::vector<std::uint8_t>(width * height * depth);  ///< Columns, then rows, then layers.
 
-  [[nodiscard]] std::uint8_t& at(int column, int row, int layer) {
+  [[nodiscard]] std::uint8_t& at(int column, int row, int layer) { return bytes[index(column, row, layer)]; }
+  [[nodiscard]] std::uint8_t at(int column, int row, int layer) const {
+    return bytes[index(column, row, layer)];
+  }
+
+  [[nodiscard]] std::size_t index(int column, int row, int layer) const {
     const auto line = static_cast<std::size_t>(layer + layers_before) * height +
                       static_cast<std::size_t>(row + rows_before);
-    return bytes[line * width + static_cast<std::size_t>(column + columns_before)];
+    return line * width + static_cast<std::size_t>(column + columns_before);
   }
 };
 
@@ -106,6 +111,8 @@ class WindowBits {
   [[nodiscard]] std::size_t memory_bytes() const { return bits_.size() * sizeof(std::uint64_t); }
 
  private:
+  void add_row(std::size_t layer, int row, const std::uint8_t* bytes, const Windows& windows);
+
   int level_;
   int layers_before_;
   bool in_space_;

@@ -263,7 +263,10 @@ void Localizer::verify(StepResult& result, const LocalMap& local) {
     if (verification) check_verification(*verification, motion_);
   });
   is_verified_ = true;
-  if (!verification) return;
+  if (!verification) {
+    result.stage_ms.verify = 0.0;
+    return;
+  }
   in_stage(stages_.matcher, result.step, [&] {
     timed(result.stage_ms.verify,
           [&] { verification->rivals = matcher_->take_up(std::move(verification->rivals), local); });

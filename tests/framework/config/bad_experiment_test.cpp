@@ -122,7 +122,7 @@ TEST_F(ExperimentFile, AStageThatCannotDoTheMotionIsNamedWhereItIsChosen) {
                                "upright"));
   EXPECT_THAT(faults, Contains(HasSubstr("the clusterer 'hierarchical_kmeans' can do the motion planar, not "
                                          "upright; set localizer.motion to planar, or take able")));
-  EXPECT_THAT(faults, SizeIs(6));
+  EXPECT_THAT(faults, SizeIs(7));
   EXPECT_THAT(
       faults_of(replaced(valid, "localizer:\n", "localizer:\n  motion: sideways\n")),
       ElementsAre("e.yaml:10:11: error: localizer: motion: 'sideways' is not one of planar, upright, free"));
@@ -464,7 +464,7 @@ TEST_F(ExperimentFile, DefaultThatIsNotRegisteredMustBeReplaced) {
     static_cast<void>(read_experiment(file, {}, poor));
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
-    ASSERT_EQ(error.faults().size(), 6U);
+    ASSERT_EQ(error.faults().size(), 7U);
     EXPECT_EQ(without_folder(to_string(error.faults()[2])),
               "e.yaml:1:1: error: localizer: matcher: the default matcher 'ransam' does not exist; name "
               "another (there are: other)");

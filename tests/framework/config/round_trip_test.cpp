@@ -151,6 +151,7 @@ localizer:
   rater: cluster_rating
   threshold_policy: sliding_window
   verdict_rule: consecutive_rating
+  verifier: none
   unknown_place:
 )";
   const std::string written = effective_yaml(e, catalog_);
