@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <variant>
 
 #include "app/interrupts.hpp"
@@ -27,10 +30,18 @@ void CloudFolderWriter::write(const DriveScan& scan) {
                         "name OUT *.mcap"}});
   const std::string stamp =
       fmt::format("{}.{:06}", scan.stamp_ns / 1'000'000'000, scan.stamp_ns / 1000 % 1'000'000);
-  folder_.append(stamp + ".pcd", pcd(cloud->points));
+  folder_.append(below_ / (stamp + ".pcd"), pcd(cloud->points));
   const auto line = [&](const Pose3& pose) { return fmt::format("{} {}\n", stamp, tum_text(pose)); };
-  folder_.append("odometry.tum", line(scan.odom_from_robot));
-  if (scan.map_from_robot) folder_.append("reference.tum", line(*scan.map_from_robot));
+  folder_.append(below_ / "odometry.tum", line(scan.odom_from_robot));
+  if (scan.map_from_robot) folder_.append(below_ / "reference.tum", line(*scan.map_from_robot));
+}
+
+std::string mount_yaml(const Pose3& robot_from_sensor) {
+  const std::array<double, 9> m = matrix_of(robot_from_sensor.rotation);
+  return fmt::format(
+      "{{x: {:.6g}, y: {:.6g}, z: {:.6g}, roll_deg: {:.6g}, pitch_deg: {:.6g}, yaw_deg: {:.6g}}}",
+      robot_from_sensor.x, robot_from_sensor.y, robot_from_sensor.z, degrees(std::atan2(m[7], m[8])),
+      degrees(std::asin(std::clamp(0.0 - m[6], -1.0, 1.0))), degrees(std::atan2(m[3], m[0])));
 }
 
 }  // namespace glocal::app

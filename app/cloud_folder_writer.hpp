@@ -1,8 +1,10 @@
 // Drives of clouds, written as a folder.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "evaluation/results/output_folder.hpp"
 #include "sources/conversion/drive_stream.hpp"
@@ -13,8 +15,9 @@ namespace glocal::app {
 /// poses as odometry.tum and, where there are any, reference.tum. Times of points are left out.
 class CloudFolderWriter final : public DriveWriter {
  public:
-  /// `file`: where the drive comes from, for what is said of it.
-  CloudFolderWriter(OutputFolder& folder, std::string file) : folder_(folder), file_(std::move(file)) {}
+  /// `file`: where the drive comes from, for what is said of it. `below`: the folder's part to write to.
+  CloudFolderWriter(OutputFolder& folder, std::string file, std::filesystem::path below = {})
+      : folder_(folder), file_(std::move(file)), below_(std::move(below)) {}
 
   /// Throws ConfigError for planar scans, and for a sensor that moves on the robot.
   void write(const DriveScan& scan) override;
@@ -26,7 +29,11 @@ class CloudFolderWriter final : public DriveWriter {
  private:
   OutputFolder& folder_;
   std::string file_;
+  std::filesystem::path below_;
   std::optional<Pose3> robot_from_sensor_;
 };
+
+/// The sensor's place as experiments have it: "{x: 0.1, y: 0, …}".
+[[nodiscard]] std::string mount_yaml(const Pose3& robot_from_sensor);
 
 }  // namespace glocal::app

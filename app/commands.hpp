@@ -38,6 +38,7 @@ void add_localize(CLI::App& app, Context& context);
 void add_map(CLI::App& app, Context& context);
 void add_mapping(CLI::App& app, Context& context);
 void add_new_plugin(CLI::App& app, Context& context);
+void add_prepare(CLI::App& app, Context& context);
 void add_reference(CLI::App& app, Context& context);
 void add_register(CLI::App& app, Context& context);
 void add_reliability(CLI::App& app, Context& context);

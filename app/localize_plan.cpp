@@ -194,24 +194,14 @@ std::string prior_entry(const Prior& prior) {
   return fmt::format("  prior: {{{}}}\n", fmt::join(keys, ", "));
 }
 
-/// Letters, digits, '_' and '-' of a file's name.
-std::string name_of(const fs::path& log) {
-  std::string name = fs::absolute(log).lexically_normal().filename().string();
-  if (name.empty()) name = fs::absolute(log).lexically_normal().parent_path().filename().string();
-  name = name.substr(0, name.find('.'));
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-') c = '_';
-  }
-  constexpr std::size_t longest = 80;
-  return name.empty() ? "drive" : "localize_" + name.substr(0, longest);
-}
-
 }  // namespace
 
 LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& catalog) {
   const MapChoice map = choose_map(request.map, catalog);
   const LogChoice log = choose_log(request, map);
-  LocalizePlan plan{.name = name_of(request.log), .experiment = {}, .choices = {"map         " + map.text}};
+  LocalizePlan plan{.name = "localize_" + plain_name(request.log),
+                    .experiment = {},
+                    .choices = {"map         " + map.text}};
   plan.choices.insert(plan.choices.end(), log.texts.begin(), log.texts.end());
   // Plans and sensors are off by centimetres, however fine a map's cells are.
   constexpr double finest = 0.05, least_epsilon = 0.1;  // m
@@ -231,18 +221,24 @@ LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& ca
       "observations:\n"
       "  {}"
       "trials: {{{}}}\n"
+      "{}",
+      entry("name", plan.name), map.yaml, log.yaml, trials_of(request),
+      default_localizer(map.in_space, (is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "") +
+                                          prior_entry(request.prior)));
+  return plan;
+}
+
+std::string default_localizer(bool in_space, const std::string& more) {
+  return fmt::format(
       "localizer:\n"
-      "{}{}{}"
+      "{}{}"
       "  matcher: indexed_ransam\n"
       "  threshold_policy:\n"
       "    fixed: {{omega_max: 0.1}}\n"
       "  verdict_rule: staged_margin\n"
       "{}",
-      entry("name", plan.name), map.yaml, log.yaml, trials_of(request),
-      map.in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "",
-      is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "", prior_entry(request.prior),
-      map.in_space ? "" : "  verifier: whole_map\n");
-  return plan;
+      in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "", more,
+      in_space ? "" : "  verifier: whole_map\n");
 }
 
 }  // namespace glocal::app

@@ -34,4 +34,7 @@ struct LocalizePlan {
 /// ConfigError for what is none of these, and where a reader does.
 [[nodiscard]] LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& catalog);
 
+/// The localizer's part of an experiment that fits most robots and maps; `more`: further lines of it.
+[[nodiscard]] std::string default_localizer(bool in_space, const std::string& more);
+
 }  // namespace glocal::app

@@ -1,6 +1,7 @@
 #include "app/log_kind.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "glocal/error.hpp"
 #include "sources/bags/recording.hpp"
@@ -32,6 +33,17 @@ fs::path odometry_of_clouds(const fs::path& folder) {
     if (fs::exists(folder / name)) return folder / name;
   }
   return {};
+}
+
+std::string plain_name(const fs::path& log) {
+  const fs::path path = fs::absolute(log).lexically_normal();
+  std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  name = name.substr(0, name.find('.'));
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-') c = '_';
+  }
+  constexpr std::size_t longest = 80;
+  return name.empty() ? "drive" : name.substr(0, longest);
 }
 
 }  // namespace glocal::app

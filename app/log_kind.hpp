@@ -18,6 +18,10 @@ void expect_there(const std::filesystem::path& path);
 /// The file of odometry in a folder of clouds; empty if there is none.
 [[nodiscard]] std::filesystem::path odometry_of_clouds(const std::filesystem::path& folder);
 
+/// A name for an experiment: what is before the first dot of a file's name or a folder's, at most 80 letters,
+/// digits, '_' and '-'; "drive" if there is nothing.
+[[nodiscard]] std::string plain_name(const std::filesystem::path& log);
+
 /// Reference poses of a recording are named by a topic, which begins with a slash, or a frame of tf.
 [[nodiscard]] inline bool is_topic(const std::string& name) {
   return name.starts_with('/');

@@ -35,6 +35,7 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_map(app, context);
   add_bag(app, context);
   add_convert(app, context);
+  add_prepare(app, context);
   add_mapping(app, context);
   add_new_plugin(app, context);
 }

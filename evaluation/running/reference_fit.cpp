@@ -19,6 +19,12 @@ std::vector<std::size_t> evenly(std::size_t n, std::size_t most) {
   return picked;
 }
 
+/// Adds so many hits of a scan, evenly spread, at a pose.
+void place_hits(const Scan& scan, const Pose3& map_from_robot, std::size_t most, Points& ends) {
+  const Points placed = moved(scan.hits, map_from_robot);
+  for (const std::size_t k : evenly(placed.size(), most)) ends.push_back(placed[k]);
+}
+
 }  // namespace
 
 std::optional<double> reference_fit(const Drive& drive, const GlobalMap& map, double epsilon) {
@@ -29,12 +35,26 @@ std::optional<double> reference_fit(const Drive& drive, const GlobalMap& map, do
   }
   if (judged.empty()) return std::nullopt;
   Points ends;
-  for (const std::size_t i : evenly(judged.size(), scans)) {
-    const Points placed = moved(judged[i]->observation.scan.hits, *judged[i]->map_from_robot);
-    for (const std::size_t k : evenly(placed.size(), hits_of_scan)) ends.push_back(placed[k]);
-  }
+  for (const std::size_t i : evenly(judged.size(), scans))
+    place_hits(judged[i]->observation.scan, *judged[i]->map_from_robot, hits_of_scan, ends);
   // Not one of the map's indexes, whose time to build is counted when a strategy asks for them.
   return KdTreeContact(map.points(), epsilon).share(ends, Transform(Pose2{}));
+}
+
+std::optional<double> fit_among_scans(const Drive& drive,
+                                      const std::function<std::optional<Pose3>(double)>& reference_at,
+                                      double epsilon) {
+  constexpr std::size_t scans = 400, hits_of_scan = 100;
+  Points ends, others;
+  std::size_t placed = 0;
+  const std::vector<std::size_t> picked = evenly(drive.samples.size(), scans);
+  for (const std::size_t i : picked) {
+    const Observation& observation = drive.samples[i].observation;
+    const auto pose = reference_at(observation.stamp);
+    if (pose) place_hits(observation.scan, *pose, hits_of_scan, ++placed % 2 == 0 ? others : ends);
+  }
+  if (ends.empty() || others.empty() || 2 * placed < picked.size()) return std::nullopt;
+  return KdTreeContact(others, epsilon).share(ends, Transform(Pose2{}));
 }
 
 std::optional<std::string> doubt_of_references(const Drive& drive, const GlobalMap& map, double epsilon) {

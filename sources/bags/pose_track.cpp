@@ -1,6 +1,7 @@
 #include "sources/bags/pose_track.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace glocal::bags {
 
@@ -17,9 +18,7 @@ void PoseTrack::settle() {
 
 std::optional<Pose3> PoseTrack::at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
   if (is_still_) return poses_.front().second;
-  const auto after =
-      std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,
-                       [](const auto& pose, std::int64_t stamp) { return pose.first < stamp; });
+  const auto after = not_before(stamp_ns);
   if (after == poses_.end()) return std::nullopt;
   if (after->first == stamp_ns) return after->second;
   if (after == poses_.begin()) return std::nullopt;
@@ -28,6 +27,21 @@ std::optional<Pose3> PoseTrack::at(std::int64_t stamp_ns, std::int64_t max_gap_n
   const double share =
       static_cast<double>(stamp_ns - before->first) / static_cast<double>(after->first - before->first);
   return EvenMotion(before->second, after->second).at(share);
+}
+
+std::optional<Pose3> PoseTrack::nearest(std::int64_t stamp_ns, std::int64_t max_difference_ns) const {
+  const auto after = not_before(stamp_ns);
+  const auto difference = [&](auto pose) { return std::abs(pose->first - stamp_ns); };
+  auto best = after;
+  if (after != poses_.begin() && (after == poses_.end() || difference(after - 1) < difference(after)))
+    best = after - 1;
+  if (best == poses_.end() || difference(best) > max_difference_ns) return std::nullopt;
+  return best->second;
+}
+
+PoseTrack::Poses::const_iterator PoseTrack::not_before(std::int64_t stamp_ns) const {
+  return std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,
+                          [](const auto& pose, std::int64_t stamp) { return pose.first < stamp; });
 }
 
 }  // namespace glocal::bags

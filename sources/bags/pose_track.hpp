@@ -37,15 +37,26 @@ class PoseTrack {
   void settle();
 
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
+  /// The first stamp and the last one. There must be a pose.
+  [[nodiscard]] std::pair<std::int64_t, std::int64_t> span() const {
+    return {poses_.front().first, poses_.back().first};
+  }
   /// Whether all poses are the same one.
   [[nodiscard]] bool is_still() const { return is_still_; }
 
   /// The pose at a time: between two that are at most `max_gap_ns` apart, as an even motion has it. A track
   /// that is still has its pose at all times. None otherwise.
   [[nodiscard]] std::optional<Pose3> at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
+  /// The pose whose stamp is nearest to a time; none if it differs by more than `max_difference_ns`.
+  [[nodiscard]] std::optional<Pose3> nearest(std::int64_t stamp_ns, std::int64_t max_difference_ns) const;
 
  private:
-  std::vector<std::pair<std::int64_t, Pose3>> poses_;
+  using Poses = std::vector<std::pair<std::int64_t, Pose3>>;
+
+  /// The first pose that is not before a time.
+  [[nodiscard]] Poses::const_iterator not_before(std::int64_t stamp_ns) const;
+
+  Poses poses_;
   bool is_still_ = false;
 };
 

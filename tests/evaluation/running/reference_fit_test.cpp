@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace glocal::test::reference_fit_test {
@@ -38,6 +39,31 @@ TEST(ReferenceFit, IsTheShareOfHitsOnTheMap) {
   EXPECT_DOUBLE_EQ(*reference_fit(drive(7, {}), wall(), 0.1), 0.7);
   EXPECT_DOUBLE_EQ(*reference_fit(drive(10, {}), wall(), 0.1), 1.0);
   EXPECT_DOUBLE_EQ(*reference_fit(drive(10, {0.2, 0.0, 0.0}), wall(), 0.1), 0.0);
+}
+
+TEST(ReferenceFit, ScansFitEachOtherWhereTheyWereMade) {
+  Drive along = drive(10, {});
+  for (std::size_t i = 0; i < along.samples.size(); ++i)
+    along.samples[i].observation.stamp = static_cast<double>(i);
+  const auto fit_with_shift = [&](double shift_s) {
+    return fit_among_scans(
+        along,
+        [&](double stamp) -> std::optional<Pose3> {
+          return Pose2{std::exp(stamp - shift_s), 0.0, 0.0};
+        },
+        0.05);
+  };
+  for (std::size_t i = 0; i < along.samples.size(); ++i) {
+    Points hits;
+    for (int k = 0; k < 10; ++k)
+      hits.push_back(
+          {static_cast<float>(30.0 - std::exp(static_cast<double>(i))), 0.2F * static_cast<float>(k), 0.0F});
+    along.samples[i].observation.scan.hits = hits;
+  }
+  EXPECT_DOUBLE_EQ(*fit_with_shift(0.0), 1.0);
+  EXPECT_DOUBLE_EQ(*fit_with_shift(0.2), 0.0);
+  const auto nowhere = [](double stamp) { return stamp < 1.0 ? std::optional(Pose3{}) : std::nullopt; };
+  EXPECT_FALSE(fit_among_scans(along, nowhere, 0.05));
 }
 
 TEST(ReferenceFit, OnlyReferencesOfAnotherFrameAreDoubted) {

@@ -1,0 +1,36 @@
+// A recorded drive on the command line, and what of it is to be read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "app/log_kind.hpp"
+#include "glocal/catalog.hpp"
+#include "sources/conversion/carmen_drive.hpp"
+#include "sources/conversion/drive_stream.hpp"
+
+namespace glocal::app {
+
+struct DriveOptions {
+  std::string file;
+  std::string scans, odometry, odom_frame, base_frame, reference;
+  double max_range = sick_range;
+
+  /// Adds the file, as `name`, and all others. This object must live as long as the command.
+  void add_to(CLI::App& command, const std::string& name);
+
+  /// Throws ConfigError for the first option that was given: `why` this input has no use for them.
+  void refuse_choices(const std::string& why) const;
+
+  /// Opens the drive, whatever it is. Throws ConfigError where kind_of_log() and the readers do, and for
+  /// options that the input has no use for.
+  [[nodiscard]] std::unique_ptr<DriveReader> open(const Warn& warn) const;
+
+  /// The files that are read, but for single clouds.
+  [[nodiscard]] std::set<std::filesystem::path> inputs() const;
+};
+
+}  // namespace glocal::app
