@@ -1,12 +1,16 @@
 #include "sources/bags/recording.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "sources/bags/bag_folder.hpp"
 #include "sources/bags/mcap.hpp"
 #include "sources/bags/ros1_bag.hpp"
 #include "sources/bags/sqlite_bag.hpp"
+#include "sources/bags/unpacked.hpp"
 
 namespace glocal::bags {
 
@@ -27,23 +31,14 @@ std::string normal_type(std::string_view type) {
 
 namespace {
 
-/// The files of a ROS 2 recording's folder, in order; none if it is none.
-std::vector<fs::path> files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const fs::path extension = entry.path().extension();
-    if (extension == ".db3" || extension == ".mcap") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 std::unique_ptr<RecordingFile> open_file(const fs::path& file, const Note& note) {
   const FileBytes bytes(file);
   const std::string_view beginning = bytes.peek(0);
   if (is_ros1_bag(beginning)) return open_ros1_bag(file, note);
   if (is_mcap(beginning)) return open_mcap(file, note);
   if (is_sqlite(beginning)) return open_sqlite_bag(file);
+  if (is_zstd(beginning))
+    bytes.refuse(0, fmt::format("is compressed as a whole; unpack it: zstd -d {}", file.string()));
   bytes.refuse(0, beginning.empty()
                       ? "the file is empty; get a fresh copy"
                       : "begins like no recording; bags of ROS 1 (.bag) and ROS 2 (.db3) and MCAP can "
@@ -53,7 +48,7 @@ std::unique_ptr<RecordingFile> open_file(const fs::path& file, const Note& note)
 }  // namespace
 
 bool is_recording(const fs::path& path) {
-  if (fs::is_directory(path)) return !files_in(path).empty();
+  if (fs::is_directory(path)) return is_bag_folder(path);
   const FileBytes bytes(path);
   const std::string_view beginning = bytes.peek(0);
   return is_ros1_bag(beginning) || is_mcap(beginning) || is_sqlite(beginning);
@@ -65,11 +60,11 @@ Recording::Recording(const fs::path& path)
   if (!fs::is_directory(path)) {
     open(path);
   } else {
-    const std::vector<fs::path> files = files_in(path);
-    if (files.empty())
-      throw ConfigError(
-          {{path.string(), 0, 0, "is a folder without .db3 or .mcap files; a recording of ROS 2 has them"}});
-    for (const fs::path& file : files) open(file);
+    const BagFolder folder = read_bag_folder(path);
+    *warnings_ = folder.warnings;
+    announced_ = folder.messages;
+    metadata_of_ = path.string();
+    for (const fs::path& file : folder.files) open(file);
   }
   rewind();
 }
@@ -78,10 +73,12 @@ Recording::~Recording() = default;
 Recording::Recording(Recording&&) noexcept = default;
 Recording& Recording::operator=(Recording&&) noexcept = default;
 
+void Recording::warn_once(std::vector<std::string>& warnings, const std::string& text) {
+  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
+}
+
 void Recording::open(const fs::path& file) {
-  const auto note = [warnings = warnings_.get()](const std::string& text) {
-    if (std::find(warnings->begin(), warnings->end(), text) == warnings->end()) warnings->push_back(text);
-  };
+  const auto note = [warnings = warnings_.get()](const std::string& text) { warn_once(*warnings, text); };
   auto part = std::make_unique<Part>();
   part->file = open_file(file, note);
   format_ = part->file->format();
@@ -106,6 +103,18 @@ void Recording::rewind(const std::optional<std::set<std::string>>& topics) {
     part->message.reset();
   }
   is_begun_ = false;
+  messages_read_ = 0;
+  messages_announced_ = 0;
+  for (const auto& [topic, messages] : announced_)
+    messages_announced_ += !topics || topics->contains(topic) ? messages : 0;
+}
+
+void Recording::compare_counts() {
+  if (announced_.empty() || messages_read_ == messages_announced_) return;
+  warn_once(*warnings_,
+            fmt::format("{}: metadata.yaml announces {} messages of the topics that were read, and the files "
+                        "have {}; a part may be missing or cut off",
+                        metadata_of_, messages_announced_, messages_read_));
 }
 
 std::optional<RecordedMessage> Recording::next() {
@@ -119,10 +128,19 @@ std::optional<RecordedMessage> Recording::next() {
     if (part->message && (last_ == nullptr || part->message->stamp_ns < last_->message->stamp_ns))
       last_ = part.get();
   }
-  if (last_ == nullptr) return std::nullopt;
+  if (last_ == nullptr) {
+    compare_counts();
+    return std::nullopt;
+  }
+  ++messages_read_;
   const FileMessage& message = *last_->message;
-  return RecordedMessage{&(*connections_)[last_->connections[message.connection]], message.stamp_ns,
-                         message.bytes, message.place};
+  const Connection& connection = (*connections_)[last_->connections[message.connection]];
+  std::string_view bytes = message.bytes;
+  if (connection.encoding == "cdr" && is_zstd(bytes)) {
+    unpacked_ = unpacked_message(bytes, message.place);
+    bytes = unpacked_;
+  }
+  return RecordedMessage{&connection, message.stamp_ns, bytes, message.place};
 }
 
 }  // namespace glocal::bags

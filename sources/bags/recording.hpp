@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -33,7 +34,7 @@ struct RecordedMessage {
   Place place;                ///< Of the bytes, for what is said of them.
 };
 
-/// Whether a path is that of a Recording: a file that begins as one, or a folder with .db3 or .mcap files.
+/// Whether a path is that of a Recording: a file that begins as one, or is_bag_folder().
 /// Throws ConfigError if it can be read neither as a file nor as a folder.
 [[nodiscard]] bool is_recording(const std::filesystem::path& path);
 
@@ -47,8 +48,9 @@ class RecordingFile;
 class Recording {
  public:
   /// Opens a file, whose format its content tells, or a folder of ROS 2 (.db3 or .mcap files that are read as
-  /// one). Throws ConfigError with file, byte, rule and fix for what is no recording, is of version 1, is
-  /// encrypted or damaged. A recording that ends early is read up to its last whole chunk, with a warning.
+  /// one; see read_bag_folder()). Messages that are compressed one by one (zstd) are unpacked. Throws
+  /// ConfigError with file, byte, rule and fix for what is no recording, is of version 1, is encrypted or
+  /// damaged. A recording that ends early is read up to its last whole chunk, with a warning.
   explicit Recording(const std::filesystem::path& path);
   ~Recording();
   Recording(Recording&&) noexcept;
@@ -70,7 +72,10 @@ class Recording {
  private:
   struct Part;
 
+  static void warn_once(std::vector<std::string>& warnings, const std::string& text);
   void open(const std::filesystem::path& file);
+  /// With what metadata.yaml says, once all was read.
+  void compare_counts();
 
   std::string format_;
   std::vector<std::filesystem::path> files_;
@@ -78,8 +83,12 @@ class Recording {
   std::unique_ptr<std::vector<Connection>> connections_;
   std::unique_ptr<std::vector<std::string>> warnings_;
   std::vector<std::unique_ptr<Part>> parts_;
-  Part* last_ = nullptr;   ///< Whose message was given out last.
-  bool is_begun_ = false;  ///< Whether each part has its next message.
+  Part* last_ = nullptr;                            ///< Whose message was given out last.
+  bool is_begun_ = false;                           ///< Whether each part has its next message.
+  std::string unpacked_;                            ///< The last message, if it was compressed by itself.
+  std::map<std::string, std::uint64_t> announced_;  ///< Messages by topic; empty if nobody says it.
+  std::string metadata_of_;                         ///< The folder whose metadata.yaml says it.
+  std::uint64_t messages_announced_ = 0, messages_read_ = 0;  ///< Of the topics that are read.
 };
 
 }  // namespace glocal::bags

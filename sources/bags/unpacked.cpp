@@ -122,4 +122,15 @@ std::string unpacked(std::string_view compression, std::string_view packed, std:
   return std::string(packed);
 }
 
+bool is_zstd(std::string_view beginning) {
+  return beginning.starts_with("\x28\xB5\x2F\xFD");
+}
+
+std::string unpacked_message(std::string_view packed, const Place& place) {
+  const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR)
+    place.refuse(0, "the message's Zstandard data does not say how large it is; get a fresh copy");
+  return unpacked("zstd", packed, size, place);
+}
+
 }  // namespace glocal::bags

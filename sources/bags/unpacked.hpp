@@ -18,4 +18,11 @@ inline constexpr std::uint64_t largest_chunk = 256ULL << 20U;
 [[nodiscard]] std::string unpacked(std::string_view compression, std::string_view packed, std::uint64_t size,
                                    const Place& place);
 
+/// Whether bytes begin as a Zstandard frame, which CDR never does.
+[[nodiscard]] bool is_zstd(std::string_view beginning);
+
+/// A message of ROS 2 that was compressed by itself: a Zstandard frame that says its size. Throws ConfigError
+/// as unpacked() does.
+[[nodiscard]] std::string unpacked_message(std::string_view packed, const Place& place);
+
 }  // namespace glocal::bags

@@ -29,15 +29,15 @@ bool has_good_count(const YamlNode& list, const FieldInfo& info) {
   return list.items.size() >= info.min_items && list.items.size() <= info.max_items;
 }
 
-void read_struct(const YamlNode& node, const std::string& path, AnyParams& params,
-                 std::vector<Fault>& faults);
+void read_struct(const YamlNode& node, const std::string& path, AnyParams& params, std::vector<Fault>& faults,
+                 OtherKeys other_keys);
 
 /// Reads the fields of one struct from one map.
 class MapReader final : public UniformVisitor<MapReader> {
  public:
   /// `path` is the map's, for messages.
-  MapReader(const YamlNode& map, std::string path, std::vector<Fault>& faults)
-      : map_(&map), path_(std::move(path)), faults_(&faults) {}
+  MapReader(const YamlNode& map, std::string path, std::vector<Fault>& faults, OtherKeys other_keys)
+      : map_(&map), path_(std::move(path)), faults_(&faults), other_keys_(other_keys) {}
 
   template <class T>
   void value(std::string_view name, T& v, const FieldInfo& info) {
@@ -78,6 +78,7 @@ class MapReader final : public UniformVisitor<MapReader> {
 
   /// To be called after all fields were visited.
   void report_unknown_keys() {
+    if (other_keys_ == OtherKeys::passed_over) return;
     constexpr std::size_t most = 20;
     std::size_t unknown = 0;
     for (const YamlEntry& entry : map_->entries) {
@@ -99,10 +100,10 @@ class MapReader final : public UniformVisitor<MapReader> {
  private:
   void group(std::string_view name, AnyParams& params, const FieldInfo& info) override {
     if (const YamlNode* node = take(name, info)) {
-      read_struct(*node, joined(path_, name), params, *faults_);
+      read_struct(*node, joined(path_, name), params, *faults_, other_keys_);
     } else if (!given(name) && !info.required) {
       // Left out, which is wrong only if it has something that must be given.
-      read_struct(make_node(NodeKind::null, map_->place), joined(path_, name), params, *faults_);
+      read_struct(make_node(NodeKind::null, map_->place), joined(path_, name), params, *faults_, other_keys_);
     }
   }
 
@@ -122,7 +123,7 @@ class MapReader final : public UniformVisitor<MapReader> {
         AnyList* items;
         std::size_t index;
       } item(list, i);
-      read_struct(node->items[i], path, item, *faults_);
+      read_struct(node->items[i], path, item, *faults_, other_keys_);
     }
   }
 
@@ -249,7 +250,7 @@ class MapReader final : public UniformVisitor<MapReader> {
     choice = registry.choose(chosen);
     const YamlNode defaults = make_node(NodeKind::null, node.place);
     read_struct(is_map ? node.entries.front().value : defaults, joined(joined(path_, name), chosen),
-                *choice.params, *faults_);
+                *choice.params, *faults_, other_keys_);
   }
 
   /// " (there are: a, b)".
@@ -261,20 +262,21 @@ class MapReader final : public UniformVisitor<MapReader> {
   const YamlNode* map_;
   std::string path_;
   std::vector<Fault>* faults_;
+  OtherKeys other_keys_;
   std::vector<std::string> known_;
   std::map<std::string, std::string> gone_;  ///< What became of keys of earlier versions.
   std::vector<std::string> refused_;
 };
 
 /// A null node is a map without keys: everything has its default.
-void read_struct(const YamlNode& node, const std::string& path, AnyParams& params,
-                 std::vector<Fault>& faults) {
+void read_struct(const YamlNode& node, const std::string& path, AnyParams& params, std::vector<Fault>& faults,
+                 OtherKeys other_keys) {
   if (node.kind == NodeKind::invalid) return;
   if (node.kind != NodeKind::map && node.kind != NodeKind::null) {
     faults.push_back(fault_at(node.place, about(path, "expected a map (key: value), got " + name_of(node))));
     return;
   }
-  MapReader reader(node, path, faults);
+  MapReader reader(node, path, faults, other_keys);
   params.visit(reader);
   reader.report_unknown_keys();
 }
@@ -285,8 +287,8 @@ std::shared_ptr<const Origin> origin_of(const std::filesystem::path& file) {
   return std::make_shared<Origin>(Origin{file.string(), std::filesystem::absolute(file).parent_path()});
 }
 
-void read_params(const YamlNode& node, AnyParams& params, std::vector<Fault>& faults) {
-  read_struct(node, "", params, faults);
+void read_params(const YamlNode& node, AnyParams& params, std::vector<Fault>& faults, OtherKeys other_keys) {
+  read_struct(node, "", params, faults, other_keys);
 }
 
 std::vector<std::string> names_of(const RegistryBase& registry) {
@@ -295,10 +297,10 @@ std::vector<std::string> names_of(const RegistryBase& registry) {
   return names;
 }
 
-void read_yaml(const std::filesystem::path& file, AnyParams& params) {
+void read_yaml(const std::filesystem::path& file, AnyParams& params, OtherKeys other_keys) {
   std::vector<Fault> faults;
   if (const auto tree = parse_yaml(read_text_file(file), origin_of(file), faults))
-    read_params(*tree, params, faults);
+    read_params(*tree, params, faults, other_keys);
   if (!faults.empty()) throw ConfigError(std::move(faults));
 }
 

@@ -8,6 +8,7 @@
 #include "config/node.hpp"
 #include "glocal/params.hpp"
 #include "glocal/registry.hpp"
+#include "glocal/yaml.hpp"
 
 namespace glocal {
 
@@ -16,7 +17,8 @@ namespace glocal {
 
 /// Fills the struct; appends a fault for everything that is not as described. Values that are refused or left
 /// out stay as they were.
-void read_params(const YamlNode& node, AnyParams& params, std::vector<Fault>& faults);
+void read_params(const YamlNode& node, AnyParams& params, std::vector<Fault>& faults,
+                 OtherKeys other_keys = OtherKeys::refused);
 
 /// The names of a registry's strategies, sorted.
 [[nodiscard]] std::vector<std::string> names_of(const RegistryBase& registry);
