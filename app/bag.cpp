@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/reading_bar.hpp"
 #include "glocal/pose2.hpp"
 #include "sources/bags/recording_summary.hpp"
 
@@ -81,7 +82,9 @@ Json json_of(const bags::Recording& recording, const bags::RecordingSummary& sum
 }
 
 void info(const BagOptions& options) {
+  ReadingBar bar;
   bags::Recording recording(options.file);
+  recording.tell_progress(bar.call());
   std::vector<std::string> remarks;
   const bags::RecordingSummary summary = bags::summarize_recording(recording, remarks);
   for (const std::string& warning : recording.warnings()) spdlog::warn("{}", warning);

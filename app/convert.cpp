@@ -13,6 +13,7 @@
 #include "app/commands.hpp"
 #include "app/drive_options.hpp"
 #include "app/interrupts.hpp"
+#include "app/reading_bar.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/provenance.hpp"
@@ -79,7 +80,9 @@ void tell(const DriveCounts& counts, const ConvertOptions& options) {
 
 void copy_to_mcap(const ConvertOptions& options) {
   options.in.refuse_choices("all topics of a recording are copied to MCAP");
+  ReadingBar bar;
   bags::Recording recording(options.in.file);
+  recording.tell_progress(bar.call());
   GrowingFile file(options.out, options.force);
   const CopiedRecording copied = copy_recording(recording, file.sink());
   for (const std::string& text : recording.warnings()) warn(text);
@@ -90,7 +93,8 @@ void copy_to_mcap(const ConvertOptions& options) {
 
 void to_mcap(const ConvertOptions& options) {
   if (kind_of_log(options.in.file) == LogKind::recording) return copy_to_mcap(options);
-  const auto reader = options.in.open(warn);
+  ReadingBar bar;
+  const auto reader = options.in.open(warn, bar.call());
   GrowingFile file(options.out, options.force);
   McapDriveWriter writer(reader->sensors(), file.sink());
   const DriveCounts counts = pass_on(*reader, writer, options.in.file, warn);
@@ -104,7 +108,8 @@ void to_carmen(const ConvertOptions& options) {
   if (kind == LogKind::clouds)
     refuse(options.in.file,
            "has clouds, which cannot be written as a CARMEN log: it has planar scans only; name OUT *.mcap");
-  const auto reader = options.in.open(warn);
+  ReadingBar bar;
+  const auto reader = options.in.open(warn, bar.call());
   GrowingFile file(options.out, options.force);
   CarmenDriveWriter writer(options.in.file, file.sink());
   const DriveCounts counts = pass_on(*reader, writer, options.in.file, warn);
@@ -124,7 +129,8 @@ void to_folder(const ConvertOptions& options, const Context& context) {
   if (kind == LogKind::clouds) refuse(options.in.file, "is a folder of clouds already; name OUT *.mcap");
   if (kind == LogKind::carmen)
     refuse(options.in.file, "has planar scans, which are no clouds in space; name OUT *.mcap");
-  const auto reader = options.in.open(warn);
+  ReadingBar bar;
+  const auto reader = options.in.open(warn, bar.call());
   OutputFolder folder(options.out, options.force);
   CloudFolderWriter writer(folder, options.in.file);
   const DriveCounts counts = pass_on(*reader, writer, options.in.file, warn);

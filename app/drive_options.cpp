@@ -14,14 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::unique_ptr<DriveReader> open_recording(const DriveOptions& options, const Warn& warn) {
+std::unique_ptr<DriveReader> open_recording(const DriveOptions& options, const Warn& warn,
+                                            const TellProgress& progress) {
   bags::DriveTopics topics;
   if (!options.scans.empty()) topics.scans = {options.scans};
   topics.odometry = options.odometry;
   topics.odom_frame = options.odom_frame;
   topics.base_frame = options.base_frame;
   (is_topic(options.reference) ? topics.reference : topics.reference_frame) = options.reference;
-  return std::make_unique<RecordingDriveReader>(options.file, topics, warn);
+  return std::make_unique<RecordingDriveReader>(options.file, topics, warn, progress);
 }
 
 std::unique_ptr<DriveReader> open_carmen(const DriveOptions& options) {
@@ -38,7 +39,8 @@ DriveFiles cloud_files(const DriveOptions& options) {
   return files;
 }
 
-std::unique_ptr<DriveReader> open_clouds(const DriveOptions& options, const Warn& warn) {
+std::unique_ptr<DriveReader> open_clouds(const DriveOptions& options, const Warn& warn,
+                                         const TellProgress& progress) {
   for (const auto& [name, value] :
        {std::pair("--scans", options.scans), std::pair("--odom-frame", options.odom_frame),
         std::pair("--base-frame", options.base_frame)}) {
@@ -46,7 +48,7 @@ std::unique_ptr<DriveReader> open_clouds(const DriveOptions& options, const Warn
       throw ConfigError(
           {{options.file, 0, 0, fmt::format("a folder of clouds has no topics: leave out {}", name)}});
   }
-  return std::make_unique<CloudFolderReader>(cloud_files(options), warn);
+  return std::make_unique<CloudFolderReader>(cloud_files(options), warn, progress);
 }
 
 }  // namespace
@@ -78,12 +80,12 @@ void DriveOptions::refuse_choices(const std::string& why) const {
   }
 }
 
-std::unique_ptr<DriveReader> DriveOptions::open(const Warn& warn) const {
+std::unique_ptr<DriveReader> DriveOptions::open(const Warn& warn, const TellProgress& progress) const {
   switch (kind_of_log(file)) {
     case LogKind::recording:
-      return open_recording(*this, warn);
+      return open_recording(*this, warn, progress);
     case LogKind::clouds:
-      return open_clouds(*this, warn);
+      return open_clouds(*this, warn, progress);
     case LogKind::carmen:
       break;
   }

@@ -27,7 +27,7 @@ struct DriveOptions {
 
   /// Opens the drive, whatever it is. Throws ConfigError where kind_of_log() and the readers do, and for
   /// options that the input has no use for.
-  [[nodiscard]] std::unique_ptr<DriveReader> open(const Warn& warn) const;
+  [[nodiscard]] std::unique_ptr<DriveReader> open(const Warn& warn, const TellProgress& progress) const;
 
   /// The files that are read, but for single clouds.
   [[nodiscard]] std::set<std::filesystem::path> inputs() const;

@@ -14,6 +14,7 @@
 #include "app/experiment_options.hpp"
 #include "app/interrupts.hpp"
 #include "app/localize_plan.hpp"
+#include "app/reading_bar.hpp"
 #include "app/report_file.hpp"
 #include "app/run_report.hpp"
 #include "evaluation/results/atomic_file.hpp"
@@ -53,6 +54,7 @@ class Narrator {
                         [this](const TrialRecord& trial) { finish(trial); }, is_interrupted};
     callbacks.note = [](const std::string& text) { spdlog::info(text); };
     callbacks.warn = [](const std::string& text) { spdlog::warn(text); };
+    callbacks.progress = bar_.call();
     return callbacks;
   }
 
@@ -96,6 +98,7 @@ class Narrator {
     }
   }
 
+  ReadingBar bar_;
   const Drive* drive_ = nullptr;
   Motion motion_ = Motion::planar;
   bool tells_steps_ = true;
@@ -133,6 +136,8 @@ Prior prior_of(const LocalizeOptions& options) {
 void localize(const LocalizeOptions& options, Context& context) {
   LocalizeRequest request = options.request;
   request.prior = prior_of(options);
+  ReadingBar bar;
+  request.progress = bar.call();
   const LocalizePlan plan = plan_localization(request, context.catalog);
   const std::string out = options.out.empty() ? "results/" + plan.name : options.out;
   const std::string file = out + ".yaml";

@@ -130,6 +130,7 @@ std::string recording_yaml(const LocalizeRequest& request, const bags::DriveCont
 
 LogChoice choose_recording(const LocalizeRequest& request, const MapChoice& map) {
   bags::Recording recording(request.log);
+  recording.tell_progress(request.progress);
   std::vector<std::string> told_by_the_source;
   const bags::RecordingSummary summary = bags::summarize_recording(recording, told_by_the_source);
   const bags::DriveTopics topics{

@@ -21,6 +21,7 @@ struct LocalizeRequest {
   double every_m = 0.0;   ///< Way between starts; 0: a single one.
   bool whole = false;     ///< Goes on after the declaration, to the end of the drive.
   Prior prior;            ///< Of each start.
+  TellProgress progress = [](double) {};
 };
 
 struct LocalizePlan {

@@ -18,6 +18,7 @@
 #include "app/drive_options.hpp"
 #include "app/interrupts.hpp"
 #include "app/prepared_case.hpp"
+#include "app/reading_bar.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/results/provenance.hpp"
@@ -62,8 +63,8 @@ class Warnings {
   std::vector<std::string> texts_;
 };
 
-DriveTrack read_track(const PrepareOptions& options, Warnings& warnings) {
-  const auto reader = options.log.open(warnings.call());
+DriveTrack read_track(const PrepareOptions& options, Warnings& warnings, const TellProgress& progress) {
+  const auto reader = options.log.open(warnings.call(), progress);
   DriveTrack track = track_of(*reader);
   const auto tell = [&](std::size_t scans, const char* why) {
     if (scans > 0)
@@ -112,6 +113,7 @@ std::vector<TrackedScan> with_references(const PrepareOptions& options, const Dr
 CaseFacts facts_of(const PrepareOptions& options, const ReferencePoses& references, const DriveTrack& drive) {
   CaseFacts facts{.name = plain_name(options.out), .log = options.log.file, .corrected = options.corrected};
   facts.scans = with_references(options, drive, references);
+  facts.has_clouds = drive.has_clouds;
   facts.all_scans = drive.scans.size();
   facts.robot_from_sensor = facts.scans.front().robot_from_sensor;
   facts.shift_s = options.shift_s;
@@ -153,9 +155,9 @@ class FilePart {
 };
 
 void write_drive(const PrepareOptions& options, const ReferencePoses& references, bool has_clouds,
-                 OutputFolder& folder) {
+                 OutputFolder& folder, const TellProgress& progress) {
   const Warn already_told = [](const std::string&) {};
-  JoinedDrive drive(options.log.open(already_told), references);
+  JoinedDrive drive(options.log.open(already_told, progress), references);
   if (has_clouds) {
     CloudFolderWriter writer(folder, options.log.file, "clouds");
     pass_on(drive, writer, options.log.file, already_told);
@@ -238,15 +240,14 @@ void prepare(const PrepareOptions& options, Context& context) {
                         "gives the reference poses, and --reference others: leave out one of them"}});
   OutputFolder::check(options.out, options.force);
   listen_to_interrupts();
+  ReadingBar bar;
   Warnings warnings;
-  const DriveTrack drive = read_track(options, warnings);
+  const DriveTrack drive = read_track(options, warnings, bar.call());
   const ReferencePoses references = references_of(options, drive);
-  const bool has_clouds = options.log.open([](const std::string&) {})->sensors().front().has_clouds;
   CaseFacts facts = facts_of(options, references, drive);
-  facts.has_clouds = has_clouds;
 
   OutputFolder folder(options.out, options.force);
-  write_drive(options, references, has_clouds, folder);
+  write_drive(options, references, facts.has_clouds, folder, bar.call());
   folder.append("experiment.yaml", case_experiment(facts));
   const LoadedExperiment loaded = load_case(folder, context.catalog, warnings);
   facts.fit_within_m = std::max(0.1, 2.0 * loaded.map->data().resolution);
@@ -255,7 +256,7 @@ void prepare(const PrepareOptions& options, Context& context) {
   facts.map_points = loaded.map->points().size();
   facts.observations = loaded.drive.samples.size();
   facts.starts = loaded.starts.size();
-  write_map(loaded.map->data(), has_clouds, folder);
+  write_map(loaded.map->data(), facts.has_clouds, folder);
 
   for (const std::string& text : case_warnings(facts)) warnings.add(text);
   folder.append("README.md", case_readme(facts, warnings.texts()));

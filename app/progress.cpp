@@ -48,10 +48,8 @@ void Progress::step(std::size_t trial, std::size_t step, double share, const cha
     spdlog::info("{}{} of {:.0f} trials done{}", what_, finished_, trials_, left);
     return;
   }
-  constexpr int width = 30;
-  const auto filled = static_cast<int>(done * width);
-  say("\r\033[K[{:#<{}}{:.<{}}] {} of {:.0f}{}  {}trial {}, step {}  {}", "", filled, "", width - filled,
-      finished_, trials_, left, what_, trial, step, verdict);
+  say("\r\033[K{} {} of {:.0f}{}  {}trial {}, step {}  {}", text_bar(done), finished_, trials_, left, what_,
+      trial, step, verdict);
 }
 
 void Progress::finish(std::size_t trial) {

@@ -23,6 +23,12 @@ void say(const std::string& text) {
   static_cast<void>(std::fputs(text.c_str(), stderr));
 }
 
+std::string text_bar(double share) {
+  constexpr int width = 30;
+  const auto filled = static_cast<int>(share * width);
+  return fmt::format("[{:#<{}}{:.<{}}]", "", filled, "", width - filled);
+}
+
 void flush_answers() {
   std::cout.flush();
   if (!std::cout || std::fflush(stdout) != 0)

@@ -18,6 +18,9 @@ void say(fmt::format_string<Values...> text, Values&&... values) {
   say(fmt::format(text, std::forward<Values>(values)...));
 }
 
+/// "[####......]", for lines that show how much is done, in [0, 1].
+[[nodiscard]] std::string text_bar(double share);
+
 /// Throws RunError if an answer has not reached stdout.
 void flush_answers();
 

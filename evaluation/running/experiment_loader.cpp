@@ -47,10 +47,13 @@ Drive load_drive(const Experiment& experiment, const Catalog& catalog, SourceSet
   return drive;
 }
 
-LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog, const Warn& warn) {
+LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog, const Warn& warn,
+                                 const TellProgress& progress) {
   LoadedExperiment loaded;
   const SourceSetup setup{
-      .warn = warn, .note_input = [&](const std::filesystem::path& file) { loaded.inputs.insert(file); }};
+      .warn = warn,
+      .note_input = [&](const std::filesystem::path& file) { loaded.inputs.insert(file); },
+      .progress = progress};
   const auto start = std::chrono::steady_clock::now();
   loaded.map = std::make_shared<const GlobalMap>(load_map(experiment, catalog, setup));
   loaded.map_build_ms =
@@ -73,7 +76,7 @@ LoadedExperiment& ExperimentLoader::load(Experiment& experiment) {
   std::string wanted = effective_yaml(sources, catalog_);
   if (wanted != sources_) {
     sources_.clear();
-    loaded_ = load_experiment(experiment, catalog_, warn_);
+    loaded_ = load_experiment(experiment, catalog_, warn_, progress_);
     sources_ = std::move(wanted);
     source_inputs_ = loaded_.inputs;
   } else {

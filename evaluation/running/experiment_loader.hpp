@@ -33,14 +33,17 @@ struct LoadedExperiment {
 [[nodiscard]] Drive load_drive(const Experiment& experiment, const Catalog& catalog, SourceSetup setup);
 
 /// Loads map and drive and finds the starts. Throws ConfigError.
-[[nodiscard]] LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog,
-                                               const Warn& warn);
+[[nodiscard]] LoadedExperiment load_experiment(
+    const Experiment& experiment, const Catalog& catalog, const Warn& warn,
+    const TellProgress& progress = [](double) {});
 
 /// Prepares one experiment after the other: map and drive are loaded again only where seed, map, observations
 /// or trials are others than those of the one before.
 class ExperimentLoader {
  public:
-  ExperimentLoader(const Catalog& catalog, Warn warn) : catalog_(catalog), warn_(std::move(warn)) {}
+  ExperimentLoader(
+      const Catalog& catalog, Warn warn, TellProgress progress = [](double) {})
+      : catalog_(catalog), warn_(std::move(warn)), progress_(std::move(progress)) {}
 
   /// Good until the next call. The map has no index yet, so that the time to build what the experiment looks
   /// up in it is its own.
@@ -49,6 +52,7 @@ class ExperimentLoader {
  private:
   const Catalog& catalog_;
   Warn warn_;
+  TellProgress progress_;
   std::string sources_;                            ///< What is loaded, as YAML.
   std::set<std::filesystem::path> source_inputs_;  ///< Without those of the stages.
   LoadedExperiment loaded_;

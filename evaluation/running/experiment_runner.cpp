@@ -52,7 +52,7 @@ ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const std::fil
       callbacks_(std::move(callbacks)),
       out_(options_.out.empty() ? std::filesystem::path("results") / variants_.front().experiment.name
                                 : options_.out),
-      loader_(catalog, callbacks_.warn) {}
+      loader_(catalog, callbacks_.warn, callbacks_.progress) {}
 
 RunResult ExperimentRunner::run() {
   select();

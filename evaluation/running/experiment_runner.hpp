@@ -34,6 +34,7 @@ struct RunnerCallbacks {
   std::function<void(const LoadedVariant&)> begin = [](const LoadedVariant&) {};
   RunCallbacks trials;
   std::function<void(const std::string&)> note, warn;
+  TellProgress progress = [](double) {};  ///< Of reading what takes long.
 };
 
 class ExperimentRunner {

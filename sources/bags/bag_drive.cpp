@@ -179,6 +179,7 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
       warn_(setup.warn),
       max_gap_ns_(nanoseconds(params.max_gap)),
       recording_(params.path.resolved) {
+  recording_.tell_progress(setup.progress);
   const std::string file = params.path.resolved.string();
   contents_ = bags::read_contents(recording_, topics_of(params), file, warn_);
   for (const auto& part : recording_.files()) setup.note_input(part);

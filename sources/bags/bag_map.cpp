@@ -73,6 +73,7 @@ void describe(ParamVisitor& v, BagMap::Params& p) {
 
 MapData BagMap::load() {
   bags::Recording recording(params_.path.resolved);
+  recording.tell_progress(setup_.progress);
   for (const auto& file : recording.files()) setup_.note_input(file);
   const std::string topic = topic_of(recording, params_);
   const bags::GridMessage grid = last_grid(recording, topic, params_);

@@ -32,6 +32,11 @@ std::optional<FileMessage> ChunkedFile::next() {
                      place_in(last_->span, entry.offset)};
 }
 
+double ChunkedFile::share_read() const {
+  if (chunks_.empty()) return 1.0;
+  return static_cast<double>(next_chunk_) / static_cast<double>(chunks_.size());
+}
+
 void ChunkedFile::step_over_last() {
   if (!last_) return;
   if (++last_->next < last_->chunk.entries.size()) {

@@ -41,6 +41,7 @@ class ChunkedFile : public RecordingFile {
  public:
   void rewind(const std::vector<bool>& wanted) override;
   [[nodiscard]] std::optional<FileMessage> next() override;
+  [[nodiscard]] double share_read() const override;
 
  protected:
   ChunkedFile(const std::filesystem::path& file, Note note) : file_(file), note_(std::move(note)) {}

@@ -117,6 +117,12 @@ void Recording::compare_counts() {
                         metadata_of_, messages_announced_, messages_read_));
 }
 
+double Recording::share_read() const {
+  double shares = 0.0;
+  for (const auto& part : parts_) shares += part->file->share_read();
+  return shares / static_cast<double>(parts_.size());
+}
+
 std::optional<RecordedMessage> Recording::next() {
   // Files are first read here, not when the recording is opened or rewound.
   for (const auto& part : parts_) {
@@ -130,9 +136,11 @@ std::optional<RecordedMessage> Recording::next() {
   }
   if (last_ == nullptr) {
     compare_counts();
+    progress_(1.0);
     return std::nullopt;
   }
-  ++messages_read_;
+  constexpr std::uint64_t seldom = 64;
+  if (++messages_read_ % seldom == 0) progress_(share_read());
   const FileMessage& message = *last_->message;
   const Connection& connection = (*connections_)[last_->connections[message.connection]];
   std::string_view bytes = message.bytes;

@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sources/bags/file_bytes.hpp"
@@ -66,6 +68,8 @@ class Recording {
   void rewind(const std::optional<std::set<std::string>>& topics = std::nullopt);
   /// The next message in order of receipt; none at the end. Throws ConfigError for damaged data.
   [[nodiscard]] std::optional<RecordedMessage> next();
+  /// Takes the share that has been read since the last rewind(): now and then, and 1 at the end.
+  void tell_progress(std::function<void(double)> progress) { progress_ = std::move(progress); }
   /// What its user should be told, a sentence each; may grow while messages are read.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return *warnings_; }
 
@@ -76,6 +80,7 @@ class Recording {
   void open(const std::filesystem::path& file);
   /// With what metadata.yaml says, once all was read.
   void compare_counts();
+  [[nodiscard]] double share_read() const;
 
   std::string format_;
   std::vector<std::filesystem::path> files_;
@@ -88,6 +93,7 @@ class Recording {
   std::string unpacked_;                            ///< The last message, if it was compressed by itself.
   std::map<std::string, std::uint64_t> announced_;  ///< Messages by topic; empty if nobody says it.
   std::string metadata_of_;                         ///< The folder whose metadata.yaml says it.
+  std::function<void(double)> progress_ = [](double) {};
   std::uint64_t messages_announced_ = 0, messages_read_ = 0;  ///< Of the topics that are read.
 };
 

@@ -40,6 +40,8 @@ class RecordingFile {
   virtual void rewind(const std::vector<bool>& wanted) = 0;
   /// The next message in order of receipt; none at the end.
   [[nodiscard]] virtual std::optional<FileMessage> next() = 0;
+  /// How much of the file has been read since the last rewind(), in [0, 1].
+  [[nodiscard]] virtual double share_read() const = 0;
 
  protected:
   std::vector<Connection> connections_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -19,18 +20,21 @@ class SqliteBag final : public RecordingFile {
     require_table("topics");
     require_table("messages");
     read_topics();
+    count_rows();
   }
 
   [[nodiscard]] const char* format() const override { return "ROS 2 bag (SQLite)"; }
 
   void rewind(const std::vector<bool>& wanted) override {
     wanted_ = wanted;
+    rows_read_ = 0;
     messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages ORDER BY timestamp, id");
   }
 
   [[nodiscard]] std::optional<FileMessage> next() override {
     while (step(messages_)) {
       sqlite3_stmt* row = messages_.get();
+      ++rows_read_;
       const std::int64_t id = sqlite3_column_int64(row, 0);
       const Place place{name_, 0, std::nullopt, id};
       const auto topic = ids_.find(sqlite3_column_int64(row, 1));
@@ -41,6 +45,10 @@ class SqliteBag final : public RecordingFile {
       return FileMessage{topic->second, sqlite3_column_int64(row, 2), blob(row, 3), place};
     }
     return std::nullopt;
+  }
+
+  [[nodiscard]] double share_read() const override {
+    return rows_ > 0 ? std::min(1.0, static_cast<double>(rows_read_) / static_cast<double>(rows_)) : 1.0;
   }
 
  private:
@@ -115,11 +123,18 @@ class SqliteBag final : public RecordingFile {
     }
   }
 
+  /// Their largest number, which is found at once. Rows that were deleted are counted, too.
+  void count_rows() {
+    const Statement query = prepare("SELECT max(id) FROM messages");
+    if (step(query)) rows_ = sqlite3_column_int64(query.get(), 0);
+  }
+
   std::string name_;
   std::unique_ptr<sqlite3, decltype(&sqlite3_close)> database_{nullptr, sqlite3_close};
   Statement messages_{nullptr, sqlite3_finalize};
   std::map<std::int64_t, std::size_t> ids_;
   std::vector<bool> wanted_;
+  std::int64_t rows_ = 0, rows_read_ = 0;
 };
 
 }  // namespace

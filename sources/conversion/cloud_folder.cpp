@@ -7,8 +7,10 @@
 
 namespace glocal {
 
-CloudFolderReader::CloudFolderReader(const DriveFiles& files, const Warn& warn)
-    : clouds_(drive_clouds(files, warn)), sensors_{{"/points", "lidar", true, Pose3{}}} {
+CloudFolderReader::CloudFolderReader(const DriveFiles& files, const Warn& warn, TellProgress progress)
+    : clouds_(drive_clouds(files, warn)),
+      sensors_{{"/points", "lidar", true, Pose3{}}},
+      progress_(std::move(progress)) {
   for (const DriveCloud& cloud : clouds_) {
     if (!cloud.odometry)
       throw ConfigError({{files.folder.string(), 0, 0,
@@ -19,6 +21,7 @@ CloudFolderReader::CloudFolderReader(const DriveFiles& files, const Warn& warn)
 }
 
 std::optional<DriveScan> CloudFolderReader::next() {
+  progress_(static_cast<double>(next_) / static_cast<double>(clouds_.size()));
   if (next_ == clouds_.size()) return std::nullopt;
   const DriveCloud& source = clouds_[next_++];
   Cloud cloud = read_cloud(source.file);

@@ -16,7 +16,8 @@ class CloudFolderReader final : public DriveReader {
  public:
   /// Throws ConfigError where drive_clouds() does, for a drive without odometry, and for stamps that are
   /// before 1970 or after 2037.
-  CloudFolderReader(const DriveFiles& files, const Warn& warn);
+  CloudFolderReader(
+      const DriveFiles& files, const Warn& warn, TellProgress progress = [](double) {});
 
   [[nodiscard]] const std::vector<DriveSensor>& sensors() const override { return sensors_; }
   /// Throws ConfigError where read_cloud() does.
@@ -26,6 +27,7 @@ class CloudFolderReader final : public DriveReader {
   std::vector<DriveCloud> clouds_;
   std::vector<DriveSensor> sensors_;
   std::size_t next_ = 0;
+  TellProgress progress_;
 };
 
 }  // namespace glocal

@@ -57,6 +57,7 @@ bags::PoseTrack track_of_trajectory(const std::string& content, const std::files
 
 DriveTrack track_of(DriveReader& reader) {
   DriveTrack track;
+  track.has_clouds = reader.sensors().front().has_clouds;
   while (const auto scan = reader.next()) {
     if (scan->sensor != 0) {
       ++track.of_other_sensors;

@@ -25,6 +25,7 @@ struct DriveTrack {
   std::vector<TrackedScan> scans;  ///< Stamps rise.
   std::size_t backwards = 0;       ///< Scans left out, as their stamps stand still or run backwards.
   std::size_t of_other_sensors = 0;
+  bool has_clouds = false;
 };
 
 /// Reads a drive to its end: the scans of its first sensor.

@@ -22,11 +22,10 @@ constexpr const char* base_frame = "base_link";
 }  // namespace
 
 RecordingDriveReader::RecordingDriveReader(const std::filesystem::path& path, const bags::DriveTopics& topics,
-                                           Warn warn)
-    : file_(path.string()),
-      warn_(std::move(warn)),
-      recording_(path),
-      contents_(bags::read_contents(recording_, topics, file_, warn_)) {
+                                           Warn warn, TellProgress progress)
+    : file_(path.string()), warn_(std::move(warn)), recording_(path) {
+  recording_.tell_progress(std::move(progress));
+  contents_ = bags::read_contents(recording_, topics, file_, warn_);
   if (!contents_.reference_frame.empty() &&
       !contents_.tree.connects(contents_.reference_frame, contents_.base_frame))
     throw ConfigError({{file_, 0, 0,

@@ -22,7 +22,9 @@ namespace glocal {
 class RecordingDriveReader final : public DriveReader {
  public:
   /// Throws ConfigError where Recording and bags::read_contents() do.
-  RecordingDriveReader(const std::filesystem::path& path, const bags::DriveTopics& topics, Warn warn);
+  RecordingDriveReader(
+      const std::filesystem::path& path, const bags::DriveTopics& topics, Warn warn,
+      TellProgress progress = [](double) {});
 
   [[nodiscard]] const std::vector<DriveSensor>& sensors() const override { return sensors_; }
   [[nodiscard]] std::optional<DriveScan> next() override;

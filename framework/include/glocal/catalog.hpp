@@ -20,6 +20,9 @@ namespace glocal {
 /// Takes a sentence the user should read once.
 using Warn = std::function<void(const std::string&)>;
 
+/// Takes the share of an input that has been read, in [0, 1]. It begins anew where something is read again.
+using TellProgress = std::function<void(double)>;
+
 /// What sources may use when they are made.
 struct SourceSetup {
   std::uint64_t seed = 0;          ///< The experiment's seed, for simulated noise.
@@ -27,6 +30,8 @@ struct SourceSetup {
   Warn warn = [](const std::string&) {};
   /// To be called with every file read, for the record of a run's inputs.
   std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
+  /// To be called now and then by sources that take long to read.
+  TellProgress progress = [](double) {};
 };
 
 /// What stages may use when they are made.

@@ -92,6 +92,21 @@ TEST_F(Recordings, GiveOnlyTheTopicsThatAreWanted) {
   EXPECT_EQ(content(recording).size(), 2U);
 }
 
+TEST_F(Recordings, TellHowMuchHasBeenRead) {
+  std::string chunks;
+  for (std::uint64_t i = 1; i <= 200; ++i)
+    chunks += mcap_chunk({i, i, (i == 1 ? two_channels : "") + mcap_message(1, i, "x"), "zstd"});
+  Recording recording(folder_.write("file", mcap_file(chunks)));
+  std::vector<double> shares;
+  recording.tell_progress([&](double share) { shares.push_back(share); });
+  static_cast<void>(content(recording));
+  ASSERT_EQ(shares.size(), 4U);
+  EXPECT_NEAR(shares[0], 0.32, 0.01);
+  EXPECT_NEAR(shares[1], 0.64, 0.01);
+  EXPECT_NEAR(shares[2], 0.96, 0.01);
+  EXPECT_EQ(shares[3], 1.0);
+}
+
 TEST_F(Recordings, OfMcapAreCheckedBeforeTheyAreBelieved) {
   std::string damaged = mcap_file(mcap_chunk({1, 1, two_channels + mcap_message(1, 1, "one"), ""}));
   damaged[damaged.find("one")] = 'x';
