@@ -21,6 +21,7 @@ std::unique_ptr<DriveReader> open_recording(const DriveOptions& options, const W
   topics.odometry = options.odometry;
   topics.odom_frame = options.odom_frame;
   topics.base_frame = options.base_frame;
+  topics.are_options = true;
   (is_topic(options.reference) ? topics.reference : topics.reference_frame) = options.reference;
   return std::make_unique<RecordingDriveReader>(options.file, topics, warn, progress);
 }

@@ -185,6 +185,10 @@ void add_localize(CLI::App& app, Context& context) {
   command->add_option(
       "--odometry", request.odometry,
       "Topic with odometry, or for a folder of clouds the file (default: tf, or the only one)");
+  command->add_option("--odom-frame", request.odom_frame,
+                      "Frame of tf that odometry counts from (default: odom)");
+  command->add_option("--base-frame", request.base_frame,
+                      "Frame of the robot (default: base_footprint or base_link)");
   command->add_option(
       "--reference", request.reference,
       "Reference poses, only to judge the answer: topic or frame of tf, or for clouds a file");

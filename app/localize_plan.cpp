@@ -135,7 +135,10 @@ LogChoice choose_recording(const LocalizeRequest& request, const MapChoice& map)
   const bags::RecordingSummary summary = bags::summarize_recording(recording, told_by_the_source);
   const bags::DriveTopics topics{
       .scans = request.scans.empty() ? choose_scans(summary, map.in_space) : request.scans,
-      .odometry = request.odometry};
+      .odometry = request.odometry,
+      .odom_frame = request.odom_frame,
+      .base_frame = request.base_frame,
+      .are_options = true};
   const bags::DriveContents contents =
       bags::read_contents(recording, topics, request.log.string(), [](const std::string&) {});
   LogChoice choice{recording_yaml(request, contents), recording_texts(recording, summary, contents)};
@@ -167,11 +170,12 @@ LogChoice choose_log(const LocalizeRequest& request, const MapChoice& map) {
   const LogKind kind = kind_of_log(request.log);
   if (kind == LogKind::recording) return choose_recording(request, map);
   if (kind == LogKind::clouds) return choose_clouds(request);
-  if (!request.scans.empty() || !request.odometry.empty() || !request.reference.empty())
+  if (!request.scans.empty() || !request.odometry.empty() || !request.odom_frame.empty() ||
+      !request.base_frame.empty() || !request.reference.empty())
     refuse(
         request.log,
         "is taken for a CARMEN log, which has its scans, odometry and reference poses in itself: leave out "
-        "--scans, --odometry and --reference");
+        "--scans, --odometry, --odom-frame, --base-frame and --reference");
   return {fmt::format("carmen_log:\n    {}\n", path_entry("path", request.log)), {"log         CARMEN"}};
 }
 

@@ -14,8 +14,9 @@ namespace glocal::app {
 /// What is to be localized, and from where on. At most one of every_m and whole is given.
 struct LocalizeRequest {
   std::filesystem::path map, log;
-  std::vector<std::string> scans;  ///< Topics of a recording; empty: chosen.
-  std::string odometry;            ///< Of a recording: topic. Of a folder of clouds: file of poses.
+  std::vector<std::string> scans;      ///< Topics of a recording; empty: chosen.
+  std::string odometry;                ///< Of a recording: topic. Of a folder of clouds: file of poses.
+  std::string odom_frame, base_frame;  ///< Of a recording's tf; empty: the usual ones.
   std::string reference;  ///< Of a recording: topic or frame of tf. Of a folder of clouds: file of poses.
   double start_m = 0.0;   ///< Along the drive.
   double every_m = 0.0;   ///< Way between starts; 0: a single one.

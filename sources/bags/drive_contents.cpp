@@ -63,12 +63,21 @@ class ContentsReader {
 
   [[noreturn]] void fail(const std::string& message) const { throw ConfigError({{file_, 0, 0, message}}); }
 
+  /// A key as it is set: `odom_frame` is --odom-frame on the command line.
+  [[nodiscard]] std::string name_of(std::string_view key) const {
+    if (!wanted_.are_options) return std::string(key);
+    std::string option = "--" + std::string(key.substr(0, key.find('.')));
+    std::replace(option.begin(), option.end(), '_', '-');
+    return option;
+  }
+
   void check_topic(const std::string& topic, const std::vector<std::string>& there, const std::string& what,
                    const std::string& key) const {
     if (topic.empty() || std::find(there.begin(), there.end(), topic) != there.end()) return;
     fail(fmt::format("has no topic {} with {}; {}", topic, what,
-                     there.empty() ? fmt::format("it has none at all: leave out {}", key)
-                                   : fmt::format("set {} to one of {}", key, fmt::join(there, ", "))));
+                     there.empty()
+                         ? fmt::format("it has none at all: leave out {}", name_of(key))
+                         : fmt::format("set {} to one of {}", name_of(key), fmt::join(there, ", "))));
   }
 
   void choose_scans() {
@@ -82,7 +91,8 @@ class ContentsReader {
       for (const TopicSummary& topic : summary().topics) {
         if (has_scans(topic.type)) list += "\n  " + text_of(topic);
       }
-      fail("has several topics with scans; set scans to those of one sensor, or of several alike:" + list);
+      fail(fmt::format("has several topics with scans; set {} to those of one sensor, or of several alike:{}",
+                       name_of("scans"), list));
     }
     for (const std::string& topic : wanted_.scans.empty() ? there : wanted_.scans)
       contents_.scans.emplace_back().topic = topic;
@@ -171,11 +181,12 @@ class ContentsReader {
     if (!wanted_.odometry.empty()) topics = {wanted_.odometry};
     if (topics.empty() || !odometry_.contains(topics.front()))
       fail(fmt::format(
-          "has no odometry: tf does not connect {} with {}, and there is no topic of {}; set odom_frame and "
-          "base_frame to frames of the tree, which is\n{}",
-          c.odom_frame, fmt::join(bases, " or "), odometry_type, tree_text()));
+          "has no odometry: tf does not connect {} with {}, and there is no topic of {}; set {} and "
+          "{} to frames of the tree, which is\n{}",
+          c.odom_frame, fmt::join(bases, " or "), odometry_type, name_of("odom_frame"), name_of("base_frame"),
+          tree_text()));
     if (topics.size() > 1)
-      fail(fmt::format("has several topics with odometry; set odometry to one of {}",
+      fail(fmt::format("has several topics with odometry; set {} to one of {}", name_of("odometry"),
                        fmt::join(topics, ", ")));
     const auto& [poses, frame, child] = odometry_.at(topics.front());
     c.odometry = topics.front();
@@ -184,9 +195,8 @@ class ContentsReader {
     c.odom_from_child = poses;
     if (c.base_frame == child) return;
     if (!c.tree.is_still(child, c.base_frame))
-      fail(fmt::format(
-          "odometry of {} says where {} is, and tf does not say where {} is on it; set base_frame to {}",
-          c.odometry, child, c.base_frame, child));
+      fail(fmt::format("odometry of {} says where {} is, and tf does not say where {} is on it; set {} to {}",
+                       c.odometry, child, c.base_frame, name_of("base_frame"), child));
     c.child_from_base = *c.tree.pose(child, c.base_frame, 0, 0);
   }
 
@@ -194,11 +204,11 @@ class ContentsReader {
     if (wanted_.sensor_is_given) return;
     for (const ScanTopic& scan : contents_.scans) {
       if (scan.stamps_ns.empty() || contents_.tree.connects(contents_.base_frame, scan.frame)) continue;
-      fail(
-          fmt::format("tf does not connect {}, the frame of {}, with {}; set base_frame to another one, or "
-                      "sensor_from to "
-                      "given and sensor to where it is on the robot; the tree is\n{}",
-                      scan.frame, scan.topic, contents_.base_frame, tree_text()));
+      fail(fmt::format(
+          "tf does not connect {}, the frame of {}, with {}; set {} to another one{}; the tree is\n{}",
+          scan.frame, scan.topic, contents_.base_frame, name_of("base_frame"),
+          wanted_.are_options ? "" : ", or sensor_from to given and sensor to where it is on the robot",
+          tree_text()));
     }
   }
 

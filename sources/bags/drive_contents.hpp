@@ -23,6 +23,7 @@ struct DriveTopics {
   std::string reference = {};        ///< PoseStamped, PoseWithCovarianceStamped or Odometry; perhaps empty.
   std::string reference_frame = {};  ///< Of tf, in which the robot's pose is the reference; perhaps empty.
   bool sensor_is_given = false;      ///< Then tf need not say where the sensor is.
+  bool are_options = false;          ///< Errors then name --odom-frame, not odom_frame.
 };
 
 /// The scans of a topic.

@@ -115,6 +115,12 @@ TEST_F(ConvertCommand, WhatCannotBeIsSaidAndLeavesNothing) {
                "all topics of a recording are copied to MCAP: leave out --scans");
   expect_fault(convert("drive.mcap", "a.log", "--reference world"),
                "tf does not connect world with base_link");
+  expect_fault(convert("drive.mcap", "a.log", "--scans /none"),
+               "has no topic /none with scans; set --scans to one of /scan");
+  expect_fault(convert("drive.mcap", "a.log", "--odometry /none"),
+               "it has none at all: leave out --odometry");
+  expect_fault(convert("drive.mcap", "a.log", "--odom-frame world"),
+               "set --odom-frame and --base-frame to frames of the tree");
   std::ofstream(file("bad.log")) << "FLASER 3 1 2 3 0.1 0 0 0 0 0 1.5 host 1.5\nFLASER 3 1\n";
   expect_fault(convert("bad.log", "drive.mcap", "--force"), "bad.log:2: error: FLASER says 3 readings");
   EXPECT_EQ(entries(), 5) << "two logs, a recording, and what the commands said";

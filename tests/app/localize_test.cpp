@@ -63,6 +63,16 @@ TEST_F(Localize, AMapAndARecordingAreEnough) {
   EXPECT_THAT(content(file("answer.html")), HasSubstr("<html"));
 }
 
+TEST_F(Localize, ErrorsNameItsOptions) {
+  const Answer several = run("convert " + file("room/drive.mcap") + " " + file("a.log"));
+  EXPECT_EQ(several.exit_code, 2);
+  EXPECT_THAT(several.err, HasSubstr("has several topics with scans; set --scans to those of one sensor"));
+  const Answer unknown = localize("room/drive.mcap", "--odom-frame world");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("set --odom-frame and --base-frame to frames of the tree"));
+  EXPECT_EQ(localize("room/drive.mcap", "--odom-frame odom --base-frame base_link").exit_code, 0);
+}
+
 TEST_F(Localize, TheExperimentThatItWritesGivesTheSameAnswer) {
   ASSERT_EQ(localize("room/drive.mcap").exit_code, 0);
   ASSERT_EQ(run("run " + file("answer.yaml") + " --out " + file("again")).exit_code, 0);
