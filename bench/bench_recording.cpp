@@ -43,32 +43,59 @@ std::string scan(const std::string& encoding, std::size_t number) {
   return writer.number<std::uint32_t>(0).bytes();
 }
 
-/// The records of each chunk, unpacked.
-std::vector<std::string> records_of(const std::string& encoding) {
-  std::vector<std::string> all(chunks);
+/// A chunk, unpacked, and the numbers of its messages.
+struct Records {
+  std::string bytes = {};
+  std::size_t first = 0, last = 0;
+};
+
+std::vector<Records> records_of(const std::string& encoding) {
+  std::vector<Records> all(chunks);
   std::size_t number = 0;
-  for (std::string& records : all) {
+  for (auto& [records, first, last] : all) {
+    first = number;
     while (records.size() < chunk_bytes) {
       const std::string message = scan(encoding, number);
       records += encoding == "cdr" ? mcap_message(1, 25'000'000 * number, message)
                                    : ros1_message(1, static_cast<std::uint32_t>(number), message);
-      ++number;
+      last = number++;
     }
   }
   return all;
 }
 
-std::string file_of(const std::string& encoding, const std::string& compression) {
+/// What a file has to find its way by: connections before all else; an index behind each chunk, as a recorder
+/// leaves it that was killed; or nothing, connections being in the first chunk.
+enum class Index { whole, of_chunks, none };
+
+std::string mcap_of(const std::string& compression, Index index) {
+  const std::string channel = mcap_channel(1, "/scan", "sensor_msgs/LaserScan");
   std::string bytes;
-  std::uint64_t stamp = 0;
-  for (const std::string& records : records_of(encoding)) {
-    bytes += encoding == "cdr" ? mcap_chunk({stamp, stamp, records, compression})
-                               : ros1_chunk(records, compression.empty() ? "none" : compression);
-    ++stamp;
+  for (const auto& [records, first, last] : records_of("cdr")) {
+    const bool names = index != Index::whole && first == 0;
+    bytes += mcap_chunk(
+        {25'000'000 * first, 25'000'000 * last, (names ? channel : std::string()) + records, compression});
+    if (index == Index::of_chunks) bytes += mcap_message_index(1);
   }
-  const std::string type = "sensor_msgs/LaserScan";
-  return encoding == "cdr" ? mcap_file(mcap_channel(1, "/scan", type) + bytes)
-                           : ros1_magic + ros1_bag_header() + ros1_connection(1, "/scan", type) + bytes;
+  return mcap_file(bytes, index == Index::whole ? channel : "");
+}
+
+std::string ros1_of(const std::string& compression, Index index) {
+  const std::string connection = ros1_connection(1, "/scan", "sensor_msgs/LaserScan");
+  std::string bytes = ros1_magic + ros1_bag_header(), infos;
+  for (const auto& [records, first_number, last_number] : records_of("ros1")) {
+    const auto first = static_cast<std::uint32_t>(first_number),
+               last = static_cast<std::uint32_t>(last_number);
+    infos += ros1_record({{"op", "\x06"},
+                          {"chunk_pos", le<std::uint64_t>(bytes.size())},
+                          {"start_time", ros1_time(first, 0)},
+                          {"end_time", ros1_time(last, 0)}},
+                         "");
+    bytes += ros1_chunk((first == 0 ? connection : std::string()) + records,
+                        compression.empty() ? "none" : compression);
+    if (index == Index::of_chunks) bytes += ros1_index(1, first, last);
+  }
+  return index == Index::whole ? bytes + connection + infos : bytes;
 }
 
 void set_rate(benchmark::State& state) {
@@ -76,11 +103,10 @@ void set_rate(benchmark::State& state) {
 }
 
 /// Every message of a file, decoded if `decodes`.
-void read(benchmark::State& state, const std::string& encoding, const std::string& compression,
-          bool decodes) {
+void read(benchmark::State& state, const std::string& content, bool decodes) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("glocal_bench_" + std::to_string(std::rand()));
-  std::ofstream(file, std::ios::binary) << file_of(encoding, compression);
+  std::ofstream(file, std::ios::binary) << content;
   std::size_t seen = 0;
   for ([[maybe_unused]] auto _ : state) {
     bags::Recording recording(file);
@@ -111,8 +137,8 @@ void unpack(const std::string& compression, const std::string& packed, std::stri
 /// The same chunks, in memory, unpacked one by one.
 void unpack_all(benchmark::State& state, const std::string& encoding, const std::string& compression) {
   std::vector<std::string> packed_chunks;
-  for (const std::string& records : records_of(encoding))
-    packed_chunks.push_back(packed(compression, records));
+  for (const Records& records : records_of(encoding))
+    packed_chunks.push_back(packed(compression, records.bytes));
   std::string bytes(2 * chunk_bytes, '\0');
   for ([[maybe_unused]] auto _ : state) {
     for (const std::string& chunk : packed_chunks) unpack(compression, chunk, bytes);
@@ -122,21 +148,29 @@ void unpack_all(benchmark::State& state, const std::string& encoding, const std:
 }
 
 void register_all() {
-  const auto add = [](const std::string& name, auto function, auto... arguments) {
-    return benchmark::RegisterBenchmark(name.c_str(), function, arguments...)->Unit(benchmark::kMillisecond);
+  const auto add = [](const std::string& name, auto function) {
+    return benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMillisecond);
   };
-  const std::string none;
-  add("read/mcap", read, std::string("cdr"), none, false);
-  add("decode/mcap", read, std::string("cdr"), none, true);
-  add("read/ros1", read, std::string("ros1"), none, false);
-  add("decode/ros1", read, std::string("ros1"), none, true);
-  for (const std::string compression : {"lz4", "zstd"}) {
-    add("read/mcap_" + compression, read, std::string("cdr"), compression, false);
-    add("unpack/mcap_" + compression, unpack_all, std::string("cdr"), compression);
-  }
-  for (const std::string compression : {"lz4", "bz2"}) {
-    add("read/ros1_" + compression, read, std::string("ros1"), compression, false);
-    add("unpack/ros1_" + compression, unpack_all, std::string("ros1"), compression);
+  struct Format {
+    std::string name, encoding;
+    std::string (*content)(const std::string& compression, Index index) = nullptr;
+    std::vector<std::string> compressions = {};
+  };
+  for (const Format& format :
+       {Format{"mcap", "cdr", mcap_of, {"lz4", "zstd"}}, Format{"ros1", "ros1", ros1_of, {"lz4", "bz2"}}}) {
+    const auto read_as = [&](const std::string& compression, Index index, bool decodes) {
+      return [=](benchmark::State& state) { read(state, format.content(compression, index), decodes); };
+    };
+    add("read/" + format.name, read_as("", Index::whole, false));
+    add("decode/" + format.name, read_as("", Index::whole, true));
+    for (const std::string& compression : format.compressions) {
+      const std::string name = format.name + "_" + compression;
+      add("unpack/" + name,
+          [=](benchmark::State& state) { unpack_all(state, format.encoding, compression); });
+      add("read/" + name, read_as(compression, Index::whole, false));
+      add("read/" + name + "/index_of_chunks", read_as(compression, Index::of_chunks, false));
+      add("read/" + name + "/no_index", read_as(compression, Index::none, false));
+    }
   }
 }
 

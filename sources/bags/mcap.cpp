@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "sources/bags/chunked_file.hpp"
@@ -23,6 +24,7 @@ enum class McapOp : std::uint8_t {
   channel = 4,
   message = 5,
   chunk = 6,
+  message_index = 7,
   data_end = 15
 };
 
@@ -40,9 +42,7 @@ class McapFile final : public ChunkedFile {
   McapFile(const std::filesystem::path& file, Note note) : ChunkedFile(file, std::move(note)) {
     scan();
     // Only a summary names the channels of chunks outside of them.
-    if (!has_summary_) {
-      for (const ChunkSpan& span : chunks_) static_cast<void>(load(span));
-    }
+    if (!has_summary_) find_channels();
     is_open_ = true;
   }
 
@@ -73,6 +73,19 @@ class McapFile final : public ChunkedFile {
                         file_.name(), at));
   }
 
+  /// A channel is named in the chunk that has its first message. Chunks all of whose channels are known,
+  /// as the indexes behind them tell, need not be unpacked for that.
+  void find_channels() {
+    for (const ChunkSpan& span : chunks_) {
+      const auto indexed = indexed_.find(span.offset);
+      const bool is_known =
+          indexed != indexed_.end() && std::all_of(indexed->second.begin(), indexed->second.end(),
+                                                   [&](std::uint16_t id) { return channels_.contains(id); });
+      if (!is_known) static_cast<void>(load(span));
+    }
+    indexed_.clear();
+  }
+
   [[nodiscard]] std::optional<McapRecord> record_at(std::uint64_t at) const {
     const std::string_view head = file_.peek(at);
     if (head.size() < record_head) return std::nullopt;
@@ -99,6 +112,8 @@ class McapFile final : public ChunkedFile {
       FieldReader fields = reader(file_.peek(begin));
       const auto first = fields.number<std::uint64_t>(), last = fields.number<std::uint64_t>();
       chunks_.push_back({at, record_head + record.size, stamp_of(first), stamp_of(last)});
+    } else if (record.op == McapOp::message_index && !chunks_.empty()) {
+      indexed_[chunks_.back().offset].insert(reader(file_.peek(begin)).number<std::uint16_t>());
     } else if (record.op == McapOp::message) {
       FieldReader fields = reader(file_.peek(begin));
       static_cast<void>(fields.number<std::uint16_t>());
@@ -197,7 +212,8 @@ class McapFile final : public ChunkedFile {
   std::map<std::uint16_t, std::pair<std::string, std::string>> schemas_;  ///< Type and definition.
   std::pair<std::string, std::string> no_schema_;
   std::map<std::uint16_t, std::size_t> channels_;
-  std::uint64_t loose_messages_end_ = 0;  ///< 0: the record before was none.
+  std::map<std::uint64_t, std::set<std::uint16_t>> indexed_;  ///< Channels of chunks, by offset.
+  std::uint64_t loose_messages_end_ = 0;                      ///< 0: the record before was none.
   bool has_summary_ = false;
   bool is_open_ = false;  ///< From then on there are no new channels.
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -16,7 +17,14 @@ namespace {
 
 constexpr std::string_view version_2 = "#ROSBAG V2.0\n";
 
-enum class Ros1Op : std::uint8_t { message = 2, bag = 3, chunk = 5, chunk_info = 6, connection = 7 };
+enum class Ros1Op : std::uint8_t {
+  message = 2,
+  bag = 3,
+  index = 4,
+  chunk = 5,
+  chunk_info = 6,
+  connection = 7
+};
 
 /// `name=value` fields of a record's header.
 class HeaderFields {
@@ -60,14 +68,8 @@ class Ros1Bag final : public ChunkedFile {
   Ros1Bag(const std::filesystem::path& file, Note note) : ChunkedFile(file, std::move(note)) {
     check_version();
     scan();
-    for (ChunkSpan& span : chunks_) {
-      const auto times = times_.find(span.offset);
-      if (times != times_.end()) {
-        std::tie(span.first_ns, span.last_ns) = times->second;
-      } else {
-        take_times_from_messages(span);
-      }
-    }
+    for (ChunkSpan& span : chunks_) find_times_and_connections(span);
+    indexed_.clear();
     is_open_ = true;
   }
 
@@ -140,6 +142,9 @@ class Ros1Bag final : public ChunkedFile {
         times_[header.number<std::uint64_t>("chunk_pos")] = {header.time("start_time"),
                                                              header.time("end_time")};
         break;
+      case Ros1Op::index:
+        if (!chunks_.empty()) note_index(header, record);
+        break;
       case Ros1Op::connection:
         note_connection(header, file_.read(record.data, record.data_size), {file_.name(), record.data});
         break;
@@ -154,6 +159,43 @@ class Ros1Bag final : public ChunkedFile {
     const HeaderFields fields(data, place);
     connections_.push_back({std::string(header.text("topic")), normal_type(fields.text("type")), "ros1",
                             std::string(fields.text("message_definition"))});
+  }
+
+  /// Behind each chunk the stamps of a connection's messages in it, in rising order: (s, ns, offset) each.
+  void note_index(const HeaderFields& header, const Record& record) {
+    constexpr std::uint64_t entry_size = 12;
+    const auto count = header.number<std::uint32_t>("count");
+    if (count == 0 || record.data_size != entry_size * count) return;
+    const auto stamp_at = [&](std::uint64_t offset) {
+      FieldReader fields(file_.peek(offset), {file_.name(), offset});
+      const auto s = fields.number<std::uint32_t>();
+      return static_cast<std::int64_t>(s) * 1'000'000'000 + fields.number<std::uint32_t>();
+    };
+    const std::int64_t first = stamp_at(record.data);
+    const std::int64_t last = stamp_at(record.data + record.data_size - entry_size);
+    Indexed& indexed = indexed_.try_emplace(chunks_.back().offset, Indexed{first, last, {}}).first->second;
+    indexed.first_ns = std::min(indexed.first_ns, first);
+    indexed.last_ns = std::max(indexed.last_ns, last);
+    indexed.connections.insert(header.number<std::uint32_t>("conn"));
+  }
+
+  /// Only chunks of which no index says enough are unpacked for it.
+  void find_times_and_connections(ChunkSpan& span) {
+    const auto times = times_.find(span.offset);
+    const auto indexed = indexed_.find(span.offset);
+    if (times != times_.end()) {
+      std::tie(span.first_ns, span.last_ns) = times->second;
+    } else if (indexed != indexed_.end() && knows_all(indexed->second.connections)) {
+      span.first_ns = indexed->second.first_ns;
+      span.last_ns = indexed->second.last_ns;
+    } else {
+      take_times_from_messages(span);
+    }
+  }
+
+  [[nodiscard]] bool knows_all(const std::set<std::uint32_t>& connections) const {
+    return std::all_of(connections.begin(), connections.end(),
+                       [&](std::uint32_t id) { return ids_.contains(id); });
   }
 
   /// For chunks that no index knows.
@@ -201,6 +243,12 @@ class Ros1Bag final : public ChunkedFile {
   }
 
   std::map<std::uint64_t, std::pair<std::int64_t, std::int64_t>> times_;  ///< Of chunks, by offset.
+  /// What the indexes behind a chunk say of it.
+  struct Indexed {
+    std::int64_t first_ns = 0, last_ns = 0;
+    std::set<std::uint32_t> connections = {};
+  };
+  std::map<std::uint64_t, Indexed> indexed_;  ///< By offset of the chunk.
   std::map<std::uint32_t, std::size_t> ids_;
   bool is_open_ = false;  ///< From then on there are no new connections.
 };

@@ -86,9 +86,11 @@ std::string unpack(std::string_view packed, std::uint64_t size, const char* form
                                 format, size));
   };
   for (bool is_end = false; !is_end;) {
-    // Room for one byte more than announced, so that more is noticed.
-    constexpr std::size_t first_room = 1U << 16U;
-    if (made == bytes.size()) bytes.resize(std::min<std::size_t>(size + 1, std::max(first_room, 2 * made)));
+    // Room for one byte more than announced, so that more is noticed. All of it at once if that is what such
+    // data may well unpack to: decompressors then write where the bytes are to stay.
+    constexpr std::size_t least_room = 1U << 16U, usual_ratio = 64;
+    const std::size_t room = std::max({least_room, usual_ratio * packed.size(), 2 * made});
+    if (made == bytes.size()) bytes.resize(std::min<std::size_t>(size + 1, room));
     const Progress p = decompressor.step(packed, bytes.data() + made, bytes.size() - made);
     if (p.is_damaged || (p.used == 0 && p.made == 0 && !p.is_end)) damaged();
     packed.remove_prefix(p.used);

@@ -152,6 +152,34 @@ TEST_F(Recordings, OfRos1NeedNoIndex) {
   }
 }
 
+TEST_F(Recordings, WithIndexesBehindTheirChunksAreNotUnpackedForTheirNames) {
+  const std::string first = mcap_chunk({3, 4, two_channels + mcap_message(1, 3, "three"), "zstd"});
+  std::string second = mcap_chunk({1, 2, mcap_message(2, 1, "one"), "zstd"});
+  const std::string mcap = mcap_file(first + mcap_message_index(1) + second + mcap_message_index(2));
+  EXPECT_THAT(read(mcap), ElementsAre("1 /b one", "3 /a three"));
+  const std::string late_name =
+      mcap_file(mcap_chunk({1, 1, mcap_channel(1, "/a", "x/A") + mcap_message(1, 1, "one"), ""}) +
+                mcap_message_index(1) +
+                mcap_chunk({2, 2, mcap_channel(2, "/b", "x/B") + mcap_message(2, 2, "two"), ""}) +
+                mcap_message_index(2));
+  EXPECT_THAT(read(late_name), ElementsAre("1 /a one", "2 /b two"));
+  std::string damaged = mcap;
+  damaged[damaged.find(second) + second.size() - 3] ^= 1;
+  EXPECT_NO_THROW(Recording(folder_.write("file", damaged))) << "the second chunk is not looked into";
+  EXPECT_THAT(fault(damaged), HasSubstr("get a fresh copy"));
+
+  const std::string names = ros1_connection(0, "/a", "x/A");
+  std::string late = ros1_chunk(names + ros1_message(0, 3, "three") + ros1_message(0, 5, "five"), "bz2");
+  std::string early = ros1_chunk(ros1_message(0, 1, "one") + ros1_message(0, 4, "four"), "lz4");
+  const std::string bag =
+      ros1_magic + ros1_bag_header() + late + ros1_index(0, 3, 5) + early + ros1_index(0, 1, 4);
+  EXPECT_THAT(read(bag), ElementsAre("1000000000 /a one", "3000000000 /a three", "4000000000 /a four",
+                                     "5000000000 /a five"));
+  damaged = bag;
+  damaged[damaged.find(early) + early.size() - 6] ^= 1;
+  EXPECT_NO_THROW(Recording(folder_.write("file", damaged)));
+}
+
 TEST_F(Recordings, OfOtherKindsAreRefused) {
   EXPECT_EQ(fault("#ROSRECORD V1.2\n"),
             "file: error: byte 0: is a bag of ROS 1 that begins with '#ROSRECORD V1.2'; only version 2.0 can "

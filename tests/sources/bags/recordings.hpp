@@ -77,6 +77,10 @@ struct McapChunk {
                             le(c.has_crc ? static_cast<std::uint32_t>(crc) : 0U) + sized(c.compression) +
                             le<std::uint64_t>(data.size()) + data);
 }
+/// Behind a chunk: that it has a message of this channel. Where in it is left out.
+[[nodiscard]] inline std::string mcap_message_index(std::uint16_t channel) {
+  return mcap_record(7, le(channel) + le<std::uint32_t>(0));
+}
 /// A whole file of these records, with a summary if it is not empty.
 [[nodiscard]] inline std::string mcap_file(const std::string& records, const std::string& summary = "") {
   return mcap_magic + mcap_record(1, sized("") + sized("")) + records +
@@ -119,6 +123,17 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
                       {"compression", compression},
                       {"size", le(static_cast<std::uint32_t>(records.size()))}},
                      packed(compression, records));
+}
+
+/// Behind a chunk: that it has messages of this connection, the first and the last at these times (s).
+[[nodiscard]] inline std::string ros1_index(std::uint32_t connection, std::uint32_t first,
+                                            std::uint32_t last) {
+  const std::string offset = le<std::uint32_t>(0);
+  return ros1_record({{"op", "\x04"},
+                      {"ver", le<std::uint32_t>(1)},
+                      {"conn", le(connection)},
+                      {"count", le<std::uint32_t>(2)}},
+                     ros1_time(first, 0) + offset + ros1_time(last, 0) + offset);
 }
 
 }  // namespace glocal::test::bags
