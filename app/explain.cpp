@@ -158,6 +158,32 @@ std::string lost_after_matcher(const StepResult& result, std::ptrdiff_t cluster)
                      to_string(result.verdict.kind));
 }
 
+/// What a search of the whole map finds beside the best pose, and whether the matcher had it.
+std::string rivals_elsewhere(const Replayed& step, const LoadedExperiment& loaded,
+                             const Experiment& experiment, const Catalog& catalog,
+                             const EvaluationConfig& limits) {
+  const std::optional<Pose3> best = step.result.estimate();
+  if (!best || step.local.points.empty()) return "not looked for: there is no best pose";
+  StageSetup setup{loaded.map};
+  setup.contact_epsilon = contact_epsilon_on(*loaded.map, experiment.localizer);
+  const auto found = catalog.verifiers.make({"whole_map"}, setup)
+                         ->verify(step.local, *best * inverse(step.local.local_from_robot), step.gate);
+  if (!found || !found->certificate) return "unknown: the search of the whole map was given up";
+  const std::vector<Hypothesis>& hypotheses = step.result.hypotheses;
+  const auto missing = std::find_if(found->rivals.begin(), found->rivals.end(), [&](const Hypothesis& rival) {
+    const Pose3 robot = rival.map_from_local * step.local.local_from_robot;
+    return rival.quality >= found->certificate->contact - found->margin &&
+           std::none_of(hypotheses.begin(), hypotheses.end(),
+                        [&](const Hypothesis& h) { return agree(h.map_from_robot, robot, limits); });
+  });
+  const std::string bound =
+      fmt::format("the best pose has {:.0f} % contact, others at most {:.0f} %",
+                  100.0 * found->certificate->contact, 100.0 * found->certificate->at_most);
+  if (missing == found->rivals.end()) return "none is missing: " + bound;
+  return fmt::format("missing: {:.0f} % contact at {}, where no hypothesis is; {}", 100.0 * missing->quality,
+                     text_of(missing->map_from_local * step.local.local_from_robot), bound);
+}
+
 /// The experiment of a run, all of whose files must be in order.
 Experiment experiment_of(const ExplainOptions& options, Context& context) {
   const std::vector<std::filesystem::path> folders = results_folders(options.folder);
@@ -211,6 +237,8 @@ void explain(const ExplainOptions& options, Context& context) {
   fmt::print("  hypothesis  {}\n", rank_text(result.hypotheses, hypothesis, truth));
   fmt::print("  cluster     {}\n", rank_text(result.clusters, cluster, truth));
   fmt::print("  verdict     {}: {}\n", to_string(result.verdict.kind), result.verdict.why);
+  if (experiment.localizer.motion == Motion::planar)
+    fmt::print("  rivals      {}\n", rivals_elsewhere(step, loaded, experiment, context.catalog, limits));
   fmt::print("  lost        {}\n", lost());
 }
 

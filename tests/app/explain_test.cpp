@@ -87,6 +87,18 @@ TEST_F(ExplainCommand, NeverDrawn) {
   EXPECT_THAT(lost(0), HasSubstr("never drawn"));
 }
 
+TEST_F(ExplainCommand, NamesARivalThatTheMatcherDoesNotHave) {
+  const std::string symmetry = "run " + std::string(GLOCAL_SOURCE_DIR) +
+                               "/configs/experiments/paper_symmetry.yaml --quiet --force --out " + folder() +
+                               " --set 'trials={starts_m: [0], max_steps: 3}' --set output.maps=none --set "
+                               "localizer.threshold_policy.fixed.omega_max=0.5 --set "
+                               "localizer.matcher.branch_and_bound.max_poses=";
+  ASSERT_EQ(run(symmetry + "1").exit_code, 0);
+  EXPECT_THAT(explained(2), HasSubstr("rivals      missing: "));
+  ASSERT_EQ(run(symmetry + "20").exit_code, 0);
+  EXPECT_THAT(explained(2), HasSubstr("rivals      none is missing: the best pose has "));
+}
+
 TEST_F(ExplainCommand, DrawnButRejected) {
   run_lab("--set localizer.threshold_policy.fixed.omega_max=0.3");
   const auto best = recorded(0)["omega_best"].get<double>();
