@@ -35,7 +35,7 @@ class PoseBoxes {
 
   /// How many groups a level has: points of group g (from 1 on) are moved by at most g / groups of what the
   /// farthest point is.
-  [[nodiscard]] static int groups(int level) { return level < 2 ? 1 << level : 4; }
+  [[nodiscard]] static int groups(int level) { return level == 0 ? 1 : level == 1 ? 2 : 4; }
   /// How many cells the window of a point is wider than its node.
   [[nodiscard]] static int wider(int level, int group) { return 1 + group * ((1 << level) / groups(level)); }
   /// The points of each group, turned but not moved: the cell behind the first one that an interval can put

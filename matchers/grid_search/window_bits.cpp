@@ -210,10 +210,10 @@ WindowBits::WindowBits(int level, const Windows& windows)
 
 void WindowBits::add_row(std::size_t layer, int row, const std::uint8_t* bytes, const Windows& windows) {
   const auto word_of = [&](int column) {
-    const auto phase = static_cast<std::size_t>(low_bits(row, level_) << level_ | low_bits(column, level_));
-    const auto bit = static_cast<std::size_t>((column >> level_) + TileCounts::columns);
-    const std::size_t column_of_words = phase * static_cast<std::size_t>(words_) + bit / word_bits;
-    return column_of_words * static_cast<std::size_t>(rows_);
+    const int phase = low_bits(row, level_) << level_ | low_bits(column, level_);
+    const int bit = (column >> level_) + TileCounts::columns;
+    const int column_of_words = phase * words_ + bit / word_bits;
+    return static_cast<std::size_t>(column_of_words) * static_cast<std::size_t>(rows_);
   };
   std::uint64_t* line = bits_.data() + layer * static_cast<std::size_t>(layer_words_) +
                         static_cast<std::size_t>((row >> level_) + TileCounts::rows);

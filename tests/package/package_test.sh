@@ -39,7 +39,7 @@ done
 
 # A plugin of every kind, outside of the tree: as new-plugin writes them, they build, pass their test and run.
 kinds=$("$prefix/bin/glocal" list | grep -E '^[a-z_]+$')
-[ "$(wc -w <<<"$kinds")" -eq 10 ] || fail "the kinds of strategies are: $kinds"
+[ "$(wc -w <<<"$kinds")" -eq 11 ] || fail "the kinds of strategies are: $kinds"
 try_kind() {
   local kind=$1 folder=$work/outside/$1
   "$prefix/bin/glocal" new-plugin "$kind" "my_$kind" "$folder" >/dev/null
