@@ -146,6 +146,7 @@ PointCloud read_point_cloud(const RecordedMessage& message) {
   layout.row_step = reader.number<std::uint32_t>();
   const std::string_view data = reader.bytes();
   check_layout(reader, layout, fields, data.size());
+  if (layout.width == 0) return cloud;  // Rows without points need no bytes: billions may be announced.
   for (std::uint32_t row = 0; row < layout.height; ++row) {
     for (std::uint32_t column = 0; column < layout.width; ++column) {
       const char* const point =
