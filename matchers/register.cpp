@@ -2,12 +2,12 @@
 
 #include "matchers/grid_search/branch_and_bound.hpp"
 #include "matchers/grid_search/exhaustive.hpp"
+#include "matchers/grid_search/whole_map.hpp"
 #include "matchers/indexed_ransam/indexed_ransam.hpp"
 #include "matchers/iransac/iransac.hpp"
 #include "matchers/mcl/mcl.hpp"
 #include "matchers/ransac/ransac.hpp"
 #include "matchers/ransam/ransam.hpp"
-#include "matchers/grid_search/whole_map.hpp"
 
 namespace glocal {
 

@@ -43,6 +43,7 @@ void ChunkedFile::step_over_last() {
     open_.push(std::move(last_));
   } else {
     open_bytes_ -= last_->chunk.bytes.size();
+    spare_ = std::move(last_->chunk.bytes);
   }
   last_ = nullptr;
 }

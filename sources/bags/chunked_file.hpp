@@ -57,6 +57,7 @@ class ChunkedFile : public RecordingFile {
   FileBytes file_;
   Note note_;
   std::vector<ChunkSpan> chunks_;
+  std::string spare_;  ///< Memory of a chunk that is over, for the next one.
 
  private:
   struct OpenChunk {

@@ -175,7 +175,7 @@ class McapFile final : public ChunkedFile {
     return chunk;
   }
 
-  [[nodiscard]] std::string unpacked_chunk(const ChunkSpan& span) const {
+  [[nodiscard]] std::string unpacked_chunk(const ChunkSpan& span) {
     const Place in_file{file_.name(), span.offset};
     const std::string record = file_.read(span.offset + record_head, span.size - record_head);
     FieldReader fields(record, {file_.name(), span.offset + record_head});
@@ -184,7 +184,7 @@ class McapFile final : public ChunkedFile {
     const auto crc = fields.number<std::uint32_t>();
     const std::string_view compression = fields.text();
     const std::string_view packed = fields.take(fields.number<std::uint64_t>());
-    std::string bytes = unpacked(compression, packed, size, in_file);
+    std::string bytes = unpacked(compression, packed, size, in_file, std::move(spare_));
     const auto found = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
     if (crc != 0 && crc != found)
       in_file.refuse(

@@ -214,7 +214,7 @@ class Ros1Bag final : public ChunkedFile {
     const Place in_file{file_.name(), span.offset};
     const HeaderFields header(record->header, in_file);
     Chunk chunk{unpacked(header.text("compression"), file_.read(record->data, record->data_size),
-                         header.number<std::uint32_t>("size"), in_file),
+                         header.number<std::uint32_t>("size"), in_file, std::move(spare_)),
                 {}};
     FieldReader records(chunk.bytes, place_in(span, 0));
     while (!records.at_end()) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "sources/text_lines.hpp"
 
@@ -76,9 +77,9 @@ class Zstd {
 };
 
 template <class Decompressor>
-std::string unpack(std::string_view packed, std::uint64_t size, const char* format, const Place& place) {
+std::string unpack(std::string_view packed, std::uint64_t size, const char* format, const Place& place,
+                   std::string bytes) {
   Decompressor decompressor;
-  std::string bytes;
   std::size_t made = 0;
   const auto damaged = [&] {
     place.refuse(0, fmt::format("the chunk's {} data is damaged or does not unpack to the {} bytes that are "
@@ -106,22 +107,23 @@ std::string unpack(std::string_view packed, std::uint64_t size, const char* form
 }  // namespace
 
 std::string unpacked(std::string_view compression, std::string_view packed, std::uint64_t size,
-                     const Place& place) {
+                     const Place& place, std::string spare) {
   if (size > largest_chunk)
     place.refuse(0,
                  fmt::format("a chunk of {} bytes is announced, at most {} are allowed; write the recording "
                              "anew with smaller chunks",
                              size, largest_chunk));
-  if (compression == "bz2") return unpack<Bzip2>(packed, size, "bzip2", place);
-  if (compression == "lz4") return unpack<Lz4>(packed, size, "LZ4", place);
-  if (compression == "zstd") return unpack<Zstd>(packed, size, "Zstandard", place);
+  if (compression == "bz2") return unpack<Bzip2>(packed, size, "bzip2", place, std::move(spare));
+  if (compression == "lz4") return unpack<Lz4>(packed, size, "LZ4", place, std::move(spare));
+  if (compression == "zstd") return unpack<Zstd>(packed, size, "Zstandard", place, std::move(spare));
   if (!compression.empty() && compression != "none")
     place.refuse(0, fmt::format("the chunk is compressed with '{}'; none, bz2, lz4 and zstd can be read",
                                 shown(compression)));
   if (packed.size() != size)
     place.refuse(0, fmt::format("the chunk has {} bytes where {} are announced; get a fresh copy",
                                 packed.size(), size));
-  return std::string(packed);
+  spare.assign(packed);
+  return spare;
 }
 
 bool is_zstd(std::string_view beginning) {

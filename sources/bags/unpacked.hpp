@@ -13,10 +13,11 @@ namespace glocal::bags {
 inline constexpr std::uint64_t largest_chunk = 256ULL << 20U;
 
 /// The bytes of a chunk. `compression`: none (also ""), bz2, lz4 (the frame format) or zstd. Memory grows
-/// with what is really unpacked, up to `size`, which is announced. Throws ConfigError for other compressions,
-/// damaged data, and data that does not unpack to `size` bytes or is larger than `largest_chunk`.
+/// with what is really unpacked, up to `size`, which is announced. `spare` is memory to unpack into, as that
+/// of an earlier chunk; what is in it does not count. Throws ConfigError for other compressions, damaged
+/// data, and data that does not unpack to `size` bytes or is larger than `largest_chunk`.
 [[nodiscard]] std::string unpacked(std::string_view compression, std::string_view packed, std::uint64_t size,
-                                   const Place& place);
+                                   const Place& place, std::string spare = {});
 
 /// Whether bytes begin as a Zstandard frame, which CDR never does.
 [[nodiscard]] bool is_zstd(std::string_view beginning);
