@@ -1,7 +1,7 @@
 #include "sources/bags/mcap.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <algorithm>
 #include <map>
@@ -185,7 +185,7 @@ class McapFile final : public ChunkedFile {
     const std::string_view compression = fields.text();
     const std::string_view packed = fields.take(fields.number<std::uint64_t>());
     std::string bytes = unpacked(compression, packed, size, in_file, std::move(spare_));
-    const auto found = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+    const auto found = libdeflate_crc32(0, bytes.data(), bytes.size());
     if (crc != 0 && crc != found)
       in_file.refuse(
           0, fmt::format("the chunk's CRC-32 is {:08x} where {:08x} is announced: it is damaged; get a "
