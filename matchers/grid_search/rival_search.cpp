@@ -284,6 +284,7 @@ RivalSearchResult search_rivals(const BoxPyramid& pyramid, const Points& points,
                                 const Pose2& local_from_robot, const Pose2& map_from_robot, std::size_t least,
                                 const RivalRule& rule, const PoseGate& gate, int threads) {
   RivalSearchResult result{.at_most = least - 1};
+  if (points.size() > TileCounts::most_points) return result;
   if (least > points.size()) {
     result.is_complete = true;
     return result;

@@ -35,7 +35,8 @@ struct RivalSearchResult {
 /// Searches all poses of the plane that a gate allows, but for those near one robot pose, for such that can
 /// bring at least `least` of the points into contact: by branch and bound on boxes of poses
 /// (box_pyramid.hpp), down to boxes of one cell and of rotations that move the farthest point by one. What it
-/// leaves out cannot reach `least` anywhere in its box. At least one point; `least` at least 1.
+/// leaves out cannot reach `least` anywhere in its box. At least one point, and of more than
+/// TileCounts::most_points the search is given up; `least` at least 1.
 [[nodiscard]] RivalSearchResult search_rivals(const BoxPyramid& pyramid, const Points& points,
                                               const Pose2& local_from_robot, const Pose2& map_from_robot,
                                               std::size_t least, const RivalRule& rule, const PoseGate& gate,

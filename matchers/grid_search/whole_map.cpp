@@ -11,6 +11,18 @@ namespace {
 /// m; as matchers have it, so that they share the field.
 constexpr double field_cell = 0.05;
 
+/// Small boxes bound more tightly, and take memory and time by the area.
+double automatic_cell(const Points& map_points, double epsilon) {
+  constexpr double fine = 0.025, coarse = 0.05;  // m
+  constexpr double large = 2e4;                  // m^2
+  const auto extent = [](const std::vector<float>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return double{*high} - double{*low};
+  };
+  const bool is_large = extent(map_points.x) * extent(map_points.y) > large;
+  return std::min(is_large ? coarse : fine, epsilon);
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, WholeMap::Params& p) {
@@ -33,12 +45,14 @@ void describe(ParamVisitor& v, WholeMap::Params& p) {
            .above = 0.0});
   describe_contact_epsilon(v, p.contact_epsilon);
   v.field("cell", p.cell,
-          {.doc = "Side of the smallest boxes of translations; at most contact_epsilon.",
+          {.doc = "Side of the smallest boxes of translations, at most contact_epsilon; auto is 0.025 m, and "
+                  "0.05 m on maps of more than 2 hectares.",
            .unit = "m",
            .min = 0.01,
            .max = 1.0,
            .audience = Audience::expert});
-  v.require(!p.contact_epsilon || p.cell <= *p.contact_epsilon, "cell", "must be at most contact_epsilon");
+  v.require(!p.contact_epsilon || !p.cell || *p.cell <= *p.contact_epsilon, "cell",
+            "must be at most contact_epsilon");
   v.field("max_rivals", p.max_rivals,
           {.doc = "Number of rivals that are judged: those with the most contact.",
            .min = 1,
@@ -57,7 +71,8 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
       threads_(setup.threads),
       contact_(contact_index(*setup.map, "kd_tree", epsilon_)),
       field_(distance_field(*setup.map, field_cell)),
-      pyramid_(box_pyramid(*setup.map, params.cell, epsilon_, setup.threads)) {}
+      pyramid_(box_pyramid(*setup.map, params.cell.value_or(automatic_cell(setup.map->points(), epsilon_)),
+                           epsilon_, setup.threads)) {}
 
 std::optional<Verification> WholeMap::verify(const LocalMap& local, const Pose3& map_from_local,
                                              const PoseGate& gate) {

@@ -25,7 +25,7 @@ class WholeMap final : public Verifier {
     double distance = 1.0;
     double rotation_deg = 30.0;
     std::optional<double> contact_epsilon = {};
-    double cell = 0.025;
+    std::optional<double> cell = {};
     int max_rivals = 10;
     int max_looks = 40'000'000;
   };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace glocal::whole_map_test {
 namespace {
 
@@ -67,6 +69,15 @@ TEST(WholeMap, RivalsOutsideOfAPriorAreNone) {
   const auto found = verification(map_of({corner(0.0F, 0.0F), corner(7.0F, 4.0F)}), {1.0, 1.0, 0.0},
                                   PoseGate(prior, Pose3{}));
   for (const Hypothesis& rival : found.rivals) EXPECT_LT(rival.map_from_local.x, 3.0);
+}
+
+TEST(WholeMap, BoxesAreLargerOnLargeMaps) {
+  const auto delta_with = [](float width) {
+    return verification(map_of({corner(0.0F, 0.0F), corner(width, width)}), {1.0, 1.0, 0.0})
+        .certificate->delta;
+  };
+  EXPECT_NEAR(delta_with(100.0F), 2.0 * std::sqrt(2.0) * 0.025, 1e-9);
+  EXPECT_NEAR(delta_with(200.0F), 2.0 * std::sqrt(2.0) * 0.05, 1e-9);
 }
 
 TEST(NoVerifier, VerifiesNothing) {
