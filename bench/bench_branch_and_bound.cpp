@@ -1,4 +1,5 @@
-// Exact matching on a grid of poses: building the pyramid, and a match of the first and of later local maps.
+// Exact matching on a grid of poses: building the pyramid, and a match of the first and of later local maps;
+// and the search for rivals of a pose.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -6,8 +7,10 @@
 #include <vector>
 
 #include "bench/scenes.hpp"
+#include "matchers/grid_search/box_pyramid.hpp"
 #include "matchers/grid_search/branch_and_bound.hpp"
 #include "matchers/grid_search/contact_pyramid.hpp"
+#include "matchers/grid_search/whole_map.hpp"
 
 namespace glocal::bench {
 namespace {
@@ -39,20 +42,50 @@ void tiles(benchmark::State& state, const Scene& s) {
   state.counters["per_look"] = time_per_item(static_cast<double>(points_tested));
 }
 
-/// Local maps of so many keyframes; so many poses searched for.
-void match(benchmark::State& state, const Scene& s) {
-  BranchAndBound matcher({.max_poses = static_cast<int>(state.range(1))}, {s.loaded.map, 1});
-  const auto step = static_cast<std::size_t>(state.range(0));
-  std::vector<LocalMap> locals;
+/// A local map of so many keyframes, and where it really lies.
+struct PlacedMap {
+  LocalMap local;
+  Pose2 map_from_local;
+};
+
+/// Those of every fifth start.
+std::vector<PlacedMap> local_maps(const Scene& s, std::size_t step) {
+  std::vector<PlacedMap> maps;
   for (std::size_t i = 0; i < s.loaded.starts.size(); i += 5) {
     const std::size_t start = s.loaded.starts[i];
-    if (start + step < s.loaded.drive.samples.size()) locals.push_back(local_map_at(s, start, step));
+    if (start + step >= s.loaded.drive.samples.size()) continue;
+    const LocalMap local = local_map_at(s, start, step);
+    maps.push_back({local, true_map_from_local(s, start, step, local)});
   }
+  return maps;
+}
+
+/// So many poses searched for.
+void match(benchmark::State& state, const Scene& s) {
+  BranchAndBound matcher({.max_poses = static_cast<int>(state.range(1))}, {s.loaded.map, 1});
+  const std::vector<PlacedMap> maps = local_maps(s, static_cast<std::size_t>(state.range(0)));
   Rng rng(1);
   for ([[maybe_unused]] auto _ : state) {
-    for (const LocalMap& local : locals) benchmark::DoNotOptimize(matcher.match(local, {}, 0.1, rng));
+    for (const PlacedMap& map : maps) benchmark::DoNotOptimize(matcher.match(map.local, {}, 0.1, rng));
   }
-  state.counters["per_match"] = time_per_item(static_cast<double>(locals.size()));
+  state.counters["per_match"] = time_per_item(static_cast<double>(maps.size()));
+}
+
+void boxes(benchmark::State& state, const Scene& s) {
+  std::size_t bytes = 0;
+  for ([[maybe_unused]] auto _ : state) bytes = BoxPyramid(s.map(), 0.025, 0.1, 4).memory_bytes();
+  state.counters["MB"] = static_cast<double>(bytes) / 1e6;
+}
+
+/// Rivals of the true poses.
+void verify(benchmark::State& state, const Scene& s) {
+  WholeMap verifier({}, {s.loaded.map, 1});
+  const std::vector<PlacedMap> maps = local_maps(s, static_cast<std::size_t>(state.range(0)));
+  for ([[maybe_unused]] auto _ : state) {
+    for (const PlacedMap& map : maps)
+      benchmark::DoNotOptimize(verifier.verify(map.local, Pose3(map.map_from_local), {}));
+  }
+  state.counters["per_pose"] = time_per_item(static_cast<double>(maps.size()));
 }
 
 void register_all() {
@@ -66,6 +99,8 @@ void register_all() {
   for (const char* log : {"intel", "fhw"}) {
     add(log, "build/pyramid", pyramid);
     add(log, "tiles", tiles);
+    add(log, "build/boxes", boxes);
+    add(log, "verify", verify)->Arg(2)->Arg(10)->ArgName("step");
     add(log, "match", match)->ArgsProduct({{0, 20}, {1, 50}})->ArgNames({"step", "poses"});
   }
 }
