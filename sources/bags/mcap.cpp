@@ -10,23 +10,13 @@
 #include <utility>
 
 #include "sources/bags/chunked_file.hpp"
+#include "sources/bags/mcap_records.hpp"
 #include "sources/bags/unpacked.hpp"
 
 namespace glocal::bags {
 namespace {
 
-constexpr std::string_view mcap_mark("\x89MCAP0\r\n", 8);
 constexpr std::uint64_t record_head = 9;  ///< Opcode and length.
-
-enum class McapOp : std::uint8_t {
-  footer = 2,
-  schema = 3,
-  channel = 4,
-  message = 5,
-  chunk = 6,
-  message_index = 7,
-  data_end = 15
-};
 
 struct McapRecord {
   McapOp op = McapOp::footer;

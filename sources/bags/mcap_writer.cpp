@@ -9,27 +9,13 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "sources/bags/mcap_records.hpp"
 #include "sources/bags/message_definitions.hpp"
 
 namespace glocal::bags {
 namespace {
 
-constexpr std::string_view magic("\x89MCAP0\r\n", 8);
 constexpr std::size_t chunk_size = 1U << 20U;
-
-enum class Opcode : char {
-  header = 1,
-  footer = 2,
-  schema = 3,
-  channel = 4,
-  message = 5,
-  chunk = 6,
-  message_index = 7,
-  chunk_index = 8,
-  statistics = 11,
-  summary_offset = 14,
-  data_end = 15
-};
 
 /// A record's fields, little-endian, one after the other.
 class RecordFields {
@@ -54,9 +40,9 @@ class RecordFields {
     return *this;
   }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
-  [[nodiscard]] std::string record(Opcode opcode) const { return head(opcode, bytes_.size()) + bytes_; }
+  [[nodiscard]] std::string record(McapOp opcode) const { return head(opcode, bytes_.size()) + bytes_; }
   /// What a record begins with; `size` is that of its fields.
-  [[nodiscard]] static std::string head(Opcode opcode, std::size_t size) {
+  [[nodiscard]] static std::string head(McapOp opcode, std::size_t size) {
     return static_cast<char>(opcode) + RecordFields().number(std::uint64_t{size}).bytes_;
   }
 
@@ -80,8 +66,8 @@ std::string compressed(const std::string& bytes) {
 }  // namespace
 
 McapWriter::McapWriter(Sink sink) : sink_(std::move(sink)) {
-  emit(magic);
-  emit(RecordFields().sized("ros2").sized("glocal").record(Opcode::header));
+  emit(mcap_mark);
+  emit(RecordFields().sized("ros2").sized("glocal").record(McapOp::header));
 }
 
 void McapWriter::emit(std::string_view bytes) {
@@ -104,7 +90,7 @@ std::uint16_t McapWriter::add_channel(const std::string& topic, const std::strin
                                    .sized(ros2_type(type))
                                    .sized("ros2msg")
                                    .sized(definition)
-                                   .record(Opcode::schema);
+                                   .record(McapOp::schema);
     schemas_ += record;
     chunk_ += record;
   }
@@ -114,7 +100,7 @@ std::uint16_t McapWriter::add_channel(const std::string& topic, const std::strin
                                  .sized(topic)
                                  .sized("cdr")
                                  .sized("")  // Metadata.
-                                 .record(Opcode::channel);
+                                 .record(McapOp::channel);
   channels_ += record;
   chunk_ += record;
   messages_[channel] = 0;
@@ -129,7 +115,7 @@ void McapWriter::write(std::uint16_t channel, std::int64_t stamp_ns, std::string
   const auto sequence = static_cast<std::uint32_t>(messages_[channel]++);
   RecordFields fields;
   fields.number(channel).number(sequence).number(stamp).number(stamp);
-  chunk_ += RecordFields::head(Opcode::message, fields.bytes().size() + message.size());
+  chunk_ += RecordFields::head(McapOp::message, fields.bytes().size() + message.size());
   chunk_ += fields.bytes();
   chunk_ += message;
   if (chunk_.size() >= chunk_size) end_chunk();
@@ -147,13 +133,13 @@ void McapWriter::end_chunk() {
            .sized("zstd")
            .number(std::uint64_t{packed.size()})
            .raw(packed)
-           .record(Opcode::chunk));
+           .record(McapOp::chunk));
   index.size = written_ - index.offset;
   for (const auto& [channel, entries] : chunk_entries_) {
     RecordFields pairs;
     for (const IndexEntry& entry : entries) pairs.number(entry.stamp_ns).number(entry.offset);
     index.message_indexes[channel] = written_;
-    emit(RecordFields().number(channel).sized(pairs.bytes()).record(Opcode::message_index));
+    emit(RecordFields().number(channel).sized(pairs.bytes()).record(McapOp::message_index));
   }
   index.message_indexes_size = written_ - index.offset - index.size;
   chunks_.push_back(std::move(index));
@@ -180,7 +166,7 @@ std::string McapWriter::statistics() const {
       .number(messages == 0 ? 0 : first)
       .number(last)
       .map(messages_)
-      .record(Opcode::statistics);
+      .record(McapOp::statistics);
 }
 
 std::string McapWriter::index_record(const ChunkIndex& chunk) {
@@ -194,7 +180,7 @@ std::string McapWriter::index_record(const ChunkIndex& chunk) {
       .sized("zstd")
       .number(chunk.packed_size)
       .number(chunk.size_unpacked)
-      .record(Opcode::chunk_index);
+      .record(McapOp::chunk_index);
 }
 
 void McapWriter::write_summary() {
@@ -203,14 +189,14 @@ void McapWriter::write_summary() {
   for (const ChunkIndex& chunk : chunks_) indexes += index_record(chunk);
   std::string offsets;
   for (const auto& [opcode, records] :
-       {std::pair(Opcode::schema, schemas_), std::pair(Opcode::channel, channels_),
-        std::pair(Opcode::statistics, statistics()), std::pair(Opcode::chunk_index, indexes)}) {
+       {std::pair(McapOp::schema, schemas_), std::pair(McapOp::channel, channels_),
+        std::pair(McapOp::statistics, statistics()), std::pair(McapOp::chunk_index, indexes)}) {
     if (records.empty()) continue;
     offsets += RecordFields()
                    .number(static_cast<std::uint8_t>(opcode))
                    .number(written_)
                    .number(std::uint64_t{records.size()})
-                   .record(Opcode::summary_offset);
+                   .record(McapOp::summary_offset);
     emit(records);
   }
   const std::uint64_t begin_of_offsets = written_;
@@ -218,16 +204,16 @@ void McapWriter::write_summary() {
   // The summary's CRC is that of all up to itself, the footer's other fields included.
   RecordFields footer;
   footer.number(begin).number(begin_of_offsets);
-  emit(RecordFields::head(Opcode::footer, footer.bytes().size() + sizeof(crc_)) + footer.bytes());
+  emit(RecordFields::head(McapOp::footer, footer.bytes().size() + sizeof(crc_)) + footer.bytes());
   emit(RecordFields().number(crc_).bytes());
 }
 
 void McapWriter::finish() {
   end_chunk();
-  emit(RecordFields().number(crc_).record(Opcode::data_end));
+  emit(RecordFields().number(crc_).record(McapOp::data_end));
   crc_ = 0;
   write_summary();
-  emit(magic);
+  emit(mcap_mark);
 }
 
 }  // namespace glocal::bags
