@@ -8,11 +8,8 @@
 #include "sources/clouds/cloud_file.hpp"
 
 namespace glocal::app {
-namespace {
 
 namespace fs = std::filesystem;
-
-}  // namespace
 
 void expect_there(const fs::path& path) {
   if (!fs::exists(path)) throw ConfigError({{path.string(), 0, 0, "there is no such file or folder"}});

@@ -78,7 +78,7 @@ DriveTrack read_track(const PrepareOptions& options, Warnings& warnings, const T
 ReferencePoses references_of(const PrepareOptions& options, const DriveTrack& drive) {
   ReferencePoses references;
   references.track =
-      options.corrected.empty() ? own_references(drive) : read_corrected(options.corrected, drive);
+      options.corrected.empty() ? own_references(drive.scans) : read_corrected(options.corrected, drive);
   references.are_of_sensor = options.poses_of == "sensor";
   references.shift_ns = nanoseconds(options.shift_s);
   references.max_gap_ns = nanoseconds(options.max_gap_s);

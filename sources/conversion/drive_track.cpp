@@ -90,9 +90,9 @@ bags::PoseTrack read_corrected(const std::filesystem::path& file, const DriveTra
   return track;
 }
 
-bags::PoseTrack own_references(const DriveTrack& drive) {
+bags::PoseTrack own_references(const std::vector<TrackedScan>& scans) {
   bags::PoseTrack track;
-  for (const TrackedScan& scan : drive.scans) {
+  for (const TrackedScan& scan : scans) {
     if (scan.map_from_robot) track.add(scan.stamp_ns, *scan.map_from_robot);
   }
   track.settle();

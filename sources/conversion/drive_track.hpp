@@ -49,8 +49,8 @@ struct ReferencePoses {
 /// poses, and for KITTI poses of another number than the scans.
 [[nodiscard]] bags::PoseTrack read_corrected(const std::filesystem::path& file, const DriveTrack& drive);
 
-/// The reference poses that the drive has itself.
-[[nodiscard]] bags::PoseTrack own_references(const DriveTrack& drive);
+/// The reference poses that scans have themselves.
+[[nodiscard]] bags::PoseTrack own_references(const std::vector<TrackedScan>& scans);
 
 /// A drive's scans of the first sensor that have a reference pose, which is given to them.
 class JoinedDrive final : public DriveReader {

@@ -168,11 +168,7 @@ std::vector<Relation> read_relations(const std::filesystem::path& file) {
 std::optional<RelationErrors> relation_errors(const std::vector<Relation>& relations,
                                               const std::vector<TrackedScan>& scans,
                                               std::int64_t max_gap_ns) {
-  bags::PoseTrack track;
-  for (const TrackedScan& scan : scans) {
-    if (scan.map_from_robot) track.add(scan.stamp_ns, *scan.map_from_robot);
-  }
-  track.settle();
+  const bags::PoseTrack track = own_references(scans);
   std::vector<double> ways, turns;
   for (const Relation& relation : relations) {
     const auto from = track.at(relation.from_ns, max_gap_ns), to = track.at(relation.to_ns, max_gap_ns);
