@@ -166,20 +166,21 @@ std::string rivals_elsewhere(const Replayed& step, const LoadedExperiment& loade
   if (!best || step.local.points.empty()) return "not looked for: there is no best pose";
   StageSetup setup{loaded.map};
   setup.contact_epsilon = contact_epsilon_on(*loaded.map, experiment.localizer);
-  const auto found = catalog.verifiers.make({"whole_map"}, setup)
-                         ->verify(step.local, *best * inverse(step.local.local_from_robot), step.gate);
-  if (!found || !found->certificate) return "unknown: the search of the whole map was given up";
+  const Verification found =
+      catalog.verifiers.make({"whole_map"}, setup)
+          ->verify(step.local, *best * inverse(step.local.local_from_robot), step.gate);
+  if (!found.certificate) return "unknown: the search of the whole map was given up";
   const std::vector<Hypothesis>& hypotheses = step.result.hypotheses;
-  const auto missing = std::find_if(found->rivals.begin(), found->rivals.end(), [&](const Hypothesis& rival) {
+  const auto missing = std::find_if(found.rivals.begin(), found.rivals.end(), [&](const Hypothesis& rival) {
     const Pose3 robot = rival.map_from_local * step.local.local_from_robot;
-    return rival.quality >= found->certificate->contact - found->margin &&
+    return rival.quality >= found.certificate->contact - found.margin &&
            std::none_of(hypotheses.begin(), hypotheses.end(),
                         [&](const Hypothesis& h) { return agree(h.map_from_robot, robot, limits); });
   });
   const std::string bound =
       fmt::format("the best pose has {:.0f} % contact, others at most {:.0f} %",
-                  100.0 * found->certificate->contact, 100.0 * found->certificate->at_most);
-  if (missing == found->rivals.end()) return "none is missing: " + bound;
+                  100.0 * found.certificate->contact, 100.0 * found.certificate->at_most);
+  if (missing == found.rivals.end()) return "none is missing: " + bound;
   return fmt::format("missing: {:.0f} % contact at {}, where no hypothesis is; {}", 100.0 * missing->quality,
                      text_of(missing->map_from_local * step.local.local_from_robot), bound);
 }

@@ -114,8 +114,8 @@ StagedMargin::StagedMargin(const Params& params, const StageSetup& setup)
 void StagedMargin::refute(const Verification& verification) {
   certified_stages_.begin_anew();
   is_declared_ = false;
-  const bool has_rival = !verification.rivals.empty() &&
-                         verification.rivals.front().score >= verification.score - verification.margin;
+  const bool has_rival =
+      !verification.rivals.empty() && verification.is_about_as_good(verification.rivals.front());
   if (has_rival || !verification.certificate) begin_anew();
 }
 

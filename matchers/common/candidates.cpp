@@ -35,6 +35,25 @@ void describe(ParamVisitor& v, CandidateRule& p) {
           {.doc = "Points used to refine a pose.", .min = 3, .audience = Audience::expert});
 }
 
+std::vector<Candidate> distinct_candidates(std::vector<Candidate> candidates, const Pose2& local_from_robot,
+                                           const CandidateRule& rule, std::size_t most) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
+  std::vector<Candidate> kept;
+  std::vector<Pose2> robots;
+  for (const Candidate& candidate : candidates) {
+    const Pose2 robot = candidate.map_from_local * local_from_robot;
+    const bool repeats = std::any_of(robots.begin(), robots.end(), [&](const Pose2& other) {
+      return is_same_candidate(robot, other, rule);
+    });
+    if (repeats) continue;
+    kept.push_back(candidate);
+    robots.push_back(robot);
+    if (kept.size() == most) break;
+  }
+  return kept;
+}
+
 CandidateRefiner::CandidateRefiner(const CandidateRule& rule, std::size_t most,
                                    const PoseRefinement& refinement,
                                    std::shared_ptr<const DistanceField> field,
@@ -45,35 +64,16 @@ CandidateRefiner::CandidateRefiner(const CandidateRule& rule, std::size_t most,
       field_(std::move(field)),
       contact_(std::move(contact)) {}
 
-std::vector<Candidate> CandidateRefiner::distinct(std::vector<Candidate> candidates,
-                                                  const Pose2& local_from_robot) const {
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
-  std::vector<Candidate> kept;
-  std::vector<Pose2> robots;
-  for (const Candidate& candidate : candidates) {
-    const Pose2 robot = candidate.map_from_local * local_from_robot;
-    const bool repeats = std::any_of(robots.begin(), robots.end(), [&](const Pose2& other) {
-      return is_same_candidate(robot, other, rule_);
-    });
-    if (repeats) continue;
-    kept.push_back(candidate);
-    robots.push_back(robot);
-    if (kept.size() == most_) break;
-  }
-  return kept;
-}
-
 std::vector<Candidate> CandidateRefiner::refined(std::vector<Candidate> candidates,
                                                  const Pose2& local_from_robot, const Points& sample,
                                                  const Points& points) const {
   const Points anchors = first_of(sample, static_cast<std::size_t>(rule_.refinement_points));
-  candidates = distinct(std::move(candidates), local_from_robot);
+  candidates = distinct_candidates(std::move(candidates), local_from_robot, rule_, most_);
   for (Candidate& candidate : candidates) {
     candidate.map_from_local = refined_pose(*field_, anchors, candidate.map_from_local, refinement_);
     candidate.quality = contact_->share(points, Transform(candidate.map_from_local));
   }
-  return distinct(std::move(candidates), local_from_robot);
+  return distinct_candidates(std::move(candidates), local_from_robot, rule_, most_);
 }
 
 std::vector<std::uint32_t> draw_numbers(std::size_t n, std::size_t below, Rng& rng) {

@@ -34,16 +34,17 @@ void describe(ParamVisitor& v, CandidateRule& p);
   return distance(a, b) < rule.distance && rotation_between(a, b) < radians(rule.rotation_deg);
 }
 
+/// The best first, at most `most`, leaving out those that only repeat a better one: the same robot pose.
+[[nodiscard]] std::vector<Candidate> distinct_candidates(std::vector<Candidate> candidates,
+                                                         const Pose2& local_from_robot,
+                                                         const CandidateRule& rule, std::size_t most);
+
 /// Makes few candidates of many poses.
 class CandidateRefiner {
  public:
   /// Of more than `most` candidates the best are kept.
   CandidateRefiner(const CandidateRule& rule, std::size_t most, const PoseRefinement& refinement,
                    std::shared_ptr<const DistanceField> field, std::shared_ptr<const ContactIndex> contact);
-
-  /// The best first, leaving out those that only repeat a better one: the same robot pose.
-  [[nodiscard]] std::vector<Candidate> distinct(std::vector<Candidate> candidates,
-                                                const Pose2& local_from_robot) const;
 
   /// The distinct ones, each refined by the first points of `sample` and judged anew by the contact of
   /// `points`; distinct again, as some may have become one.

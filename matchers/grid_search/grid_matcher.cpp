@@ -75,7 +75,8 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
     candidates.push_back(
         {pose.map_from_local, static_cast<double>(pose.in_contact) / static_cast<double>(sample.size())});
   }
-  candidates = refiner_.distinct(std::move(candidates), local_from_robot);
+  candidates = distinct_candidates(std::move(candidates), local_from_robot, params_.candidate,
+                                   static_cast<std::size_t>(params_.max_poses));
   if (params_.refinement.iterations > 0) {
     result.points_tested += candidates.size() * local.points.size();
     candidates = refiner_.refined(std::move(candidates), local_from_robot, sample, local.points);

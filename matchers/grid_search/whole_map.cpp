@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "matchers/common/candidates.hpp"
 #include "matchers/grid_search/rival_search.hpp"
 
 namespace glocal {
@@ -74,8 +75,7 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
       pyramid_(box_pyramid(*setup.map, params.cell.value_or(automatic_cell(setup.map->points(), epsilon_)),
                            epsilon_, setup.threads)) {}
 
-std::optional<Verification> WholeMap::verify(const LocalMap& local, const Pose3& map_from_local,
-                                             const PoseGate& gate) {
+Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
   const auto points = static_cast<double>(local.points.size());
   const Pose2 declared = seen_from_above(map_from_local);
   const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
@@ -90,31 +90,28 @@ std::optional<Verification> WholeMap::verify(const LocalMap& local, const Pose3&
                     static_cast<std::size_t>(least), rule, gate, threads_);
   Verification result{.distance = rule.distance, .rotation = rule.rotation, .margin = params_.margin};
   result.points_tested = found.looks;
+  const auto is_rival = [&](const Pose2& pose) {
+    const Pose2 robot = pose * local_from_robot;
+    const Pose2 declared_robot = declared * local_from_robot;
+    return gate.allows(Pose3(pose)) && (distance(robot, declared_robot) > rule.distance ||
+                                        rotation_between(robot, declared_robot) > rule.rotation);
+  };
+  std::vector<Candidate> rivals;
   for (const RivalSearchResult::Rival& rival : found.rivals) {
     const Pose2 refined = refined_pose(*field_, local.points, rival.map_from_local, {});
-    for (const Pose2& pose : {rival.map_from_local, refined}) add_rival(pose, declared, local, gate, result);
+    for (const Pose2& pose : {rival.map_from_local, refined}) {
+      if (is_rival(pose)) rivals.push_back({pose, contact_->share(local.points, Transform(pose))});
+    }
   }
-  std::stable_sort(result.rivals.begin(), result.rivals.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  for (const Candidate& rival :
+       distinct_candidates(std::move(rivals), local_from_robot, {}, rule.most_rivals))
+    result.rivals.push_back(Hypothesis::by_contact(rival.map_from_local, rival.quality));
   if (found.is_complete)
     result.certificate = {.contact = contact,
                           .at_most = static_cast<double>(found.at_most) / points,
                           .epsilon = epsilon_,
                           .delta = pyramid_->delta()};
   return result;
-}
-
-/// Unless it is none, or stands for one that is there.
-void WholeMap::add_rival(const Pose2& map_from_local, const Pose2& declared, const LocalMap& local,
-                         const PoseGate& gate, Verification& result) const {
-  const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
-  const Pose2 robot = map_from_local * local_from_robot;
-  const Pose2 declared_robot = declared * local_from_robot;
-  const bool is_rival = distance(robot, declared_robot) > result.distance ||
-                        rotation_between(robot, declared_robot) > result.rotation;
-  if (!is_rival || !gate.allows(Pose3(map_from_local))) return;
-  result.rivals.push_back(
-      Hypothesis::by_contact(map_from_local, contact_->share(local.points, Transform(map_from_local))));
 }
 
 }  // namespace glocal

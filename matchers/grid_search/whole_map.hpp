@@ -33,13 +33,10 @@ class WholeMap final : public Verifier {
   /// Throws ConfigError where the map is too large for a contact grid or a pyramid.
   WholeMap(const Params& params, const StageSetup& setup);
 
-  [[nodiscard]] std::optional<Verification> verify(const LocalMap& local, const Pose3& map_from_local,
-                                                   const PoseGate& gate) override;
+  [[nodiscard]] Verification verify(const LocalMap& local, const Pose3& map_from_local,
+                                    const PoseGate& gate) override;
 
  private:
-  void add_rival(const Pose2& map_from_local, const Pose2& declared, const LocalMap& local,
-                 const PoseGate& gate, Verification& result) const;
-
   Params params_;
   double epsilon_;
   int threads_;
@@ -56,9 +53,10 @@ class NoVerifier final : public Verifier {
   struct Params {};
 
   explicit NoVerifier(const Params& /*params*/) {}
-  [[nodiscard]] std::optional<Verification> verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
-                                                   const PoseGate& /*gate*/) override {
-    return std::nullopt;
+  [[nodiscard]] bool verifies() const override { return false; }
+  [[nodiscard]] Verification verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
+                                    const PoseGate& /*gate*/) override {
+    return {};
   }
 };
 inline void describe(ParamVisitor& /*v*/, NoVerifier::Params& /*p*/) {}

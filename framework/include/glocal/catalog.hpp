@@ -40,7 +40,7 @@ struct StageSetup {
   int threads = 1;
   double contact_epsilon = 0.10;   ///< m; said once for all stages.
   Motion motion = Motion::planar;  ///< What of the robot's pose is looked for; said once for all stages.
-  bool has_verifier = false;       ///< Whether what is declared is verified.
+  bool has_verifier = false;       ///< Whether what is declared is verified; not known to a verifier.
   /// To be called with every file read while the stage is made, for the record of a run's inputs.
   std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
   /// Whether files are read in which a stage has saved what it makes of the map; else it makes that anew.

@@ -52,11 +52,14 @@ struct Verification {
   double rotation = 0.0;  ///< rad; … as is one that is turned by more.
   /// The best ones that the search brought, judged as the matcher judges its own; falling score.
   std::vector<Hypothesis> rivals = {};
-  double margin = 0.0;            ///< A rival refutes the declaration if its score is lower by no more.
+  double margin = 0.0;            ///< A rival is about as good if its score is lower by no more.
   double score = 0.0;             ///< Of the declared pose. The localizer sets it.
   bool is_refuted = false;        ///< The localizer sets it.
   std::size_t points_tested = 0;  ///< Looks at a point.
   std::optional<Certificate> certificate = {};  ///< None where the search was given up.
+
+  /// Whether a rival is about as good as the declared pose.
+  [[nodiscard]] bool is_about_as_good(const Hypothesis& rival) const { return rival.score >= score - margin; }
 };
 
 /// What a verdict rule says, and why.

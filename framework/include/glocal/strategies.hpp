@@ -164,10 +164,11 @@ class VerdictRule {
 class Verifier {
  public:
   virtual ~Verifier() = default;
-  /// Of the pose of a local map with points. Poses that `gate` does not allow are no rivals. None if nothing
-  /// is ever verified.
-  [[nodiscard]] virtual std::optional<Verification> verify(const LocalMap& local, const Pose3& map_from_local,
-                                                           const PoseGate& gate) = 0;
+  /// Whether it looks for rivals at all. Where it does not, verify() is not called.
+  [[nodiscard]] virtual bool verifies() const { return true; }
+  /// Of the pose of a local map with points. Poses that `gate` does not allow are no rivals.
+  [[nodiscard]] virtual Verification verify(const LocalMap& local, const Pose3& map_from_local,
+                                            const PoseGate& gate) = 0;
 };
 
 }  // namespace glocal

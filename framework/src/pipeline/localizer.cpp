@@ -74,7 +74,7 @@ double score_near(const Pose3& map_from_robot, const StepResult& result) {
 void judge_by(Verification& v, Verdict& verdict) {
   std::vector<Pose3> candidates = {*verdict.map_from_robot};
   for (const Hypothesis& rival : v.rivals) {
-    if (rival.score >= v.score - v.margin) candidates.push_back(rival.map_from_robot);
+    if (v.is_about_as_good(rival)) candidates.push_back(rival.map_from_robot);
   }
   const std::size_t rivals = candidates.size() - 1;
   const bool is_topped = v.certificate && v.certificate->at_most > v.certificate->contact;
@@ -136,20 +136,20 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
     throw ConfigError({{"", 0, 0, "localizer.prior.region: " + *why}});
   setup.contact_epsilon = contact_epsilon_on(*setup.map, config);
   setup.motion = motion_;
-  setup.has_verifier = config.verifier.name != "none";
   const auto make = [&](const auto& registry, const StrategyChoice& choice, RunningStage& stage) {
     if (const auto why = why_unfit(choice, registry, motion_)) throw ConfigError({{"", 0, 0, *why}});
     stage = {.kind = registry.kind(), .name = choice.name};
     const StageScope scope(&stage);
     return registry.make(choice, setup);
   };
+  verifier_ = make(catalog.verifiers, config.verifier, stages_.verifier);
+  setup.has_verifier = verifier_->verifies();
   local_mapper_ = make(catalog.local_mappers, config.local_mapper, stages_.local_mapper);
   matcher_ = make(catalog.matchers, config.matcher, stages_.matcher);
   clusterer_ = make(catalog.clusterers, config.clusterer, stages_.clusterer);
   rater_ = make(catalog.raters, config.rater, stages_.rater);
   threshold_policy_ = make(catalog.threshold_policies, config.threshold_policy, stages_.threshold_policy);
   verdict_rule_ = make(catalog.verdict_rules, config.verdict_rule, stages_.verdict_rule);
-  verifier_ = make(catalog.verifiers, config.verifier, stages_.verifier);
 }
 
 void Localizer::use(std::unique_ptr<ThresholdPolicy> threshold_policy) {
@@ -253,20 +253,18 @@ StepResult Localizer::step(const Observation& observation) {
 
 void Localizer::verify(StepResult& result, const LocalMap& local) {
   if (result.verdict.kind != VerdictKind::localized) is_verified_ = false;
-  if (result.verdict.kind != VerdictKind::localized || is_verified_ || local.points.empty()) return;
+  if (result.verdict.kind != VerdictKind::localized || is_verified_ || local.points.empty() ||
+      !verifier_->verifies())
+    return;
   const Pose3 declared = *result.verdict.map_from_robot;
   std::optional<Verification>& verification = result.verification;
   in_stage(stages_.verifier, result.step, [&] {
     timed(result.stage_ms.verify, [&] {
       verification = verifier_->verify(local, declared * inverse(local.local_from_robot), gate_);
     });
-    if (verification) check_verification(*verification, motion_);
+    check_verification(*verification, motion_);
   });
   is_verified_ = true;
-  if (!verification) {
-    result.stage_ms.verify = 0.0;
-    return;
-  }
   in_stage(stages_.matcher, result.step, [&] {
     timed(result.stage_ms.verify,
           [&] { verification->rivals = matcher_->take_up(std::move(verification->rivals), local); });

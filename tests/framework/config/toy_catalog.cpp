@@ -50,9 +50,10 @@ struct ToyVerdict final : VerdictRule {
 struct ToyVerifier final : Verifier {
   using Params = Nothing;
   explicit ToyVerifier(const Params& /*params*/) {}
-  std::optional<Verification> verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
-                                     const PoseGate& /*gate*/) override {
-    return std::nullopt;
+  bool verifies() const override { return false; }
+  Verification verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
+                      const PoseGate& /*gate*/) override {
+    return {};
   }
 };
 

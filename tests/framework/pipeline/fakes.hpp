@@ -25,9 +25,7 @@ struct Script {
   std::vector<double> r;  ///< Of the clusters, in the order of their hypotheses.
   PoseGate gate;          ///< What the matcher was told last.
   std::function<Verdict(const StepResult&)> judge = [](const StepResult&) { return Verdict{}; };
-  std::function<std::optional<Verification>(const Pose3& map_from_local)> verify = [](const Pose3&) {
-    return std::nullopt;
-  };
+  std::function<Verification(const Pose3& map_from_local)> verify = {};  ///< Without it, nothing is verified.
 };
 
 struct FakeParams {
@@ -130,8 +128,9 @@ struct FakeVerdict final : Fake<VerdictRule> {
 
 struct FakeVerifier final : Fake<Verifier> {
   using Fake::Fake;
-  [[nodiscard]] std::optional<Verification> verify(const LocalMap& /*local*/, const Pose3& map_from_local,
-                                                   const PoseGate& /*gate*/) override {
+  [[nodiscard]] bool verifies() const override { return static_cast<bool>(script_->verify); }
+  [[nodiscard]] Verification verify(const LocalMap& /*local*/, const Pose3& map_from_local,
+                                    const PoseGate& /*gate*/) override {
     note("verify");
     return script_->verify(map_from_local);
   }

@@ -433,19 +433,19 @@ TEST_F(WithPrior, ARegionOffTheMapIsRefused) {
   }
 }
 
-/// Writes down the contact_epsilon that it is made with.
-class EpsilonWitness final : public Clusterer {
+/// Writes down what it is made with.
+class SetupWitness final : public Clusterer {
  public:
   struct Params {
-    std::shared_ptr<double> seen;
+    std::shared_ptr<StageSetup> seen;
   };
-  EpsilonWitness(const Params& params, const StageSetup& setup) { *params.seen = setup.contact_epsilon; }
+  SetupWitness(const Params& params, const StageSetup& setup) { *params.seen = setup; }
   [[nodiscard]] std::vector<Cluster> cluster(const std::vector<Hypothesis>& /*hypotheses*/,
                                              Rng& /*rng*/) override {
     return {};
   }
 };
-void describe(ParamVisitor& /*v*/, EpsilonWitness::Params& /*p*/) {}
+void describe(ParamVisitor& /*v*/, SetupWitness::Params& /*p*/) {}
 
 TEST(ContactEpsilon, FollowsFromTheResolutionOfAMapOfPointsAlone) {
   const auto epsilon_on = [](double of_grid, double of_points) {
@@ -461,8 +461,8 @@ TEST(ContactEpsilon, FollowsFromTheResolutionOfAMapOfPointsAlone) {
 }
 
 TEST_F(LocalizerTest, ContactEpsilonIsSaidOnceOrFollowsFromTheMap) {
-  const auto seen = std::make_shared<double>(0.0);
-  catalog_.clusterers.add<EpsilonWitness>("witness", "Writes down what it is made with.", {seen});
+  const auto seen = std::make_shared<StageSetup>();
+  catalog_.clusterers.add<SetupWitness>("witness", "Writes down what it is made with.", {seen});
   LocalizerConfig config = follow(script_);
   config.clusterer = catalog_.clusterers.choose("witness");
   const auto epsilon_on = [&](double resolution) {
@@ -470,13 +470,27 @@ TEST_F(LocalizerTest, ContactEpsilonIsSaidOnceOrFollowsFromTheMap) {
     data.points.push_back({0.0F, 0.0F, 0.0F});
     data.grid.resolution = resolution;
     const Localizer made(config, catalog_, {std::make_shared<const GlobalMap>(std::move(data)), 1}, 1);
-    return *seen;
+    return seen->contact_epsilon;
   };
   EXPECT_DOUBLE_EQ(epsilon_on(0.05), 0.10);
   EXPECT_DOUBLE_EQ(epsilon_on(0.02), 0.04);
   EXPECT_DOUBLE_EQ(epsilon_on(0.0), 0.10);  // a map without a grid
   config.contact_epsilon = 0.25;
   EXPECT_DOUBLE_EQ(epsilon_on(0.05), 0.25);
+}
+
+TEST_F(LocalizerTest, StagesKnowWhetherTheVerifierVerifies) {
+  const auto seen = std::make_shared<StageSetup>();
+  catalog_.clusterers.add<SetupWitness>("witness", "Writes down what it is made with.", {seen});
+  LocalizerConfig config = follow(script_);
+  config.clusterer = catalog_.clusterers.choose("witness");
+  const auto is_known = [&] {
+    const Localizer made(config, catalog_, {std::make_shared<const GlobalMap>(MapData{}), 1}, 1);
+    return seen->has_verifier;
+  };
+  EXPECT_FALSE(is_known());
+  script_->verify = [](const Pose3&) { return Verification{}; };
+  EXPECT_TRUE(is_known());
 }
 
 }  // namespace

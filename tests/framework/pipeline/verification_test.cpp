@@ -139,7 +139,7 @@ TEST_F(WithVerifier, TheVerifierIsAskedOfTheLocalMapsPose) {
   Pose3 asked;
   script_->verify = [&](const Pose3& map_from_local) {
     asked = map_from_local;
-    return std::nullopt;
+    return Verification{};
   };
   step();
   EXPECT_NEAR(asked.x, declared_.x - 1.0, 1e-12);

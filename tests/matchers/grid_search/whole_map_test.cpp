@@ -37,7 +37,7 @@ LocalMap before_a_corner() {
 Verification verification(const std::shared_ptr<const GlobalMap>& map, const Pose2& declared,
                           const PoseGate& gate = {}) {
   WholeMap verifier({}, StageSetup{.map = map});
-  return verifier.verify(before_a_corner(), Pose3(declared), gate).value();
+  return verifier.verify(before_a_corner(), Pose3(declared), gate);
 }
 
 TEST(WholeMap, CertifiesAPoseWithoutEqual) {
@@ -64,6 +64,18 @@ TEST(WholeMap, BringsTheOtherCorner) {
   EXPECT_EQ(found.certificate->at_most, 1.0);
 }
 
+TEST(WholeMap, BringsEachRivalOnce) {
+  // The other corner's surroundings fit, too, if less well, and lead to the same pose.
+  const auto found = verification(map_of({corner(0.0F, 0.0F), corner(7.03F, 4.01F)}), {1.0, 1.0, 0.0});
+  for (std::size_t i = 0; i < found.rivals.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Pose3& a = found.rivals[i].map_from_local;
+      const Pose3& b = found.rivals[k].map_from_local;
+      EXPECT_TRUE(distance(a, b) >= 0.4 || rotation_between(a, b) >= radians(11.5)) << i << " and " << k;
+    }
+  }
+}
+
 TEST(WholeMap, RivalsOutsideOfAPriorAreNone) {
   const Prior prior{.region = {.x = 1.0, .y = 1.0, .radius = 2.0}, .heading = {}};
   const auto found = verification(map_of({corner(0.0F, 0.0F), corner(7.0F, 4.0F)}), {1.0, 1.0, 0.0},
@@ -82,7 +94,7 @@ TEST(WholeMap, BoxesAreLargerOnLargeMaps) {
 
 TEST(NoVerifier, VerifiesNothing) {
   NoVerifier verifier({});
-  EXPECT_FALSE(verifier.verify(before_a_corner(), Pose3{}, {}));
+  EXPECT_FALSE(verifier.verifies());
 }
 
 }  // namespace

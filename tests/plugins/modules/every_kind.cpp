@@ -131,9 +131,10 @@ class Trusting final : public Verifier {
  public:
   using Params = NoParams;
   explicit Trusting(const Params& /*params*/) {}
-  std::optional<Verification> verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
-                                     const PoseGate& /*gate*/) override {
-    return std::nullopt;
+  bool verifies() const override { return false; }
+  Verification verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
+                      const PoseGate& /*gate*/) override {
+    return {};
   }
 };
 
