@@ -11,34 +11,26 @@
 #include <string_view>
 
 #include "glocal/error.hpp"
+#include "glocal/occupancy_grid.hpp"
 #include "sources/compressed_file.hpp"
 
 namespace glocal {
 namespace {
-
-constexpr double max_pixels = 64e6;
 
 [[noreturn]] void fail(const std::filesystem::path& file, std::string message) {
   throw ConfigError({{file.string(), 0, 0, std::move(message)}});
 }
 
 /// Refuses what cannot be held, before it takes any memory.
-void check_size(const std::filesystem::path& file, double width, double height) {
+void check_size(const std::filesystem::path& file, double width, double height, double max_pixels) {
   if (width < 1.0 || height < 1.0)
     fail(file, fmt::format("is an empty image ({} x {} pixels)", width, height));
   if (width * height > max_pixels) {
     fail(file,
          fmt::format(
-             "is too large to hold ({} x {} pixels, at most 64 million); crop it or lower its resolution",
-             width, height));
+             "is too large to hold ({} x {} pixels, at most {:.0f} million); crop it or lower its resolution",
+             width, height, max_pixels / 1e6));
   }
-}
-
-/// An image of this size, still black.
-Image blank(double width, double height) {
-  Image image{static_cast<int>(width), static_cast<int>(height), {}, {}};
-  image.grey.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  return image;
 }
 
 /// Reads PGM as netpbm describes it.
@@ -46,7 +38,7 @@ class PgmReader {
  public:
   PgmReader(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
-  Image read() {
+  void read(const TakeRow& take) {
     const bool binary = bytes_[1] == '5';
     at_ = 2;
     const int width = number("width");
@@ -54,18 +46,21 @@ class PgmReader {
     const int maximum = number("maximum grey");
     if (maximum < 1 || maximum > 65535)
       fail(file_, fmt::format("maximum grey must be 1 to 65535, not {}", maximum));
-    check_size(file_, width, height);
+    check_size(file_, width, height, max_grid_cells);
     const double bytes_per_pixel = binary && maximum < 256 ? 1.0 : 2.0;  // a digit and a blank are two, too
     if (static_cast<double>(bytes_.size() - at_) + 1.0 < bytes_per_pixel * width * height)
       truncated("pixels");
-    Image image = blank(width, height);
-    if (binary) {
-      ++at_;  // A single blank ends the header.
-      read_binary(image, maximum);
-    } else {
-      for (float& grey : image.grey) grey = scaled(number("pixels"), maximum);
+    if (binary) ++at_;  // A single blank ends the header.
+    ImageRow row{.width = width, .height = height};
+    row.grey.resize(static_cast<std::size_t>(width));
+    for (; row.row < height; ++row.row) {
+      if (binary) {
+        read_binary(row.grey, maximum);
+      } else {
+        for (float& grey : row.grey) grey = scaled(number("pixels"), maximum);
+      }
+      take(row);
     }
-    return image;
   }
 
  private:
@@ -94,15 +89,16 @@ class PgmReader {
     return value;
   }
 
-  void read_binary(Image& image, int maximum) {
+  void read_binary(std::vector<float>& row, int maximum) {
     const std::size_t size = maximum < 256 ? 1 : 2;
-    if (bytes_.size() < at_ || (bytes_.size() - at_) / size < image.grey.size()) truncated("pixels");
+    if (bytes_.size() < at_ || (bytes_.size() - at_) / size < row.size()) truncated("pixels");
     const auto* bytes = reinterpret_cast<const unsigned char*>(bytes_.data()) + at_;
-    for (float& grey : image.grey) {
+    for (float& grey : row) {
       const int value = size == 1 ? bytes[0] : bytes[0] * 256 + bytes[1];
       grey = scaled(value, maximum);
       bytes += size;
     }
+    at_ += row.size() * size;
   }
 
   static float scaled(int value, int maximum) {
@@ -135,20 +131,25 @@ class PngReader {
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
-  Image read() {
+  void read(const TakeRow& take) {
     if (!read_header()) refuse();
-    check_size(file_, png_get_image_width(png_, info_), png_get_image_height(png_, info_));
+    const png_uint_32 width = png_get_image_width(png_, info_);
+    const png_uint_32 height = png_get_image_height(png_, info_);
+    const bool interlaced = png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE;
+    constexpr double most_held = 64e6;
+    check_size(file_, width, height, interlaced ? most_held : max_grid_cells);
     check_length();
-    Image image = blank(png_get_image_width(png_, info_), png_get_image_height(png_, info_));
     channels_ = png_get_channels(png_, info_);
-    const auto height = static_cast<std::size_t>(image.height);
     const std::size_t stride = png_get_rowbytes(png_, info_);
-    pixels_.resize(stride * height);
-    rows_.resize(height);
-    for (std::size_t row = 0; row < height; ++row) rows_[row] = pixels_.data() + row * stride;
-    if (!read_pixels()) refuse();
-    convert(image);
-    return image;
+    pixels_.resize(stride * (interlaced ? height : 1));
+    if (interlaced && !read_interlaced(stride, height)) refuse();
+    ImageRow row{.width = static_cast<int>(width), .height = static_cast<int>(height)};
+    for (; row.row < row.height; ++row.row) {
+      if (!interlaced && !read_row()) refuse();
+      convert(pixels_.data() + (interlaced ? stride * static_cast<std::size_t>(row.row) : 0), row);
+      take(row);
+    }
+    if (!read_end()) refuse();
   }
 
  private:
@@ -171,28 +172,43 @@ class PngReader {
     error_ = "the file ends early";
     refuse();
   }
-  bool read_pixels() {
+  bool read_row() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
-    png_read_image(png_, rows_.data());
+    png_read_row(png_, pixels_.data(), nullptr);
+    return true;
+  }
+  bool read_interlaced(std::size_t stride, std::size_t height) {
+    std::vector<png_bytep> rows(height);
+    for (std::size_t row = 0; row < height; ++row) rows[row] = pixels_.data() + row * stride;
+    return read_whole(rows.data());
+  }
+  bool read_whole(png_bytepp rows) {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_read_image(png_, rows);
+    return true;
+  }
+  bool read_end() {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_read_end(png_, nullptr);
     return true;
   }
 
-  void convert(Image& image) {
+  void convert(const unsigned char* pixels, ImageRow& row) const {
     const bool alpha = channels_ % 2 == 0;
     const int colours = alpha ? channels_ - 1 : channels_;
-    if (alpha) image.opacity.resize(image.grey.size());
-    const unsigned char* at = pixels_.data();
-    const auto sample = [&at] {
-      const int value = at[0] * 256 + at[1];
-      at += 2;
+    const auto width = static_cast<std::size_t>(row.width);
+    row.grey.resize(width);
+    if (alpha) row.opacity.resize(width);
+    const auto sample = [&pixels] {
+      const int value = pixels[0] * 256 + pixels[1];
+      pixels += 2;
       return static_cast<float>(value) / 65535.0F;
     };
-    for (std::size_t i = 0; i < image.grey.size(); ++i) {
+    for (std::size_t i = 0; i < width; ++i) {
       float sum = 0.0F;
       for (int c = 0; c < colours; ++c) sum += sample();
-      image.grey[i] = sum / static_cast<float>(colours);
-      if (alpha) image.opacity[i] = sample();
+      row.grey[i] = sum / static_cast<float>(colours);
+      if (alpha) row.opacity[i] = sample();
     }
   }
 
@@ -221,15 +237,14 @@ class PngReader {
   png_infop info_ = nullptr;
   int channels_ = 0;
   std::vector<unsigned char> pixels_;
-  std::vector<png_bytep> rows_;
 };
 
 }  // namespace
 
-Image read_image(const std::filesystem::path& file, double max_size_gb) {
+void read_image(const std::filesystem::path& file, const TakeRow& take, double max_size_gb) {
   const std::string bytes = read_decompressed(file, max_size_gb);
-  if (bytes.starts_with("P5") || bytes.starts_with("P2")) return PgmReader(file, bytes).read();
-  if (bytes.starts_with("\x89PNG")) return PngReader(file, bytes).read();
+  if (bytes.starts_with("P5") || bytes.starts_with("P2")) return PgmReader(file, bytes).read(take);
+  if (bytes.starts_with("\x89PNG")) return PngReader(file, bytes).read(take);
   fail(file, "is neither a PGM (P2, P5) nor a PNG image; convert it to one of these");
 }
 

@@ -1,8 +1,8 @@
 // Grey-scale images, as map servers keep maps.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,23 +10,23 @@
 
 namespace glocal {
 
-/// Row 0 is the top row.
-struct Image {
-  int width = 0;
+/// One row of an image; row 0 is the top row.
+struct ImageRow {
+  int width = 0;  ///< Of the image, as is the height.
   int height = 0;
-  std::vector<float> grey;     ///< 0 black to 1 white; the mean of the colours of a coloured image.
-  std::vector<float> opacity;  ///< 0 transparent to 1 opaque; empty for an image without alpha channel.
-
-  [[nodiscard]] std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
-  }
+  int row = 0;
+  std::vector<float> grey = {};     ///< 0 black to 1 white; the mean of the colours of a coloured image.
+  std::vector<float> opacity = {};  ///< 0 transparent to 1 opaque; empty for an image without alpha channel.
 };
+using TakeRow = std::function<void(const ImageRow&)>;
 
 /// Reads PGM (P2 and P5, up to 16 bit) and PNG (grey, coloured, with palette, with or without alpha, up to 16
-/// bit), known by what the file begins with. Throws ConfigError for a missing, damaged, truncated or empty
-/// image, one of another kind, one of more than 64 million pixels, or a file of more than max_size_gb (10^9
-/// bytes).
-[[nodiscard]] Image read_image(const std::filesystem::path& file, double max_size_gb = default_max_size_gb);
+/// bit), known by what the file begins with, and hands on its rows from the top on: no more than one is held,
+/// but for those of an interlaced PNG. Throws ConfigError for a missing, damaged, truncated or empty image,
+/// one of another kind, one of more than max_grid_cells pixels (64 million, if it is interlaced), or a file
+/// of more than max_size_gb (10^9 bytes).
+void read_image(const std::filesystem::path& file, const TakeRow& take,
+                double max_size_gb = default_max_size_gb);
 
 /// An image of bytes, row 0 at the top; grey has width * height bytes.
 struct ByteImage {

@@ -72,7 +72,8 @@ OccupancyGrid make_grid(const Box& box, double resolution, const std::string& fi
   const double y = std::floor(box.min_y / resolution) * resolution;
   const double width = std::floor((box.max_x - x) / resolution) + 1.0;
   const double height = std::floor((box.max_y - y) / resolution) + 1.0;
-  if (!(width * height <= max_grid_cells)) {
+  constexpr double most_counted = 64e6;
+  if (!(width * height <= most_counted)) {
     throw ConfigError(
         {{file, 0, 0,
           "its map would have more than 64 million cells; raise resolution, lower max_range, or look for "

@@ -46,23 +46,30 @@ Cell raw(float grey, const RosMapFile& file) {
   return percent > 100.0 ? Cell::unknown : by_thresholds(percent / 100.0, file);
 }
 
-Cell classify(const Image& image, std::size_t i, const RosMapFile& file) {
-  const float* opacity = image.opacity.empty() ? nullptr : &image.opacity[i];
-  if (file.mode == "raw") return raw(image.grey[i], file);
-  return file.mode == "scale" ? scale(image.grey[i], opacity, file) : trinary(image.grey[i], opacity, file);
+Cell classify(const ImageRow& row, std::size_t i, const RosMapFile& file) {
+  const float* opacity = row.opacity.empty() ? nullptr : &row.opacity[i];
+  if (file.mode == "raw") return raw(row.grey[i], file);
+  return file.mode == "scale" ? scale(row.grey[i], opacity, file) : trinary(row.grey[i], opacity, file);
 }
 
-OccupancyGrid grid_of(const Image& image, const RosMapFile& file) {
-  OccupancyGrid grid{{file.origin[0], file.origin[1], wrap_angle(file.origin[2])},
-                     file.resolution,
-                     image.width,
-                     image.height,
-                     std::vector<Cell>(image.grey.size())};
-  for (int row = 0; row < grid.height; ++row) {
-    for (int column = 0; column < grid.width; ++column) {
-      grid.cell(column, row) = classify(image, image.index(column, grid.height - 1 - row), file);
+/// As most are as their neighbour is.
+bool is_same_pixel(const ImageRow& row, std::size_t a, std::size_t b) {
+  return row.grey[a] == row.grey[b] && (row.opacity.empty() || row.opacity[a] == row.opacity[b]);
+}
+
+OccupancyGrid grid_of(const RosMapFile& file, double max_size_gb) {
+  OccupancyGrid grid{{file.origin[0], file.origin[1], wrap_angle(file.origin[2])}, file.resolution, 0, 0, {}};
+  const auto take = [&](const ImageRow& row) {
+    if (row.row == 0) {
+      grid.width = row.width;
+      grid.height = row.height;
+      grid.cells.resize(static_cast<std::size_t>(row.width) * static_cast<std::size_t>(row.height));
     }
-  }
+    Cell* cells = &grid.cell(0, grid.height - 1 - row.row);
+    for (std::size_t i = 0; i < row.grey.size(); ++i)
+      cells[i] = i > 0 && is_same_pixel(row, i, i - 1) ? cells[i - 1] : classify(row, i, file);
+  };
+  read_image(file.image.resolved, take, max_size_gb);
   return grid;
 }
 
@@ -103,7 +110,7 @@ RosMap::RosMap(const Params& params, const SourceSetup& setup)
 
 MapData RosMap::load() {
   MapData map;
-  map.grid = grid_of(read_image(file_.image.resolved, max_size_gb_), file_);
+  map.grid = grid_of(file_, max_size_gb_);
   map.points = occupied_centres(map.grid);
   if (map.points.empty()) {
     throw ConfigError(

@@ -131,7 +131,8 @@ Raster raster_around(const std::vector<Position>& places, const CloudVoxels& clo
     }
   }
   const double side = cloud.side();
-  if (!((high[0] - low[0]) / side * ((high[1] - low[1]) / side) <= max_grid_cells))
+  constexpr double most_columns = 64e6;
+  if (!((high[0] - low[0]) / side * ((high[1] - low[1]) / side) <= most_columns))
     throw ConfigError(
         {{file, 0, 0,
           fmt::format("cloud: the drive leads past more than 64 million columns of voxels of {} "

@@ -11,8 +11,7 @@ std::unique_ptr<Matcher> BranchAndBound::make(const Params& params, const StageS
 }
 
 BranchAndBound::BranchAndBound(const Params& params, const StageSetup& setup)
-    : GridMatcher(params, *setup.map,
-                  contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
+    : GridMatcher(params, setup, contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       threads_(setup.threads),
       pyramid_(contact_pyramid(*setup.map, params.cell, setup.epsilon(params.contact_epsilon))) {}
 

@@ -81,7 +81,7 @@ void describe(ParamVisitor& v, Exhaustive::Params& p) {
 }
 
 Exhaustive::Exhaustive(const Params& params, const StageSetup& setup)
-    : GridMatcher(params.grid, *setup.map,
+    : GridMatcher(params.grid, setup,
                   contact_index(*setup.map, params.contact, setup.epsilon(params.grid.contact_epsilon))),
       threads_(setup.threads),
       frame_(cell_frame(setup.map->points(), params.grid.cell, setup.epsilon(params.grid.contact_epsilon))),

@@ -54,12 +54,12 @@ GridSearchRule search_rule(const GridMatching& p, double omega_max, const PoseGa
           .gate = gate};
 }
 
-GridMatcher::GridMatcher(const GridMatching& params, const GlobalMap& map,
+GridMatcher::GridMatcher(const GridMatching& params, const StageSetup& setup,
                          std::shared_ptr<const ContactIndex> contact)
     : params_(params),
       contact_(std::move(contact)),
       refiner_(params.candidate, static_cast<std::size_t>(params.max_poses), params.refinement,
-               distance_field(map, params.field_cell), contact_) {}
+               distance_field(*setup.map, params.field_cell, setup.threads), contact_) {}
 
 MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
                                Rng& rng) {

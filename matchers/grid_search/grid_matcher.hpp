@@ -41,7 +41,8 @@ void describe(ParamVisitor& v, GridMatching& p);
 class GridMatcher : public Matcher {
  public:
   /// `contact` judges hypotheses. Throws ConfigError where the map is too large for a distance field.
-  GridMatcher(const GridMatching& params, const GlobalMap& map, std::shared_ptr<const ContactIndex> contact);
+  GridMatcher(const GridMatching& params, const StageSetup& setup,
+              std::shared_ptr<const ContactIndex> contact);
 
   void restrict_to(const PoseGate& gate) final { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,

@@ -71,7 +71,7 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
       epsilon_(setup.epsilon(params.contact_epsilon)),
       threads_(setup.threads),
       contact_(contact_index(*setup.map, "kd_tree", epsilon_)),
-      field_(distance_field(*setup.map, field_cell)),
+      field_(distance_field(*setup.map, field_cell, setup.threads)),
       pyramid_(box_pyramid(*setup.map, params.cell.value_or(automatic_cell(setup.map->points(), epsilon_)),
                            epsilon_, setup.threads)) {}
 

@@ -186,9 +186,9 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       contact_(contact_index(*map_, "bitset", setup.epsilon(params.contact_epsilon))),
       relation_(relation_rule(params)),
       refiner_(params.candidate, static_cast<std::size_t>(params.candidates), params.refinement,
-               distance_field(*map_, params.field_cell), contact_),
+               distance_field(*map_, params.field_cell, setup.threads), contact_),
       judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
-             distance_field(*map_, params.field_cell)),
+             distance_field(*map_, params.field_cell, setup.threads)),
       exact_search_(params.exact_search, params.candidate, params.min_contact, *map_,
                     setup.epsilon(params.contact_epsilon), setup.threads) {
   const std::filesystem::path file = file_of_index(params, setup);

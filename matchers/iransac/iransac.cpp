@@ -155,7 +155,7 @@ IRansac::IRansac(const Params& params, const StageSetup& setup)
       threads_(setup.threads),
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       refiner_(params.candidate, static_cast<std::size_t>(params.pool), params.refinement,
-               distance_field(*setup.map, params.field_cell), contact_) {
+               distance_field(*setup.map, params.field_cell, setup.threads), contact_) {
   const auto begin = std::chrono::steady_clock::now();
   index_ = setup.map->index<FeatureIndex>(index_key(params), [&] {
     return FeatureIndex(oriented_points_of(*setup.map, oriented_point_rule(params)), params.shape_context,

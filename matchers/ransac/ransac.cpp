@@ -68,7 +68,7 @@ Ransac::Ransac(const Params& params, const StageSetup& setup)
     : params_(params),
       setup_(setup),
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
-      field_(distance_field(*setup.map, params.field_cell)) {}
+      field_(distance_field(*setup.map, params.field_cell, setup.threads)) {}
 
 MatchResult Ransac::match(const LocalMap& local, const Observation& /*latest*/, double omega_max, Rng& rng) {
   if (local.points.empty()) return {};

@@ -11,15 +11,32 @@ namespace {
 using test::bytes;
 using test::make_png;
 
+/// All rows of an image, one behind the other.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<float> grey, opacity;
+};
+
 Image read(const std::string& bytes) {
   const test::TemporaryFolder folder;
-  return read_image(folder.write("a.image", bytes));
+  Image image;
+  int rows = 0;
+  read_image(folder.write("a.image", bytes), [&](const ImageRow& row) {
+    EXPECT_EQ(row.row, rows++);
+    image.width = row.width;
+    image.height = row.height;
+    image.grey.insert(image.grey.end(), row.grey.begin(), row.grey.end());
+    image.opacity.insert(image.opacity.end(), row.opacity.begin(), row.opacity.end());
+  });
+  EXPECT_EQ(rows, image.height);
+  return image;
 }
 
 std::string fault_of(const std::string& bytes) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("a.image", bytes);
-  return test::config_error(file.parent_path(), [&] { static_cast<void>(read_image(file)); });
+  return test::config_error(file.parent_path(), [&] { read_image(file, [](const ImageRow& /*row*/) {}); });
 }
 
 void expect_grey(const Image& image, int width, int height, const std::vector<double>& expected) {
@@ -62,7 +79,7 @@ TEST(Pgm, RefusesWhatIsNoWholeImage) {
   EXPECT_EQ(fault_of("P5 2 2 0\n"), "a.image: error: maximum grey must be 1 to 65535, not 0");
   EXPECT_EQ(fault_of("P5 2 2 65536\n"), "a.image: error: maximum grey must be 1 to 65535, not 65536");
   EXPECT_EQ(fault_of("P5 100000 100000 255\n"),
-            "a.image: error: is too large to hold (100000 x 100000 pixels, at most 64 million); crop it or "
+            "a.image: error: is too large to hold (100000 x 100000 pixels, at most 1000 million); crop it or "
             "lower its "
             "resolution");
   EXPECT_EQ(fault_of("P5 99999999999999 1 255\n").substr(0, 40), "a.image: error: is too large to hold (21");

@@ -347,7 +347,7 @@ TEST(SimulatedMap, SaysWhyThereIsNoMap) {
   EXPECT_NE(message("size: [2, 2]\nfree_from: [[1, 1]]\nway_points: [[1, 1], [1, 2]]\n", 0.5)
                 .find("has nothing on its map; give it walls with on_map: true"),
             std::string::npos);
-  EXPECT_NE(message(room, 1e-6).find("more than 64 million cells"), std::string::npos);
+  EXPECT_NE(message(room, 1e-6).find("more than 1000 million cells"), std::string::npos);
 }
 
 TEST(Worlds, OfThePaperAreReadAndHaveItsSizes) {

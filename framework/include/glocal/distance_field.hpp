@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "glocal/global_map.hpp"
@@ -14,11 +16,12 @@
 namespace glocal {
 
 /// Distances in the plane from the centres of square cells to the nearest point, up to `reach`, and in
-/// between by bilinear interpolation.
+/// between by bilinear interpolation. A distance is kept as one of 256 steps up to the reach; cells come in
+/// tiles, and those beyond the reach of all points take no memory.
 class DistanceField {
  public:
   /// Throws ConfigError if it would need more than 1 GiB.
-  explicit DistanceField(const Points& points, double resolution = 0.05, double reach = 0.5);
+  explicit DistanceField(const Points& points, double resolution = 0.05, double reach = 0.5, int threads = 1);
 
   /// The field at a place.
   struct Value {
@@ -28,24 +31,44 @@ class DistanceField {
   };
   [[nodiscard]] Value at(float x, float y) const;
   [[nodiscard]] float reach() const { return reach_; }
-  [[nodiscard]] std::size_t memory_bytes() const { return cells_.size() * sizeof(float); }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return cells_.size() + tiles_.size() * sizeof(std::uint32_t);
+  }
 
  private:
-  [[nodiscard]] std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
+  /// Cells of a tile along either axis. It has those of its neighbours' first column and row, too.
+  static constexpr int tile_shift = 6;
+  static constexpr int tile_side = 1 << tile_shift;
+  static constexpr int stride = tile_side + 1;
+  static constexpr std::size_t tile_cells = static_cast<std::size_t>(stride) * stride;
+  static constexpr std::uint8_t beyond_reach = 255;
+
+  struct Place {
+    float column, row;  ///< In cells; whole numbers are centres.
+  };
+  [[nodiscard]] Place place_of(float x, float y) const {
+    return {(x - min_x_) * scale_, (y - min_y_) * scale_};
   }
+  [[nodiscard]] std::size_t tile_of(int column, int row) const {
+    return static_cast<std::size_t>(row >> tile_shift) * static_cast<std::size_t>(tile_columns_) +
+           static_cast<std::size_t>(column >> tile_shift);
+  }
+  void place_tiles(const Points& points, int around);
+  void fill(const Points& points, int around, int threads);
+  void stamp(std::size_t tile, const Points& points, std::span<const std::uint32_t> near, int around);
 
   float min_x_ = 0.0F, min_y_ = 0.0F;  ///< Centre of cell (0, 0).
   float scale_ = 0.0F;                 ///< Cells per metre.
   float reach_ = 0.0F;
+  float step_ = 0.0F;  ///< m
   int columns_ = 0, rows_ = 0;
-  std::vector<float> cells_;
+  int tile_columns_ = 0, tile_rows_ = 0;
+  std::vector<std::uint32_t> tiles_;  ///< Which of those in `cells_` it is; the first one is beyond reach.
+  std::vector<std::uint8_t> cells_;
 };
 
 inline DistanceField::Value DistanceField::at(float x, float y) const {
-  const float u = (x - min_x_) * scale_;
-  const float v = (y - min_y_) * scale_;
+  const auto [u, v] = place_of(x, y);
   const auto last_column = static_cast<float>(columns_ - 1);
   const auto last_row = static_cast<float>(rows_ - 1);
   if (!(u >= 0.0F && v >= 0.0F && u < last_column && v < last_row)) return {reach_, 0.0F, 0.0F};
@@ -53,16 +76,21 @@ inline DistanceField::Value DistanceField::at(float x, float y) const {
   const int row = static_cast<int>(v);
   const float a = u - static_cast<float>(column);
   const float b = v - static_cast<float>(row);
-  const float* low = &cells_[index(column, row)];
-  const float* high = low + columns_;
-  const float below = low[0] + a * (low[1] - low[0]);
-  const float above = high[0] + a * (high[1] - high[0]);
-  const float dx = (1.0F - b) * (low[1] - low[0]) + b * (high[1] - high[0]);
-  return {below + b * (above - below), dx * scale_, (above - below) * scale_};
+  constexpr int in_tile = tile_side - 1;
+  const std::uint8_t* low = cells_.data() + tiles_[tile_of(column, row)] * tile_cells +
+                            static_cast<std::size_t>((row & in_tile) * stride + (column & in_tile));
+  const std::uint8_t* high = low + stride;
+  const auto steps = [](int n) { return static_cast<float>(n); };
+  const float below = steps(low[0]) + a * steps(low[1] - low[0]);
+  const float above = steps(high[0]) + a * steps(high[1] - high[0]);
+  const float dx = (1.0F - b) * steps(low[1] - low[0]) + b * steps(high[1] - high[0]);
+  const float slope = step_ * scale_;
+  return {step_ * (below + b * (above - below)), dx * slope, (above - below) * slope};
 }
 
 /// That of a map, with cells of this side (m), shared by all who ask for it.
-[[nodiscard]] std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell);
+[[nodiscard]] std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell,
+                                                                  int threads);
 
 /// The field `field_cell` (m) of a strategy that asks for one.
 void describe_field_cell(ParamVisitor& v, double& cell);

@@ -11,7 +11,7 @@
 namespace glocal {
 
 /// Grids of more cells are refused.
-inline constexpr double max_grid_cells = 64e6;
+inline constexpr double max_grid_cells = 1e9;
 
 /// What the map knows of a cell.
 enum class Cell : std::uint8_t { unknown, free, occupied };

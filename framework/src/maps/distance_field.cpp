@@ -6,50 +6,146 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "glocal/error.hpp"
+#include "glocal/parallel.hpp"
 
 namespace glocal {
 
-DistanceField::DistanceField(const Points& points, double resolution, double reach)
-    : scale_(static_cast<float>(1.0 / resolution)), reach_(static_cast<float>(reach)) {
+namespace {
+
+/// Numbers of points sorted by tile.
+struct PointsByTile {
+  std::vector<std::uint32_t> numbers;
+  std::vector<std::size_t> begins;  ///< Of each tile's, and the end of all.
+};
+
+template <class TileOf>
+PointsByTile sorted_by_tile(std::size_t points, std::size_t tiles, TileOf tile_of) {
+  PointsByTile sorted{std::vector<std::uint32_t>(points), std::vector<std::size_t>(tiles + 1, 0)};
+  for (std::size_t i = 0; i < points; ++i) ++sorted.begins[tile_of(i) + 1];
+  std::partial_sum(sorted.begins.begin(), sorted.begins.end(), sorted.begins.begin());
+  std::vector<std::size_t> next(sorted.begins.begin(), sorted.begins.end() - 1);
+  for (std::size_t i = 0; i < points; ++i) sorted.numbers[next[tile_of(i)]++] = static_cast<std::uint32_t>(i);
+  return sorted;
+}
+
+[[noreturn]] void refuse_size() {
+  throw ConfigError(
+      {{"", 0, 0,
+        "the map is too large for a distance field: it would need more than 1 GiB; cut the map, "
+        "or take a larger field_cell"}});
+}
+
+}  // namespace
+
+DistanceField::DistanceField(const Points& points, double resolution, double reach, int threads)
+    : scale_(static_cast<float>(1.0 / resolution)),
+      reach_(static_cast<float>(reach)),
+      step_(reach_ / static_cast<float>(beyond_reach)) {
   const auto [min_x, max_x] = std::minmax_element(points.x.begin(), points.x.end());
   const auto [min_y, max_y] = std::minmax_element(points.y.begin(), points.y.end());
   min_x_ = *min_x - reach_;
   min_y_ = *min_y - reach_;
   const double columns = std::ceil((double{*max_x} - *min_x + 2.0 * reach) / resolution) + 2.0;
   const double rows = std::ceil((double{*max_y} - *min_y + 2.0 * reach) / resolution) + 2.0;
-  constexpr double most_cells = 268435456.0;  // 1 GiB
-  if (columns * rows > most_cells) {
-    throw ConfigError(
-        {{"", 0, 0,
-          "the map is too large for a distance field: it would need more than 1 GiB; cut the map, or take "
-          "a larger field_cell"}});
-  }
+  constexpr double most_tiles = 67108864.0;  // whose numbers take a quarter of a GiB
+  if (!(columns * rows <= most_tiles * tile_side * tile_side)) refuse_size();
   columns_ = static_cast<int>(columns);
   rows_ = static_cast<int>(rows);
-  cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), reach_);
-
+  tile_columns_ = (columns_ - 1) / tile_side + 1;
+  tile_rows_ = (rows_ - 1) / tile_side + 1;
   const int around = static_cast<int>(std::ceil(reach / resolution));
+  place_tiles(points, around);
+  fill(points, around, threads);
+}
+
+/// Gives room to each tile that a point can reach into.
+void DistanceField::place_tiles(const Points& points, int around) {
+  std::vector<bool> reached(static_cast<std::size_t>(tile_columns_) * static_cast<std::size_t>(tile_rows_));
+  // A tile has the first cells of the next one.
+  const auto first = [&](int cell) { return std::max(0, cell - around - 1) >> tile_shift; };
+  const auto last = [&](int cell, int tiles) { return std::min(tiles - 1, (cell + around) >> tile_shift); };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const float x = (points.x[i] - min_x_) * scale_;
-    const float y = (points.y[i] - min_y_) * scale_;
-    const int column = static_cast<int>(std::lround(x));
-    const int row = static_cast<int>(std::lround(y));
-    for (int r = std::max(0, row - around); r <= std::min(rows_ - 1, row + around); ++r) {
-      for (int c = std::max(0, column - around); c <= std::min(columns_ - 1, column + around); ++c) {
-        const float dx = static_cast<float>(c) - x;
-        const float dy = static_cast<float>(r) - y;
-        float& cell = cells_[index(c, r)];
-        cell = std::min(cell, std::sqrt(dx * dx + dy * dy) / scale_);
-      }
+    const auto [u, v] = place_of(points.x[i], points.y[i]);
+    const int column = static_cast<int>(std::lround(u));
+    const int row = static_cast<int>(std::lround(v));
+    for (int r = first(row); r <= last(row, tile_rows_); ++r) {
+      for (int c = first(column); c <= last(column, tile_columns_); ++c)
+        reached[tile_of(c * tile_side, r * tile_side)] = true;
     }
+  }
+  const auto n = static_cast<std::size_t>(std::count(reached.begin(), reached.end(), true)) + 1;
+  constexpr std::size_t largest_bytes = std::size_t{1} << 30U;
+  if (n * tile_cells > largest_bytes) refuse_size();
+  cells_.assign(n * tile_cells, beyond_reach);
+  tiles_.assign(reached.size(), 0);
+  std::uint32_t next = 1;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    if (reached[i]) tiles_[i] = next++;
   }
 }
 
-std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell) {
-  return map.index<DistanceField>(fmt::format("{}", cell), [&] { return DistanceField(map.points(), cell); });
+void DistanceField::fill(const Points& points, int around, int threads) {
+  const PointsByTile by_tile = sorted_by_tile(points.size(), tiles_.size(), [&](std::size_t i) {
+    const auto [u, v] = place_of(points.x[i], points.y[i]);
+    return tile_of(static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)));
+  });
+  const int tiles_around = around / tile_side + 1;
+  parallel_for(threads, static_cast<std::size_t>(tile_rows_), [&](std::size_t tile_row) {
+    const int row = static_cast<int>(tile_row);
+    std::vector<std::uint32_t> near;
+    for (int column = 0; column < tile_columns_; ++column) {
+      const std::size_t tile = tile_of(column * tile_side, row * tile_side);
+      if (tiles_[tile] == 0) continue;
+      near.clear();
+      for (int r = std::max(0, row - tiles_around); r <= std::min(tile_rows_ - 1, row + tiles_around); ++r) {
+        const int left = std::max(0, column - tiles_around);
+        const int right = std::min(tile_columns_ - 1, column + tiles_around);
+        const std::size_t begin = by_tile.begins[tile_of(left * tile_side, r * tile_side)];
+        const std::size_t end = by_tile.begins[tile_of(right * tile_side, r * tile_side) + 1];
+        near.insert(near.end(), by_tile.numbers.begin() + static_cast<std::ptrdiff_t>(begin),
+                    by_tile.numbers.begin() + static_cast<std::ptrdiff_t>(end));
+      }
+      stamp(tile, points, near, around);
+    }
+  });
+}
+
+/// Writes the distances of a tile's cells to the points near it.
+void DistanceField::stamp(std::size_t tile, const Points& points, std::span<const std::uint32_t> near,
+                          int around) {
+  const int first_column = static_cast<int>(tile % static_cast<std::size_t>(tile_columns_)) * tile_side;
+  const int first_row = static_cast<int>(tile / static_cast<std::size_t>(tile_columns_)) * tile_side;
+  const float farthest = reach_ * scale_;
+  std::array<float, tile_cells> squares;  // in cells
+  squares.fill(farthest * farthest);
+  for (const std::uint32_t i : near) {
+    const auto [u, v] = place_of(points.x[i], points.y[i]);
+    const float x = u - static_cast<float>(first_column);
+    const float y = v - static_cast<float>(first_row);
+    const int column = static_cast<int>(std::lround(u)) - first_column;
+    const int row = static_cast<int>(std::lround(v)) - first_row;
+    for (int r = std::max(0, row - around); r <= std::min(stride - 1, row + around); ++r) {
+      const float dy = static_cast<float>(r) - y;
+      float* line = &squares[static_cast<std::size_t>(r * stride)];
+      for (int c = std::max(0, column - around); c <= std::min(stride - 1, column + around); ++c) {
+        const float dx = static_cast<float>(c) - x;
+        line[c] = std::min(line[c], dx * dx + dy * dy);
+      }
+    }
+  }
+  std::uint8_t* cells = cells_.data() + tiles_[tile] * tile_cells;
+  for (std::size_t i = 0; i < tile_cells; ++i)
+    cells[i] = static_cast<std::uint8_t>(std::sqrt(squares[i]) / farthest * beyond_reach + 0.5F);
+}
+
+std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell, int threads) {
+  return map.index<DistanceField>(fmt::format("{}", cell),
+                                  [&] { return DistanceField(map.points(), cell, 0.5, threads); });
 }
 
 namespace {

@@ -52,6 +52,30 @@ TEST(DistanceField, FarAwayAndNotANumberAreBeyondReach) {
   EXPECT_EQ(field.at(-50.0F, 3.0F).dx, 0.0F);
 }
 
+TEST(DistanceField, TilesWithoutAnyPointNearTakeNoMemory) {
+  Points points;
+  points.push_back({0.0F, 0.0F, 0.0F});
+  points.push_back({999.98F, 1000.03F, 0.0F});
+  const DistanceField field(points, 0.05, 0.5);  // 400 million cells
+  EXPECT_LT(field.memory_bytes(), 1'000'000U);
+  EXPECT_NEAR(field.at(0.2F, 0.1F).distance, std::hypot(0.2, 0.1), 0.01);
+  EXPECT_NEAR(field.at(999.7F, 1000.0F).distance, std::hypot(0.28, 0.03), 0.01);
+  EXPECT_EQ(field.at(500.0F, 500.0F).distance, 0.5F);
+  EXPECT_EQ(field.at(500.0F, 500.0F).dx, 0.0F);
+}
+
+TEST(DistanceField, IsTheSameForAnyNumberOfThreads) {
+  const Points points = test::small_world_points();
+  const DistanceField one(points, 0.05, 0.5, 1);
+  const DistanceField three(points, 0.05, 0.5, 3);
+  for (float x = -1.0F; x < 10.0F; x += 0.07F) {
+    for (float y = -1.0F; y < 10.0F; y += 0.07F) {
+      EXPECT_EQ(one.at(x, y).distance, three.at(x, y).distance);
+      EXPECT_EQ(one.at(x, y).dx, three.at(x, y).dx);
+    }
+  }
+}
+
 TEST(DistanceField, RefusesWhatDoesNotFitIntoMemory) {
   Points points;
   points.push_back({0.0F, 0.0F, 0.0F});
