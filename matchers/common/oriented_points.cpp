@@ -8,6 +8,9 @@
 #include <optional>
 #include <unordered_map>
 #include <utility>
+#include <vector>
+
+#include "glocal/parallel.hpp"
 
 namespace glocal {
 namespace {
@@ -158,15 +161,25 @@ Point middle_of(const Points& points, const std::vector<std::uint32_t>& members)
   return {x / static_cast<float>(members.size()), y / static_cast<float>(members.size()), 0.0F};
 }
 
-/// Calls add(x, y, angle) for the middle of each cell where there is a normal; how many cells there are.
-template <class Add>
-std::size_t for_each_voxel(const Points& points, const OrientedPointRule& rule, Add add) {
+/// Where a normal has been looked for.
+struct Surface {
+  Point middle;
+  std::optional<float> angle = {};
+};
+
+/// The middle of each cell, with its normal.
+std::vector<Surface> surfaces_of(const Points& points, const OrientedPointRule& rule, int threads) {
   const Cells cells(points, rule.voxel_size);
-  for (const auto& members : cells.all()) {
-    const Point p = middle_of(points, members);
-    if (const auto angle = normal_angle(cells, p.x, p.y, rule)) add(p.x, p.y, *angle);
-  }
-  return cells.all().size();
+  std::vector<Surface> surfaces(cells.all().size());
+  constexpr std::size_t at_a_time = 1024;
+  parallel_for(threads, (surfaces.size() + at_a_time - 1) / at_a_time, [&](std::size_t chunk) {
+    const std::size_t end = std::min(surfaces.size(), (chunk + 1) * at_a_time);
+    for (std::size_t i = chunk * at_a_time; i < end; ++i) {
+      const Point middle = middle_of(points, cells.all()[i]);
+      surfaces[i] = {middle, normal_angle(cells, middle.x, middle.y, rule)};
+    }
+  });
+  return surfaces;
 }
 
 /// Whether there is a free cell a little way off in this direction, and not beyond another surface: the other
@@ -187,14 +200,19 @@ bool is_free_side(const OccupancyGrid& grid, float x, float y, float angle) {
 
 }  // namespace
 
-OrientedPoints oriented_points_of(const GlobalMap& map, const OrientedPointRule& rule) {
+OrientedPoints oriented_points_of(const GlobalMap& map, const OrientedPointRule& rule, int threads) {
   OrientedPoints result;
-  for_each_voxel(map.points(), rule, [&](float x, float y, float angle) {
-    const bool this_side = is_free_side(map.grid(), x, y, angle);
-    const bool other_side = is_free_side(map.grid(), x, y, angle + pi);
-    if (this_side || !other_side) result.add(x, y, wrapped(angle));
-    if (other_side || !this_side) result.add(x, y, wrapped(angle + pi));
-  });
+  const std::vector<Surface> surfaces = surfaces_of(map.points(), rule, threads);
+  std::size_t with_normal = 0;
+  for (const auto& [middle, angle] : surfaces) {
+    if (!angle) continue;
+    ++with_normal;
+    const bool this_side = is_free_side(map.grid(), middle.x, middle.y, *angle);
+    const bool other_side = is_free_side(map.grid(), middle.x, middle.y, *angle + pi);
+    if (this_side || !other_side) result.add(middle.x, middle.y, wrapped(*angle));
+    if (other_side || !this_side) result.add(middle.x, middle.y, wrapped(*angle + pi));
+  }
+  result.share = static_cast<double>(with_normal) / static_cast<double>(surfaces.size());
   return result;
 }
 
@@ -206,18 +224,12 @@ OrientedPoints oriented_points_of(const LocalMap& local, const OrientedPointRule
     result.add(local.points.x[i], local.points.y[i], std::atan2(normal.y, normal.x));
   }
   if (!local.normals.empty()) return result;
-  for_each_voxel(local.points, rule, [&](float x, float y, float angle) {
-    result.add(x, y, wrapped(angle));
-    result.add(x, y, wrapped(angle + pi));
-  });
+  for (const auto& [middle, angle] : surfaces_of(local.points, rule, 1)) {
+    if (!angle) continue;
+    result.add(middle.x, middle.y, wrapped(*angle));
+    result.add(middle.x, middle.y, wrapped(*angle + pi));
+  }
   return result;
-}
-
-double share_of_oriented_points(const GlobalMap& map, const OrientedPointRule& rule) {
-  std::size_t with_normal = 0;
-  const std::size_t all =
-      for_each_voxel(map.points(), rule, [&](float /*x*/, float /*y*/, float /*angle*/) { ++with_normal; });
-  return static_cast<double>(with_normal) / static_cast<double>(all);
 }
 
 Points voxel_downsampled(const Points& points, double side) {

@@ -14,6 +14,7 @@ struct OrientedPoints {
   std::vector<float> x;      ///< m
   std::vector<float> y;      ///< m
   std::vector<float> angle;  ///< rad; of the unit normal that points to the free side.
+  double share = 1.0;        ///< Of a map's downsampled points, those that have a normal.
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
   void add(float px, float py, float normal_angle) {
@@ -33,14 +34,12 @@ struct OrientedPointRule {
 /// The map's: normals by principal components of what lies on one line with a point, turned to the free
 /// cells; a wall that is free on both sides gives two points, one that is free on neither as well. Where a
 /// wall's two sides are on the map, 0.15 m apart or more, each has its own normal.
-[[nodiscard]] OrientedPoints oriented_points_of(const GlobalMap& map, const OrientedPointRule& rule);
+[[nodiscard]] OrientedPoints oriented_points_of(const GlobalMap& map, const OrientedPointRule& rule,
+                                                int threads = 1);
 
 /// The local map's: where it has normals, those; they point to where the sensor was. Else by principal
 /// components, in both directions.
 [[nodiscard]] OrientedPoints oriented_points_of(const LocalMap& local, const OrientedPointRule& rule);
-
-/// The share of a map's downsampled points that have a normal, in [0, 1].
-[[nodiscard]] double share_of_oriented_points(const GlobalMap& map, const OrientedPointRule& rule);
 
 /// The middle of the points in each square of this side (m); z is 0.
 [[nodiscard]] Points voxel_downsampled(const Points& points, double side);

@@ -27,17 +27,35 @@ class Squares {
     }
   }
 
+  /// How many squares there are, and the points of one of them.
+  [[nodiscard]] std::size_t size() const { return members_.size(); }
+  [[nodiscard]] const std::vector<std::uint32_t>& members(std::size_t square) const {
+    return members_[square];
+  }
+  /// All points within the distance of one of a square's, and some farther ones.
+  [[nodiscard]] std::vector<std::uint32_t> around(std::size_t square) const {
+    std::vector<std::uint32_t> all;
+    const int c = static_cast<int>(square % static_cast<std::size_t>(columns_));
+    const int r = static_cast<int>(square / static_cast<std::size_t>(columns_));
+    visit_around(c, r, [&](std::uint32_t i) { all.push_back(i); });
+    return all;
+  }
+
   /// Calls visit(number) for all points within the distance of one of them, and some farther ones.
   template <class Visit>
   void near(float x, float y, Visit visit) const {
-    for (int r = std::max(0, row(y) - 1); r <= std::min(rows_ - 1, row(y) + 1); ++r) {
-      for (int c = std::max(0, column(x) - 1); c <= std::min(columns_ - 1, column(x) + 1); ++c) {
+    visit_around(column(x), row(y), visit);
+  }
+
+ private:
+  template <class Visit>
+  void visit_around(int column, int row, Visit visit) const {
+    for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
+      for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
         for (const std::uint32_t i : members_[index(c, r)]) visit(i);
       }
     }
   }
-
- private:
   [[nodiscard]] int column(float x) const { return static_cast<int>((x - min_x_) / side_); }
   [[nodiscard]] int row(float y) const { return static_cast<int>((y - min_y_) / side_); }
   [[nodiscard]] std::size_t index(int c, int r) const {

@@ -14,32 +14,43 @@
 namespace glocal {
 namespace {
 
-/// Points whose oriented point pairs one thread finds at a time. Fixed, so that their order does not depend
-/// on the threads.
-constexpr std::size_t points_per_chunk = 64;
-
-/// Calls visit(oriented point pair) for each ordered pair of different points at an allowed distance whose
-/// first point is in the chunk.
+/// Calls visit(oriented point pair) for an even share of the ordered pairs of different points at an allowed
+/// distance whose first point is in a square, the same in every run. Looks at no more than that share.
 template <class Visit>
-void for_each_pair(const OrientedPoints& s, const OrientedPairRule& rule, const Squares& squares,
-                   std::size_t chunk, Visit visit) {
+void for_some_pairs(const OrientedPoints& s, const OrientedPairRule& rule, const Squares& squares,
+                    std::size_t square, double share, Visit visit) {
   const double shortest = rule.min_length * rule.min_length;
   const double longest = rule.max_length * rule.max_length;
-  const auto end = static_cast<std::uint32_t>(std::min((chunk + 1) * points_per_chunk, s.size()));
-  for (auto i = static_cast<std::uint32_t>(chunk * points_per_chunk); i < end; ++i) {
-    squares.near(s.x[i], s.y[i], [&](std::uint32_t k) {
+  const double log_left_out = std::log1p(-share);  // -inf where all are taken
+  const std::vector<std::uint32_t> around = squares.around(square);
+  for (const std::uint32_t i : squares.members(square)) {
+    Rng rng = Rng(1).stream({i});
+    // How many are left out before the next one, if each is taken with this probability.
+    const auto next_gap = [&] { return std::floor(std::log1p(-rng.uniform()) / log_left_out); };
+    for (double at = next_gap(); at < static_cast<double>(around.size()); at += 1.0 + next_gap()) {
+      const std::uint32_t k = around[static_cast<std::size_t>(at)];
       const double dx = s.x[k] - s.x[i];
       const double dy = s.y[k] - s.y[i];
       const double squared = dx * dx + dy * dy;
       if (squared >= shortest && squared < longest) visit(OrientedPairIndex::OrientedPair{i, k});
-    });
+    }
   }
 }
 
-/// Whether an oriented point pair is among an even share of all, the same in every run.
-bool is_taken(const OrientedPairIndex::OrientedPair& pair, double share) {
-  const std::uint64_t hash = mix64(std::uint64_t{pair.first} << 32U | pair.second);
-  return static_cast<double>(hash >> 11U) * 0x1.0p-53 < share;
+/// How many such pairs there are; an estimate if they are many.
+double number_of_pairs(const OrientedPoints& s, const OrientedPairRule& rule, const Squares& squares,
+                       int threads) {
+  double near = 0.0;
+  for (std::size_t i = 0; i < squares.size(); ++i)
+    near += static_cast<double>(squares.members(i).size()) * static_cast<double>(squares.around(i).size());
+  constexpr double looked_at = 4e6;
+  const double share = std::min(1.0, looked_at / std::max(near, 1.0));
+  std::vector<std::size_t> counts(squares.size(), 0);
+  parallel_for(threads, squares.size(), [&](std::size_t square) {
+    for_some_pairs(s, rule, squares, square, share,
+                   [&](const OrientedPairIndex::OrientedPair& /*pair*/) { ++counts[square]; });
+  });
+  return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0})) / share;
 }
 
 }  // namespace
@@ -48,22 +59,12 @@ OrientedPairIndex::OrientedPairIndex(OrientedPoints oriented_points, const Orien
                                      int threads)
     : oriented_points_(std::move(oriented_points)), rule_(rule) {
   const Squares squares(oriented_points_.x, oriented_points_.y, rule_.max_length);
-  const std::size_t chunks = (oriented_points_.size() + points_per_chunk - 1) / points_per_chunk;
-  std::vector<std::size_t> counts(chunks, 0);
-  parallel_for(threads, chunks, [&](std::size_t c) {
-    std::size_t count = 0;
-    for_each_pair(oriented_points_, rule_, squares, c, [&](const OrientedPair& /*pair*/) { ++count; });
-    counts[c] = count;
-  });
-  const std::size_t all = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-  const double share =
-      static_cast<double>(rule_.max_entries) / static_cast<double>(std::max<std::size_t>(all, 1));
-
-  std::vector<std::vector<std::pair<std::uint32_t, OrientedPair>>> taken(chunks);
-  parallel_for(threads, chunks, [&](std::size_t c) {
-    for_each_pair(oriented_points_, rule_, squares, c, [&](const OrientedPair& pair) {
-      if (share < 1.0 && !is_taken(pair, share)) return;
-      if (const auto b = bin(oriented_points_, pair)) taken[c].emplace_back(*b, pair);
+  const double all = number_of_pairs(oriented_points_, rule_, squares, threads);
+  const double share = std::min(1.0, static_cast<double>(rule_.max_entries) / std::max(all, 1.0));
+  std::vector<std::vector<std::pair<std::uint32_t, OrientedPair>>> taken(squares.size());
+  parallel_for(threads, squares.size(), [&](std::size_t square) {
+    for_some_pairs(oriented_points_, rule_, squares, square, share, [&](const OrientedPair& pair) {
+      if (const auto b = bin(oriented_points_, pair)) taken[square].emplace_back(*b, pair);
     });
   });
   std::vector<std::uint32_t> begins(bins() + 1, 0);

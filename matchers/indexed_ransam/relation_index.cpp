@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "matchers/indexed_ransam/saved_index.hpp"
 
@@ -32,14 +33,13 @@ RelationIndex index_from(const std::filesystem::path& file, const GlobalMap& map
 }
 
 RelationIndex index_of(const GlobalMap& map, const RelationRule& rule, int threads) {
-  const bool triangles =
-      rule.relation == "triangle" ||
-      (rule.relation == "auto" && share_of_oriented_points(map, rule.points) < rule.min_oriented_share);
-  if (triangles) {
-    return TriangleIndex(voxel_downsampled(map.points(), rule.points.voxel_size), rule.triangles(),
-                         rule.pairs.max_entries, threads);
+  if (rule.relation != "triangle") {
+    OrientedPoints points = oriented_points_of(map, rule.points, threads);
+    if (rule.relation == "oriented_pair" || points.share >= rule.min_oriented_share)
+      return OrientedPairIndex(std::move(points), rule.pairs, threads);
   }
-  return OrientedPairIndex(oriented_points_of(map, rule.points), rule.pairs, threads);
+  return TriangleIndex(voxel_downsampled(map.points(), rule.points.voxel_size), rule.triangles(),
+                       rule.pairs.max_entries, threads);
 }
 
 }  // namespace

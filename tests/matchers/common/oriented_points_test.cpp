@@ -172,7 +172,7 @@ TEST(OrientedPoints, TheirShareIsThatOfThePlacesWithANormal) {
   for (int i = 0; i < 10; ++i) data.points.push_back({0.05F, 2.0F + static_cast<float>(i), 0.0F});  // alone
   data.grid = {{}, 0.1, 1, 1, {Cell::unknown}};
   const GlobalMap map(std::move(data));
-  EXPECT_NEAR(share_of_oriented_points(map, {}), 0.75, 1e-9);
+  EXPECT_NEAR(oriented_points_of(map, {}).share, 0.75, 1e-9);
   const Points places = voxel_downsampled(map.points(), 0.1);
   ASSERT_EQ(places.size(), 40U);
   EXPECT_NEAR(places.x[0], 0.05, 1e-6);  // of 0.025 and 0.075

@@ -31,7 +31,7 @@ bool has_triangles(const RelationIndex& index) {
 
 TEST(RelationIndex, TakesTrianglesWhereTooFewPlacesHaveANormal) {
   const auto map = wall_and_poles();
-  const double share = share_of_oriented_points(*map, {});
+  const double share = oriented_points_of(*map, {}).share;
   ASSERT_GT(share, 0.5);
   ASSERT_LT(share, 0.9);
   EXPECT_FALSE(has_triangles(*relation_index(*map, {.min_oriented_share = share}, {}, 1)));
