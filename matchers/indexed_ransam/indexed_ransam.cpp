@@ -224,7 +224,9 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   judge_.take_in(local, latest.scan);
   const Points sample = sample_of(local.points, static_cast<std::size_t>(params_.contact_points), rng);
 
-  StepCandidates candidates(*contact_, sample, params_.min_contact, gate_);
+  constexpr std::size_t proposals_per_candidate = 10;  // as many lie near each other
+  StepCandidates candidates(*contact_, sample, params_.min_contact,
+                            proposals_per_candidate * static_cast<std::size_t>(params_.candidates), gate_);
   for (const Pose2& pose : carried_) candidates.add(pose);
   propose(*index_, relation_, local, draws_of_step(), rng,
           [&](const MotionBatch& poses, std::size_t size) { candidates.test(poses, size); });

@@ -6,12 +6,24 @@
 namespace glocal {
 namespace {
 
-/// Share of the points for which a condition holds where a pose puts them.
+/// Share of the points for which a condition holds: of the cell they fall into, and of where a pose puts
+/// them.
 template <class Condition>
-double share_where(const Points& points, const Pose2& map_from_points, Condition condition) {
-  const Transform transform(map_from_points);
+double share_where(const OccupancyGrid& grid, const Points& points, const Pose2& map_from_points,
+                   Condition condition) {
+  const Transform map(map_from_points);
+  const Transform in_grid(inverse(grid.map_from_grid) * map_from_points);
+  const float scale = grid.resolution > 0.0 ? static_cast<float>(1.0 / grid.resolution) : 0.0F;
+  const auto cell_at = [&](const Point& p) {
+    const float column = p.x * scale;
+    const float row = p.y * scale;
+    const bool inside = column >= 0.0F && row >= 0.0F && column < static_cast<float>(grid.width) &&
+                        row < static_cast<float>(grid.height);
+    return inside ? grid.cell(static_cast<int>(column), static_cast<int>(row)) : Cell::unknown;
+  };
   std::size_t count = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) count += condition(transform(points[i])) ? 1 : 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    count += condition(cell_at(in_grid(points[i])), map(points[i])) ? 1 : 0;
   return static_cast<double>(count) / static_cast<double>(points.size());
 }
 
@@ -64,13 +76,13 @@ Hypothesis PoseJudge::told(Hypothesis judged, const LocalMap& local, const Point
 
 double PoseJudge::unknown_share(const Points& sample, const Pose2& map_from_local) const {
   if (rule_.unknown_weight == 0.0) return 0.0;
-  return share_where(sample, map_from_local,
-                     [&](const Point& p) { return map_->grid().at(p.x, p.y) == Cell::unknown; });
+  return share_where(map_->grid(), sample, map_from_local,
+                     [](Cell cell, const Point& /*p*/) { return cell == Cell::unknown; });
 }
 
 double PoseJudge::free_space_violation(const Points& sample, const Pose2& map_from_local) const {
-  return share_where(sample, map_from_local, [&](const Point& p) {
-    return map_->grid().at(p.x, p.y) == Cell::free && field_->at(p.x, p.y).distance > rule_.contact_epsilon;
+  return share_where(map_->grid(), sample, map_from_local, [&](Cell cell, const Point& p) {
+    return cell == Cell::free && field_->at(p.x, p.y).distance > rule_.contact_epsilon;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "matchers/common/point_pair.hpp"
 #include "matchers/common/triple_sampler.hpp"
@@ -32,21 +33,43 @@ PointPair ends_of(const OrientedPoints& s, const OrientedPair& pair) {
   return {Point{s.x[pair.first], s.y[pair.first]}, Point{s.x[pair.second], s.y[pair.second]}};
 }
 
+void prefetch(const OrientedPoints& s, const OrientedPair& pair) {
+  for (const std::uint32_t i : {pair.first, pair.second}) {
+    __builtin_prefetch(&s.x[i]);
+    __builtin_prefetch(&s.y[i]);
+  }
+}
+
 void propose_by(const OrientedPairIndex& index, const RelationRule& rule, const LocalMap& local,
                 std::size_t draws, Rng& rng, const TakePoses& take) {
   const OrientedPoints points = oriented_points_of(local, rule.points);
   if (points.size() < 2) return;
+  // A large index is not in the cache: what a block of draws needs is fetched while others are at work.
+  constexpr std::size_t block = 64;
+  struct Draw {
+    OrientedPair pair;
+    const OrientedPair* partner;
+  };
+  std::vector<Draw> drawn;
+  drawn.reserve(block);
   MotionBatch motions;
   std::size_t size = 0;
-  for (std::size_t i = 0; i < draws; ++i) {
-    const OrientedPair pair = draw_pair(points, rule.pairs, rng);
-    const auto partners = index.find(points, pair);
-    if (partners.empty()) continue;
-    const OrientedPair& partner = partners[rng.below(static_cast<std::uint32_t>(partners.size()))];
-    lay(ends_of(points, pair), ends_of(index.oriented_points(), partner), motions, size++);
-    if (size < MotionBatch::capacity) continue;
-    take(motions, size);
-    size = 0;
+  for (std::size_t i = 0; i < draws; i += block) {
+    drawn.clear();
+    for (std::size_t k = i; k < std::min(draws, i + block); ++k) {
+      const OrientedPair pair = draw_pair(points, rule.pairs, rng);
+      const auto partners = index.find(points, pair);
+      if (partners.empty()) continue;
+      drawn.push_back({pair, &partners[rng.below(static_cast<std::uint32_t>(partners.size()))]});
+      __builtin_prefetch(drawn.back().partner);
+    }
+    for (const Draw& draw : drawn) prefetch(index.oriented_points(), *draw.partner);
+    for (const Draw& draw : drawn) {
+      lay(ends_of(points, draw.pair), ends_of(index.oriented_points(), *draw.partner), motions, size++);
+      if (size < MotionBatch::capacity) continue;
+      take(motions, size);
+      size = 0;
+    }
   }
   take(motions, size);
 }

@@ -1,9 +1,22 @@
 #include "matchers/indexed_ransam/step_candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace glocal {
+
+StepCandidates::StepCandidates(const ContactIndex& contact, const Points& sample, double min_contact,
+                               std::size_t enough, const PoseGate& gate)
+    : contact_(contact),
+      sample_(sample),
+      enough_(enough),
+      gate_(gate),
+      batch_(std::max<std::size_t>(1, (sample.size() + looks - 1) / looks)),
+      bar_(static_cast<std::size_t>(std::ceil(min_contact * static_cast<double>(sample.size())))),
+      found_(sample.size() + 1, 0) {
+  set_least();
+}
 
 void StepCandidates::add(const Pose2& map_from_local) {
   candidates_.push_back({map_from_local, contact_.share(sample_, Transform(map_from_local))});
@@ -21,15 +34,40 @@ void StepCandidates::test(const MotionBatch& map_from_local, std::size_t size) {
   tested_ += size;
   for (std::size_t i = 0; i < size; ++i) {
     // Even the coarse look is below what is asked for.
-    if (static_cast<double>(at_most[i]) < min_contact_ * static_cast<double>(looked_at)) {
+    if (at_most[i] < promising(looked_at)) {
       points_tested_ += looked_at;
       continue;
     }
     if (!gate_.is_open() && !gate_.allows(map_from_local[i].pose())) continue;
-    points_tested_ += sample_.size();
-    const double share = contact_.share(sample_, map_from_local[i]);
-    if (share >= min_contact_) candidates_.push_back({map_from_local[i].pose(), share});
+    const ContactIndex::Count count =
+        contact_.count_while(sample_, 0, sample_.size(), batch_, least_, map_from_local[i]);
+    points_tested_ += count.looked_at;
+    if (count.looked_at == sample_.size() && count.in_contact >= bar_)
+      take(map_from_local[i].pose(), count.in_contact);
   }
+}
+
+void StepCandidates::take(const Pose2& map_from_local, std::size_t in_contact) {
+  candidates_.push_back(
+      {map_from_local, static_cast<double>(in_contact) / static_cast<double>(sample_.size())});
+  ++found_[in_contact];
+  ++found_above_;
+  const std::size_t before = bar_;
+  while (found_above_ - found_[bar_] >= enough_) found_above_ -= found_[bar_++];
+  if (bar_ != before) set_least();
+}
+
+/// What a pose has in contact of its first n points, two standard deviations below what the bar asks for: one
+/// that has less will hardly reach it.
+std::uint32_t StepCandidates::promising(std::size_t n) const {
+  const double share = static_cast<double>(bar_) / static_cast<double>(sample_.size());
+  const auto points = static_cast<double>(n);
+  const double least = points * share - 2.0 * std::sqrt(points * share * (1.0 - share));
+  return static_cast<std::uint32_t>(std::max(0.0, std::ceil(least)));
+}
+
+void StepCandidates::set_least() {
+  for (std::size_t i = 0; i < looks; ++i) least_[i] = promising(std::min((i + 1) * batch_, sample_.size()));
 }
 
 void StepCandidates::refine(const CandidateRefiner& refiner, const Pose2& local_from_robot) {

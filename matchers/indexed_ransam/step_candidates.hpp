@@ -1,7 +1,9 @@
 // The poses of one step that are worth a closer look.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "glocal/contact.hpp"
@@ -16,9 +18,10 @@ namespace glocal {
 class StepCandidates {
  public:
   /// `min_contact`: what a proposed pose needs before it is refined, as the right one may have little then.
-  /// Candidates that `gate` does not allow are left out. All that is given must outlive this.
-  StepCandidates(const ContactIndex& contact, const Points& sample, double min_contact, const PoseGate& gate)
-      : contact_(contact), sample_(sample), min_contact_(min_contact), gate_(gate) {}
+  /// Once `enough` have it, a pose needs as much as the worst of the best `enough` has. Candidates that
+  /// `gate` does not allow are left out. All that is given must outlive this.
+  StepCandidates(const ContactIndex& contact, const Points& sample, double min_contact, std::size_t enough,
+                 const PoseGate& gate);
 
   /// A pose that is known to be worth it.
   void add(const Pose2& map_from_local);
@@ -33,10 +36,22 @@ class StepCandidates {
   [[nodiscard]] std::size_t points_tested() const { return points_tested_; }
 
  private:
+  /// Batches of points in which a pose is looked at, as far as it is promising.
+  static constexpr std::size_t looks = 4;
+
+  void take(const Pose2& map_from_local, std::size_t in_contact);
+  [[nodiscard]] std::uint32_t promising(std::size_t n) const;
+  void set_least();
+
   const ContactIndex& contact_;
   const Points& sample_;
-  double min_contact_;
+  std::size_t enough_;
   const PoseGate& gate_;
+  std::size_t batch_;                       ///< Points in a look; the last one may have fewer.
+  std::size_t bar_;                         ///< Points in contact that a pose needs.
+  std::vector<std::size_t> found_;          ///< How many have so many points in contact.
+  std::size_t found_above_ = 0;             ///< How many have the bar at least.
+  std::array<std::uint32_t, looks> least_;  ///< What a promising pose has after each look.
   std::vector<Candidate> candidates_;
   std::size_t tested_ = 0;
   std::size_t points_tested_ = 0;

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+#include <vector>
+
 #include "glocal/rng.hpp"
 #include "test_world.hpp"
 
@@ -38,7 +42,7 @@ class StepCandidatesTest : public testing::Test {
 TEST_F(StepCandidatesTest, AreThePosesWithEnoughContact) {
   const MotionBatch batch = poses(200);
   for (const double least : {0.0, 0.2, 0.6}) {
-    StepCandidates candidates(*contact_, sample_, least, open_);
+    StepCandidates candidates(*contact_, sample_, least, 1000, open_);
     candidates.test(batch, 200);
     // The cheap look spares the closer one where even it is below the least, and loses next to nothing.
     std::size_t expected = 0;
@@ -55,8 +59,30 @@ TEST_F(StepCandidatesTest, AreThePosesWithEnoughContact) {
   }
 }
 
+TEST_F(StepCandidatesTest, OfManyTheBestAreThere) {
+  const MotionBatch batch = poses(200);
+  StepCandidates all(*contact_, sample_, 0.1, 1000, open_);
+  StepCandidates best(*contact_, sample_, 0.1, 30, open_);
+  for (int i = 0; i < 3; ++i) {
+    all.test(batch, 200);
+    best.test(batch, 200);
+  }
+  std::vector<double> qualities;
+  for (const Candidate& candidate : all.all()) qualities.push_back(candidate.quality);
+  std::sort(qualities.begin(), qualities.end(), std::greater<>());
+  const double bar = qualities[29];
+  const auto above = [&](const StepCandidates& candidates) {
+    return std::count_if(candidates.all().begin(), candidates.all().end(),
+                         [&](const Candidate& candidate) { return candidate.quality > bar; });
+  };
+  // What looked unpromising at first may be lost.
+  EXPECT_GE(static_cast<double>(above(best)), 0.9 * static_cast<double>(above(all)));
+  EXPECT_LT(best.all().size(), all.all().size() / 2);
+  EXPECT_LT(best.points_tested(), all.points_tested());
+}
+
 TEST_F(StepCandidatesTest, KeepWhatIsAddedWhateverItsContact) {
-  StepCandidates candidates(*contact_, sample_, 0.9, open_);
+  StepCandidates candidates(*contact_, sample_, 0.9, 1000, open_);
   candidates.add({-50.0, 0.0, 0.0});
   ASSERT_EQ(candidates.all().size(), 1U);
   EXPECT_EQ(candidates.all().front().quality, 0.0);
@@ -68,8 +94,8 @@ TEST_F(StepCandidatesTest, LeaveOutWhatThePriorExcludes) {
   Prior prior;
   prior.region = {truth.x, truth.y, 0.12};
   const PoseGate gate(prior, {});
-  StepCandidates all(*contact_, sample_, 0.2, open_);
-  StepCandidates allowed(*contact_, sample_, 0.2, gate);
+  StepCandidates all(*contact_, sample_, 0.2, 1000, open_);
+  StepCandidates allowed(*contact_, sample_, 0.2, 1000, gate);
   all.test(batch, 200);
   allowed.test(batch, 200);
   std::size_t expected = 0;
@@ -80,7 +106,7 @@ TEST_F(StepCandidatesTest, LeaveOutWhatThePriorExcludes) {
 }
 
 TEST_F(StepCandidatesTest, AreDistinctAndFitBetterOnceRefined) {
-  StepCandidates candidates(*contact_, sample_, 0.2, open_);
+  StepCandidates candidates(*contact_, sample_, 0.2, 1000, open_);
   candidates.add(truth * Pose2{0.08, -0.05, 0.03});
   candidates.add(truth * Pose2{-0.06, 0.04, -0.02});
   candidates.add({1.0, 8.0, 1.0});
