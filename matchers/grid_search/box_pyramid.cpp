@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "glocal/parallel.hpp"
+#include "matchers/common/squares.hpp"
 #include "matchers/grid_search/pose_grid.hpp"
 
 namespace glocal {
@@ -69,22 +69,60 @@ Windows widened(const Windows& cells, int behind, int ahead) {
 
 PoseBoxes::PoseBoxes(const Points& points, const CellFrame& frame, int top_level)
     : frame_(frame), top_level_(top_level), middle_x_(middle_of(points.x)), middle_y_(middle_of(points.y)) {
-  std::vector<double> distances;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    distances.push_back(std::hypot(points.x[i] - middle_x_, points.y[i] - middle_y_));
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return distances[a] < distances[b]; });
-  points_.reserve(points.size());
-  for (const std::size_t i : order) {
-    points_.push_back(points[i]);
-    distances_.push_back(distances[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = points.x[i] - middle_x_;
+    const double y = points.y[i] - middle_y_;
+    points_.push_back({x, y, std::hypot(x, y)});
   }
+  std::stable_sort(points_.begin(), points_.end(),
+                   [](const Turning& a, const Turning& b) { return a.distance < b.distance; });
   constexpr double smallest_radius = 0.5;
-  radius_ = std::max(distances_.back(), smallest_radius);
+  radius_ = std::max(points_.back().distance, smallest_radius);
   const double widest = std::ldexp(frame.cell / radius_, top_level);
   top_rotations_ = static_cast<std::size_t>(std::ceil(2.0 * std::numbers::pi / widest));
+  find_clusters(std::ldexp(frame.cell, top_level) / 2.0);
+}
+
+/// Each point that is in none yet makes one with its nearest neighbours that are in none either, if they lie
+/// in a disc of the widest radius.
+void PoseBoxes::find_clusters(double widest) {
+  std::vector<float> xs, ys;
+  for (const Turning& point : points_) {
+    xs.push_back(static_cast<float>(point.x));
+    ys.push_back(static_cast<float>(point.y));
+  }
+  const Squares squares(xs, ys, 2.0 * widest);
+  std::vector<bool> is_taken(points_.size(), false);
+  std::vector<std::pair<double, std::uint32_t>> near;
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    if (is_taken[i]) continue;
+    near.clear();
+    squares.near(xs[i], ys[i], [&](std::uint32_t k) {
+      const double distance = std::hypot(points_[k].x - points_[i].x, points_[k].y - points_[i].y);
+      if (!is_taken[k] && distance <= 2.0 * widest) near.emplace_back(distance, k);
+    });
+    if (near.size() < cluster_size) continue;
+    const auto end = near.begin() + cluster_size;
+    std::partial_sort(near.begin(), end, near.end());
+    const auto middle_of_members = [&](auto coordinate) {
+      double low = coordinate(points_[i]), high = low;
+      for (auto member = near.begin(); member != end; ++member) {
+        low = std::min(low, coordinate(points_[member->second]));
+        high = std::max(high, coordinate(points_[member->second]));
+      }
+      return (low + high) / 2.0;
+    };
+    const double x = middle_of_members([](const Turning& point) { return point.x; });
+    const double y = middle_of_members([](const Turning& point) { return point.y; });
+    double radius = 0.0;
+    for (auto member = near.begin(); member != end; ++member) {
+      const Turning& point = points_[member->second];
+      radius = std::max(radius, std::hypot(point.x - x, point.y - y));
+    }
+    if (radius > widest) continue;
+    for (auto member = near.begin(); member != end; ++member) is_taken[member->second] = true;
+    clusters_.push_back({x, y, std::hypot(x, y), radius});
+  }
 }
 
 double PoseBoxes::angle(int level, std::size_t rotation) const {
@@ -106,24 +144,34 @@ Pose2 PoseBoxes::pose(int level, std::size_t rotation, double column, double row
 }
 
 std::vector<CellPoints> PoseBoxes::cells(int level, std::size_t rotation) const {
+  return cells_of(points_, groups(level), level, rotation);
+}
+
+std::vector<CellPoints> PoseBoxes::cluster_cells(std::size_t rotation) const {
+  return cells_of(clusters_, cluster_groups(top_level_), top_level_, rotation);
+}
+
+std::vector<CellPoints> PoseBoxes::cells_of(const std::vector<Turning>& all, int groups, int level,
+                                            std::size_t rotation) const {
   const double c = std::cos(angle(level, rotation));
   const double s = std::sin(angle(level, rotation));
   // Rounding must not leave a point a hair beside its window.
   constexpr double hair = 1e-6;
-  std::vector<CellPoints> groups(static_cast<std::size_t>(PoseBoxes::groups(level)));
-  const auto parts = static_cast<double>(groups.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double x = points_.x[i] - middle_x_;
-    const double y = points_.y[i] - middle_y_;
-    const int group = std::max(1, static_cast<int>(std::ceil(parts * distances_[i] / radius_ - hair)));
-    const double moved = distances_[i] * half_width(level) / frame_.cell + hair;
+  std::vector<CellPoints> cells(static_cast<std::size_t>(groups));
+  const double parts = PoseBoxes::groups(level);
+  const double box = std::ldexp(frame_.cell, level);
+  for (const Turning& one : all) {
+    const double share = one.distance / radius_ + 2.0 * one.radius / box;
+    const int group = std::clamp(static_cast<int>(std::ceil(parts * share - hair)), 1, groups);
+    const double moved = (one.distance * half_width(level) + one.radius) / frame_.cell + hair;
     const int wider = PoseBoxes::wider(level, group);
     const auto cell_of = [&](double coordinate) {
       return static_cast<std::int32_t>(std::floor(coordinate / frame_.cell - moved)) + wider;
     };
-    groups[static_cast<std::size_t>(group - 1)].push_back(cell_of(c * x - s * y), cell_of(s * x + c * y));
+    cells[static_cast<std::size_t>(group - 1)].push_back(cell_of(c * one.x - s * one.y),
+                                                         cell_of(s * one.x + c * one.y));
   }
-  return groups;
+  return cells;
 }
 
 CellPoints PoseBoxes::middle_cells(std::size_t rotation) const {
@@ -133,11 +181,8 @@ CellPoints PoseBoxes::middle_cells(std::size_t rotation) const {
     return static_cast<std::int32_t>(std::floor(coordinate / frame_.cell + 0.5));
   };
   CellPoints cells;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double x = points_.x[i] - middle_x_;
-    const double y = points_.y[i] - middle_y_;
-    cells.push_back(cell_of(c * x - s * y), cell_of(s * x + c * y));
-  }
+  for (const Turning& point : points_)
+    cells.push_back(cell_of(c * point.x - s * point.y), cell_of(s * point.x + c * point.y));
   return cells;
 }
 
@@ -147,8 +192,8 @@ BoxPyramid::BoxPyramid(const Points& map_points, double cell, double epsilon, in
   const Windows cells = cells_near(map_points, frame_, epsilon, true, 0, Motion::planar);
   std::vector<std::pair<int, int>> levels_and_groups;
   for (int level = 0; level <= top_level; ++level) {
-    for (int group = 1; group <= PoseBoxes::groups(level); ++group)
-      levels_and_groups.emplace_back(level, group);
+    const int groups = level == top_level ? PoseBoxes::cluster_groups(level) : PoseBoxes::groups(level);
+    for (int group = 1; group <= groups; ++group) levels_and_groups.emplace_back(level, group);
   }
   std::vector<std::optional<WindowBits>> bits(levels_and_groups.size());
   parallel_for(threads, bits.size(), [&](std::size_t i) {

@@ -41,16 +41,35 @@ class PoseBoxes {
   /// The points of each group, turned but not moved: the cell behind the first one that an interval can put
   /// them into, by as much as the window is wider.
   [[nodiscard]] std::vector<CellPoints> cells(int level, std::size_t rotation) const;
+  /// The same of the clusters, at the top level: in each of them a window is wider by its radius, too.
+  [[nodiscard]] std::vector<CellPoints> cluster_cells(std::size_t rotation) const;
+  /// So many neighbouring points at a time are a cluster: all of them are in contact if its window is, for
+  /// all that is known. Some points are in none.
+  static constexpr std::size_t cluster_size = 4;
+  [[nodiscard]] std::size_t points_without_cluster() const {
+    return points_.size() - cluster_size * clusters_.size();
+  }
+  [[nodiscard]] static int cluster_groups(int level) { return 2 * groups(level); }
   /// The cells that the points of level 0 lie in at the middle of each box.
   [[nodiscard]] CellPoints middle_cells(std::size_t rotation) const;
 
  private:
+  /// What turns about the middle: a point, or a disc of them.
+  struct Turning {
+    double x, y;  ///< m, from the middle.
+    double distance;
+    double radius = 0.0;
+  };
+  void find_clusters(double widest);
+  [[nodiscard]] std::vector<CellPoints> cells_of(const std::vector<Turning>& all, int groups, int level,
+                                                 std::size_t rotation) const;
+
   CellFrame frame_;
   int top_level_;
   double middle_x_, middle_y_;
-  double radius_ = 0.0;  ///< Of the farthest point, m.
-  Points points_;        ///< From the middle, by rising distance.
-  std::vector<double> distances_;
+  double radius_ = 0.0;          ///< Of the farthest point, m.
+  std::vector<Turning> points_;  ///< From the middle, by rising distance.
+  std::vector<Turning> clusters_;
   std::size_t top_rotations_ = 1;
 };
 

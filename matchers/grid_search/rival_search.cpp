@@ -127,8 +127,17 @@ class IntervalSearch {
   [[nodiscard]] Interval look(std::size_t rotation) {
     const int top = pyramid_.top_level();
     const std::vector<CellPoints> points = boxes_.cells(top, rotation);
+    const std::vector<CellPoints> clusters = boxes_.cluster_cells(rotation);
+    // With fewer clusters in contact, and all points that are in none, the bar is not reached.
+    const std::size_t loose = boxes_.points_without_cluster();
+    const std::size_t least_clusters =
+        least_ > loose ? (least_ - loose - 1) / PoseBoxes::cluster_size + 1 : 0;
     Interval interval{.rotation = rotation};
     for (const Tile& tile : top_tiles(points)) {
+      if (least_clusters > 0) {
+        interval.looks += pyramid_.count(top, clusters, tile.column, tile.row, least_clusters, counts_);
+        if (counts_.largest() < least_clusters) continue;
+      }
       interval.looks += pyramid_.count(top, points, tile.column, tile.row, least_, counts_);
       if (counts_.largest() < least_) continue;
       interval.bound = std::max(interval.bound, counts_.largest());

@@ -12,16 +12,26 @@ namespace {
 /// m; as matchers have it, so that they share the field.
 constexpr double field_cell = 0.05;
 
-/// Small boxes bound more tightly, and take memory and time by the area.
-double automatic_cell(const Points& map_points, double epsilon) {
-  constexpr double fine = 0.025, coarse = 0.05;  // m
-  constexpr double large = 2e4;                  // m^2
+constexpr double large = 2e4;  // m^2
+constexpr double huge = 25e4;  // m^2
+
+double area_of(const Points& map_points) {
   const auto extent = [](const std::vector<float>& values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     return double{*high} - double{*low};
   };
-  const bool is_large = extent(map_points.x) * extent(map_points.y) > large;
-  return std::min(is_large ? coarse : fine, epsilon);
+  return extent(map_points.x) * extent(map_points.y);
+}
+
+/// Small boxes bound more tightly, and take memory and time by the area.
+double automatic_cell(double area, double epsilon) {
+  const double cell = area > huge ? 0.1 : area > large ? 0.05 : 0.025;  // m
+  return std::min(cell, epsilon);
+}
+
+/// The exact one would take more memory than all else.
+const char* contact_for(double area) {
+  return area > huge ? "bitset" : "kd_tree";
 }
 
 }  // namespace
@@ -46,8 +56,8 @@ void describe(ParamVisitor& v, WholeMap::Params& p) {
            .above = 0.0});
   describe_contact_epsilon(v, p.contact_epsilon);
   v.field("cell", p.cell,
-          {.doc = "Side of the smallest boxes of translations, at most contact_epsilon; auto is 0.025 m, and "
-                  "0.05 m on maps of more than 2 hectares.",
+          {.doc = "Side of the smallest boxes of translations, at most contact_epsilon; auto is 0.025 m, "
+                  "0.05 m on maps of more than 2 hectares, and 0.1 m on maps of more than 25 hectares.",
            .unit = "m",
            .min = 0.01,
            .max = 1.0,
@@ -60,7 +70,8 @@ void describe(ParamVisitor& v, WholeMap::Params& p) {
            .max = 10000,
            .audience = Audience::expert});
   v.field("max_looks", p.max_looks,
-          {.doc = "A search that looks at more points is given up, and nothing is declared in this step.",
+          {.doc = "A search that looks at more points is given up, and nothing is declared in this step; on "
+                  "maps of more than 2 hectares it may look at as many more as they are larger.",
            .min = 1,
            .max = 2e9,
            .audience = Audience::expert});
@@ -70,10 +81,11 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
     : params_(params),
       epsilon_(setup.epsilon(params.contact_epsilon)),
       threads_(setup.threads),
-      contact_(contact_index(*setup.map, "kd_tree", epsilon_)),
+      area_(area_of(setup.map->points())),
+      contact_(contact_index(*setup.map, contact_for(area_), epsilon_)),
       field_(distance_field(*setup.map, field_cell, setup.threads)),
-      pyramid_(box_pyramid(*setup.map, params.cell.value_or(automatic_cell(setup.map->points(), epsilon_)),
-                           epsilon_, setup.threads)) {}
+      pyramid_(box_pyramid(*setup.map, params.cell.value_or(automatic_cell(area_, epsilon_)), epsilon_,
+                           setup.threads)) {}
 
 Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
   const auto points = static_cast<double>(local.points.size());
@@ -81,10 +93,11 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
   const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
   const double contact = contact_->share(local.points, Transform(declared));
   const double least = std::max(1.0, std::ceil((contact - params_.margin) * points));
+  const double looks = params_.max_looks * std::max(1.0, area_ / large);
   const RivalRule rule{.distance = params_.distance,
                        .rotation = radians(params_.rotation_deg),
                        .most_rivals = static_cast<std::size_t>(params_.max_rivals),
-                       .most_looks = static_cast<std::size_t>(params_.max_looks)};
+                       .most_looks = static_cast<std::size_t>(looks)};
   const RivalSearchResult found =
       search_rivals(*pyramid_, local.points, local_from_robot, declared * local_from_robot,
                     static_cast<std::size_t>(least), rule, gate, threads_);

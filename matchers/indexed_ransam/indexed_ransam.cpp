@@ -30,6 +30,13 @@ JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
           .uncertainty = p.uncertainty};
 }
 
+/// The chance that a draw meets its own place in the map falls with the number of places.
+std::size_t draws_on(std::size_t points, const IndexedRansam::Params& p) {
+  const double draws = p.iterations * std::max(1.0, static_cast<double>(points) /
+                                                        static_cast<double>(p.points_per_iterations));
+  return static_cast<std::size_t>(std::min<double>(draws, std::max(p.iterations, p.max_iterations)));
+}
+
 /// Empty if the index is to be built.
 std::filesystem::path file_of_index(const IndexedRansam::Params& p, const StageSetup& setup) {
   return setup.use_saved && !p.index_file.text.empty() ? p.index_file.resolved : std::filesystem::path{};
@@ -43,9 +50,22 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .min = 0,
            .max = 10e6,
            .audience = Audience::tuner});
+  v.field(
+      "points_per_iterations", p.points_per_iterations,
+      {.doc = "Points of the index up to which iterations are enough: of a map with more of them, as many "
+              "more are drawn.",
+       .min = 1,
+       .audience = Audience::expert});
+  v.field(
+      "max_iterations", p.max_iterations,
+      {.doc = "Oriented point pairs or triangles drawn from the local map in a step at most, however large "
+              "the map is; iterations count where they are more.",
+       .min = 0,
+       .max = 10e6,
+       .audience = Audience::expert});
   v.field("first_iterations", p.first_iterations,
-          {.doc = "Oriented point pairs or triangles drawn from the local map in each of the first steps, "
-                  "when nothing is carried on yet.",
+          {.doc = "Oriented point pairs or triangles drawn from the local map in each of the first steps at "
+                  "least, when nothing is carried on yet.",
            .min = 0,
            .max = 10e6});
   v.field("first_steps", p.first_steps,
@@ -200,6 +220,7 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
         return MapIndexInfo{index.size(), index.memory_bytes(), time.count()};
       },
       *index_);
+  draws_ = draws_on(points_of(*index_), params_);
   if (!file.empty()) setup.note_input(file);
 }
 
@@ -265,8 +286,8 @@ std::vector<Hypothesis> IndexedRansam::take_up(std::vector<Hypothesis> found, co
 
 /// More in the first steps, when nothing is carried yet.
 std::size_t IndexedRansam::draws_of_step() {
-  return static_cast<std::size_t>(steps_++ < params_.first_steps ? params_.first_iterations
-                                                                 : params_.iterations);
+  const bool is_first = steps_++ < params_.first_steps;
+  return is_first ? std::max(static_cast<std::size_t>(params_.first_iterations), draws_) : draws_;
 }
 
 /// The best of the candidates, once these are distinct and refined.

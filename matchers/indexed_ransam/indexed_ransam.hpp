@@ -37,6 +37,8 @@ class IndexedRansam final : public Matcher {
 
   struct Params {
     int iterations = 600;
+    int points_per_iterations = 80000;
+    int max_iterations = 12000;
     int first_iterations = 1500;
     int first_steps = 4;
     std::optional<double> contact_epsilon = {};
@@ -93,6 +95,7 @@ class IndexedRansam final : public Matcher {
   RelationRule relation_;
   std::shared_ptr<const RelationIndex> index_;
   MapIndexInfo map_index_;
+  std::size_t draws_ = 0;  ///< In a step.
   CandidateRefiner refiner_;
   PoseJudge judge_;
   ExactSearch exact_search_;

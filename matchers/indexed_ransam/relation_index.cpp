@@ -58,6 +58,14 @@ std::shared_ptr<const RelationIndex> relation_index(const GlobalMap& map, const 
   });
 }
 
+std::size_t points_of(const RelationIndex& index) {
+  struct Size {
+    std::size_t operator()(const OrientedPairIndex& pairs) const { return pairs.oriented_points().size(); }
+    std::size_t operator()(const TriangleIndex& triangles) const { return triangles.points().size(); }
+  };
+  return std::visit(Size{}, index);
+}
+
 std::string saved_index(const RelationIndex& index, const GlobalMap& map, const RelationRule& rule) {
   return std::visit([&](const auto& one) { return one.saved(origin_of(map, rule)); }, index);
 }

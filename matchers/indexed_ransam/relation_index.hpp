@@ -35,6 +35,9 @@ struct RelationRule {
                                                                   const std::filesystem::path& file,
                                                                   int threads);
 
+/// The points that its pairs or triangles are made of.
+[[nodiscard]] std::size_t points_of(const RelationIndex& index);
+
 /// The content of a file with the index of this map and this rule.
 [[nodiscard]] std::string saved_index(const RelationIndex& index, const GlobalMap& map,
                                       const RelationRule& rule);

@@ -66,6 +66,18 @@ Points seen_in_room() {
   return room(-2.0F, -1.5F, true);
 }
 
+/// A pose of a box, turned about the middle of the points, which poses() turns about for any angle.
+Pose2 somewhere_in_box(const PoseBoxes& boxes, const CellFrame& frame, int level, std::size_t rotation,
+                       double first_column, double first_row, Rng& rng) {
+  const Pose2 middle = boxes.pose(level, rotation, 0.0, 0.0);
+  const double angle = rng.uniform(-1.0, 1.0) * boxes.half_width(level);
+  const Pose2 at_zero{frame.min_x, frame.min_y, 0.0};
+  const Pose2 turned = at_zero * Pose2{0.0, 0.0, angle} * inverse(at_zero) * middle;
+  const int size = 1 << level;
+  return {turned.x + cell * (first_column + rng.uniform() * size),
+          turned.y + cell * (first_row + rng.uniform() * size), turned.theta};
+}
+
 TEST(BoxPyramid, BoundsEveryPoseOfABoxAndNotByMuchMore) {
   Rng rng(1);
   const Points map = random_points(rng, 80, 9.0, 5.0);
@@ -86,14 +98,8 @@ TEST(BoxPyramid, BoundsEveryPoseOfABoxAndNotByMuchMore) {
       const int node_row = static_cast<int>(rng.below(TileCounts::rows));
       const double first_column = column + node_column * size;
       const double first_row = row + node_row * size;
-      const Pose2 middle = boxes.pose(level, rotation, 0.0, 0.0);
-      // Turned about the middle of the points, which poses() turns about for any angle.
-      const double angle = rng.uniform(-1.0, 1.0) * boxes.half_width(level);
-      const Pose2 at_zero{pyramid.frame().min_x, pyramid.frame().min_y, 0.0};
-      const Pose2 turned = at_zero * Pose2{0.0, 0.0, angle} * inverse(at_zero) * middle;
-      const double x = cell * (first_column + rng.uniform() * size);
-      const double y = cell * (first_row + rng.uniform() * size);
-      const Pose2 pose{turned.x + x, turned.y + y, turned.theta};
+      const Pose2 pose =
+          somewhere_in_box(boxes, pyramid.frame(), level, rotation, first_column, first_row, rng);
       const std::size_t contact = brute_count(map, points, pose, epsilon);
       ASSERT_LE(contact, counts.at(node_column, node_row));
       poses_with_contact += contact > 0 ? 1 : 0;
@@ -104,6 +110,36 @@ TEST(BoxPyramid, BoundsEveryPoseOfABoxAndNotByMuchMore) {
     }
   }
   EXPECT_GT(poses_with_contact, 500U);  // or there was nothing to be bounded
+}
+
+TEST(BoxPyramid, ClustersBoundEveryPoseOfABox) {
+  Rng rng(5);
+  const Points map = random_points(rng, 200, 9.0, 5.0);
+  const BoxPyramid pyramid(map, cell, epsilon);
+  const int top = pyramid.top_level();
+  TileCounts counts;
+  std::size_t bounded = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Points points = random_points(rng, 300, 4.0, 3.0);
+    const PoseBoxes boxes(points, pyramid.frame(), top);
+    const std::size_t loose = boxes.points_without_cluster();
+    ASSERT_LT(loose, 150U);
+    const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(top)));
+    const int column = static_cast<int>(rng.below(100)) - 320;
+    const int row = static_cast<int>(rng.below(60)) - 30;
+    pyramid.count(top, boxes.cluster_cells(rotation), column, row, 0, counts);
+    for (int k = 0; k < 40; ++k) {
+      const int node_column = static_cast<int>(rng.below(TileCounts::columns));
+      const int node_row = static_cast<int>(rng.below(TileCounts::rows));
+      const Pose2 pose =
+          somewhere_in_box(boxes, pyramid.frame(), top, rotation, column + node_column * (1 << top),
+                           row + node_row * (1 << top), rng);
+      const std::size_t at_most = loose + PoseBoxes::cluster_size * counts.at(node_column, node_row);
+      ASSERT_LE(brute_count(map, points, pose, epsilon), at_most);
+      bounded += at_most < points.size() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(bounded, 500U);  // or the clusters say nothing
 }
 
 TEST(PoseBoxes, IntervalsOfALevelAreHalvesOfThoseAbove) {

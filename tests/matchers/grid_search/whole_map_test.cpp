@@ -90,6 +90,7 @@ TEST(WholeMap, BoxesAreLargerOnLargeMaps) {
   };
   EXPECT_NEAR(delta_with(100.0F), 2.0 * std::sqrt(2.0) * 0.025, 1e-9);
   EXPECT_NEAR(delta_with(200.0F), 2.0 * std::sqrt(2.0) * 0.05, 1e-9);
+  EXPECT_NEAR(delta_with(600.0F), 2.0 * std::sqrt(2.0) * 0.1, 1e-9);
 }
 
 TEST(NoVerifier, VerifiesNothing) {

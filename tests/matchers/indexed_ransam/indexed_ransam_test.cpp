@@ -37,6 +37,23 @@ TEST(IndexedRansam, FindsThePoseFromAnywhereWithFewDraws) {
   EXPECT_GE(first, places - 2);
 }
 
+TEST(IndexedRansam, DrawsGrowWithTheMapUpToABound) {
+  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
+  const auto proposals = [&](int points_per_iterations, int max_iterations) {
+    return static_cast<double>(match({.iterations = 500,
+                                      .points_per_iterations = points_per_iterations,
+                                      .max_iterations = max_iterations,
+                                      .first_iterations = 0},
+                                     local)
+                                   .proposals);
+  };
+  const auto points = static_cast<int>(oriented_points_of(*test::small_world(), OrientedPointRule{}).size());
+  const double few = proposals(2 * points, 12000);
+  EXPECT_NEAR(proposals(points / 4, 12000), 4.0 * few, 0.2 * few);
+  EXPECT_NEAR(proposals(points / 40, 1000), 2.0 * few, 0.2 * few);
+  EXPECT_EQ(proposals(points / 40, 100), few);
+}
+
 TEST(IndexedRansam, HypothesesAreDistinctPoses) {
   const IndexedRansam::Params params;
   const MatchResult result = match(params, local_map_at({2.0, 6.0, -1.0}, 2.5));
