@@ -10,7 +10,6 @@
 
 #include "glocal/beams.hpp"
 #include "glocal/parallel.hpp"
-#include "matchers/mcl/heaps.hpp"
 
 namespace glocal {
 namespace {
@@ -70,8 +69,7 @@ Mcl::Mcl(const Params& params, const StageSetup& setup)
 }
 
 void Mcl::reset() {
-  particles_.clear();
-  weights_.clear();
+  particles_ = {};
   odom_from_last_.reset();
   updates_ = 0;
   averages_.reset();
@@ -80,27 +78,28 @@ void Mcl::reset() {
 MatchResult Mcl::match(const LocalMap& local, const Observation& latest, double omega_max, Rng& rng) {
   MatchResult result;
   if (latest.scan.hits.empty()) return result;
-  if (particles_.empty()) begin(rng);
+  if (particles_.poses.empty()) begin(rng);
   const Pose2 odom_from_robot = seen_from_above(latest.odom_from_robot);
   Pose2 moved = odom_from_last_ ? inverse(*odom_from_last_) * odom_from_robot : Pose2{};
-  result.proposals = particles_.size();
+  result.proposals = particles_.poses.size();
   if (!odom_from_last_ || is_due(moved)) {
     const Beams beams = beams_of(latest.scan);
-    result.points_tested = particles_.size() * beams.ranges.size();
+    result.points_tested = particles_.poses.size() * beams.ranges.size();
     update(moved, beams, rng);
     odom_from_last_ = odom_from_robot;
     moved = {};
   }
   if (local.points.empty()) return result;
-  result.hypotheses = hypotheses(local, latest.scan, moved, omega_max);
+  result.hypotheses =
+      hypotheses_of(particles_, moved, params_.merging, *contact_, local, latest.scan, omega_max);
   return result;
 }
 
 void Mcl::begin(Rng& rng) {
   Rng stream = rng.stream({beginning});
-  particles_.resize(static_cast<std::size_t>(params_.max_particles));
-  for (Pose2& particle : particles_) particle = free_space_->draw(stream);
-  weights_.assign(particles_.size(), 1.0 / static_cast<double>(particles_.size()));
+  particles_.poses.resize(static_cast<std::size_t>(params_.max_particles));
+  for (Pose2& particle : particles_.poses) particle = free_space_->draw(stream);
+  particles_.weights.assign(particles_.poses.size(), 1.0 / static_cast<double>(particles_.poses.size()));
 }
 
 bool Mcl::is_due(const Pose2& moved) const {
@@ -125,15 +124,15 @@ Mcl::Beams Mcl::beams_of(const Scan& scan) const {
 /// One step of the filter: motion, likelihoods, and every so often new particles in place of unlikely ones.
 void Mcl::update(const Pose2& moved, const Beams& beams, Rng& rng) {
   const OdometryMotion motion(moved, params_.noise);
-  std::vector<double> log_likelihoods(particles_.size());
+  std::vector<double> log_likelihoods(particles_.poses.size());
   constexpr std::size_t chunk = MotionBatch::capacity;
-  parallel_for(threads_, (particles_.size() + chunk - 1) / chunk, [&](std::size_t number) {
+  parallel_for(threads_, (particles_.poses.size() + chunk - 1) / chunk, [&](std::size_t number) {
     Rng stream = rng.stream({moving, number});
     const std::size_t first = number * chunk;
-    const std::size_t size = std::min(chunk, particles_.size() - first);
+    const std::size_t size = std::min(chunk, particles_.poses.size() - first);
     MotionBatch poses;
     for (std::size_t i = 0; i < size; ++i) {
-      Pose2& particle = particles_[first + i];
+      Pose2& particle = particles_.poses[first + i];
       particle = motion.sample(particle, stream);
       poses.cosine[i] = static_cast<float>(std::cos(particle.theta));
       poses.sine[i] = static_cast<float>(std::sin(particle.theta));
@@ -178,11 +177,11 @@ double Mcl::beam_score(const Beams& beams, const Transform& map_from_robot) cons
 void Mcl::weigh(std::vector<double>& log_likelihoods) {
   const double most = *std::max_element(log_likelihoods.begin(), log_likelihoods.end());
   double sum = 0.0;
-  for (std::size_t i = 0; i < weights_.size(); ++i) {
-    weights_[i] *= std::exp(log_likelihoods[i] - most);
-    sum += weights_[i];
+  for (std::size_t i = 0; i < particles_.weights.size(); ++i) {
+    particles_.weights[i] *= std::exp(log_likelihoods[i] - most);
+    sum += particles_.weights[i];
   }
-  for (double& weight : weights_) weight /= sum;
+  for (double& weight : particles_.weights) weight /= sum;
   averages_.add(sum * std::exp(most));
 }
 
@@ -193,18 +192,18 @@ void Mcl::resample(Rng& rng) {
   const auto fresh = static_cast<std::size_t>(std::lround(share_of_new * static_cast<double>(n)));
   std::vector<Pose2> next;
   next.reserve(n);
-  for (const std::uint32_t i : low_variance_draws(weights_, n - fresh, stream.uniform()))
-    next.push_back(particles_[i]);
+  for (const std::uint32_t i : low_variance_draws(particles_.weights, n - fresh, stream.uniform()))
+    next.push_back(particles_.poses[i]);
   while (next.size() < n) next.push_back(free_space_->draw(stream));
-  particles_ = std::move(next);
-  weights_.assign(n, 1.0 / static_cast<double>(n));
+  particles_.poses = std::move(next);
+  particles_.weights.assign(n, 1.0 / static_cast<double>(n));
 }
 
 /// KLD-sampling: draws fill bins until there are as many draws as the bins ask for.
 std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
   const auto least = static_cast<std::size_t>(params_.min_particles);
   const auto most = static_cast<std::size_t>(params_.max_particles);
-  const std::vector<std::uint32_t> draws = low_variance_draws(weights_, most, rng.uniform());
+  const std::vector<std::uint32_t> draws = low_variance_draws(particles_.weights, most, rng.uniform());
   // Draws are sorted: steps of the golden ratio take them from everywhere.
   std::size_t step = static_cast<std::size_t>(0.618 * static_cast<double>(most)) + 1;
   while (std::gcd(step, most) != 1) ++step;
@@ -213,37 +212,13 @@ std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
   std::size_t n = 0;
   while (n < most && (n < least || static_cast<double>(n) < asked_for)) {
     const bool is_new = rng.uniform() < share_of_new;
-    const Pose2 pose = is_new ? free_space_->draw(rng) : particles_[draws[n * step % most]];
+    const Pose2 pose = is_new ? free_space_->draw(rng) : particles_.poses[draws[n * step % most]];
     if (bins.insert(kld_bins.cell_of(pose)).second)
       asked_for = kld_sample_size(bins.size(), params_.pf_err, params_.pf_z);
     if (asked_for >= static_cast<double>(most)) return most;
     ++n;
   }
   return n;
-}
-
-std::vector<Hypothesis> Mcl::hypotheses(const LocalMap& local, const Scan& scan, const Pose2& moved,
-                                        double omega_max) const {
-  const std::vector<Heap> heaps =
-      heaps_of(particles_, weights_,
-               {params_.merge_distance, square_parts_of_a_turn(radians(params_.merge_rotation_deg))},
-               static_cast<std::size_t>(params_.max_hypotheses));
-  const Pose2 robot_from_local = inverse(seen_from_above(local.local_from_robot));
-  std::vector<Hypothesis> found;
-  for (const Heap& heap : heaps) {
-    const Pose2 map_from_robot = heap.mean() * moved;
-    const double score = contact_->share(scan.hits, Transform(map_from_robot));
-    if (score < omega_max) continue;
-    const Pose2 map_from_local = map_from_robot * robot_from_local;
-    const auto support = std::lround(heap.weight * static_cast<double>(particles_.size()));
-    found.push_back({.map_from_local = map_from_local,
-                     .quality = contact_->share(local.points, Transform(map_from_local)),
-                     .score = score,
-                     .support = static_cast<std::size_t>(std::max(1L, support))});
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
-  return found;
 }
 
 void describe(ParamVisitor& v, Mcl::Params& p) {
@@ -340,24 +315,7 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
            .max = 1.0,
            .audience = Audience::expert});
   describe_contact_epsilon(v, p.contact_epsilon);
-  v.field("merge_distance", p.merge_distance,
-          {.doc = "Particles are one hypothesis if they lie in the same cell of this side and of "
-                  "merge_rotation_deg.",
-           .unit = "m",
-           .min = 0.001,
-           .audience = Audience::expert});
-  v.field("merge_rotation_deg", p.merge_rotation_deg,
-          {.doc = "Particles are one hypothesis if they lie in the same cell of this width in heading and of "
-                  "merge_distance.",
-           .unit = "deg",
-           .min = 0.05,
-           .audience = Audience::expert,
-           .formerly = "merge_rotation"});
-  v.field("max_hypotheses", p.max_hypotheses,
-          {.doc = "Largest number of hypotheses; the heaviest are kept.",
-           .min = 1,
-           .max = 1000000,
-           .audience = Audience::expert});
+  describe(v, p.merging);
 }
 
 }  // namespace glocal

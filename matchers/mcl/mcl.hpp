@@ -10,6 +10,7 @@
 #include "glocal/clearance_grid.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/params.hpp"
+#include "glocal/particles.hpp"
 #include "glocal/strategies.hpp"
 #include "matchers/mcl/beam_model.hpp"
 #include "matchers/mcl/free_space.hpp"
@@ -26,11 +27,9 @@ namespace glocal {
 /// and defaults of AMCL (Nav2), unless their descriptions say otherwise.
 ///
 /// It looks at the latest scan only; the local map just says in which frame a hypothesis is told, and how
-/// good it is by eq. 4. Hypotheses are the particles, those in one cell of pose space (`merge_distance`,
-/// `merge_rotation_deg`) told as their mean, with as much support as their weights are worth in particles.
-/// Their score is the share of the latest scan's points in contact with the map there (eq. 4 for the scan
-/// instead of the local map): weights say how poses compare, not how good they are. Without a scan there are
-/// no hypotheses; the motion is made up for with the next one.
+/// good it is by eq. 4. Hypotheses are the particles, those in one cell of pose space told as their mean, and
+/// their score is the contact of the latest scan (hypotheses_of()). Without a scan there are no hypotheses;
+/// the motion is made up for with the next one.
 ///
 /// `proposals` counts particles, `points_tested` looks at the end of a beam.
 class Mcl final : public Matcher {
@@ -60,9 +59,7 @@ class Mcl final : public Matcher {
     double laser_max_range = 100.0;
     double field_cell = 0.05;
     std::optional<double> contact_epsilon = {};
-    double merge_distance = 0.25;
-    double merge_rotation_deg = 10.0;
-    int max_hypotheses = 1000;
+    ParticleMerging merging = {};
   };
 
   /// Throws ConfigError where the map has no free cell, or is too large for a table of distances or a contact
@@ -92,8 +89,6 @@ class Mcl final : public Matcher {
   void weigh(std::vector<double>& log_likelihoods);
   void resample(Rng& rng);
   [[nodiscard]] std::size_t sample_size(double share_of_new, Rng& rng) const;
-  [[nodiscard]] std::vector<Hypothesis> hypotheses(const LocalMap& local, const Scan& scan,
-                                                   const Pose2& moved, double omega_max) const;
 
   Params params_;
   bool is_product_;  ///< Likelihoods of beams are multiplied; else AMCL's sum of cubes.
@@ -104,8 +99,7 @@ class Mcl final : public Matcher {
   std::shared_ptr<const ContactIndex> contact_;
   BeamModelRule beam_rule_;
 
-  std::vector<Pose2> particles_;         ///< map_from_robot as of the last update.
-  std::vector<double> weights_;          ///< One for each; they add up to 1.
+  Particles particles_;                  ///< As of the last update.
   std::optional<Pose2> odom_from_last_;  ///< Of the last update; none before the first.
   int updates_ = 0;
   RecoveryAverages averages_;

@@ -88,8 +88,8 @@ class Contract : public ::testing::Test {
     // So that some of the particles fit well enough after a single scan.
     fill<Mcl::Params>("matcher/mcl", [](auto& p) {
       p.max_particles = 20000;
-      p.merge_distance = 0.1;
-      p.merge_rotation_deg = 2.9;
+      p.merging.merge_distance = 0.1;
+      p.merging.merge_rotation_deg = 2.9;
       p.contact_epsilon = 0.3;
     });
     bags::RobotRecording recording;

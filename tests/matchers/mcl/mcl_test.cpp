@@ -122,7 +122,7 @@ TEST(Mcl, HypothesesAreTheParticlesInTheFrameOfTheLocalMap) {
 
 TEST(Mcl, SupportAddsUpToTheParticles) {
   Mcl::Params params = many_particles("likelihood_field");
-  params.max_hypotheses = 100000;
+  params.merging.max_hypotheses = 100000;
   Mcl matcher(params, {walled_world(), 1});
   const Observation observation = observation_at({2.0, 2.0, 0.5});
   Rng rng(1);

@@ -1,0 +1,60 @@
+// Particles of a filter, told as hypotheses.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "glocal/contact.hpp"
+#include "glocal/hypothesis.hpp"
+#include "glocal/local_map.hpp"
+#include "glocal/observation.hpp"
+#include "glocal/params.hpp"
+#include "glocal/pose2.hpp"
+#include "glocal/pose_cells.hpp"
+
+namespace glocal {
+
+/// Robot poses, and how likely each of them is.
+struct Particles {
+  std::vector<Pose2> poses;     ///< map_from_robot
+  std::vector<double> weights;  ///< One for each; they add up to 1.
+};
+
+/// Particles of one cell, added up.
+struct Heap {
+  double weight = 0.0, x = 0.0, y = 0.0, cosine = 0.0, sine = 0.0;
+
+  void add(const Pose2& pose, double w) {
+    weight += w;
+    x += w * pose.x;
+    y += w * pose.y;
+    cosine += w * std::cos(pose.theta);
+    sine += w * std::sin(pose.theta);
+  }
+  /// The heading is the circular mean.
+  [[nodiscard]] Pose2 mean() const { return {x / weight, y / weight, std::atan2(sine, cosine)}; }
+};
+
+/// Particles by cells, the heaviest `most` of these first.
+[[nodiscard]] std::vector<Heap> heaps_of(const Particles& particles, const PoseBinning& binning,
+                                         std::size_t most);
+
+/// Which particles are one hypothesis: parameters of every particle filter.
+struct ParticleMerging {
+  double merge_distance = 0.25;
+  double merge_rotation_deg = 10.0;
+  int max_hypotheses = 1000;
+};
+void describe(ParamVisitor& v, ParticleMerging& p);
+
+/// What a particle filter answers: its heaps, with as much support as their weights are worth in particles.
+/// The quality is that of the local map (eq. 4), the score the same of the latest scan: weights say how poses
+/// compare, not how good they are. `old_from_new` is what the robot has moved since the particles' poses, in
+/// its old frame. Those that reach omega_max, by falling score.
+[[nodiscard]] std::vector<Hypothesis> hypotheses_of(const Particles& particles, const Pose2& old_from_new,
+                                                    const ParticleMerging& merging,
+                                                    const ContactIndex& contact, const LocalMap& local,
+                                                    const Scan& scan, double omega_max);
+
+}  // namespace glocal

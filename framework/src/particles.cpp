@@ -1,0 +1,74 @@
+#include "glocal/particles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace glocal {
+
+std::vector<Heap> heaps_of(const Particles& particles, const PoseBinning& binning, std::size_t most) {
+  const std::vector<Pose2>& poses = particles.poses;
+  std::vector<Heap> heaps;
+  std::unordered_map<PoseCell, std::size_t, PoseCellHash> heap_of_cell;
+  std::size_t heap = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    // Copies of a particle follow each other.
+    if (i == 0 || !(poses[i] == poses[i - 1])) {
+      const auto [it, is_new] = heap_of_cell.try_emplace(binning.cell_of(poses[i]), heaps.size());
+      if (is_new) heaps.emplace_back();
+      heap = it->second;
+    }
+    heaps[heap].add(poses[i], particles.weights[i]);
+  }
+  std::stable_sort(heaps.begin(), heaps.end(),
+                   [](const Heap& a, const Heap& b) { return a.weight > b.weight; });
+  heaps.resize(std::min(heaps.size(), most));
+  return heaps;
+}
+
+void describe(ParamVisitor& v, ParticleMerging& p) {
+  v.field("merge_distance", p.merge_distance,
+          {.doc = "Particles are one hypothesis if they lie in the same cell of this side and of "
+                  "merge_rotation_deg.",
+           .unit = "m",
+           .min = 0.001,
+           .audience = Audience::expert});
+  v.field("merge_rotation_deg", p.merge_rotation_deg,
+          {.doc = "Particles are one hypothesis if they lie in the same cell of this width in heading and of "
+                  "merge_distance.",
+           .unit = "deg",
+           .min = 0.05,
+           .audience = Audience::expert,
+           .formerly = "merge_rotation"});
+  v.field("max_hypotheses", p.max_hypotheses,
+          {.doc = "Largest number of hypotheses; the heaviest are kept.",
+           .min = 1,
+           .max = 1000000,
+           .audience = Audience::expert});
+}
+
+std::vector<Hypothesis> hypotheses_of(const Particles& particles, const Pose2& old_from_new,
+                                      const ParticleMerging& merging, const ContactIndex& contact,
+                                      const LocalMap& local, const Scan& scan, double omega_max) {
+  const std::vector<Heap> heaps = heaps_of(
+      particles, {merging.merge_distance, square_parts_of_a_turn(radians(merging.merge_rotation_deg))},
+      static_cast<std::size_t>(merging.max_hypotheses));
+  const Pose2 robot_from_local = inverse(seen_from_above(local.local_from_robot));
+  std::vector<Hypothesis> found;
+  for (const Heap& heap : heaps) {
+    const Pose2 map_from_robot = heap.mean() * old_from_new;
+    const double score = contact.share(scan.hits, Transform(map_from_robot));
+    if (score < omega_max) continue;
+    const Pose2 map_from_local = map_from_robot * robot_from_local;
+    const auto support = std::lround(heap.weight * static_cast<double>(particles.weights.size()));
+    found.push_back({.map_from_local = map_from_local,
+                     .quality = contact.share(local.points, Transform(map_from_local)),
+                     .score = score,
+                     .support = static_cast<std::size_t>(std::max(1L, support))});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  return found;
+}
+
+}  // namespace glocal
