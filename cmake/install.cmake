@@ -31,7 +31,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glocal.pc DESTINATION ${CMAKE_INSTALL_
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_CORE_PACKAGE_NAME glocal)
-foreach(package octomap open3d pcl)
+foreach(package mrpt octomap open3d pcl)
   string(TOUPPER ${package} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME glocal-${package})
   set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "glocal (= ${PROJECT_VERSION})")

@@ -105,6 +105,9 @@ class Contract : public ::testing::Test {
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };
+    const std::string filter =
+        folder_.write("filter.yaml", "contact_epsilon: 0.3\nmerge_distance: 0.1\nmerge_rotation_deg: 2.9\n");
+    fillers_["matcher/mrpt_mcl"] = [filter](AnyParams& any) { read_yaml(filter, any); };
     for (const char* stage : {"local_mapper/scan_matching",
                               "local_mapper/bounded",
                               "local_mapper/keyframes",
@@ -175,7 +178,7 @@ class Contract : public ::testing::Test {
   /// What a matcher takes for contact, m, with the parameters that it is given above.
   static double contact_epsilon(const std::string& matcher) {
     if (matcher == "exhaustive") return 0.2;
-    return matcher == "mcl" ? 0.3 : 0.1;
+    return matcher == "mcl" || matcher == "mrpt_mcl" ? 0.3 : 0.1;
   }
 
   TemporaryFolder folder_;

@@ -13,7 +13,7 @@ prefix=$work/prefix
 
 cmake --install "$build" --prefix "$prefix" >/dev/null
 [ "$("$prefix/bin/glocal" --version | cut -d ' ' -f 1)" = glocal ] || fail "the installed program does not run"
-for library in pcl octomap Open3D vtk Qt; do
+for library in mrpt pcl octomap Open3D vtk Qt; do
   ! ldd "$prefix/bin/glocal" "$prefix"/lib*/libglocal.so | grep -qi "lib$library" || fail "the framework needs $library"
 done
 

@@ -1,0 +1,9 @@
+#include "glocal/plugin.hpp"
+
+#include "mrpt_mcl.hpp"
+
+GLOCAL_PLUGIN("glocal_mrpt", "0.1.0", catalog) {
+  using namespace glocal;
+  catalog.matchers.add<MrptMcl>("mrpt_mcl",
+                                "MRPT's Monte Carlo localization, from particles all over the map.");
+}
