@@ -1,15 +1,18 @@
-// glocal simulate: an experiment's simulated drive and map as files, and an experiment that reads them back.
+// glocal simulate: a simulated drive and map as files, and an experiment that reads them back.
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/simulated_site.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/running/experiment_loader.hpp"
@@ -22,6 +25,7 @@ namespace {
 
 struct SimulateOptions {
   ExperimentOptions experiment;
+  SiteOptions site;
   std::string out;
   bool force = false;
 };
@@ -33,11 +37,12 @@ StrategyChoice recorded_map() {
   return {"ros_map", std::move(params)};
 }
 
-void simulate(const SimulateOptions& options, Context& context) {
-  Experiment experiment = options.experiment.read(context);
-  OutputFolder::check(options.out, options.force);
+/// What an experiment simulates, and what was read for it.
+SimulatedFiles simulated_experiment(const ExperimentOptions& options, Context& context,
+                                    std::set<std::filesystem::path>& inputs) {
+  Experiment experiment = options.read(context);
   const Catalog& catalog = context.catalog;
-  std::set<std::filesystem::path> inputs{std::filesystem::absolute(options.experiment.file)};
+  inputs.insert(std::filesystem::absolute(options.file));
   SourceSetup setup;
   setup.seed = seed_of(RandomPart::observation_source, experiment);
   setup.motion = experiment.localizer.motion;
@@ -45,28 +50,47 @@ void simulate(const SimulateOptions& options, Context& context) {
   setup.note_input = [&](const std::filesystem::path& file) {
     inputs.insert(std::filesystem::absolute(file));
   };
-
-  const auto drive = catalog.observation_sources.make(experiment.observations, setup)->recording();
+  auto drive = catalog.observation_sources.make(experiment.observations, setup)->recording();
   if (!drive) {
-    throw ConfigError({{options.experiment.file, 0, 0,
+    throw ConfigError({{options.file, 0, 0,
                         fmt::format("observations: come from {}; only a simulation of a planar laser can be "
                                     "written to files",
                                     experiment.observations.name)}});
   }
-  OutputFolder folder(options.out, options.force);
-  folder.append(drive->file_name, drive->content);
-  const MapData map = load_map(experiment, catalog, setup);
-  folder.append("map.pgm", pgm(trinary_image(map.grid)));
-  folder.append("map.yaml", ros_map_yaml(map.grid, "map.pgm"));
-
+  SimulatedFiles files{std::move(*drive), load_map(experiment, catalog, setup).grid, {}, experiment.threads};
   experiment.map = recorded_map();
-  experiment.observations = drive->source;
-  folder.append("experiment.yaml", effective_yaml(experiment, catalog));
+  experiment.observations = std::move(files.drive.source);
+  files.experiment = effective_yaml(experiment, catalog);
+  return files;
+}
+
+std::uint64_t seed_of_site(const SimulateOptions& options) {
+  const std::string text = options.experiment.seed.value_or("1");
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw ConfigError({{"--seed " + text, 0, 0, "must be a whole number from 0 to 2^64 - 1"}});
+  return seed;
+}
+
+void simulate(const SimulateOptions& options, Context& context) {
+  const bool is_site = !options.site.site.empty();
+  if (is_site == !options.experiment.file.empty())
+    throw ConfigError({{"simulate", 0, 0, "takes an experiment file, or --site office in its place"}});
+  OutputFolder::check(options.out, options.force);
+  std::set<std::filesystem::path> inputs;
+  const SimulatedFiles files = is_site ? simulated_site(options.site, seed_of_site(options))
+                                       : simulated_experiment(options.experiment, context, inputs);
+  OutputFolder folder(options.out, options.force);
+  folder.append(files.drive.file_name, files.drive.content);
+  write_trinary_pgm(files.grid, [&](std::string_view piece) { folder.append("map.pgm", piece); });
+  folder.append("map.yaml", ros_map_yaml(files.grid, "map.pgm"));
+  folder.append("experiment.yaml", files.experiment);
   FileHashes hashes;
-  folder.append("provenance.json", provenance(catalog, experiment.threads, inputs, hashes).dump(2) + "\n");
+  folder.append("provenance.json", provenance(context.catalog, files.threads, inputs, hashes).dump(2) + "\n");
   folder.commit();
-  fmt::print("{} scans, a map of {} x {} cells and an experiment in {}\n", drive->observations,
-             map.grid.width, map.grid.height, folder.path().string());
+  fmt::print("{} scans, a map of {} x {} cells and an experiment in {}\n", files.drive.observations,
+             files.grid.width, files.grid.height, folder.path().string());
 }
 
 }  // namespace
@@ -75,8 +99,11 @@ void add_simulate(CLI::App& app, Context& context) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = app.add_subcommand(
       "simulate",
-      "Write an experiment's simulated drive (CARMEN log) and map (ROS), and an experiment that uses them.");
-  options->experiment.add_to(*command);
+      "Write a simulated drive (CARMEN log) and map (ROS), and an experiment that uses them: those of an "
+      "experiment, or a site of any size.");
+  command->add_option("FILE", options->experiment.file, "Experiment file (YAML)");
+  options->experiment.add_overrides_to(*command);
+  options->site.add_to(*command);
   command->add_option("--out", options->out, "Folder for the files")->required();
   command->add_flag("--force", options->force, "Replace earlier files in that folder");
   command->callback([options, &context] { simulate(*options, context); });

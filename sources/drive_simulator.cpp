@@ -67,14 +67,16 @@ std::optional<CarmenScan> DriveSimulator::next() {
 }
 
 CarmenScan DriveSimulator::measure(const DriveStep& step) const {
-  Shapes shapes = reality_;
+  const Pose2 map_from_laser = step.map_from_robot * robot_from_laser(laser_);
+  // A map is looked at from beyond the last cell that matters, as rays stop before the cell they end in.
+  const double reach = laser_.max_range + (map_ ? 2.0 * map_->resolution : 0.0);
+  // Noise, of never more than nine standard deviations, brings things into range.
+  Shapes shapes = reality_.around({map_from_laser.x, map_from_laser.y}, reach + 9.0 * laser_.noise);
   const std::vector<Circle> people = people_at(world_, step.stamp);
   shapes.circles.insert(shapes.circles.end(), people.begin(), people.end());
   const auto distance_to_anything = [&](const Position& origin, const Position& direction) {
     const double thing = ray_distance(shapes, origin, direction);
     if (!map_) return thing;
-    // Looked at from beyond the last cell that matters, as rays stop before the cell they end in.
-    const double reach = laser_.max_range + 2.0 * map_->resolution;
     return ray_distance(*map_, origin, direction, reach, max_unknown_, thing);
   };
   return simulated_scan(laser_, step.map_from_robot, distance_to_anything,

@@ -9,6 +9,7 @@
 #include "glocal/rng.hpp"
 #include "sources/carmen_parser.hpp"
 #include "sources/drive_params.hpp"
+#include "sources/near_shapes.hpp"
 #include "sources/planned_drive.hpp"
 
 namespace glocal {
@@ -50,6 +51,8 @@ class DriveSimulator {
  public:
   /// Throws ConfigError where planned_drive() does.
   DriveSimulator(const DriveParams& params, const SourceSetup& setup);
+  /// A drive that was planned elsewhere.
+  DriveSimulator(const DriveParams& params, std::uint64_t seed, PlannedDrive drive);
 
   /// The scan of the next step, with its reference pose; none at the end of the drive. Rays that meet nothing
   /// within the laser's range read max_range, those that are lost in unknown cells of a map 0.
@@ -57,15 +60,13 @@ class DriveSimulator {
   void start_over() { robot_.start_over(); }
 
  private:
-  DriveSimulator(const DriveParams& params, std::uint64_t seed, PlannedDrive drive);
-
   [[nodiscard]] CarmenScan measure(const DriveStep& step) const;
 
   LaserParams laser_;
   double max_unknown_;
   World world_;
   std::optional<OccupancyGrid> map_;
-  Shapes reality_;
+  NearShapes reality_;
   DrivingRobot robot_;
 };
 

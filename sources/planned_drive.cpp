@@ -119,8 +119,7 @@ void add_things(PlannedDrive& drive, const OccupancyGrid& grid, const ClearRegio
 
 PlannedDrive drive_in_world(const DriveParams& params, const SourceSetup& setup) {
   setup.note_input(params.world.resolved);
-  PlannedDrive drive{read_world(params.world.resolved), {}, {}, {}};
-  drive.route = route_of(WorldWays(drive.world), params, stream_of(DriveStream::tour, setup.seed));
+  PlannedDrive drive = drive_in(read_world(params.world.resolved), params, setup.seed);
   const bool has_things = params.boxes > 0 || params.people > 0;
   const bool has_cloud = !drive.world.cloud.text.empty();
   if (has_cloud && (has_things || params.lidar.beams > 0)) {
@@ -176,6 +175,12 @@ Route route_of(const Ways& ways, const DriveParams& params, Rng rng) {
   }
   check_when_it_is_carried(route, params, driven);
   return route;
+}
+
+PlannedDrive drive_in(World world, const DriveParams& params, std::uint64_t seed) {
+  PlannedDrive drive{std::move(world), {}, {}, {}};
+  drive.route = route_of(WorldWays(drive.world), params, stream_of(DriveStream::tour, seed));
+  return drive;
 }
 
 PlannedDrive planned_drive(const DriveParams& params, const SourceSetup& setup) {

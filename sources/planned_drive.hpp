@@ -37,6 +37,10 @@ struct PlannedDrive {
   std::optional<CloudVoxels> cloud;  ///< Of the world, if it has one that somebody asks for.
 };
 
+/// Along the way points of a world, with nothing in it but what the world has. Throws ConfigError where
+/// route_of() does.
+[[nodiscard]] PlannedDrive drive_in(World world, const DriveParams& params, std::uint64_t seed);
+
 /// Throws ConfigError for a faulty world or map, and where route_of(), MapWays, drawn_boxes() and
 /// floor_near() do.
 [[nodiscard]] PlannedDrive planned_drive(const DriveParams& params, const SourceSetup& setup);

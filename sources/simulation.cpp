@@ -17,6 +17,10 @@ std::unique_ptr<ObservationSource> Simulation::make(const Params& params, const 
 Simulation::Simulation(const Params& params, const SourceSetup& setup)
     : scan_limits_(scan_limits(params.laser)), simulator_(params, setup) {}
 
+Simulation::Simulation(const Params& params, World world, std::uint64_t seed)
+    : scan_limits_(scan_limits(params.laser)),
+      simulator_(params, seed, drive_in(std::move(world), params, seed)) {}
+
 std::optional<Sample> Simulation::next() {
   const std::optional<CarmenScan> scan = simulator_.next();
   if (!scan) return std::nullopt;

@@ -1,6 +1,7 @@
 // Simulated observations, and the map that goes with them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
 #include "sources/drive_simulator.hpp"
+#include "sources/world.hpp"
 
 namespace glocal {
 
@@ -22,6 +24,8 @@ class Simulation final : public ObservationSource {
   static std::unique_ptr<ObservationSource> make(const Params& params, const SourceSetup& setup);
   /// Throws ConfigError where planned_drive() does.
   Simulation(const Params& params, const SourceSetup& setup);
+  /// Of a world that is in no file, along its way points.
+  Simulation(const Params& params, World world, std::uint64_t seed);
 
   [[nodiscard]] std::optional<Sample> next() override;
   /// As a CARMEN log.

@@ -63,16 +63,25 @@ class Raster {
     }
   }
 
-  /// Frees everything that can be reached from a place without crossing an outline.
+  /// Frees everything that can be reached from a place without crossing an outline, run by run: what is still
+  /// to be looked at would else take more memory than the grid.
   void flood(const Position& from) {
     std::vector<std::array<int, 2>> open{{column_of(from[0]), row_of(from[1])}};
     while (!open.empty()) {
       const auto [column, row] = open.back();
       open.pop_back();
-      if (!holds(column, row) || grid_.cell(column, row) != Cell::unknown) continue;
-      grid_.cell(column, row) = Cell::free;
-      for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
-        open.push_back({column + dx, row + dy});
+      if (!is_unknown(column, row)) continue;
+      int first = column;
+      int last = column;
+      while (is_unknown(first - 1, row)) --first;
+      while (is_unknown(last + 1, row)) ++last;
+      for (int i = first; i <= last; ++i) grid_.cell(i, row) = Cell::free;
+      for (const int beside : {row - 1, row + 1}) {
+        for (int i = first; i <= last; ++i) {
+          const bool begins_run = is_unknown(i, beside) && (i == first || !is_unknown(i - 1, beside));
+          if (begins_run) open.push_back({i, beside});
+        }
+      }
     }
   }
 
@@ -105,6 +114,9 @@ class Raster {
   }
   [[nodiscard]] bool holds(int column, int row) const {
     return column >= 0 && column < grid_.width && row >= 0 && row < grid_.height;
+  }
+  [[nodiscard]] bool is_unknown(int column, int row) const {
+    return holds(column, row) && grid_.cell(column, row) == Cell::unknown;
   }
   void mark(double x, double y) {
     if (holds(column_of(x), row_of(y))) grid_.cell(column_of(x), row_of(y)) = Cell::occupied;

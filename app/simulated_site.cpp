@@ -1,0 +1,95 @@
+#include "app/simulated_site.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "app/localize_plan.hpp"
+#include "glocal/error.hpp"
+#include "sources/simulation.hpp"
+#include "sources/sites/office_site.hpp"
+#include "sources/world_grid.hpp"
+
+namespace glocal::app {
+namespace {
+
+constexpr int most_starts = 150;  // unless more are asked for
+
+/// Metres driven for each metre of the side, so that starts are all over the site; and at most.
+constexpr double drive_per_side = 5.0;
+constexpr double longest_drive = 3000.0;
+constexpr double metres_a_start = 10.0;
+
+/// As in the experiments on other simulated worlds.
+DriveParams drive_params() {
+  DriveParams params;
+  params.step_length = 0.3;
+  params.step_turn_deg = 15.0;
+  params.step_seconds = 0.5;
+  params.laser.max_range = 20.0;
+  return params;
+}
+
+double length_of(const SiteOptions& options) {
+  return options.length > 0.0 ? options.length : std::min(drive_per_side * options.side, longest_drive);
+}
+
+int starts_of(const SiteOptions& options) {
+  if (options.starts > 0) return options.starts;
+  return std::clamp(static_cast<int>(length_of(options) / metres_a_start), 1, most_starts);
+}
+
+std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const std::string& log) {
+  const LogParams limits = scan_limits(drive_params().laser);
+  return fmt::format(
+      "# A simulated {} of {:g} m x {:g} m, seed {}. Written by glocal simulate.\n"
+      "schema: 1\n"
+      "name: {}_{:g}_{}\n"
+      "seed: {}\n"
+      "map:\n"
+      "  ros_map: {{path: map.yaml}}\n"
+      "observations:\n"
+      "  carmen_log: {{path: {}, min_range: {}, max_range: {}, free_range: {}}}\n"
+      "trials: {{every_m: {}, max_steps: 41, min_steps: 41}}\n"
+      "{}",
+      options.site, options.side, options.side, seed, options.site, options.side, seed, seed, log,
+      limits.min_range, limits.max_range, limits.free_range, length_of(options) / starts_of(options),
+      default_localizer(false, ""));
+}
+
+}  // namespace
+
+void SiteOptions::add_to(CLI::App& command) {
+  CLI::Option* kind =
+      command.add_option("--site", site, "Make a site of this kind, in place of an experiment's world")
+          ->check(CLI::IsMember({"office"}))
+          ->excludes(command.get_option("--set"))
+          ->excludes(command.get_option("--threads"));
+  command.add_option("--side", side, "Side of the site (m)")->check(CLI::Range(20.0, 1000.0))->needs(kind);
+  command.add_option("--resolution", resolution, "Side of a cell of its map (m)")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str()
+      ->needs(kind);
+  command.add_option("--length", length, "Way driven (m); five times the side, at most 3000 m, without it")
+      ->check(CLI::Range(10.0, 1e5))
+      ->needs(kind);
+  command.add_option("--starts", starts, "Number of starts; one every 10 m, at most 150, without it")
+      ->check(CLI::Range(1, 10000))
+      ->needs(kind);
+}
+
+SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed) {
+  if (options.side == 0.0)
+    throw ConfigError({{"--site " + options.site, 0, 0, "needs --side, its side in metres"}});
+  World world = sites::office_site(options.side, length_of(options), seed);
+  OccupancyGrid grid = plan_of(world, options.resolution);
+  SimulatedFiles files{
+      *Simulation(drive_params(), std::move(world), seed).recording(), std::move(grid), {}, 1};
+  files.experiment = experiment_of(options, seed, files.drive.file_name);
+  return files;
+}
+
+}  // namespace glocal::app
