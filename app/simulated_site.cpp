@@ -60,6 +60,16 @@ std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const 
       default_localizer(false, ""));
 }
 
+/// CLI::Range takes what is no number.
+CLI::Validator within(double low, double high) {
+  const auto fault = [=](const std::string& text) {
+    double value = 0.0;
+    const bool is_within = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+    return is_within ? std::string() : fmt::format("{} is not a number from {} to {}", text, low, high);
+  };
+  return {fault, fmt::format("{} to {}", low, high)};
+}
+
 }  // namespace
 
 void SiteOptions::add_to(CLI::App& command) {
@@ -68,13 +78,13 @@ void SiteOptions::add_to(CLI::App& command) {
           ->check(CLI::IsMember({"office"}))
           ->excludes(command.get_option("--set"))
           ->excludes(command.get_option("--threads"));
-  command.add_option("--side", side, "Side of the site (m)")->check(CLI::Range(20.0, 1000.0))->needs(kind);
+  command.add_option("--side", side, "Side of the site (m)")->check(within(20.0, 1000.0))->needs(kind);
   command.add_option("--resolution", resolution, "Side of a cell of its map (m)")
-      ->check(CLI::Range(0.01, 1.0))
+      ->check(within(0.01, 1.0))
       ->capture_default_str()
       ->needs(kind);
   command.add_option("--length", length, "Way driven (m); five times the side, at most 3000 m, without it")
-      ->check(CLI::Range(10.0, 1e5))
+      ->check(within(10.0, 1e5))
       ->needs(kind);
   command.add_option("--starts", starts, "Number of starts; one every 10 m, at most 150, without it")
       ->check(CLI::Range(1, 10000))

@@ -267,8 +267,16 @@ void add_with_changes(Layout& layout, bool is_mapped, World& world) {
     add_to_world(layout.pieces()[i], frame, {false, true}, world);
 }
 
-Area area_of(const Room& room) {
+Area area_of(const Room& room, const OfficePlan& plan) {
   Area area{.frame = room.frame, .size = {room.width, room.depth}};
+  const double left = std::min(room.frame.origin[0], room.frame.at(room.width, 0.0)[0]);
+  constexpr double half_pillar = pillar_side / 2.0;
+  for (auto pillar = std::lower_bound(plan.pillars.begin(), plan.pillars.end(), left - half_pillar);
+       pillar != plan.pillars.end() && *pillar < left + room.width + half_pillar; ++pillar) {
+    const double x = (*pillar - room.frame.origin[0]) * room.frame.x_axis[0];
+    area.keep_free.push_back(
+        between_corners({x - half_pillar, room.depth - half_pillar}, {x + half_pillar, room.depth}));
+  }
   constexpr double half = door_width / 2.0;
   constexpr double leaf_turn = 0.2;  // m that an open door reaches to the side
   if (room.state != Door::none) {
@@ -282,11 +290,11 @@ Area area_of(const Room& room) {
   return area;
 }
 
-void furnish_room(const Room& room, const Rng& usual, const Rng& own, World& world) {
+void furnish_room(const Room& room, const OfficePlan& plan, const Rng& usual, const Rng& own, World& world) {
   const auto centimetres = [](double metres) {
     return static_cast<std::uint64_t>(std::lround(100.0 * metres));
   };
-  Area area = area_of(room);
+  Area area = area_of(room, plan);
   const std::vector<Piece> furniture = usual_furniture(
       area, room.use,
       usual.stream({static_cast<std::uint64_t>(room.use), static_cast<std::uint64_t>(room.style),
@@ -350,7 +358,7 @@ void furnish_cross_corridors(const OfficePlan& plan, const Rng& rng, World& worl
 void furnish(const OfficePlan& plan, Rng rng, World& world) {
   const Rng usual = rng.stream({0});
   for (std::size_t i = 0; i < plan.rooms.size(); ++i)
-    furnish_room(plan.rooms[i], usual, rng.stream({1, i}), world);
+    furnish_room(plan.rooms[i], plan, usual, rng.stream({1, i}), world);
   furnish_corridors(plan, rng.stream({2}), world);
   furnish_cross_corridors(plan, rng.stream({3}), world);
 }

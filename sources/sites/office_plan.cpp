@@ -14,7 +14,6 @@ namespace {
 constexpr double module = 0.6;                // m; everything is a multiple of it
 constexpr double outer_wall_thickness = 0.3;  // m
 constexpr double door_offset = 0.75;          // m, from the nearer wall's middle to the door's
-constexpr double pillar_side = 0.45;          // m
 constexpr int pillar_modules = 12;            // from pillar to pillar
 
 // In modules:
@@ -233,17 +232,26 @@ void add_door(const Room& room, Rng rng, World& world) {
   }
 }
 
-/// In walls between rooms that lie back to back, and in the outer walls beside rooms.
+/// In walls between rooms that lie back to back, and in the outer walls behind rooms.
 void add_pillars(const OfficePlan& plan, World& world) {
   std::vector<double> lines{plan.y.from, plan.y.to};
   for (std::size_t row = 2; row < plan.rows.size(); row += 2) lines.push_back(plan.rows[row].from);
-  constexpr double spacing = pillar_modules * module;
   constexpr double half = pillar_side / 2.0;
-  for (double x = plan.x.from + spacing; x < plan.x.to - half; x += spacing) {
-    const auto is_in_wing = [&](const Span& wing) { return x - half > wing.from && x + half < wing.to; };
-    if (std::none_of(plan.wings.begin(), plan.wings.end(), is_in_wing)) continue;
+  for (const double x : plan.pillars) {
     for (const double y : lines) add_box({x - half, y - half}, {x + half, y + half}, world);
   }
+}
+
+/// Evenly spaced, but for cross corridors.
+std::vector<double> pillars_of(const OfficePlan& plan) {
+  constexpr double spacing = pillar_modules * module;
+  constexpr double half = pillar_side / 2.0;
+  std::vector<double> pillars;
+  for (double x = plan.x.from + spacing; x < plan.x.to; x += spacing) {
+    const auto is_in_wing = [&](const Span& wing) { return x - half > wing.from && x + half < wing.to; };
+    if (std::any_of(plan.wings.begin(), plan.wings.end(), is_in_wing)) pillars.push_back(x);
+  }
+  return pillars;
 }
 
 }  // namespace
@@ -266,6 +274,7 @@ OfficePlan office_plan(double side, Rng rng) {
   const std::vector<Span> across = spans(margin, drawn_bands(modules, rng));
   for (std::size_t i = 0; i < across.size(); ++i)
     (i % 3 == 1 ? plan.corridors : plan.rows).push_back(across[i]);
+  plan.pillars = pillars_of(plan);
   for (std::size_t row = 0; row < plan.rows.size(); ++row) {
     for (std::size_t wing = 0; wing < plan.wings.size(); ++wing)
       RowOfRooms(plan, row, wing).fill(rng.stream({row, wing}));

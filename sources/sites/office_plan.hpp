@@ -11,6 +11,7 @@ namespace glocal::sites {
 
 inline constexpr double wall_thickness = 0.14;  // m, of walls within the building
 inline constexpr double door_width = 0.9;       // m
+inline constexpr double pillar_side = 0.45;     // m
 
 /// Part of an axis, m.
 struct Span {
@@ -62,6 +63,7 @@ struct OfficePlan {
   std::vector<Span> cross_corridors;  ///< In x.
   std::vector<Span> corridors;        ///< In y.
   std::vector<Span> rows;             ///< In y: two of each corridor, below and above it.
+  std::vector<double> pillars;        ///< Their x; in all walls at the backs of rooms.
   std::vector<Room> rooms;
 };
 

@@ -33,7 +33,7 @@ class Tour {
 
   std::vector<Position> drive(double length) {
     while (length_ < length) {
-      const Crossing target = drawn_crossing();
+      const Crossing target = drawn_target();
       while (at_ != target) go_towards(target);
       if (at_.cross == 0) visit_end(0);
       if (at_.cross + 1 == plan_.cross_corridors.size()) visit_end(at_.cross + 1);
@@ -47,6 +47,22 @@ class Tour {
   Crossing drawn_crossing() {
     return {rng_.below(static_cast<std::uint32_t>(plan_.corridors.size())),
             rng_.below(static_cast<std::uint32_t>(plan_.cross_corridors.size()))};
+  }
+
+  /// Of some crossings the one that is farthest from where the robot has been.
+  Crossing drawn_target() {
+    constexpr int draws = 8;
+    Crossing best;
+    double farthest = -1.0;
+    for (int i = 0; i < draws; ++i) {
+      const Crossing crossing = drawn_crossing();
+      double nearest = distance(place(crossing), way_points_.front());
+      for (const Position& p : way_points_) nearest = std::min(nearest, distance(place(crossing), p));
+      if (nearest <= farthest) continue;
+      farthest = nearest;
+      best = crossing;
+    }
+    return best;
   }
 
   [[nodiscard]] Position place(const Crossing& crossing) const {

@@ -109,5 +109,56 @@ TEST_F(SimulateCommand, WritesWhatALinkLeadsTo) {
   EXPECT_NE(content(file("missing/drive.log")), "");
 }
 
+TEST_F(SimulateCommand, ASiteCanBeRunAndLocalizedIn) {
+  const std::string simulate = "simulate --site office --side 30 --length 60 --starts 6 --seed 3";
+  Answer answer = run(simulate + " --out " + file("site"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("a map of 601 x 601 cells"));
+  answer = run("run " + file("site/experiment.yaml") + " --quiet --out " + file("results"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto summary = nlohmann::json::parse(content(file("results/summary.json")));
+  EXPECT_EQ(summary["name"], "office_30_3");
+  EXPECT_GE(summary["trials"]["count"], 4) << "the last starts have less than 41 scans left";
+  EXPECT_GE(summary["trials"]["right"], 3);
+  EXPECT_EQ(summary["trials"]["wrong"], 0);
+}
+
+TEST_F(SimulateCommand, TheSameSeedGivesTheSameSite) {
+  const std::string simulate = "simulate --site office --side 25 --length 20 --resolution 0.1 ";
+  ASSERT_EQ(run(simulate + "--seed 5 --out " + file("a")).exit_code, 0);
+  ASSERT_EQ(run(simulate + "--seed 5 --out " + file("b")).exit_code, 0);
+  ASSERT_EQ(run(simulate + "--seed 6 --out " + file("c")).exit_code, 0);
+  for (const char* name : {"/drive.log", "/map.yaml", "/map.pgm", "/experiment.yaml"}) {
+    EXPECT_EQ(content(file("a") + name), content(file("b") + name)) << name;
+    EXPECT_NE(content(file("a") + name), "") << name;
+  }
+  for (const char* name : {"/drive.log", "/map.pgm", "/experiment.yaml"})
+    EXPECT_NE(content(file("a") + name), content(file("c") + name)) << name;
+}
+
+TEST_F(SimulateCommand, RefusesSitesThatCannotBe) {
+  const std::string out = " --out " + file("site");
+  const auto refusal = [&](const std::string& options) {
+    const Answer answer = run("simulate " + options + out);
+    EXPECT_EQ(answer.exit_code, 2) << options;
+    EXPECT_FALSE(std::filesystem::exists(file("site"))) << options;
+    return answer.err;
+  };
+  EXPECT_THAT(refusal(""), HasSubstr("takes an experiment file, or --site office in its place"));
+  EXPECT_THAT(refusal(file("experiment.yaml") + " --site office --side 50"),
+              HasSubstr("takes an experiment file, or --site office in its place"));
+  EXPECT_THAT(refusal("--site office"), HasSubstr("needs --side"));
+  EXPECT_THAT(refusal("--site castle --side 50"), HasSubstr("castle not in {office}"));
+  EXPECT_THAT(refusal("--side 50 " + file("experiment.yaml")), HasSubstr("--side requires --site"));
+  EXPECT_THAT(refusal("--site office --side 50 --seed x"),
+              HasSubstr("--seed x: error: must be a whole number from 0 to 2^64 - 1"));
+  EXPECT_THAT(refusal("--site office --side 50 --set seed=3"), HasSubstr("--site excludes --set"));
+  for (const char* options : {"--side 19", "--side 1001", "--side nan", "--side 50 --resolution 0.001",
+                              "--side 50 --length 5", "--side 50 --length 1e6"}) {
+    EXPECT_THAT(refusal(std::string("--site office ") + options), HasSubstr("is not a number from"));
+  }
+  EXPECT_THAT(refusal("--site office --side 50 --starts 0"), HasSubstr("not in range"));
+}
+
 }  // namespace
 }  // namespace glocal::test::simulate_test

@@ -164,6 +164,19 @@ TEST(RosMapWriter, IsReadBack) {
   }
 }
 
+TEST(RosMapWriter, WritesTheSameImagePieceByPiece) {
+  OccupancyGrid grid{{0.0, 0.0, 0.0}, 0.1, 3, 700, {}};
+  for (int i = 0; i < 2100; ++i) grid.cells.push_back(i % 7 == 0 ? o : i % 5 == 0 ? u : f);
+  std::string image;
+  int pieces = 0;
+  write_trinary_pgm(grid, [&](std::string_view piece) {
+    image += piece;
+    ++pieces;
+  });
+  EXPECT_EQ(image, pgm(trinary_image(grid)));
+  EXPECT_GT(pieces, 2);
+}
+
 struct SharedMapFacts {
   const char* file;
   double width, height;  ///< m, of what is occupied
