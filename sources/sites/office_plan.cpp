@@ -21,7 +21,7 @@ constexpr int usual_wing = 54;
 constexpr int least_wing = 14;
 constexpr int usual_band = 20;  // a corridor and the rows of rooms beside it
 constexpr int least_depth = 6;
-constexpr int most_depth = 10;
+constexpr int most_depth = 11;  // with less, some sides could not be divided
 constexpr int hall_width = 24;
 
 struct RoomWidth {
