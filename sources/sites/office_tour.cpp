@@ -38,6 +38,7 @@ class Tour {
       if (at_.cross == 0) visit_end(0);
       if (at_.cross + 1 == plan_.cross_corridors.size()) visit_end(at_.cross + 1);
     }
+    end_after(length);
     return way_points_;
   }
 
@@ -72,6 +73,20 @@ class Tour {
   void go(const Position& to) {
     if (!way_points_.empty()) length_ += distance(way_points_.back(), to);
     if (way_points_.empty() || way_points_.back() != to) way_points_.push_back(to);
+  }
+
+  /// Leaves out what is farther along the way.
+  void end_after(double length) {
+    for (double excess = length_ - length;;) {
+      const Position last = way_points_.back();
+      way_points_.pop_back();
+      const double way = distance(way_points_.back(), last);
+      if (way > excess) {
+        way_points_.push_back(between(last, way_points_.back(), excess / way));
+        return;
+      }
+      excess -= way;
+    }
   }
 
   /// To the next crossing along one of the two corridors that lead nearer.

@@ -8,7 +8,7 @@
 
 namespace glocal::sites {
 
-/// Way points of a drive of at least `length` (m): along corridors to places all over the building, and into
+/// Way points of a drive of `length` (m): along corridors to places all over the building, and into
 /// some of the rooms on the way, and back.
 [[nodiscard]] std::vector<Position> office_tour(const OfficePlan& plan, double length, Rng rng);
 
