@@ -40,10 +40,10 @@ const RoomWidth& drawn_width(Rng& rng) {
     left -= width.weight;
     if (left < 0.0) return width;
   }
-  return room_widths[2];
+  return room_widths.front();  // the weights' sum is rounded
 }
 
-/// Whether rooms fill this many modules.
+/// Whether rooms of 4, 5, 6 and more modules fill so many.
 bool can_be_filled(int modules) {
   return modules == 0 || (modules >= 4 && modules != 7);
 }
