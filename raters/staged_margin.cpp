@@ -86,6 +86,13 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
            .max = 1.0,
            .audience = Audience::tuner,
            .formerly = "max_conflict"});
+  v.field(
+      "min_scan_contact", p.min_scan_contact,
+      {.doc = "All begins anew in a step whose own scan has less contact at the best pose, however well the "
+              "local map fits: the robot is perhaps no longer there.",
+       .min = 0.0,
+       .max = 1.0,
+       .audience = Audience::tuner});
   v.field("confidence", p.confidence,
           {.doc = "Logistic model that makes a probability of the margin.", .audience = Audience::expert});
   v.field("spread_margin", p.spread_margin,
@@ -142,21 +149,24 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const double turn_rate_deg = best_ ? degrees(best_->turn_rate_to(step)) : 0.0;
   const bool goes_on = continues(step);
   const double driven = goes_on ? distance(best_->local_from_robot, step.local_from_robot) : 0.0;
-  if (!goes_on) begin_anew();
+  const bool scan_fits = step.omega_scan.value_or(1.0) >= params_.min_scan_contact;
+  if (!goes_on || !scan_fits) begin_anew();
   const Pose3& pose = step.hypotheses.front().map_from_robot;
   best_ = FollowedPose::of(step, pose);
   ++steps_;
   distance_ += driven;
 
   const double margin = margin_of(step);
-  const bool is_clear = stages_.is_reached(margin, driven);
-  const bool is_clear_if_certified = certified_stages_.is_reached(margin, driven);
+  const bool is_clear = scan_fits && stages_.is_reached(margin, driven);
+  const bool is_clear_if_certified = scan_fits && certified_stages_.is_reached(margin, driven);
   const std::optional<double>& violation = step.hypotheses.front().free_space_violation;
   const bool is_consistent = !violation || *violation <= params_.max_free_space_violation;
   const bool may_be_declared = is_steady(turn_rate_deg) && is_consistent;
   if (may_be_declared && (is_clear || is_clear_if_certified)) is_declared_ = true;
   if (stages_.is_lost() && certified_stages_.is_lost()) is_declared_ = false;
   Verdict verdict = is_declared_ ? localized(step, margin) : undecided(step, margin);
+  if (!scan_fits)
+    verdict.why = fmt::format("only {:.0f} % of the last scan fits the best pose", 100.0 * *step.omega_scan);
   verdict.needs_certificate = is_declared_ && !(may_be_declared && is_clear);
   verdict.estimate = {pose, confidence(margin), covariance(step.hypotheses)};
   verdict.evidence = {{"margin", margin},

@@ -14,9 +14,9 @@ namespace glocal {
 
 /// Localized once the best hypothesis has been clearly better than every rival, a pose far from it, for long
 /// enough: the clearer, the sooner. The best hypothesis must stay the same, moved by the local motion;
-/// another best one, a step without any, or another local map begins anew. That, or a margin below every
-/// stage's, takes the verdict back. Where declarations are verified, there are lower stages, too, for poses
-/// that the verifier certifies to have no more contact anywhere else.
+/// another best one, a step without any, another local map, or a scan that does not fit there begins anew.
+/// That, or a margin below every stage's, takes the verdict back. Where declarations are verified, there are
+/// lower stages, too, for poses that the verifier certifies to have no more contact anywhere else.
 ///
 /// Believes in the best hypothesis, with a confidence by a logistic model and the covariance of the matcher,
 /// widened by hypotheses near it that are about as good.
@@ -47,6 +47,7 @@ class StagedMargin final : public VerdictRule {
     double max_turn_rate_deg = 60.0;
     int steady_steps = 3;
     double max_free_space_violation = 0.4;
+    double min_scan_contact = 0.75;
     double spread_margin = 0.05;
     Confidence confidence = {};
     double candidate_margin = 0.10;

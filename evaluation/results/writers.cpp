@@ -84,6 +84,7 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
                {"omega_max", step.omega_max}};
   if (step.verification) json["stage_ms"]["verify"] = step.stage_ms.verify;
   if (step.omega_place) json["omega_place"] = *step.omega_place;
+  if (step.omega_scan) json["omega_scan"] = *step.omega_scan;
   json["proposals"] = step.proposals;
   json["points_tested"] = step.points_tested;
   json["hypotheses"] = record.hypotheses;

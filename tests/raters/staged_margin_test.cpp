@@ -55,6 +55,23 @@ TEST(StagedMargin, OneStepWithoutTheLeadBeginsAnew) {
   EXPECT_EQ(rule.judge(step(0.9, 0.5)).kind, VerdictKind::localized);
 }
 
+TEST(StagedMargin, AScanThatDoesNotFitBeginsAnewAndTakesTheVerdictBack) {
+  StagedMargin rule({}, {});
+  const auto with_scan = [](double contact) {
+    StepResult result = step(0.9, 0.5);
+    result.omega_scan = contact;
+    return result;
+  };
+  for (int i = 0; i < 3; ++i) (void)rule.judge(with_scan(0.95));
+  EXPECT_EQ(rule.judge(with_scan(0.76)).kind, VerdictKind::localized);
+  const Verdict verdict = rule.judge(with_scan(0.7));
+  EXPECT_EQ(verdict.kind, VerdictKind::searching);
+  EXPECT_EQ(verdict.why, "only 70 % of the last scan fits the best pose");
+  EXPECT_EQ(rule.judge(with_scan(0.95)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(with_scan(0.95)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(with_scan(0.95)).kind, VerdictKind::localized);
+}
+
 TEST(StagedMargin, AnotherBestPoseBeginsAnewAndTakesTheVerdictBack) {
   StagedMargin rule({}, {});
   for (int i = 0; i < 5; ++i) (void)rule.judge(step(0.9, 0.5));

@@ -31,6 +31,11 @@ class UnknownPlaceMonitor {
   [[nodiscard]] std::optional<double> update(const LocalMap& local,
                                              const std::vector<Hypothesis>& hypotheses);
 
+  /// Share of a scan's points (m, robot frame) in contact where the robot is at a pose.
+  [[nodiscard]] double share_of(const Points& scan, const Pose3& map_from_robot) const {
+    return contact_->share(scan, map_from_robot);
+  }
+
   [[nodiscard]] bool is_unknown(std::optional<double> omega_place) const {
     return omega_place.has_value() && *omega_place < params_.max_contact;
   }

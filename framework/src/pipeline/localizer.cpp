@@ -223,6 +223,9 @@ StepResult Localizer::step(const Observation& observation) {
   }
   in_stage(stages_.threshold_policy, result.step, [&] { threshold_policy_->update(result.hypotheses); });
   result.omega_place = unknown_place_.update(local, result.hypotheses);
+  const Points& scan = observation.scan.hits;
+  if (!result.hypotheses.empty() && !scan.empty())
+    result.omega_scan = unknown_place_.share_of(scan, result.hypotheses.front().map_from_robot);
 
   in_stage(stages_.clusterer, result.step, [&] {
     Rng rng = rng_.stream({result.step, clustering});

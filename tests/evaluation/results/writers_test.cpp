@@ -31,11 +31,11 @@ TEST(StepLine, HasTheKeysOfTheContract) {
   record.error = error_of(0.5, 2.0);
   const Json json = parse_line(step_line(7, record));
   EXPECT_THAT(keys(json),
-              ::testing::UnorderedElementsAre("trial", "step", "stamp", "stage_ms", "local_map_points",
-                                              "omega_best", "score_best", "omega_max", "omega_place",
-                                              "proposals", "points_tested", "hypotheses", "clusters", "best",
-                                              "verdict", "why", "local_from_robot", "estimate", "reference",
-                                              "on_map", "translation_error_m", "rotation_error_deg"));
+              ::testing::UnorderedElementsAre(
+                  "trial", "step", "stamp", "stage_ms", "local_map_points", "omega_best", "score_best",
+                  "omega_max", "omega_place", "omega_scan", "proposals", "points_tested", "hypotheses",
+                  "clusters", "best", "verdict", "why", "local_from_robot", "estimate", "reference", "on_map",
+                  "translation_error_m", "rotation_error_deg"));
   EXPECT_EQ(json["trial"], 7);
   EXPECT_EQ(json["step"], 3);
   EXPECT_EQ(json["stamp"], 101.5);
@@ -45,6 +45,7 @@ TEST(StepLine, HasTheKeysOfTheContract) {
   EXPECT_EQ(json["score_best"], 0.625);
   EXPECT_EQ(json["omega_max"], 0.5);
   EXPECT_EQ(json["omega_place"], 0.875);
+  EXPECT_EQ(json["omega_scan"], 0.8125);
   EXPECT_EQ(json["proposals"], 60);
   EXPECT_EQ(json["points_tested"], 700);
   EXPECT_EQ(json["hypotheses"], 4);
@@ -105,8 +106,10 @@ TEST(StepLine, LeavesOutWhatIsNotKnown) {
   record.result.clusters.clear();
   record.result.ratings.clear();
   record.result.omega_place.reset();
+  record.result.omega_scan.reset();
   const Json json = parse_line(step_line(0, record));
-  for (const char* key : {"estimate", "omega_place", "reference", "translation_error_m", "candidates"}) {
+  for (const char* key :
+       {"estimate", "omega_place", "omega_scan", "reference", "translation_error_m", "candidates"}) {
     EXPECT_FALSE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["clusters"], 0);
