@@ -146,7 +146,9 @@ class IntervalSearch {
     return interval;
   }
 
-  [[nodiscard]] Found search(const Interval& interval) {
+  /// Given up after so many looks: what is found is then not all.
+  [[nodiscard]] Found search(const Interval& interval, std::size_t most_looks) {
+    most_looks_ = most_looks;
     const int top = pyramid_.top_level();
     look_at(top, interval.rotation, boxes_.cells(top, interval.rotation), interval.tiles);
     return std::move(found_);
@@ -189,6 +191,7 @@ class IntervalSearch {
     for (const Tile& tile : tiles) {
       if (!wanted.any(tile.column, tile.row, TileCounts::columns << level, TileCounts::rows << level))
         continue;
+      if (found_.looks > most_looks_) return;
       found_.looks += pyramid_.count(level, points, tile.column, tile.row, least_, counts_);
       if (counts_.largest() < least_) continue;
       if (level == 0) {
@@ -250,6 +253,7 @@ class IntervalSearch {
   std::size_t least_;
   const RivalRule& rule_;
   const PoseGate& gate_;
+  std::size_t most_looks_ = 0;
   TileCounts counts_, middle_counts_;
   CellPoints middles_;
   std::size_t rotation_of_middles_ = std::numeric_limits<std::size_t>::max();
@@ -314,14 +318,17 @@ RivalSearchResult search_rivals(const BoxPyramid& pyramid, const Points& points,
   for (std::size_t begin = 0; begin < rotations && intervals[begin].bound >= best.bar();
        begin += intervals_at_a_time) {
     if (result.looks > rule.most_looks) return result;
+    // Of each interval, as all of them are searched before the next count.
+    const std::size_t looks_left = (rule.most_looks - result.looks) / 4;
     found.assign(std::min(intervals_at_a_time, rotations - begin), {});
     parallel_for(threads, found.size(), [&](std::size_t i) {
       const Interval& interval = intervals[begin + i];
-      if (interval.bound >= best.bar()) found[i] = search_above(best.bar()).search(interval);
+      if (interval.bound >= best.bar()) found[i] = search_above(best.bar()).search(interval, looks_left);
     });
     for (const Found& interval : found) {
       result.looks += interval.looks;
       best.add(interval.places);
+      if (interval.looks > looks_left) return result;
     }
   }
   for (const Place& place : best.falling()) {

@@ -58,11 +58,12 @@ MrptGrid mrpt_grid(const GlobalMap& map) {
   }
   const auto width = static_cast<double>(end.column - first.column);
   const auto height = static_cast<double>(end.row - first.row);
-  if (width * height > max_grid_cells) {
+  constexpr double most_cells = 64e6;  // floats, beside a field of distances
+  if (width * height > most_cells) {
     throw fault(
         fmt::format("the map's points reach over {:.0f} x {:.0f} cells of {} m, which is more than {:.0f} "
                     "million cells; take a coarser map, or another matcher",
-                    width, height, grid.resolution, max_grid_cells / 1e6));
+                    width, height, grid.resolution, most_cells / 1e6));
   }
 
   const double resolution = grid.resolution;

@@ -98,7 +98,8 @@ struct StepResult {
   double omega_best = 0.0;            ///< Quality (Omega) of the best hypothesis; 0 without any.
   double score_best = 0.0;            ///< Its score, which omega_max is asked of; 0 without any.
   std::optional<double> omega_place;  ///< Omega' (eq. 10); none before the first hypothesis.
-  /// Share of the latest scan's own points in contact at the best hypothesis; none without either.
+  /// Share of the latest scan's own points in contact at the best hypothesis, of those in known cells; only
+  /// in the plane, and none without such a point.
   std::optional<double> omega_scan;
   std::size_t proposals = 0;      ///< Relations found on both sides: poses before any of them was judged.
   std::size_t points_tested = 0;  ///< Single points tested for contact.

@@ -23,7 +23,8 @@ void describe(ParamVisitor& v, UnknownPlaceParams& p);
 class UnknownPlaceMonitor {
  public:
   /// `contact_epsilon` (m) is that of the localizer, for parameters without one.
-  UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map, double contact_epsilon);
+  UnknownPlaceMonitor(const UnknownPlaceParams& params, std::shared_ptr<const GlobalMap> map,
+                      double contact_epsilon);
 
   /// Omega' of eq. 10: the mean, over the last `window` observations that registered points, of the share of
   /// these points in contact with the map under the best hypothesis. A step without hypotheses is judged by
@@ -31,10 +32,9 @@ class UnknownPlaceMonitor {
   [[nodiscard]] std::optional<double> update(const LocalMap& local,
                                              const std::vector<Hypothesis>& hypotheses);
 
-  /// Share of a scan's points (m, robot frame) in contact where the robot is at a pose.
-  [[nodiscard]] double share_of(const Points& scan, const Pose3& map_from_robot) const {
-    return contact_->share(scan, map_from_robot);
-  }
+  /// Share of a scan's points (m, robot frame) in contact where the robot is at a pose, of those of which the
+  /// map can tell: points in unknown cells do not count. None without any such point.
+  [[nodiscard]] std::optional<double> share_of(const Points& scan, const Pose2& map_from_robot) const;
 
   [[nodiscard]] bool is_unknown(std::optional<double> omega_place) const {
     return omega_place.has_value() && *omega_place < params_.max_contact;
@@ -48,6 +48,7 @@ class UnknownPlaceMonitor {
     int epoch;
   };
   UnknownPlaceParams params_;
+  std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
   std::optional<Best> best_;
 };

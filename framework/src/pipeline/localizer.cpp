@@ -129,7 +129,7 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
                      std::uint64_t seed)
     : motion_(config.motion),
       prior_(config.prior),
-      unknown_place_(config.unknown_place, *setup.map, contact_epsilon_on(*setup.map, config)),
+      unknown_place_(config.unknown_place, setup.map, contact_epsilon_on(*setup.map, config)),
       seed_(seed),
       rng_(seed_.stream({0})) {
   if (const auto why = why_nowhere(prior_, *setup.map))
@@ -223,9 +223,9 @@ StepResult Localizer::step(const Observation& observation) {
   }
   in_stage(stages_.threshold_policy, result.step, [&] { threshold_policy_->update(result.hypotheses); });
   result.omega_place = unknown_place_.update(local, result.hypotheses);
-  const Points& scan = observation.scan.hits;
-  if (!result.hypotheses.empty() && !scan.empty())
-    result.omega_scan = unknown_place_.share_of(scan, result.hypotheses.front().map_from_robot);
+  if (!result.hypotheses.empty() && motion_ == Motion::planar)
+    result.omega_scan = unknown_place_.share_of(observation.scan.hits,
+                                                seen_from_above(result.hypotheses.front().map_from_robot));
 
   in_stage(stages_.clusterer, result.step, [&] {
     Rng rng = rng_.stream({result.step, clustering});

@@ -1,5 +1,7 @@
 #include "glocal/unknown_place.hpp"
 
+#include <utility>
+
 namespace glocal {
 
 void describe(ParamVisitor& v, UnknownPlaceParams& p) {
@@ -15,10 +17,11 @@ void describe(ParamVisitor& v, UnknownPlaceParams& p) {
   describe_contact_epsilon(v, p.contact_epsilon);
 }
 
-UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params, const GlobalMap& map,
-                                         double contact_epsilon)
+UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params,
+                                         std::shared_ptr<const GlobalMap> map, double contact_epsilon)
     : params_(params),
-      contact_(contact_index(map, "bitset", params.contact_epsilon.value_or(contact_epsilon))) {}
+      map_(std::move(map)),
+      contact_(contact_index(*map_, "bitset", params.contact_epsilon.value_or(contact_epsilon))) {}
 
 std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
                                                   const std::vector<Hypothesis>& hypotheses) {
@@ -42,6 +45,19 @@ std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
     ++observations;
   }
   return observations == 0 ? std::nullopt : std::optional(sum_of_shares / observations);
+}
+
+std::optional<double> UnknownPlaceMonitor::share_of(const Points& scan, const Pose2& map_from_robot) const {
+  const Transform transform(map_from_robot);
+  std::size_t in_contact = 0, told = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Point p = transform(scan[i]);
+    if (map_->grid().at(p.x, p.y) == Cell::unknown) continue;
+    ++told;
+    in_contact += contact_->count(scan, i, 1, transform);
+  }
+  if (told == 0) return std::nullopt;
+  return static_cast<double>(in_contact) / static_cast<double>(told);
 }
 
 }  // namespace glocal

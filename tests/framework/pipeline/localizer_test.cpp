@@ -143,18 +143,6 @@ TEST_F(LocalizerTest, TheRobotIsWhereAHypothesisPutsItsLocalMap) {
   EXPECT_EQ(result.clusters.front().map_from_robot, robot);
 }
 
-TEST_F(LocalizerTest, TellsHowTheLastScanAloneFits) {
-  // The map has a point at its origin. The robot is at (1, 5), with the left of it to the map's -x.
-  script_->local.local_from_robot = Pose2{3, 0, 0};
-  give({Hypothesis::by_contact(Pose2{1, 2, radians(90.0)}, 0.9)}, {0.5});
-  Localizer localizer = make();
-  Observation observation;
-  observation.scan.hits.push_back({-5.0F, 1.0F, 0.0F});
-  for (int i = 0; i < 3; ++i) observation.scan.hits.push_back({static_cast<float>(i), 0.0F, 0.0F});
-  EXPECT_EQ(localizer.step(observation).omega_scan, 0.25);
-  EXPECT_EQ(localizer.step({}).omega_scan, std::nullopt);
-}
-
 TEST_F(LocalizerTest, AStepWithoutHypothesesHasNoBest) {
   Localizer localizer = make();
   const StepResult result = localizer.step({});

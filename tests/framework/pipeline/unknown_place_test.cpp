@@ -8,10 +8,10 @@
 namespace glocal::test::unknown_place_test {
 namespace {
 
-GlobalMap four_points() {
+std::shared_ptr<const GlobalMap> four_points() {
   MapData data;
   for (int i = 0; i < 4; ++i) data.points.push_back({static_cast<float>(i), 0.0F, 0.0F});
-  return GlobalMap(std::move(data));
+  return std::make_shared<const GlobalMap>(std::move(data));
 }
 
 /// On this map under `pose`: (0, 0), (0, 1), (0, 2) and (0, 3); nothing else is.
@@ -54,7 +54,7 @@ TEST(UnknownPlace, ObservationsWithoutPointsDoNotCount) {
 }
 
 TEST(UnknownPlace, IsJudgedByTheBestHypothesis) {
-  const GlobalMap map = four_points();
+  const auto map = four_points();
   UnknownPlaceMonitor monitor({}, map, 0.1);
   const LocalMap local = observed({{{0.0F, 0.0F, 0.0F}, {0.0F, 3.0F, 0.0F}}});
   // Turned by a quarter both points are met, unturned one of them is.
@@ -63,7 +63,7 @@ TEST(UnknownPlace, IsJudgedByTheBestHypothesis) {
 }
 
 TEST(UnknownPlace, PosesInSpaceMoveThePointsInSpace) {
-  const GlobalMap map = four_points();
+  const auto map = four_points();
   UnknownPlaceMonitor monitor({}, map, 0.1);
   // The robot lies on its left side, 2 m above: what is 2 m to its right is below it.
   const Pose3 on_its_side({1.0, 0.0, 2.0}, exponential({-std::numbers::pi / 2.0, 0.0, 0.0}));
@@ -73,7 +73,7 @@ TEST(UnknownPlace, PosesInSpaceMoveThePointsInSpace) {
 }
 
 TEST(UnknownPlace, AStepWithoutHypothesesIsJudgedByTheLastBest) {
-  const GlobalMap map = four_points();
+  const auto map = four_points();
   UnknownPlaceMonitor monitor({}, map, 0.1);
   EXPECT_EQ(monitor.update(observed({{on}}), {}), std::nullopt);
   EXPECT_EQ(monitor.update(observed({{on}}), {{pose, {}, 0.9}}), 1.0);
@@ -82,7 +82,7 @@ TEST(UnknownPlace, AStepWithoutHypothesesIsJudgedByTheLastBest) {
 }
 
 TEST(UnknownPlace, APoseInTheFrameOfAnEarlierLocalMapMeansNothing) {
-  const GlobalMap map = four_points();
+  const auto map = four_points();
   UnknownPlaceMonitor monitor({}, map, 0.1);
   LocalMap local = observed({{on}});
   EXPECT_EQ(monitor.update(local, {{pose, {}, 0.9}}), 1.0);
@@ -93,7 +93,7 @@ TEST(UnknownPlace, APoseInTheFrameOfAnEarlierLocalMapMeansNothing) {
 }
 
 TEST(UnknownPlace, ForgetsTheBestWhenReset) {
-  const GlobalMap map = four_points();
+  const auto map = four_points();
   UnknownPlaceMonitor monitor({}, map, 0.1);
   EXPECT_EQ(monitor.update(observed({{on}}), {{pose, {}, 0.9}}), 1.0);
   monitor.reset();
@@ -101,7 +101,7 @@ TEST(UnknownPlace, ForgetsTheBestWhenReset) {
 }
 
 TEST(UnknownPlace, IsUnknownBelowTheLimitOnly) {
-  const GlobalMap map = four_points();
+  const auto map = four_points();
   const UnknownPlaceMonitor monitor({.max_contact = 0.2}, map, 0.1);
   EXPECT_FALSE(monitor.is_unknown(std::nullopt));
   EXPECT_TRUE(monitor.is_unknown(0.0));
@@ -109,6 +109,26 @@ TEST(UnknownPlace, IsUnknownBelowTheLimitOnly) {
   EXPECT_FALSE(monitor.is_unknown(0.2));
   const UnknownPlaceMonitor off_switched({.max_contact = 0.0}, map, 0.1);
   EXPECT_FALSE(off_switched.is_unknown(0.0));
+}
+
+TEST(UnknownPlace, TheShareOfAScanIsOfWhatTheMapKnows) {
+  MapData data;
+  data.points.push_back({0.5F, 0.5F, 0.0F});
+  data.grid = {{}, 1.0, 3, 1, {Cell::occupied, Cell::free, Cell::unknown}};
+  const UnknownPlaceMonitor monitor({}, std::make_shared<const GlobalMap>(std::move(data)), 0.1);
+  Points scan;
+  scan.push_back({0.5F, 0.52F, 0.0F});  // in contact
+  scan.push_back({1.5F, 0.5F, 0.0F});   // in a free cell
+  scan.push_back({0.9F, 0.5F, 0.0F});   // in an occupied cell, too far from its centre
+  scan.push_back({2.5F, 0.5F, 0.0F});   // in an unknown cell
+  scan.push_back({0.5F, 3.0F, 0.0F});   // off the grid
+  EXPECT_DOUBLE_EQ(monitor.share_of(scan, {}).value(), 1.0 / 3.0);
+  // Turned and moved: (x, y) is at (1 - y, x).
+  Points turned;
+  turned.push_back({0.5F, 0.5F, 0.0F});
+  EXPECT_EQ(monitor.share_of(turned, {1.0, 0.0, std::numbers::pi / 2.0}), 1.0);
+  EXPECT_EQ(monitor.share_of(scan, {10.0, 10.0, 0.0}), std::nullopt);
+  EXPECT_EQ(UnknownPlaceMonitor({}, four_points(), 0.1).share_of(scan, {}), std::nullopt);
 }
 
 }  // namespace
