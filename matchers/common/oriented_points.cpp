@@ -1,6 +1,7 @@
 #include "matchers/common/oriented_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -105,17 +106,30 @@ Line fitted_line(const std::vector<std::pair<float, float>>& points, const Line&
   return fit;
 }
 
+struct Direction {
+  double angle, cosine, sine;
+};
+
+/// So many that the best one is off by 5 degrees at most: 2 cm at 0.2 m.
+const std::array<Direction, 18>& directions_of_lines() {
+  static const auto directions = [] {
+    std::array<Direction, 18> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double angle = std::numbers::pi * static_cast<double>(i) / static_cast<double>(all.size());
+      all[i] = {angle, std::cos(angle), std::sin(angle)};
+    }
+    return all;
+  }();
+  return directions;
+}
+
 /// The line through a point that most of its neighbours are near to (Torr and Zisserman 2000: truncated
 /// squares, MSAC): at a corner or at a thin wall the others lie on another surface, and count alike wherever
 /// they are.
 Line best_line_through(float x, float y, const std::vector<std::pair<float, float>>& points, double reach) {
-  constexpr int directions = 18;  // so that the best one is off by 5 degrees at most: 2 cm at 0.2 m
   Line best{.x = x, .y = y};
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < directions; ++i) {
-    const double direction = std::numbers::pi * i / directions;
-    const double c = std::cos(direction);
-    const double s = std::sin(direction);
+  for (const auto& [direction, c, s] : directions_of_lines()) {
     double cost = 0.0;
     for (const auto& [px, py] : points) {
       const double off = c * (py - y) - s * (px - x);
