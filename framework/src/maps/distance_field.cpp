@@ -131,7 +131,7 @@ void DistanceField::stamp(std::size_t tile, const Points& points, std::span<cons
     const int row = static_cast<int>(std::lround(v)) - first_row;
     for (int r = std::max(0, row - around); r <= std::min(stride - 1, row + around); ++r) {
       const float dy = static_cast<float>(r) - y;
-      float* line = &squares[static_cast<std::size_t>(r * stride)];
+      float* line = &squares[static_cast<std::size_t>(r) * stride];
       for (int c = std::max(0, column - around); c <= std::min(stride - 1, column + around); ++c) {
         const float dx = static_cast<float>(c) - x;
         line[c] = std::min(line[c], dx * dx + dy * dy);
@@ -140,7 +140,7 @@ void DistanceField::stamp(std::size_t tile, const Points& points, std::span<cons
   }
   std::uint8_t* cells = cells_.data() + tiles_[tile] * tile_cells;
   for (std::size_t i = 0; i < tile_cells; ++i)
-    cells[i] = static_cast<std::uint8_t>(std::sqrt(squares[i]) / farthest * beyond_reach + 0.5F);
+    cells[i] = static_cast<std::uint8_t>(std::lround(std::sqrt(squares[i]) / farthest * beyond_reach));
 }
 
 std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell, int threads) {
