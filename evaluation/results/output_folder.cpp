@@ -179,7 +179,11 @@ void OutputFolder::sync() {
   if (unsynced_.size() > many) {
     check(sync_file_system(places_.path.parent_path()));
   } else {
-    for (const fs::path& path : unsynced_) check(sync_to_disk(path));
+    for (const fs::path& path : unsynced_) {
+      const std::error_code error = sync_to_disk(path);
+      // What an earlier process left may be removed or renamed meanwhile; where it is now is noted, too.
+      if (error != std::errc::no_such_file_or_directory) check(error);
+    }
   }
   unsynced_.clear();
 }

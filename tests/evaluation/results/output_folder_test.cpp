@@ -177,6 +177,17 @@ TEST(OutputFolder, TakesUpWhatWasLeftUnfinished) {
   EXPECT_EQ(entries(folder / ""), 1);
 }
 
+TEST(OutputFolder, WhatWasLeftMayBeRemovedBeforeItIsSynced) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / ".results.unfinished");
+  folder.write(".results.unfinished/left.json.part", "half");
+  OutputFolder out(folder / "results", false, [](const fs::path&, bool) { return true; });
+  fs::remove(folder / ".results.unfinished/left.json.part");
+  EXPECT_NO_THROW(out.write_for_good("new.json", "whole"));
+  out.commit();
+  EXPECT_EQ(content(folder / "results/new.json"), "whole");
+}
+
 TEST(OutputFolder, RemovesWhatIsNotTakenUp) {
   const TemporaryFolder folder;
   fs::create_directory(folder / ".results.unfinished");
