@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -19,6 +18,7 @@
 #include "glocal/error.hpp"
 #include "sources/ros_map.hpp"
 #include "sources/ros_map_writer.hpp"
+#include "sources/text_lines.hpp"
 
 namespace glocal::app {
 namespace {
@@ -66,11 +66,9 @@ SimulatedFiles simulated_experiment(const ExperimentOptions& options, Context& c
 
 std::uint64_t seed_of_site(const SimulateOptions& options) {
   const std::string text = options.experiment.seed.value_or("1");
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw ConfigError({{"--seed " + text, 0, 0, "must be a whole number from 0 to 2^64 - 1"}});
-  return seed;
+  const auto seed = whole_number_in(text);
+  if (!seed) throw ConfigError({{"--seed " + text, 0, 0, "must be a whole number from 0 to 2^64 - 1"}});
+  return *seed;
 }
 
 void simulate(const SimulateOptions& options, Context& context) {

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "report/page.hpp"
 #include "report/page_text.hpp"
+#include "sources/text_lines.hpp"
 
 namespace glocal::app {
 namespace {
@@ -25,11 +25,7 @@ const httplib::Headers& headers() {
 }
 
 std::optional<std::uint64_t> version_of(const httplib::Request& request) {
-  const std::string text = request.get_param_value("version");
-  std::uint64_t version = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), version);
-  const bool is_number = error == std::errc{} && end == text.data() + text.size();
-  return is_number ? std::optional(version) : std::nullopt;
+  return whole_number_in(request.get_param_value("version"));
 }
 
 /// The status.

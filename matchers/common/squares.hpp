@@ -32,29 +32,42 @@ class Squares {
   [[nodiscard]] const std::vector<std::uint32_t>& members(std::size_t square) const {
     return members_[square];
   }
-  /// All points within the distance of one of a square's, and some farther ones.
+  /// All points within the distance of one of a square's, and some farther ones; and how many they are.
   [[nodiscard]] std::vector<std::uint32_t> around(std::size_t square) const {
     std::vector<std::uint32_t> all;
-    const int c = static_cast<int>(square % static_cast<std::size_t>(columns_));
-    const int r = static_cast<int>(square / static_cast<std::size_t>(columns_));
-    visit_around(c, r, [&](std::uint32_t i) { all.push_back(i); });
+    for_squares_around(column_of(square), row_of(square), [&](const std::vector<std::uint32_t>& members) {
+      all.insert(all.end(), members.begin(), members.end());
+    });
     return all;
+  }
+  [[nodiscard]] std::size_t size_around(std::size_t square) const {
+    std::size_t size = 0;
+    for_squares_around(column_of(square), row_of(square),
+                       [&](const std::vector<std::uint32_t>& members) { size += members.size(); });
+    return size;
   }
 
   /// Calls visit(number) for all points within the distance of one of them, and some farther ones.
   template <class Visit>
   void near(float x, float y, Visit visit) const {
-    visit_around(column(x), row(y), visit);
+    for_squares_around(column(x), row(y), [&](const std::vector<std::uint32_t>& members) {
+      for (const std::uint32_t i : members) visit(i);
+    });
   }
 
  private:
   template <class Visit>
-  void visit_around(int column, int row, Visit visit) const {
+  void for_squares_around(int column, int row, Visit visit) const {
     for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
-      for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
-        for (const std::uint32_t i : members_[index(c, r)]) visit(i);
-      }
+      for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c)
+        visit(members_[index(c, r)]);
     }
+  }
+  [[nodiscard]] int column_of(std::size_t square) const {
+    return static_cast<int>(square % static_cast<std::size_t>(columns_));
+  }
+  [[nodiscard]] int row_of(std::size_t square) const {
+    return static_cast<int>(square / static_cast<std::size_t>(columns_));
   }
   [[nodiscard]] int column(float x) const { return static_cast<int>((x - min_x_) / side_); }
   [[nodiscard]] int row(float y) const { return static_cast<int>((y - min_y_) / side_); }

@@ -319,16 +319,16 @@ RivalSearchResult search_rivals(const BoxPyramid& pyramid, const Points& points,
        begin += intervals_at_a_time) {
     if (result.looks > rule.most_looks) return result;
     // Of each interval, as all of them are searched before the next count.
-    const std::size_t looks_left = (rule.most_looks - result.looks) / 4;
+    const std::size_t most_looks = (rule.most_looks - result.looks) / 4;
     found.assign(std::min(intervals_at_a_time, rotations - begin), {});
     parallel_for(threads, found.size(), [&](std::size_t i) {
       const Interval& interval = intervals[begin + i];
-      if (interval.bound >= best.bar()) found[i] = search_above(best.bar()).search(interval, looks_left);
+      if (interval.bound >= best.bar()) found[i] = search_above(best.bar()).search(interval, most_looks);
     });
     for (const Found& interval : found) {
       result.looks += interval.looks;
       best.add(interval.places);
-      if (interval.looks > looks_left) return result;
+      if (interval.looks > most_looks) return result;
     }
   }
   for (const Place& place : best.falling()) {

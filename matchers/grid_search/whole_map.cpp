@@ -91,6 +91,7 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
   const auto points = static_cast<double>(local.points.size());
   const Pose2 declared = seen_from_above(map_from_local);
   const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
+  const Pose2 declared_robot = declared * local_from_robot;
   const double contact = contact_->share(local.points, Transform(declared));
   const double least = std::max(1.0, std::ceil((contact - params_.margin) * points));
   const double looks = params_.max_looks * std::max(1.0, area_ / large);
@@ -98,14 +99,12 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
                        .rotation = radians(params_.rotation_deg),
                        .most_rivals = static_cast<std::size_t>(params_.max_rivals),
                        .most_looks = static_cast<std::size_t>(looks)};
-  const RivalSearchResult found =
-      search_rivals(*pyramid_, local.points, local_from_robot, declared * local_from_robot,
-                    static_cast<std::size_t>(least), rule, gate, threads_);
+  const RivalSearchResult found = search_rivals(*pyramid_, local.points, local_from_robot, declared_robot,
+                                                static_cast<std::size_t>(least), rule, gate, threads_);
   Verification result{.distance = rule.distance, .rotation = rule.rotation, .margin = params_.margin};
   result.points_tested = found.looks;
   const auto is_rival = [&](const Pose2& pose) {
     const Pose2 robot = pose * local_from_robot;
-    const Pose2 declared_robot = declared * local_from_robot;
     return gate.allows(Pose3(pose)) && (distance(robot, declared_robot) > rule.distance ||
                                         rotation_between(robot, declared_robot) > rule.rotation);
   };

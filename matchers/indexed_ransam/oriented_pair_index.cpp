@@ -42,7 +42,7 @@ double number_of_pairs(const OrientedPoints& s, const OrientedPairRule& rule, co
                        int threads) {
   double near = 0.0;
   for (std::size_t i = 0; i < squares.size(); ++i)
-    near += static_cast<double>(squares.members(i).size()) * static_cast<double>(squares.around(i).size());
+    near += static_cast<double>(squares.members(i).size()) * static_cast<double>(squares.size_around(i));
   constexpr double looked_at = 4e6;
   const double share = std::min(1.0, looked_at / std::max(near, 1.0));
   std::vector<std::size_t> counts(squares.size(), 0);

@@ -12,18 +12,10 @@ template <class Condition>
 double share_where(const OccupancyGrid& grid, const Points& points, const Pose2& map_from_points,
                    Condition condition) {
   const Transform map(map_from_points);
-  const Transform in_grid(inverse(grid.map_from_grid) * map_from_points);
-  const float scale = grid.resolution > 0.0 ? static_cast<float>(1.0 / grid.resolution) : 0.0F;
-  const auto cell_at = [&](const Point& p) {
-    const float column = p.x * scale;
-    const float row = p.y * scale;
-    const bool inside = column >= 0.0F && row >= 0.0F && column < static_cast<float>(grid.width) &&
-                        row < static_cast<float>(grid.height);
-    return inside ? grid.cell(static_cast<int>(column), static_cast<int>(row)) : Cell::unknown;
-  };
+  const CellsUnder cell_under(grid, map_from_points);
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
-    count += condition(cell_at(in_grid(points[i])), map(points[i])) ? 1 : 0;
+    count += condition(cell_under(points[i]), map(points[i])) ? 1 : 0;
   return static_cast<double>(count) / static_cast<double>(points.size());
 }
 

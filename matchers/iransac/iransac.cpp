@@ -158,8 +158,9 @@ IRansac::IRansac(const Params& params, const StageSetup& setup)
                distance_field(*setup.map, params.field_cell, setup.threads), contact_) {
   const auto begin = std::chrono::steady_clock::now();
   index_ = setup.map->index<FeatureIndex>(index_key(params), [&] {
-    return FeatureIndex(oriented_points_of(*setup.map, oriented_point_rule(params)), params.shape_context,
-                        params.lsh ? std::optional(params.hashing) : std::nullopt, setup.threads);
+    return FeatureIndex(oriented_points_of(*setup.map, oriented_point_rule(params), setup.threads),
+                        params.shape_context, params.lsh ? std::optional(params.hashing) : std::nullopt,
+                        setup.threads);
   });
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   map_index_ = {index_->oriented_points().size(), index_->memory_bytes(), took.count()};

@@ -38,6 +38,20 @@ struct OccupancyGrid {
   }
 };
 
+/// The cells under many points, which one motion takes to the map's frame.
+class CellsUnder {
+ public:
+  /// The grid must outlive this.
+  CellsUnder(const OccupancyGrid& grid, const Pose2& map_from_points);
+  /// Outside the grid everything is unknown.
+  [[nodiscard]] Cell operator()(const Point& p) const;
+
+ private:
+  const OccupancyGrid& grid_;
+  Transform grid_from_points_;
+  float scale_;  ///< Cells per metre; 0 without a grid.
+};
+
 /// The centres of all occupied cells, row by row, m, in the map's frame.
 [[nodiscard]] Points occupied_centres(const OccupancyGrid& grid);
 

@@ -13,6 +13,20 @@ Cell OccupancyGrid::at(double map_x, double map_y) const {
   return cell(static_cast<int>(column), static_cast<int>(row));
 }
 
+CellsUnder::CellsUnder(const OccupancyGrid& grid, const Pose2& map_from_points)
+    : grid_(grid),
+      grid_from_points_(inverse(grid.map_from_grid) * map_from_points),
+      scale_(grid.resolution > 0.0 ? static_cast<float>(1.0 / grid.resolution) : 0.0F) {}
+
+Cell CellsUnder::operator()(const Point& p) const {
+  const Point in_grid = grid_from_points_(p);
+  const float column = in_grid.x * scale_;
+  const float row = in_grid.y * scale_;
+  const bool inside = column >= 0.0F && row >= 0.0F && column < static_cast<float>(grid_.width) &&
+                      row < static_cast<float>(grid_.height);
+  return inside ? grid_.cell(static_cast<int>(column), static_cast<int>(row)) : Cell::unknown;
+}
+
 Points occupied_centres(const OccupancyGrid& grid) {
   Points points;
   for (int row = 0; row < grid.height; ++row) {

@@ -49,10 +49,10 @@ std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
 
 std::optional<double> UnknownPlaceMonitor::share_of(const Points& scan, const Pose2& map_from_robot) const {
   const Transform transform(map_from_robot);
+  const CellsUnder cell_under(map_->grid(), map_from_robot);
   std::size_t in_contact = 0, told = 0;
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Point p = transform(scan[i]);
-    if (map_->grid().at(p.x, p.y) == Cell::unknown) continue;
+    if (cell_under(scan[i]) == Cell::unknown) continue;
     ++told;
     in_contact += contact_->count(scan, i, 1, transform);
   }

@@ -1,0 +1,60 @@
+#include "glocal/occupancy_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "glocal/rng.hpp"
+
+namespace glocal::occupancy_grid_test {
+namespace {
+
+constexpr double quarter = std::numbers::pi / 2.0;
+
+/// Two columns and one row of half a metre, from (1, 2) on, with the columns along the map's y.
+OccupancyGrid two_cells() {
+  return {{1.0, 2.0, quarter}, 0.5, 2, 1, {Cell::occupied, Cell::free}};
+}
+
+TEST(CellsUnder, AreThoseWhereAMotionPutsPoints) {
+  const OccupancyGrid grid = two_cells();
+  // The cells lie from x 0.5 to 1, the first from y 2 to 2.5, the second from y 2.5 to 3.
+  const CellsUnder in_map(grid, {});
+  EXPECT_EQ(in_map({0.75F, 2.25F, 0.0F}), Cell::occupied);
+  EXPECT_EQ(in_map({0.75F, 2.75F, 0.0F}), Cell::free);
+  EXPECT_EQ(in_map({1.25F, 2.25F, 0.0F}), Cell::unknown);
+  EXPECT_EQ(in_map({0.75F, 3.25F, 0.0F}), Cell::unknown);
+  // (x, y) is at (-y, 2 + x).
+  const CellsUnder turned(grid, {0.0, 2.0, quarter});
+  EXPECT_EQ(turned({0.75F, -0.75F, 0.0F}), Cell::free);
+  EXPECT_EQ(turned({-0.25F, -0.75F, 0.0F}), Cell::unknown);
+}
+
+TEST(CellsUnder, AreThoseOfTheGridPointByPoint) {
+  Rng rng(1);
+  OccupancyGrid grid{{-3.0, 1.0, 0.3}, 0.1, 60, 40, std::vector<Cell>(std::size_t{60} * 40)};
+  for (Cell& cell : grid.cells) cell = static_cast<Cell>(rng.below(3));
+  const Pose2 pose{0.4, 2.0, -1.1};
+  const CellsUnder cell_under(grid, pose);
+  int differ = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Point p{static_cast<float>(rng.uniform(-5.0, 5.0)), static_cast<float>(rng.uniform(-5.0, 5.0)),
+                  0.0F};
+    const Pose2 in_map = pose * Pose2{p.x, p.y, 0.0};
+    differ += cell_under(p) == grid.at(in_map.x, in_map.y) ? 0 : 1;
+  }
+  EXPECT_LE(differ, 2);  // at the borders of cells, where numbers are rounded
+}
+
+TEST(CellsUnder, AreUnknownWithoutAGridAndForWhatIsNoNumber) {
+  EXPECT_EQ(CellsUnder(OccupancyGrid{}, {})({0.0F, 0.0F, 0.0F}), Cell::unknown);
+  const OccupancyGrid grid = two_cells();
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(CellsUnder(grid, {})({nan, 2.25F, 0.0F}), Cell::unknown);
+  EXPECT_EQ(CellsUnder(grid, {})({1e30F, 2.25F, 0.0F}), Cell::unknown);
+}
+
+}  // namespace
+}  // namespace glocal::occupancy_grid_test
