@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "matchers/common/candidates.hpp"
+#include "matchers/grid_search/map_area.hpp"
 #include "matchers/grid_search/rival_search.hpp"
 
 namespace glocal {
@@ -12,26 +13,9 @@ namespace {
 /// m; as matchers have it, so that they share the field.
 constexpr double field_cell = 0.05;
 
-constexpr double large = 2e4;  // m^2
-constexpr double huge = 25e4;  // m^2
-
-double area_of(const Points& map_points) {
-  const auto extent = [](const std::vector<float>& values) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return double{*high} - double{*low};
-  };
-  return extent(map_points.x) * extent(map_points.y);
-}
-
-/// Small boxes bound more tightly, and take memory and time by the area.
-double automatic_cell(double area, double epsilon) {
-  const double cell = area > huge ? 0.1 : area > large ? 0.05 : 0.025;  // m
-  return std::min(cell, epsilon);
-}
-
 /// The exact one would take more memory than all else.
 const char* contact_for(double area) {
-  return area > huge ? "bitset" : "kd_tree";
+  return area > huge_area ? "bitset" : "kd_tree";
 }
 
 }  // namespace
@@ -81,11 +65,11 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
     : params_(params),
       epsilon_(setup.epsilon(params.contact_epsilon)),
       threads_(setup.threads),
-      area_(area_of(setup.map->points())),
-      contact_(contact_index(*setup.map, contact_for(area_), epsilon_)),
+      most_looks_(looks_on(*setup.map, static_cast<std::size_t>(params.max_looks))),
+      contact_(contact_index(*setup.map, contact_for(area_of(*setup.map)), epsilon_)),
       field_(distance_field(*setup.map, field_cell, setup.threads)),
-      pyramid_(box_pyramid(*setup.map, params.cell.value_or(automatic_cell(area_, epsilon_)), epsilon_,
-                           setup.threads)) {}
+      pyramid_(box_pyramid(*setup.map, params.cell.value_or(automatic_box_cell(*setup.map, epsilon_)),
+                           epsilon_, setup.threads)) {}
 
 Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
   const auto points = static_cast<double>(local.points.size());
@@ -94,11 +78,11 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
   const Pose2 declared_robot = declared * local_from_robot;
   const double contact = contact_->share(local.points, Transform(declared));
   const double least = std::max(1.0, std::ceil((contact - params_.margin) * points));
-  const double looks = params_.max_looks * std::max(1.0, area_ / large);
+
   const RivalRule rule{.distance = params_.distance,
                        .rotation = radians(params_.rotation_deg),
                        .most_rivals = static_cast<std::size_t>(params_.max_rivals),
-                       .most_looks = static_cast<std::size_t>(looks)};
+                       .most_looks = most_looks_};
   const RivalSearchResult found = search_rivals(*pyramid_, local.points, local_from_robot, declared_robot,
                                                 static_cast<std::size_t>(least), rule, gate, threads_);
   Verification result{.distance = rule.distance, .rotation = rule.rotation, .margin = params_.margin};

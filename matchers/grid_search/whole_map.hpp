@@ -40,7 +40,7 @@ class WholeMap final : public Verifier {
   Params params_;
   double epsilon_;
   int threads_;
-  double area_;  ///< m^2, of the map.
+  std::size_t most_looks_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const DistanceField> field_;  ///< To refine rivals on.
   std::shared_ptr<const BoxPyramid> pyramid_;

@@ -1,58 +1,98 @@
 #include "matchers/indexed_ransam/exact_search.hpp"
 
-#include "matchers/grid_search/grid_search.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "matchers/grid_search/map_area.hpp"
+#include "matchers/grid_search/rival_search.hpp"
 
 namespace glocal {
 
 void describe(ParamVisitor& v, ExactSearchRule& p) {
   v.field("after_steps", p.after_steps,
-          {.doc = "An exact search follows the last of so many steps in a row without a clear best pose; 0 "
-                  "never searches.",
-           .min = 0});
+          {.doc = "An exact search follows the last of so many steps in a row without a clear best pose, the "
+                  "next one after twice as many more, and so on; 0 never searches.",
+           .min = 0,
+           .max = 1e6});
   v.field("margin", p.margin,
           {.doc = "The best pose is clear if no other pose has a score within this of its own.",
            .min = 0.0,
            .max = 1.0});
+  v.field("min_contact", p.min_contact,
+          {.doc = "Contact that a pose needs to be searched for: less takes more time.",
+           .max = 1.0,
+           .above = 0.0});
   v.field("cell", p.cell,
-          {.doc = "Translations are multiples of this; at most contact_epsilon.",
+          {.doc = "Side of the smallest boxes of translations, at most contact_epsilon; auto is 0.025 m, "
+                  "0.05 m on maps of more than 2 hectares, and 0.1 m on maps of more than 25 hectares.",
            .unit = "m",
            .min = 0.01,
            .max = 1.0});
-  v.field("min_rotation_step_deg", p.min_rotation_step_deg,
-          {.doc = "Smallest step between rotations; a step moves the farthest point by one cell otherwise.",
-           .unit = "deg",
-           .min = 0.005,
-           .max = 5.7,
-           .formerly = "min_rotation_step"});
+  v.field("points", p.points,
+          {.doc = "Number of points of the local map that are searched for.", .min = 16, .max = 30000});
   v.field("max_poses", p.max_poses,
-          {.doc = "Largest number of poses that the search adds.", .min = 1, .max = 10000});
+          {.doc = "Largest number of poses that each round of the search adds.", .min = 1, .max = 10000});
+  v.field("max_looks", p.max_looks,
+          {.doc = "A search ends when it has looked at more points; on maps of more than 2 hectares it may "
+                  "look at as many more as they are larger.",
+           .min = 1,
+           .max = 2e9});
+  v.removed("min_rotation_step_deg", "intervals of rotations follow the cell");
+  v.removed("min_rotation_step", "intervals of rotations follow the cell");
 }
 
-ExactSearch::ExactSearch(const ExactSearchRule& rule, const CandidateRule& candidate, double min_contact,
-                         const GlobalMap& map, double contact_epsilon, int threads)
+ExactSearch::ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon,
+                         int threads)
     : rule_(rule),
-      grid_{.min_quality = min_contact,
-            .min_rotation_step = radians(rule.min_rotation_step_deg),
-            .distance = candidate.distance,
-            .rotation = radians(candidate.rotation_deg),
-            .max_poses = static_cast<std::size_t>(rule.max_poses)},
-      pyramid_(rule.after_steps > 0 ? contact_pyramid(map, rule.cell, contact_epsilon) : nullptr),
-      threads_(threads) {}
+      most_looks_(looks_on(map, static_cast<std::size_t>(rule.max_looks))),
+      threads_(threads),
+      wait_(rule.after_steps) {
+  if (rule.after_steps == 0) return;
+  const double cell = rule.cell.value_or(automatic_box_cell(map, contact_epsilon));
+  pyramid_ = box_pyramid(map, cell, contact_epsilon, threads);
+}
 
 bool ExactSearch::is_due(const std::vector<Hypothesis>& best) {
   const bool is_clear =
       best.size() == 1 || (best.size() > 1 && best[0].score - best[1].score >= rule_.margin);
-  undecided_ = is_clear ? 0 : undecided_ + 1;
-  if (!pyramid_ || undecided_ < rule_.after_steps) return false;
+  if (is_clear) reset();
+  if (!pyramid_ || is_clear || ++undecided_ < wait_) return false;
   undecided_ = 0;
+  wait_ = std::min(2 * wait_, std::numeric_limits<int>::max() / 4);
   return true;
 }
 
-GridSearchResult ExactSearch::search(const Points& points, const Pose2& local_from_robot,
-                                     const PoseGate& gate) const {
-  GridSearchRule rule = grid_;
-  rule.gate = gate;
-  return search_grid(*pyramid_, points, local_from_robot, rule, threads_);
+void ExactSearch::reset() {
+  undecided_ = 0;
+  wait_ = rule_.after_steps;
+}
+
+std::size_t ExactSearch::search(const Points& points, const Pose2& local_from_robot, const PoseGate& gate,
+                                std::vector<Hypothesis> best, const Settle& settle) const {
+  // A high bar prunes nearly all of the map at once, and the right pose is above it as a rule.
+  constexpr double first_bar = 0.95;
+  constexpr double lower = 0.1;
+  std::size_t looks = 0;
+  for (double bar = std::max(first_bar, rule_.min_contact);; bar = std::max(bar - lower, rule_.min_contact)) {
+    RivalRule rule{.most_rivals = static_cast<std::size_t>(rule_.max_poses),
+                   .most_looks = most_looks_ - looks};
+    Pose2 best_robot;
+    if (best.empty()) {
+      rule.distance = 0.0;  // nothing is near
+    } else {
+      best_robot = seen_from_above(best.front().map_from_local) * local_from_robot;
+    }
+    const double least = std::max(1.0, std::ceil(bar * static_cast<double>(points.size())));
+    const RivalSearchResult found = search_rivals(*pyramid_, points, local_from_robot, best_robot,
+                                                  static_cast<std::size_t>(least), rule, gate, threads_);
+    looks += found.looks;
+    std::vector<Pose2> poses;
+    for (const RivalSearchResult::Rival& rival : found.rivals) poses.push_back(rival.map_from_local);
+    if (!poses.empty()) best = settle(poses);
+    const bool is_settled = !best.empty() && best.front().score >= bar - lower;
+    if (is_settled || bar <= rule_.min_contact || !found.is_complete || looks >= most_looks_) return looks;
+  }
 }
 
 }  // namespace glocal

@@ -2,51 +2,64 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "glocal/global_map.hpp"
 #include "glocal/hypothesis.hpp"
 #include "glocal/params.hpp"
 #include "glocal/points.hpp"
-#include "matchers/common/candidates.hpp"
-#include "matchers/grid_search/best_poses.hpp"
-#include "matchers/grid_search/contact_pyramid.hpp"
+#include "glocal/prior.hpp"
+#include "matchers/grid_search/box_pyramid.hpp"
 
 namespace glocal {
 
-/// When a search is due, and how fine it is.
+/// When a search is due, and how far it goes.
 struct ExactSearchRule {
-  int after_steps = 0;
+  int after_steps = 5;
   double margin = 0.1;
-  double cell = 0.05;
-  double min_rotation_step_deg = 0.3;
-  int max_poses = 50;
+  double min_contact = 0.75;
+  std::optional<double> cell = {};
+  int points = 512;
+  int max_poses = 10;
+  int max_looks = 40'000'000;
 };
 void describe(ParamVisitor& v, ExactSearchRule& p);
 
-/// search_grid() for one matcher: for poses with a least contact, distinct by a candidate rule.
+/// Searches all poses of the plane for those with much contact, by branch and bound on boxes of poses
+/// (grid_search/rival_search.hpp), in rounds that ask for less and less.
 class ExactSearch {
  public:
   /// Throws ConfigError where the map is too large for a pyramid.
-  ExactSearch(const ExactSearchRule& rule, const CandidateRule& candidate, double min_contact,
-              const GlobalMap& map, double contact_epsilon, int threads);
+  ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon, int threads);
 
   /// Takes in the best poses of a step: whether it is the last of so many in a row in which no pose is
-  /// clearly the best. Then the count begins anew, as it does by reset().
+  /// clearly the best. Then the count begins anew, up to twice as many; by a clear pose or reset(), up to as
+  /// many as at first.
   [[nodiscard]] bool is_due(const std::vector<Hypothesis>& best);
-  void reset() { undecided_ = 0; }
+  void reset();
 
-  /// The best poses that are allowed in the whole map, by the contact of these points of a local map.
-  [[nodiscard]] GridSearchResult search(const Points& points, const Pose2& local_from_robot,
-                                        const PoseGate& gate) const;
+  [[nodiscard]] std::size_t points() const { return static_cast<std::size_t>(rule_.points); }
+
+  /// Refines and judges what a round has found: the best poses so far.
+  using Settle = std::function<std::vector<Hypothesis>(const std::vector<Pose2>& map_from_local)>;
+
+  /// Brings to `settle`, round by round, the poses farther than 1 m or 30 degrees from the best one that can
+  /// have most of these points of a local map in contact. Ends where a pose has been settled whose score a
+  /// pose of the next round would hardly reach, at the least contact, or after too many looks. Returns how
+  /// many points were looked at.
+  std::size_t search(const Points& points, const Pose2& local_from_robot, const PoseGate& gate,
+                     std::vector<Hypothesis> best, const Settle& settle) const;
 
  private:
   ExactSearchRule rule_;
-  GridSearchRule grid_;
-  std::shared_ptr<const ContactPyramid> pyramid_;  ///< Null where no search is ever due.
+  std::shared_ptr<const BoxPyramid> pyramid_;  ///< Null where no search is ever due.
+  std::size_t most_looks_;
   int threads_;
   int undecided_ = 0;  ///< Steps without a clear best pose.
+  int wait_;           ///< For so many of them.
 };
 
 }  // namespace glocal

@@ -24,6 +24,7 @@ RelationRule relation_rule(const IndexedRansam::Params& p) {
 JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
   return {.beams = p.beams,
           .unknown_weight = p.unknown_weight,
+          .fit_weight = p.fit_weight,
           .most = static_cast<std::size_t>(p.best),
           .contact_epsilon = contact_epsilon,
           .kernel = p.refinement.kernel,
@@ -112,6 +113,12 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::expert});
+  v.field("fit_weight", p.fit_weight,
+          {.doc = "What the mean distance of points to the map takes from the score, as a share of "
+                  "contact_epsilon: of poses in like contact the one that fits more closely is the better.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
   v.field("min_length", p.min_length,
           {.doc = "Shortest oriented point pair, or side of a triangle.",
            .unit = "m",
@@ -176,17 +183,18 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("index_file", p.index_file,
           {.doc = "Index of the map as glocal map index saves it, to be read instead of built.",
            .may_be_missing = true});
-  v.field("exact_search", p.exact_search,
-          {.doc = "When an exact search of the whole map, as branch_and_bound makes it, adds its poses.",
-           .audience = Audience::expert});
+  v.field(
+      "exact_search", p.exact_search,
+      {.doc = "When an exact search of the whole map, on boxes of poses as the verifier whole_map makes it, "
+              "adds its poses.",
+       .audience = Audience::expert});
   v.field(
       "space", p.space,
       {.doc = "The search where localizer.motion is not planar: of the fields above, only contact_epsilon, "
               "best, carried and index_file count there.",
        .audience = Audience::tuner});
-  v.require(
-      p.exact_search.after_steps == 0 || !p.contact_epsilon || p.exact_search.cell <= *p.contact_epsilon,
-      "exact_search", "cell must be at most contact_epsilon");
+  v.require(!p.exact_search.cell || !p.contact_epsilon || *p.exact_search.cell <= *p.contact_epsilon,
+            "exact_search", "cell must be at most contact_epsilon");
 }
 
 std::unique_ptr<Matcher> IndexedRansam::make(const Params& params, const StageSetup& setup) {
@@ -209,8 +217,7 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
                distance_field(*map_, params.field_cell, setup.threads), contact_),
       judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
              distance_field(*map_, params.field_cell, setup.threads)),
-      exact_search_(params.exact_search, params.candidate, params.min_contact, *map_,
-                    setup.epsilon(params.contact_epsilon), setup.threads) {
+      exact_search_(params.exact_search, *map_, setup.epsilon(params.contact_epsilon), setup.threads) {
   const std::filesystem::path file = file_of_index(params, setup);
   const auto start = std::chrono::steady_clock::now();
   index_ = relation_index(*map_, relation_, file, setup.threads);
@@ -253,12 +260,13 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
           [&](const MotionBatch& poses, std::size_t size) { candidates.test(poses, size); });
   std::vector<Hypothesis> best = settled(candidates, local, sample, result);
   if (exact_search_.is_due(best)) {
-    const GridSearchResult found =
-        exact_search_.search(sample, seen_from_above(local.local_from_robot), gate_);
-    for (const GridSearchResult::Pose& pose : found.poses) candidates.add(pose.map_from_local);
-    result.proposals += found.tested;
-    result.points_tested += found.points_tested;
-    best = settled(candidates, local, sample, result);
+    const Points searched = sample_of(local.points, exact_search_.points(), rng);
+    result.points_tested += exact_search_.search(searched, seen_from_above(local.local_from_robot), gate_,
+                                                 best, [&](const std::vector<Pose2>& poses) {
+                                                   for (const Pose2& pose : poses) candidates.add(pose);
+                                                   result.proposals += poses.size();
+                                                   return best = settled(candidates, local, sample, result);
+                                                 });
   }
   result.proposals += candidates.tested();
   result.points_tested += candidates.points_tested();

@@ -42,7 +42,8 @@ std::vector<Hypothesis> PoseJudge::best_of(const std::vector<Candidate>& candida
   for (const Candidate& candidate : candidates) {
     Hypothesis h = Hypothesis::by_contact(candidate.map_from_local,
                                           contact_->share(local.points, Transform(candidate.map_from_local)));
-    h.score += rule_.unknown_weight * unknown_share(sample, candidate.map_from_local);
+    h.score += rule_.unknown_weight * unknown_share(sample, candidate.map_from_local) -
+               rule_.fit_weight * misfit(sample, candidate.map_from_local);
     at_most.push_back(h);
   }
   std::stable_sort(at_most.begin(), at_most.end(), has_better_score);
@@ -70,6 +71,17 @@ double PoseJudge::unknown_share(const Points& sample, const Pose2& map_from_loca
   if (rule_.unknown_weight == 0.0) return 0.0;
   return share_where(map_->grid(), sample, map_from_local,
                      [](Cell cell, const Point& /*p*/) { return cell == Cell::unknown; });
+}
+
+double PoseJudge::misfit(const Points& sample, const Pose2& map_from_local) const {
+  if (rule_.fit_weight == 0.0) return 0.0;
+  const Transform map(map_from_local);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const Point p = map(sample[i]);
+    sum += std::min(1.0, field_->at(p.x, p.y).distance / rule_.contact_epsilon);
+  }
+  return sum / static_cast<double>(sample.size());
 }
 
 double PoseJudge::free_space_violation(const Points& sample, const Pose2& map_from_local) const {

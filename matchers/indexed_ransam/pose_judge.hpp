@@ -20,15 +20,17 @@ namespace glocal {
 struct JudgeRule {
   BeamRule beams = {.weight = 1.0, .cap = 0.3};
   double unknown_weight = 0.1;  ///< What the share of points in unknown cells adds to the score.
+  double fit_weight = 0.1;      ///< What points take from it that are as far from the map as contact allows.
   std::size_t most = 10;        ///< Poses that are left.
   double contact_epsilon = 0.10;
   double kernel = 0.15;  ///< m; of the refinement that led to a pose.
   PoseUncertainty uncertainty = {};
 };
 
-/// Judges poses by the contact of all points of the local map (Omega, eq. 4), by beams through walls, and by
-/// what the map does not show: a score is Omega less the weighted share of blocked beams, plus the weighted
-/// share of points in unknown cells.
+/// Judges poses by the contact of all points of the local map (Omega, eq. 4), by beams through walls, by what
+/// the map does not show, and by how well they fit: a score is Omega less the weighted share of blocked
+/// beams, plus the weighted share of points in unknown cells, less the weighted misfit. Contact alone tells
+/// no place in a corridor from the like in another one.
 class PoseJudge {
  public:
   PoseJudge(const JudgeRule& rule, std::shared_ptr<const GlobalMap> map,
@@ -49,6 +51,8 @@ class PoseJudge {
 
  private:
   [[nodiscard]] double unknown_share(const Points& sample, const Pose2& map_from_local) const;
+  /// Mean distance of points to the map over contact_epsilon, each at most 1.
+  [[nodiscard]] double misfit(const Points& sample, const Pose2& map_from_local) const;
   [[nodiscard]] double free_space_violation(const Points& sample, const Pose2& map_from_local) const;
 
   JudgeRule rule_;

@@ -2,31 +2,42 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "test_world.hpp"
 
 namespace glocal::exact_search_test {
 namespace {
 
 ExactSearch search_after(int steps) {
-  return {{.after_steps = steps, .margin = 0.1}, {}, 0.2, *test::small_world(), 0.1, 1};
+  return {{.after_steps = steps, .margin = 0.1}, *test::small_world(), 0.1, 1};
 }
 
 std::vector<Hypothesis> best_two(double first, double second) {
   return {Hypothesis::by_contact({}, first), Hypothesis::by_contact(Pose2{5.0, 0.0, 0.0}, second)};
 }
 
-TEST(ExactSearch, IsDueInTheLastOfSoManyStepsWithoutAClearBestPose) {
+/// In which of so many steps without a clear best pose a search is due.
+std::vector<int> due(ExactSearch& search, int steps) {
+  std::vector<int> due;
+  for (int step = 1; step <= steps; ++step) {
+    if (search.is_due(best_two(0.8, 0.75))) due.push_back(step);
+  }
+  return due;
+}
+
+TEST(ExactSearch, IsDueAfterSoManyStepsWithoutAClearBestPoseAndThenAfterTwiceAsMany) {
   ExactSearch search = search_after(3);
-  EXPECT_FALSE(search.is_due(best_two(0.8, 0.75)));
-  EXPECT_FALSE(search.is_due({}));  // no pose at all is none that is clear
-  EXPECT_TRUE(search.is_due(best_two(0.8, 0.71)));
-  // The count begins anew.
-  EXPECT_FALSE(search.is_due(best_two(0.8, 0.75)));
-  EXPECT_FALSE(search.is_due(best_two(0.8, 0.75)));
+  EXPECT_EQ(due(search, 50), (std::vector{3, 9, 21, 45}));
   search.reset();
-  EXPECT_FALSE(search.is_due(best_two(0.8, 0.75)));
-  EXPECT_FALSE(search.is_due(best_two(0.8, 0.75)));
-  EXPECT_TRUE(search.is_due(best_two(0.8, 0.75)));
+  EXPECT_EQ(due(search, 12), (std::vector{3, 9}));
+}
+
+TEST(ExactSearch, NoPoseAtAllIsNoneThatIsClear) {
+  ExactSearch search = search_after(2);
+  EXPECT_FALSE(search.is_due({}));
+  EXPECT_TRUE(search.is_due({}));
 }
 
 TEST(ExactSearch, AClearBestPoseBeginsTheCountAnew) {
@@ -44,13 +55,55 @@ TEST(ExactSearch, IsNeverDueWhereItIsOff) {
   for (int i = 0; i < 10; ++i) EXPECT_FALSE(search.is_due(best_two(0.8, 0.8)));
 }
 
-TEST(ExactSearch, FindsThePoseInTheWholeMap) {
-  const Pose2 truth{5.5, 2.5, 0.7};
+const Pose2 truth{5.5, 2.5, 0.7};
+
+/// What each round of a search brings, if the best pose so far always has this score.
+struct Rounds {
+  std::vector<std::vector<Pose2>> poses = {};
+  std::size_t looks = 0;
+};
+
+Rounds rounds(const ExactSearchRule& rule, double score) {
+  const ExactSearch search(rule, *test::small_world(), 0.1, 1);
   const Points points = test::seen_from(test::small_world_points(), truth, 3.0);
-  const GridSearchResult found = search_after(1).search(points, {}, {});
-  ASSERT_FALSE(found.poses.empty());
-  EXPECT_LT(distance(found.poses.front().map_from_local, truth), 0.1);
-  EXPECT_LT(rotation_between(found.poses.front().map_from_local, truth), radians(3.0));
+  Rounds rounds;
+  rounds.looks = search.search(points, {}, {}, {}, [&](const std::vector<Pose2>& poses) {
+    rounds.poses.push_back(poses);
+    return std::vector{Hypothesis::by_contact(poses.front(), score)};
+  });
+  return rounds;
+}
+
+bool is_near_truth(const Pose2& pose) {
+  return distance(pose, truth) < 0.1 && rotation_between(pose, truth) < radians(3.0);
+}
+
+TEST(ExactSearch, FindsThePoseInTheWholeMap) {
+  const auto found = rounds({}, 1.0).poses;
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(std::any_of(found[0].begin(), found[0].end(), is_near_truth));
+}
+
+TEST(ExactSearch, AsksForLessAsLongAsALowerPoseCouldBeTheBest) {
+  // From 0.95 on in steps of 0.1: a pose with a score of 0.8 ends the search after the round of 0.85.
+  const auto looks = [](double min_contact, double score) {
+    return rounds({.min_contact = min_contact}, score).looks;
+  };
+  EXPECT_LT(looks(0.5, 0.9), looks(0.5, 0.8));
+  EXPECT_LT(looks(0.5, 0.8), looks(0.5, 0.7));
+  EXPECT_EQ(looks(0.85, 0.7), looks(0.5, 0.8));
+}
+
+TEST(ExactSearch, LaterRoundsAreAboutOtherPlacesThanTheBestOne) {
+  const auto found = rounds({.min_contact = 0.5, .max_poses = 100}, 0.0).poses;
+  ASSERT_GT(found.size(), 1U);
+  ASSERT_TRUE(is_near_truth(found[0].front()));
+  EXPECT_TRUE(std::none_of(found[1].begin(), found[1].end(), is_near_truth));
+}
+
+TEST(ExactSearch, EndsAfterTooManyLooks) {
+  EXPECT_LT(rounds({.min_contact = 0.5, .max_looks = 100}, 0.0).looks,
+            rounds({.min_contact = 0.5}, 0.0).looks);
 }
 
 }  // namespace

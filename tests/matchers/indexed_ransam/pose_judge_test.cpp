@@ -47,7 +47,7 @@ std::vector<Candidate> candidates(const std::vector<Pose2>& poses) {
 
 TEST(PoseJudge, ScoresContactAndUnknownCells) {
   const LocalMap local = row_of_points();
-  const PoseJudge judge = judge_of({.unknown_weight = 0.1, .contact_epsilon = 0.03});
+  const PoseJudge judge = judge_of({.unknown_weight = 0.1, .fit_weight = 0.0, .contact_epsilon = 0.03});
   const auto best = judge.best_of(candidates({in_the_open, half_on_the_wall, in_the_unknown, on_the_wall}),
                                   local, local.points);
   ASSERT_EQ(best.size(), 4U);
@@ -64,6 +64,23 @@ TEST(PoseJudge, ScoresContactAndUnknownCells) {
   EXPECT_EQ(best[3].score, 0.0);
 }
 
+TEST(PoseJudge, OfTwoPosesInFullContactTheOneThatFitsMoreCloselyIsTheBetter) {
+  const LocalMap local = row_of_points();
+  const PoseJudge judge = judge_of({.unknown_weight = 0.0, .fit_weight = 0.2, .contact_epsilon = 0.1});
+  const Pose2 beside_the_wall{4.11, 1.05, 0.0};
+  const auto best =
+      judge.best_of(candidates({beside_the_wall, on_the_wall, in_the_open}), local, local.points);
+  ASSERT_EQ(best.size(), 3U);
+  constexpr double step = 0.2 * 0.002 / 0.1;  // the field's distances are steps of 2 mm
+  EXPECT_EQ(best[0].map_from_local, on_the_wall);
+  EXPECT_EQ(best[0].quality, 1.0);
+  EXPECT_NEAR(best[0].score, 1.0, step);
+  EXPECT_EQ(best[1].quality, 1.0);
+  EXPECT_NEAR(best[1].score, 1.0 - 0.2 * 0.6, step);
+  EXPECT_NEAR(best[2].score, -0.2,
+              1e-12);  // no point is farther away than contact_epsilon, for all that counts
+}
+
 TEST(PoseJudge, BlockedBeamsLowerTheScoreUpToTheCap) {
   const LocalMap local = row_of_points();
   Scan scan;
@@ -71,7 +88,8 @@ TEST(PoseJudge, BlockedBeamsLowerTheScoreUpToTheCap) {
   scan.hits.push_back({1.0F, 0.0F, 0.0F});        // through the wall
   scan.free_ends.push_back({-2.0F, 0.0F, 0.0F});  // away from it
   for (const double cap : {1.0, 0.3}) {
-    PoseJudge judge = judge_of({.beams = {.weight = 0.8, .cap = cap}, .contact_epsilon = 0.03});
+    PoseJudge judge =
+        judge_of({.beams = {.weight = 0.8, .cap = cap}, .fit_weight = 0.0, .contact_epsilon = 0.03});
     judge.take_in(local, scan);
     auto best = judge.best_of(candidates({on_the_wall}), local, local.points);
     EXPECT_EQ(best.front().quality, 1.0);

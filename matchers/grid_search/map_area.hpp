@@ -1,0 +1,36 @@
+// What a search of a whole map costs grows with its area.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "glocal/global_map.hpp"
+
+namespace glocal {
+
+constexpr double large_area = 2e4;  ///< m^2
+constexpr double huge_area = 25e4;  ///< m^2
+
+/// Of the rectangle about all points, seen from above, m^2.
+[[nodiscard]] inline double area_of(const GlobalMap& map) {
+  const auto extent = [](const std::vector<float>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return double{*high} - double{*low};
+  };
+  return extent(map.points().x) * extent(map.points().y);
+}
+
+/// Side of the smallest boxes of poses, m: small ones bound more tightly, and take memory and time by the
+/// area. At most `epsilon`.
+[[nodiscard]] inline double automatic_box_cell(const GlobalMap& map, double epsilon) {
+  const double area = area_of(map);
+  const double cell = area > huge_area ? 0.1 : area > large_area ? 0.05 : 0.025;
+  return std::min(cell, epsilon);
+}
+
+/// So many looks of a point are allowed on a map of large_area, and as many more as a map is larger.
+[[nodiscard]] inline std::size_t looks_on(const GlobalMap& map, std::size_t looks) {
+  return static_cast<std::size_t>(static_cast<double>(looks) * std::max(1.0, area_of(map) / large_area));
+}
+
+}  // namespace glocal
