@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
-#include <unordered_map>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,32 +20,55 @@ namespace {
 
 constexpr auto pi = static_cast<float>(std::numbers::pi);
 
-/// Points in square cells, for looking at neighbours.
+/// Points in square cells, for looking at neighbours. A few bytes for each point: a large map has millions.
 class Cells {
  public:
-  using Key = std::uint64_t;
-
   Cells(const Points& points, double side) : points_(points), scale_(1.0 / side) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto [place, is_new] = cells_.try_emplace(key(points.x[i], points.y[i]), order_.size());
-      if (is_new) order_.emplace_back();
-      order_[place->second].push_back(static_cast<std::uint32_t>(i));
+    struct Place {
+      std::int32_t row, column;
+      std::uint32_t point;
+    };
+    std::vector<Place> places(points.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      places[i] = {number(points.y[i]), number(points.x[i]), static_cast<std::uint32_t>(i)};
+    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+      return std::tie(a.row, a.column, a.point) < std::tie(b.row, b.column, b.point);
+    });
+    members_.reserve(places.size());
+    for (const Place& place : places) {
+      if (rows_.empty() || rows_.back().row != place.row)
+        rows_.push_back({place.row, static_cast<std::uint32_t>(cells_.size())});
+      const bool is_new = rows_.back().begin == cells_.size() || cells_.back().column != place.column;
+      if (is_new) cells_.push_back({place.column, static_cast<std::uint32_t>(members_.size())});
+      members_.push_back(place.point);
     }
+    first_met_.resize(cells_.size());
+    std::iota(first_met_.begin(), first_met_.end(), 0U);
+    std::sort(first_met_.begin(), first_met_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return members_[cells_[a].begin] < members_[cells_[b].begin];
+    });
   }
 
-  /// The cells' points, in the order in which the cells were first met.
-  [[nodiscard]] const std::vector<std::vector<std::uint32_t>>& all() const { return order_; }
+  [[nodiscard]] std::size_t size() const { return cells_.size(); }
+  /// The points of a cell; cells have the order in which they were first met.
+  [[nodiscard]] std::span<const std::uint32_t> members(std::size_t i) const { return in_cell(first_met_[i]); }
 
   /// Calls visit(x, y) for all points within a radius, which is at most twice a cell's side.
   template <class Visit>
   void near(float x, float y, double radius, Visit visit) const {
     const auto squared = static_cast<float>(radius * radius);
-    for (int row = -2; row <= 2; ++row) {
-      for (int column = -2; column <= 2; ++column) {
-        const auto cell =
-            cells_.find(key(x + static_cast<float>(column / scale_), y + static_cast<float>(row / scale_)));
-        if (cell == cells_.end()) continue;
-        for (const std::uint32_t i : order_[cell->second]) {
+    const std::int32_t middle_row = number(y);
+    const std::int32_t left = number(x) - 2;
+    const std::int32_t right = number(x) + 2;
+    auto row = std::lower_bound(rows_.begin(), rows_.end(), middle_row - 2,
+                                [](const Row& r, std::int32_t wanted) { return r.row < wanted; });
+    for (; row != rows_.end() && row->row <= middle_row + 2; ++row) {
+      const auto begin = cells_.begin() + row->begin;
+      const auto end = row + 1 == rows_.end() ? cells_.end() : cells_.begin() + (row + 1)->begin;
+      auto cell = std::lower_bound(begin, end, left,
+                                   [](const Cell& c, std::int32_t wanted) { return c.column < wanted; });
+      for (; cell != end && cell->column <= right; ++cell) {
+        for (const std::uint32_t i : in_cell(static_cast<std::size_t>(cell - cells_.begin()))) {
           const float dx = points_.x[i] - x;
           const float dy = points_.y[i] - y;
           if (dx * dx + dy * dy <= squared) visit(points_.x[i], points_.y[i]);
@@ -53,17 +78,30 @@ class Cells {
   }
 
  private:
-  [[nodiscard]] Key key(float x, float y) const {
-    const auto number = [&](float v) {
-      return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(v * scale_)));
-    };
-    return Key{number(x)} << 32U | number(y);
+  /// Of a row, its first cell; of a cell, its first member.
+  struct Row {
+    std::int32_t row;
+    std::uint32_t begin;
+  };
+  struct Cell {
+    std::int32_t column;
+    std::uint32_t begin;
+  };
+
+  [[nodiscard]] std::int32_t number(float v) const {
+    return static_cast<std::int32_t>(std::floor(v * scale_));
+  }
+  [[nodiscard]] std::span<const std::uint32_t> in_cell(std::size_t cell) const {
+    const std::size_t end = cell + 1 == cells_.size() ? members_.size() : cells_[cell + 1].begin;
+    return std::span(members_).subspan(cells_[cell].begin, end - cells_[cell].begin);
   }
 
   const Points& points_;
   double scale_;
-  std::unordered_map<Key, std::size_t> cells_;
-  std::vector<std::vector<std::uint32_t>> order_;
+  std::vector<Row> rows_;
+  std::vector<Cell> cells_;             ///< Row by row, by rising column.
+  std::vector<std::uint32_t> members_;  ///< Cell by cell.
+  std::vector<std::uint32_t> first_met_;
 };
 
 /// A straight line, with how far its points lie from it and along it (standard deviations, m).
@@ -165,7 +203,7 @@ float wrapped(float angle) {
 }
 
 /// The mean of a cell's points.
-Point middle_of(const Points& points, const std::vector<std::uint32_t>& members) {
+Point middle_of(const Points& points, std::span<const std::uint32_t> members) {
   float x = 0.0F;
   float y = 0.0F;
   for (const std::uint32_t i : members) {
@@ -184,12 +222,12 @@ struct Surface {
 /// The middle of each cell, with its normal.
 std::vector<Surface> surfaces_of(const Points& points, const OrientedPointRule& rule, int threads) {
   const Cells cells(points, rule.voxel_size);
-  std::vector<Surface> surfaces(cells.all().size());
+  std::vector<Surface> surfaces(cells.size());
   constexpr std::size_t at_a_time = 1024;
   parallel_for(threads, (surfaces.size() + at_a_time - 1) / at_a_time, [&](std::size_t chunk) {
     const std::size_t end = std::min(surfaces.size(), (chunk + 1) * at_a_time);
     for (std::size_t i = chunk * at_a_time; i < end; ++i) {
-      const Point middle = middle_of(points, cells.all()[i]);
+      const Point middle = middle_of(points, cells.members(i));
       surfaces[i] = {middle, normal_angle(cells, middle.x, middle.y, rule)};
     }
   });
@@ -249,7 +287,7 @@ OrientedPoints oriented_points_of(const LocalMap& local, const OrientedPointRule
 Points voxel_downsampled(const Points& points, double side) {
   const Cells cells(points, side);
   Points result;
-  for (const auto& members : cells.all()) result.push_back(middle_of(points, members));
+  for (std::size_t i = 0; i < cells.size(); ++i) result.push_back(middle_of(points, cells.members(i)));
   return result;
 }
 
