@@ -35,25 +35,6 @@ void describe(ParamVisitor& v, CandidateRule& p) {
           {.doc = "Points used to refine a pose.", .min = 3, .audience = Audience::expert});
 }
 
-std::vector<Candidate> distinct_candidates(std::vector<Candidate> candidates, const Pose2& local_from_robot,
-                                           const CandidateRule& rule, std::size_t most) {
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
-  std::vector<Candidate> kept;
-  std::vector<Pose2> robots;
-  for (const Candidate& candidate : candidates) {
-    const Pose2 robot = candidate.map_from_local * local_from_robot;
-    const bool repeats = std::any_of(robots.begin(), robots.end(), [&](const Pose2& other) {
-      return is_same_candidate(robot, other, rule);
-    });
-    if (repeats) continue;
-    kept.push_back(candidate);
-    robots.push_back(robot);
-    if (kept.size() == most) break;
-  }
-  return kept;
-}
-
 CandidateRefiner::CandidateRefiner(const CandidateRule& rule, std::size_t most,
                                    const PoseRefinement& refinement,
                                    std::shared_ptr<const DistanceField> field,

@@ -1,6 +1,7 @@
 // Distinct poses among many that mean nearly the same.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -30,14 +31,34 @@ struct CandidateRule {
 /// Among the fields of a matcher, not in a group of their own.
 void describe(ParamVisitor& v, CandidateRule& p);
 
-[[nodiscard]] inline bool is_same_candidate(const Pose2& a, const Pose2& b, const CandidateRule& rule) {
+/// Of robot poses in the plane (Pose2) or in space (Pose3).
+template <class Pose>
+[[nodiscard]] bool is_same_candidate(const Pose& a, const Pose& b, const CandidateRule& rule) {
   return distance(a, b) < rule.distance && rotation_between(a, b) < radians(rule.rotation_deg);
 }
 
 /// The best first, at most `most`, leaving out those that only repeat a better one: the same robot pose.
+/// A candidate has a `map_from_local` and a `quality`.
+template <class Candidate, class Pose>
 [[nodiscard]] std::vector<Candidate> distinct_candidates(std::vector<Candidate> candidates,
-                                                         const Pose2& local_from_robot,
-                                                         const CandidateRule& rule, std::size_t most);
+                                                         const Pose& local_from_robot,
+                                                         const CandidateRule& rule, std::size_t most) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
+  std::vector<Candidate> kept;
+  std::vector<Pose> robots;
+  for (const Candidate& candidate : candidates) {
+    const Pose robot = candidate.map_from_local * local_from_robot;
+    const bool repeats = std::any_of(robots.begin(), robots.end(), [&](const Pose& other) {
+      return is_same_candidate(robot, other, rule);
+    });
+    if (repeats) continue;
+    kept.push_back(candidate);
+    robots.push_back(robot);
+    if (kept.size() == most) break;
+  }
+  return kept;
+}
 
 /// Makes few candidates of many poses.
 class CandidateRefiner {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -65,6 +66,122 @@ Windows widened(const Windows& cells, int behind, int ahead) {
   return windows;
 }
 
+/// Windows of one size: those of a group of points of a level, or the cells for the middles of boxes.
+struct WindowKind {
+  int level = 0;
+  bool of_middles = true;
+  int wider = 0;   ///< How many cells wider than a box.
+  int height = 1;  ///< Layers of cells.
+  int step = 1;    ///< One begins every so many layers of cells.
+
+  static WindowKind of_group(int level, int group, const CellFrame& frame) {
+    const int step = PoseBoxes::layers_of_box(level, frame);
+    return {.level = level,
+            .of_middles = false,
+            .wider = PoseBoxes::wider(level, group),
+            .height = frame.in_space ? 2 * step : 1,
+            .step = step};
+  }
+
+  [[nodiscard]] int layers_before() const { return height > step ? 1 : 0; }
+  [[nodiscard]] std::size_t layers(const CellFrame& frame) const {
+    return static_cast<std::size_t>((frame.layers + step - 1) / step + layers_before());
+  }
+};
+
+/// Makes the bits of all kinds of windows, some layers of cells at a time: all of them, at a byte each, would
+/// take more memory than the bits.
+class WindowBuilder {
+ public:
+  WindowBuilder(const Points& map_points, const CellFrame& frame, double epsilon,
+                const std::vector<WindowKind>& kinds, int threads)
+      : map_points_(map_points), frame_(frame), epsilon_(epsilon), kinds_(kinds), threads_(threads) {
+    for (const WindowKind& kind : kinds) {
+      bits_.emplace_back(kind.layers(frame));
+      highest_ = std::max(highest_, kind.height);
+    }
+  }
+
+  [[nodiscard]] std::vector<WindowBits> built() {
+    for (int layer = 0; layer < frame_.layers; layer += highest_) {
+      take_in_cells(layer);
+      build(layer);
+    }
+    std::vector<WindowBits> result;
+    for (std::size_t k = 0; k < kinds_.size(); ++k) {
+      std::vector<LayerBits> layers;
+      for (std::optional<LayerBits>& bits : bits_[k]) layers.push_back(std::move(*bits));
+      bits_[k] = {};
+      result.emplace_back(std::move(layers), kinds_[k].layers_before(), frame_.in_space);
+    }
+    return result;
+  }
+
+ private:
+  /// A layer of windows that is to be made.
+  struct Task {
+    std::size_t kind;
+    std::size_t number;
+    int first;  ///< Of its layers of cells.
+  };
+  /// The layers from one on that windows which begin in the next `highest_` layers have a part in.
+  void take_in_cells(int layer) {
+    const auto known =
+        static_cast<std::size_t>(std::max(0, first_ + static_cast<int>(cells_.size()) - layer));
+    cells_.erase(cells_.begin(), cells_.end() - static_cast<std::ptrdiff_t>(known));
+    first_ = layer;
+    cells_.resize(static_cast<std::size_t>(std::min(2 * highest_, frame_.layers - layer)));
+    parallel_for(threads_, cells_.size() - known, [&](std::size_t i) {
+      cells_[known + i] =
+          layer_near(map_points_, frame_, epsilon_, true, layer + static_cast<int>(known + i));
+    });
+  }
+
+  void build(int layer) {
+    std::vector<Task> tasks;
+    for (std::size_t k = 0; k < kinds_.size(); ++k) {
+      for (std::size_t i = 0; i < bits_[k].size(); ++i) {
+        const int first = (static_cast<int>(i) - kinds_[k].layers_before()) * kinds_[k].step;
+        const bool is_of_first = layer == 0 && first < 0;
+        if (is_of_first || (first >= layer && first < layer + highest_)) tasks.push_back({k, i, first});
+      }
+    }
+    parallel_for(threads_, tasks.size(), [&](std::size_t i) {
+      const Task& task = tasks[i];
+      const WindowKind& kind = kinds_[task.kind];
+      std::optional<LayerBits>& bits = bits_[task.kind][task.number];
+      if (kind.of_middles) {
+        bits.emplace(kind.level, layer_near(map_points_, frame_, epsilon_, false, task.first));
+      } else {
+        const Windows cells = joined(task.first, task.first + kind.height);
+        bits.emplace(kind.level, widened(cells, kind.wider, 1 << kind.level));
+      }
+    });
+  }
+
+  /// Which cells are anywhere in contact in one of these layers.
+  [[nodiscard]] Windows joined(int begin, int end) const {
+    Windows all{.width = static_cast<std::size_t>(frame_.columns),
+                .height = static_cast<std::size_t>(frame_.rows),
+                .in_space = frame_.in_space};
+    for (int layer = std::max(0, begin); layer < std::min(end, frame_.layers); ++layer) {
+      const std::vector<std::uint8_t>& more = cells_[static_cast<std::size_t>(layer - first_)].bytes;
+      for (std::size_t i = 0; i < more.size(); ++i) all.bytes[i] |= more[i];
+    }
+    return all;
+  }
+
+  const Points& map_points_;
+  const CellFrame& frame_;
+  double epsilon_;
+  const std::vector<WindowKind>& kinds_;
+  int threads_;
+  int highest_ = 1;             ///< Of the windows of all kinds, in layers of cells.
+  int first_ = 0;               ///< Of the layers of cells at hand.
+  std::vector<Windows> cells_;  ///< Each one layer.
+  std::vector<std::vector<std::optional<LayerBits>>> bits_;  ///< Of each kind.
+};
+
 }  // namespace
 
 PoseBoxes::PoseBoxes(const Points& points, const CellFrame& frame, int top_level)
@@ -72,7 +189,8 @@ PoseBoxes::PoseBoxes(const Points& points, const CellFrame& frame, int top_level
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = points.x[i] - middle_x_;
     const double y = points.y[i] - middle_y_;
-    points_.push_back({x, y, std::hypot(x, y)});
+    const double layer = frame.in_space ? points.z[i] / frame.cell : 0.0;
+    points_.push_back({.x = x, .y = y, .distance = std::hypot(x, y), .layer = layer});
   }
   std::stable_sort(points_.begin(), points_.end(),
                    [](const Turning& a, const Turning& b) { return a.distance < b.distance; });
@@ -81,10 +199,26 @@ PoseBoxes::PoseBoxes(const Points& points, const CellFrame& frame, int top_level
   const double widest = std::ldexp(frame.cell / radius_, top_level);
   top_rotations_ = static_cast<std::size_t>(std::ceil(2.0 * std::numbers::pi / widest));
   find_clusters(std::ldexp(frame.cell, top_level) / 2.0);
+  put_rare_first(points_);
+  put_rare_first(clusters_);
+}
+
+std::int32_t PoseBoxes::box_of_layers(int level, const Turning& one) const {
+  return static_cast<std::int32_t>(std::floor(one.layer / layers_of_box(level, frame_)));
+}
+
+/// Those in boxes of layers with few of them before the others: a floor is in contact nearly everywhere, so
+/// what tells places apart is to be looked at first.
+void PoseBoxes::put_rare_first(std::vector<Turning>& all) const {
+  std::map<std::int32_t, std::size_t> in_box;
+  for (const Turning& one : all) ++in_box[box_of_layers(top_level_, one)];
+  const auto neighbours = [&](const Turning& one) { return in_box[box_of_layers(top_level_, one)]; };
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Turning& a, const Turning& b) { return neighbours(a) < neighbours(b); });
 }
 
 /// Each point that is in none yet makes one with its nearest neighbours that are in none either, if they lie
-/// in a disc of the widest radius.
+/// in a disc of the widest radius and in one box of layers.
 void PoseBoxes::find_clusters(double widest) {
   std::vector<float> xs, ys;
   for (const Turning& point : points_) {
@@ -92,6 +226,7 @@ void PoseBoxes::find_clusters(double widest) {
     ys.push_back(static_cast<float>(point.y));
   }
   const Squares squares(xs, ys, 2.0 * widest);
+  const auto box_of = [&](const Turning& point) { return box_of_layers(top_level_, point); };
   std::vector<bool> is_taken(points_.size(), false);
   std::vector<std::pair<double, std::uint32_t>> near;
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
@@ -99,7 +234,8 @@ void PoseBoxes::find_clusters(double widest) {
     near.clear();
     squares.near(xs[i], ys[i], [&](std::uint32_t k) {
       const double distance = std::hypot(points_[k].x - points_[i].x, points_[k].y - points_[i].y);
-      if (!is_taken[k] && distance <= 2.0 * widest) near.emplace_back(distance, k);
+      if (!is_taken[k] && distance <= 2.0 * widest && box_of(points_[k]) == box_of(points_[i]))
+        near.emplace_back(distance, k);
     });
     if (near.size() < cluster_size) continue;
     const auto end = near.begin() + cluster_size;
@@ -121,7 +257,8 @@ void PoseBoxes::find_clusters(double widest) {
     }
     if (radius > widest) continue;
     for (auto member = near.begin(); member != end; ++member) is_taken[member->second] = true;
-    clusters_.push_back({x, y, std::hypot(x, y), radius});
+    clusters_.push_back(
+        {.x = x, .y = y, .distance = std::hypot(x, y), .radius = radius, .layer = points_[i].layer});
   }
 }
 
@@ -168,8 +305,8 @@ std::vector<CellPoints> PoseBoxes::cells_of(const std::vector<Turning>& all, int
     const auto cell_of = [&](double coordinate) {
       return static_cast<std::int32_t>(std::floor(coordinate / frame_.cell - moved)) + wider;
     };
-    cells[static_cast<std::size_t>(group - 1)].push_back(cell_of(c * one.x - s * one.y),
-                                                         cell_of(s * one.x + c * one.y));
+    cells[static_cast<std::size_t>(group - 1)].push_back(
+        cell_of(c * one.x - s * one.y), cell_of(s * one.x + c * one.y), box_of_layers(level, one));
   }
   return cells;
 }
@@ -182,37 +319,42 @@ CellPoints PoseBoxes::middle_cells(std::size_t rotation) const {
   };
   CellPoints cells;
   for (const Turning& point : points_)
-    cells.push_back(cell_of(c * point.x - s * point.y), cell_of(s * point.x + c * point.y));
+    cells.push_back(cell_of(c * point.x - s * point.y), cell_of(s * point.x + c * point.y),
+                    static_cast<std::int32_t>(std::floor(point.layer + 0.5)));
   return cells;
 }
 
-BoxPyramid::BoxPyramid(const Points& map_points, double cell, double epsilon, int top_level, int threads)
-    : frame_(cell_frame(map_points, cell, epsilon + cell)),
-      middles_(0, cells_near(map_points, frame_, epsilon, false, 0, Motion::planar)) {
-  const Windows cells = cells_near(map_points, frame_, epsilon, true, 0, Motion::planar);
-  std::vector<std::pair<int, int>> levels_and_groups;
+BoxPyramid::BoxPyramid(const Points& map_points, double cell, double epsilon, int top_level, int threads,
+                       Motion motion)
+    : frame_(cell_frame(map_points, cell, epsilon + cell, motion)) {
+  std::vector<WindowKind> kinds = {WindowKind{}};
   for (int level = 0; level <= top_level; ++level) {
     const int groups = level == top_level ? PoseBoxes::cluster_groups(level) : PoseBoxes::groups(level);
-    for (int group = 1; group <= groups; ++group) levels_and_groups.emplace_back(level, group);
+    for (int group = 1; group <= groups; ++group) kinds.push_back(WindowKind::of_group(level, group, frame_));
   }
-  std::vector<std::optional<WindowBits>> bits(levels_and_groups.size());
-  parallel_for(threads, bits.size(), [&](std::size_t i) {
-    const auto [level, group] = levels_and_groups[i];
-    bits[i].emplace(level, widened(cells, PoseBoxes::wider(level, group), 1 << level));
-  });
   levels_.resize(static_cast<std::size_t>(top_level) + 1);
-  for (std::size_t i = 0; i < bits.size(); ++i)
-    levels_[static_cast<std::size_t>(levels_and_groups[i].first)].push_back(std::move(*bits[i]));
+  std::vector<WindowBits> bits = WindowBuilder(map_points, frame_, epsilon, kinds, threads).built();
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const auto level = static_cast<std::size_t>(kinds[k].level);
+    (kinds[k].of_middles ? middles_ : levels_[level]).push_back(std::move(bits[k]));
+  }
 }
 
 /// At the middle of a box a point lies in the middle one of three cells along either axis, or half a cell
-/// beside it.
+/// beside it; and half a cell from the middle of two layers at most.
 double BoxPyramid::delta() const {
-  return 2.0 * std::numbers::sqrt2 * frame_.cell;
+  constexpr double aside = 2.0;
+  constexpr double above = 1.5;
+  return frame_.cell * std::hypot(aside, aside, frame_.in_space ? above : 0.0);
+}
+
+BoxPyramid::BoxesOfLayers BoxPyramid::boxes_of_layers(int level) const {
+  const WindowBits& bits = levels_[static_cast<std::size_t>(level)].front();
+  return {-bits.layers_before(), bits.layers() - bits.layers_before() - 1};
 }
 
 std::size_t BoxPyramid::memory_bytes() const {
-  std::size_t bytes = middles_.memory_bytes();
+  std::size_t bytes = middles_.front().memory_bytes();
   for (const std::vector<WindowBits>& groups : levels_) {
     for (const WindowBits& bits : groups) bytes += bits.memory_bytes();
   }
@@ -220,31 +362,35 @@ std::size_t BoxPyramid::memory_bytes() const {
 }
 
 std::size_t BoxPyramid::count(int level, const std::vector<CellPoints>& points, int column, int row,
-                              std::size_t least, TileCounts& counts) const {
+                              int layer, std::size_t least, TileCounts& counts) const {
   std::size_t behind = 0;
   for (const CellPoints& group : points) behind += group.size();
   std::size_t looked_at = 0;
   counts.clear();
-  for (std::size_t group = 0; group < points.size() && counts.largest() + behind >= least; ++group) {
+  for (std::size_t group = points.size(); group-- > 0 && counts.largest() + behind >= least;) {
     behind -= points[group].size();
-    looked_at += levels_[static_cast<std::size_t>(level)][group].add(points[group], column, row, 0, least,
+    looked_at += levels_[static_cast<std::size_t>(level)][group].add(points[group], column, row, layer, least,
                                                                      behind, counts);
   }
   return looked_at;
 }
 
-void BoxPyramid::count_middles(const CellPoints& points, int column, int row, TileCounts& counts) const {
+void BoxPyramid::count_middles(const CellPoints& points, int column, int row, int layer,
+                               TileCounts& counts) const {
   counts.clear();
-  middles_.add(points, column, row, 0, 0, 0, counts);
+  middles_.front().add(points, column, row, layer, 0, 0, counts);
 }
 
 std::shared_ptr<const BoxPyramid> box_pyramid(const GlobalMap& map, double cell, double epsilon,
-                                              int threads) {
+                                              Motion motion, int threads) {
   check_cell(cell, epsilon);
+  const bool in_space = motion != Motion::planar;
   constexpr double top_box = 0.4;  // m; larger ones bound nothing indoors
-  const int top_level = std::max(0, static_cast<int>(std::lround(std::log2(top_box / cell))));
-  return map.index<BoxPyramid>(fmt::format("{} {}", cell, epsilon),
-                               [&] { return BoxPyramid(map.points(), cell, epsilon, top_level, threads); });
+  const int top_level = in_space ? BoxPyramid::default_top_level
+                                 : std::max(0, static_cast<int>(std::lround(std::log2(top_box / cell))));
+  return map.index<BoxPyramid>(fmt::format("{} {}{}", cell, epsilon, in_space ? " in space" : ""), [&] {
+    return BoxPyramid(map.points(), cell, epsilon, top_level, threads, motion);
+  });
 }
 
 }  // namespace glocal

@@ -43,7 +43,8 @@ CellFrame cell_frame(const Points& map_points, double cell, double epsilon, Moti
           .min_z = in_space ? least(map_points.z) : 0.0,
           .columns = static_cast<int>(columns),
           .rows = static_cast<int>(rows),
-          .layers = static_cast<int>(layers)};
+          .layers = static_cast<int>(layers),
+          .in_space = in_space};
 }
 
 namespace {
@@ -63,48 +64,66 @@ void join(Windows& windows, std::size_t half) {
   for (std::size_t i = 0; i + half * layer < bytes.size(); ++i) bytes[i] |= bytes[i + half * layer];
 }
 
+/// Marks cells in the layers that the windows have.
+void mark_near(Windows& windows, const Points& map_points, const CellFrame& frame, double epsilon,
+               bool anywhere) {
+  const double half_cell = anywhere ? 0.5 : 0.0;
+  const double reach = epsilon / frame.cell;
+  const auto first = [&](double centre, int least) {
+    return std::max(least, static_cast<int>(std::ceil(centre - reach - half_cell)));
+  };
+  const auto square = [&](double distance) {
+    const double beyond = std::max(0.0, std::abs(distance) - half_cell);
+    return beyond * beyond;
+  };
+  const int first_layer = std::max(0, -windows.layers_before);
+  const int layers = std::min(frame.layers, static_cast<int>(windows.depth) - windows.layers_before);
+  for (std::size_t i = 0; i < map_points.size(); ++i) {
+    // In cells, relative to the centre of cell (0, 0, 0).
+    const double x = (map_points.x[i] - frame.min_x) / frame.cell - 0.5;
+    const double y = (map_points.y[i] - frame.min_y) / frame.cell - 0.5;
+    const double z = frame.in_space ? (map_points.z[i] - frame.min_z) / frame.cell - 0.5 : 0.0;
+    for (int l = first(z, first_layer); l < layers && l <= z + reach + half_cell; ++l) {
+      for (int r = first(y, 0); r < frame.rows && r <= y + reach + half_cell; ++r) {
+        for (int c = first(x, 0); c < frame.columns && c <= x + reach + half_cell; ++c) {
+          if (square(c - x) + square(r - y) + square(l - z) <= reach * reach) windows.at(c, r, l) = 1;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Windows cells_near(const Points& map_points, const CellFrame& frame, double epsilon, bool anywhere,
-                   int before, Motion motion) {
-  const bool in_space = motion != Motion::planar;
-  const int layers_before = in_space ? before : 0;
+                   int before) {
+  const int layers_before = frame.in_space ? before : 0;
   Windows windows{.columns_before = before,
                   .rows_before = before,
                   .layers_before = layers_before,
                   .width = static_cast<std::size_t>(frame.columns + before),
                   .height = static_cast<std::size_t>(frame.rows + before),
                   .depth = static_cast<std::size_t>(frame.layers + layers_before),
-                  .in_space = in_space};
-  const double half_cell = anywhere ? 0.5 : 0.0;
-  const double reach = epsilon / frame.cell;
-  const auto first = [&](double centre) {
-    return std::max(0, static_cast<int>(std::ceil(centre - reach - half_cell)));
-  };
-  const auto square = [&](double distance) {
-    const double beyond = std::max(0.0, std::abs(distance) - half_cell);
-    return beyond * beyond;
-  };
-  for (std::size_t i = 0; i < map_points.size(); ++i) {
-    // In cells, relative to the centre of cell (0, 0, 0).
-    const double x = (map_points.x[i] - frame.min_x) / frame.cell - 0.5;
-    const double y = (map_points.y[i] - frame.min_y) / frame.cell - 0.5;
-    const double z = in_space ? (map_points.z[i] - frame.min_z) / frame.cell - 0.5 : 0.0;
-    for (int l = first(z); l < frame.layers && l <= z + reach + half_cell; ++l) {
-      for (int r = first(y); r < frame.rows && r <= y + reach + half_cell; ++r) {
-        for (int c = first(x); c < frame.columns && c <= x + reach + half_cell; ++c) {
-          if (square(c - x) + square(r - y) + square(l - z) <= reach * reach) windows.at(c, r, l) = 1;
-        }
-      }
-    }
-  }
+                  .in_space = frame.in_space};
+  mark_near(windows, map_points, frame, epsilon, anywhere);
+  return windows;
+}
+
+Windows layer_near(const Points& map_points, const CellFrame& frame, double epsilon, bool anywhere,
+                   int layer) {
+  Windows windows{.layers_before = -layer,
+                  .width = static_cast<std::size_t>(frame.columns),
+                  .height = static_cast<std::size_t>(frame.rows),
+                  .in_space = frame.in_space};
+  mark_near(windows, map_points, frame, epsilon, anywhere);
+  windows.layers_before = 0;
   return windows;
 }
 
 ContactPyramid::ContactPyramid(const Points& map_points, double cell, double epsilon, int top_level,
                                Motion motion)
-    : frame_(cell_frame(map_points, cell, epsilon, motion)), in_space_(motion != Motion::planar) {
-  Windows windows = cells_near(map_points, frame_, epsilon, false, (1 << top_level) - 1, motion);
+    : frame_(cell_frame(map_points, cell, epsilon, motion)) {
+  Windows windows = cells_near(map_points, frame_, epsilon, false, (1 << top_level) - 1);
   for (int level = 0; level <= top_level; ++level) {
     if (level > 0) join(windows, std::size_t{1} << (level - 1));
     levels_.emplace_back(level, windows);

@@ -18,6 +18,7 @@ struct CellFrame {
   /// Outer corner of cell (0, 0, 0) in the map's frame, m.
   double min_x = 0.0, min_y = 0.0, min_z = 0.0;
   int columns = 0, rows = 0, layers = 1;
+  bool in_space = false;  ///< In the plane heights do not count, and there is one layer.
 };
 
 /// Throws ConfigError where the cells of a search (m) are larger than epsilon (m): poses between them would
@@ -33,7 +34,10 @@ void check_cell(double cell, double epsilon);
 /// `anywhere`, by the nearest of their places. Windows of one cell, of which so many more begin before the
 /// first column, row and, in space, layer.
 [[nodiscard]] Windows cells_near(const Points& map_points, const CellFrame& frame, double epsilon,
-                                 bool anywhere, int before, Motion motion);
+                                 bool anywhere, int before);
+/// The same of one layer of the frame, which is layer 0 of the windows, with none before it.
+[[nodiscard]] Windows layer_near(const Points& map_points, const CellFrame& frame, double epsilon,
+                                 bool anywhere, int layer);
 
 /// Which cells of a map are in contact, and for each level l the sliding-window maximum of that: whether any
 /// cell of the 2^l x 2^l cells from a cell on is. A node of level l stands for 2^l x 2^l translations; each
@@ -53,7 +57,6 @@ class ContactPyramid {
 
   /// All cells in contact lie in it.
   [[nodiscard]] const CellFrame& frame() const { return frame_; }
-  [[nodiscard]] bool in_space() const { return in_space_; }
   [[nodiscard]] int top_level() const { return static_cast<int>(levels_.size()) - 1; }
   [[nodiscard]] std::size_t memory_bytes() const;
 
@@ -68,7 +71,6 @@ class ContactPyramid {
 
  private:
   CellFrame frame_;
-  bool in_space_;
   std::vector<WindowBits> levels_;
 };
 

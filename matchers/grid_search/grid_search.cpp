@@ -37,7 +37,7 @@ struct Layers {
 
 /// All that leave a robot, which is at a height (m) in the local frame, within the frame.
 Layers layers_of_robot(const ContactPyramid& pyramid, double robot_height) {
-  if (!pyramid.in_space()) return {};
+  if (!pyramid.frame().in_space) return {};
   const double height = robot_height / pyramid.frame().cell;
   return {static_cast<int>(std::ceil(-height)),
           static_cast<int>(std::ceil(pyramid.frame().layers - height)) - 1};

@@ -29,8 +29,8 @@ constexpr double huge_area = 25e4;  ///< m^2
 }
 
 /// So many looks of a point are allowed on a map of large_area, and as many more as a map is larger.
-[[nodiscard]] inline std::size_t looks_on(const GlobalMap& map, std::size_t looks) {
-  return static_cast<std::size_t>(static_cast<double>(looks) * std::max(1.0, area_of(map) / large_area));
+[[nodiscard]] inline std::size_t looks_on(const GlobalMap& map, double looks) {
+  return static_cast<std::size_t>(looks * std::max(1.0, area_of(map) / large_area));
 }
 
 }  // namespace glocal

@@ -20,9 +20,10 @@ namespace {
 /// Intervals searched before the bar is raised. Fixed, so that the answer does not depend on the threads.
 constexpr std::size_t intervals_at_a_time = 8;
 
-/// A tile of boxes, by its first one's translation.
+/// A tile of boxes, by its first one's translation, and their box of layers.
 struct Tile {
   int column, row;
+  int layer;
 };
 
 /// An interval of rotations of the top level, and its tiles with boxes that can reach the bar.
@@ -36,7 +37,7 @@ struct Interval {
 /// A box of level 0, and how many points are in contact at its middle.
 struct Box {
   std::size_t rotation = 0;
-  int row = 0, column = 0;
+  int row = 0, column = 0, layer = 0;
   std::size_t at_middle = 0;
 };
 
@@ -47,7 +48,8 @@ struct Place {
 
   void take_in(const Place& other) {
     const auto rank = [](const Box& box) {
-      return std::tuple(-static_cast<std::ptrdiff_t>(box.at_middle), box.rotation, box.row, box.column);
+      return std::tuple(-static_cast<std::ptrdiff_t>(box.at_middle), box.rotation, box.layer, box.row,
+                        box.column);
     };
     if (bound == 0 || rank(other.best) < rank(best)) best = other.best;
     bound = std::max(bound, other.bound);
@@ -65,19 +67,22 @@ struct Found {
 /// Which boxes of one interval of rotations are worth a look.
 class WantedBoxes {
  public:
-  WantedBoxes(const PoseBoxes& boxes, int level, std::size_t rotation, const Pose2& local_from_robot,
-              const Pose2& declared, double cell, const RivalRule& rule, const PoseGate& gate)
+  WantedBoxes(const PoseBoxes& boxes, int level, std::size_t rotation, const Pose3& local_from_robot,
+              const Pose3& declared, double cell, const RivalRule& rule, const PoseGate& gate)
       : cell_(cell),
-        robot_at_zero_(boxes.pose(level, rotation, 0.0, 0.0) * local_from_robot),
-        x_(declared.x),
-        y_(declared.y),
+        robot_at_zero_(boxes.pose(level, rotation, 0.0, 0.0) * seen_from_above(local_from_robot)),
+        height_at_zero_(boxes.height(0.0) + local_from_robot.z),
+        box_height_(boxes.box_height(level)),
+        declared_(declared.translation()),
         near_(rule.distance - boxes.sway(level, local_from_robot.x, local_from_robot.y)),
-        is_turned_(rotation_between(robot_at_zero_, declared) + boxes.half_width(level) > rule.rotation),
+        is_turned_(rotation_between(robot_at_zero_, seen_from_above(declared)) + boxes.half_width(level) >
+                   rule.rotation),
         allowed_(widened(gate, boxes, level), boxes.pose(level, rotation, 0.0, 0.0), cell) {}
 
-  /// Some of whose poses are allowed, and not near the declared one. A rectangle of translations, in cells.
-  [[nodiscard]] bool any(int column, int row, int columns, int rows) const {
-    return allowed_.any(column, row, columns + 1, rows + 1) && !is_near(column, row, columns, rows);
+  /// Some of whose poses are allowed, and not near the declared one. A rectangle of translations, in cells,
+  /// beginning with those of the tile's first box, and the tile's box of layers.
+  [[nodiscard]] bool any(const Tile& tile, int columns, int rows) const {
+    return allowed_.any(tile.column, tile.row, columns + 1, rows + 1) && !is_near(tile, columns, rows);
   }
 
  private:
@@ -92,19 +97,21 @@ class WantedBoxes {
     return {prior, start};
   }
 
-  [[nodiscard]] bool is_near(int column, int row, int columns, int rows) const {
+  [[nodiscard]] bool is_near(const Tile& tile, int columns, int rows) const {
     if (is_turned_) return false;
-    const auto farther = [&](double at_zero, int first, int n, double declared) {
-      const double low = at_zero + cell_ * first - declared;
-      return std::max(std::abs(low), std::abs(low + cell_ * n));
+    const auto farther = [](double low, double size, double declared) {
+      return std::max(std::abs(low - declared), std::abs(low + size - declared));
     };
-    return std::hypot(farther(robot_at_zero_.x, column, columns, x_),
-                      farther(robot_at_zero_.y, row, rows, y_)) <= near_;
+    return std::hypot(farther(robot_at_zero_.x + cell_ * tile.column, cell_ * columns, declared_.x),
+                      farther(robot_at_zero_.y + cell_ * tile.row, cell_ * rows, declared_.y),
+                      farther(height_at_zero_ + box_height_ * tile.layer, box_height_, declared_.z)) <= near_;
   }
 
   double cell_;
   Pose2 robot_at_zero_;
-  double x_, y_;
+  double height_at_zero_;  ///< m; 0 in the plane, as is that of a box of layers.
+  double box_height_;
+  Vector3 declared_;
   double near_;     ///< m; at this distance from the declared pose a robot is near it at all rotations.
   bool is_turned_;  ///< Some of the rotations are no longer near.
   AllowedTranslations allowed_;
@@ -113,8 +120,8 @@ class WantedBoxes {
 /// The search below one interval of rotations of the top level.
 class IntervalSearch {
  public:
-  IntervalSearch(const BoxPyramid& pyramid, const PoseBoxes& boxes, const Pose2& local_from_robot,
-                 const Pose2& declared, std::size_t least, const RivalRule& rule, const PoseGate& gate)
+  IntervalSearch(const BoxPyramid& pyramid, const PoseBoxes& boxes, const Pose3& local_from_robot,
+                 const Pose3& declared, std::size_t least, const RivalRule& rule, const PoseGate& gate)
       : pyramid_(pyramid),
         boxes_(boxes),
         local_from_robot_(local_from_robot),
@@ -135,10 +142,11 @@ class IntervalSearch {
     Interval interval{.rotation = rotation};
     for (const Tile& tile : top_tiles(points)) {
       if (least_clusters > 0) {
-        interval.looks += pyramid_.count(top, clusters, tile.column, tile.row, least_clusters, counts_);
+        interval.looks +=
+            pyramid_.count(top, clusters, tile.column, tile.row, tile.layer, least_clusters, counts_);
         if (counts_.largest() < least_clusters) continue;
       }
-      interval.looks += pyramid_.count(top, points, tile.column, tile.row, least_, counts_);
+      interval.looks += pyramid_.count(top, points, tile.column, tile.row, tile.layer, least_, counts_);
       if (counts_.largest() < least_) continue;
       interval.bound = std::max(interval.bound, counts_.largest());
       interval.tiles.push_back(tile);
@@ -159,13 +167,16 @@ class IntervalSearch {
   [[nodiscard]] std::vector<Tile> top_tiles(const std::vector<CellPoints>& points) const {
     const int top = pyramid_.top_level();
     const CellFrame& frame = pyramid_.frame();
-    const auto range = [&](int cells, auto coordinates_of) -> std::pair<int, int> {
+    // Of windows from the first one with a cell in contact to the last, which is by so many later for points
+    // of a group with wider ones.
+    const auto range = [&](int first_window, int last_window, auto wider_of,
+                           auto coordinates_of) -> std::pair<int, int> {
       std::vector<int> first, last;
       for (std::size_t g = 0; g < points.size(); ++g) {
-        const int wider = PoseBoxes::wider(top, static_cast<int>(g) + 1);
+        const int wider = wider_of(static_cast<int>(g) + 1);
         for (const std::int32_t coordinate : coordinates_of(points[g])) {
-          first.push_back(1 - (1 << top) - coordinate);
-          last.push_back(cells - 1 + wider - coordinate);
+          first.push_back(first_window - coordinate);
+          last.push_back(last_window + wider - coordinate);
         }
       }
       const auto nth = static_cast<std::ptrdiff_t>(least_ - 1);
@@ -173,12 +184,21 @@ class IntervalSearch {
       std::nth_element(last.begin(), last.begin() + nth, last.end(), std::greater<>());
       return {first[least_ - 1], last[least_ - 1]};
     };
-    const auto [left, right] = range(frame.columns, [](const CellPoints& p) { return p.columns(); });
-    const auto [low, high] = range(frame.rows, [](const CellPoints& p) { return p.rows(); });
+    const auto wider = [top](int group) { return PoseBoxes::wider(top, group); };
+    const auto no_wider = [](int /*group*/) { return 0; };
+    const auto [left, right] =
+        range(1 - (1 << top), frame.columns - 1, wider, [](const CellPoints& p) { return p.columns(); });
+    const auto [low, high] =
+        range(1 - (1 << top), frame.rows - 1, wider, [](const CellPoints& p) { return p.rows(); });
+    const BoxPyramid::BoxesOfLayers all = pyramid_.boxes_of_layers(top);
+    const auto [bottom, ceiling] =
+        range(all.first, all.last, no_wider, [](const CellPoints& p) { return p.layers(); });
     std::vector<Tile> tiles;
-    for (int row = low; row <= high; row += TileCounts::rows << top) {
-      for (int column = left; column <= right; column += TileCounts::columns << top)
-        tiles.push_back({column, row});
+    for (int layer = bottom; layer <= ceiling; ++layer) {
+      for (int row = low; row <= high; row += TileCounts::rows << top) {
+        for (int column = left; column <= right; column += TileCounts::columns << top)
+          tiles.push_back({column, row, layer});
+      }
     }
     return tiles;
   }
@@ -189,10 +209,9 @@ class IntervalSearch {
                              rule_, gate_);
     std::vector<Tile> promising;
     for (const Tile& tile : tiles) {
-      if (!wanted.any(tile.column, tile.row, TileCounts::columns << level, TileCounts::rows << level))
-        continue;
+      if (!wanted.any(tile, TileCounts::columns << level, TileCounts::rows << level)) continue;
       if (found_.looks > most_looks_) return;
-      found_.looks += pyramid_.count(level, points, tile.column, tile.row, least_, counts_);
+      found_.looks += pyramid_.count(level, points, tile.column, tile.row, tile.layer, least_, counts_);
       if (counts_.largest() < least_) continue;
       if (level == 0) {
         add_boxes(rotation, tile, wanted);
@@ -205,11 +224,14 @@ class IntervalSearch {
       look_at(level - 1, half, boxes_.cells(level - 1, half), promising);
   }
 
-  /// A quarter of a tile's boxes makes a tile of the level below.
+  /// A quarter of a tile's boxes makes a tile of the level below; where boxes are higher than those there,
+  /// one for each half of the layers.
   void add_quarters(int level, const Tile& tile, const WantedBoxes& wanted, std::vector<Tile>& quarters) {
     const TileCounts::Mask boxes = counts_.at_least(least_);
     constexpr int half_columns = TileCounts::columns / 2;
     constexpr int half_rows = TileCounts::rows / 2;
+    const CellFrame& frame = pyramid_.frame();
+    const int halves = PoseBoxes::layers_of_box(level, frame) / PoseBoxes::layers_of_box(level - 1, frame);
     for (int k = 0; k < TileCounts::rows; k += half_rows) {
       for (int i = 0; i < TileCounts::columns; i += half_columns) {
         bool any = false;
@@ -217,10 +239,12 @@ class IntervalSearch {
           for (auto left = static_cast<std::uint32_t>(boxes[static_cast<std::size_t>(r)] >> i);
                left != 0 && !any; left &= left - 1) {
             const int column = tile.column + ((i + std::countr_zero(left)) << level);
-            any = wanted.any(column, tile.row + (r << level), 1 << level, 1 << level);
+            any = wanted.any({column, tile.row + (r << level), tile.layer}, 1 << level, 1 << level);
           }
         }
-        if (any) quarters.push_back({tile.column + (i << level), tile.row + (k << level)});
+        for (int half = 0; any && half < halves; ++half)
+          quarters.push_back(
+              {tile.column + (i << level), tile.row + (k << level), halves * tile.layer + half});
       }
     }
   }
@@ -230,18 +254,18 @@ class IntervalSearch {
     const TileCounts::Mask boxes = counts_.at_least(least_);
     if (rotation != rotation_of_middles_) middles_ = boxes_.middle_cells(rotation);
     rotation_of_middles_ = rotation;
-    pyramid_.count_middles(middles_, tile.column, tile.row, middle_counts_);
+    pyramid_.count_middles(middles_, tile.column, tile.row, tile.layer, middle_counts_);
     found_.looks += middles_.size();
-    const RobotCells robots(boxes_.pose(0, rotation, 0.5, 0.5) * local_from_robot_, 0.0,
-                            pyramid_.frame().cell,
+    const RobotCells robots(boxes_.pose(0, rotation, 0.5, 0.5) * seen_from_above(local_from_robot_),
+                            boxes_.height(0.5) + local_from_robot_.z, pyramid_.frame().cell,
                             {.distance = rule_.cell_distance, .rotation = rule_.cell_rotation});
     for (int k = 0; k < TileCounts::rows; ++k) {
       for (std::uint64_t left = boxes[static_cast<std::size_t>(k)]; left != 0; left &= left - 1) {
         const int i = std::countr_zero(left);
-        if (!wanted.any(tile.column + i, tile.row + k, 1, 1)) continue;
-        const Box box{rotation, tile.row + k, tile.column + i, middle_counts_.at(i, k)};
+        if (!wanted.any({tile.column + i, tile.row + k, tile.layer}, 1, 1)) continue;
+        const Box box{rotation, tile.row + k, tile.column + i, tile.layer, middle_counts_.at(i, k)};
         const RobotCell place =
-            robots.of({.rotation = rotation, .row = tile.row + k, .column = tile.column + i});
+            robots.of({.rotation = rotation, .row = box.row, .column = box.column, .layer = box.layer});
         found_.places[place].take_in({counts_.at(i, k), box});
       }
     }
@@ -249,7 +273,7 @@ class IntervalSearch {
 
   const BoxPyramid& pyramid_;
   const PoseBoxes& boxes_;
-  Pose2 local_from_robot_, declared_;
+  Pose3 local_from_robot_, declared_;
   std::size_t least_;
   const RivalRule& rule_;
   const PoseGate& gate_;
@@ -294,7 +318,7 @@ class BestPlaces {
 }  // namespace
 
 RivalSearchResult search_rivals(const BoxPyramid& pyramid, const Points& points,
-                                const Pose2& local_from_robot, const Pose2& map_from_robot, std::size_t least,
+                                const Pose3& local_from_robot, const Pose3& map_from_robot, std::size_t least,
                                 const RivalRule& rule, const PoseGate& gate, int threads) {
   RivalSearchResult result{.at_most = least - 1};
   if (points.size() > TileCounts::most_points) return result;
@@ -333,7 +357,9 @@ RivalSearchResult search_rivals(const BoxPyramid& pyramid, const Points& points,
   }
   for (const Place& place : best.falling()) {
     const Box& box = place.best;
-    result.rivals.push_back({boxes.pose(0, box.rotation, box.column + 0.5, box.row + 0.5), place.bound});
+    const Pose2 above = boxes.pose(0, box.rotation, box.column + 0.5, box.row + 0.5);
+    result.rivals.push_back(
+        {Pose3({above.x, above.y, boxes.height(box.layer + 0.5)}, turn_about_z(above.theta)), place.bound});
   }
   if (!result.rivals.empty()) result.at_most = result.rivals.front().in_contact;
   result.is_complete = true;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "glocal/points.hpp"
-#include "glocal/pose2.hpp"
+#include "glocal/pose3.hpp"
 #include "glocal/prior.hpp"
 #include "matchers/grid_search/box_pyramid.hpp"
 
@@ -22,7 +22,7 @@ struct RivalRule {
 
 struct RivalSearchResult {
   struct Rival {
-    Pose2 map_from_local;
+    Pose3 map_from_local;
     std::size_t in_contact = 0;  ///< Points that can be in contact near there.
   };
   std::vector<Rival> rivals = {};  ///< At least `least`; falling contact.
@@ -32,13 +32,16 @@ struct RivalSearchResult {
   bool is_complete = false;  ///< If not, the search was given up, and says nothing.
 };
 
-/// Searches all poses of the plane that a gate allows, but for those near one robot pose, for such that can
-/// bring at least `least` of the points into contact: by branch and bound on boxes of poses
-/// (box_pyramid.hpp), down to boxes of one cell and of rotations that move the farthest point by one. What it
-/// leaves out cannot reach `least` anywhere in its box. At least one point, and of more than
-/// TileCounts::most_points the search is given up; `least` at least 1.
+/// Searches all poses that a gate allows, but for those near one robot pose, for such that can bring at least
+/// `least` of the points into contact: by branch and bound on boxes of poses (box_pyramid.hpp), down to boxes
+/// of one cell and of rotations that move the farthest point by one. What it leaves out cannot reach `least`
+/// anywhere in its box. At least one point, and of more than TileCounts::most_points the search is given up;
+/// `least` at least 1.
+///
+/// Over a pyramid in the plane the poses are those of the plane. In space they are those at which the local
+/// frame stands upright in the map: x, y, z and yaw.
 [[nodiscard]] RivalSearchResult search_rivals(const BoxPyramid& pyramid, const Points& points,
-                                              const Pose2& local_from_robot, const Pose2& map_from_robot,
+                                              const Pose3& local_from_robot, const Pose3& map_from_robot,
                                               std::size_t least, const RivalRule& rule, const PoseGate& gate,
                                               int threads);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "matchers/common/candidates.hpp"
+#include "matchers/grid_search/contact_climb.hpp"
 #include "matchers/grid_search/map_area.hpp"
 #include "matchers/grid_search/rival_search.hpp"
 
@@ -12,6 +13,9 @@ namespace {
 
 /// m; as matchers have it, so that they share the field.
 constexpr double field_cell = 0.05;
+
+/// How many more points a search in space looks at: there are heights, too, and scans have many points.
+constexpr double more_looks_in_space = 10.0;
 
 /// The exact one would take more memory than all else.
 const char* contact_for(double area) {
@@ -41,7 +45,8 @@ void describe(ParamVisitor& v, WholeMap::Params& p) {
   describe_contact_epsilon(v, p.contact_epsilon);
   v.field("cell", p.cell,
           {.doc = "Side of the smallest boxes of translations, at most contact_epsilon; auto is 0.025 m, "
-                  "0.05 m on maps of more than 2 hectares, and 0.1 m on maps of more than 25 hectares.",
+                  "0.05 m on maps of more than 2 hectares, and 0.1 m on maps of more than 25 hectares; in "
+                  "space half of contact_epsilon.",
            .unit = "m",
            .min = 0.01,
            .max = 1.0,
@@ -55,7 +60,8 @@ void describe(ParamVisitor& v, WholeMap::Params& p) {
            .audience = Audience::expert});
   v.field("max_looks", p.max_looks,
           {.doc = "A search that looks at more points is given up, and nothing is declared in this step; on "
-                  "maps of more than 2 hectares it may look at as many more as they are larger.",
+                  "maps of more than 2 hectares it may look at as many more as they are larger, and in space "
+                  "at ten times as many.",
            .min = 1,
            .max = 2e9,
            .audience = Audience::expert});
@@ -63,51 +69,58 @@ void describe(ParamVisitor& v, WholeMap::Params& p) {
 
 WholeMap::WholeMap(const Params& params, const StageSetup& setup)
     : params_(params),
+      in_space_(setup.motion != Motion::planar),
       epsilon_(setup.epsilon(params.contact_epsilon)),
-      threads_(setup.threads),
-      most_looks_(looks_on(*setup.map, static_cast<std::size_t>(params.max_looks))),
-      contact_(contact_index(*setup.map, contact_for(area_of(*setup.map)), epsilon_)),
-      field_(distance_field(*setup.map, field_cell, setup.threads)),
-      pyramid_(box_pyramid(*setup.map, params.cell.value_or(automatic_box_cell(*setup.map, epsilon_)),
-                           epsilon_, setup.threads)) {}
+      threads_(setup.threads) {
+  most_looks_ = looks_on(*setup.map, params.max_looks * (in_space_ ? more_looks_in_space : 1.0));
+  contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(*setup.map)), epsilon_);
+  if (!in_space_) field_ = distance_field(*setup.map, field_cell, setup.threads);
+  const double automatic = in_space_ ? epsilon_ / 2.0 : automatic_box_cell(*setup.map, epsilon_);
+  pyramid_ = box_pyramid(*setup.map, params.cell.value_or(automatic), epsilon_, setup.motion, setup.threads);
+}
 
 Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
   const auto points = static_cast<double>(local.points.size());
-  const Pose2 declared = seen_from_above(map_from_local);
-  const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
-  const Pose2 declared_robot = declared * local_from_robot;
-  const double contact = contact_->share(local.points, Transform(declared));
+  const Pose3 declared_robot = map_from_local * local.local_from_robot;
+  const double contact = contact_of(local.points, map_from_local);
   const double least = std::max(1.0, std::ceil((contact - params_.margin) * points));
-
   const RivalRule rule{.distance = params_.distance,
                        .rotation = radians(params_.rotation_deg),
                        .most_rivals = static_cast<std::size_t>(params_.max_rivals),
                        .most_looks = most_looks_};
-  const RivalSearchResult found = search_rivals(*pyramid_, local.points, local_from_robot, declared_robot,
-                                                static_cast<std::size_t>(least), rule, gate, threads_);
+  const RivalSearchResult found =
+      search_rivals(*pyramid_, local.points, local.local_from_robot, declared_robot,
+                    static_cast<std::size_t>(least), rule, gate, threads_);
   Verification result{.distance = rule.distance, .rotation = rule.rotation, .margin = params_.margin};
   result.points_tested = found.looks;
-  const auto is_rival = [&](const Pose2& pose) {
-    const Pose2 robot = pose * local_from_robot;
-    return gate.allows(Pose3(pose)) && (distance(robot, declared_robot) > rule.distance ||
-                                        rotation_between(robot, declared_robot) > rule.rotation);
+  const auto is_rival = [&](const Pose3& pose) {
+    const Pose3 robot = pose * local.local_from_robot;
+    return gate.allows(pose) && (distance(robot, declared_robot) > rule.distance ||
+                                 rotation_between(robot, declared_robot) > rule.rotation);
   };
-  std::vector<Candidate> rivals;
+  std::vector<Hypothesis> rivals;
   for (const RivalSearchResult::Rival& rival : found.rivals) {
-    const Pose2 refined = refined_pose(*field_, local.points, rival.map_from_local, {});
-    for (const Pose2& pose : {rival.map_from_local, refined}) {
-      if (is_rival(pose)) rivals.push_back({pose, contact_->share(local.points, Transform(pose))});
+    for (const Pose3& pose : {rival.map_from_local, refined(local.points, rival.map_from_local)}) {
+      if (is_rival(pose)) rivals.push_back(Hypothesis::by_contact(pose, contact_of(local.points, pose)));
     }
   }
-  for (const Candidate& rival :
-       distinct_candidates(std::move(rivals), local_from_robot, {}, rule.most_rivals))
-    result.rivals.push_back(Hypothesis::by_contact(rival.map_from_local, rival.quality));
+  result.rivals = distinct_candidates(std::move(rivals), local.local_from_robot, {}, rule.most_rivals);
   if (found.is_complete)
     result.certificate = {.contact = contact,
                           .at_most = static_cast<double>(found.at_most) / points,
                           .epsilon = epsilon_,
                           .delta = pyramid_->delta()};
   return result;
+}
+
+double WholeMap::contact_of(const Points& points, const Pose3& map_from_points) const {
+  return in_space_ ? contact_->share(points, map_from_points)
+                   : contact_->share(points, Transform(seen_from_above(map_from_points)));
+}
+
+Pose3 WholeMap::refined(const Points& points, const Pose3& map_from_points) const {
+  if (in_space_) return climbed_pose(*contact_, points, map_from_points, pyramid_->frame().cell / 2.0);
+  return refined_pose(*field_, points, seen_from_above(map_from_points), {});
 }
 
 }  // namespace glocal

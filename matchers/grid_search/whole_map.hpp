@@ -14,12 +14,15 @@ namespace glocal {
 
 /// Searches the whole map for poses with about as much contact as the declared one, by branch and bound on
 /// boxes of poses (rival_search.hpp). If none is found, no pose has it: the certificate holds for every pose
-/// of the plane, not for those of a grid alone.
+/// of the plane, not for those of a grid alone. Where the motion is upright, it holds for every x, y, z and
+/// yaw of the local map, which does not tilt: the robot's roll and pitch are those of the declared pose.
 ///
 /// The search counts contact (Omega, eq. 4) and nothing else. What the matcher thinks of a pose beyond that,
 /// it says of the rivals that the search brings (Matcher::take_up).
 class WholeMap final : public Verifier {
  public:
+  static constexpr Motions motions{.planar = true, .upright = true};
+
   struct Params {
     double margin = 0.05;
     double distance = 1.0;
@@ -37,12 +40,17 @@ class WholeMap final : public Verifier {
                                     const PoseGate& gate) override;
 
  private:
+  [[nodiscard]] double contact_of(const Points& points, const Pose3& map_from_points) const;
+  /// Near a pose that the search found, one that fits better.
+  [[nodiscard]] Pose3 refined(const Points& points, const Pose3& map_from_points) const;
+
   Params params_;
+  bool in_space_;
   double epsilon_;
   int threads_;
   std::size_t most_looks_;
   std::shared_ptr<const ContactIndex> contact_;
-  std::shared_ptr<const DistanceField> field_;  ///< To refine rivals on.
+  std::shared_ptr<const DistanceField> field_;  ///< To refine rivals on; in the plane only.
   std::shared_ptr<const BoxPyramid> pyramid_;
 };
 void describe(ParamVisitor& v, WholeMap::Params& p);

@@ -49,19 +49,18 @@ HWY_INLINE void add_eight(const Bits& bits, std::uint64_t* planes, std::size_t p
 }
 
 /// Adds the bits found by looks [begin, begin + n), n a multiple of eight.
-void add_looks_in_vectors(const std::uint64_t* level, std::size_t rows, const TileLooks& looks,
-                          std::size_t begin, std::size_t n, std::uint64_t* planes, std::size_t planes_size) {
+void add_looks_in_vectors(const std::uint64_t* bits, const TileLooks& looks, std::size_t begin, std::size_t n,
+                          std::uint64_t* planes, std::size_t planes_size) {
   const Words d;
   for (std::size_t row = 0; row < TileCounts::rows; row += hn::Lanes(d)) {
     for (std::size_t i = begin; i < begin + n; i += 8) {
-      const auto bits = [&](std::size_t k) HWY_ATTR {
-        const std::uint64_t* words = level + looks.words[i + k] + row;
+      const auto found = [&](std::size_t k) HWY_ATTR {
         const int shift = static_cast<int>(looks.shifts[i + k]);
-        const V low = hn::ShiftRightSame(hn::LoadU(d, words), shift);
-        const V high = hn::ShiftLeftSame(hn::ShiftLeft<1>(hn::LoadU(d, words + rows)), 63 - shift);
-        return hn::Or(low, high);
+        const V low = hn::ShiftRightSame(hn::LoadU(d, bits + looks.words[i + k] + row), shift);
+        const V next = hn::LoadU(d, bits + looks.next[i + k] + row);
+        return hn::Or(low, hn::ShiftLeftSame(hn::ShiftLeft<1>(next), 63 - shift));
       };
-      add_eight(bits, planes + row, planes_size);
+      add_eight(found, planes + row, planes_size);
     }
   }
 }
@@ -74,7 +73,8 @@ HWY_INLINE std::size_t find_looks(const TileLayout& tile, const std::int32_t* co
                                   TileLooks& looks) {
   const hn::CappedTag<std::int32_t, 16> d;
   const hn::Rebind<std::uint32_t, decltype(d)> words;
-  const auto low_bits = hn::Set(d, (1 << tile.level) - 1);
+  const BitsLayout& bits = tile.bits;
+  const auto low_bits = hn::Set(d, (1 << bits.level) - 1);
   const auto within = [&](auto value, std::int32_t last) HWY_ATTR {
     return hn::And(hn::Gt(value, hn::Set(d, -1)), hn::Lt(value, hn::Set(d, last + 1)));
   };
@@ -82,21 +82,28 @@ HWY_INLINE std::size_t find_looks(const TileLayout& tile, const std::int32_t* co
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
     const auto x = hn::Add(hn::LoadU(d, columns + i), hn::Set(d, tile.column));
     const auto y = hn::Add(hn::LoadU(d, rows + i), hn::Set(d, tile.row));
-    const auto first = hn::Add(hn::ShiftRightSame(x, tile.level), hn::Set(d, TileCounts::columns));
-    const auto line = hn::Add(hn::ShiftRightSame(y, tile.level), hn::Set(d, TileCounts::rows));
-    const auto phase = hn::Or(hn::ShiftLeftSame(hn::And(y, low_bits), tile.level), hn::And(x, low_bits));
-    const auto column = hn::Add(hn::Mul(phase, hn::Set(d, tile.words)), hn::ShiftRight<6>(first));
-    auto word = hn::Add(hn::Mul(column, hn::Set(d, tile.rows)), line);
-    auto meets = hn::And(within(first, tile.last_column), within(line, tile.last_row));
+    const auto first = hn::Add(hn::ShiftRightSame(x, bits.level), hn::Set(d, TileCounts::columns));
+    const auto line = hn::Add(hn::ShiftRightSame(y, bits.level), hn::Set(d, TileCounts::rows));
+    auto phase = hn::Or(hn::ShiftLeftSame(hn::And(y, low_bits), bits.level), hn::And(x, low_bits));
+    auto meets = hn::And(within(first, bits.last_column), within(line, bits.last_row));
     if constexpr (in_space) {
       const auto layer = hn::Add(hn::LoadU(d, layers + i), hn::Set(d, tile.layer));
-      word = hn::Add(word, hn::Mul(layer, hn::Set(d, tile.layer_words)));
+      phase = hn::Or(hn::ShiftLeftSame(layer, 2 * bits.level), phase);
       meets = hn::And(meets, within(layer, tile.last_layer));
     }
-    hn::CompressStore(hn::BitCast(words, hn::And(first, hn::Set(d, 63))), hn::RebindMask(words, meets), words,
+    if (hn::AllFalse(d, meets)) continue;
+    const auto column = hn::Add(hn::Mul(phase, hn::Set(d, bits.words)), hn::ShiftRight<6>(first));
+    const auto block = hn::Add(hn::Mul(column, hn::Set(d, bits.row_blocks)), hn::ShiftRight<5>(line));
+    // Of points that do not meet the tile, those of the first.
+    const auto place = hn::IfThenElseZero(meets, block);
+    const auto row = hn::BitCast(words, hn::And(line, hn::Set(d, BitsLayout::block_rows - 1)));
+    const auto word = hn::Add(hn::GatherIndex(words, tile.blocks, place), row);
+    const auto next = hn::Add(hn::GatherIndex(words, tile.blocks + bits.row_blocks, place), row);
+    const auto found = hn::RebindMask(words, meets);
+    hn::CompressStore(hn::BitCast(words, hn::And(first, hn::Set(d, 63))), found, words,
                       looks.shifts.data() + size);
-    size += hn::CompressStore(hn::BitCast(words, word), hn::RebindMask(words, meets), words,
-                              looks.words.data() + size);
+    hn::CompressStore(next, found, words, looks.next.data() + size);
+    size += hn::CompressStore(word, found, words, looks.words.data() + size);
   }
   return size;
 }
@@ -127,6 +134,7 @@ namespace {
 constexpr int word_bits = 64;
 /// Points and looks come in multiples of this: a vector of the widest instruction set.
 constexpr std::size_t lanes = 16;
+constexpr std::size_t block_words = BitsLayout::block_rows + TileCounts::rows;
 
 int low_bits(int value, int n) {
   return value & ((1 << n) - 1);
@@ -188,57 +196,91 @@ TileCounts::Mask TileCounts::at_least(std::size_t count) const {
   return nodes;
 }
 
-WindowBits::WindowBits(int level, const Windows& windows)
-    : level_(level), layers_before_(windows.layers_before), in_space_(windows.in_space) {
+LayerBits::LayerBits(int level, const Windows& windows, int layer) {
   const auto last_node = [&](std::size_t windows_along, int before) {
     return (static_cast<int>(windows_along) - before - 1) >> level;
   };
   // A tile may begin a whole tile before the first windows and end as far behind the last.
-  last_column_ = last_node(windows.width, windows.columns_before) + TileCounts::columns;
-  last_row_ = last_node(windows.height, windows.rows_before) + TileCounts::rows;
-  last_layer_ = static_cast<std::int32_t>(windows.depth) - 1;
-  words_ = last_column_ / word_bits + 2;
-  rows_ = last_row_ + TileCounts::rows;
-  layer_words_ = (words_ * rows_) << (2 * level);
-  bits_.assign(static_cast<std::size_t>(layer_words_) * windows.depth, 0);
-  const std::uint8_t* byte = windows.bytes.data();
-  for (std::size_t layer = 0; layer < windows.depth; ++layer) {
-    for (std::size_t line = 0; line < windows.height; ++line, byte += windows.width)
-      add_row(layer, static_cast<int>(line) - windows.rows_before, byte, windows);
+  const int last_column = last_node(windows.width, windows.columns_before) + TileCounts::columns;
+  const int last_row = last_node(windows.height, windows.rows_before) + TileCounts::rows;
+  layout_ = {.level = level,
+             .words = last_column / word_bits + 2,
+             .row_blocks = last_row / BitsLayout::block_rows + 1,
+             .last_column = last_column,
+             .last_row = last_row};
+  numbers_.resize(static_cast<std::size_t>(layout_.words * layout_.row_blocks) << (2 * level));
+  const int columns = static_cast<int>(windows.width) - windows.columns_before;
+  const int rows = static_cast<int>(windows.height) - windows.rows_before;
+  for (int row = -windows.rows_before; row < rows; ++row) {
+    const std::uint8_t* line = &windows.bytes[windows.index(0, row, layer)];
+    for (int column = -windows.columns_before; column < columns; ++column) {
+      if (line[column] != 0) set(column, row);
+    }
   }
 }
 
-void WindowBits::add_row(std::size_t layer, int row, const std::uint8_t* bytes, const Windows& windows) {
-  const auto word_of = [&](int column) {
-    const int phase = low_bits(row, level_) << level_ | low_bits(column, level_);
-    const int bit = (column >> level_) + TileCounts::columns;
-    const int column_of_words = phase * words_ + bit / word_bits;
-    return static_cast<std::size_t>(column_of_words) * static_cast<std::size_t>(rows_);
-  };
-  std::uint64_t* line = bits_.data() + layer * static_cast<std::size_t>(layer_words_) +
-                        static_cast<std::size_t>((row >> level_) + TileCounts::rows);
-  for (std::size_t i = 0; i < windows.width; ++i) {
-    if (bytes[i] == 0) continue;
-    const int column = static_cast<int>(i) - windows.columns_before;
-    line[word_of(column)] |= std::uint64_t{1} << static_cast<unsigned>(low_bits(column >> level_, 6));
+void LayerBits::set(int column, int row) {
+  const int level = layout_.level;
+  const int phase = low_bits(row, level) << level | low_bits(column, level);
+  const int bit = (column >> level) + TileCounts::columns;
+  const int line = (row >> level) + TileCounts::rows;
+  const int in_block = low_bits(line, std::bit_width(unsigned{BitsLayout::block_rows - 1}));
+  const auto place = static_cast<std::size_t>((phase * layout_.words + bit / word_bits) * layout_.row_blocks +
+                                              line / BitsLayout::block_rows);
+  const std::uint64_t mask = std::uint64_t{1} << static_cast<unsigned>(bit % word_bits);
+  block(place)[in_block] |= mask;
+  if (in_block < TileCounts::rows && line >= BitsLayout::block_rows)
+    block(place - 1)[BitsLayout::block_rows + in_block] |= mask;
+}
+
+std::uint64_t* LayerBits::block(std::size_t place) {
+  if (numbers_[place] == 0) {
+    words_.resize(words_.size() + block_words);
+    numbers_[place] = static_cast<std::uint32_t>(words_.size() / block_words);
+  }
+  return &words_[(numbers_[place] - 1) * block_words];
+}
+
+WindowBits::WindowBits(int level, const Windows& windows)
+    : WindowBits(
+          [&] {
+            std::vector<LayerBits> layers;
+            for (std::size_t i = 0; i < windows.depth; ++i)
+              layers.emplace_back(level, windows, static_cast<int>(i) - windows.layers_before);
+            return layers;
+          }(),
+          windows.layers_before, windows.in_space) {}
+
+WindowBits::WindowBits(std::vector<LayerBits> layers, int layers_before, bool in_space)
+    : layout_(layers.front().layout_),
+      layers_before_(layers_before),
+      last_layer_(static_cast<std::int32_t>(layers.size()) - 1),
+      in_space_(in_space) {
+  std::size_t words = block_words;
+  for (const LayerBits& layer : layers) words += layer.words_.size();
+  bits_.reserve(words);
+  bits_.resize(block_words);
+  blocks_.reserve(layers.size() * layers.front().numbers_.size());
+  for (LayerBits& layer : layers) {
+    const std::size_t before = bits_.size() - block_words;
+    for (const std::uint32_t number : layer.numbers_)
+      blocks_.push_back(number == 0 ? 0 : static_cast<std::uint32_t>(before + number * block_words));
+    bits_.insert(bits_.end(), layer.words_.begin(), layer.words_.end());
+    layer.words_ = {};  // or it would all be there twice
   }
 }
 
 std::size_t WindowBits::add(const CellPoints& points, int column, int row, int layer, std::size_t least,
                             std::size_t behind, TileCounts& counts) const {
   TileLooks& looks = counts.looks_;
-  looks.words.resize(points.columns_.size() + lanes);
-  looks.shifts.resize(points.columns_.size() + lanes);
-  const TileLayout tile{.level = level_,
+  for (std::vector<std::uint32_t>* each : {&looks.words, &looks.next, &looks.shifts})
+    each->resize(points.columns_.size() + lanes);
+  const TileLayout tile{.bits = layout_,
                         .column = column,
                         .row = row,
-                        .words = words_,
-                        .rows = rows_,
-                        .last_column = last_column_,
-                        .last_row = last_row_,
                         .layer = layer + layers_before_,
-                        .layer_words = layer_words_,
-                        .last_layer = last_layer_};
+                        .last_layer = last_layer_,
+                        .blocks = blocks_.data()};
   const std::int32_t* columns = points.columns_.data();
   const std::int32_t* rows = points.rows_.data();
   const std::size_t padded = points.columns_.size();
@@ -246,10 +288,9 @@ std::size_t WindowBits::add(const CellPoints& points, int column, int row, int l
                             ? HWY_DYNAMIC_DISPATCH(find_looks_in_space)(tile, columns, rows,
                                                                         points.layers_.data(), padded, looks)
                             : HWY_DYNAMIC_DISPATCH(find_looks_in_plane)(tile, columns, rows, padded, looks);
-  // The first words are empty: nothing is in contact so far before the first cell.
   constexpr std::ptrdiff_t group = 8;
-  std::fill_n(looks.words.begin() + static_cast<std::ptrdiff_t>(n), group, 0);
-  std::fill_n(looks.shifts.begin() + static_cast<std::ptrdiff_t>(n), group, 0);
+  for (std::vector<std::uint32_t>* each : {&looks.words, &looks.next, &looks.shifts})
+    std::fill_n(each->begin() + static_cast<std::ptrdiff_t>(n), group, 0);  // nothing in the first block
 
   counts.points_ += n;
   counts.planes_.resize(
@@ -259,8 +300,8 @@ std::size_t WindowBits::add(const CellPoints& points, int column, int row, int l
   while (looked_at < n && counts.largest() + (n - looked_at) + behind >= least) {
     const std::size_t now = std::min(stretch, n - looked_at);
     HWY_DYNAMIC_DISPATCH(add_looks_in_vectors)
-    (bits_.data(), static_cast<std::size_t>(rows_), looks, looked_at, (now + group - 1) / group * group,
-     counts.planes_.front().data(), counts.planes_.size());
+    (bits_.data(), looks, looked_at, (now + group - 1) / group * group, counts.planes_.front().data(),
+     counts.planes_.size());
     counts.find_largest();
     looked_at += now;
   }

@@ -29,18 +29,29 @@ class CellPoints {
 /// Where in a level's bits the points that meet a tile find those of its nodes.
 struct TileLooks {
   std::vector<std::uint32_t> words;   ///< The word of the tile's first row and column.
-  std::vector<std::uint32_t> shifts;  ///< The bit in it.
-  std::size_t size = 0;
+  std::vector<std::uint32_t> next;    ///< The one behind it in that row.
+  std::vector<std::uint32_t> shifts;  ///< The bit in the first.
+};
+
+/// How the bits of a layer of windows lie: for each place that a window can begin at within 2^level cells,
+/// columns of words, which are cut into blocks of rows.
+struct BitsLayout {
+  /// A block has the first rows of the next one, too, so that all rows of a tile lie in one block.
+  static constexpr int block_rows = 32;
+
+  int level;
+  std::int32_t words;       ///< In a row of windows that begin at the same place within 2^level cells.
+  std::int32_t row_blocks;  ///< In a column of such words.
+  std::int32_t last_column, last_row;  ///< Of tiles that meet windows in contact.
 };
 
 /// What finding them takes.
 struct TileLayout {
-  int level;
-  int column, row;           ///< Of the tile's first node, in cells.
-  std::int32_t words, rows;  ///< See WindowBits.
-  std::int32_t last_column, last_row;
-  int layer;  ///< What is added to a point's layer to have that of its windows.
-  std::int32_t layer_words, last_layer;
+  BitsLayout bits;
+  int column, row;  ///< Of the tile's first node, in cells.
+  int layer;        ///< What is added to a point's layer to have that of its windows.
+  std::int32_t last_layer;
+  const std::uint32_t* blocks;  ///< See WindowBits.
 };
 
 /// A count for each node of a tile of 64 x 8 neighbours. Bit k of the count of node (column, row) is bit
@@ -91,6 +102,24 @@ struct Windows {
   }
 };
 
+/// The bits of one layer of windows of one size. Blocks of them that are empty take no memory.
+class LayerBits {
+ public:
+  /// Of the given layer. Windows with a cell in contact begin at most 2^level - 1 cells before the first
+  /// column and row.
+  LayerBits(int level, const Windows& windows, int layer = 0);
+
+ private:
+  friend class WindowBits;
+  void set(int column, int row);
+  /// Where a block begins in `words_`, which takes it in if it was empty.
+  [[nodiscard]] std::uint64_t* block(std::size_t place);
+
+  BitsLayout layout_;
+  std::vector<std::uint32_t> numbers_;  ///< Of the blocks that are not empty, from 1 on; of others 0.
+  std::vector<std::uint64_t> words_;
+};
+
 /// The bits of windows of one size, sorted by where a window begins within 2^level cells, so that the nodes
 /// of a tile, 2^level cells apart, are neighbouring bits: one word for each row of a tile. Node (i, k) of a
 /// tile at (column, row) stands for the translations by [column + i * 2^level, column + (i + 1) * 2^level)
@@ -98,8 +127,10 @@ struct Windows {
 /// same translation by layers.
 class WindowBits {
  public:
-  /// Windows with a cell in contact begin at most 2^level - 1 cells before the first column and row.
+  /// Of all layers of windows.
   WindowBits(int level, const Windows& windows);
+  /// Of layers of windows of one size, at least one, of which so many lie below that of layer 0.
+  WindowBits(std::vector<LayerBits> layers, int layers_before, bool in_space);
 
   /// Adds to the count of each node of a tile how many points find a window in contact. Stops early where no
   /// node can reach `least`, though `behind` points that are to be added after these were all in contact; the
@@ -108,20 +139,21 @@ class WindowBits {
   std::size_t add(const CellPoints& points, int column, int row, int layer, std::size_t least,
                   std::size_t behind, TileCounts& counts) const;
 
-  [[nodiscard]] std::size_t memory_bytes() const { return bits_.size() * sizeof(std::uint64_t); }
+  [[nodiscard]] int layers_before() const { return layers_before_; }
+  [[nodiscard]] int layers() const { return last_layer_ + 1; }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return bits_.size() * sizeof(std::uint64_t) + blocks_.size() * sizeof(std::uint32_t);
+  }
 
  private:
-  void add_row(std::size_t layer, int row, const std::uint8_t* bytes, const Windows& windows);
-
-  int level_;
+  BitsLayout layout_;
   int layers_before_;
+  std::int32_t last_layer_;
   bool in_space_;
-  std::int32_t words_ = 0;  ///< In a row of windows that begin at the same place within 2^level cells.
-  std::int32_t rows_ = 0;   ///< Of such windows; words of one column of words are neighbours.
-  std::int32_t last_column_ = 0, last_row_ = 0;  ///< Of tiles that meet windows in contact.
-  std::int32_t last_layer_ = 0;
-  std::int32_t layer_words_ = 0;  ///< In a layer of windows.
-  std::vector<std::uint64_t> bits_;
+  /// Where the words of each block begin: of those of one column of words one after the other, then of the
+  /// columns, the places within 2^level cells, and the layers.
+  std::vector<std::uint32_t> blocks_;
+  std::vector<std::uint64_t> bits_;  ///< The first block is that of all that are empty.
 };
 
 }  // namespace glocal

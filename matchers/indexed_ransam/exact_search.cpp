@@ -45,7 +45,7 @@ void describe(ParamVisitor& v, ExactSearchRule& p) {
 ExactSearch::ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon,
                          int threads)
     : rule_(rule),
-      most_looks_(looks_on(map, static_cast<std::size_t>(rule.max_looks))),
+      most_looks_(looks_on(map, rule.max_looks)),
       threads_(threads),
       wait_(rule.after_steps) {
   if (rule.after_steps == 0) return;

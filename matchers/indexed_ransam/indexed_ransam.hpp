@@ -53,7 +53,7 @@ class IndexedRansam final : public Matcher {
     double field_cell = 0.05;
     BeamRule beams = {.weight = 1.0, .cap = 0.3};
     double unknown_weight = 0.1;
-    double fit_weight = 0.1;
+    double fit_weight = 0.05;
     double min_length = 0.5;
     double max_length = 6.0;
     double length_cell = 0.1;

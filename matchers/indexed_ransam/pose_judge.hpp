@@ -20,7 +20,7 @@ namespace glocal {
 struct JudgeRule {
   BeamRule beams = {.weight = 1.0, .cap = 0.3};
   double unknown_weight = 0.1;  ///< What the share of points in unknown cells adds to the score.
-  double fit_weight = 0.1;      ///< What points take from it that are as far from the map as contact allows.
+  double fit_weight = 0.05;     ///< What points take from it that are as far from the map as contact allows.
   std::size_t most = 10;        ///< Poses that are left.
   double contact_epsilon = 0.10;
   double kernel = 0.15;  ///< m; of the refinement that led to a pose.

@@ -141,42 +141,66 @@ double SpaceMatcher::free_space_violation(const Points& points, const Pose3& map
   return static_cast<double>(violating) / static_cast<double>(points.size());
 }
 
+std::vector<FoundPose> SpaceMatcher::find(const LocalMap& local, const PoseSearchParams& params,
+                                          std::span<const RigidMotion> known, Rng& rng,
+                                          SearchEffort& effort) const {
+  const Points sample = evenly_sampled(local.points);
+  const PointJudge judge_sample = [&](const RigidMotion& map_from_local) {
+    const Pose3 pose = map_from_local.pose();
+    effort.points_tested += sample.size();
+    return PointEvidence{contact_->share(sample, pose), free_space_violation(sample, pose)};
+  };
+  return PoseSearch(index_->map, index_->pairs, index_->pair_rule, params)
+      .find(*prepared_, rng, known, judge_sample, &effort);
+}
+
+Hypothesis SpaceMatcher::told(const FoundPose& pose, const LocalMap& local) const {
+  Hypothesis h;
+  h.map_from_local = pose.target_from_source.pose();
+  h.quality = contact_->share(local.points, h.map_from_local);
+  h.score = pose.score;
+  if (!map_->free_voxels().empty()) h.free_space_violation = pose.in_free_space;
+  return h;
+}
+
 MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest, double omega_max,
                                 Rng& rng) {
   MatchResult result;
   if (local.points.empty()) return result;
   if (local.epoch != epoch_) reset();
   epoch_ = local.epoch;
-  const PoseSearch search(index_->map, index_->pairs, index_->pair_rule, search_params());
-  const PreparedCloud source = prepared(local, latest.scan, rule_.voxel_size);
-  const Points sample = evenly_sampled(local.points);
-  const auto contact_of = [&](const Points& points, const Pose3& map_from_local) {
-    result.points_tested += points.size();
-    return contact_->share(points, map_from_local);
-  };
-  const PointJudge judge_sample = [&](const RigidMotion& map_from_local) {
-    const Pose3 pose = map_from_local.pose();
-    return PointEvidence{contact_of(sample, pose), free_space_violation(sample, pose)};
-  };
+  prepared_.emplace(prepared(local, latest.scan, rule_.voxel_size));
   SearchEffort effort;
-  std::vector<FoundPose> found = search.find(source, rng, carried_, judge_sample, &effort);
+  std::vector<FoundPose> found = find(local, search_params(), carried_, rng, effort);
   if (found.size() > answer_.best) found.resize(answer_.best);
-  result.proposals = effort.proposals;
-  result.points_tested += effort.points_tested;
 
   carried_.clear();
   for (const FoundPose& pose : found) {
     if (carried_.size() < answer_.carried) carried_.push_back(pose.target_from_source);
     if (pose.score < omega_max) continue;
-    const Pose3 map_from_local = pose.target_from_source.pose();
-    const double omega = contact_of(local.points, map_from_local);
-    Hypothesis& h = result.hypotheses.emplace_back();
-    h.map_from_local = map_from_local;
-    h.quality = omega;
-    h.score = pose.score;
-    if (!map_->free_voxels().empty()) h.free_space_violation = pose.in_free_space;
+    result.hypotheses.push_back(told(pose, local));
+    effort.points_tested += local.points.size();
   }
+  result.proposals = effort.proposals;
+  result.points_tested = effort.points_tested;
   return result;
+}
+
+/// Refines them, too: contact alone leaves them a little beside the surfaces that they fit.
+std::vector<Hypothesis> SpaceMatcher::take_up(std::vector<Hypothesis> found, const LocalMap& local) {
+  std::vector<RigidMotion> known;
+  for (const Hypothesis& h : found) known.emplace_back(h.map_from_local);
+  PoseSearchParams params = search_params();
+  params.rounds = 0;
+  SearchEffort effort;
+  Rng rng(local.points.size());
+  found.clear();
+  for (const FoundPose& pose : find(local, params, known, rng, effort)) {
+    carried_.push_back(pose.target_from_source);
+    Hypothesis& h = found.emplace_back(told(pose, local));
+    h.score = std::max(h.score, 0.0);
+  }
+  return found;
 }
 
 }  // namespace glocal

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,12 +54,19 @@ class SpaceMatcher final : public Matcher {
   void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
+  [[nodiscard]] std::vector<Hypothesis> take_up(std::vector<Hypothesis> found,
+                                                const LocalMap& local) override;
   void reset() override { carried_.clear(); }
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override;
   [[nodiscard]] std::optional<std::string> saved_index() const override;
 
  private:
   [[nodiscard]] PoseSearchParams search_params() const;
+  /// Poses of the prepared local map beside the known ones, judged; the points tested are added to.
+  [[nodiscard]] std::vector<FoundPose> find(const LocalMap& local, const PoseSearchParams& params,
+                                            std::span<const RigidMotion> known, Rng& rng,
+                                            SearchEffort& effort) const;
+  [[nodiscard]] Hypothesis told(const FoundPose& pose, const LocalMap& local) const;
   /// Share of points where the map is known to be free, away from its points.
   [[nodiscard]] double free_space_violation(const Points& points, const Pose3& map_from_points) const;
 
@@ -70,8 +78,9 @@ class SpaceMatcher final : public Matcher {
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const SpaceIndex> index_;
   PoseGate gate_;
-  std::vector<RigidMotion> carried_;  ///< map_from_local of the last step's best.
-  int epoch_ = 0;                     ///< Of the local map in whose frame they are.
+  std::optional<PreparedCloud> prepared_;  ///< The local map of the last match().
+  std::vector<RigidMotion> carried_;       ///< map_from_local of the last step's best.
+  int epoch_ = 0;                          ///< Of the local map in whose frame they are.
 };
 void describe(ParamVisitor& v, SpaceMatcher::Params& p);
 

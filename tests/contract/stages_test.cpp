@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "contract/strategies.hpp"
+#include "matchers/in_space/hall_map.hpp"
 
 namespace glocal::test::stages_test {
 namespace {
@@ -341,26 +342,52 @@ TEST_F(Stages, VerdictsAreWholeNeverUnknownPlaceAndForgottenByAReset) {
   });
 }
 
+/// What a verifier promises of its answer, and the same answer by two threads.
+void expect_as_promised(Verifier& verifier, Verifier& by_two_threads, const LocalMap& local,
+                        const Pose3& map_from_robot_declared) {
+  const Pose3 declared = map_from_robot_declared * inverse(local.local_from_robot);
+  const Verification found = verifier.verify(local, declared, {});
+  const Verification again = by_two_threads.verify(local, declared, {});
+  ASSERT_EQ(found.rivals.size(), again.rivals.size());
+  EXPECT_EQ(found.points_tested, again.points_tested);
+  EXPECT_GT(found.points_tested, 0U);
+  ASSERT_EQ(found.certificate.has_value(), again.certificate.has_value());
+  if (found.certificate) {
+    EXPECT_EQ(found.certificate->at_most, again.certificate->at_most);
+  }
+  double before = 1.0;
+  for (std::size_t i = 0; i < found.rivals.size(); ++i) {
+    const Hypothesis& rival = found.rivals[i];
+    EXPECT_EQ(rival.map_from_local, again.rivals[i].map_from_local);
+    EXPECT_LE(rival.score, before);
+    before = rival.score;
+    const Pose3 other = rival.map_from_local * local.local_from_robot;
+    EXPECT_TRUE(distance(other, map_from_robot_declared) > found.distance ||
+                rotation_between(other, map_from_robot_declared) > found.rotation);
+  }
+}
+
 TEST_F(Stages, RivalsFallAreNoneNearTheDeclaredPoseAndTheSameForAnyNumberOfThreads) {
   for_each(catalog_.verifiers, [&](const StrategyChoice& choice) {
-    const LocalMap local = local_map();
-    const Pose3 declared = Pose3(map_from_robot) * inverse(local.local_from_robot);
     const auto verifier = catalog_.verifiers.make(choice, setup());
     if (!verifier->verifies()) return;
-    const Verification found = verifier->verify(local, declared, {});
-    const Verification again = catalog_.verifiers.make(choice, setup(2))->verify(local, declared, {});
-    ASSERT_EQ(found.rivals.size(), again.rivals.size());
-    EXPECT_EQ(found.points_tested, again.points_tested);
-    const Pose3 robot = declared * local.local_from_robot;
-    double before = 1.0;
-    for (std::size_t i = 0; i < found.rivals.size(); ++i) {
-      const Hypothesis& rival = found.rivals[i];
-      EXPECT_EQ(rival.map_from_local, again.rivals[i].map_from_local);
-      EXPECT_LE(rival.score, before);
-      before = rival.score;
-      const Pose3 other = rival.map_from_local * local.local_from_robot;
-      EXPECT_TRUE(distance(other, robot) > found.distance || rotation_between(other, robot) > found.rotation);
-    }
+    expect_as_promised(*verifier, *catalog_.verifiers.make(choice, setup(2)), local_map(), map_from_robot);
+  });
+}
+
+TEST_F(Stages, SoItIsInSpace) {
+  const Pose3 declared({4.5, 5.0, 1.2}, turn_about_z(0.6) * exponential({0.03, -0.02, 0.0}));
+  LocalMap local;
+  local.local_from_robot = {{0.8, -0.5, 0.3}, exponential({0.03, -0.02, 0.0})};
+  local.points = moved(scan_of(hall(), declared), local.local_from_robot);
+  local.ends = {local.points.size()};
+  for_each(catalog_.verifiers, [&](const StrategyChoice& choice) {
+    if (!catalog_.verifiers.find(choice.name)->motions.upright) return;
+    const auto made = [&](int threads) {
+      return catalog_.verifiers.make(
+          choice, {.map = hall_map(), .threads = threads, .contact_epsilon = 0.2, .motion = Motion::upright});
+    };
+    if (made(1)->verifies()) expect_as_promised(*made(1), *made(2), local, declared);
   });
 }
 

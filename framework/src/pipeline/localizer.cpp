@@ -58,13 +58,16 @@ void add_prior(Verdict& verdict, const Prior& prior) {
                   verdict.kind == VerdictKind::unknown_place ? ": the robot is perhaps outside" : "");
 }
 
+/// Whether a hypothesis is no rival of a pose.
+bool is_near(const Hypothesis& h, const Pose3& map_from_robot, const Verification& v) {
+  return distance(h.map_from_robot, map_from_robot) <= v.distance &&
+         rotation_between(h.map_from_robot, map_from_robot) <= v.rotation;
+}
+
 /// The best score of a hypothesis that is no rival of this pose.
 double score_near(const Pose3& map_from_robot, const StepResult& result) {
-  const Verification& v = *result.verification;
   for (const Hypothesis& h : result.hypotheses) {
-    if (distance(h.map_from_robot, map_from_robot) <= v.distance &&
-        rotation_between(h.map_from_robot, map_from_robot) <= v.rotation)
-      return h.score;
+    if (is_near(h, map_from_robot, *result.verification)) return h.score;
   }
   return result.score_best;
 }
@@ -274,6 +277,9 @@ void Localizer::verify(StepResult& result, const LocalMap& local) {
     for (Hypothesis& h : verification->rivals) h.map_from_robot = h.map_from_local * local.local_from_robot;
     check_hypotheses(verification->rivals, 0.0, motion_);
   });
+  // A matcher that refines what it takes up may have come back to the declared pose.
+  std::erase_if(verification->rivals,
+                [&](const Hypothesis& h) { return is_near(h, declared, *verification); });
   verification->score = score_near(declared, result);
   judge_by(*verification, result.verdict);
   if (!verification->is_refuted) return;

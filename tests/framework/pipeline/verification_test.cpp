@@ -77,6 +77,18 @@ TEST_F(WithVerifier, ARivalWithinTheMarginRefutesIt) {
   EXPECT_EQ(script_->calls.back(), "refute");
 }
 
+TEST_F(WithVerifier, APoseThatTheMatcherHasBroughtBackToTheDeclaredOneIsNoRival) {
+  script_->verify = [](const Pose3&) {
+    Verification found{.distance = 1.0, .rotation = 0.5, .margin = 0.1};
+    found.rivals = {Hypothesis::by_contact(Pose2{0.9, 0.1, 0.1}, 0.95)};
+    found.certificate = {.contact = 0.9, .at_most = 0.95};
+    return found;
+  };
+  const StepResult result = step();
+  EXPECT_EQ(result.verdict.kind, VerdictKind::localized);
+  EXPECT_TRUE(result.verification->rivals.empty());
+}
+
 TEST_F(WithVerifier, AVerdictThatNeedsACertificateStandsOnlyIfNoPoseElsewhereHasMoreContact) {
   script_->judge = [this](const StepResult&) {
     Verdict verdict{VerdictKind::localized, declared_, {}, "sure"};

@@ -361,6 +361,34 @@ TEST(SpaceMatcher, TheBestPosesAreCarriedToTheNextStep) {
   EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
 }
 
+TEST(SpaceMatcher, PosesThatAVerifierHasFoundAreJudgedAsItsOwnAndCarriedOn) {
+  const Pose3 truth{{3.0, 2.5, 1.0}, turn_about_z(-2.0)};
+  const Seen seen(truth);
+  Rng rng(1);
+  const MatchResult own = matcher(Motion::upright).match(seen.local, seen.latest, 0.1, rng);
+  ASSERT_TRUE(is_near(own.hypotheses.at(0).map_from_local, truth));
+
+  // One that has looked elsewhere.
+  SpaceMatcher misled = matcher(Motion::upright, {.pairs = 100000, .rounds = 0});
+  misled.restrict_to(PoseGate({.region = {9.0, 6.0, 1.5}, .heading = {}}, {}));
+  (void)misled.match(seen.local, seen.latest, 0.0, rng);
+  misled.restrict_to({});
+  const Pose3 beside{truth.translation() + Vector3{0.08, -0.06, 0.05}, turn_about_z(0.03) * truth.rotation};
+  const Pose3 wrong{{6.0, 4.0, 1.0}, turn_about_z(0.5)};
+  const auto taken_up =
+      misled.take_up({Hypothesis::by_contact(beside, 0.9), Hypothesis::by_contact(wrong, 0.8)}, seen.local);
+  ASSERT_EQ(taken_up.size(), 2U);
+  EXPECT_TRUE(is_near(taken_up[0].map_from_local, truth));
+  EXPECT_NEAR(taken_up[0].score, own.hypotheses.front().score, 0.02);
+  EXPECT_NEAR(taken_up[0].quality, own.hypotheses.front().quality, 0.02);
+  EXPECT_GE(taken_up[1].score, 0.0);
+  EXPECT_LT(taken_up[1].score, taken_up[0].score - 0.2);
+  const MatchResult next = misled.match(seen.local, seen.latest, 0.1, rng);
+  EXPECT_EQ(next.proposals, 0U);
+  ASSERT_FALSE(next.hypotheses.empty());
+  EXPECT_TRUE(is_near(next.hypotheses.front().map_from_local, truth));
+}
+
 TEST(SpaceMatcher, AnswersAlikeAfterAReset) {
   const Seen seen({{7.0, 5.0, 1.3}, exponential({1.0, 0.2, 1.0})});
   SpaceMatcher same = matcher(Motion::free);

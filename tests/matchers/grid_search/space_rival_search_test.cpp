@@ -1,0 +1,345 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "glocal/rng.hpp"
+#include "matchers/grid_search/contact_climb.hpp"
+#include "matchers/grid_search/rival_search.hpp"
+#include "matchers/grid_search/whole_map.hpp"
+
+namespace glocal::space_rival_search_test {
+namespace {
+
+constexpr double cell = 0.1;
+constexpr double epsilon = 0.2;
+
+/// The robot leans, and is not where the local frame begins.
+const Pose3 local_from_robot({0.3, -0.2, 0.4}, turn_about_z(0.8) * exponential({0.03, 0.02, 0.0}));
+
+Point point(double x, double y, double z) {
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+void add(Points& points, const Points& more) {
+  for (std::size_t i = 0; i < more.size(); ++i) points.push_back(more[i]);
+}
+
+Points random_points(Rng& rng, std::size_t n, double width, double depth, double height) {
+  Points points;
+  for (std::size_t i = 0; i < n; ++i)
+    points.push_back(point(rng.uniform(0.0, width), rng.uniform(0.0, depth), rng.uniform(0.0, height)));
+  return points;
+}
+
+/// Floor and walls of a room of 4 m x 2.8 m x 2 m, with a wall into it, at the left or elsewhere: it looks
+/// different from every side. Its corner is at (x, y, z).
+Points room(double x, double y, double z, bool is_left, double apart = 0.2) {
+  Points points;
+  const auto each = [&](double length, auto use) {
+    for (int i = 0; i <= std::lround(length / apart); ++i) use(apart * i);
+  };
+  each(4.0, [&](double u) {
+    each(2.8, [&](double v) { points.push_back(point(x + u, y + v, z)); });
+    each(2.0, [&](double h) {
+      points.push_back(point(x + u, y, z + h));
+      points.push_back(point(x + u, y + 2.8, z + h));
+    });
+  });
+  each(2.0, [&](double h) {
+    each(2.8, [&](double v) {
+      points.push_back(point(x, y + v, z + h));
+      points.push_back(point(x + 4.0, y + v, z + h));
+    });
+    each(1.6, [&](double v) { points.push_back(point(x + (is_left ? 0.9 : 2.7), y + v, z + h)); });
+  });
+  return points;
+}
+
+/// Where the local frame lies in a room with this corner.
+Pose3 map_from_local_in(double x, double y, double z) {
+  return Pose3({x + 2.0, y + 1.5, z + 1.0}, turn_about_z(0.3));
+}
+
+/// What a robot in such a room sees: fewer points than the map has.
+Points seen_in_room() {
+  return moved(room(0.0, 0.0, 0.0, true, 0.4), inverse(map_from_local_in(0.0, 0.0, 0.0)));
+}
+
+/// Points nearer to one of the map than this, each looked at.
+std::size_t brute_count(const Points& map, const Points& points, const Pose3& map_from_local, double near) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3 p = map_from_local * Vector3{points.x[i], points.y[i], points.z[i]};
+    bool found = false;
+    for (std::size_t k = 0; k < map.size() && !found; ++k) {
+      const double dx = map.x[k] - p.x;
+      const double dy = map.y[k] - p.y;
+      const double dz = map.z[k] - p.z;
+      found = dx * dx + dy * dy + dz * dz <= near * near;
+    }
+    n += found ? 1 : 0;
+  }
+  return n;
+}
+
+BoxPyramid pyramid_of(const Points& map, int threads = 1) {
+  return {map, cell, epsilon, BoxPyramid::default_top_level, threads, Motion::upright};
+}
+
+/// An upright pose of a box, turned about the middle of the points.
+Pose3 somewhere_in_box(const PoseBoxes& boxes, const CellFrame& frame, int level, std::size_t rotation,
+                       double first_column, double first_row, int layer, Rng& rng) {
+  const Pose2 middle = boxes.pose(level, rotation, 0.0, 0.0);
+  const double angle = rng.uniform(-1.0, 1.0) * boxes.half_width(level);
+  const Pose2 at_zero{frame.min_x, frame.min_y, 0.0};
+  const Pose2 turned = at_zero * Pose2{0.0, 0.0, angle} * inverse(at_zero) * middle;
+  const int size = 1 << level;
+  const double height = PoseBoxes::layers_of_box(level, frame) * (layer + rng.uniform());
+  return {{turned.x + cell * (first_column + rng.uniform() * size),
+           turned.y + cell * (first_row + rng.uniform() * size), boxes.height(height)},
+          turn_about_z(turned.theta)};
+}
+
+TEST(BoxPyramidInSpace, BoundsEveryPoseOfABoxAndNotByMuchMore) {
+  Rng rng(1);
+  const Points map = random_points(rng, 300, 7.0, 5.0, 3.0);
+  const BoxPyramid pyramid = pyramid_of(map);
+  TileCounts counts;
+  std::size_t poses_with_contact = 0;
+  for (int i = 0; i < 120; ++i) {
+    const Points points = random_points(rng, 40, 3.0, 2.0, 2.0);
+    const PoseBoxes boxes(points, pyramid.frame(), pyramid.top_level());
+    const int level = static_cast<int>(rng.below(4));
+    const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(level)));
+    const int size = 1 << level;
+    const int column = static_cast<int>(rng.below(80)) - 40 * size;
+    const int row = static_cast<int>(rng.below(60)) - 4 * size;
+    const int high = PoseBoxes::layers_of_box(level, pyramid.frame());
+    const int layer = (static_cast<int>(rng.below(35)) - 15) / high;
+    pyramid.count(level, boxes.cells(level, rotation), column, row, layer, 0, counts);
+    for (int k = 0; k < 60; ++k) {
+      const int node_column = static_cast<int>(rng.below(TileCounts::columns));
+      const int node_row = static_cast<int>(rng.below(TileCounts::rows));
+      const double first_column = column + node_column * size;
+      const double first_row = row + node_row * size;
+      const Pose3 pose =
+          somewhere_in_box(boxes, pyramid.frame(), level, rotation, first_column, first_row, layer, rng);
+      const std::size_t contact = brute_count(map, points, pose, epsilon);
+      ASSERT_LE(contact, counts.at(node_column, node_row));
+      poses_with_contact += contact > 0 ? 1 : 0;
+      if (level > 0) continue;
+      const Pose2 above = boxes.pose(0, rotation, first_column + 0.5, first_row + 0.5);
+      const Pose3 centre({above.x, above.y, boxes.height(layer + 0.5)}, turn_about_z(above.theta));
+      ASSERT_LE(counts.at(node_column, node_row),
+                brute_count(map, points, centre, epsilon + pyramid.delta() + 1e-6));
+    }
+  }
+  EXPECT_GT(poses_with_contact, 1000U);  // or there was nothing to be bounded
+}
+
+TEST(BoxPyramidInSpace, ClustersBoundEveryPoseOfABox) {
+  Rng rng(5);
+  const Points map = room(0.0, 0.0, 0.0, true);
+  const BoxPyramid pyramid = pyramid_of(map);
+  const int top = pyramid.top_level();
+  const Points points = room(-2.0, -1.5, -1.0, true);
+  const PoseBoxes boxes(points, pyramid.frame(), top);
+  const std::size_t loose = boxes.points_without_cluster();
+  ASSERT_LT(loose, points.size() / 5);
+  TileCounts counts;
+  std::size_t bounded = 0;
+  for (int i = 0; i < 20; ++i) {
+    const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(top)));
+    const int column = static_cast<int>(rng.below(60)) - 250;
+    const int row = static_cast<int>(rng.below(40)) - 30;
+    const int layer = static_cast<int>(rng.below(9));
+    pyramid.count(top, boxes.cluster_cells(rotation), column, row, layer, 0, counts);
+    for (int k = 0; k < 10; ++k) {
+      const int node_column = static_cast<int>(rng.below(TileCounts::columns));
+      const int node_row = static_cast<int>(rng.below(TileCounts::rows));
+      const Pose3 pose =
+          somewhere_in_box(boxes, pyramid.frame(), top, rotation, column + node_column * (1 << top),
+                           row + node_row * (1 << top), layer, rng);
+      const std::size_t at_most = loose + PoseBoxes::cluster_size * counts.at(node_column, node_row);
+      ASSERT_LE(brute_count(map, points, pose, epsilon), at_most);
+      bounded += at_most < points.size() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(bounded, 100U);  // or the clusters say nothing
+}
+
+TEST(BoxPyramidInSpace, IsTheSameForAnyNumberOfThreads) {
+  const Points map = room(0.0, 0.0, 0.0, true);
+  const Points points = seen_in_room();
+  const BoxPyramid one = pyramid_of(map, 1);
+  const BoxPyramid two = pyramid_of(map, 2);
+  const PoseBoxes boxes(points, one.frame(), one.top_level());
+  TileCounts by_one, by_two;
+  EXPECT_EQ(one.memory_bytes(), two.memory_bytes());
+  for (int level = 0; level <= one.top_level(); ++level) {
+    one.count(level, boxes.cells(level, 3), -10, -10, 5, 0, by_one);
+    two.count(level, boxes.cells(level, 3), -10, -10, 5, 0, by_two);
+    for (int row = 0; row < TileCounts::rows; ++row) {
+      for (int column = 0; column < TileCounts::columns; ++column)
+        ASSERT_EQ(by_one.at(column, row), by_two.at(column, row));
+    }
+  }
+}
+
+/// A room, one that is another one beside it, and things in the air.
+Points two_rooms() {
+  Rng rng(3);
+  Points map = room(0.0, 0.0, 0.0, true);
+  add(map, room(6.0, 1.0, 0.7, false));
+  add(map, random_points(rng, 60, 10.0, 4.0, 2.5));
+  return map;
+}
+
+TEST(RivalSearchInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
+  const Points map = two_rooms();
+  const Points points = seen_in_room();
+  const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0) * local_from_robot;
+  const auto found =
+      search_rivals(pyramid_of(map), points, local_from_robot, declared, points.size() * 7 / 10, {}, {}, 1);
+  ASSERT_TRUE(found.is_complete);
+  ASSERT_LT(found.at_most, points.size());
+  Rng rng(4);
+  std::size_t best = 0;
+  const auto look_at = [&](const Pose3& map_from_local) {
+    const Pose3 robot = map_from_local * local_from_robot;
+    if (distance(robot, declared) <= 1.0 && rotation_between(robot, declared) <= radians(30.0)) return;
+    const std::size_t contact = brute_count(map, points, map_from_local, epsilon);
+    best = std::max(best, contact);
+    ASSERT_LE(contact, found.at_most);
+  };
+  const auto turn = [&](double most) { return turn_about_z(rng.uniform(-most, most)); };
+  const auto up_to = [&](double most) { return rng.uniform(-most, most); };
+  for (int i = 0; i < 1500; ++i)
+    look_at(
+        {{rng.uniform(-1.0, 11.0), rng.uniform(-1.0, 5.0), rng.uniform(-1.0, 3.0)}, turn(std::numbers::pi)});
+  // Close to the best ones, and to the edge of the neighbourhood, above and below it, too.
+  ASSERT_FALSE(found.rivals.empty());
+  for (int i = 0; i < 600; ++i) {
+    const Pose3& near =
+        found.rivals[rng.below(static_cast<std::uint32_t>(found.rivals.size()))].map_from_local;
+    look_at({near.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}, turn(0.05) * near.rotation});
+    const Vector3 way{up_to(1.0), up_to(1.0), up_to(1.0)};
+    const Pose3 robot({declared.translation() + (rng.uniform(1.0, 1.1) / norm(way)) * way},
+                      turn(0.05) * declared.rotation);
+    look_at(robot * inverse(local_from_robot));
+    const Pose3 turned({declared.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}},
+                       turn_about_z(radians(rng.uniform(30.0, 34.0))) * declared.rotation);
+    look_at(turned * inverse(local_from_robot));
+  }
+  // Nor is what it says far from the truth.
+  EXPECT_GT(best, found.at_most * 2 / 3);
+}
+
+TEST(RivalSearchInSpace, WhatIsNearTheDeclaredPoseIsNoRivalButWhatIsAboveItIs) {
+  // What is seen of one floor is seen of the other.
+  Points map = room(0.0, 0.0, 0.0, true);
+  const BoxPyramid one_floor = pyramid_of(map);
+  add(map, room(0.0, 0.0, 2.6, true));
+  const Points points = seen_in_room();
+  const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0) * local_from_robot;
+  const std::size_t least = points.size() * 98 / 100;
+  const auto search = [&](const BoxPyramid& pyramid) {
+    return search_rivals(pyramid, points, local_from_robot, declared, least, {}, {}, 1);
+  };
+  EXPECT_TRUE(search(one_floor).rivals.empty());
+  EXPECT_EQ(search(one_floor).at_most, least - 1);
+  const auto found = search(pyramid_of(map));
+  ASSERT_FALSE(found.rivals.empty());
+  EXPECT_NEAR(found.rivals.front().map_from_local.z, map_from_local_in(0.0, 0.0, 2.6).z, 0.2);
+  EXPECT_EQ(found.at_most, points.size());
+}
+
+TEST(RivalSearchInSpace, LooksOnlyWhereAPriorAllows) {
+  Points map = room(0.0, 0.0, 0.0, true);
+  add(map, room(7.0, 2.0, 1.0, true));
+  const BoxPyramid pyramid = pyramid_of(map);
+  const Points points = seen_in_room();
+  const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0);
+  const auto rivals = [&](double x, double y) {
+    const Prior prior{.region = {.x = x, .y = y, .radius = 3.0}, .heading = {}};
+    return search_rivals(pyramid, points, {}, declared, points.size() * 98 / 100, {},
+                         PoseGate(prior, Pose3{}), 1)
+        .rivals;
+  };
+  EXPECT_TRUE(rivals(2.0, 1.5).empty());
+  EXPECT_FALSE(rivals(9.0, 3.5).empty());
+}
+
+TEST(RivalSearchInSpace, AnswersAlikeForAnyNumberOfThreads) {
+  const BoxPyramid pyramid = pyramid_of(two_rooms());
+  const Points points = seen_in_room();
+  const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0);
+  const auto search = [&](int threads) {
+    return search_rivals(pyramid, points, {}, declared, points.size() * 7 / 10, {}, {}, threads);
+  };
+  const auto one = search(1);
+  const auto two = search(2);
+  EXPECT_EQ(one.looks, two.looks);
+  EXPECT_EQ(one.at_most, two.at_most);
+  ASSERT_FALSE(one.rivals.empty());
+  ASSERT_EQ(one.rivals.size(), two.rivals.size());
+  for (std::size_t i = 0; i < one.rivals.size(); ++i)
+    EXPECT_EQ(one.rivals[i].map_from_local, two.rivals[i].map_from_local);
+}
+
+TEST(ContactClimb, FindsTheSummitNearby) {
+  const Points map = room(0.0, 0.0, 0.0, true);
+  const BitsetContact contact(map, epsilon);
+  const Points points = seen_in_room();
+  const Pose3 summit = map_from_local_in(0.0, 0.0, 0.0);
+  const Pose3 beside(summit.translation() + Vector3{0.25, -0.2, 0.25}, turn_about_z(0.06) * summit.rotation);
+  ASSERT_LT(contact.share(points, beside), 0.8);
+  const Pose3 found = climbed_pose(contact, points, beside, 0.1);
+  EXPECT_GT(contact.share(points, found), 0.99);
+  EXPECT_LT(distance(found, summit), epsilon);
+  EXPECT_EQ(found.tilt(), 0.0);
+}
+
+Verification verification(const Points& map, const Pose3& map_from_local) {
+  MapData data;
+  data.points = map;
+  WholeMap verifier({.contact_epsilon = epsilon},
+                    {.map = std::make_shared<const GlobalMap>(std::move(data)), .motion = Motion::upright});
+  LocalMap local;
+  local.points = seen_in_room();
+  local.ends = {local.points.size()};
+  local.local_from_robot = local_from_robot;
+  return verifier.verify(local, map_from_local, {});
+}
+
+TEST(WholeMapInSpace, CertifiesAPoseWithoutEqual) {
+  const auto found = verification(two_rooms(), map_from_local_in(0.0, 0.0, 0.0));
+  ASSERT_TRUE(found.certificate);
+  EXPECT_EQ(found.certificate->contact, 1.0);
+  EXPECT_LT(found.certificate->at_most, 1.0);
+  EXPECT_GE(found.certificate->at_most, 0.9);
+  EXPECT_DOUBLE_EQ(found.certificate->epsilon, epsilon);
+  EXPECT_NEAR(found.certificate->delta, 0.1 * std::sqrt(4.0 + 4.0 + 2.25), 1e-9);
+  for (const Hypothesis& rival : found.rivals) EXPECT_LT(rival.quality, 1.0);
+}
+
+TEST(WholeMapInSpace, BringsTheRoomThatLooksAlike) {
+  Points map = room(0.0, 0.0, 0.0, true);
+  const Pose3 other_from_room({8.13, 2.07, 1.45}, turn_about_z(2.0));
+  add(map, moved(room(0.0, 0.0, 0.0, true), other_from_room));
+  const auto found = verification(map, map_from_local_in(0.0, 0.0, 0.0));
+  ASSERT_TRUE(found.certificate);
+  EXPECT_EQ(found.certificate->at_most, 1.0);
+  ASSERT_FALSE(found.rivals.empty());
+  const Hypothesis& rival = found.rivals.front();
+  const Pose3 truth = other_from_room * map_from_local_in(0.0, 0.0, 0.0);
+  EXPECT_LT(distance(rival.map_from_local, truth), epsilon);
+  EXPECT_LT(rotation_between(rival.map_from_local, truth), radians(5.0));
+  EXPECT_GT(rival.quality, 0.98);
+  EXPECT_EQ(rival.score, rival.quality);
+}
+
+}  // namespace
+}  // namespace glocal::space_rival_search_test
