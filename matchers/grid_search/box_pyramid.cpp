@@ -40,28 +40,34 @@ Windows widened(const Windows& cells, int behind, int ahead) {
                 .width = static_cast<std::size_t>(columns + behind + before),
                 .height = cells.height};
   for (int row = 0; row < rows; ++row) {
+    const std::uint8_t* cell = &cells.bytes[cells.index(0, row, 0)];
+    if (std::find(cell, cell + columns, 1) == cell + columns) continue;
+    std::uint8_t* window = &lines.at(0, row, 0);
     int last = never;
     slide(
         columns, behind, ahead,
         [&](int column) {
-          if (cells.at(column, row, 0) != 0) last = column;
+          if (cell[column] != 0) last = column;
         },
-        [&](int column) { lines.at(column, row, 0) = last >= column - behind ? 1 : 0; });
+        [&](int column) { window[column] = last >= column - behind ? 1 : 0; });
   }
   Windows windows{.columns_before = before,
                   .rows_before = before,
                   .width = lines.width,
                   .height = static_cast<std::size_t>(rows + behind + before)};
-  std::vector<int> last(lines.width, never);
+  const std::size_t width = lines.width;
+  std::vector<int> last_of_columns(width, never);
+  int* last = last_of_columns.data();
   slide(
       rows, behind, ahead,
       [&](int row) {
         const std::uint8_t* line = &lines.at(-before, row, 0);
-        for (std::size_t i = 0; i < last.size(); ++i) last[i] = line[i] != 0 ? row : last[i];
+        for (std::size_t i = 0; i < width; ++i) last[i] = line[i] != 0 ? row : last[i];
       },
       [&](int row) {
         std::uint8_t* line = &windows.at(-before, row, 0);
-        for (std::size_t i = 0; i < last.size(); ++i) line[i] = last[i] >= row - behind ? 1 : 0;
+        const int first = row - behind;
+        for (std::size_t i = 0; i < width; ++i) line[i] = last[i] >= first ? 1 : 0;
       });
   return windows;
 }
@@ -165,8 +171,10 @@ class WindowBuilder {
                 .height = static_cast<std::size_t>(frame_.rows),
                 .in_space = frame_.in_space};
     for (int layer = std::max(0, begin); layer < std::min(end, frame_.layers); ++layer) {
-      const std::vector<std::uint8_t>& more = cells_[static_cast<std::size_t>(layer - first_)].bytes;
-      for (std::size_t i = 0; i < more.size(); ++i) all.bytes[i] |= more[i];
+      const std::uint8_t* more = cells_[static_cast<std::size_t>(layer - first_)].bytes.data();
+      std::uint8_t* bytes = all.bytes.data();
+      const std::size_t size = all.bytes.size();
+      for (std::size_t i = 0; i < size; ++i) bytes[i] |= more[i];
     }
     return all;
   }

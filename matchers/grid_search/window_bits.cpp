@@ -213,9 +213,10 @@ LayerBits::LayerBits(int level, const Windows& windows, int layer) {
   const int rows = static_cast<int>(windows.height) - windows.rows_before;
   for (int row = -windows.rows_before; row < rows; ++row) {
     const std::uint8_t* line = &windows.bytes[windows.index(0, row, layer)];
-    for (int column = -windows.columns_before; column < columns; ++column) {
-      if (line[column] != 0) set(column, row);
-    }
+    const std::uint8_t* end = line + columns;
+    for (const std::uint8_t* next = std::find(line - windows.columns_before, end, 1); next != end;
+         next = std::find(next + 1, end, 1))
+      set(static_cast<int>(next - line), row);
   }
 }
 

@@ -78,7 +78,8 @@ using ContactIndexes = Registry<ContactIndex, ContactSetup>;
 /// cells are as large as epsilon / 2): constant time. A planar map (all points of one height) has a single
 /// layer, which takes in everything within epsilon of that height. A voxel is in contact if its centre is
 /// within epsilon of a point, so an answer can differ from the exact one only where the distance is within
-/// half a voxel's diagonal of epsilon (0.18 epsilon in the plane).
+/// half a voxel's diagonal of epsilon (0.18 epsilon in the plane). In space voxels come in bricks of 32 x 8 x
+/// 8, and empty bricks take no memory.
 class BitsetContact final : public ContactIndex {
  public:
   struct Params {};
@@ -96,19 +97,26 @@ class BitsetContact final : public ContactIndex {
   void count_at_most(const Points& points, std::size_t n, const MotionBatch& motions, std::size_t size,
                      const BatchColumn& begins, BatchColumn& at_most) const override;
   [[nodiscard]] std::size_t memory_bytes() const override {
-    return (words_.size() + coarse_words_.size()) * sizeof(std::uint32_t);
+    return (words_.size() + bricks_.size() + coarse_words_.size()) * sizeof(std::uint32_t);
   }
 
  private:
   void dilate(const Point& p, double epsilon);
   void set(const std::array<std::size_t, 3>& voxel);
+  std::size_t place_bricks(const Points& points, double epsilon);
+  [[nodiscard]] std::size_t word_of(const std::array<std::size_t, 3>& voxel) const;
   [[nodiscard]] VoxelGrid grid() const;
 
   Point min_;                            ///< Outer corner of voxel (0, 0, 0).
   float scale_ = 0.0F, scale_z_ = 0.0F;  ///< Voxels per metre.
   std::size_t columns_ = 0, rows_ = 0, layers_ = 0;
+  std::size_t brick_rows_ = 0;  ///< 0 where there are no bricks.
   std::size_t coarse_rows_ = 0;
-  std::vector<std::uint32_t> words_;         ///< 32 voxels of a row in each; rows, then layers.
+  /// 32 voxels of a row in each; rows, then layers, of the whole grid in the plane and of each brick in
+  /// space.
+  std::vector<std::uint32_t> words_;
+  /// In space, where each brick's words begin; rows, then layers. The first words are those of empty bricks.
+  std::vector<std::uint32_t> bricks_;
   std::vector<std::uint32_t> coarse_words_;  ///< The same for 4 x 4 x 4 voxels joined: set if one of them is.
 };
 

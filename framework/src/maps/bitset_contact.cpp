@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "glocal/contact.hpp"
 #include "glocal/error.hpp"
@@ -47,15 +48,18 @@ BitsetContact::BitsetContact(const Points& points, double epsilon) {
   const double columns = std::ceil(voxels(x) / columns_step) * columns_step;
   const double rows = voxels(y);
   const double layers = planar ? 1.0 : voxels(z);
-  const double bytes = columns * rows * layers / 8.0;
-  if (!(bytes <= largest_bytes)) {
+  const auto check_size = [&](double bytes) {
+    if (bytes <= largest_bytes) return;
     throw ConfigError(
         {{"", 0, 0,
           fmt::format("a contact grid over {:.0f} m x {:.0f} m x {:.0f} m with contact_epsilon {} m would "
                       "need {:.1f} GiB, at most 1 GiB is allowed; use a larger contact_epsilon or a "
                       "smaller map",
                       x.high - x.low, y.high - y.low, z.high - z.low, epsilon, bytes / largest_bytes)}});
-  }
+  };
+  const auto bricks = [](double lines) { return std::ceil(lines / (1U << brick_shift)); };
+  const double words = columns / voxels_per_word * (planar ? rows : bricks(rows) * bricks(layers));
+  check_size(words * sizeof(std::uint32_t));
   min_ = {static_cast<float>(x.low - margin), static_cast<float>(y.low - margin),
           static_cast<float>(planar ? z.low - epsilon : z.low - margin)};
   scale_ = static_cast<float>(1.0 / voxel);
@@ -63,20 +67,57 @@ BitsetContact::BitsetContact(const Points& points, double epsilon) {
   columns_ = static_cast<std::size_t>(columns);
   rows_ = static_cast<std::size_t>(rows);
   layers_ = static_cast<std::size_t>(layers);
-  words_.assign(columns_ * rows_ * layers_ / voxels_per_word, 0);
+  if (planar) {
+    words_.assign(static_cast<std::size_t>(words), 0);
+  } else {
+    brick_rows_ = static_cast<std::size_t>(bricks(rows));
+    bricks_.assign(static_cast<std::size_t>(words), 0);
+    const std::size_t bricks_and_empty_one = place_bricks(points, epsilon) + 1;
+    check_size(static_cast<double>(bricks_and_empty_one * brick_words * sizeof(std::uint32_t)));
+    words_.assign(bricks_and_empty_one * brick_words, 0);
+  }
   const auto joined = [](std::size_t n) { return ((n - 1) >> VoxelGrid::coarse_shift) + 1; };
   coarse_rows_ = joined(rows_);
   coarse_words_.assign(joined(columns_) * coarse_rows_ * joined(layers_) / voxels_per_word, 0);
   for (std::size_t i = 0; i < points.size(); ++i) dilate(points[i], epsilon);
 }
 
-VoxelGrid BitsetContact::grid() const {
-  const auto bits = [](const std::vector<std::uint32_t>& words, std::size_t columns, std::size_t rows) {
-    const auto row_words = static_cast<std::uint32_t>(columns / voxels_per_word);
-    return VoxelBits{words.data(), row_words, row_words * static_cast<std::uint32_t>(rows)};
+/// In the order in which the points come to them, so that neighbours are near each other. Returns how many
+/// they are.
+std::size_t BitsetContact::place_bricks(const Points& points, double epsilon) {
+  const double reach = epsilon * scale_;
+  std::size_t placed = 0;
+  const auto range = [&](float at, float least, std::size_t voxels) {
+    const double centre = (static_cast<double>(at) - least) * scale_;
+    return std::pair(static_cast<std::size_t>(centre - reach) / voxels,
+                     static_cast<std::size_t>(centre + reach) / voxels);
   };
-  return {.fine = bits(words_, columns_, rows_),
-          .coarse = bits(coarse_words_, columns_ >> VoxelGrid::coarse_shift, coarse_rows_),
+  constexpr std::size_t side = std::size_t{1} << brick_shift;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto [left, right] = range(points.x[i], min_.x, voxels_per_word);
+    const auto [front, back] = range(points.y[i], min_.y, side);
+    const auto [low, high] = range(points.z[i], min_.z, side);
+    for (std::size_t layer = low; layer <= high; ++layer) {
+      for (std::size_t row = front; row <= back; ++row) {
+        for (std::size_t column = left; column <= right; ++column) {
+          std::uint32_t& brick = bricks_[(layer * brick_rows_ + row) * (columns_ / voxels_per_word) + column];
+          if (brick == 0) brick = static_cast<std::uint32_t>(++placed * brick_words);
+        }
+      }
+    }
+  }
+  return placed;
+}
+
+VoxelGrid BitsetContact::grid() const {
+  const auto bits = [](const std::vector<std::uint32_t>& words, std::size_t columns, std::size_t rows,
+                       const std::vector<std::uint32_t>& bricks) {
+    const auto row_words = static_cast<std::uint32_t>(columns / voxels_per_word);
+    return VoxelBits{words.data(), row_words, row_words * static_cast<std::uint32_t>(rows),
+                     bricks.empty() ? nullptr : bricks.data()};
+  };
+  return {.fine = bits(words_, columns_, bricks_.empty() ? rows_ : brick_rows_, bricks_),
+          .coarse = bits(coarse_words_, columns_ >> VoxelGrid::coarse_shift, coarse_rows_, {}),
           .columns = static_cast<float>(columns_),
           .rows = static_cast<float>(rows_),
           .layers = static_cast<float>(layers_),
@@ -133,14 +174,22 @@ void BitsetContact::dilate(const Point& p, double epsilon) {
 }
 
 void BitsetContact::set(const std::array<std::size_t, 3>& voxel) {
-  const auto set_bit = [](std::vector<std::uint32_t>& words, std::size_t bit) {
-    words[bit / voxels_per_word] |= std::uint32_t{1} << (bit % voxels_per_word);
-  };
   const auto [column, row, layer] = voxel;
-  set_bit(words_, (layer * rows_ + row) * columns_ + column);
+  words_[word_of(voxel)] |= std::uint32_t{1} << (column % voxels_per_word);
   constexpr unsigned shift = VoxelGrid::coarse_shift;
-  set_bit(coarse_words_,
-          ((layer >> shift) * coarse_rows_ + (row >> shift)) * (columns_ >> shift) + (column >> shift));
+  const std::size_t coarse =
+      ((layer >> shift) * coarse_rows_ + (row >> shift)) * (columns_ >> shift) + (column >> shift);
+  coarse_words_[coarse / voxels_per_word] |= std::uint32_t{1} << (coarse % voxels_per_word);
+}
+
+std::size_t BitsetContact::word_of(const std::array<std::size_t, 3>& voxel) const {
+  const auto [column, row, layer] = voxel;
+  const std::size_t row_words = columns_ / voxels_per_word;
+  if (bricks_.empty()) return row * row_words + column / voxels_per_word;
+  constexpr std::size_t within = (std::size_t{1} << brick_shift) - 1;
+  const std::size_t brick =
+      ((layer >> brick_shift) * brick_rows_ + (row >> brick_shift)) * row_words + column / voxels_per_word;
+  return bricks_[brick] + ((layer & within) << brick_shift) + (row & within);
 }
 
 }  // namespace glocal

@@ -65,15 +65,26 @@ HWY_INLINE Voxels<D> voxels_of(D d, const VoxelGrid& grid, const Lookup<D>& look
   return {inside, whole(column), whole(row), whole(layer)};
 }
 
-/// Which of them have their bit set, in voxels joined by 2^shift along each axis.
-template <int shift, class D>
+/// Where bits are and how they lie.
+enum class Bits { coarse, fine, in_bricks };
+
+/// Which of them have their bit set.
+template <Bits kind, class D>
 HWY_INLINE hn::Mask<D> are_set(D d, const VoxelBits& bits, const Voxels<D>& voxels) {
+  constexpr int joined = kind == Bits::coarse ? VoxelGrid::coarse_shift : 0;
+  constexpr int apart = kind == Bits::in_bricks ? brick_shift : joined;
   const hn::Rebind<std::int32_t, D> ints;
   const hn::Rebind<std::uint32_t, D> words;
-  const auto column = hn::ShiftRight<shift>(voxels.column);
-  const auto row = hn::Mul(hn::ShiftRight<shift>(voxels.row), hn::Set(words, bits.row_words));
-  const auto layer = hn::Mul(hn::ShiftRight<shift>(voxels.layer), hn::Set(words, bits.layer_words));
-  const auto word = hn::Add(hn::Add(hn::ShiftRight<5>(column), row), layer);
+  const auto column = hn::ShiftRight<joined>(voxels.column);
+  const auto row = hn::Mul(hn::ShiftRight<apart>(voxels.row), hn::Set(words, bits.row_words));
+  const auto layer = hn::Mul(hn::ShiftRight<apart>(voxels.layer), hn::Set(words, bits.layer_words));
+  auto word = hn::Add(hn::Add(hn::ShiftRight<5>(column), row), layer);
+  if constexpr (kind == Bits::in_bricks) {
+    const auto within = hn::Set(words, (1U << brick_shift) - 1);
+    word = hn::GatherIndex(words, bits.bricks, hn::BitCast(ints, word));
+    word = hn::Add(word, hn::And(voxels.row, within));
+    word = hn::Add(word, hn::ShiftLeft<apart>(hn::And(voxels.layer, within)));
+  }
   const auto found = hn::GatherIndex(words, bits.words, hn::BitCast(ints, word));
   const auto bit = hn::Shl(hn::Set(words, 1U), hn::And(column, hn::Set(words, 31U)));
   return hn::And(voxels.inside, hn::RebindMask(d, hn::TestBit(found, bit)));
@@ -84,13 +95,13 @@ HWY_INLINE hn::Mask<D> are_set(D d, const VoxelBits& bits, const Voxels<D>& voxe
 // Eight lanes at most: a batch of eq. 5 is eight points.
 using Batch = hn::CappedTag<float, 8>;
 
-template <int shift>
-HWY_INLINE std::size_t count_set(const VoxelGrid& grid, const VoxelBits& bits, const Lookup<Batch>& lookup,
-                                 const PointRun& points, std::size_t i) {
+template <Bits kind>
+HWY_INLINE std::size_t count_set(const VoxelGrid& grid, const Lookup<Batch>& lookup, const PointRun& points,
+                                 std::size_t i) {
   const Batch d;
   const auto voxels = voxels_of(d, grid, lookup, hn::LoadU(d, points.x + i), hn::LoadU(d, points.y + i),
                                 hn::LoadU(d, points.z + i));
-  return hn::CountTrue(d, are_set<shift>(d, bits, voxels));
+  return hn::CountTrue(d, are_set<kind>(d, grid.fine, voxels));
 }
 
 /// The last points of a run, fewer than a vector has lanes; what is not a number is in contact with nothing.
@@ -106,20 +117,21 @@ struct Rest {
   std::array<std::array<float, 8>, 3> xyz;
 };
 
-template <int shift>
-HWY_INLINE std::size_t count_batch(const VoxelGrid& grid, const VoxelBits& bits, const Lookup<Batch>& lookup,
-                                   const PointRun& points, std::size_t i, std::size_t end) {
+template <Bits kind>
+HWY_INLINE std::size_t count_batch(const VoxelGrid& grid, const Lookup<Batch>& lookup, const PointRun& points,
+                                   std::size_t i, std::size_t end) {
   const std::size_t lanes = hn::Lanes(Batch());
   std::size_t in_contact = 0;
-  for (; i + lanes <= end; i += lanes) in_contact += count_set<shift>(grid, bits, lookup, points, i);
+  for (; i + lanes <= end; i += lanes) in_contact += count_set<kind>(grid, lookup, points, i);
   if (i == end) return in_contact;
   const Rest rest(points, i, end);
-  return in_contact + count_set<shift>(grid, bits, lookup, rest.run(), 0);
+  return in_contact + count_set<kind>(grid, lookup, rest.run(), 0);
 }
 
-ContactIndex::Count count_contacts_in_vectors(const VoxelGrid& grid, const Transform& map_from_points,
-                                              const PointRun& points, std::size_t batch,
-                                              std::span<const std::uint32_t> least) {
+template <Bits kind>
+HWY_INLINE ContactIndex::Count count_while(const VoxelGrid& grid, const Transform& map_from_points,
+                                           const PointRun& points, std::size_t batch,
+                                           std::span<const std::uint32_t> least) {
   const Batch d;
   const Transform& t = map_from_points;
   const Lookup<Batch> lookup(d, grid, hn::Set(d, t.cosine()), hn::Set(d, t.sine()), hn::Set(d, t.x()),
@@ -128,11 +140,19 @@ ContactIndex::Count count_contacts_in_vectors(const VoxelGrid& grid, const Trans
   std::size_t i = 0;
   for (const std::uint32_t enough : least) {
     const std::size_t end = std::min(i + batch, points.size);
-    in_contact += count_batch<0>(grid, grid.fine, lookup, points, i, end);
+    in_contact += count_batch<kind>(grid, lookup, points, i, end);
     i = end;
     if (in_contact < enough) break;
   }
   return {in_contact, i};
+}
+
+ContactIndex::Count count_contacts_in_vectors(const VoxelGrid& grid, const Transform& map_from_points,
+                                              const PointRun& points, std::size_t batch,
+                                              std::span<const std::uint32_t> least) {
+  return grid.fine.bricks == nullptr
+             ? count_while<Bits::fine>(grid, map_from_points, points, batch, least)
+             : count_while<Bits::in_bricks>(grid, map_from_points, points, batch, least);
 }
 
 // --- Many poses, a few points each ---------------------------------------------------------------------
@@ -153,7 +173,7 @@ void count_coarse_in_vectors(const VoxelGrid& grid, const Points& points, std::s
       const auto voxels =
           voxels_of(d, grid, lookup, hn::GatherIndex(d, points.x.data(), point),
                     hn::GatherIndex(d, points.y.data(), point), hn::GatherIndex(d, points.z.data(), point));
-      const auto set = are_set<VoxelGrid::coarse_shift>(d, grid.coarse, voxels);
+      const auto set = are_set<Bits::coarse>(d, grid.coarse, voxels);
       // A mask is -1 in each lane that is set.
       count = hn::Sub(count, hn::VecFromMask(ints, hn::RebindMask(ints, set)));
     }

@@ -12,8 +12,15 @@ namespace glocal {
 /// Bits of voxels: 32 of a row in each word; rows, then layers.
 struct VoxelBits {
   const std::uint32_t* words;
+  /// Words in a row and in a layer, or bricks in them.
   std::uint32_t row_words, layer_words;
+  /// Where the words of each brick begin; null where the bits are not in bricks.
+  const std::uint32_t* bricks = nullptr;
 };
+
+/// A brick of voxels is a word long and has so many rows and layers.
+constexpr unsigned brick_shift = 3;
+constexpr std::size_t brick_words = std::size_t{1} << (2 * brick_shift);
 
 /// A grid of bits and where it lies.
 struct VoxelGrid {

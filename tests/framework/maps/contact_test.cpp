@@ -126,6 +126,28 @@ TYPED_TEST(Contact, CountsRunsOfAnyLengthForEveryInstructionSet) {
   });
 }
 
+TYPED_TEST(Contact, CountsInSpaceAlikeForEveryInstructionSet) {
+  Rng rng(9);
+  const auto random_points = [&](int n) {
+    Points points;
+    for (int i = 0; i < n; ++i) {
+      points.push_back({static_cast<float>(rng.uniform(0.0, 5.0)), static_cast<float>(rng.uniform(0.0, 4.0)),
+                        static_cast<float>(rng.uniform(0.0, 2.0))});
+    }
+    return points;
+  };
+  const Points map = random_points(600);
+  const TypeParam index(map, 0.2);
+  const Points points = random_points(333);
+  const Transform moved(Pose2{0.05, -0.1, 0.02});
+  std::size_t in_contact = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) in_contact += contact(index, moved(points[i])) ? 1 : 0;
+  EXPECT_GT(in_contact, 50U);
+  EXPECT_LT(in_contact, 300U);
+  test::with_every_instruction_set(
+      [&] { EXPECT_EQ(index.count(points, 0, points.size(), moved), in_contact); });
+}
+
 TYPED_TEST(Contact, CountAtMostIsNeverLessThanTheCount) {
   constexpr std::size_t n = 8;
   const TypeParam index(test::small_world_points(), 0.1);
@@ -200,6 +222,33 @@ TEST(BitsetContact, RefusesToFillTheMemory) {
   } catch (const ConfigError& e) {
     EXPECT_NE(std::string(e.what()).find("larger contact_epsilon"), std::string::npos) << e.what();
   }
+}
+
+TEST(BitsetContact, EmptyBricksTakeNoMemory) {
+  // Two clouds, in the corners of 400 m x 300 m x 40 m: 49 billion voxels.
+  Rng rng(8);
+  Points points;
+  for (int i = 0; i < 400; ++i) {
+    const bool is_far = i % 2 == 0;
+    points.push_back({static_cast<float>(rng.uniform(0.0, 2.0) + (is_far ? 398.0 : 0.0)),
+                      static_cast<float>(rng.uniform(0.0, 2.0) + (is_far ? 298.0 : 0.0)),
+                      static_cast<float>(rng.uniform(0.0, 1.0) + (is_far ? 39.0 : 0.0))});
+  }
+  const double epsilon = 0.2;
+  const BitsetContact grid(points, epsilon);
+  EXPECT_LT(grid.memory_bytes(), 200'000'000U);
+  const double half_diagonal = epsilon / 4.0 * std::sqrt(3.0) / 2.0;
+  expect_as_by_brute_force(grid, points, epsilon, half_diagonal, true);
+  int in_contact = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Point p{static_cast<float>(rng.uniform(397.0, 401.0)),
+                  static_cast<float>(rng.uniform(297.0, 301.0)), static_cast<float>(rng.uniform(38.0, 41.0))};
+    const double d = distance_to_nearest(points, p);
+    if (std::abs(d - epsilon) <= half_diagonal + 1e-4) continue;
+    ASSERT_EQ(contact(grid, p), d < epsilon) << p.x << ' ' << p.y << ' ' << p.z << " at " << d;
+    in_contact += d < epsilon ? 1 : 0;
+  }
+  EXPECT_GT(in_contact, 100);
 }
 
 TEST(ContactIndex, IsSharedByThoseWhoAskForTheSameEpsilon) {
