@@ -241,9 +241,8 @@ std::string default_localizer(bool in_space, const std::string& more) {
       "  threshold_policy:\n"
       "    fixed: {{omega_max: 0.1}}\n"
       "  verdict_rule: staged_margin\n"
-      "{}",
-      in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "", more,
-      in_space ? "" : "  verifier: whole_map\n");
+      "  verifier: whole_map\n",
+      in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "", more);
 }
 
 }  // namespace glocal::app

@@ -17,14 +17,14 @@
 namespace glocal {
 namespace {
 
-/// Says of each window along one axis, from `ahead` - 1 before the first cell on, whether one of the cells
-/// from `behind` before to `ahead` - 1 after its own is marked: calls mark(window) after entered(cell) for
-/// all cells up to its last one.
+/// Says of each window along one axis that has one of the cells from `begin` on and before `end`, whether one
+/// of the cells from `behind` before to `ahead` - 1 after its own is marked: calls mark(window) after
+/// entered(cell) for all cells up to its last one.
 template <class Entered, class Mark>
-void slide(int cells, int behind, int ahead, Entered entered, Mark mark) {
-  for (int window = 1 - ahead; window < cells + behind; ++window) {
+void slide(int begin, int end, int behind, int ahead, Entered entered, Mark mark) {
+  for (int window = begin + 1 - ahead; window < end + behind; ++window) {
     const int cell = window + ahead - 1;
-    if (cell < cells) entered(cell);
+    if (cell < end) entered(cell);
     mark(window);
   }
 }
@@ -39,13 +39,17 @@ Windows widened(const Windows& cells, int behind, int ahead) {
   Windows lines{.columns_before = before,
                 .width = static_cast<std::size_t>(columns + behind + before),
                 .height = cells.height};
+  int first_row = rows;
+  int end_row = 0;
   for (int row = 0; row < rows; ++row) {
     const std::uint8_t* cell = &cells.bytes[cells.index(0, row, 0)];
-    if (std::find(cell, cell + columns, 1) == cell + columns) continue;
+    if (next_set(cell, cell + columns) == cell + columns) continue;
+    first_row = std::min(first_row, row);
+    end_row = row + 1;
     std::uint8_t* window = &lines.at(0, row, 0);
     int last = never;
     slide(
-        columns, behind, ahead,
+        0, columns, behind, ahead,
         [&](int column) {
           if (cell[column] != 0) last = column;
         },
@@ -59,7 +63,7 @@ Windows widened(const Windows& cells, int behind, int ahead) {
   std::vector<int> last_of_columns(width, never);
   int* last = last_of_columns.data();
   slide(
-      rows, behind, ahead,
+      first_row, end_row, behind, ahead,
       [&](int row) {
         const std::uint8_t* line = &lines.at(-before, row, 0);
         for (std::size_t i = 0; i < width; ++i) last[i] = line[i] != 0 ? row : last[i];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "glocal/global_map.hpp"
 
@@ -11,12 +12,14 @@ namespace glocal {
 constexpr double large_area = 2e4;  ///< m^2
 constexpr double huge_area = 25e4;  ///< m^2
 
+/// From the lowest to the highest of some coordinates, m.
+[[nodiscard]] inline double extent(const std::vector<float>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return double{*high} - double{*low};
+}
+
 /// Of the rectangle about all points, seen from above, m^2.
 [[nodiscard]] inline double area_of(const GlobalMap& map) {
-  const auto extent = [](const std::vector<float>& values) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return double{*high} - double{*low};
-  };
   return extent(map.points().x) * extent(map.points().y);
 }
 
@@ -26,6 +29,14 @@ constexpr double huge_area = 25e4;  ///< m^2
   const double area = area_of(map);
   const double cell = area > huge_area ? 0.1 : area > large_area ? 0.05 : 0.025;
   return std::min(cell, epsilon);
+}
+
+/// The same in space, by the volume.
+[[nodiscard]] inline double automatic_box_cell_in_space(const GlobalMap& map, double epsilon) {
+  constexpr double many_cells = 4e8;
+  const double half = epsilon / 2.0;
+  const double cells = area_of(map) * extent(map.points().z) / (half * half * half);
+  return cells > many_cells ? epsilon : half;
 }
 
 /// So many looks of a point are allowed on a map of large_area, and as many more as a map is larger.

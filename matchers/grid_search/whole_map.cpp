@@ -46,7 +46,8 @@ void describe(ParamVisitor& v, WholeMap::Params& p) {
   v.field("cell", p.cell,
           {.doc = "Side of the smallest boxes of translations, at most contact_epsilon; auto is 0.025 m, "
                   "0.05 m on maps of more than 2 hectares, and 0.1 m on maps of more than 25 hectares; in "
-                  "space half of contact_epsilon.",
+                  "space half of contact_epsilon, and all of it on maps of more than 400 million such "
+                  "cells.",
            .unit = "m",
            .min = 0.01,
            .max = 1.0,
@@ -75,7 +76,8 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
   most_looks_ = looks_on(*setup.map, params.max_looks * (in_space_ ? more_looks_in_space : 1.0));
   contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(*setup.map)), epsilon_);
   if (!in_space_) field_ = distance_field(*setup.map, field_cell, setup.threads);
-  const double automatic = in_space_ ? epsilon_ / 2.0 : automatic_box_cell(*setup.map, epsilon_);
+  const double automatic = in_space_ ? automatic_box_cell_in_space(*setup.map, epsilon_)
+                                     : automatic_box_cell(*setup.map, epsilon_);
   pyramid_ = box_pyramid(*setup.map, params.cell.value_or(automatic), epsilon_, setup.motion, setup.threads);
 }
 

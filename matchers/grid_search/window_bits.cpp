@@ -214,8 +214,8 @@ LayerBits::LayerBits(int level, const Windows& windows, int layer) {
   for (int row = -windows.rows_before; row < rows; ++row) {
     const std::uint8_t* line = &windows.bytes[windows.index(0, row, layer)];
     const std::uint8_t* end = line + columns;
-    for (const std::uint8_t* next = std::find(line - windows.columns_before, end, 1); next != end;
-         next = std::find(next + 1, end, 1))
+    for (const std::uint8_t* next = next_set(line - windows.columns_before, end); next != end;
+         next = next_set(next + 1, end))
       set(static_cast<int>(next - line), row);
   }
 }

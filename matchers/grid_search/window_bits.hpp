@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,12 @@ struct TileLooks {
   std::vector<std::uint32_t> next;    ///< The one behind it in that row.
   std::vector<std::uint32_t> shifts;  ///< The bit in the first.
 };
+
+/// The first of some bytes of windows that is set, or their end.
+[[nodiscard]] inline const std::uint8_t* next_set(const std::uint8_t* begin, const std::uint8_t* end) {
+  const void* found = std::memchr(begin, 1, static_cast<std::size_t>(end - begin));
+  return found == nullptr ? end : static_cast<const std::uint8_t*>(found);
+}
 
 /// How the bits of a layer of windows lie: for each place that a window can begin at within 2^level cells,
 /// columns of words, which are cut into blocks of rows.

@@ -325,6 +325,14 @@ TEST(WholeMapInSpace, CertifiesAPoseWithoutEqual) {
   for (const Hypothesis& rival : found.rivals) EXPECT_LT(rival.quality, 1.0);
 }
 
+TEST(WholeMapInSpace, BoxesAreLargerOnMapsOfVeryManyCells) {
+  Points map = room(0.0, 0.0, 0.0, true);
+  map.push_back(point(80.0, 80.0, 80.0));
+  const auto found = verification(map, map_from_local_in(0.0, 0.0, 0.0));
+  ASSERT_TRUE(found.certificate);
+  EXPECT_NEAR(found.certificate->delta, 0.2 * std::sqrt(4.0 + 4.0 + 2.25), 1e-9);
+}
+
 TEST(WholeMapInSpace, BringsTheRoomThatLooksAlike) {
   Points map = room(0.0, 0.0, 0.0, true);
   const Pose3 other_from_room({8.13, 2.07, 1.45}, turn_about_z(2.0));
