@@ -4,197 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <utility>
 
-#include "glocal/parallel.hpp"
 #include "matchers/common/squares.hpp"
 #include "matchers/grid_search/pose_grid.hpp"
+#include "matchers/grid_search/windows_of_map.hpp"
 
 namespace glocal {
-namespace {
-
-/// Says of each window along one axis that has one of the cells from `begin` on and before `end`, whether one
-/// of the cells from `behind` before to `ahead` - 1 after its own is marked: calls mark(window) after
-/// entered(cell) for all cells up to its last one.
-template <class Entered, class Mark>
-void slide(int begin, int end, int behind, int ahead, Entered entered, Mark mark) {
-  for (int window = begin + 1 - ahead; window < end + behind; ++window) {
-    const int cell = window + ahead - 1;
-    if (cell < end) entered(cell);
-    mark(window);
-  }
-}
-
-/// Windows of `behind` + `ahead` cells on either axis, of which `behind` come before the cell that names
-/// them.
-Windows widened(const Windows& cells, int behind, int ahead) {
-  constexpr int never = std::numeric_limits<int>::min() / 2;
-  const int columns = static_cast<int>(cells.width);
-  const int rows = static_cast<int>(cells.height);
-  const int before = ahead - 1;
-  Windows lines{.columns_before = before,
-                .width = static_cast<std::size_t>(columns + behind + before),
-                .height = cells.height};
-  int first_row = rows;
-  int end_row = 0;
-  for (int row = 0; row < rows; ++row) {
-    const std::uint8_t* cell = &cells.bytes[cells.index(0, row, 0)];
-    if (next_set(cell, cell + columns) == cell + columns) continue;
-    first_row = std::min(first_row, row);
-    end_row = row + 1;
-    std::uint8_t* window = &lines.at(0, row, 0);
-    int last = never;
-    slide(
-        0, columns, behind, ahead,
-        [&](int column) {
-          if (cell[column] != 0) last = column;
-        },
-        [&](int column) { window[column] = last >= column - behind ? 1 : 0; });
-  }
-  Windows windows{.columns_before = before,
-                  .rows_before = before,
-                  .width = lines.width,
-                  .height = static_cast<std::size_t>(rows + behind + before)};
-  const std::size_t width = lines.width;
-  std::vector<int> last_of_columns(width, never);
-  int* last = last_of_columns.data();
-  slide(
-      first_row, end_row, behind, ahead,
-      [&](int row) {
-        const std::uint8_t* line = &lines.at(-before, row, 0);
-        for (std::size_t i = 0; i < width; ++i) last[i] = line[i] != 0 ? row : last[i];
-      },
-      [&](int row) {
-        std::uint8_t* line = &windows.at(-before, row, 0);
-        const int first = row - behind;
-        for (std::size_t i = 0; i < width; ++i) line[i] = last[i] >= first ? 1 : 0;
-      });
-  return windows;
-}
-
-/// Windows of one size: those of a group of points of a level, or the cells for the middles of boxes.
-struct WindowKind {
-  int level = 0;
-  bool of_middles = true;
-  int wider = 0;   ///< How many cells wider than a box.
-  int height = 1;  ///< Layers of cells.
-  int step = 1;    ///< One begins every so many layers of cells.
-
-  static WindowKind of_group(int level, int group, const CellFrame& frame) {
-    const int step = PoseBoxes::layers_of_box(level, frame);
-    return {.level = level,
-            .of_middles = false,
-            .wider = PoseBoxes::wider(level, group),
-            .height = frame.in_space ? 2 * step : 1,
-            .step = step};
-  }
-
-  [[nodiscard]] int layers_before() const { return height > step ? 1 : 0; }
-  [[nodiscard]] std::size_t layers(const CellFrame& frame) const {
-    return static_cast<std::size_t>((frame.layers + step - 1) / step + layers_before());
-  }
-};
-
-/// Makes the bits of all kinds of windows, some layers of cells at a time: all of them, at a byte each, would
-/// take more memory than the bits.
-class WindowBuilder {
- public:
-  WindowBuilder(const Points& map_points, const CellFrame& frame, double epsilon,
-                const std::vector<WindowKind>& kinds, int threads)
-      : map_points_(map_points), frame_(frame), epsilon_(epsilon), kinds_(kinds), threads_(threads) {
-    for (const WindowKind& kind : kinds) {
-      bits_.emplace_back(kind.layers(frame));
-      highest_ = std::max(highest_, kind.height);
-    }
-  }
-
-  [[nodiscard]] std::vector<WindowBits> built() {
-    for (int layer = 0; layer < frame_.layers; layer += highest_) {
-      take_in_cells(layer);
-      build(layer);
-    }
-    std::vector<WindowBits> result;
-    for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      std::vector<LayerBits> layers;
-      for (std::optional<LayerBits>& bits : bits_[k]) layers.push_back(std::move(*bits));
-      bits_[k] = {};
-      result.emplace_back(std::move(layers), kinds_[k].layers_before(), frame_.in_space);
-    }
-    return result;
-  }
-
- private:
-  /// A layer of windows that is to be made.
-  struct Task {
-    std::size_t kind;
-    std::size_t number;
-    int first;  ///< Of its layers of cells.
-  };
-  /// The layers from one on that windows which begin in the next `highest_` layers have a part in.
-  void take_in_cells(int layer) {
-    const auto known =
-        static_cast<std::size_t>(std::max(0, first_ + static_cast<int>(cells_.size()) - layer));
-    cells_.erase(cells_.begin(), cells_.end() - static_cast<std::ptrdiff_t>(known));
-    first_ = layer;
-    cells_.resize(static_cast<std::size_t>(std::min(2 * highest_, frame_.layers - layer)));
-    parallel_for(threads_, cells_.size() - known, [&](std::size_t i) {
-      cells_[known + i] =
-          layer_near(map_points_, frame_, epsilon_, true, layer + static_cast<int>(known + i));
-    });
-  }
-
-  void build(int layer) {
-    std::vector<Task> tasks;
-    for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      for (std::size_t i = 0; i < bits_[k].size(); ++i) {
-        const int first = (static_cast<int>(i) - kinds_[k].layers_before()) * kinds_[k].step;
-        const bool is_of_first = layer == 0 && first < 0;
-        if (is_of_first || (first >= layer && first < layer + highest_)) tasks.push_back({k, i, first});
-      }
-    }
-    parallel_for(threads_, tasks.size(), [&](std::size_t i) {
-      const Task& task = tasks[i];
-      const WindowKind& kind = kinds_[task.kind];
-      std::optional<LayerBits>& bits = bits_[task.kind][task.number];
-      if (kind.of_middles) {
-        bits.emplace(kind.level, layer_near(map_points_, frame_, epsilon_, false, task.first));
-      } else {
-        const Windows cells = joined(task.first, task.first + kind.height);
-        bits.emplace(kind.level, widened(cells, kind.wider, 1 << kind.level));
-      }
-    });
-  }
-
-  /// Which cells are anywhere in contact in one of these layers.
-  [[nodiscard]] Windows joined(int begin, int end) const {
-    Windows all{.width = static_cast<std::size_t>(frame_.columns),
-                .height = static_cast<std::size_t>(frame_.rows),
-                .in_space = frame_.in_space};
-    for (int layer = std::max(0, begin); layer < std::min(end, frame_.layers); ++layer) {
-      const std::uint8_t* more = cells_[static_cast<std::size_t>(layer - first_)].bytes.data();
-      std::uint8_t* bytes = all.bytes.data();
-      const std::size_t size = all.bytes.size();
-      for (std::size_t i = 0; i < size; ++i) bytes[i] |= more[i];
-    }
-    return all;
-  }
-
-  const Points& map_points_;
-  const CellFrame& frame_;
-  double epsilon_;
-  const std::vector<WindowKind>& kinds_;
-  int threads_;
-  int highest_ = 1;             ///< Of the windows of all kinds, in layers of cells.
-  int first_ = 0;               ///< Of the layers of cells at hand.
-  std::vector<Windows> cells_;  ///< Each one layer.
-  std::vector<std::vector<std::optional<LayerBits>>> bits_;  ///< Of each kind.
-};
-
-}  // namespace
 
 PoseBoxes::PoseBoxes(const Points& points, const CellFrame& frame, int top_level)
     : frame_(frame), top_level_(top_level), middle_x_(middle_of(points.x)), middle_y_(middle_of(points.y)) {
@@ -338,22 +156,27 @@ CellPoints PoseBoxes::middle_cells(std::size_t rotation) const {
 
 BoxPyramid::BoxPyramid(const Points& map_points, double cell, double epsilon, int top_level, int threads,
                        Motion motion)
-    : frame_(cell_frame(map_points, cell, epsilon + cell, motion)) {
-  std::vector<WindowKind> kinds = {WindowKind{}};
+    : frame_(cell_frame(map_points, cell, epsilon + cell, motion)),
+      middles_(windows_of_map(map_points, frame_, epsilon, false, {WindowKind{}}, threads).front()) {
+  std::vector<WindowKind> kinds;
   for (int level = 0; level <= top_level; ++level) {
     const int groups = level == top_level ? PoseBoxes::cluster_groups(level) : PoseBoxes::groups(level);
-    for (int group = 1; group <= groups; ++group) kinds.push_back(WindowKind::of_group(level, group, frame_));
+    const int step = PoseBoxes::layers_of_box(level, frame_);
+    for (int group = 1; group <= groups; ++group) {
+      kinds.push_back({.level = level,
+                       .wider = PoseBoxes::wider(level, group),
+                       .height = frame_.in_space ? 2 * step : 1,
+                       .step = step});
+    }
   }
+  std::vector<WindowBits> bits = windows_of_map(map_points, frame_, epsilon, true, kinds, threads);
   levels_.resize(static_cast<std::size_t>(top_level) + 1);
-  std::vector<WindowBits> bits = WindowBuilder(map_points, frame_, epsilon, kinds, threads).built();
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const auto level = static_cast<std::size_t>(kinds[k].level);
-    (kinds[k].of_middles ? middles_ : levels_[level]).push_back(std::move(bits[k]));
-  }
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    levels_[static_cast<std::size_t>(kinds[k].level)].push_back(std::move(bits[k]));
 }
 
 /// At the middle of a box a point lies in the middle one of three cells along either axis, or half a cell
-/// beside it; and half a cell from the middle of two layers at most.
+/// beside it; in space it lies in two layers, half a cell from their middle at most.
 double BoxPyramid::delta() const {
   constexpr double aside = 2.0;
   constexpr double above = 1.5;
@@ -366,7 +189,7 @@ BoxPyramid::BoxesOfLayers BoxPyramid::boxes_of_layers(int level) const {
 }
 
 std::size_t BoxPyramid::memory_bytes() const {
-  std::size_t bytes = middles_.front().memory_bytes();
+  std::size_t bytes = middles_.memory_bytes();
   for (const std::vector<WindowBits>& groups : levels_) {
     for (const WindowBits& bits : groups) bytes += bits.memory_bytes();
   }
@@ -390,7 +213,7 @@ std::size_t BoxPyramid::count(int level, const std::vector<CellPoints>& points, 
 void BoxPyramid::count_middles(const CellPoints& points, int column, int row, int layer,
                                TileCounts& counts) const {
   counts.clear();
-  middles_.front().add(points, column, row, layer, 0, 0, counts);
+  middles_.add(points, column, row, layer, 0, 0, counts);
 }
 
 std::shared_ptr<const BoxPyramid> box_pyramid(const GlobalMap& map, double cell, double epsilon,

@@ -131,8 +131,8 @@ class BoxPyramid {
 
  private:
   CellFrame frame_;
+  WindowBits middles_;
   std::vector<std::vector<WindowBits>> levels_;  ///< One for each group.
-  std::vector<WindowBits> middles_;              ///< One.
 };
 
 /// The pyramid over a map, built once per map and motion in the plane or in space.
