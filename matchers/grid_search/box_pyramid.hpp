@@ -1,6 +1,7 @@
 // How many points of a local map can be in contact, at most, over boxes of poses.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -43,7 +44,7 @@ class PoseBoxes {
   /// How high a box is, in layers; 1 in the plane. It is half as high as it is wide, so that windows, which
   /// are twice as high and begin at whole multiples of it, are hardly higher than they are wide.
   [[nodiscard]] static int layers_of_box(int level, const CellFrame& frame) {
-    return level < 2 || !frame.in_space ? 1 : 1 << (level - 1);
+    return frame.in_space ? std::max(1, (1 << level) / 2) : 1;
   }
   /// m; 0 in the plane.
   [[nodiscard]] double box_height(int level) const {

@@ -21,7 +21,8 @@ struct WindowKind {
   [[nodiscard]] int layers_before() const { return height > step ? 1 : 0; }
   /// How many layers of windows have a cell of the frame.
   [[nodiscard]] std::size_t layers(const CellFrame& frame) const {
-    return static_cast<std::size_t>((frame.layers + step - 1) / step + layers_before());
+    const int layers = (frame.layers + step - 1) / step + layers_before();
+    return static_cast<std::size_t>(layers);
   }
 };
 
