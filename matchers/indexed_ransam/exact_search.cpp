@@ -44,13 +44,10 @@ void describe(ParamVisitor& v, ExactSearchRule& p) {
 
 ExactSearch::ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon,
                          int threads)
-    : rule_(rule),
-      most_looks_(looks_on(map, rule.max_looks)),
-      threads_(threads),
-      wait_(rule.after_steps) {
+    : rule_(rule), most_looks_(looks_on(map, rule.max_looks)), threads_(threads), wait_(rule.after_steps) {
   if (rule.after_steps == 0) return;
   const double cell = rule.cell.value_or(automatic_box_cell(map, contact_epsilon));
-  pyramid_ = box_pyramid(map, cell, contact_epsilon, threads);
+  pyramid_ = box_pyramid(map, cell, contact_epsilon, Motion::planar, threads);
 }
 
 bool ExactSearch::is_due(const std::vector<Hypothesis>& best) {
@@ -68,7 +65,7 @@ void ExactSearch::reset() {
   wait_ = rule_.after_steps;
 }
 
-std::size_t ExactSearch::search(const Points& points, const Pose2& local_from_robot, const PoseGate& gate,
+std::size_t ExactSearch::search(const Points& points, const Pose3& local_from_robot, const PoseGate& gate,
                                 std::vector<Hypothesis> best, const Settle& settle) const {
   // A high bar prunes nearly all of the map at once, and the right pose is above it as a rule.
   constexpr double first_bar = 0.95;
@@ -77,18 +74,19 @@ std::size_t ExactSearch::search(const Points& points, const Pose2& local_from_ro
   for (double bar = std::max(first_bar, rule_.min_contact);; bar = std::max(bar - lower, rule_.min_contact)) {
     RivalRule rule{.most_rivals = static_cast<std::size_t>(rule_.max_poses),
                    .most_looks = most_looks_ - looks};
-    Pose2 best_robot;
+    Pose3 best_robot;
     if (best.empty()) {
       rule.distance = 0.0;  // nothing is near
     } else {
-      best_robot = seen_from_above(best.front().map_from_local) * local_from_robot;
+      best_robot = best.front().map_from_local * local_from_robot;
     }
     const double least = std::max(1.0, std::ceil(bar * static_cast<double>(points.size())));
     const RivalSearchResult found = search_rivals(*pyramid_, points, local_from_robot, best_robot,
                                                   static_cast<std::size_t>(least), rule, gate, threads_);
     looks += found.looks;
     std::vector<Pose2> poses;
-    for (const RivalSearchResult::Rival& rival : found.rivals) poses.push_back(rival.map_from_local);
+    for (const RivalSearchResult::Rival& rival : found.rivals)
+      poses.push_back(seen_from_above(rival.map_from_local));
     if (!poses.empty()) best = settle(poses);
     const bool is_settled = !best.empty() && best.front().score >= bar - lower;
     if (is_settled || bar <= rule_.min_contact || !found.is_complete || looks >= most_looks_) return looks;

@@ -50,7 +50,7 @@ class ExactSearch {
   /// have most of these points of a local map in contact. Ends where a pose has been settled whose score a
   /// pose of the next round would hardly reach, at the least contact, or after too many looks. Returns how
   /// many points were looked at.
-  std::size_t search(const Points& points, const Pose2& local_from_robot, const PoseGate& gate,
+  std::size_t search(const Points& points, const Pose3& local_from_robot, const PoseGate& gate,
                      std::vector<Hypothesis> best, const Settle& settle) const;
 
  private:
