@@ -24,6 +24,7 @@ RelationRule relation_rule(const IndexedRansam::Params& p) {
 JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
   return {.beams = p.beams,
           .unknown_weight = p.unknown_weight,
+          .free_weight = p.free_weight,
           .fit_weight = p.fit_weight,
           .most = static_cast<std::size_t>(p.best),
           .contact_epsilon = contact_epsilon,
@@ -110,6 +111,11 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   describe(v, p.beams);
   v.field("unknown_weight", p.unknown_weight,
           {.doc = "What the share of points in unknown cells adds to the score.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.field("free_weight", p.free_weight,
+          {.doc = "What the share of points in cells known to be free, out of contact, takes from the score.",
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::expert});

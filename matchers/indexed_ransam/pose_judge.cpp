@@ -44,6 +44,8 @@ std::vector<Hypothesis> PoseJudge::best_of(const std::vector<Candidate>& candida
                                           contact_->share(local.points, Transform(candidate.map_from_local)));
     h.score += rule_.unknown_weight * unknown_share(sample, candidate.map_from_local) -
                rule_.fit_weight * misfit(sample, candidate.map_from_local);
+    if (rule_.free_weight > 0.0)
+      h.score -= rule_.free_weight * free_space_violation(sample, candidate.map_from_local);
     at_most.push_back(h);
   }
   std::stable_sort(at_most.begin(), at_most.end(), has_better_score);

@@ -20,6 +20,7 @@ namespace glocal {
 struct JudgeRule {
   BeamRule beams = {.weight = 1.0, .cap = 0.3};
   double unknown_weight = 0.1;  ///< What the share of points in unknown cells adds to the score.
+  double free_weight = 0.25;    ///< What the share of points in space known to be free takes from it.
   double fit_weight = 0.05;     ///< What points take from it that are as far from the map as contact allows.
   std::size_t most = 10;        ///< Poses that are left.
   double contact_epsilon = 0.10;
@@ -28,9 +29,10 @@ struct JudgeRule {
 };
 
 /// Judges poses by the contact of all points of the local map (Omega, eq. 4), by beams through walls, by what
-/// the map does not show, and by how well they fit: a score is Omega less the weighted share of blocked
-/// beams, plus the weighted share of points in unknown cells, less the weighted misfit. Contact alone tells
-/// no place in a corridor from the like in another one.
+/// the map does not show, by what it shows to be free, and by how well they fit: a score is Omega less the
+/// weighted share of blocked beams, plus the weighted share of points in unknown cells, less that of points
+/// in free cells out of contact, less the weighted misfit. Contact alone tells no place in a corridor from
+/// the like in another one.
 class PoseJudge {
  public:
   PoseJudge(const JudgeRule& rule, std::shared_ptr<const GlobalMap> map,
