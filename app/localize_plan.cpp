@@ -242,7 +242,7 @@ std::string default_localizer(bool in_space, const std::string& more) {
       "    fixed: {{omega_max: 0.1}}\n"
       "  verdict_rule: staged_margin\n"
       "  verifier: whole_map\n",
-      in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "", more);
+      in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "  local_mapper: bounded\n", more);
 }
 
 }  // namespace glocal::app

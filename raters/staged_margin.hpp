@@ -38,8 +38,8 @@ class StagedMargin final : public VerdictRule {
     double most = 0.998;
   };
   struct Params {
-    std::vector<Stage> stages = {{0.30, 3, 0.0}, {0.25, 4, 1.0}, {0.20, 5, 2.0}, {0.10, 8, 3.0}};
-    std::vector<Stage> certified_stages = {{0.25, 2, 0.0}, {0.20, 3, 0.0}, {0.15, 4, 1.0}, {0.10, 5, 2.0}};
+    std::vector<Stage> stages = {{0.30, 3, 0.0}, {0.25, 4, 1.0}, {0.20, 5, 2.0}, {0.12, 8, 3.0}};
+    std::vector<Stage> certified_stages = {{0.25, 2, 0.0}, {0.20, 3, 0.0}, {0.15, 4, 1.0}, {0.12, 5, 2.0}};
     double rival_distance = 1.0;
     double rival_rotation_deg = 30.0;
     double same_distance = 0.5;
