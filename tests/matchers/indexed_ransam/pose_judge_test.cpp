@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "glocal/rng.hpp"
 
@@ -47,7 +48,8 @@ std::vector<Candidate> candidates(const std::vector<Pose2>& poses) {
 
 TEST(PoseJudge, ScoresContactAndUnknownCells) {
   const LocalMap local = row_of_points();
-  const PoseJudge judge = judge_of({.unknown_weight = 0.1, .fit_weight = 0.0, .contact_epsilon = 0.03});
+  const PoseJudge judge =
+      judge_of({.unknown_weight = 0.1, .free_weight = 0.0, .fit_weight = 0.0, .contact_epsilon = 0.03});
   const auto best = judge.best_of(candidates({in_the_open, half_on_the_wall, in_the_unknown, on_the_wall}),
                                   local, local.points);
   ASSERT_EQ(best.size(), 4U);
@@ -64,9 +66,26 @@ TEST(PoseJudge, ScoresContactAndUnknownCells) {
   EXPECT_EQ(best[3].score, 0.0);
 }
 
+TEST(PoseJudge, PointsInFreeCellsOutOfContactSpeakAgainstAPose) {
+  const LocalMap local = row_of_points();
+  const PoseJudge judge =
+      judge_of({.unknown_weight = 0.0, .free_weight = 0.4, .fit_weight = 0.0, .contact_epsilon = 0.03});
+  const Pose2 across_the_wall{3.65, 1.05,
+                              -std::numbers::pi / 2.0};  // its points lie along x, one of them on the wall
+  const auto best = judge.best_of(candidates({across_the_wall, in_the_open, in_the_unknown, on_the_wall}),
+                                  local, local.points);
+  ASSERT_EQ(best.size(), 4U);
+  EXPECT_EQ(best[0].score, 1.0);
+  EXPECT_EQ(best[1].map_from_local, in_the_unknown);
+  EXPECT_EQ(best[1].score, 0.0);
+  EXPECT_NEAR(best[2].score, 0.1 - 0.4 * 0.9, 1e-6);
+  EXPECT_NEAR(best[3].score, -0.4, 1e-12);
+}
+
 TEST(PoseJudge, OfTwoPosesInFullContactTheOneThatFitsMoreCloselyIsTheBetter) {
   const LocalMap local = row_of_points();
-  const PoseJudge judge = judge_of({.unknown_weight = 0.0, .fit_weight = 0.2, .contact_epsilon = 0.1});
+  const PoseJudge judge =
+      judge_of({.unknown_weight = 0.0, .free_weight = 0.0, .fit_weight = 0.2, .contact_epsilon = 0.1});
   const Pose2 beside_the_wall{4.11, 1.05, 0.0};
   const auto best =
       judge.best_of(candidates({beside_the_wall, on_the_wall, in_the_open}), local, local.points);
@@ -77,8 +96,8 @@ TEST(PoseJudge, OfTwoPosesInFullContactTheOneThatFitsMoreCloselyIsTheBetter) {
   EXPECT_NEAR(best[0].score, 1.0, step);
   EXPECT_EQ(best[1].quality, 1.0);
   EXPECT_NEAR(best[1].score, 1.0 - 0.2 * 0.6, step);
-  EXPECT_NEAR(best[2].score, -0.2,
-              1e-12);  // no point is farther away than contact_epsilon, for all that counts
+  // Farther away than contact_epsilon does not count as more.
+  EXPECT_NEAR(best[2].score, -0.2, 1e-12);
 }
 
 TEST(PoseJudge, BlockedBeamsLowerTheScoreUpToTheCap) {
@@ -88,8 +107,10 @@ TEST(PoseJudge, BlockedBeamsLowerTheScoreUpToTheCap) {
   scan.hits.push_back({1.0F, 0.0F, 0.0F});        // through the wall
   scan.free_ends.push_back({-2.0F, 0.0F, 0.0F});  // away from it
   for (const double cap : {1.0, 0.3}) {
-    PoseJudge judge =
-        judge_of({.beams = {.weight = 0.8, .cap = cap}, .fit_weight = 0.0, .contact_epsilon = 0.03});
+    PoseJudge judge = judge_of({.beams = {.weight = 0.8, .cap = cap},
+                                .free_weight = 0.0,
+                                .fit_weight = 0.0,
+                                .contact_epsilon = 0.03});
     judge.take_in(local, scan);
     auto best = judge.best_of(candidates({on_the_wall}), local, local.points);
     EXPECT_EQ(best.front().quality, 1.0);
