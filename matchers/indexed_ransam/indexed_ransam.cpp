@@ -24,7 +24,7 @@ RelationRule relation_rule(const IndexedRansam::Params& p) {
 JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
   return {.beams = p.beams,
           .unknown_weight = p.unknown_weight,
-          .free_weight = p.free_weight,
+          .free_space_weight = p.free_space_weight,
           .fit_weight = p.fit_weight,
           .most = static_cast<std::size_t>(p.best),
           .contact_epsilon = contact_epsilon,
@@ -114,7 +114,7 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::expert});
-  v.field("free_weight", p.free_weight,
+  v.field("free_space_weight", p.free_space_weight,
           {.doc = "What the share of points in cells known to be free, out of contact, takes from the score.",
            .min = 0.0,
            .max = 1.0,

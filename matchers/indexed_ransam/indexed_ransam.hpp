@@ -28,8 +28,8 @@ namespace glocal {
 ///
 /// Hypotheses are the best distinct poses (candidates); their score is contact (Omega, eq. 4) less
 /// `blocked_weight` times the share of blocked beams, plus `unknown_weight` times the share of points in
-/// unknown cells, less `free_weight` times that of points in free cells out of contact, less `fit_weight`
-/// times the mean distance to the map as a share of contact_epsilon.
+/// unknown cells, less `free_space_weight` times that of points in free cells out of contact, less
+/// `fit_weight` times the mean distance to the map as a share of contact_epsilon.
 ///
 /// This is the search in the plane; make() gives a SpaceMatcher for any other motion.
 class IndexedRansam final : public Matcher {
@@ -54,7 +54,7 @@ class IndexedRansam final : public Matcher {
     double field_cell = 0.05;
     BeamRule beams = {.weight = 1.0, .cap = 0.3};
     double unknown_weight = 0.1;
-    double free_weight = 0.25;
+    double free_space_weight = 0.25;
     double fit_weight = 0.05;
     double min_length = 0.5;
     double max_length = 6.0;

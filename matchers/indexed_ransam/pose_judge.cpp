@@ -6,19 +6,6 @@
 namespace glocal {
 namespace {
 
-/// Share of the points for which a condition holds: of the cell they fall into, and of where a pose puts
-/// them.
-template <class Condition>
-double share_where(const OccupancyGrid& grid, const Points& points, const Pose2& map_from_points,
-                   Condition condition) {
-  const Transform map(map_from_points);
-  const CellsUnder cell_under(grid, map_from_points);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    count += condition(cell_under(points[i]), map(points[i])) ? 1 : 0;
-  return static_cast<double>(count) / static_cast<double>(points.size());
-}
-
 bool has_better_score(const Hypothesis& a, const Hypothesis& b) {
   return a.score > b.score;
 }
@@ -42,10 +29,9 @@ std::vector<Hypothesis> PoseJudge::best_of(const std::vector<Candidate>& candida
   for (const Candidate& candidate : candidates) {
     Hypothesis h = Hypothesis::by_contact(candidate.map_from_local,
                                           contact_->share(local.points, Transform(candidate.map_from_local)));
-    h.score += rule_.unknown_weight * unknown_share(sample, candidate.map_from_local) -
-               rule_.fit_weight * misfit(sample, candidate.map_from_local);
-    if (rule_.free_weight > 0.0)
-      h.score -= rule_.free_weight * free_space_violation(sample, candidate.map_from_local);
+    const PlaceEvidence evidence = evidence_at(candidate.map_from_local, sample);
+    h.score += rule_.unknown_weight * evidence.unknown - rule_.fit_weight * evidence.misfit;
+    h.score -= rule_.free_space_weight * evidence.in_free_space;
     at_most.push_back(h);
   }
   std::stable_sort(at_most.begin(), at_most.end(), has_better_score);
@@ -65,31 +51,27 @@ Hypothesis PoseJudge::told(Hypothesis judged, const LocalMap& local, const Point
   judged.score = std::min(judged.score, 1.0);
   judged.covariance =
       pose_covariance(*field_, sample, map_from_local, map_from_robot, rule_.kernel, rule_.uncertainty);
-  judged.free_space_violation = free_space_violation(sample, map_from_local);
+  judged.free_space_violation = evidence_at(map_from_local, sample).in_free_space;
   return judged;
 }
 
-double PoseJudge::unknown_share(const Points& sample, const Pose2& map_from_local) const {
-  if (rule_.unknown_weight == 0.0) return 0.0;
-  return share_where(map_->grid(), sample, map_from_local,
-                     [](Cell cell, const Point& /*p*/) { return cell == Cell::unknown; });
-}
-
-double PoseJudge::misfit(const Points& sample, const Pose2& map_from_local) const {
-  if (rule_.fit_weight == 0.0) return 0.0;
+PoseJudge::PlaceEvidence PoseJudge::evidence_at(const Pose2& map_from_local, const Points& sample) const {
   const Transform map(map_from_local);
-  double sum = 0.0;
+  const CellsUnder cell_under(map_->grid(), map_from_local);
+  std::size_t in_unknown = 0, in_free_space = 0;
+  double misfit = 0.0;
   for (std::size_t i = 0; i < sample.size(); ++i) {
+    const Cell cell = cell_under(sample[i]);
     const Point p = map(sample[i]);
-    sum += std::min(1.0, field_->at(p.x, p.y).distance / rule_.contact_epsilon);
+    const double to_map = field_->at(p.x, p.y).distance;
+    if (cell == Cell::unknown) ++in_unknown;
+    if (cell == Cell::free && to_map > rule_.contact_epsilon) ++in_free_space;
+    misfit += std::min(1.0, to_map / rule_.contact_epsilon);
   }
-  return sum / static_cast<double>(sample.size());
-}
-
-double PoseJudge::free_space_violation(const Points& sample, const Pose2& map_from_local) const {
-  return share_where(map_->grid(), sample, map_from_local, [&](Cell cell, const Point& p) {
-    return cell == Cell::free && field_->at(p.x, p.y).distance > rule_.contact_epsilon;
-  });
+  const auto size = static_cast<double>(sample.size());
+  return {.unknown = static_cast<double>(in_unknown) / size,
+          .in_free_space = static_cast<double>(in_free_space) / size,
+          .misfit = misfit / size};
 }
 
 }  // namespace glocal

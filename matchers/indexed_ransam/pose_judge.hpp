@@ -19,10 +19,10 @@ namespace glocal {
 
 struct JudgeRule {
   BeamRule beams = {.weight = 1.0, .cap = 0.3};
-  double unknown_weight = 0.1;  ///< What the share of points in unknown cells adds to the score.
-  double free_weight = 0.25;    ///< What the share of points in space known to be free takes from it.
-  double fit_weight = 0.05;     ///< What points take from it that are as far from the map as contact allows.
-  std::size_t most = 10;        ///< Poses that are left.
+  double unknown_weight = 0.1;      ///< What the share of points in unknown cells adds to the score.
+  double free_space_weight = 0.25;  ///< What the share of points in space known to be free takes from it.
+  double fit_weight = 0.05;  ///< What points take from it that are as far from the map as contact allows.
+  std::size_t most = 10;     ///< Poses that are left.
   double contact_epsilon = 0.10;
   double kernel = 0.15;  ///< m; of the refinement that led to a pose.
   PoseUncertainty uncertainty = {};
@@ -52,10 +52,13 @@ class PoseJudge {
   [[nodiscard]] Hypothesis told(Hypothesis judged, const LocalMap& local, const Points& sample) const;
 
  private:
-  [[nodiscard]] double unknown_share(const Points& sample, const Pose2& map_from_local) const;
-  /// Mean distance of points to the map over contact_epsilon, each at most 1.
-  [[nodiscard]] double misfit(const Points& sample, const Pose2& map_from_local) const;
-  [[nodiscard]] double free_space_violation(const Points& sample, const Pose2& map_from_local) const;
+  /// What the map tells of the places of points, shares of them.
+  struct PlaceEvidence {
+    double unknown = 0.0;        ///< In cells of which nothing is known.
+    double in_free_space = 0.0;  ///< In cells known to be free, out of contact.
+    double misfit = 0.0;         ///< Mean distance to the map over contact_epsilon, each at most 1.
+  };
+  [[nodiscard]] PlaceEvidence evidence_at(const Pose2& map_from_local, const Points& sample) const;
 
   JudgeRule rule_;
   std::shared_ptr<const GlobalMap> map_;

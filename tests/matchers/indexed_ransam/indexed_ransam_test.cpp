@@ -72,7 +72,8 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
 TEST(IndexedRansam, TheScoreIsContactWhereNothingSpeaksAgainstAPose) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
   const auto contact = contact_index(*test::small_world(), "bitset", 0.1);
-  const auto found = match({.unknown_weight = 0.0, .free_weight = 0.0, .fit_weight = 0.0}, local).hypotheses;
+  const auto found =
+      match({.unknown_weight = 0.0, .free_space_weight = 0.0, .fit_weight = 0.0}, local).hypotheses;
   ASSERT_FALSE(found.empty());
   for (const Hypothesis& h : found) {
     const std::size_t n = local.points.size();

@@ -49,7 +49,7 @@ std::vector<Candidate> candidates(const std::vector<Pose2>& poses) {
 TEST(PoseJudge, ScoresContactAndUnknownCells) {
   const LocalMap local = row_of_points();
   const PoseJudge judge =
-      judge_of({.unknown_weight = 0.1, .free_weight = 0.0, .fit_weight = 0.0, .contact_epsilon = 0.03});
+      judge_of({.unknown_weight = 0.1, .free_space_weight = 0.0, .fit_weight = 0.0, .contact_epsilon = 0.03});
   const auto best = judge.best_of(candidates({in_the_open, half_on_the_wall, in_the_unknown, on_the_wall}),
                                   local, local.points);
   ASSERT_EQ(best.size(), 4U);
@@ -69,7 +69,7 @@ TEST(PoseJudge, ScoresContactAndUnknownCells) {
 TEST(PoseJudge, PointsInFreeCellsOutOfContactSpeakAgainstAPose) {
   const LocalMap local = row_of_points();
   const PoseJudge judge =
-      judge_of({.unknown_weight = 0.0, .free_weight = 0.4, .fit_weight = 0.0, .contact_epsilon = 0.03});
+      judge_of({.unknown_weight = 0.0, .free_space_weight = 0.4, .fit_weight = 0.0, .contact_epsilon = 0.03});
   const Pose2 across_the_wall{3.65, 1.05,
                               -std::numbers::pi / 2.0};  // its points lie along x, one of them on the wall
   const auto best = judge.best_of(candidates({across_the_wall, in_the_open, in_the_unknown, on_the_wall}),
@@ -85,7 +85,7 @@ TEST(PoseJudge, PointsInFreeCellsOutOfContactSpeakAgainstAPose) {
 TEST(PoseJudge, OfTwoPosesInFullContactTheOneThatFitsMoreCloselyIsTheBetter) {
   const LocalMap local = row_of_points();
   const PoseJudge judge =
-      judge_of({.unknown_weight = 0.0, .free_weight = 0.0, .fit_weight = 0.2, .contact_epsilon = 0.1});
+      judge_of({.unknown_weight = 0.0, .free_space_weight = 0.0, .fit_weight = 0.2, .contact_epsilon = 0.1});
   const Pose2 beside_the_wall{4.11, 1.05, 0.0};
   const auto best =
       judge.best_of(candidates({beside_the_wall, on_the_wall, in_the_open}), local, local.points);
@@ -108,7 +108,7 @@ TEST(PoseJudge, BlockedBeamsLowerTheScoreUpToTheCap) {
   scan.free_ends.push_back({-2.0F, 0.0F, 0.0F});  // away from it
   for (const double cap : {1.0, 0.3}) {
     PoseJudge judge = judge_of({.beams = {.weight = 0.8, .cap = cap},
-                                .free_weight = 0.0,
+                                .free_space_weight = 0.0,
                                 .fit_weight = 0.0,
                                 .contact_epsilon = 0.03});
     judge.take_in(local, scan);
