@@ -73,8 +73,12 @@ int parse_and_run(CLI::App& app, const Context& context, int argc, char** argv) 
 }  // namespace
 
 int run_command_line(CLI::App& app, const Context& context, int argc, char** argv) {
+  return exit_code_of([&] { return parse_and_run(app, context, argc, argv); });
+}
+
+int exit_code_of(const std::function<int()>& work) {
   try {
-    return parse_and_run(app, context, argc, argv);
+    return work();
   } catch (const ConfigError& error) {
     return report(error);
   } catch (const std::bad_alloc&) {

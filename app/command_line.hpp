@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 
 #include "app/commands.hpp"
 
@@ -10,5 +11,8 @@ namespace glocal::app {
 /// Parses the arguments and runs the subcommand they name. What goes wrong is said on stderr, and in the exit
 /// code: 1 failed while running, 2 wrong usage or configuration.
 [[nodiscard]] int run_command_line(CLI::App& app, const Context& context, int argc, char** argv);
+
+/// What `work` returns, or the code of what it throws, which is said on stderr.
+[[nodiscard]] int exit_code_of(const std::function<int()>& work);
 
 }  // namespace glocal::app

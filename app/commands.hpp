@@ -37,6 +37,7 @@ void add_list(CLI::App& app, Context& context);
 void add_localize(CLI::App& app, Context& context);
 void add_map(CLI::App& app, Context& context);
 void add_mapping(CLI::App& app, Context& context);
+void add_merge(CLI::App& app, Context& context);
 void add_new_plugin(CLI::App& app, Context& context);
 void add_prepare(CLI::App& app, Context& context);
 void add_reference(CLI::App& app, Context& context);
@@ -46,6 +47,7 @@ void add_report(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_simulate(CLI::App& app, Context& context);
+void add_status(CLI::App& app, Context& context);
 void add_summarize(CLI::App& app, Context& context);
 
 }  // namespace glocal::app

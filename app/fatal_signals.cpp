@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <sstream>
 #include <string_view>
 
 #include "glocal/running_stage.hpp"
@@ -39,39 +41,70 @@ class Line {
     } while (number > 0);
     add({digits.data() + first, digits.size() - first});
   }
-  void write() const { static_cast<void>(!::write(STDERR_FILENO, text_.data(), size_)); }
+  void write_to(int descriptor) const { static_cast<void>(!::write(descriptor, text_.data(), size_)); }
 
  private:
   std::array<char, 512> text_{};
   std::size_t size_ = 0;
 };
 
-std::string_view name_of(int signal) {
-  switch (signal) {
-    case SIGSEGV:
-      return "SIGSEGV, memory that is not its own";
-    case SIGBUS:
-      return "SIGBUS, memory that cannot be read";
-    case SIGFPE:
-      return "SIGFPE, an impossible division";
-    case SIGILL:
-      return "SIGILL, no instruction of this processor";
-    default:
-      return "SIGABRT, it gave up";
+/// What crashes are reported through; -1 if nobody wants to know.
+std::atomic<int> watcher = -1;
+static_assert(std::atomic<int>::is_always_lock_free, "read by a signal handler");
+
+struct FatalSignal {
+  int number;
+  std::string_view name, meaning;
+};
+constexpr std::array<FatalSignal, 5> fatal_signals = {{{SIGSEGV, "SIGSEGV", "memory that is not its own"},
+                                                       {SIGBUS, "SIGBUS", "memory that cannot be read"},
+                                                       {SIGFPE, "SIGFPE", "an impossible division"},
+                                                       {SIGILL, "SIGILL", "no instruction of this processor"},
+                                                       {SIGABRT, "SIGABRT", "it gave up"}}};
+
+const FatalSignal& fatal_signal(int number) {
+  for (const FatalSignal& signal : fatal_signals) {
+    if (signal.number == number) return signal;
   }
+  return fatal_signals.back();
 }
 
-void say_where(int signal) {
+void add_strategy(Line& line, const RunningStage& stage) {
+  line.add(stage.kind);
+  line.add(" '");
+  line.add(stage.name);
+  line.add("'");
+}
+
+/// A line each of signal, trial and place, as crash_report_of() reads them.
+void tell_watcher(const FatalSignal& signal, const RunningStage* stage, int descriptor) {
+  Line line;
+  line.add(signal.name);
+  line.add("\n");
+  if (stage != nullptr) {
+    line.add(stage->trial);
+    line.add("\n");
+    add_strategy(line, *stage);
+    if (stage->step != RunningStage::before_first) {
+      line.add(", step ");
+      line.add(std::uint64_t{stage->step});
+    }
+  }
+  line.write_to(descriptor);
+}
+
+void say_where(int number) {
+  const FatalSignal& signal = fatal_signal(number);
+  const RunningStage* stage = running_stage();
   Line line;
   line.add("error: crashed (");
-  line.add(name_of(signal));
+  line.add(signal.name);
+  line.add(", ");
+  line.add(signal.meaning);
   line.add(")");
-  if (const RunningStage* stage = running_stage()) {
+  if (stage != nullptr) {
     line.add(" in ");
-    line.add(stage->kind);
-    line.add(" '");
-    line.add(stage->name);
-    line.add("'");
+    add_strategy(line, *stage);
     if (stage->step != RunningStage::before_first) {
       line.add(", trial ");
       line.add(stage->trial);
@@ -80,8 +113,9 @@ void say_where(int signal) {
     }
   }
   line.add("; what was finished before is kept\n");
-  line.write();
-  raise(signal);
+  line.write_to(STDERR_FILENO);
+  if (const int descriptor = watcher; descriptor >= 0) tell_watcher(signal, stage, descriptor);
+  raise(number);
 }
 
 }  // namespace
@@ -97,7 +131,31 @@ void name_strategy_in_crashes() {
   struct sigaction action {};
   action.sa_handler = say_where;
   action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND | SA_NODEFER);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
+  for (const FatalSignal& signal : fatal_signals) sigaction(signal.number, &action, nullptr);
+}
+
+void report_crashes_to(int descriptor) {
+  watcher = descriptor;
+}
+
+std::optional<CrashReport> crash_report_of(const std::string& text) {
+  std::istringstream lines(text);
+  CrashReport report;
+  std::string trial;
+  if (!std::getline(lines, report.signal)) return std::nullopt;
+  if (std::getline(lines, trial)) report.trial = std::stoull(trial);
+  std::getline(lines, report.where);
+  return report;
+}
+
+std::string signal_name(int signal) {
+  const char* const name = sigabbrev_np(signal);
+  return name == nullptr ? "signal " + std::to_string(signal) : std::string("SIG") + name;
+}
+
+bool is_fault(int signal) {
+  return std::any_of(fatal_signals.begin(), fatal_signals.end(),
+                     [&](const FatalSignal& fatal) { return fatal.number == signal; });
 }
 
 }  // namespace glocal::app

@@ -19,6 +19,8 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   using namespace glocal::app;
   add_localize(app, context);
   add_run(app, context);
+  add_status(app, context);
+  add_merge(app, context);
   add_check(app, context);
   add_list(app, context);
   add_describe(app, context);

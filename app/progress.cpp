@@ -14,15 +14,14 @@ namespace {
 constexpr std::chrono::milliseconds between_bars{100};
 constexpr std::chrono::minutes between_lines{1};
 
-/// ", about 3 min left", once that can be told.
+}  // namespace
+
 std::string time_left(std::optional<double> left_s) {
   if (!left_s) return "";
   if (*left_s < 99.0) return fmt::format(", about {:.0f} s left", *left_s);
   if (*left_s < 99.0 * 60.0) return fmt::format(", about {:.0f} min left", *left_s / 60.0);
   return fmt::format(", about {:.1f} h left", *left_s / 3600.0);
 }
-
-}  // namespace
 
 Progress::Progress(bool shown, std::size_t trials)
     : shown_(shown), on_terminal_(isatty(STDERR_FILENO) == 1), trials_(static_cast<double>(trials)) {}

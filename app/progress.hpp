@@ -12,6 +12,9 @@
 
 namespace glocal::app {
 
+/// ", about 3 min left", once that can be told.
+[[nodiscard]] std::string time_left(std::optional<double> left_s);
+
 /// On a terminal one line that is written over again and again, elsewhere a line of the log now and then.
 /// Calls may come from several threads.
 class Progress {

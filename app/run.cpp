@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands.hpp"
@@ -13,6 +11,7 @@
 #include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/run_report.hpp"
+#include "app/run_shard.hpp"
 #include "app/watch_server.hpp"
 #include "evaluation/running/experiment_runner.hpp"
 #include "report/live_run.hpp"
@@ -29,6 +28,7 @@ constexpr std::chrono::milliseconds longest_farewell{650};
 struct RunCommand {
   ExperimentOptions experiment;
   RunOptions run;
+  std::string shard;  ///< "3/64"; empty if this process runs all.
   std::string watch;  ///< Port, or any_port; empty if nobody may watch.
   bool quiet = false;
 };
@@ -84,24 +84,16 @@ class Waiting {
   std::size_t longest_trial_ = 1;  ///< Steps.
 };
 
-void print_result(const RunResult& result) {
-  std::vector<std::pair<std::string, nlohmann::ordered_json>> summaries;
-  for (const VariantResult& variant : result.variants) {
-    std::ifstream file(variant.summary);
-    summaries.emplace_back(variant.name, nlohmann::ordered_json::parse(file));
-  }
-  const std::filesystem::path folder = std::filesystem::absolute(result.folder).lexically_normal();
-  if (summaries.front().first.empty()) {
-    print_summary(summaries.front().second, folder);
-  } else {
-    print_table(summaries, folder);
-  }
-}
-
 void run(const RunCommand& command, Context& context) {
+  std::optional<Shard> shard;
+  if (!command.shard.empty()) shard = shard_of(command.shard);
   std::vector<Variant> variants = command.experiment.read_variants(command.experiment.file, context);
   RunOptions options = command.run;
   options.plugins = context.plugins.loaded();
+  if (shard) {
+    run_shard(std::move(variants), command.experiment.file, *shard, options, command.quiet, context);
+    return;
+  }
   LiveRun live(variants.front().experiment.name);
   std::optional<WatchServer> server;
   listen_to_interrupts();
@@ -127,19 +119,30 @@ void add_run(CLI::App& app, Context& context) {
   CLI::App* command =
       app.add_subcommand("run", "Run an experiment, or all its variants, and leave the results in a folder.");
   options->experiment.add_to(*command);
-  command->add_option("--only", options->run.only, "Run only this variant (repeatable)")
-      ->allow_extra_args(false);
-  command->add_option("--out", options->run.out, "Folder for the results (default: results/NAME)");
+  CLI::Option* only = command->add_option("--only", options->run.only, "Run only this variant (repeatable)")
+                          ->allow_extra_args(false);
+  CLI::Option* out =
+      command->add_option("--out", options->run.out, "Folder for the results (default: results/NAME)");
   command
       ->add_option("--jobs", options->run.jobs,
                    "Trials that run side by side, each with --threads of its own")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  CLI::Option* watch =
+      command
+          ->add_flag(
+              fmt::format("--watch{{{}}}", any_port), options->watch,
+              "Show the run while it goes on, in a browser on this machine; --watch=PORT to choose where")
+          ->check((CLI::IsMember({any_port, "0"}) | CLI::Range(1024, 65535)).description(""));
+  CLI::Option* force =
+      command->add_flag("--force", options->run.force, "Replace earlier results in that folder");
   command
-      ->add_flag(fmt::format("--watch{{{}}}", any_port), options->watch,
-                 "Show the run while it goes on, in a browser on this machine; --watch=PORT to choose where")
-      ->check((CLI::IsMember({any_port, "0"}) | CLI::Range(1024, 65535)).description(""));
-  command->add_flag("--force", options->run.force, "Replace earlier results in that folder");
+      ->add_option("--shard", options->shard,
+                   "Run one share of all trials, as 3/64, into a folder that all shards share")
+      ->needs(out)
+      ->excludes(only)
+      ->excludes(watch)
+      ->excludes(force);
   command->add_flag("--quiet", options->quiet, "No progress and no summary");
   command->callback([options, &context] { run(*options, context); });
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace glocal::app {
@@ -65,6 +66,20 @@ void print_table(const std::vector<std::pair<std::string, nlohmann::ordered_json
                summary["complete"].get<bool>() ? "" : "  (interrupted: some trials are missing)");
   }
   fmt::print("results in {}\n", folder.string());
+}
+
+void print_result(const RunResult& result) {
+  std::vector<std::pair<std::string, nlohmann::ordered_json>> summaries;
+  for (const VariantResult& variant : result.variants) {
+    std::ifstream file(variant.summary);
+    summaries.emplace_back(variant.name, nlohmann::ordered_json::parse(file));
+  }
+  const std::filesystem::path folder = std::filesystem::absolute(result.folder).lexically_normal();
+  if (summaries.front().first.empty()) {
+    print_summary(summaries.front().second, folder);
+  } else {
+    print_table(summaries, folder);
+  }
 }
 
 }  // namespace glocal::app

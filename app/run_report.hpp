@@ -21,4 +21,7 @@ void print_summary(const nlohmann::ordered_json& summary, const std::filesystem:
 void print_table(const std::vector<std::pair<std::string, nlohmann::ordered_json>>& variants,
                  const std::filesystem::path& folder);
 
+/// One of these for a whole run, of which there is at least one variant.
+void print_result(const RunResult& result);
+
 }  // namespace glocal::app

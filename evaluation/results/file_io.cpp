@@ -59,9 +59,12 @@ std::string content_of(const fs::path& file) {
 
 std::error_code append_to_file(const fs::path& file, std::string_view content) {
   const Descriptor out(file, O_WRONLY | O_CREAT | O_APPEND);
-  if (out.get() < 0) return last_error();
+  return out.get() < 0 ? last_error() : write_all(out.get(), content);
+}
+
+std::error_code write_all(int descriptor, std::string_view content) {
   while (!content.empty()) {
-    const ssize_t written = ::write(out.get(), content.data(), content.size());
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return last_error();
     content.remove_prefix(static_cast<std::size_t>(written));

@@ -15,6 +15,9 @@ namespace glocal {
 /// Appends to a file, which is made if there is none.
 [[nodiscard]] std::error_code append_to_file(const std::filesystem::path& file, std::string_view content);
 
+/// Writes all of it to an open file, whatever interrupts.
+[[nodiscard]] std::error_code write_all(int descriptor, std::string_view content);
+
 /// Makes a folder and those above it. `changed` are those that have a new entry, to be synced.
 [[nodiscard]] std::error_code make_folders(const std::filesystem::path& folder,
                                            std::vector<std::filesystem::path>& changed);

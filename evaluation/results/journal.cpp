@@ -1,9 +1,9 @@
 #include "evaluation/results/journal.hpp"
 
 #include <fmt/format.h>
+#include <libdeflate.h>
 
 #include <algorithm>
-#include <boost/crc.hpp>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -61,11 +61,6 @@ std::string checked_text(const std::filesystem::path& file) {
   return std::string(text);
 }
 
-JournalEntry entry_of(const Json& json) {
-  return {whole_number(json, "trial"), figures_of(json.at("figures")), json.at("trial_line"),
-          json.at("step_lines"), json.at("files")};
-}
-
 void check_files(const JournalEntry& entry, const std::filesystem::path& folder,
                  const std::filesystem::path& file) {
   for (const auto& [name, sum] : entry.files) {
@@ -77,10 +72,21 @@ void check_files(const JournalEntry& entry, const std::filesystem::path& folder,
 
 }  // namespace
 
+Json to_json(const JournalEntry& entry) {
+  return {{"trial", entry.trial},
+          {"figures", to_json(entry.figures)},
+          {"trial_line", entry.trial_line},
+          {"step_lines", entry.step_lines},
+          {"files", entry.files}};
+}
+
+JournalEntry entry_of(const Json& json) {
+  return {whole_number(json, "trial"), figures_of(json.at("figures")), json.at("trial_line"),
+          json.at("step_lines"), json.at("files")};
+}
+
 std::string checksum(std::string_view bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return fmt::format("{:08x}", crc.checksum());
+  return fmt::format("{:08x}", libdeflate_crc32(0, bytes.data(), bytes.size()));
 }
 
 std::filesystem::path entry_name(std::size_t trial) {
@@ -88,12 +94,7 @@ std::filesystem::path entry_name(std::size_t trial) {
 }
 
 void write_entry(OutputFolder& folder, const JournalEntry& entry) {
-  const Json json = {{"trial", entry.trial},
-                     {"figures", to_json(entry.figures)},
-                     {"trial_line", entry.trial_line},
-                     {"step_lines", entry.step_lines},
-                     {"files", entry.files}};
-  const std::string text = json.dump() + "\n";
+  const std::string text = to_json(entry).dump() + "\n";
   folder.write_for_good(entry_name(entry.trial), checksum(text) + " " + text);
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,10 @@ struct JournalEntry {
   std::string step_lines;                         ///< Of steps.jsonl; empty if they are not written.
   std::map<std::string, std::string> files = {};  ///< What the trial left in files of its own: checksums.
 };
+
+/// As an object of JSON, and back. The latter throws a std::exception where it is not as the former makes it.
+[[nodiscard]] nlohmann::ordered_json to_json(const JournalEntry& entry);
+[[nodiscard]] JournalEntry entry_of(const nlohmann::ordered_json& json);
 
 /// Where a results folder has the journal.
 inline constexpr const char* journal_folder = "journal";

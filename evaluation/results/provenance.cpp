@@ -24,11 +24,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-}
-
 std::string cpu_model() {
   std::ifstream cpuinfo("/proc/cpuinfo");
   for (std::string line; std::getline(cpuinfo, line);) {
@@ -59,7 +54,6 @@ std::string builtin_library() {
   return found;
 }
 
-/// The program and glocal's libraries: all strategies that are in no plugin are in one of them.
 Json program_sha256(FileHashes& hashes) {
   Json files = {{"program", hashes.of("/proc/self/exe")},
                 {"library", hashes.of(object_of(&revision))},
@@ -67,6 +61,24 @@ Json program_sha256(FileHashes& hashes) {
   if (const std::string builtin = builtin_library(); !builtin.empty()) files["builtin"] = hashes.of(builtin);
   return files;
 }
+
+class Sha256 {
+ public:
+  Sha256() { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
+  void add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
+  /// In hexadecimal digits; to be called once.
+  std::string text() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned length = 0;
+    EVP_DigestFinal_ex(context_.get(), digest.data(), &length);
+    std::string hex;
+    for (unsigned i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest.at(i));
+    return hex;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+};
 
 /// Comments tell what follows from the map; they are no values, and only stand behind values without quotes.
 std::string without_comments(const std::string& yaml) {
@@ -87,21 +99,29 @@ const std::string& FileHashes::of(const std::filesystem::path& file) {
   return known->second;
 }
 
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw RunError(file.string() + ": cannot read");
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
-  EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+  Sha256 hash;
   std::array<char, 65536> buffer{};
-  while (in.read(buffer.data(), buffer.size()), in.gcount() > 0) {
-    EVP_DigestUpdate(context.get(), buffer.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned length = 0;
-  EVP_DigestFinal_ex(context.get(), digest.data(), &length);
-  std::string hex;
-  for (unsigned i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest.at(i));
-  return hex;
+  while (in.read(buffer.data(), buffer.size()), in.gcount() > 0)
+    hash.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
+  return hash.text();
+}
+
+std::string sha256_of_text(std::string_view text) {
+  Sha256 hash;
+  hash.add(text);
+  return hash.text();
+}
+
+Json program_identity(FileHashes& hashes) {
+  return {{"version", version}, {"revision", revision()}, {"program_sha256", program_sha256(hashes)}};
 }
 
 Json provenance(const Catalog& catalog, int threads, const std::set<std::filesystem::path>& inputs,
@@ -113,15 +133,14 @@ Json provenance(const Catalog& catalog, int threads, const std::set<std::filesys
     for (const StrategyInfo* info : registry->all()) origins.insert(valid_utf8(info->origin));
   }
   origins.erase("glocal");
-  return {{"version", version},
-          {"revision", revision()},
-          {"program_sha256", program_sha256(hashes)},
-          {"compiler", compiler},
-          {"host", host_name()},
-          {"cpu", cpu_model()},
-          {"threads", threads},
-          {"inputs_sha256", std::move(files)},
-          {"plugins", origins}};
+  Json json = program_identity(hashes);
+  json.update({{"compiler", compiler},
+               {"host", host_name()},
+               {"cpu", cpu_model()},
+               {"threads", threads},
+               {"inputs_sha256", std::move(files)},
+               {"plugins", origins}});
+  return json;
 }
 
 std::optional<std::string> why_other_run(const std::filesystem::path& folder, const std::string& effective,
@@ -137,9 +156,9 @@ std::optional<std::string> why_other_run(const std::filesystem::path& folder, co
   const auto text_at = [&](const char* key) {
     return record.is_object() ? record.value(key, Json()) : Json();
   };
-  if (text_at("version") != version || text_at("revision") != revision() ||
-      text_at("program_sha256") != program_sha256(hashes)) {
-    return "it is of another build of the program";
+  const Json program = program_identity(hashes);
+  for (const auto& [key, value] : program.items()) {
+    if (text_at(key.c_str()) != value) return "it is of another build of the program";
   }
   const Json inputs = text_at("inputs_sha256");
   for (const auto& [file, hash] : inputs.items()) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "glocal/catalog.hpp"
 
@@ -15,6 +16,11 @@ namespace glocal {
 /// SHA-256 of a file in hexadecimal digits, as sha256sum prints it. Throws RunError if the file cannot be
 /// read.
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
+
+/// SHA-256 of a text, in the same form.
+[[nodiscard]] std::string sha256_of_text(std::string_view text);
+
+[[nodiscard]] std::string host_name();
 
 /// SHA-256 of files, each read once.
 class FileHashes {
@@ -25,6 +31,10 @@ class FileHashes {
  private:
   std::map<std::filesystem::path, std::string> known_;
 };
+
+/// Version, revision and SHA-256 of the program and of glocal's libraries: all strategies that are in no
+/// plugin are in one of them.
+[[nodiscard]] nlohmann::ordered_json program_identity(FileHashes& hashes);
 
 /// Version, revision, compiler, host, CPU, threads, SHA-256 of the program and of every input file, and which
 /// plugins took part.

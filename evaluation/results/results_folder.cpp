@@ -285,6 +285,16 @@ std::optional<bool> is_complete(const fs::path& folder) {
   return complete->get<bool>();
 }
 
+std::map<std::string, Setting> settings_of(const std::string& yaml, const fs::path& file,
+                                           const std::map<std::string, std::string>& hashes) {
+  std::vector<Fault> faults;
+  const auto tree = parse_yaml(yaml, origin_of(file), faults);
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  std::map<std::string, Setting> settings;
+  flatten(*tree, "", hashes, settings);
+  return settings;
+}
+
 std::map<std::string, Setting> read_settings(const fs::path& folder,
                                              const std::map<std::string, std::string>& hashes) {
   const fs::path file = folder / "effective.yaml";
@@ -297,11 +307,7 @@ std::map<std::string, Setting> read_settings(const fs::path& folder,
                          way_out));
   };
   check(text.ends_with('\n'));
-  std::vector<Fault> faults;
-  const auto tree = parse_yaml(text, origin_of(file), faults);
-  if (!faults.empty()) throw ConfigError(std::move(faults));
-  std::map<std::string, Setting> settings;
-  flatten(*tree, "", hashes, settings);
+  std::map<std::string, Setting> settings = settings_of(text, file, hashes);
   // Half a file may be good YAML, too; these are its last keys.
   check(settings.contains("output.steps") && settings.contains("output.maps"));
   return settings;

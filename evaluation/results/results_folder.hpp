@@ -80,7 +80,13 @@ struct LineReaders {
 /// The times of a line of steps.jsonl. Throws a std::exception where they are not as glocal run writes them.
 [[nodiscard]] StageTimes stage_times(const nlohmann::ordered_json& step);
 
-/// The values of effective.yaml by path; `hashes` are those of the input files. Throws ConfigError.
+/// The values of an experiment as YAML, by path; `hashes` are those of the input files. `file` is where it
+/// comes from, for faults. Throws ConfigError.
+[[nodiscard]] std::map<std::string, Setting> settings_of(const std::string& yaml,
+                                                         const std::filesystem::path& file,
+                                                         const std::map<std::string, std::string>& hashes);
+
+/// The same of a folder's effective.yaml, which must be whole.
 [[nodiscard]] std::map<std::string, Setting> read_settings(const std::filesystem::path& folder,
                                                            const std::map<std::string, std::string>& hashes);
 

@@ -3,19 +3,23 @@
 
 #include <cstddef>
 #include <functional>
-#include <map>
-#include <mutex>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "evaluation/results/journal.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/summary.hpp"
+#include "evaluation/results/trial_output.hpp"
 #include "glocal/experiment.hpp"
-#include "glocal/observation.hpp"
 
 namespace glocal {
+
+/// Writes trials.jsonl and, if asked, steps.jsonl of a run with so many trials, and sums them up. `entry_of`
+/// gives the entry of a trial; none if the trial is missing. Files of trials are not touched.
+[[nodiscard]] Summary put_together(
+    OutputFolder& folder, bool has_steps, std::size_t trials,
+    const std::function<std::optional<JournalEntry>(std::size_t trial)>& entry_of);
 
 /// Keeps what trials leave, from any number of threads, and puts it together in the order of trials. Trials
 /// that are in the folder's journal count as finished.
@@ -29,7 +33,9 @@ class RunResults {
   [[nodiscard]] const std::vector<std::size_t>& to_run() const { return to_run_; }
 
   /// To be called after each step of a trial, with what the robot has seen in it.
-  void step(std::size_t trial, const StepRecord& record, const Scan& scan, const Localizer& localizer);
+  void step(std::size_t trial, const StepRecord& record, const Scan& scan, const Localizer& localizer) {
+    collector_.step(trial, record, scan, localizer);
+  }
   /// Writes what the trial leaves; it need not be run again from here on, whatever happens.
   void finish(const TrialRecord& trial);
 
@@ -37,18 +43,13 @@ class RunResults {
   [[nodiscard]] Summary put_together();
 
  private:
-  using MapFiles = std::vector<std::pair<std::string, std::string>>;  ///< Names and contents.
-
   void take_up(std::size_t trial, const std::function<void(const std::string&)>& warn);
-  [[nodiscard]] bool keeps_map(std::size_t trial) const;
-  MapFiles take_maps(std::size_t trial);
 
   OutputFolder& folder_;
   const OutputConfig& config_;
   std::size_t trials_;
   std::vector<std::size_t> to_run_;
-  std::mutex mutex_;                      ///< For the maps.
-  std::map<std::size_t, MapFiles> maps_;  ///< Of running trials.
+  TrialCollector collector_;
 };
 
 }  // namespace glocal

@@ -23,13 +23,13 @@ Json with_interval(const Proportion& p) {
   return {{"value", p.value}, {"low", p.low}, {"high", p.high}};
 }
 
+}  // namespace
+
 double peak_rss_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
-
-}  // namespace
 
 TrialFigures figures_of(const TrialRecord& trial) {
   TrialFigures figures{trial.outcome, static_cast<double>(trial.steps), trial.distance_m};
@@ -104,7 +104,7 @@ Json Summary::to_json(const Run& run) const {
   Json json = {{"name", run.name}, {"seed", run.seed}, {"complete", run.complete}};
   json.update(figures());
   json["map"] = std::move(map);
-  json["peak_rss_mb"] = peak_rss_mb();
+  json["peak_rss_mb"] = run.peak_rss_mb;
   return json;
 }
 

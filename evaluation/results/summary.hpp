@@ -23,6 +23,9 @@ struct TrialFigures {
 };
 [[nodiscard]] TrialFigures figures_of(const TrialRecord& trial);
 
+/// The most memory that this process has held so far.
+[[nodiscard]] double peak_rss_mb();
+
 /// Collects trials and sums them up as the contract for `summary.json` says.
 class Summary {
  public:
@@ -36,6 +39,7 @@ class Summary {
     double map_build_ms = 0.0;
     double map_index_ms = 0.0;  ///< To make all stages, which build what they look up in the map.
     std::optional<MapIndexInfo> map_index = {};
+    double peak_rss_mb = 0.0;  ///< Of the process that ran the trials, or of the largest.
   };
   [[nodiscard]] nlohmann::ordered_json to_json(const Run& run) const;
   /// What follows from the trials alone.

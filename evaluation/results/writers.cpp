@@ -135,6 +135,12 @@ std::string trial_line(const TrialRecord& trial) {
   return json.dump() + "\n";
 }
 
+std::string failed_trial_line(std::size_t trial, const Json& start, const std::string& why) {
+  const Json json = {{"trial", trial}, {"start", start},    {"outcome", to_string(Outcome::failed)},
+                     {"steps", 0},     {"distance_m", 0.0}, {"why", why}};
+  return json.dump() + "\n";
+}
+
 Trajectories tum_trajectories(const TrialRecord& trial) {
   Trajectories result;
   for (const StepRecord& step : trial.records) {

@@ -24,6 +24,10 @@ namespace glocal {
 /// One line of trials.jsonl.
 [[nodiscard]] std::string trial_line(const TrialRecord& trial);
 
+/// The line of a trial that has not come to an end in any process; `start` is as start_json() gives it.
+[[nodiscard]] std::string failed_trial_line(std::size_t trial, const nlohmann::ordered_json& start,
+                                            const std::string& why);
+
 /// A trajectory as evo reads it: stamp x y z qx qy qz qw on each line. Steps without a pose are left out.
 struct Trajectories {
   std::string estimate;   ///< What was thought best in each step, declared or not.

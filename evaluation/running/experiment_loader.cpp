@@ -94,26 +94,32 @@ Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, L
   return {experiment.localizer, catalog, setup, seed_of(RandomPart::localizer, experiment)};
 }
 
-std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,
-                                      const Catalog& catalog) {
-  std::vector<std::size_t> trials;
+void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
+                     const std::function<void(std::size_t variant, LoadedExperiment&)>& work) {
   std::set<Fault> seen;  // Many variants may have the same fault.
   std::vector<Fault> faults;
-  for (Variant& variant : variants) {
+  for (std::size_t i = 0; i < variants.size(); ++i) {
     try {
-      LoadedExperiment& loaded = loader.load(variant.experiment);
-      trials.push_back(loaded.starts.size());
-      if (variants.size() > 1) static_cast<void>(make_localizer(variant.experiment, catalog, loaded));
+      work(i, loader.load(variants[i].experiment));
     } catch (const ConfigError& error) {
       for (Fault fault : error.faults()) {
         if (!seen.insert(fault).second) continue;
-        if (!variant.name.empty())
-          fault.message = fmt::format("variant '{}': {}", variant.name, fault.message);
+        if (!variants[i].name.empty())
+          fault.message = fmt::format("variant '{}': {}", variants[i].name, fault.message);
         faults.push_back(std::move(fault));
       }
     }
   }
   if (!faults.empty()) throw ConfigError(std::move(faults));
+}
+
+std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,
+                                      const Catalog& catalog) {
+  std::vector<std::size_t> trials;
+  for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
+    trials.push_back(loaded.starts.size());
+    if (variants.size() > 1) static_cast<void>(make_localizer(variants[i].experiment, catalog, loaded));
+  });
   return trials;
 }
 
@@ -128,6 +134,7 @@ bool run_trials(std::vector<Localizer>& localizers, const Experiment& experiment
       callbacks.step(trial, record, now);
     };
     const auto stop = [&] { return stopped || callbacks.stop(); };
+    callbacks.begin(trial);
     const auto record = run_trial(localizer, loaded.drive, *loaded.map, experiment, trial,
                                   loaded.starts[trial], {step, stop});
     if (record) {

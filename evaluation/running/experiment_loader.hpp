@@ -63,6 +63,11 @@ class ExperimentLoader {
 [[nodiscard]] Localizer make_localizer(const Experiment& experiment, const Catalog& catalog,
                                        LoadedExperiment& loaded);
 
+/// Loads one variant after the other and hands them over by their places. Throws ConfigError with the faults
+/// of all, those of `work` too, each once.
+void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
+                     const std::function<void(std::size_t variant, LoadedExperiment&)>& work);
+
 /// Prepares every variant and, if there are several, makes its localizer: whatever one of them cannot work
 /// with shows before the first is run. Tells how many trials each has. Throws ConfigError with the faults of
 /// all.
@@ -75,6 +80,7 @@ struct RunCallbacks {
   std::function<void(std::size_t trial, const StepRecord&, const Localizer&)> step;
   std::function<void(const TrialRecord&)> done;
   std::function<bool()> stop;  ///< Asked before each step; true gives up all running trials.
+  std::function<void(std::size_t trial)> begin = [](std::size_t) {};
 };
 
 /// Runs the trials of these numbers in their order, as many at once as there are localizers (all of the

@@ -43,6 +43,21 @@ double ms_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
+VariantResult result_of_variant(const std::string& name, const std::filesystem::path& folder,
+                                const Json& summary) {
+  const Json& trials = summary.at("trials");
+  return {.name = name,
+          .folder = folder,
+          .summary = folder / "summary.json",
+          .complete = summary.at("complete"),
+          .trials = trials.at("count"),
+          .right = trials.at("right"),
+          .wrong = trials.at("wrong"),
+          .undecided = trials.at("undecided"),
+          .declared = trials.value("declared_without_reference", std::size_t{0}),
+          .failed = trials.value("failed", std::size_t{0})};
+}
+
 ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const std::filesystem::path& file,
                                    const Catalog& catalog, RunOptions options, RunnerCallbacks callbacks)
     : variants_(std::move(variants)),
@@ -152,21 +167,6 @@ std::optional<std::string> ExperimentRunner::why_other(const std::filesystem::pa
   return why_other_run(folder, effective_yaml(experiment, catalog_), file_, hashes_);
 }
 
-void ExperimentRunner::add_result(const std::string& name, const Json& summary) {
-  const Json& trials = summary.at("trials");
-  const std::filesystem::path folder = folder_of(name);
-  results_.push_back({.name = name,
-                      .folder = folder,
-                      .summary = folder / "summary.json",
-                      .complete = summary.at("complete"),
-                      .trials = trials.at("count"),
-                      .right = trials.at("right"),
-                      .wrong = trials.at("wrong"),
-                      .undecided = trials.at("undecided"),
-                      .declared = trials.value("declared_without_reference", std::size_t{0}),
-                      .failed = trials.value("failed", std::size_t{0})});
-}
-
 void ExperimentRunner::run_one(Variant& variant) {
   Experiment& experiment = variant.experiment;
   LoadedExperiment& loaded = loader_.load(experiment);
@@ -214,9 +214,9 @@ void ExperimentRunner::run_one(Variant& variant) {
   const bool complete = run_trials(localizers, experiment, loaded, results.to_run(),
                                    {on_step, on_done, callbacks_.trials.stop});
 
-  const Json summary =
-      results.put_together().to_json({experiment.name, experiment.seed, complete, loaded.map->points().size(),
-                                      loaded.map_build_ms, map_index_ms, localizers.front().map_index()});
+  const Json summary = results.put_together().to_json(
+      {experiment.name, experiment.seed, complete, loaded.map->points().size(), loaded.map_build_ms,
+       map_index_ms, localizers.front().map_index(), peak_rss_mb()});
   // The summary comes last: a later run takes its word that all is there.
   folder.write_for_good("summary.json", summary.dump(2) + "\n");
   put_in_place(folder, variant.name, summary);

@@ -37,6 +37,10 @@ struct RunnerCallbacks {
   TellProgress progress = [](double) {};  ///< Of reading what takes long.
 };
 
+/// What a variant has come to, by its summary.json.
+[[nodiscard]] VariantResult result_of_variant(const std::string& name, const std::filesystem::path& folder,
+                                              const nlohmann::ordered_json& summary);
+
 class ExperimentRunner {
  public:
   /// `file` is where the variants were read from; there is at least one.
@@ -58,7 +62,9 @@ class ExperimentRunner {
   void put_in_place(OutputFolder& folder, const std::string& variant, const nlohmann::ordered_json& summary);
   [[nodiscard]] std::optional<std::string> why_other(const std::filesystem::path& folder,
                                                      Experiment& experiment);
-  void add_result(const std::string& name, const nlohmann::ordered_json& summary);
+  void add_result(const std::string& name, const nlohmann::ordered_json& summary) {
+    results_.push_back(result_of_variant(name, folder_of(name), summary));
+  }
   [[nodiscard]] std::filesystem::path folder_of(const std::string& variant) const { return out_ / variant; }
 
   std::vector<Variant> variants_;

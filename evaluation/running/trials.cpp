@@ -1,5 +1,6 @@
 #include "evaluation/running/trials.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -72,6 +73,13 @@ std::size_t step_limit(const TrialsConfig& config) {
   return static_cast<std::size_t>(config.max_steps);
 }
 
+std::size_t steps_left(const Drive& drive, const TrialsConfig& config, std::size_t start_sample) {
+  const auto first = drive.samples.begin() + static_cast<std::ptrdiff_t>(start_sample);
+  const auto end = std::find_if(first, drive.samples.end(),
+                                [&](const Sample& sample) { return sample.segment != first->segment; });
+  return std::min(step_limit(config), static_cast<std::size_t>(end - first));
+}
+
 PoseError pose_error(const Pose3& estimate, const Pose3& reference) {
   return {distance(estimate, reference), rotation_between(estimate, reference)};
 }
@@ -100,18 +108,23 @@ Outcome outcome_of(const std::string& name) {
   throw std::invalid_argument("there is no outcome '" + name + "'");
 }
 
-std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, const GlobalMap& map,
-                                     const Experiment& experiment, std::size_t trial,
-                                     std::size_t start_sample, const TrialCallbacks& callbacks) {
+TrialRecord begun_trial(const Drive& drive, Motion motion, std::size_t trial, std::size_t start_sample) {
   const Sample& start = drive.samples[start_sample];
   TrialRecord record;
   record.trial = trial;
   record.start_sample = start_sample;
   record.start_m = drive.path_m[start_sample];
   record.start_stamp = start.observation.stamp;
-  record.motion = experiment.localizer.motion;
+  record.motion = motion;
   record.start_reference = start.map_from_robot;
+  return record;
+}
 
+std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, const GlobalMap& map,
+                                     const Experiment& experiment, std::size_t trial,
+                                     std::size_t start_sample, const TrialCallbacks& callbacks) {
+  const Sample& start = drive.samples[start_sample];
+  TrialRecord record = begun_trial(drive, experiment.localizer.motion, trial, start_sample);
   bool going_on = done_or_failed(record, [&] { localizer.reset(trial); });
   for (std::size_t i = start_sample; going_on && i < drive.samples.size(); ++i) {
     const Sample& sample = drive.samples[i];

@@ -62,6 +62,14 @@ struct TrialCallbacks {
 /// The most steps a trial takes; the largest number there is where only the end of the drive limits it.
 [[nodiscard]] std::size_t step_limit(const TrialsConfig& config);
 
+/// The most steps that a trial can take which starts at this sample.
+[[nodiscard]] std::size_t steps_left(const Drive& drive, const TrialsConfig& config,
+                                     std::size_t start_sample);
+
+/// A trial before its first step.
+[[nodiscard]] TrialRecord begun_trial(const Drive& drive, Motion motion, std::size_t trial,
+                                      std::size_t start_sample);
+
 /// Runs one trial: to the first declaration or `max_steps`, or with `whole` to the end of the drive. No trial
 /// runs across the end of a segment. One in which a strategy throws an exception has failed and ends there.
 /// None if stopped.

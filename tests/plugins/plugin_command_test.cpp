@@ -164,6 +164,76 @@ TEST_F(PluginCommand, ACrashSaysInWhichStrategy) {
   EXPECT_THAT(aborted.err, HasSubstr("error: crashed (SIGABRT, it gave up)" + where));
 }
 
+/// Shards of trials that start at the stamps 0, 5, 10 and 15, one step each.
+class CrashingShard : public PluginCommand {
+ protected:
+  CrashingShard() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "the sanitizer reports crashes itself";
+#endif
+  }
+
+  [[nodiscard]] Answer run_shard(const std::string& how, const std::string& options = "") const {
+    write_experiment("plugins: [" + plugin("every_kind") + ", " + plugin("ill_behaved") + "]\n",
+                     "{ill_behaved: {" + how + "}}");
+    return run("run " + file("e.yaml") + " --set trials.max_steps=1 --quiet --shard 1/1 --out " +
+               file("shared") + " " + options);
+  }
+
+  [[nodiscard]] std::vector<Json> merged_trials() const {
+    static_cast<void>(run("merge " + file("shared")));
+    std::ifstream lines(file("shared/trials.jsonl"));
+    std::vector<Json> trials;
+    for (std::string line; std::getline(lines, line);) trials.push_back(Json::parse(line));
+    return trials;
+  }
+};
+
+TEST_F(CrashingShard, ATrialThatCrashesTwiceIsARowAndTakesNoOthersWithIt) {
+  for (const char* jobs : {"", "--jobs 2"}) {
+    fs::remove_all(file("shared"));
+    const Answer answer = run_shard("how: crash, stamp: 5", jobs);
+    EXPECT_EQ(answer.exit_code, 1);
+    EXPECT_THAT(answer.err, AllOf(HasSubstr("trial 1 has crashed (SIGSEGV); it is tried once more, alone"),
+                                  HasSubstr("trial 1 has crashed (SIGSEGV); it is given up")));
+    const auto trials = merged_trials();
+    ASSERT_EQ(trials.size(), 4U);
+    for (const Json& trial : trials)
+      EXPECT_EQ(trial["outcome"], trial["trial"] == 1 ? "failed" : "undecided") << trial;
+    EXPECT_EQ(trials[1]["why"], "crashed (SIGSEGV) in matcher 'ill_behaved', step 0, in each of 2 processes");
+    EXPECT_EQ(trials[1]["start"]["stamp"], 5.0);
+    EXPECT_EQ(trials[1]["start"].size(), trials[0]["start"].size());
+    const Answer status = run("status " + file("shared") + " --json");
+    EXPECT_EQ(Json::parse(status.out)["all"]["failed"], 1);
+    EXPECT_EQ(run("merge --force --quiet " + file("shared")).exit_code, 1);
+    EXPECT_EQ(run("summarize " + file("shared")).exit_code, 0);
+    EXPECT_EQ(run_shard("how: crash, stamp: 5").exit_code, 1) << "it stays failed";
+    EXPECT_THAT(run_shard("how: crash, stamp: 5").err, Not(HasSubstr("crashed"))) << "and is not run again";
+  }
+}
+
+TEST_F(CrashingShard, ATrialThatCrashesOnceIsNot) {
+  const Answer answer = run_shard("how: abort, stamp: 10, once: " + file("mark"));
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.err, HasSubstr("trial 2 has crashed (SIGABRT); it is tried once more, alone"));
+  const auto trials = merged_trials();
+  ASSERT_EQ(trials.size(), 4U);
+  for (const Json& trial : trials) EXPECT_EQ(trial["outcome"], "undecided");
+}
+
+TEST_F(CrashingShard, AnotherVersionOfAPluginIsRefused) {
+  fs::copy(plugin("ill_behaved"), file("mine.so"));
+  const auto run_mine = [&] {
+    write_experiment("plugins: [" + plugin("every_kind") + ", mine.so]\n", "{ill_behaved: {how: nan}}");
+    return run("run " + file("e.yaml") + " --quiet --shard 1/1 --out " + file("shared"));
+  };
+  ASSERT_EQ(run_mine().exit_code, 1) << "all trials fail";
+  std::ofstream(file("mine.so"), std::ios::app) << "more";
+  const Answer other = run_mine();
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("the folder was made otherwise: with other plugins, or other versions"));
+}
+
 TEST_F(PluginCommand, ASecondInterruptEndsAStepThatHangs) {
   write_experiment("plugins: [" + plugin("every_kind") + ", " + plugin("ill_behaved") + "]\n",
                    "{ill_behaved: {how: hang}}");

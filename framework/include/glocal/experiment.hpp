@@ -35,6 +35,7 @@ void describe(ParamVisitor& v, EvaluationConfig& p);
 /// What a run writes besides the summary.
 struct OutputConfig {
   bool steps = true;
+  bool trajectories = true;
   int clusters = 50;
   std::string maps = "first_trial";
 };

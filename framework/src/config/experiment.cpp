@@ -228,6 +228,8 @@ void describe(ParamVisitor& v, EvaluationConfig& p) {
 
 void describe(ParamVisitor& v, OutputConfig& p) {
   v.field("steps", p.steps, {.doc = "Whether to write steps.jsonl, one line a step."});
+  v.field("trajectories", p.trajectories,
+          {.doc = "Whether to write the trajectories of each trial, two or three files."});
   v.field("clusters", p.clusters,
           {.doc = "How many clusters of a step to list there, best first.", .min = 0.0});
   v.field("maps", p.maps,

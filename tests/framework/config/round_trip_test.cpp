@@ -160,7 +160,7 @@ localizer:
   EXPECT_EQ(written.substr(comment_end, expected.size()), expected);
   EXPECT_THAT(written,
               testing::EndsWith("evaluation:\n  max_translation_error: 0.5\n  max_rotation_error_deg: 10\n"
-                                "output:\n  steps: true\n  clusters: 50\n  maps: first_trial\n"));
+                                "output:\n  steps: true\n  trajectories: true\n  clusters: 50\n  maps: first_trial\n"));
 }
 
 TEST_F(RoundTrip, EachPartOfAnExperimentHasRandomNumbersOfItsOwn) {

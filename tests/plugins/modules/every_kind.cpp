@@ -43,6 +43,7 @@ class Standing final : public ObservationSource {
   std::optional<Sample> next() override {
     if (left_-- <= 0) return std::nullopt;
     Sample sample;
+    sample.observation.stamp = stamp_++;
     sample.map_from_robot = Pose2{4.0, 4.0, 0.0};
     for (int i = -40; i < 40; ++i)
       sample.observation.scan.hits.push_back({4.0F, 0.1F * static_cast<float>(i), 0.0F});
@@ -51,6 +52,7 @@ class Standing final : public ObservationSource {
 
  private:
   int left_;
+  double stamp_ = 0.0;
 };
 void describe(ParamVisitor& v, Standing::Params& p) {
   v.field("scans", p.scans, {.doc = "How many.", .min = 1});

@@ -1,6 +1,8 @@
 // A matcher that does what no matcher should.
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -17,11 +19,18 @@ class IllBehaved final : public Matcher {
  public:
   struct Params {
     std::string how = "nan";
+    double stamp = -1.0;
+    std::string once;
   };
-  explicit IllBehaved(const Params& params) : how_(params.how) {}
+  explicit IllBehaved(const Params& params) : params_(params), how_(params.how) {}
 
-  MatchResult match(const LocalMap& /*local*/, const Observation& /*latest*/, double /*omega_max*/,
+  MatchResult match(const LocalMap& /*local*/, const Observation& latest, double /*omega_max*/,
                     Rng& /*rng*/) override {
+    if (params_.stamp >= 0.0 && latest.stamp != params_.stamp) return {};
+    if (!params_.once.empty()) {
+      if (std::filesystem::exists(params_.once)) return {};
+      const std::ofstream mark(params_.once);
+    }
     if (how_ == "crash") std::raise(SIGSEGV);
     if (how_ == "crash_in_a_thread")
       parallel_for(2, 100, [](std::size_t i) {
@@ -35,10 +44,13 @@ class IllBehaved final : public Matcher {
   void reset() override {}
 
  private:
+  Params params_;
   std::string how_;
 };
 void describe(ParamVisitor& v, IllBehaved::Params& p) {
   v.field("how", p.how, {.doc = "What it does wrong."});
+  v.field("stamp", p.stamp, {.doc = "When it does; negative: always.", .unit = "s"});
+  v.field("once", p.once, {.doc = "File that says that it has done it, and does no more."});
 }
 
 }  // namespace

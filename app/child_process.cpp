@@ -1,0 +1,110 @@
+#include "app/child_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "app/command_line.hpp"
+#include "app/interrupts.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds between_calls{30};
+
+/// How many processes the system has ended since it was started, to get memory back.
+long killed_for_memory() {
+  std::ifstream file("/proc/vmstat");
+  std::string name;
+  for (long value = 0; file >> name >> value;) {
+    if (name == "oom_kill") return value;
+  }
+  return 0;
+}
+
+[[noreturn]] void be_child(const std::function<int()>& work, pid_t parent, int tell) {
+  // Ctrl-C reaches the parent alone, which passes it on.
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) std::_Exit(0);
+  report_crashes_to(tell);
+  const int code = exit_code_of(work);
+  std::fflush(nullptr);
+  // Without destructors: what this process has was made for the parent, too.
+  std::_Exit(code);
+}
+
+/// Waits until the child has ended; it says nothing but its last word.
+std::string wait_for(pid_t child, int listen, const std::function<void()>& now_and_then) {
+  std::string said;
+  bool told = false;
+  for (Clock::time_point called = Clock::now();;) {
+    constexpr int ms = 200;
+    pollfd input{listen, POLLIN, 0};
+    if (poll(&input, 1, ms) > 0) {
+      std::array<char, 1024> text{};
+      const ssize_t n = read(listen, text.data(), text.size());
+      if (n == 0) return said;
+      if (n > 0) said.append(text.data(), static_cast<std::size_t>(n));
+    }
+    if (is_interrupted() && !told) {
+      kill(child, SIGTERM);
+      told = true;
+    }
+    if (Clock::now() - called > between_calls) {
+      now_and_then();
+      called = Clock::now();
+    }
+  }
+}
+
+}  // namespace
+
+ChildEnd run_in_child(const std::function<int()>& work, const std::function<void()>& now_and_then) {
+  std::array<int, 2> pipe_ends{};
+  const auto fail = [] {
+    throw RunError(fmt::format("cannot start a process: {}", std::generic_category().message(errno)));
+  };
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) fail();
+  const auto [listen, tell] = pipe_ends;
+  const long killed_before = killed_for_memory();
+  std::fflush(nullptr);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) fail();
+  if (child == 0) {
+    close(listen);
+    be_child(work, parent, tell);
+  }
+  close(tell);
+  const std::string said = wait_for(child, listen, now_and_then);
+  close(listen);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  ChildEnd end;
+  if (WIFEXITED(status)) {
+    end.exit_code = WEXITSTATUS(status);
+  } else {
+    end.signal = WTERMSIG(status);
+    end.out_of_memory = end.signal == SIGKILL && killed_for_memory() > killed_before;
+    end.crash = crash_report_of(said);
+  }
+  return end;
+}
+
+}  // namespace glocal::app

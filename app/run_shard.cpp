@@ -1,0 +1,249 @@
+#include "app/run_shard.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "app/child_process.hpp"
+#include "app/interrupts.hpp"
+#include "app/progress.hpp"
+#include "app/shard_plan.hpp"
+#include "evaluation/sharding/journal_scan.hpp"
+#include "evaluation/sharding/run_shard.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal::app {
+namespace {
+
+constexpr std::size_t most_shards = 1'000'000;
+constexpr int incomplete = 3;
+
+std::optional<std::size_t> number_of(std::string_view text) {
+  std::size_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || last != end || text.empty()) return std::nullopt;
+  return number;
+}
+
+/// Keeps children at work until all trials of a share have come to an end.
+class Supervisor {
+ public:
+  Supervisor(std::vector<Variant> variants, Manifest manifest, const Shard& shard, RunOptions options,
+             bool quiet, const Context& context)
+      : variants_(std::move(variants)),
+        manifest_(std::move(manifest)),
+        shard_(shard),
+        options_(std::move(options)),
+        quiet_(quiet),
+        context_(context),
+        scan_(journals_folder(options_.out), [](const std::string& text) { spdlog::warn(text); }) {
+    std::vector<std::vector<std::size_t>> steps(manifest_.variants.size());
+    for (std::size_t v = 0; v < steps.size(); ++v) {
+      for (const PlannedStart& start : manifest_.starts_of(v)) steps[v].push_back(start.steps);
+    }
+    share_ = share_of(steps, shard_);
+  }
+
+  /// The exit code.
+  int run();
+
+ private:
+  struct Open {
+    std::vector<TrialPlace> fresh;
+    std::vector<TrialPlace> crashed;  ///< Each has ended a process.
+  };
+
+  [[nodiscard]] TrialId id(const TrialPlace& place) const {
+    return id_of(manifest_.variants[place.variant], place.trial,
+                 manifest_.starts_of(place.variant)[place.trial]);
+  }
+  [[nodiscard]] std::size_t crashes_of(const TrialPlace& place) const;
+  [[nodiscard]] Open open() const;
+  [[nodiscard]] bool any_failed() const;
+  std::optional<int> run_process(const std::vector<TrialPlace>& trials);
+  int work(const std::vector<TrialPlace>& trials, ShardJournal& journal);
+  void note_death(const ChildEnd& end, const std::vector<TrialPlace>& trials, ShardJournal& journal);
+  void note_crash(const ChildEnd& end, const std::vector<TrialPlace>& suspects, ShardJournal& journal);
+  void note_kill(int signal);
+
+  std::vector<Variant> variants_;
+  Manifest manifest_;
+  Shard shard_;
+  RunOptions options_;
+  bool quiet_;
+  const Context& context_;
+  JournalScan scan_;
+  std::vector<TrialPlace> share_;
+  std::size_t kills_ = 0;  ///< Of processes one after the other that have finished nothing.
+  std::size_t finished_before_ = 0;
+};
+
+std::size_t Supervisor::crashes_of(const TrialPlace& place) const {
+  const auto crashes = scan_.crashes().find(id(place));
+  return crashes == scan_.crashes().end() ? 0 : crashes->second.size();
+}
+
+Supervisor::Open Supervisor::open() const {
+  Open open;
+  for (const TrialPlace& place : share_) {
+    if (scan_.finished().contains(id(place))) continue;
+    const std::size_t crashes = crashes_of(place);
+    if (crashes == 0) open.fresh.push_back(place);
+    if (crashes > 0 && crashes < most_crashes) open.crashed.push_back(place);
+  }
+  return open;
+}
+
+bool Supervisor::any_failed() const {
+  return std::any_of(share_.begin(), share_.end(), [&](const TrialPlace& place) {
+    const auto finished = scan_.finished().find(id(place));
+    return finished == scan_.finished().end() || finished->second.outcome == Outcome::failed;
+  });
+}
+
+int Supervisor::run() {
+  Open todo = open();
+  if (!quiet_) {
+    const std::size_t n = todo.fresh.size() + todo.crashed.size();
+    spdlog::info("shard {}/{}: {} of its {} trials are to be run", shard_.number, shard_.of, n,
+                 share_.size());
+  }
+  for (; !todo.fresh.empty() || !todo.crashed.empty(); todo = open()) {
+    // One that has crashed is tried once more alone, so that it takes no others with it.
+    const std::vector<TrialPlace> trials =
+        todo.fresh.empty() ? std::vector{todo.crashed.front()} : std::move(todo.fresh);
+    if (const auto code = run_process(trials)) return *code;
+  }
+  return any_failed() ? 1 : 0;
+}
+
+/// None if there may be more to do.
+std::optional<int> Supervisor::run_process(const std::vector<TrialPlace>& trials) {
+  ShardJournal journal(journals_folder(options_.out), shard_, options_.jobs);
+  const ChildEnd end = run_in_child([&] { return work(trials, journal); }, [&] { journal.touch(); });
+  journal.drop_torn_line();
+  scan_.update();
+  if (!end.exit_code) note_death(end, trials, journal);
+  journal.close();
+  scan_.update();
+  if (is_interrupted()) return incomplete;
+  if (end.exit_code.value_or(0) != 0) return end.exit_code;
+  return std::nullopt;
+}
+
+/// In the child.
+int Supervisor::work(const std::vector<TrialPlace>& trials, ShardJournal& journal) {
+  Progress progress(!quiet_, trials.size());
+  std::size_t longest = 1;
+  ShardCallbacks callbacks;
+  callbacks.begin = [&](const LoadedExperiment& loaded, const std::string& variant) {
+    longest = std::max<std::size_t>(1, loaded.drive.samples.size());
+    progress.begin(variant);
+  };
+  callbacks.step = [&](std::size_t trial, const StepRecord& record) {
+    const std::size_t step = record.result.step;
+    progress.step(trial, step, static_cast<double>(step) / static_cast<double>(longest),
+                  to_string(record.result.verdict.kind));
+  };
+  callbacks.done = [&](const TrialRecord& record) {
+    progress.finish(record.trial);
+    if (record.outcome == Outcome::failed)
+      spdlog::error("trial {} failed in step {}: {}", record.trial, record.records.size(), record.why);
+  };
+  callbacks.stop = is_interrupted;
+  callbacks.warn = [](const std::string& text) { spdlog::warn(text); };
+  return run_shard_trials(variants_, manifest_, trials, context_.catalog, options_, journal, callbacks)
+             ? 0
+             : incomplete;
+}
+
+void Supervisor::note_death(const ChildEnd& end, const std::vector<TrialPlace>& trials,
+                            ShardJournal& journal) {
+  std::vector<TrialPlace> running;
+  for (const TrialPlace& place : trials) {
+    const auto begun = scan_.begun().find(id(place));
+    if (begun != scan_.begun().end() && scan_.journals()[begun->second.journal].file == journal.file())
+      running.push_back(place);
+  }
+  if (is_fault(end.signal) || end.out_of_memory) {
+    note_crash(end, running, journal);
+  } else {
+    note_kill(end.signal);
+  }
+}
+
+/// Where the crash says which trial it was, those beside it are not to blame.
+void Supervisor::note_crash(const ChildEnd& end, const std::vector<TrialPlace>& running,
+                            ShardJournal& journal) {
+  const auto is_named = [&](const TrialPlace& place) {
+    return end.crash && end.crash->trial && *end.crash->trial == place.trial;
+  };
+  const bool any_named = std::any_of(running.begin(), running.end(), is_named);
+  const Crash crash{signal_name(end.signal) + (end.out_of_memory ? ", memory ran out" : ""),
+                    end.crash ? end.crash->where : ""};
+  bool any = false;
+  for (const TrialPlace& place : running) {
+    if (any_named && !is_named(place)) continue;
+    any = true;
+    journal.add_crash(id(place), crash);
+    const std::string& variant = manifest_.variants[place.variant].name;
+    spdlog::error("{}{}trial {} has crashed ({}); {}", variant, variant.empty() ? "" : ", ", place.trial,
+                  crash.signal,
+                  crashes_of(place) + 1 < most_crashes ? "it is tried once more, alone" : "it is given up");
+  }
+  if (!any)
+    throw RunError(
+        fmt::format("the process crashed ({}) before it began with a trial: while it was loading map and "
+                    "drive, or while strategies were made",
+                    crash.signal));
+}
+
+/// Somebody has ended the process: its trials are not to blame. Whoever ends it may be about to end this one.
+void Supervisor::note_kill(int signal) {
+  constexpr std::size_t most_kills = 5;
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  if (is_interrupted()) return;
+  kills_ = scan_.finished().size() > finished_before_ ? 1 : kills_ + 1;
+  finished_before_ = scan_.finished().size();
+  if (kills_ >= most_kills)
+    throw RunError(
+        fmt::format("{} processes were ended by {} one after the other before they had finished a "
+                    "trial; what was finished before is kept",
+                    kills_, signal_name(signal)));
+  spdlog::warn("the process was ended by {}; another one goes on", signal_name(signal));
+}
+
+}  // namespace
+
+Shard shard_of(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const auto number = number_of(std::string_view(text).substr(0, slash));
+  const auto of =
+      slash == std::string::npos ? std::nullopt : number_of(std::string_view(text).substr(slash + 1));
+  if (!number || !of || *number < 1 || *number > *of || *of > most_shards)
+    throw ConfigError({{"--shard " + text, 0, 0,
+                        fmt::format("is no shard; give its number and how many there are, from 1/1 to "
+                                    "{0}/{0}, as in 3/64",
+                                    most_shards)}});
+  return {*number, *of};
+}
+
+void run_shard(std::vector<Variant> variants, const std::string& file, const Shard& shard,
+               const RunOptions& options, bool quiet, Context& context) {
+  listen_to_interrupts();
+  auto manifest = planned_shards(variants, file, options.out, context);
+  if (!manifest) return;
+  context.exit_code =
+      Supervisor(std::move(variants), std::move(*manifest), shard, options, quiet, context).run();
+}
+
+}  // namespace glocal::app

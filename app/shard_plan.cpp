@@ -1,0 +1,45 @@
+#include "app/shard_plan.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "app/child_process.hpp"
+#include "evaluation/results/results_folder.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal::app {
+namespace {
+
+void check_free(const std::filesystem::path& shared) {
+  if (is_results_folder(shared))
+    throw ConfigError({{shared.string(), 0, 0,
+                        "output: the folder has results of a run without shards; choose another one with "
+                        "--out"}});
+}
+
+}  // namespace
+
+std::optional<Manifest> planned_shards(std::vector<Variant>& variants, const std::string& file,
+                                       const std::filesystem::path& shared, Context& context) {
+  const std::vector<std::filesystem::path>& plugins = context.plugins.loaded();
+  if (is_shared_folder(shared)) {
+    FileHashes hashes;
+    const Manifest here = sketch_of(variants, file, plugins, context.catalog, hashes);
+    Manifest there = read_manifest(shared);
+    if (auto faults = differences(there, here, shared); !faults.empty()) throw ConfigError(std::move(faults));
+    if (!has_more_variants(there, here)) return there;
+  } else {
+    check_free(shared);
+  }
+  // What is loaded to find out leaves threads behind, with which this process could have no children.
+  const ChildEnd end = run_in_child([&] {
+    FileHashes hashes;
+    ExperimentLoader loader(context.catalog, [](const std::string& text) { spdlog::warn(text); });
+    write_manifest(shared, plan(variants, file, plugins, context.catalog, loader, hashes));
+    return 0;
+  });
+  context.exit_code = end.exit_code.value_or(1);
+  if (context.exit_code != 0) return std::nullopt;
+  return read_manifest(shared);
+}
+
+}  // namespace glocal::app

@@ -1,0 +1,202 @@
+#include "evaluation/sharding/journal_scan.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "evaluation/results/json_text.hpp"
+#include "evaluation/results/provenance.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writers touch their files twice a minute.
+constexpr std::chrono::seconds longest_silence{120};
+
+[[noreturn]] void fail_to_read(const fs::path& file) {
+  throw RunError(fmt::format("{}: cannot read: {}", file.string(), std::generic_category().message(errno)));
+}
+
+/// Now, by the clock of the file system that has the folder: machines need not agree.
+fs::file_time_type now_at(const fs::path& folder) {
+  const fs::path probe = folder / fmt::format(".now-{}-{}", host_name(), ::getpid());
+  std::error_code error;
+  { const std::ofstream made(probe); }
+  const fs::file_time_type now = fs::last_write_time(probe, error);
+  fs::remove(probe, error);
+  return error ? fs::file_time_type::clock::now() : now;
+}
+
+/// Takes the next word off a text.
+std::string_view next_word(std::string_view& text) {
+  const std::size_t end = text.find(' ');
+  if (end == std::string_view::npos) throw std::invalid_argument("a word is missing");
+  const std::string_view word = text.substr(0, end);
+  text.remove_prefix(end + 1);
+  return word;
+}
+
+double number_of(std::string_view word) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) throw std::invalid_argument("no number");
+  return value;
+}
+
+}  // namespace
+
+JournalScan::JournalScan(fs::path folder, std::function<void(const std::string&)> warn)
+    : folder_(std::move(folder)), warn_(std::move(warn)) {
+  update();
+}
+
+JournalScan::~JournalScan() {
+  close_all();
+}
+
+void JournalScan::update() {
+  find_journals();
+  for (std::size_t i = 0; i < journals_.size(); ++i) read(i);
+}
+
+bool JournalScan::any_live() const {
+  return std::any_of(journals_.begin(), journals_.end(), [](const Journal& j) { return j.is_live; });
+}
+
+/// In the order of their names, so that of a trial that was run twice each reader takes the same output.
+void JournalScan::find_journals() {
+  std::map<std::string, bool> found;  // Whether it is closed, by the name it has then.
+  std::error_code error;
+  for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    if (name.ends_with(journal_end)) found[name] = true;
+    if (name.ends_with(unfinished_journal_end)) found.try_emplace(fs::path(name).stem(), false);
+  }
+  if (error && error != std::errc::no_such_file_or_directory) {
+    errno = error.value();
+    fail_to_read(folder_);
+  }
+  if (found.empty()) return;
+  const fs::file_time_type now = now_at(folder_);
+  for (const auto& [name, is_closed] : found) {
+    const auto [known, is_new] = known_.try_emplace(name, journals_.size());
+    if (is_new) journals_.emplace_back();
+    Journal& journal = journals_[known->second];
+    journal.is_closed = is_closed;
+    const std::string_view end = is_closed ? journal_end : unfinished_journal_end;
+    journal.file = folder_ / fs::path(name).replace_extension(end);
+    const fs::file_time_type touched = fs::last_write_time(journal.file, error);
+    journal.is_live = !is_closed && !error && now - touched < longest_silence;
+  }
+}
+
+void JournalScan::read(std::size_t journal) {
+  constexpr std::size_t piece = 1 << 22;
+  const int descriptor = descriptor_of(journal);
+  std::string text;  // From the first byte that is not read yet.
+  std::uint64_t at = journals_[journal].read;
+  for (std::size_t size = text.size();; size = text.size()) {
+    text.resize(size + piece);
+    const ssize_t n = ::pread(descriptor, text.data() + size, piece, static_cast<off_t>(at + size));
+    if (n < 0) fail_to_read(journals_[journal].file);
+    text.resize(size + static_cast<std::size_t>(n));
+    std::size_t begin = 0;
+    for (std::size_t end = text.find('\n', size); end != std::string::npos; end = text.find('\n', begin)) {
+      take_line(journal, at + begin, std::string_view(text).substr(begin, end - begin));
+      begin = end + 1;
+    }
+    text.erase(0, begin);
+    at += begin;
+    if (n == 0) break;
+  }
+  journals_[journal].read = at;
+}
+
+void JournalScan::take_line(std::size_t journal, std::uint64_t offset, std::string_view line) {
+  constexpr std::size_t of_checksum = 9;
+  try {
+    const std::string_view content = line.substr(std::min(line.size(), of_checksum));
+    if (content.empty() || !line.starts_with(checksum(content)))
+      throw std::invalid_argument("its checksum is another one");
+    take_content(journal, offset + of_checksum, content);
+  } catch (const std::exception& damage) {
+    warn_(fmt::format("{}: byte {}: the line is damaged ({}); what it told is run again",
+                      journals_[journal].file.string(), offset, reason(damage)));
+  }
+}
+
+void JournalScan::take_content(std::size_t journal, std::uint64_t offset, std::string_view content) {
+  std::string_view rest = content;
+  const std::string_view word = next_word(rest);
+  const auto place = [&] { return Place{journal, offset + (content.size() - rest.size()), rest.size()}; };
+  if (word == journal_words::shard) {
+    const nlohmann::ordered_json json = parse_json(std::string(rest));
+    journals_[journal].shard = {whole_number(json, "shard"), whole_number(json, "of")};
+    journals_[journal].host = json.at("host");
+    journals_[journal].jobs = whole_number(json, "jobs");
+  } else if (word == journal_words::variant) {
+    const std::string identity(next_word(rest));
+    variants_[identity].push_back(place());
+  } else if (word == journal_words::begin) {
+    const TrialId id = trial_id_of(next_word(rest));
+    if (!finished_.contains(id)) begun_[id] = place();
+  } else if (word == journal_words::trial) {
+    const TrialId id = trial_id_of(next_word(rest));
+    const double ms = number_of(next_word(rest));
+    const Outcome outcome = outcome_of(std::string(next_word(rest)));
+    finished_.try_emplace(id, Finished{place(), ms, outcome});
+    begun_.erase(id);
+  } else if (word == journal_words::crash) {
+    const TrialId id = trial_id_of(next_word(rest));
+    const nlohmann::ordered_json json = parse_json(std::string(rest));
+    crashes_[id].push_back({json.at("signal"), json.at("where")});
+  } else {
+    throw std::invalid_argument(fmt::format("there is no word '{}'", word));
+  }
+}
+
+std::string JournalScan::text_at(const Place& place) const {
+  std::string text(place.size, '\0');
+  const ssize_t n =
+      ::pread(descriptor_of(place.journal), text.data(), text.size(), static_cast<off_t>(place.offset));
+  if (n < 0) fail_to_read(journals_[place.journal].file);
+  if (static_cast<std::size_t>(n) != place.size)
+    throw RunError(fmt::format("{}: was cut off at byte {} since it was read; give the same command again",
+                               journals_[place.journal].file.string(), place.offset));
+  return text;
+}
+
+/// Opening costs more than reading, and there may be more files than a process can hold open.
+int JournalScan::descriptor_of(std::size_t journal) const {
+  constexpr std::size_t most_open = 256;
+  const auto known = open_.find(journal);
+  if (known != open_.end()) return known->second;
+  if (open_.size() >= most_open) close_all();
+  // The writer may have closed it since: it has its other name then.
+  fs::path file = journals_[journal].file;
+  int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0 && errno == ENOENT && !journals_[journal].is_closed)
+    descriptor = ::open(file.replace_extension().c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail_to_read(journals_[journal].file);
+  return open_[journal] = descriptor;
+}
+
+void JournalScan::close_all() const {
+  for (const auto& [journal, descriptor] : open_) ::close(descriptor);
+  open_.clear();
+}
+
+}  // namespace glocal

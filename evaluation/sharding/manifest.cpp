@@ -1,0 +1,315 @@
+#include "evaluation/sharding/manifest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <string_view>
+#include <utility>
+
+#include "config/text_file.hpp"
+#include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/file_io.hpp"
+#include "evaluation/results/json_text.hpp"
+#include "evaluation/running/trials.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int manifest_format = 1;
+
+/// Values that results do not follow from.
+bool is_of_no_effect(const std::string& path) {
+  return path == "threads" || path.starts_with("plugins");
+}
+
+std::map<std::string, std::string> texts_of(const std::map<std::string, Setting>& settings) {
+  std::map<std::string, std::string> texts;
+  for (const auto& [path, setting] : settings) {
+    if (!is_of_no_effect(path)) texts[path] = setting.text;
+  }
+  return texts;
+}
+
+/// What differs from the first variant's values; null for what is not there.
+Json to_json(const std::map<std::string, std::string>& values,
+             const std::map<std::string, std::string>& first) {
+  Json json = Json::object();
+  for (const auto& [path, text] : values) {
+    const auto other = first.find(path);
+    if (other == first.end() || other->second != text) json[path] = text;
+  }
+  for (const auto& [path, text] : first) {
+    if (!values.contains(path)) json[path] = nullptr;
+  }
+  return json;
+}
+
+std::map<std::string, std::string> values_of(const Json& json, std::map<std::string, std::string> first) {
+  for (const auto& [path, text] : json.items()) {
+    if (text.is_null()) {
+      first.erase(path);
+    } else {
+      first[path] = text;
+    }
+  }
+  return first;
+}
+
+Json to_json(const std::vector<PlannedStart>& starts) {
+  Json samples = Json::array();
+  Json steps = Json::array();
+  for (const PlannedStart& start : starts) {
+    samples.push_back(start.sample);
+    steps.push_back(start.steps);
+  }
+  return {{"samples", std::move(samples)}, {"steps", std::move(steps)}};
+}
+
+std::vector<PlannedStart> starts_of(const Json& json) {
+  const Json& samples = json.at("samples");
+  const Json& steps = json.at("steps");
+  std::vector<PlannedStart> starts;
+  for (std::size_t i = 0; i < samples.size(); ++i) starts.push_back({samples.at(i), steps.at(i)});
+  return starts;
+}
+
+Json to_json(const Manifest& manifest) {
+  Json starts = Json::array();
+  for (const auto& list : manifest.starts) starts.push_back(to_json(list));
+  Json variants = Json::array();
+  const auto& first = manifest.variants.front().values;
+  for (const PlannedVariant& v : manifest.variants) {
+    variants.push_back({{"name", v.name},
+                        {"identity", v.identity},
+                        {"values", to_json(v.values, first)},
+                        {"inputs", v.inputs},
+                        {"starts", v.starts}});
+  }
+  return {{"format", manifest_format},
+          {"experiment", manifest.experiment},
+          {"file", manifest.file},
+          {"program", manifest.program},
+          {"plugins_sha256", manifest.plugins},
+          {"inputs_sha256", manifest.inputs},
+          {"values", first},
+          {"starts", std::move(starts)},
+          {"variants", std::move(variants)}};
+}
+
+Manifest manifest_of(const Json& json) {
+  if (json.at("format") != manifest_format) throw std::invalid_argument("it is of another version");
+  Manifest manifest{json.at("experiment"),
+                    json.at("file"),
+                    json.at("program"),
+                    json.at("plugins_sha256"),
+                    json.at("inputs_sha256"),
+                    {},
+                    {}};
+  for (const Json& list : json.at("starts")) manifest.starts.push_back(starts_of(list));
+  const std::map<std::string, std::string> first = json.at("values");
+  for (const Json& v : json.at("variants")) {
+    manifest.variants.push_back({v.at("name"), v.at("identity"), values_of(v.at("values"), first),
+                                 v.at("inputs"), whole_number(v, "starts")});
+    static_cast<void>(manifest.starts.at(manifest.variants.back().starts));
+  }
+  if (manifest.variants.empty()) throw std::invalid_argument("it has no variants");
+  return manifest;
+}
+
+std::vector<PlannedStart> planned_starts(const LoadedExperiment& loaded, const TrialsConfig& trials) {
+  std::vector<PlannedStart> starts;
+  for (const std::size_t start : loaded.starts)
+    starts.push_back({start, steps_left(loaded.drive, trials, start)});
+  return starts;
+}
+
+/// Which of the lists this one is; it is added if it is new.
+std::size_t place_of(std::vector<PlannedStart> starts, std::vector<std::vector<PlannedStart>>& lists) {
+  const auto same = std::find(lists.begin(), lists.end(), starts);
+  const auto place = static_cast<std::size_t>(same - lists.begin());
+  if (same == lists.end()) lists.push_back(std::move(starts));
+  return place;
+}
+
+/// Its values without the seed: whether a localizer can be made of them does not hang on it.
+std::string values_without_seed(const PlannedVariant& variant) {
+  std::string text;
+  for (const auto& [path, value] : variant.values) {
+    if (path != "seed") text += path + "=" + value + "\n";
+  }
+  return text;
+}
+
+/// "localizer.matcher.ransam.iterations is 50000 there and 200000 here", of a few values.
+std::string difference(const PlannedVariant& there, const PlannedVariant& here) {
+  constexpr std::size_t most = 5;
+  std::set<std::string> paths;
+  for (const auto& [path, text] : there.values) paths.insert(path);
+  for (const auto& [path, text] : here.values) paths.insert(path);
+  const auto text_in = [](const PlannedVariant& variant, const std::string& path) {
+    const auto found = variant.values.find(path);
+    return found == variant.values.end() ? std::string("not given") : found->second;
+  };
+  std::string text;
+  std::size_t n = 0;
+  for (const std::string& path : paths) {
+    const std::string then = text_in(there, path);
+    const std::string now = text_in(here, path);
+    if (then == now || ++n > most) continue;
+    text += fmt::format("{}{} is {} there and {} here", n == 1 ? "" : ", ", path, then, now);
+  }
+  return n > most ? fmt::format("{}, and {} more", text, n - most) : text;
+}
+
+}  // namespace
+
+std::optional<std::size_t> Manifest::place_of(const std::string& variant) const {
+  const auto found = std::find_if(variants.begin(), variants.end(),
+                                  [&](const PlannedVariant& v) { return v.name == variant; });
+  if (found == variants.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - variants.begin());
+}
+
+std::size_t Manifest::count_trials() const {
+  std::size_t n = 0;
+  for (const PlannedVariant& variant : variants) n += starts[variant.starts].size();
+  return n;
+}
+
+fs::path manifest_file(const fs::path& shared) {
+  return shared / shards_folder / "manifest.json";
+}
+
+fs::path journals_folder(const fs::path& shared) {
+  return shared / shards_folder / "journals";
+}
+
+bool is_shared_folder(const fs::path& folder) {
+  std::error_code unreachable;
+  return fs::exists(manifest_file(folder), unreachable);
+}
+
+TrialId id_of(const PlannedVariant& variant, std::size_t trial, const PlannedStart& start) {
+  const std::string hash = sha256_of_text(fmt::format("{}/{}/{}", variant.identity, trial, start.sample));
+  return trial_id_of(std::string_view(hash).substr(0, 32));
+}
+
+std::string identity_of(Experiment& experiment, const std::set<fs::path>& inputs,
+                        const std::vector<fs::path>& plugins, const Catalog& catalog, FileHashes& hashes) {
+  std::map<std::string, std::string> by_name;
+  std::set<std::string> contents;
+  for (const fs::path& input : inputs) {
+    by_name[input.string()] = hashes.of(input);
+    contents.insert(hashes.of(input));
+  }
+  for (const fs::path& plugin : plugins) contents.insert(hashes.of(plugin));
+  std::string text;
+  for (const auto& [path, setting] :
+       settings_of(effective_yaml(experiment, catalog), "effective.yaml", by_name)) {
+    if (!is_of_no_effect(path)) text += path + "=" + setting.identity + "\n";
+  }
+  for (const std::string& content : contents) text += content + "\n";
+  return sha256_of_text(text);
+}
+
+Manifest sketch_of(std::vector<Variant>& variants, const fs::path& file, const std::vector<fs::path>& plugins,
+                   const Catalog& catalog, FileHashes& hashes) {
+  Manifest manifest;
+  manifest.experiment = variants.front().experiment.name;
+  manifest.file = fs::absolute(file).string();
+  manifest.program = program_identity(hashes);
+  for (const fs::path& plugin : plugins) manifest.plugins[plugin.string()] = hashes.of(plugin);
+  for (Variant& variant : variants) {
+    const auto settings = settings_of(effective_yaml(variant.experiment, catalog), file, {});
+    manifest.variants.push_back({variant.name, "", texts_of(settings), {}, 0});
+  }
+  return manifest;
+}
+
+Manifest plan(std::vector<Variant>& variants, const fs::path& file, const std::vector<fs::path>& plugins,
+              const Catalog& catalog, ExperimentLoader& loader, FileHashes& hashes) {
+  Manifest manifest = sketch_of(variants, file, plugins, catalog, hashes);
+  std::map<std::string, std::set<fs::path>> of_stages;  // Files that stages of these values read.
+  for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
+    Experiment& experiment = variants[i].experiment;
+    PlannedVariant& planned = manifest.variants[i];
+    const auto [known, is_new] = of_stages.try_emplace(values_without_seed(planned));
+    if (is_new) {
+      static_cast<void>(make_localizer(experiment, catalog, loaded));
+      known->second = loaded.inputs;
+    }
+    std::set<fs::path> inputs = loaded.inputs;
+    inputs.insert(known->second.begin(), known->second.end());
+    for (const fs::path& input : inputs) {
+      planned.inputs.insert(input.string());
+      manifest.inputs[input.string()] = hashes.of(input);
+    }
+    planned.identity = identity_of(experiment, inputs, plugins, catalog, hashes);
+    planned.starts = place_of(planned_starts(loaded, experiment.trials), manifest.starts);
+  });
+  return manifest;
+}
+
+std::vector<Fault> differences(const Manifest& there, const Manifest& here, const fs::path& shared) {
+  std::vector<Fault> faults;
+  const auto differ = [&](const std::string& what) {
+    faults.push_back({shared.string(), 0, 0,
+                      fmt::format("output: the folder was made otherwise: {}; choose another folder with "
+                                  "--out, or give what it was made with",
+                                  what)});
+  };
+  if (there.program != here.program)
+    differ(fmt::format("by another build of the program ({} there, {} here)",
+                       there.program.value("revision", ""), here.program.value("revision", "")));
+  if (there.plugins != here.plugins) differ("with other plugins, or other versions of them");
+  for (const PlannedVariant& planned : there.variants) {
+    const auto place = here.place_of(planned.name);
+    if (!place) {
+      differ(planned.name.empty() ? "from an experiment without variants"
+                                  : fmt::format("with a variant '{}', which is not here", planned.name));
+    } else if (here.variants[*place].values != planned.values) {
+      const std::string of = planned.name.empty() ? "" : fmt::format("variant '{}': ", planned.name);
+      differ(of + difference(planned, here.variants[*place]));
+    }
+    if (faults.size() > 10) break;
+  }
+  return faults;
+}
+
+bool has_more_variants(const Manifest& there, const Manifest& here) {
+  return std::any_of(here.variants.begin(), here.variants.end(),
+                     [&](const PlannedVariant& v) { return !there.place_of(v.name); });
+}
+
+void write_manifest(const fs::path& shared, const Manifest& manifest) {
+  AtomicFiles files(true);
+  files.add(manifest_file(shared),
+            to_json(manifest).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  files.commit();
+}
+
+Manifest read_manifest(const fs::path& shared) {
+  const fs::path file = manifest_file(shared);
+  const auto refuse = [&](const fs::path& place, const std::string& what) {
+    throw ConfigError({{place.string(), 0, 0, what}});
+  };
+  if (!is_shared_folder(shared))
+    refuse(shared,
+           "no shards have run here: there is no .shards/manifest.json; name the folder that "
+           "'glocal run --shard' was given with --out");
+  if (const auto why = why_unreadable(file)) refuse(file, "cannot be read: " + *why);
+  try {
+    return manifest_of(parse_json(content_of(file)));
+  } catch (const std::exception& error) {
+    refuse(file, fmt::format("is damaged ({}); remove it and run a shard again, which writes it anew",
+                             reason(error)));
+  }
+  return {};
+}
+
+}  // namespace glocal

@@ -1,0 +1,95 @@
+// What there is to do in a folder that shards share, and what it follows from.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "evaluation/results/provenance.hpp"
+#include "evaluation/results/results_folder.hpp"
+#include "evaluation/running/experiment_loader.hpp"
+#include "evaluation/sharding/shard_journal.hpp"
+#include "glocal/catalog.hpp"
+#include "glocal/experiment.hpp"
+
+namespace glocal {
+
+/// Where a trial starts, and the most steps it may take.
+struct PlannedStart {
+  std::size_t sample = 0;
+  std::size_t steps = 0;
+  friend auto operator<=>(const PlannedStart&, const PlannedStart&) = default;
+};
+
+struct PlannedVariant {
+  std::string name;  ///< Empty for an experiment without variants.
+  /// Hash of all that its results follow from: values, input files by what is in them, plugins.
+  std::string identity;
+  std::map<std::string, std::string> values;  ///< All of the experiment, as text, by path.
+  std::set<std::string> inputs;               ///< Files.
+  std::size_t starts = 0;                     ///< Which of the manifest's lists.
+};
+
+struct Manifest {
+  std::string experiment;
+  std::string file;
+  nlohmann::ordered_json program;                 ///< As program_identity() tells.
+  std::map<std::string, std::string> plugins;     ///< SHA-256 by file.
+  std::map<std::string, std::string> inputs;      ///< SHA-256 by file.
+  std::vector<std::vector<PlannedStart>> starts;  ///< Variants with the same ones share a list.
+  std::vector<PlannedVariant> variants;
+
+  [[nodiscard]] const std::vector<PlannedStart>& starts_of(std::size_t variant) const {
+    return starts[variants[variant].starts];
+  }
+  /// The place of a variant; none if it is not planned.
+  [[nodiscard]] std::optional<std::size_t> place_of(const std::string& variant) const;
+  [[nodiscard]] std::size_t count_trials() const;
+};
+
+/// Where a shared folder has what shards need, and the journals in there.
+inline constexpr const char* shards_folder = ".shards";
+[[nodiscard]] std::filesystem::path manifest_file(const std::filesystem::path& shared);
+[[nodiscard]] std::filesystem::path journals_folder(const std::filesystem::path& shared);
+
+/// Whether shards share this folder.
+[[nodiscard]] bool is_shared_folder(const std::filesystem::path& folder);
+
+[[nodiscard]] TrialId id_of(const PlannedVariant& variant, std::size_t trial, const PlannedStart& start);
+
+/// The hash that PlannedVariant::identity is. Throws RunError if a file cannot be read.
+[[nodiscard]] std::string identity_of(Experiment& experiment, const std::set<std::filesystem::path>& inputs,
+                                      const std::vector<std::filesystem::path>& plugins,
+                                      const Catalog& catalog, FileHashes& hashes);
+
+/// What can be said of variants before anything is loaded: without identities, inputs and starts.
+[[nodiscard]] Manifest sketch_of(std::vector<Variant>& variants, const std::filesystem::path& file,
+                                 const std::vector<std::filesystem::path>& plugins, const Catalog& catalog,
+                                 FileHashes& hashes);
+
+/// Loads all, so that whatever is wrong with any variant shows, and says what there is to do. Throws
+/// ConfigError.
+[[nodiscard]] Manifest plan(std::vector<Variant>& variants, const std::filesystem::path& file,
+                            const std::vector<std::filesystem::path>& plugins, const Catalog& catalog,
+                            ExperimentLoader& loader, FileHashes& hashes);
+
+/// Faults that say how what is asked for differs from what a folder was made for; none if it is the same, or
+/// has more variants.
+[[nodiscard]] std::vector<Fault> differences(const Manifest& there, const Manifest& here,
+                                             const std::filesystem::path& shared);
+
+/// Whether some variant of `here` is not planned there.
+[[nodiscard]] bool has_more_variants(const Manifest& there, const Manifest& here);
+
+/// Writes it in place of one that may be there. Throws RunError.
+void write_manifest(const std::filesystem::path& shared, const Manifest& manifest);
+
+/// Throws ConfigError if the folder has none, or a damaged one.
+[[nodiscard]] Manifest read_manifest(const std::filesystem::path& shared);
+
+}  // namespace glocal

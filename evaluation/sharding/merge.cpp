@@ -1,0 +1,218 @@
+#include "evaluation/sharding/merge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "evaluation/results/fault_collector.hpp"
+#include "evaluation/results/file_io.hpp"
+#include "evaluation/results/json_text.hpp"
+#include "evaluation/results/output_folder.hpp"
+#include "evaluation/results/results_folder.hpp"
+#include "evaluation/results/run_results.hpp"
+#include "evaluation/results/writers.hpp"
+#include "evaluation/running/experiment_runner.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// What one key has in all descriptions, each once: "a, b".
+std::string joined(const std::vector<Json>& descriptions, const char* key) {
+  std::set<std::string> values;
+  for (const Json& d : descriptions) values.insert(d.at("provenance").at(key).get<std::string>());
+  return fmt::format("{}", fmt::join(values, ", "));
+}
+
+std::optional<MapIndexInfo> index_of(const Json& map) {
+  if (!map.contains("index")) return std::nullopt;
+  const Json& index = map.at("index");
+  return MapIndexInfo{index.at("entries"), index.at("bytes"), index.at("build_ms")};
+}
+
+/// What a run of one machine has crashed in: the last word is the last process's.
+JournalEntry crashed_entry(std::size_t trial, const Json& start, const std::vector<Crash>& crashes) {
+  const Crash& last = crashes.back();
+  const std::string why = fmt::format("crashed ({}){}{}, in each of {} processes", last.signal,
+                                      last.where.empty() ? "" : " in ", last.where, crashes.size());
+  return {trial, {.outcome = Outcome::failed}, failed_trial_line(trial, start, why), ""};
+}
+
+/// One variant, or the experiment without variants.
+class VariantMerge {
+ public:
+  VariantMerge(const Manifest& manifest, std::size_t place, const JournalScan& scan,
+               const MergeOptions& options)
+      : planned_(manifest.variants[place]),
+        starts_(manifest.starts_of(place)),
+        scan_(scan),
+        options_(options),
+        folder_(options.out / planned_.name) {
+    const auto found = scan.variants().find(planned_.identity);
+    if (found == scan.variants().end()) return;
+    for (const JournalScan::Place& at : found->second) descriptions_.push_back(parse_json(scan.text_at(at)));
+  }
+
+  [[nodiscard]] MissingTrials missing() const;
+  /// No shard has begun with it.
+  [[nodiscard]] bool is_empty() const { return descriptions_.empty(); }
+  /// The summary of results that are there already, and complete. Throws ConfigError for those of other runs.
+  [[nodiscard]] std::optional<Json> kept() const;
+  Json write(bool is_complete) const;
+  [[nodiscard]] const fs::path& folder() const { return folder_; }
+  [[nodiscard]] const std::string& name() const { return planned_.name; }
+
+ private:
+  [[nodiscard]] TrialId id(std::size_t trial) const { return id_of(planned_, trial, starts_[trial]); }
+  [[nodiscard]] bool is_given_up(const TrialId& id) const;
+  [[nodiscard]] std::optional<JournalEntry> take(OutputFolder& folder, std::size_t trial) const;
+  [[nodiscard]] Json origin() const;
+  void move_up(const fs::path& merged) const;
+
+  const PlannedVariant& planned_;
+  const std::vector<PlannedStart>& starts_;
+  const JournalScan& scan_;
+  const MergeOptions& options_;
+  fs::path folder_;
+  std::vector<Json> descriptions_;
+};
+
+bool VariantMerge::is_given_up(const TrialId& id) const {
+  const auto crashes = scan_.crashes().find(id);
+  return crashes != scan_.crashes().end() && crashes->second.size() >= most_crashes;
+}
+
+MissingTrials VariantMerge::missing() const {
+  MissingTrials missing{planned_.name, {}};
+  for (std::size_t trial = 0; trial < starts_.size(); ++trial) {
+    const TrialId of_trial = id(trial);
+    if (!scan_.finished().contains(of_trial) && !is_given_up(of_trial)) missing.trials.push_back(trial);
+  }
+  return missing;
+}
+
+std::optional<Json> VariantMerge::kept() const {
+  if (!is_results_folder(folder_) || is_complete(folder_) != true) return std::nullopt;
+  const Json there = Json::parse(content_of(folder_ / "provenance.json"), nullptr, false);
+  const auto same = [&](const char* key) {
+    return there.is_object() && there.contains(key) &&
+           there.at(key) == descriptions_.front().at("provenance").at(key);
+  };
+  if (content_of(folder_ / "effective.yaml") == descriptions_.front().at("effective") &&
+      same("program_sha256") && same("inputs_sha256"))
+    return read_results(folder_).summary;
+  if (!options_.force)
+    throw ConfigError({{folder_.string(), 0, 0,
+                        "output: the folder has results of another run; remove them, or replace them with "
+                        "--force"}});
+  return std::nullopt;
+}
+
+/// What a trial has left; its own files are written.
+std::optional<JournalEntry> VariantMerge::take(OutputFolder& folder, std::size_t trial) const {
+  const TrialId of_trial = id(trial);
+  if (const auto finished = scan_.finished().find(of_trial); finished != scan_.finished().end()) {
+    TrialOutput output = output_of(scan_.text_at(finished->second.output));
+    for (const auto& [name, content] : output.files) folder.write(name, content);
+    return std::move(output.entry);
+  }
+  if (!is_given_up(of_trial)) return std::nullopt;
+  const auto start = scan_.begun().find(of_trial);
+  if (start == scan_.begun().end()) return std::nullopt;
+  return crashed_entry(trial, parse_json(scan_.text_at(start->second)), scan_.crashes().at(of_trial));
+}
+
+/// Machines that have taken part are all named.
+Json VariantMerge::origin() const {
+  Json origin = descriptions_.front().at("provenance");
+  origin["host"] = joined(descriptions_, "host");
+  origin["cpu"] = joined(descriptions_, "cpu");
+  return origin;
+}
+
+Json VariantMerge::write(bool is_complete) const {
+  // An experiment without variants has its results beside what shards share, and cannot take that folder's
+  // place.
+  const bool is_beside = planned_.name.empty() && is_shared_folder(folder_);
+  const fs::path place = is_beside ? folder_ / shards_folder / "merged" : folder_;
+  OutputFolder folder(place, true);
+  const Json& first = descriptions_.front();
+  folder.write("effective.yaml", first.at("effective").get<std::string>());
+  folder.write("provenance.json", origin().dump(2) + "\n");
+  double peak = 0.0;
+  for (const Json& d : descriptions_) peak = std::max(peak, d.at("peak_rss_mb").get<double>());
+  const Json& map = first.at("map");
+  const Json summary = put_together(folder, first.at("steps"), starts_.size(),
+                                    [&](std::size_t trial) { return take(folder, trial); })
+                           .to_json({first.at("name"), first.at("seed"), is_complete, map.at("points"),
+                                     map.at("build_ms"), map.at("index_ms"), index_of(map), peak});
+  folder.write_for_good("summary.json", summary.dump(2) + "\n");
+  folder.commit();
+  if (is_beside) move_up(place);
+  return summary;
+}
+
+/// The summary goes first and comes last: readers take its word that all is there.
+void VariantMerge::move_up(const fs::path& merged) const {
+  std::error_code error;
+  const auto check = [&](const fs::path& file) {
+    if (error) throw RunError(fmt::format("{}: cannot write: {}", file.string(), error.message()));
+  };
+  fs::remove(folder_ / "summary.json", error);
+  check(folder_ / "summary.json");
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::directory_iterator(merged)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end(), [](const fs::path& a, const fs::path& b) {
+    return std::pair(a == "summary.json", a) < std::pair(b == "summary.json", b);
+  });
+  for (const fs::path& name : names) {
+    std::error_code none;
+    if (fs::is_directory(folder_ / name, none)) fs::remove_all(folder_ / name, error);
+    check(folder_ / name);
+    fs::rename(merged / name, folder_ / name, error);
+    check(folder_ / name);
+  }
+  fs::remove(merged, error);
+  if (!error) error = sync_to_disk(folder_);
+  check(folder_);
+}
+
+}  // namespace
+
+MergeResult merge_shards(const Manifest& manifest, const JournalScan& scan, const MergeOptions& options) {
+  MergeResult result;
+  result.run.folder = options.out;
+  const auto merge_of = [&](std::size_t place) { return VariantMerge(manifest, place, scan, options); };
+  // What is in the way is said before anything is written.
+  FaultCollector faults;
+  for (std::size_t i = 0; i < manifest.variants.size(); ++i) {
+    faults.collect([&] {
+      const VariantMerge merge = merge_of(i);
+      if (!merge.is_empty()) static_cast<void>(merge.kept());
+    });
+  }
+  faults.report();
+  for (std::size_t i = 0; i < manifest.variants.size(); ++i) {
+    const VariantMerge merge = merge_of(i);
+    MissingTrials missing = merge.missing();
+    const bool is_complete = missing.trials.empty();
+    if (!is_complete) result.missing.push_back(std::move(missing));
+    if (merge.is_empty()) continue;
+    const std::optional<Json> kept = is_complete ? merge.kept() : std::nullopt;
+    if (kept && !merge.name().empty()) options.note(fmt::format("{}: kept, as it is complete", merge.name()));
+    result.run.variants.push_back(
+        result_of_variant(merge.name(), merge.folder(), kept ? *kept : merge.write(is_complete)));
+  }
+  result.run.complete = result.missing.empty();
+  return result;
+}
+
+}  // namespace glocal

@@ -1,0 +1,198 @@
+#include "evaluation/sharding/run_shard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "evaluation/results/pcd.hpp"
+#include "evaluation/results/summary.hpp"
+#include "evaluation/results/trial_output.hpp"
+#include "evaluation/results/writers.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Values that map and drive follow from.
+std::string values_of_sources(const PlannedVariant& variant) {
+  constexpr std::array<std::string_view, 5> sources = {"map.", "observations.", "trials.", "seed",
+                                                       "localizer.motion"};
+  std::string text;
+  for (const auto& [path, value] : variant.values) {
+    if (std::any_of(sources.begin(), sources.end(), [&](std::string_view s) { return path.starts_with(s); }))
+      text += path + "=" + value + "\n";
+  }
+  return text;
+}
+
+/// Trials of one variant, ascending.
+struct VariantTrials {
+  std::size_t variant = 0;
+  std::vector<std::size_t> trials;
+};
+
+/// Variants with the same map and drive follow each other: these are loaded once then.
+std::vector<VariantTrials> by_variant(const std::vector<TrialPlace>& trials, const Manifest& manifest) {
+  std::map<std::size_t, std::vector<std::size_t>> of_variant;
+  for (const TrialPlace& place : trials) of_variant[place.variant].push_back(place.trial);
+  std::map<std::string, std::size_t> groups;  // By the place of the first variant that has these sources.
+  std::map<std::pair<std::size_t, std::size_t>, VariantTrials> sorted;
+  for (auto& [variant, list] : of_variant) {
+    const std::size_t group =
+        groups.try_emplace(values_of_sources(manifest.variants[variant]), variant).first->second;
+    sorted[{group, variant}] = {variant, std::move(list)};
+  }
+  std::vector<VariantTrials> result;
+  for (auto& [place, of_one] : sorted) result.push_back(std::move(of_one));
+  return result;
+}
+
+/// One process of a shard.
+class ShardWorker {
+ public:
+  ShardWorker(std::vector<Variant>& variants, const Manifest& manifest, const Catalog& catalog,
+              const RunOptions& options, ShardJournal& journal, const ShardCallbacks& callbacks)
+      : variants_(variants),
+        manifest_(manifest),
+        catalog_(catalog),
+        options_(options),
+        journal_(journal),
+        callbacks_(callbacks),
+        loader_(catalog, callbacks.warn) {}
+
+  bool run(const VariantTrials& of_variant);
+
+ private:
+  void check_inputs(const PlannedVariant& planned, Experiment& experiment, const LoadedExperiment& loaded);
+  [[nodiscard]] Json description(Experiment& experiment, const LoadedExperiment& loaded,
+                                 const Localizer& localizer, double map_index_ms);
+
+  std::vector<Variant>& variants_;
+  const Manifest& manifest_;
+  const Catalog& catalog_;
+  const RunOptions& options_;
+  ShardJournal& journal_;
+  const ShardCallbacks& callbacks_;
+  ExperimentLoader loader_;
+  FileHashes hashes_;
+};
+
+bool ShardWorker::run(const VariantTrials& of_variant) {
+  const PlannedVariant& planned = manifest_.variants[of_variant.variant];
+  Variant& variant = *std::find_if(variants_.begin(), variants_.end(),
+                                   [&](const Variant& v) { return v.name == planned.name; });
+  Experiment& experiment = variant.experiment;
+  LoadedExperiment& loaded = loader_.load(experiment);
+  const auto start = Clock::now();
+  std::vector<Localizer> localizers;
+  localizers.push_back(make_localizer(experiment, catalog_, loaded));
+  const double map_index_ms = ms_since(start);
+  check_inputs(planned, experiment, loaded);
+  const auto jobs = static_cast<std::size_t>(std::max(options_.jobs, 1));
+  while (localizers.size() < std::min(jobs, of_variant.trials.size()))
+    localizers.push_back(make_localizer(experiment, catalog_, loaded));
+
+  loaded.inputs.insert(manifest_.file);
+  loaded.inputs.insert(options_.plugins.begin(), options_.plugins.end());
+  Json described = description(experiment, loaded, localizers.front(), map_index_ms);
+  journal_.add_variant(planned.identity, described);
+  callbacks_.begin(loaded, planned.name);
+
+  TrialCollector collector(experiment.output);
+  std::mutex mutex;
+  std::map<std::size_t, Clock::time_point> begun;
+  const auto id = [&](std::size_t trial) {
+    return id_of(planned, trial, manifest_.starts_of(of_variant.variant)[trial]);
+  };
+  RunCallbacks run;
+  run.stop = callbacks_.stop;
+  run.begin = [&](std::size_t trial) {
+    journal_.begin(id(trial), start_json(begun_trial(loaded.drive, experiment.localizer.motion, trial,
+                                                     loaded.starts[trial])));
+    const std::lock_guard lock(mutex);
+    begun[trial] = Clock::now();
+  };
+  run.step = [&](std::size_t trial, const StepRecord& record, const Localizer& now) {
+    const Sample& sample = loaded.drive.samples[loaded.starts[trial] + record.result.step];
+    collector.step(trial, record, sample.observation.scan, now);
+    callbacks_.step(trial, record);
+  };
+  run.done = [&](const TrialRecord& record) {
+    TrialOutput output = collector.finish(record);
+    if (record.trial == 0 && experiment.output.maps != "none")
+      output.files.emplace_back("maps/global.pcd", pcd(loaded.map->points()));
+    const auto since = [&] {
+      const std::lock_guard lock(mutex);
+      return begun.at(record.trial);
+    }();
+    journal_.finish(id(record.trial), ms_since(since), output);
+    callbacks_.done(record);
+  };
+  const bool complete = run_trials(localizers, experiment, loaded, of_variant.trials, run);
+  // Once more, as memory has grown.
+  described["peak_rss_mb"] = peak_rss_mb();
+  journal_.add_variant(planned.identity, described);
+  return complete;
+}
+
+/// Results of other files must not be put together.
+void ShardWorker::check_inputs(const PlannedVariant& planned, Experiment& experiment,
+                               const LoadedExperiment& loaded) {
+  if (identity_of(experiment, loaded.inputs, options_.plugins, catalog_, hashes_) == planned.identity) return;
+  std::vector<Fault> faults;
+  const std::string way_out =
+      "since the first shard has run; bring it back as it was, or run all shards into another folder";
+  for (const std::filesystem::path& input : loaded.inputs) {
+    const auto known = manifest_.inputs.find(input.string());
+    if (known == manifest_.inputs.end() || known->second != hashes_.of(input))
+      faults.push_back({input.string(), 0, 0, "has changed " + way_out});
+  }
+  if (faults.empty()) faults.push_back({manifest_.file, 0, 0, "reads other files " + way_out});
+  throw ConfigError(std::move(faults));
+}
+
+/// What the files of a variant need besides its trials.
+Json ShardWorker::description(Experiment& experiment, const LoadedExperiment& loaded,
+                              const Localizer& localizer, double map_index_ms) {
+  Json origin = provenance(catalog_, experiment.threads, loaded.inputs, hashes_);
+  origin["jobs"] = options_.jobs;
+  Json map = {
+      {"points", loaded.map->points().size()}, {"build_ms", loaded.map_build_ms}, {"index_ms", map_index_ms}};
+  if (const auto index = localizer.map_index())
+    map["index"] = {{"entries", index->entries}, {"bytes", index->bytes}, {"build_ms", index->build_ms}};
+  return {{"effective", effective_yaml(experiment, catalog_, *loaded.map)},
+          {"provenance", std::move(origin)},
+          {"name", experiment.name},
+          {"seed", experiment.seed},
+          {"steps", experiment.output.steps},
+          {"map", std::move(map)},
+          {"peak_rss_mb", peak_rss_mb()}};
+}
+
+}  // namespace
+
+bool run_shard_trials(std::vector<Variant>& variants, const Manifest& manifest,
+                      const std::vector<TrialPlace>& trials, const Catalog& catalog,
+                      const RunOptions& options, ShardJournal& journal, const ShardCallbacks& callbacks) {
+  ShardWorker worker(variants, manifest, catalog, options, journal, callbacks);
+  for (const VariantTrials& of_variant : by_variant(trials, manifest)) {
+    if (callbacks.stop() || !worker.run(of_variant)) return false;
+  }
+  return true;
+}
+
+}  // namespace glocal

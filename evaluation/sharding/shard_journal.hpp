@@ -1,0 +1,85 @@
+// What one shard has done, line by line: docs/file-formats.md says what is in them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "evaluation/results/trial_output.hpp"
+#include "evaluation/sharding/shares.hpp"
+
+namespace glocal {
+
+/// Which trial it is, wherever and whenever it is run: 128 bits of a hash.
+struct TrialId {
+  std::uint64_t high = 0, low = 0;
+  friend bool operator==(const TrialId&, const TrialId&) = default;
+};
+struct TrialIdHash {
+  std::size_t operator()(const TrialId& id) const { return id.low; }
+};
+
+/// 32 hexadecimal digits, and back. The latter throws std::invalid_argument for other text.
+[[nodiscard]] std::string to_string(const TrialId& id);
+[[nodiscard]] TrialId trial_id_of(std::string_view text);
+
+/// A process that a trial has ended.
+struct Crash {
+  std::string signal;  ///< "SIGSEGV"
+  std::string where;   ///< "matcher 'ransam', step 3"; empty if it is not known.
+};
+
+/// The words that lines begin with, behind their checksums.
+namespace journal_words {
+inline constexpr std::string_view shard = "shard", variant = "variant", begin = "begin", trial = "trial",
+                                  crash = "crash";
+}
+
+/// Ends of the names of journals: of those that are still written, and of all others.
+inline constexpr std::string_view journal_end = ".jsonl", unfinished_journal_end = ".jsonl.part";
+
+/// A file that no other process writes: its name tells shard, host, process and time. It is renamed when its
+/// writer is done. Calls may come from several threads. Every failure throws RunError.
+class ShardJournal {
+ public:
+  /// Makes the file in this folder, which is made if there is none. `jobs` trials run side by side.
+  ShardJournal(const std::filesystem::path& folder, const Shard& shard, int jobs);
+  ~ShardJournal();
+  ShardJournal(const ShardJournal&) = delete;
+  ShardJournal& operator=(const ShardJournal&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+  /// What the files of a variant need besides its trials.
+  void add_variant(const std::string& identity, const nlohmann::ordered_json& description);
+  /// A trial that is about to run, with its line `start`.
+  void begin(const TrialId& id, const nlohmann::ordered_json& start);
+  /// A trial that is over. When this returns, it is on the disk for good.
+  void finish(const TrialId& id, double ms, const TrialOutput& output);
+  void add_crash(const TrialId& id, const Crash& crash);
+
+  /// Drops half a line that a process has left at the end, if there is one.
+  void drop_torn_line();
+  /// Says that the writer is alive, by the clock of the file's server.
+  void touch() const;
+  /// Renames the file: nothing more will come.
+  void close();
+
+ private:
+  void add_line(std::string_view word, const std::string& text, bool for_good);
+
+  std::filesystem::path file_;
+  int fd_ = -1;
+  std::mutex mutex_;
+};
+
+/// What trials leave, as a line has it, and back. The latter throws a std::exception where it is not as the
+/// former makes it.
+[[nodiscard]] std::string output_text(const TrialOutput& output);
+[[nodiscard]] TrialOutput output_of(const std::string& text);
+
+}  // namespace glocal

@@ -1,0 +1,277 @@
+// glocal run --shard, status and merge: several processes, one folder.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "app/room.hpp"
+
+namespace glocal::test::shard_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class Shards : public Room {
+ protected:
+  Shards() {
+    write_experiment("trials: {every_scan: 2, max_steps: 6}\n",
+                     "variants: {grid: {localizer.matcher.ransam.iterations: [10000, 20000]}}\n");
+  }
+
+  [[nodiscard]] Answer run_shard(const std::string& shard, const std::string& options = "--quiet") const {
+    return run_room("shared", "--shard " + shard + " " + options);
+  }
+
+  [[nodiscard]] Answer merge(const std::string& options = "--quiet") const {
+    return run("merge " + file("shared") + " " + options);
+  }
+
+  [[nodiscard]] Json status() const { return Json::parse(run("status " + file("shared") + " --json").out); }
+
+  [[nodiscard]] std::vector<fs::path> journals() const {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(file("shared/.shards/journals")))
+      files.push_back(entry.path());
+    return files;
+  }
+
+  /// Identities of finished trials, as often as they are there.
+  [[nodiscard]] std::multiset<std::string> finished() const {
+    std::multiset<std::string> trials;
+    for (const fs::path& journal : journals()) {
+      std::ifstream in(journal);
+      for (std::string line; std::getline(in, line);) {
+        if (!in.eof() && line.find(" trial ") == 8) trials.insert(line.substr(15, 32));
+      }
+    }
+    return trials;
+  }
+
+  void expect_result_of_one_machine() const {
+    ASSERT_EQ(run_room("one").exit_code, 0);
+    for (const std::string variant : {"/iterations-10000", "/iterations-20000"}) {
+      expect_same_results("one" + variant, "shared" + variant);
+      for (const char* name : {"/effective.yaml", "/provenance.json"})
+        EXPECT_EQ(content(file("one" + variant + name)), content(file("shared" + variant + name)));
+    }
+  }
+};
+
+TEST_F(Shards, TogetherLeaveWhatOneMachineLeaves) {
+  for (const char* shard : {"2/3", "3/3", "1/3"}) ASSERT_EQ(run_shard(shard).exit_code, 0) << shard;
+  const Answer merged = merge("");
+  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_THAT(merged.out, HasSubstr("\niterations-10000 "));
+  expect_result_of_one_machine();
+  const auto trials = finished();
+  EXPECT_EQ(trials.size(), 22U);
+  EXPECT_EQ(std::set<std::string>(trials.begin(), trials.end()).size(), 22U) << "each is run once";
+}
+
+TEST_F(Shards, OfAnExperimentWithoutVariants) {
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\n");
+  for (const char* shard : {"1/2", "2/2"}) ASSERT_EQ(run_shard(shard, "--quiet --jobs 2").exit_code, 0);
+  ASSERT_EQ(merge().exit_code, 0);
+  ASSERT_EQ(merge().exit_code, 0) << "once more, over what is there";
+  ASSERT_EQ(run_room("one").exit_code, 0);
+  expect_same_results("one", "shared");
+  EXPECT_FALSE(fs::exists(file("shared/.shards/merged")));
+  EXPECT_EQ(run("summarize " + file("shared")).exit_code, 0);
+}
+
+TEST_F(Shards, OtherNumbersOfShardsDoOnlyWhatIsMissing) {
+  ASSERT_EQ(run_shard("1/4").exit_code, 0);
+  const auto first = finished();
+  ASSERT_GE(first.size(), 4U);
+  for (const char* shard : {"1/2", "2/2", "1/1"}) ASSERT_EQ(run_shard(shard).exit_code, 0);
+  EXPECT_EQ(finished().size(), 22U);
+  const std::size_t files = journals().size();
+  const Answer again = run_shard("1/1", "");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, HasSubstr("shard 1/1: 0 of its 22 trials are to be run"));
+  EXPECT_EQ(journals().size(), files) << "whoever has nothing to do writes nothing";
+  ASSERT_EQ(merge().exit_code, 0);
+  expect_result_of_one_machine();
+}
+
+TEST_F(Shards, MoreVariantsAndSeedsAreAddedToWhatIsThere) {
+  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\n",
+                   "variants: {grid: {localizer.matcher.ransam.iterations: [10000, 15000, 20000]}}\n");
+  const Answer more = run_shard("1/1", "");
+  ASSERT_EQ(more.exit_code, 0) << more.err;
+  EXPECT_THAT(more.err, HasSubstr("11 of its 33 trials are to be run"));
+  EXPECT_EQ(merge().exit_code, 0);
+}
+
+TEST_F(Shards, WhatIsMissingIsListed) {
+  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  const Answer merged = merge();
+  EXPECT_EQ(merged.exit_code, 3);
+  EXPECT_THAT(merged.err,
+              AllOf(HasSubstr("incomplete: 12 of 22 trials are missing\n"),
+                    HasSubstr("  iterations-10000: trials 1, 3, 5, 7, 9, 10\n"), Not(HasSubstr("at work"))));
+  EXPECT_EQ(json("shared/iterations-10000/summary.json")["complete"], false);
+  EXPECT_EQ(status()["all"]["missing"], 12);
+  EXPECT_EQ(status()["all"]["done"], 10);
+  ASSERT_EQ(run_shard("2/2").exit_code, 0);
+  ASSERT_EQ(merge().exit_code, 0);
+  expect_result_of_one_machine();
+}
+
+TEST_F(Shards, AKilledOneLosesNothingThatWasFinished) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string experiment = file("room.yaml");
+    const std::string out = file("shared");
+    execl(GLOCAL_PROGRAM, GLOCAL_PROGRAM, "run", experiment.c_str(), "--quiet", "--shard", "1/1", "--out",
+          out.c_str(), nullptr);
+    _exit(127);
+  }
+  const auto wait_until = [](const auto& holds) {
+    for (int i = 0; i < 30'000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  wait_until([&] { return fs::exists(file("shared/.shards/journals")) && finished().size() >= 3; });
+  kill(child, SIGKILL);
+  int ended = 0;
+  waitpid(child, &ended, 0);
+  ASSERT_TRUE(WIFSIGNALED(ended));
+  const auto before = finished();
+  ASSERT_LT(before.size(), 22U);
+
+  const Answer merged = merge();
+  EXPECT_EQ(merged.exit_code, 3);
+  EXPECT_THAT(merged.err, HasSubstr("1 shard is still at work (or ended without a word in the last two min"));
+  // Long ago, by the clock of the folder's server: machines need not have the same time.
+  for (const fs::path& journal : journals())
+    fs::last_write_time(journal, fs::last_write_time(journal) - std::chrono::minutes(3));
+  EXPECT_THAT(merge().err, Not(HasSubstr("at work")));
+  EXPECT_EQ(status()["silent"].size(), 1U);
+  EXPECT_EQ(status()["live_shards"], 0);
+
+  // Half a line at the end, as a power failure leaves it.
+  std::ofstream(journals().front(), std::ios::app) << "0badc0de trial 12";
+  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  const auto after = finished();
+  EXPECT_EQ(after.size(), 22U);
+  for (const std::string& trial : before) EXPECT_EQ(after.count(trial), 1U) << "run twice";
+  ASSERT_EQ(merge().exit_code, 0);
+  expect_result_of_one_machine();
+}
+
+TEST_F(Shards, ADamagedLineIsRunAgain) {
+  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  const fs::path journal = journals().front();
+  std::string text = content(journal);
+  const std::size_t place = text.find("undecided");
+  ASSERT_NE(place, std::string::npos);
+  text[place] = 'U';
+  std::ofstream(journal) << text;
+  const Answer again = run_shard("1/1", "");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, AllOf(HasSubstr("the line is damaged (its checksum is another one)"),
+                               HasSubstr("1 of its 22 trials are to be run")));
+}
+
+TEST_F(Shards, AFolderOfAnotherExperimentIsRefused) {
+  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  const auto expect_refused = [&](const std::string& options, const std::string& why) {
+    const Answer answer = run_shard("2/2", options);
+    EXPECT_EQ(answer.exit_code, 2) << options;
+    EXPECT_THAT(answer.err,
+                HasSubstr(file("shared") + ": error: output: the folder was made otherwise: " + why));
+  };
+  expect_refused("--set localizer.matcher.ransam.relation_cell=0.2",
+                 "variant 'iterations-10000': localizer.matcher.ransam.relation_cell is ");
+  expect_refused("--seed 2", "variant 'iterations-10000': seed is 1 there and 2 here; choose another folder");
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\n");
+  expect_refused("", "with a variant 'iterations-10000', which is not here");
+  EXPECT_EQ(finished().size(), 10U);
+}
+
+TEST_F(Shards, AChangedInputIsRefused) {
+  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  std::ofstream(file("world.yaml"), std::ios::app) << "# a change\n";
+  const Answer answer = run_shard("2/2");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("world.yaml: error: has changed since the first shard has run"));
+  EXPECT_EQ(finished().size(), 10U);
+}
+
+TEST_F(Shards, BadNumbersAreRefused) {
+  for (const char* shard : {"0/3", "4/3", "3", "1/0", "a/b", "1/2/3", "-1/2", "1/99999999"}) {
+    const Answer answer = run_shard(shard);
+    EXPECT_EQ(answer.exit_code, 2) << shard;
+    EXPECT_THAT(answer.err, HasSubstr("--shard " + std::string(shard) + ": error: is no shard; give"));
+  }
+  EXPECT_FALSE(fs::exists(file("shared")));
+  EXPECT_EQ(run_shard("1/2", "--force").exit_code, 2);
+  EXPECT_EQ(run("run " + file("room.yaml") + " --shard 1/2").exit_code, 2) << "without --out";
+}
+
+TEST_F(Shards, FaultsOfTheExperimentLeaveNothing) {
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\n",
+                   "variants: {list: {far: {trials.starts_m: [1000], trials.every_scan: 0}}}\n");
+  const Answer answer = run_shard("1/2");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("variant 'far': "));
+  EXPECT_FALSE(fs::exists(file("shared")));
+}
+
+TEST_F(Shards, ResultsOfAnotherRunAreNotReplaced) {
+  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  ASSERT_EQ(run_room("shared", "--quiet --seed 2").exit_code, 0);
+  const Answer merged = merge();
+  EXPECT_EQ(merged.exit_code, 2);
+  EXPECT_THAT(merged.err,
+              HasSubstr("iterations-10000: error: output: the folder has results of another run"));
+  EXPECT_EQ(json("shared/iterations-10000/summary.json")["seed"], 2);
+  EXPECT_EQ(merge("--quiet --force").exit_code, 0);
+  EXPECT_EQ(json("shared/iterations-10000/summary.json")["seed"], 1);
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\n");
+  ASSERT_EQ(run_room("plain").exit_code, 0);
+  EXPECT_EQ(run_room("plain", "--shard 1/1").exit_code, 2) << "results of a run without shards are there";
+}
+
+TEST_F(Shards, AFolderWithoutShardsIsRefused) {
+  for (const char* command : {"status ", "merge "}) {
+    const Answer answer = run(command + file("nowhere"));
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_THAT(answer.err, HasSubstr("no shards have run here"));
+  }
+  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  std::ofstream(file("shared/.shards/manifest.json")) << "{";
+  const Answer answer = run("status " + file("shared"));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("manifest.json: error: is damaged"));
+}
+
+TEST_F(Shards, AFullDiskEndsOneShardAndOthersGoOn) {
+  // 64 blocks of 1024 bytes: the limit of the shell stands for the disk.
+  const std::string limited = "ulimit -f 64; " GLOCAL_PROGRAM " run " + file("room.yaml") +
+                              " --quiet --shard 1/2 --out " + file("shared") + " 2>" + file("said");
+  EXPECT_EQ(std::system(("bash -c '" + limited + "'").c_str()), 1 << 8);
+  EXPECT_THAT(content(file("said")),
+              AllOf(HasSubstr("cannot write: File too large"),
+                    HasSubstr("finished trials are kept: give the same command again")));
+  ASSERT_EQ(run_shard("2/2").exit_code, 0);
+  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  ASSERT_EQ(merge().exit_code, 0);
+  expect_result_of_one_machine();
+}
+
+TEST_F(Shards, WatchedStatusEndsWhenAllIsDone) {
+  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  const Answer answer = run("status " + file("shared") + " --watch");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.out, HasSubstr("22 of 22 trials done"));
+}
+
+}  // namespace
+}  // namespace glocal::test::shard_test
