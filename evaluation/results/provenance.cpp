@@ -143,8 +143,28 @@ Json provenance(const Catalog& catalog, int threads, const std::set<std::filesys
   return json;
 }
 
+Json origin_json(const Variant& variant) {
+  if (variant.name.empty()) return {};
+  Json values = Json::object();
+  for (const auto& [path, value] : variant.values) values[path] = valid_utf8(value);
+  return {{"setting", variant.setting},
+          {"seed", variant.experiment.seed},
+          {"case", variant.case_name},
+          {"role", to_string(variant.role)},
+          {"values", std::move(values)}};
+}
+
+Json provenance_of_run(const Catalog& catalog, const Variant& variant, int jobs,
+                       const std::set<std::filesystem::path>& inputs, FileHashes& hashes) {
+  Json json = provenance(catalog, variant.experiment.threads, inputs, hashes);
+  json["jobs"] = jobs;
+  if (Json origin = origin_json(variant); !origin.is_null()) json["variant"] = std::move(origin);
+  return json;
+}
+
 std::optional<std::string> why_other_run(const std::filesystem::path& folder, const std::string& effective,
-                                         const std::filesystem::path& experiment_file, FileHashes& hashes) {
+                                         const Json& origin, const std::filesystem::path& experiment_file,
+                                         FileHashes& hashes) {
   if (without_comments(content_of(folder / "effective.yaml")) != without_comments(effective))
     return "it is of other values (effective.yaml)";
   Json record;
@@ -160,6 +180,7 @@ std::optional<std::string> why_other_run(const std::filesystem::path& folder, co
   for (const auto& [key, value] : program.items()) {
     if (text_at(key.c_str()) != value) return "it is of another build of the program";
   }
+  if (text_at("variant") != origin) return "it is of another part of the experiment (provenance.json)";
   const Json inputs = text_at("inputs_sha256");
   for (const auto& [file, hash] : inputs.items()) {
     if (file == experiment_file) continue;

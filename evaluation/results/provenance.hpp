@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "glocal/catalog.hpp"
+#include "glocal/experiment.hpp"
 
 namespace glocal {
 
@@ -42,11 +43,22 @@ class FileHashes {
                                                 const std::set<std::filesystem::path>& inputs,
                                                 FileHashes& hashes);
 
-/// Why results in `folder`, finished or not, are not those of a run with this effective experiment by this
-/// very program from the same input files; none if they are. The experiment file itself may have changed: its
-/// effective values tell all of it.
+/// What the results of a variant are of: setting, seed, case, role and values. Null for an experiment without
+/// variants.
+[[nodiscard]] nlohmann::ordered_json origin_json(const Variant& variant);
+
+/// The provenance of a variant's results, with how many trials ran at once, and with origin_json().
+[[nodiscard]] nlohmann::ordered_json provenance_of_run(const Catalog& catalog, const Variant& variant,
+                                                       int jobs,
+                                                       const std::set<std::filesystem::path>& inputs,
+                                                       FileHashes& hashes);
+
+/// Why results in `folder`, finished or not, are not those of a run with this effective experiment, as this
+/// part of a whole (that of origin_json()), by this very program from the same input files; none if they are.
+/// The experiment file itself may have changed: its effective values tell all of it.
 [[nodiscard]] std::optional<std::string> why_other_run(const std::filesystem::path& folder,
                                                        const std::string& effective,
+                                                       const nlohmann::ordered_json& origin,
                                                        const std::filesystem::path& experiment_file,
                                                        FileHashes& hashes);
 

@@ -120,7 +120,7 @@ void ExperimentRunner::take_finished() {
   std::erase_if(variants_, [&](Variant& variant) {
     const std::filesystem::path folder = folder_of(variant.name);
     if (!is_results_folder(folder)) return false;
-    const auto why = why_other(folder, variant.experiment);
+    const auto why = why_other(folder, variant);
     if (why && !options_.force) {
       faults.add({folder.string(), 0, 0,
                   fmt::format("output: the folder has results of another run: {}; choose another folder "
@@ -144,10 +144,10 @@ void ExperimentRunner::check_outputs() {
   FaultCollector faults;
   for (Variant& variant : variants_) {
     faults.collect([&] {
-      OutputFolder::check(
-          folder_of(variant.name), options_.force, [&](const std::filesystem::path& earlier, bool is_final) {
-            return is_unfinished(earlier, is_final) && !why_other(earlier, variant.experiment);
-          });
+      OutputFolder::check(folder_of(variant.name), options_.force,
+                          [&](const std::filesystem::path& earlier, bool is_final) {
+                            return is_unfinished(earlier, is_final) && !why_other(earlier, variant);
+                          });
     });
   }
   faults.report();
@@ -163,8 +163,9 @@ void ExperimentRunner::note_trials() const {
 }
 
 std::optional<std::string> ExperimentRunner::why_other(const std::filesystem::path& folder,
-                                                       Experiment& experiment) {
-  return why_other_run(folder, effective_yaml(experiment, catalog_), file_, hashes_);
+                                                       Variant& variant) {
+  return why_other_run(folder, effective_yaml(variant.experiment, catalog_), origin_json(variant), file_,
+                       hashes_);
 }
 
 void ExperimentRunner::run_one(Variant& variant) {
@@ -181,7 +182,7 @@ void ExperimentRunner::run_one(Variant& variant) {
   std::optional<std::string> declined;
   const auto takes_up = [&](const std::filesystem::path& earlier, bool is_final) {
     if (!is_unfinished(earlier, is_final)) return false;
-    declined = why_other(earlier, experiment);
+    declined = why_other(earlier, variant);
     return !declined;
   };
   OutputFolder folder(folder_of(variant.name), options_.force, takes_up);
@@ -196,7 +197,7 @@ void ExperimentRunner::run_one(Variant& variant) {
   }
   RunResults results(folder, experiment.output, loaded.starts.size(), callbacks_.warn);
   const std::size_t trials = loaded.starts.size();
-  write_origin(folder, experiment, loaded);
+  write_origin(folder, variant, loaded);
   begin(variant, folder, loaded, trials - results.to_run().size());
 
   while (localizers.size() <
@@ -226,11 +227,10 @@ void ExperimentRunner::run_one(Variant& variant) {
 }
 
 /// What tells which run this is.
-void ExperimentRunner::write_origin(OutputFolder& folder, Experiment& experiment,
-                                    const LoadedExperiment& loaded) {
+void ExperimentRunner::write_origin(OutputFolder& folder, Variant& variant, const LoadedExperiment& loaded) {
+  Experiment& experiment = variant.experiment;
   folder.write("effective.yaml", effective_yaml(experiment, catalog_, *loaded.map));
-  Json origin = provenance(catalog_, experiment.threads, loaded.inputs, hashes_);
-  origin["jobs"] = options_.jobs;
+  const Json origin = provenance_of_run(catalog_, variant, options_.jobs, loaded.inputs, hashes_);
   // Names of files need not be UTF-8.
   folder.write("provenance.json", origin.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   if (experiment.output.maps != "none") folder.write("maps/global.pcd", pcd(loaded.map->points()));

@@ -56,12 +56,11 @@ class ExperimentRunner {
   void check_outputs();
   void note_trials() const;
   void run_one(Variant& variant);
-  void write_origin(OutputFolder& folder, Experiment& experiment, const LoadedExperiment& loaded);
+  void write_origin(OutputFolder& folder, Variant& variant, const LoadedExperiment& loaded);
   void begin(const Variant& variant, const OutputFolder& folder, const LoadedExperiment& loaded,
              std::size_t finished);
   void put_in_place(OutputFolder& folder, const std::string& variant, const nlohmann::ordered_json& summary);
-  [[nodiscard]] std::optional<std::string> why_other(const std::filesystem::path& folder,
-                                                     Experiment& experiment);
+  [[nodiscard]] std::optional<std::string> why_other(const std::filesystem::path& folder, Variant& variant);
   void add_result(const std::string& name, const nlohmann::ordered_json& summary) {
     results_.push_back(result_of_variant(name, folder_of(name), summary));
   }

@@ -88,7 +88,8 @@ Json to_json(const Manifest& manifest) {
                         {"identity", v.identity},
                         {"values", to_json(v.values, first)},
                         {"inputs", v.inputs},
-                        {"starts", v.starts}});
+                        {"starts", v.starts},
+                        {"origin", v.origin}});
   }
   return {{"format", manifest_format},
           {"experiment", manifest.experiment},
@@ -114,7 +115,7 @@ Manifest manifest_of(const Json& json) {
   const std::map<std::string, std::string> first = json.at("values");
   for (const Json& v : json.at("variants")) {
     manifest.variants.push_back({v.at("name"), v.at("identity"), values_of(v.at("values"), first),
-                                 v.at("inputs"), whole_number(v, "starts")});
+                                 v.at("inputs"), whole_number(v, "starts"), v.at("origin")});
     static_cast<void>(manifest.starts.at(manifest.variants.back().starts));
   }
   if (manifest.variants.empty()) throw std::invalid_argument("it has no variants");
@@ -226,7 +227,7 @@ Manifest sketch_of(std::vector<Variant>& variants, const fs::path& file, const s
   for (const fs::path& plugin : plugins) manifest.plugins[plugin.string()] = hashes.of(plugin);
   for (Variant& variant : variants) {
     const auto settings = settings_of(effective_yaml(variant.experiment, catalog), file, {});
-    manifest.variants.push_back({variant.name, "", texts_of(settings), {}, 0});
+    manifest.variants.push_back({variant.name, "", texts_of(settings), {}, 0, origin_json(variant)});
   }
   return manifest;
 }
@@ -275,6 +276,8 @@ std::vector<Fault> differences(const Manifest& there, const Manifest& here, cons
     } else if (here.variants[*place].values != planned.values) {
       const std::string of = planned.name.empty() ? "" : fmt::format("variant '{}': ", planned.name);
       differ(of + difference(planned, here.variants[*place]));
+    } else if (here.variants[*place].origin != planned.origin) {
+      differ(fmt::format("with the variant '{}' as another setting or case", planned.name));
     }
     if (faults.size() > 10) break;
   }

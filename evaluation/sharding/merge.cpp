@@ -135,6 +135,8 @@ Json VariantMerge::origin() const {
   Json origin = descriptions_.front().at("provenance");
   origin["host"] = joined(descriptions_, "host");
   origin["cpu"] = joined(descriptions_, "cpu");
+  // Variants of the same values share what shards leave, though they have different names.
+  if (!planned_.origin.is_null()) origin["variant"] = planned_.origin;
   return origin;
 }
 

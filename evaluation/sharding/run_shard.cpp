@@ -78,8 +78,8 @@ class ShardWorker {
 
  private:
   void check_inputs(const PlannedVariant& planned, Experiment& experiment, const LoadedExperiment& loaded);
-  [[nodiscard]] Json description(Experiment& experiment, const LoadedExperiment& loaded,
-                                 const Localizer& localizer, double map_index_ms);
+  [[nodiscard]] Json description(Variant& variant, const LoadedExperiment& loaded, const Localizer& localizer,
+                                 double map_index_ms);
 
   std::vector<Variant>& variants_;
   const Manifest& manifest_;
@@ -108,7 +108,7 @@ bool ShardWorker::run(const VariantTrials& of_variant) {
 
   loaded.inputs.insert(manifest_.file);
   loaded.inputs.insert(options_.plugins.begin(), options_.plugins.end());
-  Json described = description(experiment, loaded, localizers.front(), map_index_ms);
+  Json described = description(variant, loaded, localizers.front(), map_index_ms);
   journal_.add_variant(planned.identity, described);
   callbacks_.begin(loaded, planned.name);
 
@@ -166,16 +166,15 @@ void ShardWorker::check_inputs(const PlannedVariant& planned, Experiment& experi
 }
 
 /// What the files of a variant need besides its trials.
-Json ShardWorker::description(Experiment& experiment, const LoadedExperiment& loaded,
-                              const Localizer& localizer, double map_index_ms) {
-  Json origin = provenance(catalog_, experiment.threads, loaded.inputs, hashes_);
-  origin["jobs"] = options_.jobs;
+Json ShardWorker::description(Variant& variant, const LoadedExperiment& loaded, const Localizer& localizer,
+                              double map_index_ms) {
+  Experiment& experiment = variant.experiment;
   Json map = {
       {"points", loaded.map->points().size()}, {"build_ms", loaded.map_build_ms}, {"index_ms", map_index_ms}};
   if (const auto index = localizer.map_index())
     map["index"] = {{"entries", index->entries}, {"bytes", index->bytes}, {"build_ms", index->build_ms}};
   return {{"effective", effective_yaml(experiment, catalog_, *loaded.map)},
-          {"provenance", std::move(origin)},
+          {"provenance", provenance_of_run(catalog_, variant, options_.jobs, loaded.inputs, hashes_)},
           {"name", experiment.name},
           {"seed", experiment.seed},
           {"steps", experiment.output.steps},

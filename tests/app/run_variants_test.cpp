@@ -45,6 +45,24 @@ TEST_F(RunVariants, EachHasAFolderAndALineOfTheTable) {
   expect_same_results("alone", "all/other");
 }
 
+TEST_F(RunVariants, ResultsSayWhatSettingCaseAndSeedTheyAreOf) {
+  write_experiment("trials: {every_scan: 9, max_steps: 2}\n",
+                   "seeds: 4..5\n"
+                   "choose_on: {few: {trials.max_steps: 1}}\n"
+                   "judge_on: {more: {}}\n"
+                   "variants: {list: {paper: {}, other: {localizer.matcher.ransam.iterations: 15000}}}\n");
+  ASSERT_EQ(run_room("all", "--quiet --only paper_few_seed-4 --only other_more_seed-5").exit_code, 0);
+  EXPECT_EQ(json("all/paper_few_seed-4/provenance.json")["variant"].dump(),
+            R"({"setting":"paper","seed":4,"case":"few","role":"choose","values":{}})");
+  EXPECT_EQ(json("all/other_more_seed-5/provenance.json")["variant"].dump(),
+            R"({"setting":"other","seed":5,"case":"more","role":"judge",)"
+            R"("values":{"localizer.matcher.ransam.iterations":"15000"}})");
+  EXPECT_EQ(json("all/other_more_seed-5/summary.json")["seed"], 5);
+  const Answer refused = run_room("all", "--seed 4");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--set seed=4: error: seed: the experiment has `seeds`; leave one out"));
+}
+
 TEST_F(RunVariants, OnlyThoseThatAreNamed) {
   ASSERT_EQ(run_room("all", "--quiet --only other").exit_code, 0);
   EXPECT_TRUE(fs::exists(file("all/other/summary.json")));

@@ -78,16 +78,31 @@ using Override = std::pair<std::string, std::string>;
 [[nodiscard]] Experiment read_experiment(const std::filesystem::path& file,
                                          const std::vector<Override>& overrides, const Catalog& catalog);
 
-/// One experiment of a file with variants.
+/// What the results of a case are for.
+enum class CaseRole {
+  none,    ///< There are no cases.
+  choose,  ///< By these the best setting is chosen …
+  judge,   ///< … and by these it is judged.
+};
+[[nodiscard]] const char* to_string(CaseRole role);
+
+/// One experiment of a file with variants: a setting, run on a case with a seed.
 struct Variant {
-  std::string name;  ///< Fit for a folder; empty for the experiment of a file without variants.
+  /// Fit for a folder: `SETTING_CASE_seed-N`, without what there is none of. Empty for the experiment of a
+  /// file that has nothing of this.
+  std::string name;
   Experiment experiment;
-  bool changes_trials = false;  ///< It has another map, other observations, trials or another seed.
+  /// Its setting has another map, other observations, trials or another seed.
+  bool changes_trials = false;
+  std::string setting = {};    ///< What is compared; empty if nothing but case and seed vary.
+  std::string case_name = {};  ///< One of choose_on or judge_on; empty without.
+  CaseRole role = CaseRole::none;
+  std::vector<Override> values = {};  ///< What the setting changes, as written; not the case, nor the seed.
 };
 
-/// Reads the variants of an experiment file in the order of list, grid and zip; of a file without any, the
-/// experiment itself. Overrides are applied before the variants' changes. Throws ConfigError with every fault
-/// of all variants.
+/// Reads the variants of an experiment file in the order of list, grid and zip, each with every case (those
+/// of choose_on first) and every seed, seeds changing fastest; of a file without any, the experiment itself.
+/// Overrides are applied before the variants' changes. Throws ConfigError with every fault of all variants.
 [[nodiscard]] std::vector<Variant> read_variants(const std::filesystem::path& file,
                                                  const std::vector<Override>& overrides,
                                                  const Catalog& catalog);

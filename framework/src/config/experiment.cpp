@@ -113,9 +113,9 @@ void add_spots(const YamlNode& node, std::set<Spot>& spots) {
   }
 }
 
-std::set<Spot> spots_of(const VariantChanges& variant) {
+std::set<Spot> spots_of(const std::vector<Change>& changes) {
   std::set<Spot> spots;
-  for (const Change& change : variant.changes) {
+  for (const Change& change : changes) {
     spots.insert(spot_of(change.place));
     add_spots(*change.value, spots);
   }
@@ -124,47 +124,62 @@ std::set<Spot> spots_of(const VariantChanges& variant) {
 
 /// A fault of a variant said at what the variant changes, also if it shows elsewhere: a rule that spans
 /// fields is broken where those are that the variant leaves alone.
-Fault fault_of(const VariantChanges& variant, const std::set<Spot>& spots, const Fault& fault) {
-  if (variant.changes.empty() || spots.contains({fault.file, fault.line, fault.column})) return fault;
+Fault fault_of(const std::vector<Change>& changes, const std::set<Spot>& spots, const Fault& fault) {
+  if (changes.empty() || spots.contains({fault.file, fault.line, fault.column})) return fault;
   // The change that is about what the message begins with.
   const std::string about = fault.message.substr(0, fault.message.find(':'));
-  const auto cause = std::find_if(variant.changes.begin(), variant.changes.end(),
+  const auto cause = std::find_if(changes.begin(), changes.end(),
                                   [&](const Change& c) { return c.path.starts_with(about); });
-  return fault_at(cause == variant.changes.end() ? variant.changes.front().place : cause->place,
+  return fault_at(cause == changes.end() ? changes.front().place : cause->place,
                   "with this change, " + fault.message);
+}
+
+bool changes_trials(const Change& change) {
+  constexpr std::array<std::string_view, 4> of_trials = {"seed", "map", "observations", "trials"};
+  const std::string first = change.path.substr(0, change.path.find('.'));
+  return std::find(of_trials.begin(), of_trials.end(), first) != of_trials.end();
 }
 
 /// The experiment with the variant's changes; faults that the experiment has without them are left out. They
 /// are told by their words, so the variant is read as the same struct.
 Variant read_variant(YamlNode tree, const VariantChanges& changes, const Catalog& catalog,
                      const std::set<Fault>& of_base, std::set<Fault>& faults) {
-  constexpr std::array<std::string_view, 4> of_trials = {"seed", "map", "observations", "trials"};
-  Variant variant{changes.name, {}};
+  Variant variant{
+      .name = name_of(changes),
+      .experiment = {},
+      .changes_trials = std::any_of(changes.changes.begin(), changes.changes.end(), changes_trials),
+      .setting = changes.setting,
+      .case_name = changes.case_name,
+      .role = changes.role};
+  for (const Change& change : changes.changes)
+    variant.values.emplace_back(change.path, flow_yaml(*change.value));
   ExperimentFileParams params(catalog);
   std::vector<Fault> found;
-  for (const Change& change : changes.changes) {
+  std::vector<Change> all = changes.changes;
+  all.insert(all.end(), changes.case_changes.begin(), changes.case_changes.end());
+  for (const Change& change : all)
     apply_change(tree, change.path, *change.value, change.place, params, found);
-    const std::string first = change.path.substr(0, change.path.find('.'));
-    variant.changes_trials |= std::find(of_trials.begin(), of_trials.end(), first) != of_trials.end();
-  }
   read_params(tree, params, found);
   std::erase_if(found, [&](const Fault& fault) { return of_base.contains(fault); });
   if (!found.empty()) {
-    const std::set<Spot> spots = spots_of(changes);
-    for (const Fault& fault : found) faults.insert(fault_of(changes, spots, fault));
+    const std::set<Spot> spots = spots_of(all);
+    for (const Fault& fault : found) faults.insert(fault_of(all, spots, fault));
   }
   variant.experiment = std::move(params.file.experiment);
   return variant;
 }
 
 /// Whether so many values can be held; each variant has all of its own.
-bool can_be_held(const YamlNode& tree, const std::vector<VariantChanges>& all) {
+bool can_be_held(const YamlNode& tree, const Expansion& all) {
   constexpr std::size_t most_values = 20'000'000;
   const std::size_t of_base = count_nodes(tree);
   std::size_t values = 0;
-  for (const VariantChanges& changes : all) {
-    values += of_base;
-    for (const Change& change : changes.changes) values += count_nodes(*change.value);
+  const std::size_t seeds = std::max<std::size_t>(all.seeds.size(), 1);
+  for (const VariantChanges& changes : all.variants) {
+    values += seeds * of_base;
+    for (const auto* list : {&changes.changes, &changes.case_changes}) {
+      for (const Change& change : *list) values += seeds * count_nodes(*change.value);
+    }
     if (values > most_values) return false;
   }
   return true;
@@ -172,16 +187,31 @@ bool can_be_held(const YamlNode& tree, const std::vector<VariantChanges>& all) {
 
 /// Reads all variants, until there are more faults than anybody reads. Points of a grid share their values,
 /// and with them their faults.
-std::vector<Variant> read_all(const YamlNode& tree, const std::vector<VariantChanges>& all,
-                              const Catalog& catalog, const std::set<Fault>& of_base,
-                              std::set<Fault>& faults) {
+std::vector<Variant> read_all(const YamlNode& tree, const Expansion& all, const Catalog& catalog,
+                              const std::set<Fault>& of_base, std::set<Fault>& faults) {
   constexpr std::size_t most_faults = 1000;
   std::vector<Variant> variants;
-  for (const VariantChanges& changes : all) {
+  for (const VariantChanges& changes : all.variants) {
     if (faults.size() > most_faults) break;
-    variants.push_back(read_variant(tree, changes, catalog, of_base, faults));
+    const Variant variant = read_variant(tree, changes, catalog, of_base, faults);
+    if (all.seeds.empty()) variants.push_back(variant);
+    for (const std::uint64_t seed : all.seeds) {
+      variants.push_back(variant);
+      variants.back().name = name_with_seed(variant.name, seed);
+      variants.back().experiment.seed = seed;
+    }
   }
   return variants;
+}
+
+/// A seed of the command line would be without effect beside `seeds`; that of the file is for commands that
+/// run no variants.
+void check_seed(const YamlNode& tree, std::vector<Fault>& faults) {
+  const YamlEntry* seed = find_entry(tree, "seed");
+  if (seed == nullptr || seed->value.place.origin->label == tree.place.origin->label) return;
+  faults.push_back(fault_at(
+      seed->value.place,
+      "seed: the experiment has `seeds`; leave one out (--set seeds=[] leaves out those of the file)"));
 }
 
 }  // namespace
@@ -297,16 +327,17 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
   ExperimentFileParams params(catalog);
   auto tree = read_file(file, overrides, params, found);
   const std::set<Fault> of_base(found.begin(), found.end());
-  const std::vector<VariantChanges> all = expand(params.file.variants, found);
+  const Expansion all = expand(params.file.variations, found);
+  if (tree && !all.seeds.empty()) check_seed(*tree, found);
   std::set<Fault> faults(found.begin(), found.end());
-  if (tree) std::erase_if(tree->entries, [](const YamlEntry& entry) { return entry.key == "variants"; });
+  if (tree) std::erase_if(tree->entries, [](const YamlEntry& entry) { return is_variation(entry.key); });
   std::vector<Variant> variants;
-  if (all.empty()) {
+  if (all.variants.empty()) {
     variants.push_back({"", std::move(params.file.experiment)});
   } else if (can_be_held(*tree, all)) {
     variants = read_all(*tree, all, catalog, of_base, faults);
   } else {
-    faults.insert(fault_at(all.front().place,
+    faults.insert(fault_at(all.variants.front().place,
                            "variants: have more than 20 million values together; leave some out, or shorten "
                            "the lists of the experiment"));
   }

@@ -23,10 +23,10 @@ class ExperimentParams final : public AnyParams {
   const Catalog* catalog_;
 };
 
-/// An experiment file: an experiment, and what its variants change of it.
+/// An experiment file: an experiment, and what is varied of it.
 struct ExperimentFile {
   Experiment experiment = default_experiment();
-  VariantsSection variants;
+  Variations variations;
 };
 
 /// An experiment file as a described struct.
@@ -35,8 +35,7 @@ class ExperimentFileParams final : public AnyParams {
   explicit ExperimentFileParams(const Catalog& catalog) : catalog_(&catalog) {}
   void visit(ParamVisitor& visitor) override {
     describe(visitor, file.experiment, *catalog_);
-    visitor.field("variants", file.variants,
-                  {.doc = "Experiments that differ in some values, for `glocal run` to compare."});
+    describe(visitor, file.variations);
   }
   [[nodiscard]] std::unique_ptr<AnyParams> clone() const override {
     return std::make_unique<ExperimentFileParams>(*this);

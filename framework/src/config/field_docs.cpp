@@ -42,6 +42,8 @@ template <>
 constexpr FieldType type_of<NamedChanges> = FieldType::named_changes;
 template <>
 constexpr FieldType type_of<ListedChanges> = FieldType::listed_changes;
+template <>
+constexpr FieldType type_of<SeedList> = FieldType::seeds;
 
 template <class T>
 Json to_json_value(const T& value) {
@@ -64,6 +66,9 @@ Json to_json_value(const NamedChanges& /*value*/) {
   return {};
 }
 Json to_json_value(const ListedChanges& /*value*/) {
+  return {};
+}
+Json to_json_value(const SeedList& /*value*/) {
   return {};
 }
 
@@ -158,6 +163,8 @@ std::string type_name(const FieldDoc& field) {
       return "maps of paths and values";
     case FieldType::listed_changes:
       return "map of paths and lists of values";
+    case FieldType::seeds:
+      return "whole numbers and ranges A..B";
     case FieldType::group:
       return "map";
     case FieldType::list:

@@ -24,6 +24,7 @@ enum class FieldType {
   pairs,
   named_changes,
   listed_changes,
+  seeds,
   group,
   list,
   strategy

@@ -201,6 +201,10 @@ class MapReader final : public UniformVisitor<MapReader> {
     if (good) v.written = std::make_shared<const YamlNode>(node);
   }
 
+  void read(const YamlNode& node, const std::string& /*what*/, SeedList& v, const FieldInfo& /*info*/) {
+    v.written = std::make_shared<const YamlNode>(node);
+  }
+
   /// A null node is a map without keys.
   bool check_map(const YamlNode& node, const std::string& what, const std::string& expected) {
     if (node.kind == NodeKind::map || node.kind == NodeKind::null) return true;

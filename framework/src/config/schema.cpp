@@ -61,6 +61,14 @@ Json map_schema(Json values) {
   return {{"type", {"object", "null"}}, {"additionalProperties", std::move(values)}};
 }
 
+/// A seed or a range of them, or a list of both.
+Json seeds_schema() {
+  const Json one = {
+      {"anyOf",
+       {{{"type", "integer"}, {"minimum", 0}}, {{"type", "string"}, {"pattern", "^[0-9]+\\.\\.[0-9]+$"}}}}};
+  return {{"anyOf", {one, {{"type", "array"}, {"items", one}}, {{"type", "null"}}}}};
+}
+
 Json type_schema(const FieldDoc& field) {
   const FieldInfo& info = field.info;
   switch (field.type) {
@@ -90,6 +98,8 @@ Json type_schema(const FieldDoc& field) {
       return map_schema(map_schema(true));
     case FieldType::listed_changes:
       return map_schema({{"type", "array"}, {"minItems", 1}});
+    case FieldType::seeds:
+      return seeds_schema();
     case FieldType::group:
       return struct_schema(field.inner.front());
     case FieldType::list:

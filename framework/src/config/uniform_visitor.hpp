@@ -50,6 +50,7 @@ class UniformVisitor : public ParamVisitor {
   void field(std::string_view name, ListedChanges& v, const FieldInfo& info) final {
     self().value(name, v, info);
   }
+  void field(std::string_view name, SeedList& v, const FieldInfo& info) final { self().value(name, v, info); }
 
  private:
   Derived& self() { return static_cast<Derived&>(*this); }

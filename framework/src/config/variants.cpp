@@ -11,7 +11,6 @@
 namespace glocal {
 namespace {
 
-constexpr std::size_t most_variants = 10000;
 constexpr std::size_t most_paths = 1000;
 constexpr std::size_t longest_name = 100;
 
@@ -66,30 +65,31 @@ std::string label_of(const std::string& path, const std::vector<YamlEntry>& all)
   return path;
 }
 
-void check_path(const YamlEntry& entry, std::vector<Fault>& faults) {
-  constexpr std::array<std::string_view, 4> fixed = {"schema", "name", "plugins", "variants"};
+void check_path(const YamlEntry& entry, const std::string& key, std::vector<Fault>& faults) {
+  constexpr std::array<std::string_view, 3> fixed = {"schema", "name", "plugins"};
   const std::string first = entry.key.substr(0, entry.key.find('.'));
-  if (std::find(fixed.begin(), fixed.end(), first) == fixed.end()) return;
+  if (!is_variation(first) && std::find(fixed.begin(), fixed.end(), first) == fixed.end()) return;
   faults.push_back(
-      fault_at(entry.place, "variants: '" + first + "' is the same for all variants and cannot be changed"));
+      fault_at(entry.place, key + ": '" + first + "' is the same for all variants and cannot be changed"));
 }
 
-/// The paths of a map, checked; none where there are too many of them, or one is too long to be any.
-const std::vector<YamlEntry>& paths_of(const YamlNode& map, std::vector<Fault>& faults) {
+/// The paths of a map, checked; none where there are too many of them, or one is too long to be any. `key` is
+/// where the map is.
+const std::vector<YamlEntry>& paths_of(const YamlNode& map, const std::string& key,
+                                       std::vector<Fault>& faults) {
   constexpr std::size_t longest_path = 1000;
   static const std::vector<YamlEntry> none;
   if (map.entries.size() > most_paths) {
     faults.push_back(
-        fault_at(map.place, fmt::format("variants: {} paths at once, at most {} are allowed; change fewer",
+        fault_at(map.place, fmt::format("{}: {} paths at once, at most {} are allowed; change fewer", key,
                                         map.entries.size(), most_paths)));
     return none;
   }
   for (const YamlEntry& entry : map.entries) {
-    check_path(entry, faults);
+    check_path(entry, key, faults);
     if (entry.key.size() <= longest_path) continue;
-    faults.push_back(fault_at(entry.place, fmt::format("variants: a path of {} letters is none; write it as "
-                                                       "a.b.c",
-                                                       entry.key.size())));
+    faults.push_back(fault_at(entry.place, fmt::format("{}: a path of {} letters is none; write it as a.b.c",
+                                                       key, entry.key.size())));
   }
   const bool are_short = std::all_of(map.entries.begin(), map.entries.end(),
                                      [](const YamlEntry& e) { return e.key.size() <= longest_path; });
@@ -99,7 +99,7 @@ const std::vector<YamlEntry>& paths_of(const YamlNode& map, std::vector<Fault>& 
 std::vector<Axis> axes_of(const ListedChanges& changes, std::vector<Fault>& faults) {
   std::vector<Axis> axes;
   if (!changes.written) return axes;
-  const std::vector<YamlEntry>& entries = paths_of(*changes.written, faults);
+  const std::vector<YamlEntry>& entries = paths_of(*changes.written, "variants", faults);
   for (const YamlEntry& entry : entries) axes.push_back({&entry, label_of(entry.key, entries)});
   return axes;
 }
@@ -117,8 +117,8 @@ VariantChanges point(const std::vector<Axis>& axes, const std::vector<std::size_
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const YamlEntry& path = *axes[i].written;
     const YamlNode& value = path.value.items[at[i]];
-    if (variant.name.size() <= longest_name)
-      variant.name += (i == 0 ? "" : "_") + axes[i].label + "-" + text_of(value);
+    if (variant.setting.size() <= longest_name)
+      variant.setting += (i == 0 ? "" : "_") + axes[i].label + "-" + text_of(value);
     variant.changes.push_back(change_of(path, value, written));
   }
   variant.place = variant.changes.back().value->place;
@@ -136,24 +136,6 @@ bool are_too_many(std::size_t points, const std::vector<Axis>& axes, const char*
   faults.push_back(fault_at(axes.front().written->place,
                             fmt::format("variants.{}: {}; leave some values out", section, excess)));
   return true;
-}
-
-void add_list(const NamedChanges& list, std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
-  if (!list.written) return;
-  const std::size_t size = list.written->entries.size();
-  if (size > most_variants) {
-    faults.push_back(
-        fault_at(list.written->place, fmt::format("variants.list: has {} variants, at most {} are "
-                                                  "allowed; leave some out",
-                                                  size, most_variants)));
-    return;
-  }
-  for (const YamlEntry& named : list.written->entries) {
-    VariantChanges variant{named.key, named.place, {}};
-    for (const YamlEntry& entry : paths_of(named.value, faults))
-      variant.changes.push_back(change_of(entry, entry.value, list.written));
-    variants.push_back(std::move(variant));
-  }
 }
 
 void add_grid(const ListedChanges& grid, std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
@@ -192,23 +174,6 @@ void add_zip(const ListedChanges& zip, std::vector<VariantChanges>& variants, st
   }
 }
 
-void check_names(const std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
-  std::map<std::string, int> first_lines;
-  for (const VariantChanges& variant : variants) {
-    const auto [first, is_new] = first_lines.try_emplace(variant.name, variant.place.line);
-    if (!is_new) {
-      faults.push_back(fault_at(variant.place, fmt::format("variants: '{}' is there twice (first in line {})",
-                                                           variant.name, first->second)));
-    } else if (!is_folder_name(variant.name)) {
-      faults.push_back(
-          fault_at(variant.place, fmt::format("variants: '{}' is no name for a folder: at most 100 letters, "
-                                              "digits, '_', '-' and '.', beginning with a letter, a digit or "
-                                              "'_'; variants.list lets you choose names",
-                                              variant.name)));
-    }
-  }
-}
-
 }  // namespace
 
 void describe(ParamVisitor& v, VariantsSection& s) {
@@ -217,13 +182,51 @@ void describe(ParamVisitor& v, VariantsSection& s) {
   v.field("zip", s.zip, {.doc = "The first values of all paths, then the second of all, and so on."});
 }
 
-std::vector<VariantChanges> expand(const VariantsSection& section, std::vector<Fault>& faults) {
+std::vector<VariantChanges> named_settings(const NamedChanges& list, const std::string& key,
+                                           std::vector<Fault>& faults) {
   std::vector<VariantChanges> variants;
-  add_list(section.list, variants, faults);
+  if (!list.written) return variants;
+  const std::size_t size = list.written->entries.size();
+  if (size > most_variants) {
+    faults.push_back(fault_at(list.written->place,
+                              fmt::format("{}: has {} variants, at most {} are allowed; leave some out", key,
+                                          size, most_variants)));
+    return variants;
+  }
+  for (const YamlEntry& named : list.written->entries) {
+    VariantChanges variant{named.key, named.place, {}};
+    for (const YamlEntry& entry : paths_of(named.value, key.substr(0, key.find('.')), faults))
+      variant.changes.push_back(change_of(entry, entry.value, list.written));
+    variants.push_back(std::move(variant));
+  }
+  return variants;
+}
+
+std::vector<VariantChanges> settings_of(const VariantsSection& section, std::vector<Fault>& faults) {
+  std::vector<VariantChanges> variants = named_settings(section.list, "variants.list", faults);
   add_grid(section.grid, variants, faults);
   add_zip(section.zip, variants, faults);
-  check_names(variants, faults);
+  check_names(variants, "variants", faults);
   return variants;
+}
+
+void check_names(const std::vector<VariantChanges>& variants, const std::string& key,
+                 std::vector<Fault>& faults) {
+  std::map<std::string, int> first_lines;
+  for (const VariantChanges& variant : variants) {
+    const std::string name = name_of(variant);
+    const auto [first, is_new] = first_lines.try_emplace(name, variant.place.line);
+    if (!is_new) {
+      faults.push_back(fault_at(variant.place, fmt::format("{}: '{}' is there twice (first in line {})", key,
+                                                           name, first->second)));
+    } else if (!is_folder_name(name)) {
+      faults.push_back(
+          fault_at(variant.place,
+                   fmt::format("{}: '{}' is no name for a folder: at most 100 letters, digits, "
+                               "'_', '-' and '.', beginning with a letter, a digit or '_'{}",
+                               key, name, key == "variants" ? "; variants.list lets you choose names" : "")));
+    }
+  }
 }
 
 bool is_folder_name(std::string_view name) {

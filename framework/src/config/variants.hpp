@@ -1,12 +1,14 @@
-// Which variants an experiment file asks for.
+// Which experiments an experiment file asks for.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "config/node.hpp"
+#include "glocal/experiment.hpp"
 #include "glocal/params.hpp"
 
 namespace glocal {
@@ -19,6 +21,21 @@ struct VariantsSection {
 };
 void describe(ParamVisitor& v, VariantsSection& s);
 
+/// The keys of an experiment file that make many experiments of one.
+struct Variations {
+  VariantsSection variants;
+  SeedList seeds;
+  NamedChanges choose_on;
+  NamedChanges judge_on;
+};
+/// Each is a key of its own, beside those of the experiment.
+void describe(ParamVisitor& v, Variations& s);
+/// Their names.
+[[nodiscard]] bool is_variation(std::string_view key);
+
+/// Of any kind, and of all that they make together.
+constexpr std::size_t most_variants = 10000;
+
 /// One value and where it goes.
 struct Change {
   std::string path;                       ///< localizer.matcher.ransam.iterations
@@ -26,18 +43,46 @@ struct Change {
   std::shared_ptr<const YamlNode> value;  ///< Part of what is written: many variants share it.
 };
 
-/// What makes a variant of an experiment.
+/// What makes a variant of an experiment, but for its seed.
 struct VariantChanges {
-  std::string name;
-  Place place;  ///< Of the name, or of the values it is made from.
-  std::vector<Change> changes;
+  std::string setting;
+  Place place;  ///< Of the setting's name, or of the values it is made from; of the case where there is none.
+  std::vector<Change> changes;  ///< Of the setting.
+  std::string case_name = {};
+  CaseRole role = CaseRole::none;
+  std::vector<Change> case_changes = {};  ///< Put in behind those of the setting.
 };
 
-/// All variants: those of the list, the combinations of the grid (the last key changing fastest) and the rows
+/// The name of a variant without its seed: `SETTING_CASE`, or what there is of it.
+[[nodiscard]] std::string name_of(const VariantChanges& variant);
+/// The name behind which the seed has been put: `NAME_seed-N`.
+[[nodiscard]] std::string name_with_seed(const std::string& name, std::uint64_t seed);
+
+/// All settings: those of the list, the combinations of the grid (the last key changing fastest) and the rows
 /// of zip. A point of grid and zip is named after the last parts of its paths and its values:
 /// `iterations-50000_contact_epsilon-0.05`. What is wrong with names, paths and the number of values goes to
 /// `faults`; whether a change makes sense is for the reader to say.
-[[nodiscard]] std::vector<VariantChanges> expand(const VariantsSection& section, std::vector<Fault>& faults);
+[[nodiscard]] std::vector<VariantChanges> settings_of(const VariantsSection& section,
+                                                      std::vector<Fault>& faults);
+
+/// What is changed by names, in the order of the file; `key` is where, for faults: `variants.list`.
+[[nodiscard]] std::vector<VariantChanges> named_settings(const NamedChanges& list, const std::string& key,
+                                                         std::vector<Fault>& faults);
+
+/// Adds a fault for each name that is there twice, or fits no folder; names are those of name_of().
+void check_names(const std::vector<VariantChanges>& variants, const std::string& key,
+                 std::vector<Fault>& faults);
+
+/// What an experiment file asks for.
+struct Expansion {
+  std::vector<VariantChanges>
+      variants;                      ///< Each setting with each case; none if there is neither, nor seeds.
+  std::vector<std::uint64_t> seeds;  ///< Each variant is run with each; none: with the experiment's.
+};
+
+/// All settings, each with every case (those of choose_on first), and all seeds. Settings are as in
+/// settings_of(). What is wrong goes to `faults`; too many variants are none.
+[[nodiscard]] Expansion expand(const Variations& variations, std::vector<Fault>& faults);
 
 /// Letters, digits, `_`, `-` and `.`, at most 100, beginning with a letter, a digit or `_`: fit for a folder,
 /// and for a command line.

@@ -1,5 +1,6 @@
 #include "config/writer.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -26,6 +27,14 @@ std::string flow(const std::vector<T>& values) {
   return "[" + text + "]";
 }
 
+/// Letters that mean nothing but themselves wherever a plain scalar may stand.
+bool is_plain(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+           c == '-' || c == '+' || c == '.';
+  });
+}
+
 class YamlWriter final : public UniformVisitor<YamlWriter> {
  public:
   explicit YamlWriter(std::size_t indent) : indent_(indent, ' ') {}
@@ -40,6 +49,7 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
   /// Variants are written as experiments of their own.
   void value(std::string_view /*name*/, NamedChanges& /*v*/, const FieldInfo& /*info*/) {}
   void value(std::string_view /*name*/, ListedChanges& /*v*/, const FieldInfo& /*info*/) {}
+  void value(std::string_view /*name*/, SeedList& /*v*/, const FieldInfo& /*info*/) {}
 
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
                 const FieldInfo& /*info*/) override {
@@ -93,6 +103,27 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
 };
 
 }  // namespace
+
+std::string flow_yaml(const YamlNode& node) {
+  std::string text;
+  switch (node.kind) {
+    case NodeKind::scalar:
+      return !node.quoted && is_plain(node.text) ? node.text : to_yaml(std::string_view(node.text));
+    case NodeKind::list:
+      for (const YamlNode& item : node.items) text += (text.empty() ? "" : ", ") + flow_yaml(item);
+      return "[" + text + "]";
+    case NodeKind::map:
+      for (const YamlEntry& entry : node.entries) {
+        text +=
+            (text.empty() ? "" : ", ") + to_yaml(std::string_view(entry.key)) + ": " + flow_yaml(entry.value);
+      }
+      return "{" + text + "}";
+    case NodeKind::null:
+    case NodeKind::invalid:
+      break;
+  }
+  return "null";
+}
 
 std::string write_yaml(AnyParams& params) {
   YamlWriter writer(0);

@@ -3,11 +3,15 @@
 
 #include <string>
 
+#include "config/node.hpp"
 #include "glocal/params.hpp"
 
 namespace glocal {
 
 /// Every field with its value, in the order of the description, in block style. All numbers must be finite.
 [[nodiscard]] std::string write_yaml(AnyParams& params);
+
+/// A node on one line, as it could be given with --set.
+[[nodiscard]] std::string flow_yaml(const YamlNode& node);
 
 }  // namespace glocal

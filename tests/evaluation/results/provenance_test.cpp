@@ -59,7 +59,7 @@ TEST(WhyOtherRun, NamesWhatHasChanged) {
   const auto why = [&](const std::string& effective) {
     folder.write("provenance.json", record.dump());
     FileHashes now;
-    return why_other_run(input.parent_path(), effective, experiment, now).value_or("");
+    return why_other_run(input.parent_path(), effective, {}, experiment, now).value_or("");
   };
   EXPECT_EQ(why("values"), "");
   EXPECT_EQ(why("other values"), "it is of other values (effective.yaml)");
@@ -72,13 +72,43 @@ TEST(WhyOtherRun, NamesWhatHasChanged) {
   EXPECT_EQ(why("values"), "it is of another build of the program");
 }
 
+TEST(Provenance, SaysWhatAVariantIsOf) {
+  Variant variant{.name = "a_intel_seed-3",
+                  .experiment = {},
+                  .setting = "a",
+                  .case_name = "intel",
+                  .role = CaseRole::judge,
+                  .values = {{"z.b", "5"}, {"c", "[1, x]"}}};
+  variant.experiment.seed = 3;
+  EXPECT_EQ(origin_json(variant).dump(),
+            R"({"setting":"a","seed":3,"case":"intel","role":"judge","values":{"z.b":"5","c":"[1, x]"}})");
+  EXPECT_TRUE(origin_json({"", {}}).is_null());
+}
+
+TEST(WhyOtherRun, TheSameValuesForAnotherPartAreAnotherRun) {
+  const TemporaryFolder folder;
+  FileHashes hashes;
+  Variant variant{.name = "a", .experiment = {}, .setting = "a", .role = CaseRole::choose};
+  auto record = provenance(Catalog(), 1, {}, hashes);
+  record["variant"] = origin_json(variant);
+  folder.write("provenance.json", record.dump());
+  folder.write("effective.yaml", "values");
+  const auto why = [&] {
+    return why_other_run(folder.path(), "values", origin_json(variant), folder.path() / "e.yaml", hashes)
+        .value_or("");
+  };
+  EXPECT_EQ(why(), "");
+  variant.role = CaseRole::judge;
+  EXPECT_EQ(why(), "it is of another part of the experiment (provenance.json)");
+}
+
 TEST(WhyOtherRun, CommentsAreNoValuesButWhatStandsInQuotesIs) {
   const TemporaryFolder folder;
   FileHashes hashes;
   folder.write("provenance.json", provenance(Catalog(), 1, {}, hashes).dump());
   folder.write("effective.yaml", "epsilon: auto  # 0.1 m here\npath: \"/a  # b\"\n");
   const auto why = [&](const std::string& effective) {
-    return why_other_run(folder.path(), effective, folder.path() / "e.yaml", hashes).value_or("");
+    return why_other_run(folder.path(), effective, {}, folder.path() / "e.yaml", hashes).value_or("");
   };
   EXPECT_EQ(why("epsilon: auto\npath: \"/a  # b\"\n"), "");
   EXPECT_EQ(why("epsilon: auto\npath: \"/a  # c\"\n"), "it is of other values (effective.yaml)");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
 #include <string>
 
 #include "framework/config/toy_catalog.hpp"
@@ -40,6 +41,10 @@ class Validator {
     if (key == "oneOf") {
       return std::count_if(rule.begin(), rule.end(),
                            [&](const Json& form) { return accepts(form, value); }) == 1;
+    }
+    if (key == "pattern") {
+      return !value.is_string() ||
+             std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>()));
     }
     if (key == "minimum") return !value.is_number() || value.get<double>() >= rule.get<double>();
     if (key == "maximum") return !value.is_number() || value.get<double>() <= rule.get<double>();
@@ -134,6 +139,10 @@ TEST_F(SchemaTest, AcceptsWhatTheReaderAccepts) {
   EXPECT_TRUE(accepts("/variants", nullptr));
   EXPECT_TRUE(
       accepts("/variants/list", Json::parse(R"({"a": null, "b": {"seed": 3, "trials.starts_m": [1]}})")));
+  for (const char* seeds : {"7", "\"1..30\"", "[1, \"3..5\", 18446744073709551615]", "[]", "null"})
+    EXPECT_TRUE(accepts("/seeds", Json::parse(seeds))) << seeds;
+  EXPECT_TRUE(accepts("/choose_on", Json::parse(R"({"a": {"trials.every_m": 3}})")));
+  EXPECT_TRUE(accepts("/judge_on", Json::parse(R"({"a": {}})")));
   EXPECT_TRUE(accepts("/variants/grid", Json::parse(R"({"seed": [1, 2], "localizer.matcher": ["ransam"]})")));
 }
 
@@ -163,6 +172,9 @@ TEST_F(SchemaTest, RefusesWhatTheReaderRefuses) {
   EXPECT_FALSE(accepts("/variants/list", Json::parse(R"({"a": 3})")));
   EXPECT_FALSE(accepts("/variants/grid", Json::parse(R"({"seed": 3})")));
   EXPECT_FALSE(accepts("/variants/zip", Json::parse(R"({"seed": []})")));
+  for (const char* seeds : {"-1", "1.5", "\"1..\"", "\"1..x\"", "\"5\"", "[[1]]", "{}"})
+    EXPECT_FALSE(accepts("/seeds", Json::parse(seeds))) << seeds;
+  EXPECT_FALSE(accepts("/choose_on", Json::parse(R"({"a": 3})")));
 }
 
 TEST_F(SchemaTest, KindWithoutStrategiesAcceptsNothing) {

@@ -265,10 +265,152 @@ TEST_F(VariantsTest, WhatTakesTooMuchMemoryIsRefused) {
               ElementsAre(testing::HasSubstr("a path of 1010 letters is none")));
 }
 
+std::vector<std::uint64_t> seeds(const std::vector<Variant>& variants) {
+  std::vector<std::uint64_t> all;
+  for (const Variant& variant : variants) all.push_back(variant.experiment.seed);
+  return all;
+}
+
+TEST_F(VariantsTest, SeedsAreRunFastest) {
+  const auto all = read(
+      "seed: 77\n"
+      "seeds: [3, 8..9]\n"
+      "variants: {list: {a: {}, b: {localizer.matcher.ransam.iterations: 3}}}\n");
+  EXPECT_THAT(names(all),
+              ElementsAre("a_seed-3", "a_seed-8", "a_seed-9", "b_seed-3", "b_seed-8", "b_seed-9"));
+  EXPECT_THAT(seeds(all), ElementsAre(3, 8, 9, 3, 8, 9));
+  EXPECT_EQ(matcher(all[2]).iterations, 7);
+  EXPECT_EQ(matcher(all[3]).iterations, 3);
+  for (const Variant& variant : all) EXPECT_FALSE(variant.changes_trials);
+  EXPECT_EQ(all[4].setting, "b");
+  EXPECT_EQ(all[4].case_name, "");
+  EXPECT_EQ(all[4].role, CaseRole::none);
+}
+
+TEST_F(VariantsTest, SeedsAloneMakeVariants) {
+  EXPECT_THAT(names(read("seeds: 1..3\n")), ElementsAre("seed-1", "seed-2", "seed-3"));
+  EXPECT_THAT(names(read("seeds: 5\n")), ElementsAre("seed-5"));
+  EXPECT_THAT(seeds(read("seeds: 18446744073709551614..18446744073709551615\n")),
+              ElementsAre(18446744073709551614ULL, 18446744073709551615ULL));
+  EXPECT_THAT(names(read("", {{"seeds", "[2, 4]"}})), ElementsAre("seed-2", "seed-4"));
+  for (const char* none : {"seeds:\n", "seeds: []\n"})
+    EXPECT_THAT(names(read(none)), ElementsAre("")) << none;
+  EXPECT_EQ(read("seeds: 1..10000\n").size(), 10000U);
+}
+
+TEST_F(VariantsTest, SeedsAreSaidOnceAndInOnePlace) {
+  EXPECT_THAT(
+      faults_of("seeds: 1..3\n", {{"seed", "5"}}),
+      ElementsAre("--set seed=5: error: seed: the experiment has `seeds`; leave one out (--set seeds=[] "
+                  "leaves out those of the file)"));
+  EXPECT_THAT(names(read("seeds: 1..3\n", {{"seeds", "[]"}, {"seed", "5"}})), ElementsAre(""));
+  EXPECT_THAT(
+      faults_of("seeds: 1..3\n"
+                "variants: {list: {a: {seed: 4}}, grid: {seed: [5, 6]}}\n"
+                "choose_on: {c: {seed: 9}}\n"),
+      ElementsAre("e.yaml:8:23: error: seed: is changed here, and `seeds` is given; leave one out",
+                  "e.yaml:8:23: error: variants: 'seed' is for the cases to change (line 9); leave it "
+                  "out in one of the two",
+                  "e.yaml:9:17: error: seed: is changed here, and `seeds` is given; leave one out"));
+}
+
+TEST_F(VariantsTest, BadSeedsAreRefusedAtTheirPlace) {
+  EXPECT_THAT(
+      faults_of("seeds: [5..1, 1.., ..2, -1, -3..5, two, '7', 1.5, 4, 3..4, {}, 1..2..3]\n"),
+      ElementsAre(
+          "e.yaml:7:9: error: seeds: 5..1 runs backwards; write 1..5",
+          "e.yaml:7:15: error: seeds: '1..' is no range such as 1..30: one end is missing",
+          "e.yaml:7:20: error: seeds: '..2' is no range such as 1..30: one end is missing",
+          "e.yaml:7:25: error: seeds: -1 is out of range, must be >= 0; a range is written as 1..30",
+          "e.yaml:7:29: error: seeds: '-3..5' is no range such as 1..30: -3 is out of range, must be >= 0",
+          "e.yaml:7:36: error: seeds: expected a whole number, got 'two'; a range is written as 1..30",
+          "e.yaml:7:41: error: seeds: expected a whole number, got the text '7' (remove the quotes); a "
+          "range is written as 1..30",
+          "e.yaml:7:46: error: seeds: 1.5 is not a whole number; write it without point and exponent; a "
+          "range is written as 1..30",
+          "e.yaml:7:54: error: seeds: 4 is there twice; give each seed once",
+          "e.yaml:7:60: error: seeds: expected a whole number, got a map; a range is written as 1..30",
+          "e.yaml:7:64: error: seeds: '1..2..3' is no range such as 1..30: expected a whole number, got "
+          "'2..3'"));
+  EXPECT_THAT(faults_of("seeds: 0..18446744073709551615\n"),
+              ElementsAre("e.yaml:7:8: error: seeds: more than 10000 seeds; leave some out"));
+  EXPECT_THAT(faults_of("seeds: 1..101\nvariants: {grid: {localizer.matcher.ransam.iterations: [" +
+                        count_to(100, "1", "") + "]}}\n"),
+              ElementsAre("e.yaml:8:57: error: variants: 100 settings, 0 cases and 101 seeds make 10100 "
+                          "variants, at most 10000 are allowed; leave some out"));
+}
+
+TEST_F(VariantsTest, EachSettingRunsOnEachCaseThoseToChooseOnFirst) {
+  const auto all = read(
+      "seeds: [1, 2]\n"
+      "variants: {grid: {localizer.matcher.ransam.iterations: [50, 200]}}\n"
+      "judge_on: {far: {observations.toy_drive.max_range: 90, trials.every_m: 3}}\n"
+      "choose_on: {near: {observations.toy_drive.max_range: 30}}\n");
+  EXPECT_THAT(names(all), ElementsAre("iterations-50_near_seed-1", "iterations-50_near_seed-2",
+                                      "iterations-50_far_seed-1", "iterations-50_far_seed-2",
+                                      "iterations-200_near_seed-1", "iterations-200_near_seed-2",
+                                      "iterations-200_far_seed-1", "iterations-200_far_seed-2"));
+  EXPECT_EQ(all[0].role, CaseRole::choose);
+  EXPECT_EQ(all[0].case_name, "near");
+  EXPECT_EQ(all[0].setting, "iterations-50");
+  EXPECT_EQ(all[6].role, CaseRole::judge);
+  EXPECT_EQ(all[6].case_name, "far");
+  EXPECT_DOUBLE_EQ(all[1].experiment.trials.every_m, 6.0);
+  EXPECT_DOUBLE_EQ(all[7].experiment.trials.every_m, 3.0);
+  EXPECT_EQ(matcher(all[7]).iterations, 200);
+  EXPECT_THAT(all[7].values, ElementsAre(Override("localizer.matcher.ransam.iterations", "200")));
+  EXPECT_FALSE(all[7].changes_trials);
+  EXPECT_THAT(names(read("choose_on: {a: {}, b: {trials.every_m: 3}}\n")), ElementsAre("a", "b"));
+}
+
+TEST_F(VariantsTest, ValuesAreToldAsTheyCouldBeSet) {
+  const auto all = read(
+      "variants:\n"
+      "  list:\n"
+      "    a: {localizer.matcher: {ransam: {iterations: 5}}, trials.starts_m: [1.0, 2e1], trials.every_m: "
+      "0}\n"
+      "    b: {observations.toy_drive.label: 'a, b', observations.toy_drive.loop: true}\n");
+  EXPECT_THAT(all[0].values,
+              ElementsAre(Override("localizer.matcher", "{ransam: {iterations: 5}}"),
+                          Override("trials.starts_m", "[1.0, 2e1]"), Override("trials.every_m", "0")));
+  EXPECT_THAT(all[1].values, ElementsAre(Override("observations.toy_drive.label", "\"a, b\""),
+                                         Override("observations.toy_drive.loop", "true")));
+  for (const Variant& variant : all) {
+    auto set = read("", variant.values);
+    Experiment experiment = variant.experiment;
+    EXPECT_EQ(effective_yaml(set.at(0).experiment, catalog_), effective_yaml(experiment, catalog_));
+  }
+}
+
+TEST_F(VariantsTest, BadCasesAreRefusedAtTheirPlace) {
+  EXPECT_THAT(faults_of("judge_on: {a: {}}\n"),
+              ElementsAre("e.yaml:7:12: error: judge_on: there is no choose_on; say there by which cases to "
+                          "choose what is judged here"));
+  EXPECT_THAT(faults_of("choose_on: {a: {trials.every_m: 0.5}, a/b: {name: x, seeds: 3}}\n"
+                        "judge_on: {a: {trials.every_m: -1}}\n"),
+              ElementsAre(testing::StartsWith("e.yaml:7:39: error: choose_on, judge_on: 'a/b' is no name"),
+                          "e.yaml:7:45: error: choose_on: 'name' is the same for all variants and cannot be "
+                          "changed",
+                          "e.yaml:7:54: error: choose_on: 'seeds' is the same for all variants and cannot be "
+                          "changed",
+                          "e.yaml:8:12: error: choose_on, judge_on: 'a' is there twice (first in line 7)",
+                          "e.yaml:8:32: error: trials: every_m: -1 is out of range, must be >= 0 m"));
+  EXPECT_THAT(
+      faults_of("choose_on: {a: {observations.toy_drive.noise: {}}}\n"
+                "variants: {list: {b: {observations.toy_drive.noise.range: 1}, c: {trials.every_mm: 1}}}\n"),
+      testing::Contains("e.yaml:8:23: error: variants: 'observations.toy_drive.noise' is for the cases to "
+                        "change (line 7); leave it out in one of the two"));
+  EXPECT_THAT(faults_of("choose_on: {b_c: {}, c: {}}\nvariants: {list: {a: {}, a_b: {}}}\n"),
+              ElementsAre("e.yaml:8:26: error: variants: 'a_b_c' is there twice (first in line 8)"));
+  const std::string ninety(90, 'x');
+  EXPECT_THAT(faults_of("seeds: [10000]\nvariants: {list: {" + ninety + ": {}}}\n"),
+              ElementsAre(testing::HasSubstr("_seed-10000' is too long for a folder's name")));
+}
+
 TEST_F(VariantsTest, TheEffectiveExperimentHasNone) {
-  auto all = read("variants: {list: {a: {seed: 3}}}\n");
+  auto all = read("variants: {list: {a: {}}}\nseeds: 3\nchoose_on: {b: {}}\n");
   const std::string written = effective_yaml(all[0].experiment, catalog_);
-  EXPECT_EQ(written.find("variants"), std::string::npos);
+  for (const char* key : {"variants", "seeds", "choose_on"}) EXPECT_EQ(written.find(key), std::string::npos);
   EXPECT_THAT(names(read_variants(folder_.write("effective.yaml", written), {}, catalog_)), ElementsAre(""));
 }
 
