@@ -75,6 +75,12 @@ struct ListedChanges {
   std::shared_ptr<const YamlNode> written = nullptr;
 };
 
+/// What to draw values from for paths into an experiment, as written: {path: [low, high]}. Null if there is
+/// none.
+struct RangedChanges {
+  std::shared_ptr<const YamlNode> written = nullptr;
+};
+
 /// Seeds, as written: 7, 1..30 or [1, 2, 10..20]. Null if there is none.
 struct SeedList {
   std::shared_ptr<const YamlNode> written = nullptr;
@@ -129,6 +135,7 @@ class ParamVisitor {
   /// Changes to an experiment, which are judged where they are put to use.
   virtual void field(std::string_view name, NamedChanges& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, ListedChanges& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, RangedChanges& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, SeedList& value, const FieldInfo& info) = 0;
 
   /// A struct within a struct.

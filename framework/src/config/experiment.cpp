@@ -327,7 +327,7 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
   ExperimentFileParams params(catalog);
   auto tree = read_file(file, overrides, params, found);
   const std::set<Fault> of_base(found.begin(), found.end());
-  const Expansion all = expand(params.file.variations, found);
+  const Expansion all = expand(params.file.variations, params, found);
   if (tree && !all.seeds.empty()) check_seed(*tree, found);
   std::set<Fault> faults(found.begin(), found.end());
   if (tree) std::erase_if(tree->entries, [](const YamlEntry& entry) { return is_variation(entry.key); });

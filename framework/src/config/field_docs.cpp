@@ -43,6 +43,8 @@ constexpr FieldType type_of<NamedChanges> = FieldType::named_changes;
 template <>
 constexpr FieldType type_of<ListedChanges> = FieldType::listed_changes;
 template <>
+constexpr FieldType type_of<RangedChanges> = FieldType::ranged_changes;
+template <>
 constexpr FieldType type_of<SeedList> = FieldType::seeds;
 
 template <class T>
@@ -66,6 +68,9 @@ Json to_json_value(const NamedChanges& /*value*/) {
   return {};
 }
 Json to_json_value(const ListedChanges& /*value*/) {
+  return {};
+}
+Json to_json_value(const RangedChanges& /*value*/) {
   return {};
 }
 Json to_json_value(const SeedList& /*value*/) {
@@ -120,6 +125,30 @@ StructDoc document(AnyParams& params) {
   return documenter.take();
 }
 
+std::optional<FieldDoc> find_field(AnyParams& params, std::string_view path) {
+  const auto take_part = [&] {
+    const std::string part(path.substr(0, path.find('.')));
+    path.remove_prefix(std::min(part.size() + 1, path.size()));
+    return part;
+  };
+  StructDoc doc = document(params);
+  while (true) {
+    const std::string name = take_part();
+    const auto at = std::find_if(doc.fields.begin(), doc.fields.end(),
+                                 [&](const FieldDoc& field) { return field.name == name; });
+    if (at == doc.fields.end()) return std::nullopt;
+    const FieldDoc field = *at;
+    if (path.empty()) return field;
+    if (field.type == FieldType::group) {
+      doc = field.inner.front();
+      continue;
+    }
+    const StrategyInfo* info = field.registry == nullptr ? nullptr : field.registry->find(take_part());
+    if (info == nullptr || path.empty()) return std::nullopt;
+    doc = document(*info->default_params());
+  }
+}
+
 std::vector<std::string> to_tune(const StructDoc& doc) {
   std::vector<std::string> names;
   for (const FieldDoc& field : doc.fields) {
@@ -163,6 +192,8 @@ std::string type_name(const FieldDoc& field) {
       return "maps of paths and values";
     case FieldType::listed_changes:
       return "map of paths and lists of values";
+    case FieldType::ranged_changes:
+      return "map of paths and ranges";
     case FieldType::seeds:
       return "whole numbers and ranges A..B";
     case FieldType::group:

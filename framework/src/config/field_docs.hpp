@@ -2,7 +2,9 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "glocal/params.hpp"
@@ -24,6 +26,7 @@ enum class FieldType {
   pairs,
   named_changes,
   listed_changes,
+  ranged_changes,
   seeds,
   group,
   list,
@@ -54,6 +57,10 @@ struct StructDoc {
 
 /// The struct's present values are the defaults.
 [[nodiscard]] StructDoc document(AnyParams& params);
+
+/// The field that a path (localizer.matcher.ransam.iterations) leads to, with the default of a strategy's
+/// parameters; none if it leads to no field.
+[[nodiscard]] std::optional<FieldDoc> find_field(AnyParams& params, std::string_view path);
 
 /// The fields to tune first, by their names; those of a group by their paths.
 [[nodiscard]] std::vector<std::string> to_tune(const StructDoc& doc);

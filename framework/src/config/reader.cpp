@@ -201,6 +201,10 @@ class MapReader final : public UniformVisitor<MapReader> {
     if (good) v.written = std::make_shared<const YamlNode>(node);
   }
 
+  void read(const YamlNode& node, const std::string& what, RangedChanges& v, const FieldInfo& /*info*/) {
+    if (check_map(node, what, "a map (path: [from, to])")) v.written = std::make_shared<const YamlNode>(node);
+  }
+
   void read(const YamlNode& node, const std::string& /*what*/, SeedList& v, const FieldInfo& /*info*/) {
     v.written = std::make_shared<const YamlNode>(node);
   }

@@ -61,6 +61,21 @@ Json map_schema(Json values) {
   return {{"type", {"object", "null"}}, {"additionalProperties", std::move(values)}};
 }
 
+/// What a number is drawn from, or any value.
+Json range_schema() {
+  const Json number = {{"type", "number"}};
+  return {{"anyOf",
+           {{{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}},
+            {{"type", "object"},
+             {"properties", {{"from", number}, {"to", number}, {"scale", {{"enum", {"linear", "log"}}}}}},
+             {"required", {"from", "to"}},
+             {"additionalProperties", false}},
+            {{"type", "object"},
+             {"properties", {{"choices", {{"type", "array"}, {"minItems", 1}}}}},
+             {"required", {"choices"}},
+             {"additionalProperties", false}}}}};
+}
+
 /// A seed or a range of them, or a list of both.
 Json seeds_schema() {
   const Json one = {
@@ -98,6 +113,8 @@ Json type_schema(const FieldDoc& field) {
       return map_schema(map_schema(true));
     case FieldType::listed_changes:
       return map_schema({{"type", "array"}, {"minItems", 1}});
+    case FieldType::ranged_changes:
+      return map_schema(range_schema());
     case FieldType::seeds:
       return seeds_schema();
     case FieldType::group:

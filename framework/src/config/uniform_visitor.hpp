@@ -50,6 +50,9 @@ class UniformVisitor : public ParamVisitor {
   void field(std::string_view name, ListedChanges& v, const FieldInfo& info) final {
     self().value(name, v, info);
   }
+  void field(std::string_view name, RangedChanges& v, const FieldInfo& info) final {
+    self().value(name, v, info);
+  }
   void field(std::string_view name, SeedList& v, const FieldInfo& info) final { self().value(name, v, info); }
 
  private:

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <string_view>
 #include <utility>
+
+#include "config/sample.hpp"
 
 namespace glocal {
 namespace {
@@ -66,40 +69,16 @@ std::string label_of(const std::string& path, const std::vector<YamlEntry>& all)
 }
 
 void check_path(const YamlEntry& entry, const std::string& key, std::vector<Fault>& faults) {
-  constexpr std::array<std::string_view, 3> fixed = {"schema", "name", "plugins"};
-  const std::string first = entry.key.substr(0, entry.key.find('.'));
-  if (!is_variation(first) && std::find(fixed.begin(), fixed.end(), first) == fixed.end()) return;
+  if (!is_fixed(entry.key)) return;
   faults.push_back(
-      fault_at(entry.place, key + ": '" + first + "' is the same for all variants and cannot be changed"));
-}
-
-/// The paths of a map, checked; none where there are too many of them, or one is too long to be any. `key` is
-/// where the map is.
-const std::vector<YamlEntry>& paths_of(const YamlNode& map, const std::string& key,
-                                       std::vector<Fault>& faults) {
-  constexpr std::size_t longest_path = 1000;
-  static const std::vector<YamlEntry> none;
-  if (map.entries.size() > most_paths) {
-    faults.push_back(
-        fault_at(map.place, fmt::format("{}: {} paths at once, at most {} are allowed; change fewer", key,
-                                        map.entries.size(), most_paths)));
-    return none;
-  }
-  for (const YamlEntry& entry : map.entries) {
-    check_path(entry, key, faults);
-    if (entry.key.size() <= longest_path) continue;
-    faults.push_back(fault_at(entry.place, fmt::format("{}: a path of {} letters is none; write it as a.b.c",
-                                                       key, entry.key.size())));
-  }
-  const bool are_short = std::all_of(map.entries.begin(), map.entries.end(),
-                                     [](const YamlEntry& e) { return e.key.size() <= longest_path; });
-  return are_short ? map.entries : none;
+      fault_at(entry.place, fmt::format("{}: '{}' is the same for all variants and cannot be changed", key,
+                                        entry.key.substr(0, entry.key.find('.')))));
 }
 
 std::vector<Axis> axes_of(const ListedChanges& changes, std::vector<Fault>& faults) {
   std::vector<Axis> axes;
   if (!changes.written) return axes;
-  const std::vector<YamlEntry>& entries = paths_of(*changes.written, "variants", faults);
+  const std::vector<YamlEntry>& entries = checked_paths(*changes.written, "variants", faults);
   for (const YamlEntry& entry : entries) axes.push_back({&entry, label_of(entry.key, entries)});
   return axes;
 }
@@ -128,7 +107,6 @@ VariantChanges point(const std::vector<Axis>& axes, const std::vector<std::size_
 /// Says so if there are too many points, or too many changes in all of them.
 bool are_too_many(std::size_t points, const std::vector<Axis>& axes, const char* section, const char* what,
                   std::vector<Fault>& faults) {
-  constexpr std::size_t most_changes = 1'000'000;
   const std::size_t changes = points * axes.size();
   if (points <= most_variants && changes <= most_changes) return false;
   const std::string excess = points > most_variants ? fmt::format("has more than {} {}", most_variants, what)
@@ -180,6 +158,28 @@ void describe(ParamVisitor& v, VariantsSection& s) {
   v.field("list", s.list, {.doc = "Each has a name, and values by their paths, written as for `--set`."});
   v.field("grid", s.grid, {.doc = "Every combination of the values listed for each path."});
   v.field("zip", s.zip, {.doc = "The first values of all paths, then the second of all, and so on."});
+  v.field("sample", s.sample, {.doc = "Values drawn from ranges, all of them anew for each setting."});
+}
+
+const std::vector<YamlEntry>& checked_paths(const YamlNode& map, const std::string& key,
+                                            std::vector<Fault>& faults) {
+  constexpr std::size_t longest_path = 1000;
+  static const std::vector<YamlEntry> none;
+  if (map.entries.size() > most_paths) {
+    faults.push_back(
+        fault_at(map.place, fmt::format("{}: {} paths at once, at most {} are allowed; change fewer", key,
+                                        map.entries.size(), most_paths)));
+    return none;
+  }
+  for (const YamlEntry& entry : map.entries) {
+    check_path(entry, key, faults);
+    if (entry.key.size() <= longest_path) continue;
+    faults.push_back(fault_at(entry.place, fmt::format("{}: a path of {} letters is none; write it as a.b.c",
+                                                       key, entry.key.size())));
+  }
+  const bool are_short = std::all_of(map.entries.begin(), map.entries.end(),
+                                     [](const YamlEntry& e) { return e.key.size() <= longest_path; });
+  return are_short ? map.entries : none;
 }
 
 std::vector<VariantChanges> named_settings(const NamedChanges& list, const std::string& key,
@@ -195,17 +195,20 @@ std::vector<VariantChanges> named_settings(const NamedChanges& list, const std::
   }
   for (const YamlEntry& named : list.written->entries) {
     VariantChanges variant{named.key, named.place, {}};
-    for (const YamlEntry& entry : paths_of(named.value, key.substr(0, key.find('.')), faults))
+    for (const YamlEntry& entry : checked_paths(named.value, key.substr(0, key.find('.')), faults))
       variant.changes.push_back(change_of(entry, entry.value, list.written));
     variants.push_back(std::move(variant));
   }
   return variants;
 }
 
-std::vector<VariantChanges> settings_of(const VariantsSection& section, std::vector<Fault>& faults) {
+std::vector<VariantChanges> settings_of(const VariantsSection& section, AnyParams& experiment,
+                                        std::vector<Fault>& faults) {
   std::vector<VariantChanges> variants = named_settings(section.list, "variants.list", faults);
   add_grid(section.grid, variants, faults);
   add_zip(section.zip, variants, faults);
+  std::vector<VariantChanges> drawn = sampled_settings(section.sample, experiment, faults);
+  std::move(drawn.begin(), drawn.end(), std::back_inserter(variants));
   check_names(variants, "variants", faults);
   return variants;
 }
@@ -227,6 +230,12 @@ void check_names(const std::vector<VariantChanges>& variants, const std::string&
                                key, name, key == "variants" ? "; variants.list lets you choose names" : "")));
     }
   }
+}
+
+bool is_fixed(std::string_view path) {
+  constexpr std::array<std::string_view, 3> fixed = {"schema", "name", "plugins"};
+  const std::string_view first = path.substr(0, path.find('.'));
+  return is_variation(first) || std::find(fixed.begin(), fixed.end(), first) != fixed.end();
 }
 
 bool is_folder_name(std::string_view name) {

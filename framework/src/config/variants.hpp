@@ -13,11 +13,21 @@
 
 namespace glocal {
 
+/// The key `variants.sample`.
+struct SampleSection {
+  int count = 0;
+  bool sobol = true;
+  std::uint64_t seed = 1;
+  RangedChanges ranges;
+};
+void describe(ParamVisitor& v, SampleSection& s);
+
 /// The key `variants` of an experiment file.
 struct VariantsSection {
   NamedChanges list;
   ListedChanges grid;
   ListedChanges zip;
+  SampleSection sample;
 };
 void describe(ParamVisitor& v, VariantsSection& s);
 
@@ -35,6 +45,8 @@ void describe(ParamVisitor& v, Variations& s);
 
 /// Of any kind, and of all that they make together.
 constexpr std::size_t most_variants = 10000;
+/// Values that points of one kind change, all together.
+constexpr std::size_t most_changes = 1'000'000;
 
 /// One value and where it goes.
 struct Change {
@@ -58,12 +70,21 @@ struct VariantChanges {
 /// The name behind which the seed has been put: `NAME_seed-N`.
 [[nodiscard]] std::string name_with_seed(const std::string& name, std::uint64_t seed);
 
-/// All settings: those of the list, the combinations of the grid (the last key changing fastest) and the rows
-/// of zip. A point of grid and zip is named after the last parts of its paths and its values:
-/// `iterations-50000_contact_epsilon-0.05`. What is wrong with names, paths and the number of values goes to
-/// `faults`; whether a change makes sense is for the reader to say.
-[[nodiscard]] std::vector<VariantChanges> settings_of(const VariantsSection& section,
+/// All settings: those of the list, the combinations of the grid (the last key changing fastest), the rows of
+/// zip and what is drawn. A point of grid and zip is named after the last parts of its paths and its values:
+/// `iterations-50000_contact_epsilon-0.05`. What is wrong with names, paths, ranges and the number of values
+/// goes to `faults`; whether a change makes sense is for the reader to say. `experiment` tells where whole
+/// numbers are to be drawn.
+[[nodiscard]] std::vector<VariantChanges> settings_of(const VariantsSection& section, AnyParams& experiment,
                                                       std::vector<Fault>& faults);
+
+/// Whether a path leads to what is the same for all variants.
+[[nodiscard]] bool is_fixed(std::string_view path);
+
+/// The paths of a map, checked; none where there are too many of them, or one is too long to be any. `key` is
+/// where the map is.
+[[nodiscard]] const std::vector<YamlEntry>& checked_paths(const YamlNode& map, const std::string& key,
+                                                          std::vector<Fault>& faults);
 
 /// What is changed by names, in the order of the file; `key` is where, for faults: `variants.list`.
 [[nodiscard]] std::vector<VariantChanges> named_settings(const NamedChanges& list, const std::string& key,
@@ -82,7 +103,8 @@ struct Expansion {
 
 /// All settings, each with every case (those of choose_on first), and all seeds. Settings are as in
 /// settings_of(). What is wrong goes to `faults`; too many variants are none.
-[[nodiscard]] Expansion expand(const Variations& variations, std::vector<Fault>& faults);
+[[nodiscard]] Expansion expand(const Variations& variations, AnyParams& experiment,
+                               std::vector<Fault>& faults);
 
 /// Letters, digits, `_`, `-` and `.`, at most 100, beginning with a letter, a digit or `_`: fit for a folder,
 /// and for a command line.

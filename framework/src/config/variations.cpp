@@ -212,9 +212,9 @@ std::string name_with_seed(const std::string& name, std::uint64_t seed) {
   return fmt::format("{}{}seed-{}", name, name.empty() ? "" : "_", seed);
 }
 
-Expansion expand(const Variations& variations, std::vector<Fault>& faults) {
+Expansion expand(const Variations& variations, AnyParams& experiment, std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
-  Expansion all{settings_of(variations.variants, faults), seeds_of(variations.seeds, faults)};
+  Expansion all{settings_of(variations.variants, experiment, faults), seeds_of(variations.seeds, faults)};
   const std::vector<VariantChanges> cases = cases_of(variations, faults);
   check_overlaps(all.variants, cases, faults);
   if (!all.seeds.empty()) {

@@ -49,6 +49,7 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
   /// Variants are written as experiments of their own.
   void value(std::string_view /*name*/, NamedChanges& /*v*/, const FieldInfo& /*info*/) {}
   void value(std::string_view /*name*/, ListedChanges& /*v*/, const FieldInfo& /*info*/) {}
+  void value(std::string_view /*name*/, RangedChanges& /*v*/, const FieldInfo& /*info*/) {}
   void value(std::string_view /*name*/, SeedList& /*v*/, const FieldInfo& /*info*/) {}
 
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,

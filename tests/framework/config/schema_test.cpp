@@ -139,6 +139,9 @@ TEST_F(SchemaTest, AcceptsWhatTheReaderAccepts) {
   EXPECT_TRUE(accepts("/variants", nullptr));
   EXPECT_TRUE(
       accepts("/variants/list", Json::parse(R"({"a": null, "b": {"seed": 3, "trials.starts_m": [1]}})")));
+  for (const char* range :
+       {"[1, 2.5]", R"({"from": 1, "to": 2, "scale": "log"})", R"({"choices": ["a", null]})"})
+    EXPECT_TRUE(accepts("/variants/sample/ranges/seed", Json::parse(range))) << range;
   for (const char* seeds : {"7", "\"1..30\"", "[1, \"3..5\", 18446744073709551615]", "[]", "null"})
     EXPECT_TRUE(accepts("/seeds", Json::parse(seeds))) << seeds;
   EXPECT_TRUE(accepts("/choose_on", Json::parse(R"({"a": {"trials.every_m": 3}})")));
@@ -172,6 +175,8 @@ TEST_F(SchemaTest, RefusesWhatTheReaderRefuses) {
   EXPECT_FALSE(accepts("/variants/list", Json::parse(R"({"a": 3})")));
   EXPECT_FALSE(accepts("/variants/grid", Json::parse(R"({"seed": 3})")));
   EXPECT_FALSE(accepts("/variants/zip", Json::parse(R"({"seed": []})")));
+  for (const char* range : {"[1]", R"({"from": 1})", R"({"choices": [], "from": 1, "to": 2})", "3"})
+    EXPECT_FALSE(accepts("/variants/sample/ranges/seed", Json::parse(range))) << range;
   for (const char* seeds : {"-1", "1.5", "\"1..\"", "\"1..x\"", "\"5\"", "[[1]]", "{}"})
     EXPECT_FALSE(accepts("/seeds", Json::parse(seeds))) << seeds;
   EXPECT_FALSE(accepts("/choose_on", Json::parse(R"({"a": 3})")));

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "framework/pipeline/fakes.hpp"
+#include "glocal/error.hpp"
 #include "glocal/localizer.hpp"
 
 namespace glocal::test::verification_test {
