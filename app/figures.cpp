@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/programs.hpp"
 #include "app/python.hpp"
 #include "app/results_arguments.hpp"
 #include "config/text_file.hpp"
