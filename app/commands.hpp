@@ -48,6 +48,7 @@ void add_run(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_simulate(CLI::App& app, Context& context);
 void add_status(CLI::App& app, Context& context);
+void add_submit(CLI::App& app, Context& context);
 void add_summarize(CLI::App& app, Context& context);
 
 }  // namespace glocal::app

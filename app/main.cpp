@@ -21,6 +21,7 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_run(app, context);
   add_status(app, context);
   add_merge(app, context);
+  add_submit(app, context);
   add_check(app, context);
   add_list(app, context);
   add_describe(app, context);
