@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "evaluation/sharding/manifest.hpp"
+
 namespace glocal::app {
 namespace {
 

@@ -38,8 +38,7 @@ struct ParallelJob {
   std::optional<int> limit = {};     ///< Shards that run at once on each machine.
 };
 
-/// Where scripts and what they leave are, in the folder of the results.
-inline constexpr const char* shards_folder = ".shards";
+/// Scripts and what they leave, in the folder of the shared folder that has what shards need.
 inline constexpr const char* array_file = "array.sbatch";
 inline constexpr const char* merge_file = "merge.sbatch";
 inline constexpr const char* parallel_file = "parallel.sh";

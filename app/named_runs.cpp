@@ -11,12 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder's own name, whatever way it was written.
-std::string own_name(const fs::path& folder) {
-  const fs::path path = fs::absolute(folder).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
-}
-
 /// Folders of one name go by their paths.
 void tell_apart(std::vector<NamedRun>& runs) {
   std::multiset<std::string> names;
@@ -27,6 +21,11 @@ void tell_apart(std::vector<NamedRun>& runs) {
 }
 
 }  // namespace
+
+std::string own_name(const fs::path& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
 
 std::vector<NamedRun> read_runs(const std::vector<std::string>& folders,
                                 const std::function<StoredRun(const fs::path&)>& read) {

@@ -11,6 +11,9 @@
 
 namespace glocal::app {
 
+/// The folder's own name, whatever way it was written.
+[[nodiscard]] std::string own_name(const std::filesystem::path& folder);
+
 /// The results in folders that are results, or hold some, as `read` reads each, in the same order. Throws
 /// ConfigError with every fault of all of them.
 [[nodiscard]] std::vector<NamedRun> read_runs(

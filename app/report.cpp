@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/named_runs.hpp"
 #include "app/report_file.hpp"
+#include "app/results_at_hand.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "report/page.hpp"
 #include "report/page_text.hpp"
@@ -26,8 +27,9 @@ std::string title_of(const std::vector<NamedRun>& runs) {
 
 std::filesystem::path write_report(const ReportOptions& options) {
   ReportData data(options.limits);
+  const ResultsAtHand results(options.folders);
   const auto runs =
-      read_runs(options.folders, [&](const std::filesystem::path& folder) { return data.add(folder); });
+      read_runs(results.folders(), [&](const std::filesystem::path& folder) { return data.add(folder); });
   const auto json = data.to_json(runs, find_baseline(runs, options.baseline));
   AtomicFiles files(options.force);
   files.add(options.out, page_with(page_text, title_of(runs), json));

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "app/interrupts.hpp"
 #include "app/job_scripts.hpp"
 #include "app/programs.hpp"
+#include "app/shard_plan.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "glocal/error.hpp"
@@ -127,11 +129,11 @@ void check_texts(const SubmitOptions& options, const fs::path& out) {
   if (!faults.empty()) throw ConfigError(std::move(faults));
 }
 
-ShardedRun planned(const SubmitOptions& options, Context& context) {
+/// What the scripts run.
+ShardedRun run_of(const SubmitOptions& options, const std::vector<Variant>& variants,
+                  const Context& context) {
   ShardedRun run;
   run.plugins = context.plugins.loaded();
-  // The call that plans the sweep, and writes its manifest, belongs here.
-  const std::vector<Variant> variants = options.experiment.read_variants(options.experiment.file, context);
   const Experiment& experiment = variants.front().experiment;
   run.name = experiment.name;
   run.program = fs::read_symlink("/proc/self/exe");
@@ -214,12 +216,14 @@ void submit_to_slurm(const SubmitOptions& options, Context& context) {
   if (!options.dry_run) check_sbatch();
   const int most = most_tasks(options.dry_run);
   const int tasks = tasks_for(options.shards, most);
-  const ShardedRun run = planned(options, context);
+  std::vector<Variant> variants = options.experiment.read_variants(options.experiment.file, context);
+  const ShardedRun run = run_of(options, variants, context);
   const SlurmJob job{tasks, options.limit, options.time, options.sbatch_options};
   const fs::path folder = run.out / shards_folder;
   const fs::path array = folder / array_file;
   const fs::path merge = folder / merge_file;
   if (!options.dry_run) check_queue(array);
+  if (!planned_shards(variants, options.experiment.file, run.out, context)) return;
   write_scripts(folder, {{array, array_script(run, job)}, {merge, merge_script(run, job)}});
   if (tasks < run.shards) {
     fmt::print("Slurm takes at most {} tasks in an array: {} of them run {} shards, one after the other.\n",
@@ -238,7 +242,9 @@ void submit_to_slurm(const SubmitOptions& options, Context& context) {
 
 void submit_to_parallel(const SubmitOptions& options, Context& context) {
   if (!options.dry_run) check_parallel();
-  const ShardedRun run = planned(options, context);
+  std::vector<Variant> variants = options.experiment.read_variants(options.experiment.file, context);
+  const ShardedRun run = run_of(options, variants, context);
+  if (!planned_shards(variants, options.experiment.file, run.out, context)) return;
   const fs::path folder = run.out / shards_folder;
   const fs::path script = folder / parallel_file;
   const fs::path hosts = options.hosts.empty() ? fs::path() : fs::absolute(options.hosts).lexically_normal();

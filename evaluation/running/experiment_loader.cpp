@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <map>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -25,6 +27,17 @@ void require_contract(const char* kind, const StrategyChoice& source, Check chec
     throw ConfigError(
         {{"", 0, 0, fmt::format("{} '{}' breaks its contract: {}", kind, source.name, broken.what())}});
   }
+}
+
+/// All that map, drive and starts follow from.
+std::string sources_yaml(const Experiment& experiment, const Catalog& catalog) {
+  Experiment sources = default_experiment();
+  sources.seed = experiment.seed;
+  sources.map = experiment.map;
+  sources.observations = experiment.observations;
+  sources.trials = experiment.trials;
+  sources.localizer.motion = experiment.localizer.motion;  // Sources must keep to it.
+  return effective_yaml(sources, catalog);
 }
 
 }  // namespace
@@ -67,13 +80,7 @@ LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& ca
 }
 
 LoadedExperiment& ExperimentLoader::load(Experiment& experiment) {
-  Experiment sources = default_experiment();
-  sources.seed = experiment.seed;
-  sources.map = experiment.map;
-  sources.observations = experiment.observations;
-  sources.trials = experiment.trials;
-  sources.localizer.motion = experiment.localizer.motion;  // Sources must keep to it.
-  std::string wanted = effective_yaml(sources, catalog_);
+  std::string wanted = sources_yaml(experiment, catalog_);
   if (wanted != sources_) {
     sources_.clear();
     loaded_ = load_experiment(experiment, catalog_, warn_, progress_);
@@ -94,11 +101,23 @@ Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, L
   return {experiment.localizer, catalog, setup, seed_of(RandomPart::localizer, experiment)};
 }
 
+std::vector<std::size_t> loading_order(const std::vector<Variant>& variants, const Catalog& catalog) {
+  std::map<std::string, std::size_t> firsts;  // The first variant that has these sources.
+  std::vector<std::size_t> first_of, order;
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    first_of.push_back(firsts.try_emplace(sources_yaml(variants[i].experiment, catalog), i).first->second);
+    order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return first_of[a] < first_of[b]; });
+  return order;
+}
+
 void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
                      const std::function<void(std::size_t variant, LoadedExperiment&)>& work) {
   std::set<Fault> seen;  // Many variants may have the same fault.
   std::vector<Fault> faults;
-  for (std::size_t i = 0; i < variants.size(); ++i) {
+  for (const std::size_t i : loading_order(variants, loader.catalog())) {
     try {
       work(i, loader.load(variants[i].experiment));
     } catch (const ConfigError& error) {
@@ -115,9 +134,9 @@ void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
 
 std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,
                                       const Catalog& catalog) {
-  std::vector<std::size_t> trials;
+  std::vector<std::size_t> trials(variants.size());
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
-    trials.push_back(loaded.starts.size());
+    trials[i] = loaded.starts.size();
     if (variants.size() > 1) static_cast<void>(make_localizer(variants[i].experiment, catalog, loaded));
   });
   return trials;

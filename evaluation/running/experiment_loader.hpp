@@ -48,6 +48,7 @@ class ExperimentLoader {
   /// Good until the next call. The map has no index yet, so that the time to build what the experiment looks
   /// up in it is its own.
   LoadedExperiment& load(Experiment& experiment);
+  [[nodiscard]] const Catalog& catalog() const { return catalog_; }
 
  private:
   const Catalog& catalog_;
@@ -63,8 +64,13 @@ class ExperimentLoader {
 [[nodiscard]] Localizer make_localizer(const Experiment& experiment, const Catalog& catalog,
                                        LoadedExperiment& loaded);
 
-/// Loads one variant after the other and hands them over by their places. Throws ConfigError with the faults
-/// of all, those of `work` too, each once.
+/// Places of variants, in an order in which those with the same map and drive follow each other: these are
+/// loaded once then.
+[[nodiscard]] std::vector<std::size_t> loading_order(const std::vector<Variant>& variants,
+                                                     const Catalog& catalog);
+
+/// Loads one variant after the other, in loading_order(), and hands them over by their places. Throws
+/// ConfigError with the faults of all, those of `work` too, each once.
 void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
                      const std::function<void(std::size_t variant, LoadedExperiment&)>& work);
 

@@ -80,9 +80,9 @@ RunResult ExperimentRunner::run() {
   for (const std::size_t n : count_trials(variants_, loader_, catalog_)) trials += n;
   callbacks_.counted(trials);
   const std::size_t kept = results_.size();
-  for (Variant& variant : variants_) {
+  for (const std::size_t i : loading_order(variants_, catalog_)) {
     if (callbacks_.trials.stop() && results_.size() > kept) break;
-    run_one(variant);
+    run_one(variants_[i]);
   }
   const auto place = [&](const VariantResult& r) { return std::find(names.begin(), names.end(), r.name); };
   std::sort(results_.begin(), results_.end(),

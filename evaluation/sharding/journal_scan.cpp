@@ -129,7 +129,7 @@ void JournalScan::take_line(std::size_t journal, std::uint64_t offset, std::stri
   constexpr std::size_t of_checksum = 9;
   try {
     const std::string_view content = line.substr(std::min(line.size(), of_checksum));
-    if (content.empty() || !line.starts_with(checksum(content)))
+    if (content.empty() || !line.starts_with(checksum(content) + " "))
       throw std::invalid_argument("its checksum is another one");
     take_content(journal, offset + of_checksum, content);
   } catch (const std::exception& damage) {

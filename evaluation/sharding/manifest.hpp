@@ -15,6 +15,7 @@
 #include "evaluation/running/experiment_loader.hpp"
 #include "evaluation/sharding/shard_journal.hpp"
 #include "glocal/catalog.hpp"
+#include "glocal/error.hpp"
 #include "glocal/experiment.hpp"
 
 namespace glocal {

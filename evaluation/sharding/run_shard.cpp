@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 
 #include "evaluation/results/pcd.hpp"
@@ -27,61 +25,26 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Values that map and drive follow from.
-std::string values_of_sources(const PlannedVariant& variant) {
-  constexpr std::array<std::string_view, 5> sources = {"map.", "observations.", "trials.", "seed",
-                                                       "localizer.motion"};
-  std::string text;
-  for (const auto& [path, value] : variant.values) {
-    if (std::any_of(sources.begin(), sources.end(), [&](std::string_view s) { return path.starts_with(s); }))
-      text += path + "=" + value + "\n";
-  }
-  return text;
-}
-
-/// Trials of one variant, ascending.
-struct VariantTrials {
-  std::size_t variant = 0;
-  std::vector<std::size_t> trials;
-};
-
-/// Variants with the same map and drive follow each other: these are loaded once then.
-std::vector<VariantTrials> by_variant(const std::vector<TrialPlace>& trials, const Manifest& manifest) {
-  std::map<std::size_t, std::vector<std::size_t>> of_variant;
-  for (const TrialPlace& place : trials) of_variant[place.variant].push_back(place.trial);
-  std::map<std::string, std::size_t> groups;  // By the place of the first variant that has these sources.
-  std::map<std::pair<std::size_t, std::size_t>, VariantTrials> sorted;
-  for (auto& [variant, list] : of_variant) {
-    const std::size_t group =
-        groups.try_emplace(values_of_sources(manifest.variants[variant]), variant).first->second;
-    sorted[{group, variant}] = {variant, std::move(list)};
-  }
-  std::vector<VariantTrials> result;
-  for (auto& [place, of_one] : sorted) result.push_back(std::move(of_one));
-  return result;
-}
-
 /// One process of a shard.
 class ShardWorker {
  public:
-  ShardWorker(std::vector<Variant>& variants, const Manifest& manifest, const Catalog& catalog,
-              const RunOptions& options, ShardJournal& journal, const ShardCallbacks& callbacks)
-      : variants_(variants),
-        manifest_(manifest),
+  ShardWorker(const Manifest& manifest, const Catalog& catalog, const RunOptions& options,
+              ShardJournal& journal, const ShardCallbacks& callbacks)
+      : manifest_(manifest),
         catalog_(catalog),
         options_(options),
         journal_(journal),
         callbacks_(callbacks),
         loader_(catalog, callbacks.warn) {}
 
-  bool run(const VariantTrials& of_variant);
+  /// `place` is that of the variant in the manifest; false if stopped.
+  bool run(Variant& variant, std::size_t place, const std::vector<std::size_t>& trials);
 
  private:
   void check_inputs(const PlannedVariant& planned, Experiment& experiment, const LoadedExperiment& loaded);
   [[nodiscard]] Json description(Variant& variant, const LoadedExperiment& loaded, const Localizer& localizer,
                                  double map_index_ms);
 
-  std::vector<Variant>& variants_;
   const Manifest& manifest_;
   const Catalog& catalog_;
   const RunOptions& options_;
@@ -91,10 +54,8 @@ class ShardWorker {
   FileHashes hashes_;
 };
 
-bool ShardWorker::run(const VariantTrials& of_variant) {
-  const PlannedVariant& planned = manifest_.variants[of_variant.variant];
-  Variant& variant = *std::find_if(variants_.begin(), variants_.end(),
-                                   [&](const Variant& v) { return v.name == planned.name; });
+bool ShardWorker::run(Variant& variant, std::size_t place, const std::vector<std::size_t>& trials) {
+  const PlannedVariant& planned = manifest_.variants[place];
   Experiment& experiment = variant.experiment;
   LoadedExperiment& loaded = loader_.load(experiment);
   const auto start = Clock::now();
@@ -103,7 +64,7 @@ bool ShardWorker::run(const VariantTrials& of_variant) {
   const double map_index_ms = ms_since(start);
   check_inputs(planned, experiment, loaded);
   const auto jobs = static_cast<std::size_t>(std::max(options_.jobs, 1));
-  while (localizers.size() < std::min(jobs, of_variant.trials.size()))
+  while (localizers.size() < std::min(jobs, trials.size()))
     localizers.push_back(make_localizer(experiment, catalog_, loaded));
 
   loaded.inputs.insert(manifest_.file);
@@ -115,9 +76,7 @@ bool ShardWorker::run(const VariantTrials& of_variant) {
   TrialCollector collector(experiment.output);
   std::mutex mutex;
   std::map<std::size_t, Clock::time_point> begun;
-  const auto id = [&](std::size_t trial) {
-    return id_of(planned, trial, manifest_.starts_of(of_variant.variant)[trial]);
-  };
+  const auto id = [&](std::size_t trial) { return id_of(planned, trial, manifest_.starts_of(place)[trial]); };
   RunCallbacks run;
   run.stop = callbacks_.stop;
   run.begin = [&](std::size_t trial) {
@@ -142,7 +101,7 @@ bool ShardWorker::run(const VariantTrials& of_variant) {
     journal_.finish(id(record.trial), ms_since(since), output);
     callbacks_.done(record);
   };
-  const bool complete = run_trials(localizers, experiment, loaded, of_variant.trials, run);
+  const bool complete = run_trials(localizers, experiment, loaded, trials, run);
   // Once more, as memory has grown.
   described["peak_rss_mb"] = peak_rss_mb();
   journal_.add_variant(planned.identity, described);
@@ -187,9 +146,14 @@ Json ShardWorker::description(Variant& variant, const LoadedExperiment& loaded, 
 bool run_shard_trials(std::vector<Variant>& variants, const Manifest& manifest,
                       const std::vector<TrialPlace>& trials, const Catalog& catalog,
                       const RunOptions& options, ShardJournal& journal, const ShardCallbacks& callbacks) {
-  ShardWorker worker(variants, manifest, catalog, options, journal, callbacks);
-  for (const VariantTrials& of_variant : by_variant(trials, manifest)) {
-    if (callbacks.stop() || !worker.run(of_variant)) return false;
+  std::map<std::size_t, std::vector<std::size_t>> of_variants;
+  for (const TrialPlace& place : trials) of_variants[place.variant].push_back(place.trial);
+  ShardWorker worker(manifest, catalog, options, journal, callbacks);
+  for (const std::size_t i : loading_order(variants, catalog)) {
+    const auto place = manifest.place_of(variants[i].name);
+    const auto of_variant = place ? of_variants.find(*place) : of_variants.end();
+    if (of_variant == of_variants.end()) continue;
+    if (callbacks.stop() || !worker.run(variants[i], *place, of_variant->second)) return false;
   }
   return true;
 }

@@ -266,6 +266,18 @@ TEST_F(Shards, AFullDiskEndsOneShardAndOthersGoOn) {
   expect_result_of_one_machine();
 }
 
+TEST_F(Shards, AReportShowsWhatIsThereSoFar) {
+  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  const Answer report = run("report " + file("shared") + " -o " + file("so_far.html"));
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_THAT(report.err, HasSubstr("as far as it is: 10 of 22 trials"));
+  EXPECT_THAT(content(file("so_far.html")), HasSubstr("iterations-10000"));
+  EXPECT_FALSE(fs::exists(file("shared/iterations-10000"))) << "the folder is left as it is";
+  ASSERT_EQ(run_shard("2/2").exit_code, 0);
+  ASSERT_EQ(merge().exit_code, 0);
+  EXPECT_EQ(run("report " + file("shared") + " -o " + file("all.html")).err, "");
+}
+
 TEST_F(Shards, WatchedStatusEndsWhenAllIsDone) {
   ASSERT_EQ(run_shard("1/1").exit_code, 0);
   const Answer answer = run("status " + file("shared") + " --watch");

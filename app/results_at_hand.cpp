@@ -1,0 +1,59 @@
+#include "app/results_at_hand.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <system_error>
+
+#include "app/named_runs.hpp"
+#include "evaluation/results/results_folder.hpp"
+#include "evaluation/sharding/merge.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_merged(const Manifest& manifest, const fs::path& shared) {
+  return std::all_of(manifest.variants.begin(), manifest.variants.end(),
+                     [&](const PlannedVariant& v) { return is_complete(shared / v.name) == true; });
+}
+
+}  // namespace
+
+ResultsAtHand::ResultsAtHand(const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders) {
+    const bool is_open = is_shared_folder(folder) && !is_merged(read_manifest(folder), folder);
+    folders_.push_back(is_open ? put_together(folder).string() : folder);
+  }
+}
+
+ResultsAtHand::~ResultsAtHand() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+}
+
+fs::path ResultsAtHand::put_together(const fs::path& shared) {
+  if (temporary_.empty()) {
+    std::string pattern = (fs::temp_directory_path() / "glocal_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw RunError("cannot make a temporary folder: " + pattern);
+    temporary_ = pattern;
+  }
+  const Manifest manifest = read_manifest(shared);
+  const JournalScan scan(journals_folder(shared), [](const std::string& text) { spdlog::warn(text); });
+  // Pages and tables call runs by the names of their folders.
+  const fs::path out = temporary_ / std::to_string(folders_.size()) / own_name(shared);
+  const MergeResult result = merge_shards(manifest, scan, {out});
+  std::size_t missing = 0;
+  for (const MissingTrials& of_variant : result.missing) missing += of_variant.trials.size();
+  if (result.run.variants.empty())
+    throw ConfigError({{shared.string(), 0, 0, "no trial has come to an end yet; wait for the first"}});
+  spdlog::info("{}: as far as it is: {} of {} trials", shared.string(), manifest.count_trials() - missing,
+               manifest.count_trials());
+  return out;
+}
+
+}  // namespace glocal::app

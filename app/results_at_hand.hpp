@@ -1,0 +1,30 @@
+// Results that can be read, also of runs that shards have not ended yet.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace glocal::app {
+
+/// Folders as they were given. In the place of one that shards have not filled yet stands a temporary one,
+/// into which what they have done so far is put together; it is gone with this object.
+class ResultsAtHand {
+ public:
+  /// Throws as merge_shards() does.
+  explicit ResultsAtHand(const std::vector<std::string>& folders);
+  ~ResultsAtHand();
+  ResultsAtHand(const ResultsAtHand&) = delete;
+  ResultsAtHand& operator=(const ResultsAtHand&) = delete;
+
+  [[nodiscard]] const std::vector<std::string>& folders() const { return folders_; }
+
+ private:
+  [[nodiscard]] std::filesystem::path put_together(const std::filesystem::path& shared);
+
+  std::vector<std::string> folders_;
+  std::filesystem::path temporary_;  ///< Empty if there is none.
+};
+
+}  // namespace glocal::app

@@ -1,0 +1,193 @@
+// Journals of shards: what is written is read, also while it is written, and also when it is damaged.
+#include "evaluation/sharding/journal_scan.hpp"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "temporary_folder.hpp"
+
+namespace glocal::test::journal_scan_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr TrialId first{1, 2}, second{3, 0xfedcba9876543210}, third{5, 6};
+
+TrialOutput output(std::size_t trial) {
+  TrialOutput output{{trial, {Outcome::right, 2.0, 1.0 / 3.0}, "a line\n", "some \"steps\"\n"}, {}};
+  output.entry.figures.step_ms = {{0.1, 1e-17, 2.0 / 3.0, 4.0, 0.0}};
+  output.files = {{"maps/a.bin", std::string("\0\xff\n\x80", 4)}, {"b.tum", "1 2 3\n"}};
+  return output;
+}
+
+class JournalScanTest : public testing::Test {
+ protected:
+  [[nodiscard]] JournalScan scan() {
+    return {folder_.path(), [this](const std::string& text) { warnings_.push_back(text); }};
+  }
+
+  [[nodiscard]] fs::path only_file() const { return fs::directory_iterator(folder_.path())->path(); }
+
+  [[nodiscard]] static std::string content(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+  }
+
+  TemporaryFolder folder_;
+  std::vector<std::string> warnings_;
+};
+
+TEST(TrialIds, AreWrittenAsHexadecimalDigits) {
+  EXPECT_EQ(to_string(second), "0000000000000003fedcba9876543210");
+  EXPECT_EQ(trial_id_of(to_string(second)), second);
+  EXPECT_THROW(static_cast<void>(trial_id_of("12")), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(trial_id_of("000000000000000gfedcba9876543210")), std::invalid_argument);
+}
+
+TEST_F(JournalScanTest, WhatAShardWritesIsRead) {
+  ShardJournal journal(folder_.path(), {3, 64}, 2);
+  journal.add_variant("v", {{"key", "value"}});
+  journal.begin(first, {{"sample", 7}});
+  journal.begin(second, {{"sample", 8}});
+  journal.finish(first, 12.4, output(7));
+  journal.add_crash(second, {"SIGSEGV", "matcher 'a', step 1"});
+
+  JournalScan read = scan();
+  ASSERT_THAT(read.journals(), SizeIs(1));
+  EXPECT_EQ(read.journals()[0].shard.number, 3U);
+  EXPECT_EQ(read.journals()[0].shard.of, 64U);
+  EXPECT_EQ(read.journals()[0].jobs, 2U);
+  EXPECT_TRUE(read.journals()[0].is_live);
+  ASSERT_TRUE(read.finished().contains(first));
+  EXPECT_EQ(read.finished().at(first).ms, 12.0);
+  EXPECT_EQ(read.finished().at(first).outcome, Outcome::right);
+  const TrialOutput found = output_of(read.text_at(read.finished().at(first).output));
+  EXPECT_EQ(found.entry.trial, 7U);
+  EXPECT_EQ(found.entry.trial_line, "a line\n");
+  EXPECT_EQ(found.entry.step_lines, "some \"steps\"\n");
+  EXPECT_EQ(found.entry.figures.distance_m, 1.0 / 3.0);
+  EXPECT_EQ(found.entry.figures.step_ms[0].match, 1e-17);
+  EXPECT_EQ(found.files, output(7).files) << "bytes that are no text, too";
+  ASSERT_THAT(read.begun(), SizeIs(1));
+  EXPECT_EQ(read.text_at(read.begun().at(second)), "{\"sample\":8}");
+  ASSERT_THAT(read.crashes().at(second), SizeIs(1));
+  EXPECT_EQ(read.crashes().at(second)[0].where, "matcher 'a', step 1");
+  EXPECT_EQ(read.text_at(read.variants().at("v")[0]), "{\"key\":\"value\"}");
+  EXPECT_THAT(warnings_, IsEmpty());
+}
+
+TEST_F(JournalScanTest, WhatIsAddedIsReadWhereItWasLeft) {
+  ShardJournal journal(folder_.path(), {1, 1}, 1);
+  JournalScan read = scan();
+  EXPECT_THAT(read.finished(), IsEmpty());
+  journal.finish(first, 1.0, output(0));
+  read.update();
+  EXPECT_THAT(read.finished(), SizeIs(1));
+  journal.finish(second, 1.0, output(1));
+  ShardJournal other(folder_.path(), {2, 2}, 1);
+  other.finish(third, 1.0, output(2));
+  journal.close();
+  read.update();
+  EXPECT_THAT(read.finished(), SizeIs(3));
+  EXPECT_THAT(read.journals(), SizeIs(2));
+  EXPECT_EQ(read.text_at(read.finished().at(first).output), output_text(output(0))) << "under its new name";
+  EXPECT_EQ(std::count_if(read.journals().begin(), read.journals().end(),
+                          [](const JournalScan::Journal& j) { return j.is_closed; }),
+            1);
+}
+
+TEST_F(JournalScanTest, HalfALineAtTheEndIsNotRead) {
+  ShardJournal journal(folder_.path(), {1, 1}, 1);
+  journal.finish(first, 1.0, output(0));
+  journal.finish(second, 1.0, output(1));
+  const std::string whole = content(only_file());
+  for (const std::size_t cut : {std::size_t{1}, std::size_t{20}, output_text(output(1)).size()}) {
+    fs::resize_file(only_file(), whole.size() - cut);
+    EXPECT_THAT(scan().finished(), SizeIs(1)) << cut;
+    EXPECT_THAT(warnings_, IsEmpty()) << "it may still be written";
+  }
+  journal.drop_torn_line();
+  EXPECT_EQ(content(only_file()), whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1));
+  journal.finish(third, 1.0, output(2));
+  EXPECT_THAT(scan().finished(), SizeIs(2));
+  EXPECT_THAT(warnings_, IsEmpty());
+}
+
+TEST_F(JournalScanTest, ATornLineLongerThanAnyBufferIsDropped) {
+  ShardJournal journal(folder_.path(), {1, 1}, 1);
+  const std::string head = content(only_file());
+  std::ofstream(only_file(), std::ios::app) << std::string(200'000, 'x');
+  journal.drop_torn_line();
+  EXPECT_EQ(content(only_file()), head);
+}
+
+TEST_F(JournalScanTest, EveryDamagedByteIsFound) {
+  {
+    ShardJournal journal(folder_.path(), {1, 1}, 1);
+    journal.finish(first, 1.0, output(0));
+    journal.close();
+  }
+  const std::string whole = content(only_file());
+  const std::size_t begin = whole.find('\n') + 1;
+  for (std::size_t i = begin; i + 1 < whole.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(damaged[i] ^ 4);
+    std::ofstream(only_file(), std::ios::binary) << damaged;
+    warnings_.clear();
+    EXPECT_THAT(scan().finished(), IsEmpty()) << i;
+    EXPECT_FALSE(warnings_.empty()) << i;
+  }
+}
+
+TEST_F(JournalScanTest, LongLinesAndManyOfThem) {
+  {
+    ShardJournal journal(folder_.path(), {1, 1}, 1);
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      TrialOutput long_one = output(i);
+      long_one.entry.step_lines.assign(i * 200, 's');
+      journal.finish({i, i}, 1.0, long_one);
+    }
+  }
+  const JournalScan read = scan();
+  ASSERT_THAT(read.finished(), SizeIs(300));
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const TrialOutput found = output_of(read.text_at(read.finished().at({i, i}).output));
+    EXPECT_EQ(found.entry.trial, i);
+    EXPECT_EQ(found.entry.step_lines.size(), i * 200);
+  }
+}
+
+TEST_F(JournalScanTest, AWriterIsAliveAsLongAsItTouchesItsFile) {
+  const ShardJournal journal(folder_.path(), {1, 1}, 1);
+  EXPECT_TRUE(scan().any_live());
+  fs::last_write_time(only_file(), fs::last_write_time(only_file()) - std::chrono::minutes(3));
+  EXPECT_FALSE(scan().any_live());
+  journal.touch();
+  EXPECT_TRUE(scan().any_live());
+  // Another machine's clock may be ahead.
+  fs::last_write_time(only_file(), fs::last_write_time(only_file()) + std::chrono::hours(3));
+  EXPECT_TRUE(scan().any_live());
+}
+
+TEST_F(JournalScanTest, AFolderThatIsNotThereHasNoJournals) {
+  const JournalScan read(folder_ / "nowhere", [](const std::string&) {});
+  EXPECT_THAT(read.journals(), IsEmpty());
+}
+
+TEST_F(JournalScanTest, FilesOfTwoWritersHaveDifferentNames) {
+  const ShardJournal one(folder_.path(), {1, 1}, 1);
+  const ShardJournal other(folder_.path(), {1, 1}, 1);
+  EXPECT_NE(one.file(), other.file());
+}
+
+}  // namespace
+}  // namespace glocal::test::journal_scan_test
