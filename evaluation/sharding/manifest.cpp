@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "config/text_file.hpp"
+#include "config/variants.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
@@ -116,8 +117,12 @@ Manifest manifest_of(const Json& json) {
   for (const Json& v : json.at("variants")) {
     manifest.variants.push_back({v.at("name"), v.at("identity"), values_of(v.at("values"), first),
                                  v.at("inputs"), whole_number(v, "starts"), v.at("origin")});
-    static_cast<void>(manifest.starts.at(manifest.variants.back().starts));
+    const PlannedVariant& variant = manifest.variants.back();
+    static_cast<void>(manifest.starts.at(variant.starts));
+    if (!variant.name.empty() && !is_folder_name(variant.name))
+      throw std::invalid_argument("no name of a variant: " + variant.name);
   }
+  if (!manifest.program.is_object()) throw std::invalid_argument("it does not tell the program");
   if (manifest.variants.empty()) throw std::invalid_argument("it has no variants");
   return manifest;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -61,6 +62,7 @@ class VariantMerge {
     for (const JournalScan::Place& at : found->second) descriptions_.push_back(parse_json(scan.text_at(at)));
   }
 
+  [[nodiscard]] std::size_t trials() const { return starts_.size(); }
   [[nodiscard]] MissingTrials missing() const;
   /// No shard has begun with it.
   [[nodiscard]] bool is_empty() const { return descriptions_.empty(); }
@@ -121,6 +123,9 @@ std::optional<JournalEntry> VariantMerge::take(OutputFolder& folder, std::size_t
   const TrialId of_trial = id(trial);
   if (const auto finished = scan_.finished().find(of_trial); finished != scan_.finished().end()) {
     TrialOutput output = output_of(scan_.text_at(finished->second.output));
+    if (output.entry.trial != trial)
+      throw std::invalid_argument(
+          fmt::format("trial {} is where trial {} belongs", output.entry.trial, trial));
     for (const auto& [name, content] : output.files) folder.write(name, content);
     return std::move(output.entry);
   }
@@ -187,32 +192,50 @@ void VariantMerge::move_up(const fs::path& merged) const {
   check(folder_);
 }
 
+/// What journals say is what their checksums are of, but may come from another version.
+template <class Work>
+auto with_journals(const PlannedVariant& planned, const Work& work) {
+  try {
+    return work();
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const RunError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw RunError(fmt::format(
+        "{}: what shards have left of it is not as this version writes it ({}); run it into another folder",
+        planned.name.empty() ? "the experiment" : "variant '" + planned.name + "'", reason(error)));
+  }
+}
+
 }  // namespace
 
 MergeResult merge_shards(const Manifest& manifest, const JournalScan& scan, const MergeOptions& options) {
   MergeResult result;
   result.run.folder = options.out;
-  const auto merge_of = [&](std::size_t place) { return VariantMerge(manifest, place, scan, options); };
+  const std::size_t n = manifest.variants.size();
+  const auto for_each = [&](const auto& work) {
+    for (std::size_t i = 0; i < n; ++i)
+      with_journals(manifest.variants[i], [&] { work(VariantMerge(manifest, i, scan, options)); });
+  };
   // What is in the way is said before anything is written.
   FaultCollector faults;
-  for (std::size_t i = 0; i < manifest.variants.size(); ++i) {
-    faults.collect([&] {
-      const VariantMerge merge = merge_of(i);
-      if (!merge.is_empty()) static_cast<void>(merge.kept());
-    });
-  }
+  for_each([&](const VariantMerge& merge) {
+    if (!merge.is_empty()) faults.collect([&] { static_cast<void>(merge.kept()); });
+  });
   faults.report();
-  for (std::size_t i = 0; i < manifest.variants.size(); ++i) {
-    const VariantMerge merge = merge_of(i);
+  for_each([&](const VariantMerge& merge) {
     MissingTrials missing = merge.missing();
     const bool is_complete = missing.trials.empty();
+    if (merge.is_empty() && missing.trials.size() < merge.trials())
+      throw std::invalid_argument("no journal describes it");
     if (!is_complete) result.missing.push_back(std::move(missing));
-    if (merge.is_empty()) continue;
+    if (merge.is_empty()) return;
     const std::optional<Json> kept = is_complete ? merge.kept() : std::nullopt;
     if (kept && !merge.name().empty()) options.note(fmt::format("{}: kept, as it is complete", merge.name()));
     result.run.variants.push_back(
         result_of_variant(merge.name(), merge.folder(), kept ? *kept : merge.write(is_complete)));
-  }
+  });
   result.run.complete = result.missing.empty();
   return result;
 }

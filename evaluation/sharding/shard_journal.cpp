@@ -70,6 +70,15 @@ std::string bytes_of(const std::string& text) {
   return bytes;
 }
 
+/// The name of a file of a trial. Throws std::invalid_argument if it leads out of the results.
+std::string name_inside(std::string name) {
+  const fs::path path(name);
+  const bool leads_out = std::find(path.begin(), path.end(), "..") != path.end();
+  if (path.is_absolute() || leads_out || !path.has_parent_path())
+    throw std::invalid_argument("no file of a trial: " + name);
+  return name;
+}
+
 /// What may stand in a file name.
 std::string in_file_name(std::string text) {
   std::replace_if(
@@ -195,7 +204,7 @@ TrialOutput output_of(const std::string& text) {
   TrialOutput output{entry_of(json), {}};
   for (const Json& file : json.at("contents")) {
     const std::string content = file.at(2);
-    output.files.emplace_back(file.at(0), file.at(1) == "bytes" ? bytes_of(content) : content);
+    output.files.emplace_back(name_inside(file.at(0)), file.at(1) == "bytes" ? bytes_of(content) : content);
   }
   return output;
 }
