@@ -100,6 +100,15 @@ start_slurm() { # [jobs an array may have, and one]: exports SLURM_CONF
   wait_for_slurm
 }
 
+# What an administrator does after a failure: slurmctld drains a node that runs a job it does not know of, and holds jobs that it could not launch.
+revive_slurm() {
+  local job
+  case $(sinfo -h -o %T) in drain* | down*) scontrol update NodeName=here State=RESUME ;; esac
+  for job in $(squeue --noheader --array --states=PENDING --format='%i %r' | sed -n 's/ .*held.*//Ip'); do
+    scontrol release "$job"
+  done
+} 2>/dev/null
+
 stop_slurm() {
   [ -n "${slurm_folder:-}" ] || return 0
   # Daemons, jobs and what looks after them: all were given this environment, and nobody else.
