@@ -129,16 +129,15 @@ void check_texts(const SubmitOptions& options, const fs::path& out) {
   if (!faults.empty()) throw ConfigError(std::move(faults));
 }
 
-/// What the scripts run.
-ShardedRun run_of(const SubmitOptions& options, const std::vector<Variant>& variants,
-                  const Context& context) {
+/// How shards are run, as far as it is known before they are planned.
+ShardedRun described(const SubmitOptions& options, const std::vector<Variant>& variants,
+                     const Context& context) {
   ShardedRun run;
-  run.plugins = context.plugins.loaded();
-  const Experiment& experiment = variants.front().experiment;
-  run.name = experiment.name;
+  run.name = variants.front().experiment.name;
   run.program = fs::read_symlink("/proc/self/exe");
   run.file = fs::absolute(options.experiment.file).lexically_normal();
   run.out = fs::absolute(options.out.empty() ? "results/" + run.name : options.out).lexically_normal();
+  run.plugins = context.plugins.loaded();
   run.set = options.experiment.set;
   run.seed = options.experiment.seed;
   run.threads = options.experiment.threads;
@@ -149,8 +148,16 @@ ShardedRun run_of(const SubmitOptions& options, const std::vector<Variant>& vari
   run.jobs = options.jobs;
   for (const Variant& variant : variants)
     run.cores = std::max(run.cores, options.jobs * variant.experiment.threads);
-  check_texts(options, run.out);
   return run;
+}
+
+/// Plans all shards, so that whatever is wrong with the experiment shows now; false if it is said.
+bool plan(ShardedRun& run, std::vector<Variant>& variants, Context& context) {
+  const auto manifest = planned_shards(variants, run.file, run.out, context);
+  if (!manifest) return false;
+  // There is no more to share out.
+  run.shards = static_cast<int>(std::clamp<std::size_t>(manifest->count_trials(), 1, run.shards));
+  return true;
 }
 
 struct Script {
@@ -215,15 +222,16 @@ std::string queued_merge(const std::string& array, const fs::path& script) {
 void submit_to_slurm(const SubmitOptions& options, Context& context) {
   if (!options.dry_run) check_sbatch();
   const int most = most_tasks(options.dry_run);
-  const int tasks = tasks_for(options.shards, most);
   std::vector<Variant> variants = options.experiment.read_variants(options.experiment.file, context);
-  const ShardedRun run = run_of(options, variants, context);
-  const SlurmJob job{tasks, options.limit, options.time, options.sbatch_options};
+  ShardedRun run = described(options, variants, context);
+  check_texts(options, run.out);
   const fs::path folder = run.out / shards_folder;
   const fs::path array = folder / array_file;
   const fs::path merge = folder / merge_file;
   if (!options.dry_run) check_queue(array);
-  if (!planned_shards(variants, options.experiment.file, run.out, context)) return;
+  if (!plan(run, variants, context)) return;
+  const int tasks = tasks_for(run.shards, most);
+  const SlurmJob job{tasks, options.limit, options.time, options.sbatch_options};
   write_scripts(folder, {{array, array_script(run, job)}, {merge, merge_script(run, job)}});
   if (tasks < run.shards) {
     fmt::print("Slurm takes at most {} tasks in an array: {} of them run {} shards, one after the other.\n",
@@ -243,8 +251,9 @@ void submit_to_slurm(const SubmitOptions& options, Context& context) {
 void submit_to_parallel(const SubmitOptions& options, Context& context) {
   if (!options.dry_run) check_parallel();
   std::vector<Variant> variants = options.experiment.read_variants(options.experiment.file, context);
-  const ShardedRun run = run_of(options, variants, context);
-  if (!planned_shards(variants, options.experiment.file, run.out, context)) return;
+  ShardedRun run = described(options, variants, context);
+  check_texts(options, run.out);
+  if (!plan(run, variants, context)) return;
   const fs::path folder = run.out / shards_folder;
   const fs::path script = folder / parallel_file;
   const fs::path hosts = options.hosts.empty() ? fs::path() : fs::absolute(options.hosts).lexically_normal();
@@ -274,7 +283,7 @@ void add_submit(CLI::App& app, Context& context) {
       "submit", "Run an experiment in shards, with Slurm or GNU parallel, and put the results together.");
   options->experiment.add_to(*command);
   command->add_option("--out", options->out, "Folder for the results (default: results/NAME)");
-  command->add_option("--shards", options->shards, "In how many parts to run")
+  command->add_option("--shards", options->shards, "In how many parts to run, at most one for each trial")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Trials of a shard that run side by side")

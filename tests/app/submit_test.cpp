@@ -17,6 +17,7 @@ using testing::Not;
 class Submit : public Room {
  protected:
   Submit() {
+    write_experiment("trials: {every_scan: 2, max_steps: 6}\n");  // 11 of them.
     fs::create_directory(file("bin"));
     pretend("scontrol", "echo 'Configuration data as of now'; echo 'MaxArraySize            = 1001'");
     pretend("squeue", "echo '7 /somewhere/else/.shards/array.sbatch'");
@@ -73,15 +74,18 @@ TEST_F(Submit, QueuesAnArrayAndThenTheMerge) {
                                 HasSubstr("array 41 runs the shards, then job 42 puts"),
                                 HasSubstr("glocal status " + file("results") + " --watch")));
   EXPECT_TRUE(fs::is_directory(folder + "logs"));
+  // What is to be done is planned: jobs only do it.
+  EXPECT_THAT(run("status " + file("results")).out, HasSubstr("0 of 11 trials done"));
 }
 
 TEST_F(Submit, DryRunNeedsNoSlurm) {
   for (const char* name : {"scontrol", "squeue", "sbatch", "scancel"}) remove(name);
-  const Answer answer = submit("--slurm --shards 2000 --dry-run");
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\n", "seeds: 1..100\n");
+  const Answer answer = submit("--slurm --shards 1100 --dry-run");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, AllOf(HasSubstr(script("array.sbatch")), HasSubstr(script("merge.sbatch")),
                                 HasSubstr("Nothing is queued.")));
-  EXPECT_THAT(script("array.sbatch"), HasSubstr("--array=1-1000\n"));
+  EXPECT_THAT(script("array.sbatch"), HasSubstr("--array=1-550\n"));
 }
 
 TEST_F(Submit, DryRunQueuesNothing) {
@@ -105,6 +109,11 @@ TEST_F(Submit, ATaskAsksForTheCoresThatItKeepsBusy) {
                    "variants: {list: {one: {}, three: {threads: 3}}}\n");
   ASSERT_EQ(submit("--slurm --dry-run --jobs 2").exit_code, 0);
   EXPECT_THAT(script("array.sbatch"), AllOf(HasSubstr("--cpus-per-task=6\n"), HasSubstr(" --jobs 2\n")));
+}
+
+TEST_F(Submit, ThereAreNoMoreShardsThanTrials) {
+  ASSERT_EQ(submit("--slurm --dry-run").exit_code, 0);
+  EXPECT_THAT(script("array.sbatch"), HasSubstr("--array=1-11\n"));
 }
 
 TEST_F(Submit, TellsWhereThereIsNoSlurm) {
@@ -186,6 +195,23 @@ TEST_F(Submit, TellsWhereThereIsNoGnuParallel) {
                  "there is no GNU parallel (No such file or directory); install the package parallel");
   pretend("parallel", "echo 'parallel from moreutils'; exit 1");
   expect_refused("--parallel", "there is no GNU parallel (parallel is another program)");
+}
+
+TEST_F(Submit, GnuParallelRunsAllShardsAndMerges) {
+  pretend("parallel",
+          "[ $1 = --version ] && echo GNU parallel 20221122 || while read -r n; do sh shard.sh $n; done");
+  const Answer answer = submit("--parallel --shards 3 --seed 5");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(calls(), HasSubstr("parallel --joblog joblog --resume-failed sh shard.sh {}\n"));
+  ASSERT_EQ(run_room("one", "--quiet --seed 5").exit_code, 0);
+  expect_same_results("one", "results");
+}
+
+TEST_F(Submit, TellsWhatGnuParallelHasNotDone) {
+  pretend("parallel", "[ $1 = --version ] && echo GNU parallel 20221122 || sh shard.sh 2");
+  const Answer answer = submit("--parallel --shards 3");
+  EXPECT_EQ(answer.exit_code, 3);
+  EXPECT_THAT(answer.err, HasSubstr("of 11 trials are missing"));
 }
 
 TEST_F(Submit, GnuParallelForgetsShardsOfAnotherDivision) {
