@@ -50,5 +50,6 @@ void add_simulate(CLI::App& app, Context& context);
 void add_status(CLI::App& app, Context& context);
 void add_submit(CLI::App& app, Context& context);
 void add_summarize(CLI::App& app, Context& context);
+void add_sweep(CLI::App& app, Context& context);
 
 }  // namespace glocal::app

@@ -27,6 +27,7 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_describe(app, context);
   add_explain(app, context);
   add_summarize(app, context);
+  add_sweep(app, context);
   add_compare(app, context);
   add_figures(app, context);
   add_register(app, context);

@@ -39,6 +39,11 @@ std::vector<NamedRun> read_runs(const std::vector<std::string>& folders,
   return runs;
 }
 
+std::vector<NamedRun> read_sweep(const std::string& folder) {
+  return read_runs({folder},
+                   [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); });
+}
+
 std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& name) {
   if (name.empty()) return 0;
   const auto only_index = [&](const auto& has_name) -> std::ptrdiff_t {

@@ -21,6 +21,10 @@ namespace glocal::app {
     const std::function<StoredRun(const std::filesystem::path&)>& read =
         [](const std::filesystem::path& folder) { return read_results(folder); });
 
+/// The runs of an experiment that were left in one folder, but for their steps, which are most of them.
+/// Throws ConfigError as read_runs() does.
+[[nodiscard]] std::vector<NamedRun> read_sweep(const std::string& folder);
+
 /// The run with that name, or the only one of the experiment with that name; the first without a name. Throws
 /// ConfigError.
 [[nodiscard]] std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& name);

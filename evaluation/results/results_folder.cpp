@@ -158,9 +158,10 @@ class ResultsReader {
  public:
   ResultsReader(const fs::path& folder, const LineReaders& also) : also_(also) { run_.folder = folder; }
 
-  StoredRun read() {
+  StoredRun read(ResultParts parts) {
     read_head();
-    if (faults_.collect([&] { read_trials(); }) && run_.has_steps) faults_.collect([&] { read_steps(); });
+    const bool wants_steps = run_.has_steps && parts == ResultParts::all;
+    if (faults_.collect([&] { read_trials(); }) && wants_steps) faults_.collect([&] { read_steps(); });
     faults_.report();
     return std::move(run_);
   }
@@ -313,8 +314,8 @@ std::map<std::string, Setting> read_settings(const fs::path& folder,
   return settings;
 }
 
-StoredRun read_results(const fs::path& folder, const LineReaders& also) {
-  return ResultsReader(folder, also).read();
+StoredRun read_results(const fs::path& folder, const LineReaders& also, ResultParts parts) {
+  return ResultsReader(folder, also).read(parts);
 }
 
 void require_steps(const StoredRun& run) {

@@ -90,9 +90,13 @@ struct LineReaders {
 [[nodiscard]] std::map<std::string, Setting> read_settings(const std::filesystem::path& folder,
                                                            const std::map<std::string, std::string>& hashes);
 
+/// What of a folder is read: steps are most of it.
+enum class ResultParts { all, all_but_steps };
+
 /// Reads a results folder. Throws ConfigError with every fault of it: files that are missing, cut off or
 /// damaged, trials and steps that are not all there, keys of earlier versions.
-[[nodiscard]] StoredRun read_results(const std::filesystem::path& folder, const LineReaders& also = {});
+[[nodiscard]] StoredRun read_results(const std::filesystem::path& folder, const LineReaders& also = {},
+                                     ResultParts parts = ResultParts::all);
 
 /// Throws ConfigError if a run has left no steps, which this is about.
 void require_steps(const StoredRun& run);

@@ -6,29 +6,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "evaluation/statistics/ranks.hpp"
+
 namespace glocal {
 namespace {
-
-/// The distinct sizes of tied groups enter the variance only; ranks are doubled to keep means of ties whole.
-struct Ranks {
-  std::vector<std::size_t> doubled;  ///< In the order of the values.
-  double tie_term = 0.0;             ///< Sum of t^3 - t over groups of t equal values.
-};
-
-Ranks ranks_of(const std::vector<double>& values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  Ranks ranks{std::vector<std::size_t>(values.size()), 0.0};
-  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    while (end < order.size() && values[order[end]] == values[order[begin]]) ++end;
-    // Places begin + 1 to end share their mean.
-    for (std::size_t i = begin; i < end; ++i) ranks.doubled[order[i]] = begin + 1 + end;
-    const auto t = static_cast<double>(end - begin);
-    ranks.tie_term += t * t * t - t;
-  }
-  return ranks;
-}
 
 /// By counting, rank by rank, in how many of the 2^n ways to give signs the positive ranks have each sum. All
 /// counts are whole numbers up to 2^50, which a double holds exactly.

@@ -6,6 +6,17 @@
 #include <numeric>
 
 namespace glocal {
+namespace {
+
+Proportion wilson_interval(double share, double n) {
+  const double z = boost::math::quantile(boost::math::normal(), 0.975);
+  const double scale = 1.0 / (1.0 + z * z / n);
+  const double centre = scale * (share + z * z / (2.0 * n));
+  const double half = scale * z * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
+  return {share, std::max(0.0, centre - half), std::min(1.0, centre + half)};
+}
+
+}  // namespace
 
 double quantile(std::vector<double> values, double p) {
   if (values.empty()) return 0.0;
@@ -23,13 +34,32 @@ double mean(const std::vector<double>& values) {
 
 Proportion wilson(std::size_t successes, std::size_t trials) {
   if (trials == 0) return {};
-  const double z = boost::math::quantile(boost::math::normal(), 0.975);
   const auto n = static_cast<double>(trials);
-  const double share = static_cast<double>(successes) / n;
-  const double scale = 1.0 / (1.0 + z * z / n);
-  const double centre = scale * (share + z * z / (2.0 * n));
-  const double half = scale * z * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
-  return {share, std::max(0.0, centre - half), std::min(1.0, centre + half)};
+  return wilson_interval(static_cast<double>(successes) / n, n);
+}
+
+Proportion wilson_of_clusters(const std::vector<TrialCluster>& clusters) {
+  double successes = 0.0;
+  double trials = 0.0;
+  double filled = 0.0;
+  for (const TrialCluster& cluster : clusters) {
+    successes += static_cast<double>(cluster.successes);
+    trials += static_cast<double>(cluster.trials);
+    filled += cluster.trials > 0 ? 1.0 : 0.0;
+  }
+  if (trials == 0.0) return {};
+  const double share = successes / trials;
+  if (share == 0.0 || share == 1.0) return wilson_interval(share, filled);
+  double squares = 0.0;
+  for (const TrialCluster& cluster : clusters) {
+    const double excess =
+        static_cast<double>(cluster.successes) - share * static_cast<double>(cluster.trials);
+    squares += excess * excess;
+  }
+  // share (1 - share) / n is the variance of n independent trials, squares / trials^2 that of these.
+  const double effective =
+      share * (1.0 - share) * trials * trials / std::max(squares, trials * share * (1.0 - share));
+  return wilson_interval(share, effective);
 }
 
 }  // namespace glocal

@@ -22,4 +22,14 @@ struct Proportion {
 /// A share with its 95 % interval after Wilson (1927); 0 of 0 has value 0 and the interval [0, 1].
 [[nodiscard]] Proportion wilson(std::size_t successes, std::size_t trials);
 
+/// Trials that have something in common, so that they tend to end alike.
+struct TrialCluster {
+  std::size_t successes = 0;
+  std::size_t trials = 0;
+};
+/// The share of all trials, with Wilson's interval for as many independent trials as tell as much as these
+/// (Korn and Graubard 1998: by the variance between clusters). With one trial in each cluster it is that of
+/// wilson(); where all end the same, each cluster counts as one trial.
+[[nodiscard]] Proportion wilson_of_clusters(const std::vector<TrialCluster>& clusters);
+
 }  // namespace glocal

@@ -299,7 +299,7 @@ TEST(Docs, CommandsThatReadResultsAreShown) {
     for (const Block& block : blocks_of(document, "sh")) text += block.text;
   }
   EXPECT_GT(matches(text, "\nglocal ").size(), 40U);
-  for (const char* command : {"explain", "reliability", "compare", "report", "figures", "summarize"})
+  for (const char* command : {"explain", "reliability", "compare", "report", "figures", "summarize", "sweep"})
     EXPECT_NE(text.find(std::string("\nglocal ") + command + " "), std::string::npos) << command;
 }
 
@@ -356,6 +356,28 @@ TEST_F(DocsExamples, WhatCompareWritesIsDescribed) {
   std::istringstream columns(lines_of(read("c.csv")).front());
   for (std::string column; std::getline(columns, column, ',');) names.insert(column);
   EXPECT_GT(names.size(), 40U);
+  expect_described(names, document);
+}
+
+TEST_F(DocsExamples, WhatSweepWritesIsDescribed) {
+  const fs::path document = root / "docs/file-formats.md";
+  save_examples(document);
+  const Answer ran = run(
+      "run configs/experiments/room.yaml --quiet --out a --set trials.max_steps=1 --set trials.whole=false "
+      "--set "
+      "trials.every_scan=9 --set output.steps=false --set 'choose_on={near: {}}' --set 'judge_on={far: {}}' "
+      "--set "
+      "'variants.grid={localizer.matcher.ransam.iterations: [100, 20000], localizer.contact_epsilon: [0.1, "
+      "0.2]}'");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Answer answer = run("sweep a --json");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  nlohmann::json json = nlohmann::json::parse(answer.out);
+  ASSERT_TRUE(json.contains("chance"));
+  for (nlohmann::json& setting : json["settings"]) setting["values"].clear();
+  std::set<std::string> names;
+  collect_keys(json, names);
+  EXPECT_GT(names.size(), 25U);
   expect_described(names, document);
 }
 

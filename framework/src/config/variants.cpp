@@ -51,23 +51,6 @@ std::string text_of(const YamlNode& value) {
   return text;
 }
 
-/// Whether the path ends with these parts.
-bool ends_with_parts(const std::string& path, const std::string& parts) {
-  return path == parts || path.ends_with("." + parts);
-}
-
-/// The shortest end of a path that no other one has.
-std::string label_of(const std::string& path, const std::vector<YamlEntry>& all) {
-  for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
-       dot = path.rfind('.', dot - 1)) {
-    std::string end = path.substr(dot + 1);
-    const auto same = std::count_if(all.begin(), all.end(),
-                                    [&](const YamlEntry& e) { return ends_with_parts(e.key, end); });
-    if (same == 1) return end;
-  }
-  return path;
-}
-
 void check_path(const YamlEntry& entry, const std::string& key, std::vector<Fault>& faults) {
   if (!is_fixed(entry.key)) return;
   faults.push_back(
@@ -79,7 +62,9 @@ std::vector<Axis> axes_of(const ListedChanges& changes, std::vector<Fault>& faul
   std::vector<Axis> axes;
   if (!changes.written) return axes;
   const std::vector<YamlEntry>& entries = checked_paths(*changes.written, "variants", faults);
-  for (const YamlEntry& entry : entries) axes.push_back({&entry, label_of(entry.key, entries)});
+  std::vector<std::string> paths;
+  for (const YamlEntry& entry : entries) paths.push_back(entry.key);
+  for (const YamlEntry& entry : entries) axes.push_back({&entry, distinct_end(entry.key, paths)});
   return axes;
 }
 
@@ -230,6 +215,18 @@ void check_names(const std::vector<VariantChanges>& variants, const std::string&
                                key, name, key == "variants" ? "; variants.list lets you choose names" : "")));
     }
   }
+}
+
+std::string distinct_end(const std::string& path, const std::vector<std::string>& all) {
+  for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
+       dot = path.rfind('.', dot - 1)) {
+    std::string end = path.substr(dot + 1);
+    const auto same = std::count_if(all.begin(), all.end(), [&](const std::string& other) {
+      return other == end || other.ends_with("." + end);
+    });
+    if (same == 1) return end;
+  }
+  return path;
 }
 
 bool is_fixed(std::string_view path) {

@@ -78,6 +78,9 @@ struct VariantChanges {
 [[nodiscard]] std::vector<VariantChanges> settings_of(const VariantsSection& section, AnyParams& experiment,
                                                       std::vector<Fault>& faults);
 
+/// The shortest end of a path (whole parts of it) that no other one of `all` has.
+[[nodiscard]] std::string distinct_end(const std::string& path, const std::vector<std::string>& all);
+
 /// Whether a path leads to what is the same for all variants.
 [[nodiscard]] bool is_fixed(std::string_view path);
 

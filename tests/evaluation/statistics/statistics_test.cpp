@@ -62,6 +62,31 @@ TEST(Wilson, IsWhereTheScoreTestJustRejects) {
   }
 }
 
+void expect_same(const Proportion& a, const Proportion& b) {
+  EXPECT_NEAR(a.value, b.value, 1e-12);
+  EXPECT_NEAR(a.low, b.low, 1e-12);
+  EXPECT_NEAR(a.high, b.high, 1e-12);
+}
+
+TEST(WilsonOfClusters, SingleTrialsAreIndependent) {
+  expect_same(wilson_of_clusters({{1, 1}, {0, 1}, {1, 1}, {1, 1}, {0, 0}}), wilson(3, 4));
+}
+
+TEST(WilsonOfClusters, CopiesTellNothingNew) {
+  expect_same(wilson_of_clusters({{5, 5}, {0, 5}, {5, 5}, {5, 5}}), wilson(3, 4));
+  expect_same(wilson_of_clusters({{3, 3}, {3, 3}}), wilson(2, 2));
+}
+
+TEST(WilsonOfClusters, EvenClustersTellNoMoreThanAllTheirTrials) {
+  // Each has just the mean: less spread than that of independent trials.
+  expect_same(wilson_of_clusters({{1, 2}, {1, 2}, {1, 2}}), wilson(3, 6));
+}
+
+TEST(WilsonOfClusters, SaysNothingWithoutTrials) {
+  expect_same(wilson_of_clusters({}), Proportion{});
+  expect_same(wilson_of_clusters({{0, 0}}), Proportion{});
+}
+
 TEST(Wilson, SaysNothingWithoutTrials) {
   const Proportion p = wilson(0, 0);
   EXPECT_EQ(p.value, 0.0);

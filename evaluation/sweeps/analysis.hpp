@@ -1,0 +1,56 @@
+// What is learned from a sweep: which settings are good, which parameters matter, and how much of it may be
+// chance.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "evaluation/statistics/statistics.hpp"
+#include "evaluation/sweeps/chance.hpp"
+#include "evaluation/sweeps/effects.hpp"
+#include "evaluation/sweeps/sweep.hpp"
+
+namespace glocal {
+
+/// How the trials of a setting ended, over all its seeds and some of the cases.
+struct SettingOutcome {
+  std::size_t trials = 0, right = 0, wrong = 0;  ///< All others are undecided.
+  Proportion success{}, false_rate{};            ///< Trials at one place of a drive are not independent.
+  std::optional<double> median_steps;            ///< To localize; none where no trial was right.
+
+  /// Success rate less false rate, by which settings are ranked: a wrong answer undoes a right one.
+  [[nodiscard]] double score() const { return success.value - false_rate.value; }
+};
+
+struct SettingResult {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> values;
+  bool complete = true;                  ///< It has all cases and seeds that any setting has, to their ends.
+  SettingOutcome chosen;                 ///< Over the cases of choose_on; without cases over all runs.
+  std::optional<SettingOutcome> judged;  ///< Over the cases of judge_on.
+};
+
+struct SweepAnalysis {
+  std::string experiment;
+  std::size_t runs = 0;
+  std::vector<std::string> choose_on, judge_on;  ///< Names of cases.
+  std::vector<std::uint64_t> seeds;
+  std::vector<SettingResult> settings;   ///< Best first; incomplete ones behind all others.
+  std::vector<std::string> incomplete;   ///< Names of runs without all their trials.
+  std::vector<ParameterEffect> effects;  ///< Largest first, of `chosen`.
+  std::optional<HeatMap> map;            ///< None with fewer than two parameters.
+  std::optional<ChanceOfBest> chance;    ///< None where settings share no starts.
+};
+
+/// Which parameters to show in the map, by their paths, or by ends of these that no other one has; without,
+/// those of the largest effect.
+using MapChoice = std::optional<std::pair<std::string, std::string>>;
+
+/// Settings are ranked by their score, then by fewer median steps, then by name. Throws ConfigError for runs
+/// that are no sweep, and for parameters that are none.
+[[nodiscard]] SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& map = {});
+
+}  // namespace glocal

@@ -1,0 +1,192 @@
+#include "evaluation/sweeps/effects.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "config/variants.hpp"
+#include "evaluation/statistics/ranks.hpp"
+
+namespace glocal {
+namespace {
+
+std::optional<double> number_of(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// The values of one parameter: for each setting, if it has one.
+struct Column {
+  std::string path;
+  std::vector<std::optional<std::string>> texts;
+  std::vector<std::optional<double>> numbers;
+  bool is_numeric = true;
+};
+
+std::vector<Column> columns_of(const std::vector<TriedSetting>& settings) {
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    for (const auto& [path, value] : settings[i].values) {
+      auto column =
+          std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.path == path; });
+      if (column == columns.end()) {
+        columns.push_back({path, std::vector<std::optional<std::string>>(settings.size()),
+                           std::vector<std::optional<double>>(settings.size())});
+        column = columns.end() - 1;
+      }
+      column->texts[i] = value;
+      column->numbers[i] = number_of(value);
+      column->is_numeric &= column->numbers[i].has_value();
+    }
+  }
+  return columns;
+}
+
+std::vector<double> all_numbers(const Column& column) {
+  std::vector<double> numbers;
+  for (const std::optional<double>& number : column.numbers) {
+    if (number) numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+/// A level for each value: numbers by size, the texts as they first occur.
+void use_single_values(const Column& column, ParameterEffect& effect) {
+  std::vector<std::pair<double, std::string>> values;
+  const auto place_of = [&](std::size_t i) {
+    return std::find_if(values.begin(), values.end(), [&](const auto& value) {
+      return column.is_numeric ? value.first == *column.numbers[i] : value.second == *column.texts[i];
+    });
+  };
+  for (std::size_t i = 0; i < column.texts.size(); ++i) {
+    if (column.texts[i] && place_of(i) == values.end())
+      values.emplace_back(column.numbers[i].value_or(0.0), *column.texts[i]);
+  }
+  if (column.is_numeric) std::sort(values.begin(), values.end());
+  for (const auto& [number, text] : values) effect.levels.push_back({.label = text});
+  for (std::size_t i = 0; i < column.texts.size(); ++i) {
+    if (column.texts[i]) effect.level_of[i] = static_cast<std::size_t>(place_of(i) - values.begin());
+  }
+}
+
+/// A level for each quarter of the values.
+void use_quarters(const Column& column, ParameterEffect& effect) {
+  effect.is_binned = true;
+  const std::vector<double> numbers = all_numbers(column);
+  std::vector<double> edges;
+  for (const double p : {0.0, 0.25, 0.5, 0.75, 1.0}) edges.push_back(quantile(numbers, p));
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (std::size_t k = 0; k + 1 < edges.size(); ++k)
+    effect.levels.push_back({.label = fmt::format("{:.5g} to {:.5g}", edges[k], edges[k + 1])});
+  for (std::size_t i = 0; i < column.numbers.size(); ++i) {
+    if (!column.numbers[i]) continue;
+    // An edge belongs to the quarter below it, and the smallest value to the first.
+    const auto above = std::lower_bound(edges.begin() + 1, edges.end() - 1, *column.numbers[i]);
+    effect.level_of[i] = static_cast<std::size_t>(above - edges.begin()) - 1;
+  }
+}
+
+void count_levels(const std::vector<TriedSetting>& settings, ParameterEffect& effect) {
+  std::vector<TrialsByPlace> trials(effect.levels.size());
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (!effect.level_of[i]) continue;
+    ++effect.levels[*effect.level_of[i]].settings;
+    add_trials(settings[i].trials, trials[*effect.level_of[i]]);
+  }
+  double least = 1.0;
+  double most = 0.0;
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    ParameterLevel& level = effect.levels[k];
+    level.trials = count_trials(trials[k]);
+    level.success = success_of(trials[k]);
+    if (level.trials == 0) continue;
+    least = std::min(least, level.success.value);
+    most = std::max(most, level.success.value);
+  }
+  effect.range = std::max(0.0, most - least);
+}
+
+std::optional<double> correlation(const Column& column, const std::vector<TriedSetting>& settings) {
+  std::vector<double> values;
+  std::vector<double> successes;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (!column.numbers[i] || count_trials(settings[i].trials) == 0) continue;
+    values.push_back(*column.numbers[i]);
+    successes.push_back(success_of(settings[i].trials).value);
+  }
+  return values.size() < 3 ? std::nullopt : spearman(values, successes);
+}
+
+}  // namespace
+
+void add_trials(const TrialsByPlace& trials, TrialsByPlace& sum) {
+  for (const auto& [place, cluster] : trials) {
+    sum[place].successes += cluster.successes;
+    sum[place].trials += cluster.trials;
+  }
+}
+
+Proportion success_of(const TrialsByPlace& trials) {
+  std::vector<TrialCluster> clusters;
+  for (const auto& [place, cluster] : trials) clusters.push_back(cluster);
+  return wilson_of_clusters(clusters);
+}
+
+std::size_t count_trials(const TrialsByPlace& trials) {
+  std::size_t n = 0;
+  for (const auto& [place, cluster] : trials) n += cluster.trials;
+  return n;
+}
+
+std::vector<ParameterEffect> effects_of(const std::vector<TriedSetting>& settings) {
+  const std::vector<Column> columns = columns_of(settings);
+  std::vector<std::string> paths;
+  for (const Column& column : columns) paths.push_back(column.path);
+  std::vector<ParameterEffect> effects;
+  for (const Column& column : columns) {
+    ParameterEffect effect{.path = column.path, .label = distinct_end(column.path, paths)};
+    effect.level_of.resize(settings.size());
+    const std::vector<double> numbers = all_numbers(column);
+    const std::set<double> different(numbers.begin(), numbers.end());
+    if (column.is_numeric && different.size() > most_single_values) {
+      use_quarters(column, effect);
+    } else {
+      use_single_values(column, effect);
+    }
+    if (effect.levels.size() < 2) continue;
+    count_levels(settings, effect);
+    if (column.is_numeric) effect.spearman = correlation(column, settings);
+    effects.push_back(std::move(effect));
+  }
+  std::stable_sort(effects.begin(), effects.end(),
+                   [](const ParameterEffect& a, const ParameterEffect& b) { return a.range > b.range; });
+  return effects;
+}
+
+HeatMap heat_map(const std::vector<TriedSetting>& settings, const std::vector<ParameterEffect>& effects,
+                 std::size_t row, std::size_t column) {
+  const ParameterEffect& rows = effects[row];
+  const ParameterEffect& columns = effects[column];
+  std::vector<std::vector<TrialsByPlace>> trials(rows.levels.size(),
+                                                 std::vector<TrialsByPlace>(columns.levels.size()));
+  HeatMap map{row, column, {}};
+  map.cells.assign(rows.levels.size(), std::vector<MapCell>(columns.levels.size()));
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (!rows.level_of[i] || !columns.level_of[i]) continue;
+    ++map.cells[*rows.level_of[i]][*columns.level_of[i]].settings;
+    add_trials(settings[i].trials, trials[*rows.level_of[i]][*columns.level_of[i]]);
+  }
+  for (std::size_t r = 0; r < trials.size(); ++r) {
+    for (std::size_t c = 0; c < trials[r].size(); ++c) {
+      map.cells[r][c].trials = count_trials(trials[r][c]);
+      map.cells[r][c].success = success_of(trials[r][c]);
+    }
+  }
+  return map;
+}
+
+}  // namespace glocal

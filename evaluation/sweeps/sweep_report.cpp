@@ -1,0 +1,286 @@
+#include "evaluation/sweeps/sweep_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "config/nearest.hpp"
+#include "evaluation/results/report_blocks.hpp"
+
+namespace glocal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Of the settings that were chosen, so many are shown where they are judged.
+constexpr std::size_t most_judged = 5;
+
+std::string rate(const Proportion& p) {
+  return fmt::format("{:.1f} ({:.1f} to {:.1f})", 100.0 * p.value, 100.0 * p.low, 100.0 * p.high);
+}
+
+/// Adding 0 turns -0 into 0.
+std::string points(double share) {
+  return fmt::format("{:.1f}", 100.0 * share + 0.0);
+}
+
+std::string name_of(const SettingResult& setting) {
+  return (setting.name.empty() ? "(the experiment)" : setting.name) + (setting.complete ? "" : " *");
+}
+
+std::string steps_cell(const SettingOutcome& outcome) {
+  return outcome.median_steps ? fmt::format("{:g}", *outcome.median_steps) : "-";
+}
+
+std::vector<std::string> outcome_cells(const SettingOutcome& o) {
+  return {std::to_string(o.trials),
+          std::to_string(o.right),
+          std::to_string(o.wrong),
+          std::to_string(o.trials - o.right - o.wrong),
+          rate(o.success),
+          points(o.score()),
+          steps_cell(o)};
+}
+
+const std::vector<std::string>& outcome_columns() {
+  static const std::vector<std::string> columns = {"trials",  "right", "wrong", "undecided",
+                                                   "%, 95 %", "score", "steps"};
+  return columns;
+}
+
+Table settings_table(const SweepAnalysis& analysis, std::size_t most) {
+  Table table{{"setting"}, {}};
+  table.header.insert(table.header.end(), outcome_columns().begin(), outcome_columns().end());
+  for (std::size_t i = 0; i < std::min(most, analysis.settings.size()); ++i) {
+    const SettingResult& setting = analysis.settings[i];
+    table.rows.push_back({name_of(setting)});
+    for (std::string& cell : outcome_cells(setting.chosen)) table.rows.back().push_back(std::move(cell));
+  }
+  return table;
+}
+
+Table judged_table(const SweepAnalysis& analysis) {
+  Table table{{"setting", "chosen by: %, 95 %", "wrong", "judged: %, 95 %", "right", "wrong", "trials"}, {}};
+  for (const SettingResult& setting : analysis.settings) {
+    if (table.rows.size() == most_judged) break;
+    if (!setting.judged) continue;
+    const SettingOutcome& judged = *setting.judged;
+    table.rows.push_back({name_of(setting), rate(setting.chosen.success),
+                          std::to_string(setting.chosen.wrong), rate(judged.success),
+                          std::to_string(judged.right), std::to_string(judged.wrong),
+                          std::to_string(judged.trials)});
+  }
+  return table;
+}
+
+Table effect_table(const ParameterEffect& effect) {
+  Table table{{effect.label, "settings", "trials", "right, %, 95 %"}, {}};
+  for (const ParameterLevel& level : effect.levels) {
+    table.rows.push_back({level.label, std::to_string(level.settings), std::to_string(level.trials),
+                          level.trials == 0 ? "-" : rate(level.success)});
+  }
+  return table;
+}
+
+std::string effect_heading(const ParameterEffect& effect) {
+  return fmt::format(
+      "{}: {} points from the worst to the best{}{}", effect.path, points(effect.range),
+      effect.is_binned ? ", by quarters of its values" : "",
+      effect.spearman ? fmt::format("; rank correlation {:+.2f}", *effect.spearman + 0.0) : "");
+}
+
+/// "83 ####.": in print, and for whoever cannot tell colours apart, too.
+std::string map_cell(const MapCell& cell) {
+  if (cell.trials == 0) return "-      ";
+  constexpr int most = 5;
+  const int length = static_cast<int>(std::lround(most * cell.success.value));
+  return fmt::format("{:.0f} {:#<{}}{:.<{}}", 100.0 * cell.success.value, "", length, "", most - length);
+}
+
+Table map_table(const HeatMap& map, const std::vector<ParameterEffect>& effects) {
+  const ParameterEffect& rows = effects[map.row];
+  const ParameterEffect& columns = effects[map.column];
+  Table table{{rows.label + " \\ " + columns.label}, {}};
+  for (const ParameterLevel& level : columns.levels) table.header.push_back(level.label);
+  for (std::size_t r = 0; r < rows.levels.size(); ++r) {
+    table.rows.push_back({rows.levels[r].label});
+    for (const MapCell& cell : map.cells[r]) table.rows.back().push_back(map_cell(cell));
+  }
+  return table;
+}
+
+std::string cases_text(const std::vector<std::string>& cases) {
+  return cases.empty() ? "all runs" : join(cases);
+}
+
+/// "3 settings", "1 setting".
+std::string counted(std::size_t n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+std::string heading(const SweepAnalysis& a) {
+  const std::size_t cases = a.choose_on.size() + a.judge_on.size();
+  return fmt::format("{}: {}, {}, {}{}", a.experiment, counted(a.runs, "run"),
+                     counted(a.settings.size(), "setting"), counted(a.seeds.size(), "seed"),
+                     cases == 0 ? "" : ", " + counted(cases, "case"));
+}
+
+std::optional<std::string> chance_warning(const SweepAnalysis& a) {
+  if (!a.chance) return std::nullopt;
+  const ChanceOfBest& c = *a.chance;
+  const bool is_more = c.lead > c.high;
+  return fmt::format(
+      "{} was chosen among {} settings by the very {} starts that its numbers are of, so they flatter it. "
+      "Its "
+      "score is {} points over the mean of all settings. The best of {} equal ones would be {} points over "
+      "it by "
+      "chance, and {} in 5 % of all cases. {}",
+      name_of(a.settings.front()), c.settings, c.starts, points(c.lead), c.settings, points(c.expected),
+      points(c.high),
+      is_more ? "So there is more to it than chance, but part of the lead will not last."
+              : "So all settings may be equally good.");
+}
+
+std::string report_advice(const SweepAnalysis& a) {
+  const auto& best = a.settings.front();
+  if (best.judged)
+    return fmt::format(
+        "The number to report is that of {}, where nothing was chosen: {} is right in {} %, with {} of {} "
+        "trials wrong.",
+        join(a.judge_on), name_of(best), rate(best.judged->success), best.judged->wrong, best.judged->trials);
+  if (!a.judge_on.empty())
+    return fmt::format("{} has not been run on {} yet.", name_of(best), join(a.judge_on));
+  return "Judge the best by other logs or worlds (judge_on), and report what comes of that.";
+}
+
+Json to_json(const Proportion& p) {
+  return {{"value", p.value}, {"low", p.low}, {"high", p.high}};
+}
+
+Json to_json(const SettingOutcome& o) {
+  Json json = {{"trials", o.trials},
+               {"right", o.right},
+               {"wrong", o.wrong},
+               {"undecided", o.trials - o.right - o.wrong},
+               {"success_rate", to_json(o.success)},
+               {"false_rate", to_json(o.false_rate)},
+               {"score", o.score()}};
+  if (o.median_steps) json["median_steps"] = *o.median_steps;
+  return json;
+}
+
+Json to_json(const SettingResult& s) {
+  Json values = Json::object();
+  for (const auto& [path, value] : s.values) values[path] = value;
+  Json json = {
+      {"setting", s.name}, {"values", values}, {"complete", s.complete}, {"chosen", to_json(s.chosen)}};
+  if (s.judged) json["judged"] = to_json(*s.judged);
+  return json;
+}
+
+Json to_json(const ParameterEffect& e) {
+  Json levels = Json::array();
+  for (const ParameterLevel& level : e.levels) {
+    levels.push_back({{"label", level.label},
+                      {"settings", level.settings},
+                      {"trials", level.trials},
+                      {"success_rate", to_json(level.success)}});
+  }
+  Json json = {{"path", e.path}, {"label", e.label}, {"quarters", e.is_binned}, {"range", e.range}};
+  if (e.spearman) json["spearman"] = *e.spearman;
+  json["levels"] = std::move(levels);
+  return json;
+}
+
+Json to_json(const HeatMap& map, const std::vector<ParameterEffect>& effects) {
+  Json cells = Json::array();
+  for (const auto& row : map.cells) {
+    Json list = Json::array();
+    for (const MapCell& cell : row)
+      list.push_back(
+          {{"settings", cell.settings}, {"trials", cell.trials}, {"success_rate", to_json(cell.success)}});
+    cells.push_back(std::move(list));
+  }
+  const auto axis = [&](std::size_t i) {
+    Json labels = Json::array();
+    for (const ParameterLevel& level : effects[i].levels) labels.push_back(level.label);
+    return Json{{"path", effects[i].path}, {"label", effects[i].label}, {"levels", std::move(labels)}};
+  };
+  return {{"rows", axis(map.row)}, {"columns", axis(map.column)}, {"cells", std::move(cells)}};
+}
+
+Json to_json(const ChanceOfBest& c) {
+  return {{"settings", c.settings}, {"starts", c.starts}, {"lead", c.lead},          {"expected", c.expected},
+          {"high", c.high},         {"share", c.share},   {"resamples", c.resamples}};
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const SweepAnalysis& a) {
+  std::vector<std::string> warnings;
+  if (!a.incomplete.empty())
+    warnings.push_back(
+        fmt::format("{} without all trials, of interrupted runs: {}. Run the same command again.",
+                    counted(a.incomplete.size(), "run"), join(a.incomplete)));
+  const auto missing =
+      std::count_if(a.settings.begin(), a.settings.end(), [](const SettingResult& s) { return !s.complete; });
+  if (missing > 0)
+    warnings.push_back(
+        fmt::format("{} without all cases, seeds or trials, marked with *: listed last, and never "
+                    "the best.",
+                    counted(static_cast<std::size_t>(missing), "setting")));
+  if (a.settings.size() < 2 || !a.settings.front().complete) return warnings;
+  if (const auto chance = chance_warning(a)) warnings.push_back(*chance);
+  warnings.push_back(report_advice(a));
+  return warnings;
+}
+
+std::string text_report(const SweepAnalysis& analysis, std::size_t most_settings) {
+  Report report;
+  report.emplace_back(Heading{heading(analysis)});
+  if (const auto warnings = warnings_of(analysis); !warnings.empty()) report.emplace_back(List{warnings});
+  report.emplace_back(Heading{"Settings, best first, by " + cases_text(analysis.choose_on)});
+  report.emplace_back(settings_table(analysis, most_settings));
+  if (analysis.settings.size() > most_settings)
+    report.emplace_back(Paragraph{fmt::format("{} more; --top {} shows all.",
+                                              counted(analysis.settings.size() - most_settings, "setting"),
+                                              analysis.settings.size())});
+  if (!analysis.judge_on.empty()) {
+    report.emplace_back(Heading{"The best of these, judged by " + join(analysis.judge_on)});
+    report.emplace_back(judged_table(analysis));
+  }
+  for (const ParameterEffect& effect : analysis.effects) {
+    report.emplace_back(Heading{effect_heading(effect)});
+    report.emplace_back(effect_table(effect));
+  }
+  if (analysis.map) {
+    report.emplace_back(Heading{"Right trials, %, by two parameters"});
+    report.emplace_back(map_table(*analysis.map, analysis.effects));
+  }
+  report.emplace_back(Heading{"How to read this"});
+  report.emplace_back(Paragraph{
+      "Score: right less wrong trials, in percentage points of all. Settings are ranked by it, then by fewer "
+      "steps to localize (median of right trials). Intervals are Wilson's for as many independent trials as "
+      "tell "
+      "as much as these, since trials at one place tend to end alike. What a parameter does is the mean over "
+      "all "
+      "else that varies."});
+  return as_text(report);
+}
+
+Json to_json(const SweepAnalysis& a) {
+  Json json = {{"experiment", a.experiment}, {"runs", a.runs},   {"choose_on", a.choose_on},
+               {"judge_on", a.judge_on},     {"seeds", a.seeds}, {"incomplete", a.incomplete},
+               {"warnings", warnings_of(a)}};
+  for (const char* key : {"settings", "effects"}) json[key] = Json::array();
+  for (const SettingResult& setting : a.settings) json["settings"].push_back(to_json(setting));
+  for (const ParameterEffect& effect : a.effects) json["effects"].push_back(to_json(effect));
+  if (a.map) json["map"] = to_json(*a.map, a.effects);
+  if (a.chance) json["chance"] = to_json(*a.chance);
+  return json;
+}
+
+}  // namespace glocal

@@ -1,0 +1,122 @@
+// glocal sweep.
+#include <gmock/gmock.h>
+
+#include "app/result_lines.hpp"
+#include "app/room.hpp"
+
+namespace glocal::test::sweep_command_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A trial each: r, w or u; right ones take 3 steps.
+std::vector<nlohmann::json> outcomes(const std::string& letters) {
+  std::vector<nlohmann::json> trials;
+  for (const char letter : letters) {
+    const char* name = letter == 'r' ? "right" : letter == 'w' ? "wrong" : "undecided";
+    trials.push_back({{"outcome", name}, {"steps", 3}});
+  }
+  return trials;
+}
+
+class SweepCommand : public Room {
+ protected:
+  SweepCommand() {
+    write_experiment("trials: {every_scan: 9, max_steps: 1}\n",
+                     "variants:\n"
+                     "  grid:\n"
+                     "    localizer.matcher.ransam.iterations: [100, 200]\n"
+                     "    localizer.matcher.ransam.min_side: [0.5, 1]\n"
+                     "choose_on: {near: {}}\n"
+                     "judge_on: {far: {trials.every_scan: 8}}\n"
+                     "seeds: 1..2\n"
+                     "output: {steps: false, maps: none}\n");
+    EXPECT_EQ(run_room("all").exit_code, 0);
+  }
+
+  /// Puts these outcomes in place of those of all seeds of a setting.
+  void set_outcomes(const std::string& setting, const std::string& near, const std::string& far) const {
+    for (const char* seed : {"_seed-1", "_seed-2"}) {
+      replace_lines(file("all/" + setting + "_near" + seed), outcomes(near), {});
+      replace_lines(file("all/" + setting + "_far" + seed), outcomes(far), {});
+    }
+  }
+
+  void set_all_outcomes() const {
+    set_outcomes("iterations-100_min_side-0.5", "ruuu", "uu");
+    set_outcomes("iterations-100_min_side-1", "rruu", "ru");
+    set_outcomes("iterations-200_min_side-0.5", "rrru", "uu");
+    set_outcomes("iterations-200_min_side-1", "rrrw", "rr");
+  }
+};
+
+TEST_F(SweepCommand, TellsWhatIsBestAndWhyAndWhatToReport) {
+  set_all_outcomes();
+  const Answer answer = run("sweep " + file("all"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.err, "");
+  EXPECT_THAT(answer.out, HasSubstr("room: 16 runs, 4 settings, 2 seeds, 2 cases\n"));
+  // Twice 3 of 4 right, twice the same: Wilson's interval of 3 of 4.
+  EXPECT_THAT(answer.out, HasSubstr("  setting                      trials  right  wrong  undecided          "
+                                    "    %, 95 %  score  steps\n"
+                                    "  iterations-200_min_side-0.5       8      6      0          2  75.0 "
+                                    "(30.1 to 95.4)   75.0      3\n"));
+  EXPECT_THAT(
+      answer.out,
+      HasSubstr("iterations-200_min_side-1         8      6      2          0  75.0 (30.1 to 95.4)   50.0"));
+  EXPECT_THAT(answer.out,
+              HasSubstr("localizer.matcher.ransam.iterations: 37.5 points from the worst to the best; rank "
+                        "correlation +0.94\n"));
+  EXPECT_THAT(answer.out, HasSubstr("  iterations \\ min_side       0.5         1\n"
+                                    "  100                    25 #....  50 ###..\n"
+                                    "  200                    75 ####.  75 ####.\n"));
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("was chosen among 4 settings"),
+                                HasSubstr("The number to report is that of far")));
+  EXPECT_THAT(answer.out, Not(HasSubstr("*:")));
+}
+
+TEST_F(SweepCommand, HasAllNumbersAsJson) {
+  set_all_outcomes();
+  const Answer answer = run("sweep " + file("all") + " --json --map min_side iterations");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json json = Json::parse(answer.out);
+  EXPECT_EQ(json["settings"][0]["setting"], "iterations-200_min_side-0.5");
+  EXPECT_EQ(json["settings"][0]["values"]["localizer.matcher.ransam.iterations"], "200");
+  EXPECT_EQ(json["settings"][0]["judged"]["right"], 0);
+  EXPECT_EQ(json["settings"][1]["judged"]["right"], 2 * 1);
+  EXPECT_EQ(json["map"]["rows"]["label"], "min_side");
+  EXPECT_EQ(json["map"]["cells"][1][0]["success_rate"]["value"], 0.5);
+  EXPECT_EQ(json["chance"]["starts"], 8);
+  EXPECT_EQ(json["choose_on"].dump(), R"(["near"])");
+  EXPECT_EQ(run("sweep " + file("all") + " --json --map min_side iterations").out, answer.out);
+}
+
+TEST_F(SweepCommand, MarksWhatIsIncomplete) {
+  set_all_outcomes();
+  fs::remove_all(file("all/iterations-200_min_side-0.5_near_seed-2"));
+  const Answer answer = run("sweep " + file("all") + " --top 1");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("1 setting without all cases, seeds or trials, marked with *"),
+                                HasSubstr("\n  3 settings more; --top 4 shows all.\n")));
+  EXPECT_THAT(run("sweep " + file("all")).out, HasSubstr("  iterations-200_min_side-0.5 * "));
+}
+
+TEST_F(SweepCommand, SaysWhatToDoWithOtherFolders) {
+  write_experiment("trials: {every_scan: 9, max_steps: 1}\n");
+  ASSERT_EQ(run_room("alone").exit_code, 0);
+  const Answer alone = run("sweep " + file("alone"));
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_EQ(alone.err,
+            file("alone/provenance.json") +
+                ": error: does not say which setting these results are of; name a folder that glocal run "
+                "has left of an experiment with variants, seeds or cases\n1 error\n");
+  EXPECT_EQ(run("sweep " + file("nowhere")).exit_code, 2);
+  const Answer unknown = run("sweep " + file("all") + " --map iteration min_side");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("--map iteration: error: no such parameter varies"));
+}
+
+}  // namespace
+}  // namespace glocal::test::sweep_command_test
