@@ -58,21 +58,21 @@ class Supervisor {
 
  private:
   struct Open {
-    std::vector<TrialPlace> fresh;
-    std::vector<TrialPlace> crashed;  ///< Each has ended a process.
+    std::vector<PlannedTrial> fresh;
+    std::vector<PlannedTrial> crashed;  ///< Each has ended a process.
   };
 
-  [[nodiscard]] TrialId id(const TrialPlace& place) const {
+  [[nodiscard]] TrialId id(const PlannedTrial& place) const {
     return id_of(manifest_.variants[place.variant], place.trial,
                  manifest_.starts_of(place.variant)[place.trial]);
   }
-  [[nodiscard]] std::size_t crashes_of(const TrialPlace& place) const;
+  [[nodiscard]] std::size_t crashes_of(const PlannedTrial& place) const;
   [[nodiscard]] Open open() const;
   [[nodiscard]] bool any_failed() const;
-  std::optional<int> run_process(const std::vector<TrialPlace>& trials);
-  int work(const std::vector<TrialPlace>& trials, ShardJournal& journal);
-  void note_death(const ChildEnd& end, const std::vector<TrialPlace>& trials, ShardJournal& journal);
-  void note_crash(const ChildEnd& end, const std::vector<TrialPlace>& suspects, ShardJournal& journal);
+  std::optional<int> run_process(const std::vector<PlannedTrial>& trials);
+  int work(const std::vector<PlannedTrial>& trials, ShardJournal& journal);
+  void note_death(const ChildEnd& end, const std::vector<PlannedTrial>& trials, ShardJournal& journal);
+  void note_crash(const ChildEnd& end, const std::vector<PlannedTrial>& suspects, ShardJournal& journal);
   void note_kill(int signal);
 
   std::vector<Variant> variants_;
@@ -82,19 +82,19 @@ class Supervisor {
   bool quiet_;
   const Context& context_;
   JournalScan scan_;
-  std::vector<TrialPlace> share_;
+  std::vector<PlannedTrial> share_;
   std::size_t kills_ = 0;  ///< Of processes one after the other that have finished nothing.
   std::size_t finished_before_ = 0;
 };
 
-std::size_t Supervisor::crashes_of(const TrialPlace& place) const {
+std::size_t Supervisor::crashes_of(const PlannedTrial& place) const {
   const auto crashes = scan_.crashes().find(id(place));
   return crashes == scan_.crashes().end() ? 0 : crashes->second.size();
 }
 
 Supervisor::Open Supervisor::open() const {
   Open open;
-  for (const TrialPlace& place : share_) {
+  for (const PlannedTrial& place : share_) {
     if (scan_.finished().contains(id(place))) continue;
     const std::size_t crashes = crashes_of(place);
     if (crashes == 0) open.fresh.push_back(place);
@@ -104,7 +104,7 @@ Supervisor::Open Supervisor::open() const {
 }
 
 bool Supervisor::any_failed() const {
-  return std::any_of(share_.begin(), share_.end(), [&](const TrialPlace& place) {
+  return std::any_of(share_.begin(), share_.end(), [&](const PlannedTrial& place) {
     const auto finished = scan_.finished().find(id(place));
     return finished == scan_.finished().end() || finished->second.outcome == Outcome::failed;
   });
@@ -119,7 +119,7 @@ int Supervisor::run() {
   }
   for (; !todo.fresh.empty() || !todo.crashed.empty(); todo = open()) {
     // One that has crashed is tried once more alone, so that it takes no others with it.
-    const std::vector<TrialPlace> trials =
+    const std::vector<PlannedTrial> trials =
         todo.fresh.empty() ? std::vector{todo.crashed.front()} : std::move(todo.fresh);
     if (const auto code = run_process(trials)) return *code;
   }
@@ -127,7 +127,7 @@ int Supervisor::run() {
 }
 
 /// None if there may be more to do.
-std::optional<int> Supervisor::run_process(const std::vector<TrialPlace>& trials) {
+std::optional<int> Supervisor::run_process(const std::vector<PlannedTrial>& trials) {
   ShardJournal journal(journals_folder(options_.out), shard_, options_.jobs);
   const ChildEnd end = run_in_child([&] { return work(trials, journal); }, [&] { journal.touch(); });
   journal.drop_torn_line();
@@ -141,7 +141,7 @@ std::optional<int> Supervisor::run_process(const std::vector<TrialPlace>& trials
 }
 
 /// In the child.
-int Supervisor::work(const std::vector<TrialPlace>& trials, ShardJournal& journal) {
+int Supervisor::work(const std::vector<PlannedTrial>& trials, ShardJournal& journal) {
   Progress progress(!quiet_, trials.size());
   std::size_t longest = 1;
   ShardCallbacks callbacks;
@@ -166,10 +166,10 @@ int Supervisor::work(const std::vector<TrialPlace>& trials, ShardJournal& journa
              : incomplete;
 }
 
-void Supervisor::note_death(const ChildEnd& end, const std::vector<TrialPlace>& trials,
+void Supervisor::note_death(const ChildEnd& end, const std::vector<PlannedTrial>& trials,
                             ShardJournal& journal) {
-  std::vector<TrialPlace> running;
-  for (const TrialPlace& place : trials) {
+  std::vector<PlannedTrial> running;
+  for (const PlannedTrial& place : trials) {
     const auto begun = scan_.begun().find(id(place));
     if (begun != scan_.begun().end() && scan_.journals()[begun->second.journal].file == journal.file())
       running.push_back(place);
@@ -182,16 +182,16 @@ void Supervisor::note_death(const ChildEnd& end, const std::vector<TrialPlace>& 
 }
 
 /// Where the crash says which trial it was, those beside it are not to blame.
-void Supervisor::note_crash(const ChildEnd& end, const std::vector<TrialPlace>& running,
+void Supervisor::note_crash(const ChildEnd& end, const std::vector<PlannedTrial>& running,
                             ShardJournal& journal) {
-  const auto is_named = [&](const TrialPlace& place) {
+  const auto is_named = [&](const PlannedTrial& place) {
     return end.crash && end.crash->trial && *end.crash->trial == place.trial;
   };
   const bool any_named = std::any_of(running.begin(), running.end(), is_named);
   const Crash crash{signal_name(end.signal) + (end.out_of_memory ? ", memory ran out" : ""),
                     end.crash ? end.crash->where : ""};
   bool any = false;
-  for (const TrialPlace& place : running) {
+  for (const PlannedTrial& place : running) {
     if (any_named && !is_named(place)) continue;
     any = true;
     journal.add_crash(id(place), crash);

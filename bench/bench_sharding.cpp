@@ -90,7 +90,7 @@ void write_journals(const fs::path& folder, const Manifest& manifest) {
   for (std::size_t k = 1; k <= shards; ++k) {
     ShardJournal journal(journals_folder(folder), {k, shards}, 1);
     std::size_t variant = variants;
-    for (const TrialPlace& place : share_of(steps, {k, shards})) {
+    for (const PlannedTrial& place : share_of(steps, {k, shards})) {
       const PlannedVariant& planned = manifest.variants[place.variant];
       if (place.variant != variant) journal.add_variant(planned.identity, description());
       variant = place.variant;

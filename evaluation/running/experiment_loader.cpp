@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "evaluation/running/elapsed.hpp"
 #include "evaluation/running/reference_fit.hpp"
 #include "glocal/error.hpp"
 #include "pipeline/stage_contracts.hpp"
@@ -69,8 +70,7 @@ LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& ca
       .progress = progress};
   const auto start = std::chrono::steady_clock::now();
   loaded.map = std::make_shared<const GlobalMap>(load_map(experiment, catalog, setup));
-  loaded.map_build_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  loaded.map_build_ms = ms_since(start);
   loaded.drive = load_drive(experiment, catalog, setup);
   const auto doubt =
       doubt_of_references(loaded.drive, *loaded.map, contact_epsilon_on(*loaded.map, experiment.localizer));

@@ -12,6 +12,7 @@
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/results/run_results.hpp"
+#include "evaluation/running/elapsed.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -35,10 +36,6 @@ bool is_unfinished(const std::filesystem::path& folder, bool is_final) {
   if (std::filesystem::exists(folder / journal_folder)) return true;
   const std::optional<bool> complete = is_complete(folder);
   return is_final ? complete == false : complete.has_value();
-}
-
-double ms_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "evaluation/results/summary.hpp"
 #include "evaluation/results/trial_output.hpp"
 #include "evaluation/results/writers.hpp"
+#include "evaluation/running/elapsed.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -20,10 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /// One process of a shard.
 class ShardWorker {
@@ -144,10 +141,10 @@ Json ShardWorker::description(Variant& variant, const LoadedExperiment& loaded, 
 }  // namespace
 
 bool run_shard_trials(std::vector<Variant>& variants, const Manifest& manifest,
-                      const std::vector<TrialPlace>& trials, const Catalog& catalog,
+                      const std::vector<PlannedTrial>& trials, const Catalog& catalog,
                       const RunOptions& options, ShardJournal& journal, const ShardCallbacks& callbacks) {
   std::map<std::size_t, std::vector<std::size_t>> of_variants;
-  for (const TrialPlace& place : trials) of_variants[place.variant].push_back(place.trial);
+  for (const PlannedTrial& place : trials) of_variants[place.variant].push_back(place.trial);
   ShardWorker worker(manifest, catalog, options, journal, callbacks);
   for (const std::size_t i : loading_order(variants, catalog)) {
     const auto place = manifest.place_of(variants[i].name);

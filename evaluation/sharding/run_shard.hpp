@@ -27,7 +27,7 @@ struct ShardCallbacks {
 /// the journal what they come to; false if stopped before the last. Throws ConfigError if an input file is
 /// not what it was when the manifest was made, and RunError if the journal cannot be written.
 bool run_shard_trials(std::vector<Variant>& variants, const Manifest& manifest,
-                      const std::vector<TrialPlace>& trials, const Catalog& catalog,
+                      const std::vector<PlannedTrial>& trials, const Catalog& catalog,
                       const RunOptions& options, ShardJournal& journal, const ShardCallbacks& callbacks);
 
 }  // namespace glocal

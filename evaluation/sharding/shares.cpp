@@ -22,9 +22,9 @@ using Load = std::tuple<std::size_t, std::size_t, std::size_t>;
 
 }  // namespace
 
-std::vector<TrialPlace> share_of(const std::vector<std::vector<std::size_t>>& steps, const Shard& shard) {
+std::vector<PlannedTrial> share_of(const std::vector<std::vector<std::size_t>>& steps, const Shard& shard) {
   std::vector<std::size_t> all(shard.of, 0);  // Steps of each shard.
-  std::vector<TrialPlace> share;
+  std::vector<PlannedTrial> share;
   for (std::size_t variant = 0; variant < steps.size(); ++variant) {
     std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
     for (std::size_t k = 0; k < shard.of; ++k) loads.emplace(0, all[k], k);
@@ -37,7 +37,7 @@ std::vector<TrialPlace> share_of(const std::vector<std::vector<std::size_t>>& st
       if (k + 1 == shard.number) share.push_back({variant, trial});
     }
     std::sort(share.begin() + static_cast<std::ptrdiff_t>(begin), share.end(),
-              [](const TrialPlace& a, const TrialPlace& b) { return a.trial < b.trial; });
+              [](const PlannedTrial& a, const PlannedTrial& b) { return a.trial < b.trial; });
   }
   return share;
 }

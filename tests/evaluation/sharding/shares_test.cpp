@@ -14,10 +14,10 @@ using testing::ElementsAre;
 
 using Steps = std::vector<std::vector<std::size_t>>;
 
-std::size_t steps_of(const std::vector<TrialPlace>& share, const Steps& steps) {
+std::size_t steps_of(const std::vector<PlannedTrial>& share, const Steps& steps) {
   return std::accumulate(
       share.begin(), share.end(), std::size_t{0},
-      [&](std::size_t sum, const TrialPlace& place) { return sum + steps[place.variant][place.trial]; });
+      [&](std::size_t sum, const PlannedTrial& place) { return sum + steps[place.variant][place.trial]; });
 }
 
 /// Trials of many lengths, as numbers that no rule has chosen.
@@ -36,8 +36,9 @@ Steps uneven_steps(std::size_t variants, std::size_t trials) {
 TEST(Shares, TheLongestTrialGoesToWhoHasTheLeast) {
   // By hand: 9 to the first, 7 to the second, 5 to the second (12), 4 to the first (13), 1 to the second.
   const Steps steps = {{4, 9, 5, 1, 7}};
-  EXPECT_THAT(share_of(steps, {1, 2}), ElementsAre(TrialPlace{0, 0}, TrialPlace{0, 1}));
-  EXPECT_THAT(share_of(steps, {2, 2}), ElementsAre(TrialPlace{0, 2}, TrialPlace{0, 3}, TrialPlace{0, 4}));
+  EXPECT_THAT(share_of(steps, {1, 2}), ElementsAre(PlannedTrial{0, 0}, PlannedTrial{0, 1}));
+  EXPECT_THAT(share_of(steps, {2, 2}),
+              ElementsAre(PlannedTrial{0, 2}, PlannedTrial{0, 3}, PlannedTrial{0, 4}));
 }
 
 TEST(Shares, EachTrialIsInOne) {
@@ -45,7 +46,7 @@ TEST(Shares, EachTrialIsInOne) {
     const Steps steps = uneven_steps(5, 40);
     std::map<std::pair<std::size_t, std::size_t>, int> times;
     for (std::size_t k = 1; k <= shards; ++k) {
-      for (const TrialPlace& place : share_of(steps, {k, shards})) ++times[{place.variant, place.trial}];
+      for (const PlannedTrial& place : share_of(steps, {k, shards})) ++times[{place.variant, place.trial}];
     }
     EXPECT_EQ(times.size(), 200U);
     EXPECT_TRUE(std::all_of(times.begin(), times.end(), [](const auto& t) { return t.second == 1; }));
@@ -62,7 +63,7 @@ TEST(Shares, AreEvenInAllAndInEachVariant) {
     for (std::size_t k = 1; k <= shards; ++k) {
       auto share = share_of(steps, {k, shards});
       if (variant == 0) in_all.push_back(steps_of(share, steps));
-      std::erase_if(share, [&](const TrialPlace& place) { return place.variant != variant; });
+      std::erase_if(share, [&](const PlannedTrial& place) { return place.variant != variant; });
       sums.push_back(steps_of(share, steps));
     }
     const auto [least, most] = std::minmax_element(sums.begin(), sums.end());
