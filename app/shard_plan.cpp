@@ -25,7 +25,8 @@ std::optional<Manifest> planned_shards(std::vector<Variant>& variants, const std
     FileHashes hashes;
     const Manifest here = sketch_of(variants, file, plugins, context.catalog, hashes);
     Manifest there = read_manifest(shared);
-    if (auto faults = differences(there, here, shared); !faults.empty()) throw ConfigError(std::move(faults));
+    if (auto faults = differences(there, here, variants, context.catalog, shared); !faults.empty())
+      throw ConfigError(std::move(faults));
     if (!has_more_variants(there, here)) return there;
   } else {
     check_free(shared);

@@ -23,22 +23,25 @@ using Json = nlohmann::ordered_json;
 
 constexpr int manifest_format = 1;
 
-/// Values that results do not follow from.
-bool is_of_no_effect(const std::string& path) {
-  return path == "threads" || path.starts_with("plugins");
+using Values = std::map<std::string, std::string>;
+
+/// All that results follow from, but for what is in files: threads change nothing, and plugins count by what
+/// is in them.
+std::string text_of(Experiment experiment, const Catalog& catalog) {
+  experiment.threads = 1;
+  experiment.plugins.clear();
+  return effective_yaml(experiment, catalog);
 }
 
-std::map<std::string, std::string> texts_of(const std::map<std::string, Setting>& settings) {
-  std::map<std::string, std::string> texts;
-  for (const auto& [path, setting] : settings) {
-    if (!is_of_no_effect(path)) texts[path] = setting.text;
-  }
-  return texts;
+Values values_of(const Experiment& experiment, const Catalog& catalog) {
+  Values values;
+  for (const auto& [path, setting] : settings_of(text_of(experiment, catalog), "effective.yaml", {}))
+    values[path] = setting.text;
+  return values;
 }
 
 /// What differs from the first variant's values; null for what is not there.
-Json to_json(const std::map<std::string, std::string>& values,
-             const std::map<std::string, std::string>& first) {
+Json to_json(const Values& values, const Values& first) {
   Json json = Json::object();
   for (const auto& [path, text] : values) {
     const auto other = first.find(path);
@@ -50,7 +53,7 @@ Json to_json(const std::map<std::string, std::string>& values,
   return json;
 }
 
-std::map<std::string, std::string> values_of(const Json& json, std::map<std::string, std::string> first) {
+Values values_of(const Json& json, Values first) {
   for (const auto& [path, text] : json.items()) {
     if (text.is_null()) {
       first.erase(path);
@@ -87,6 +90,7 @@ Json to_json(const Manifest& manifest) {
   for (const PlannedVariant& v : manifest.variants) {
     variants.push_back({{"name", v.name},
                         {"identity", v.identity},
+                        {"text", v.text},
                         {"values", to_json(v.values, first)},
                         {"inputs", v.inputs},
                         {"starts", v.starts},
@@ -115,8 +119,9 @@ Manifest manifest_of(const Json& json) {
   for (const Json& list : json.at("starts")) manifest.starts.push_back(starts_of(list));
   const std::map<std::string, std::string> first = json.at("values");
   for (const Json& v : json.at("variants")) {
-    manifest.variants.push_back({v.at("name"), v.at("identity"), values_of(v.at("values"), first),
-                                 v.at("inputs"), whole_number(v, "starts"), v.at("origin")});
+    manifest.variants.push_back({v.at("name"), v.at("identity"), v.at("text"),
+                                 values_of(v.at("values"), first), v.at("inputs"), whole_number(v, "starts"),
+                                 v.at("origin")});
     const PlannedVariant& variant = manifest.variants.back();
     static_cast<void>(manifest.starts.at(variant.starts));
     if (!variant.name.empty() && !is_folder_name(variant.name))
@@ -152,14 +157,14 @@ std::string values_without_seed(const PlannedVariant& variant) {
 }
 
 /// "localizer.matcher.ransam.iterations is 50000 there and 200000 here", of a few values.
-std::string difference(const PlannedVariant& there, const PlannedVariant& here) {
+std::string difference(const Values& there, const Values& here) {
   constexpr std::size_t most = 5;
   std::set<std::string> paths;
-  for (const auto& [path, text] : there.values) paths.insert(path);
-  for (const auto& [path, text] : here.values) paths.insert(path);
-  const auto text_in = [](const PlannedVariant& variant, const std::string& path) {
-    const auto found = variant.values.find(path);
-    return found == variant.values.end() ? std::string("not given") : found->second;
+  for (const auto& [path, text] : there) paths.insert(path);
+  for (const auto& [path, text] : here) paths.insert(path);
+  const auto text_in = [](const Values& values, const std::string& path) {
+    const auto found = values.find(path);
+    return found == values.end() ? std::string("not given") : found->second;
   };
   std::string text;
   std::size_t n = 0;
@@ -174,11 +179,10 @@ std::string difference(const PlannedVariant& there, const PlannedVariant& here) 
 
 }  // namespace
 
-std::optional<std::size_t> Manifest::place_of(const std::string& variant) const {
-  const auto found = std::find_if(variants.begin(), variants.end(),
-                                  [&](const PlannedVariant& v) { return v.name == variant; });
-  if (found == variants.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - variants.begin());
+std::map<std::string, std::size_t> places_of(const Manifest& manifest) {
+  std::map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < manifest.variants.size(); ++i) places[manifest.variants[i].name] = i;
+  return places;
 }
 
 std::size_t Manifest::count_trials() const {
@@ -205,7 +209,7 @@ TrialId id_of(const PlannedVariant& variant, std::size_t trial, const PlannedSta
   return trial_id_of(std::string_view(hash).substr(0, 32));
 }
 
-std::string identity_of(Experiment& experiment, const std::set<fs::path>& inputs,
+std::string identity_of(const Experiment& experiment, const std::set<fs::path>& inputs,
                         const std::vector<fs::path>& plugins, const Catalog& catalog, FileHashes& hashes) {
   std::map<std::string, std::string> by_name;
   std::set<std::string> contents;
@@ -215,24 +219,25 @@ std::string identity_of(Experiment& experiment, const std::set<fs::path>& inputs
   }
   for (const fs::path& plugin : plugins) contents.insert(hashes.of(plugin));
   std::string text;
-  for (const auto& [path, setting] :
-       settings_of(effective_yaml(experiment, catalog), "effective.yaml", by_name)) {
-    if (!is_of_no_effect(path)) text += path + "=" + setting.identity + "\n";
-  }
+  for (const auto& [path, setting] : settings_of(text_of(experiment, catalog), "effective.yaml", by_name))
+    text += path + "=" + setting.identity + "\n";
   for (const std::string& content : contents) text += content + "\n";
   return sha256_of_text(text);
 }
 
-Manifest sketch_of(std::vector<Variant>& variants, const fs::path& file, const std::vector<fs::path>& plugins,
-                   const Catalog& catalog, FileHashes& hashes) {
+Manifest sketch_of(const std::vector<Variant>& variants, const fs::path& file,
+                   const std::vector<fs::path>& plugins, const Catalog& catalog, FileHashes& hashes) {
   Manifest manifest;
   manifest.experiment = variants.front().experiment.name;
   manifest.file = fs::absolute(file).string();
   manifest.program = program_identity(hashes);
   for (const fs::path& plugin : plugins) manifest.plugins[plugin.string()] = hashes.of(plugin);
-  for (Variant& variant : variants) {
-    const auto settings = settings_of(effective_yaml(variant.experiment, catalog), file, {});
-    manifest.variants.push_back({variant.name, "", texts_of(settings), {}, 0, origin_json(variant)});
+  for (const Variant& variant : variants) {
+    PlannedVariant planned;
+    planned.name = variant.name;
+    planned.text = sha256_of_text(text_of(variant.experiment, catalog));
+    planned.origin = origin_json(variant);
+    manifest.variants.push_back(std::move(planned));
   }
   return manifest;
 }
@@ -244,6 +249,7 @@ Manifest plan(std::vector<Variant>& variants, const fs::path& file, const std::v
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
     Experiment& experiment = variants[i].experiment;
     PlannedVariant& planned = manifest.variants[i];
+    planned.values = values_of(experiment, catalog);
     const auto [known, is_new] = of_stages.try_emplace(values_without_seed(planned));
     if (is_new) {
       static_cast<void>(make_localizer(experiment, catalog, loaded));
@@ -261,7 +267,10 @@ Manifest plan(std::vector<Variant>& variants, const fs::path& file, const std::v
   return manifest;
 }
 
-std::vector<Fault> differences(const Manifest& there, const Manifest& here, const fs::path& shared) {
+std::vector<Fault> differences(const Manifest& there, const Manifest& here,
+                               const std::vector<Variant>& variants, const Catalog& catalog,
+                               const fs::path& shared) {
+  constexpr std::size_t most = 10;
   std::vector<Fault> faults;
   const auto differ = [&](const std::string& what) {
     faults.push_back({shared.string(), 0, 0,
@@ -273,25 +282,27 @@ std::vector<Fault> differences(const Manifest& there, const Manifest& here, cons
     differ(fmt::format("by another build of the program ({} there, {} here)",
                        there.program.value("revision", ""), here.program.value("revision", "")));
   if (there.plugins != here.plugins) differ("with other plugins, or other versions of them");
+  const auto places = places_of(here);
   for (const PlannedVariant& planned : there.variants) {
-    const auto place = here.place_of(planned.name);
-    if (!place) {
+    if (faults.size() > most) break;
+    const auto place = places.find(planned.name);
+    if (place == places.end()) {
       differ(planned.name.empty() ? "from an experiment without variants"
                                   : fmt::format("with a variant '{}', which is not here", planned.name));
-    } else if (here.variants[*place].values != planned.values) {
+    } else if (here.variants[place->second].text != planned.text) {
       const std::string of = planned.name.empty() ? "" : fmt::format("variant '{}': ", planned.name);
-      differ(of + difference(planned, here.variants[*place]));
-    } else if (here.variants[*place].origin != planned.origin) {
+      differ(of + difference(planned.values, values_of(variants[place->second].experiment, catalog)));
+    } else if (here.variants[place->second].origin != planned.origin) {
       differ(fmt::format("with the variant '{}' as another setting or case", planned.name));
     }
-    if (faults.size() > 10) break;
   }
   return faults;
 }
 
 bool has_more_variants(const Manifest& there, const Manifest& here) {
+  const auto places = places_of(there);
   return std::any_of(here.variants.begin(), here.variants.end(),
-                     [&](const PlannedVariant& v) { return !there.place_of(v.name); });
+                     [&](const PlannedVariant& v) { return !places.contains(v.name); });
 }
 
 void write_manifest(const fs::path& shared, const Manifest& manifest) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,6 +30,7 @@ struct PlannedVariant {
   std::string name;  ///< Empty for an experiment without variants.
   /// Hash of all that its results follow from: values, input files by what is in them, plugins.
   std::string identity;
+  std::string text;                           ///< Hash of the effective experiment, as YAML.
   std::map<std::string, std::string> values;  ///< All of the experiment, as text, by path.
   std::set<std::string> inputs;               ///< Files.
   std::size_t starts = 0;                     ///< Which of the manifest's lists.
@@ -49,10 +49,11 @@ struct Manifest {
   [[nodiscard]] const std::vector<PlannedStart>& starts_of(std::size_t variant) const {
     return starts[variants[variant].starts];
   }
-  /// The place of a variant; none if it is not planned.
-  [[nodiscard]] std::optional<std::size_t> place_of(const std::string& variant) const;
   [[nodiscard]] std::size_t count_trials() const;
 };
+
+/// Of variants by name.
+[[nodiscard]] std::map<std::string, std::size_t> places_of(const Manifest& manifest);
 
 /// Where a shared folder has what shards need, and the journals in there.
 inline constexpr const char* shards_folder = ".shards";
@@ -65,12 +66,14 @@ inline constexpr const char* shards_folder = ".shards";
 [[nodiscard]] TrialId id_of(const PlannedVariant& variant, std::size_t trial, const PlannedStart& start);
 
 /// The hash that PlannedVariant::identity is. Throws RunError if a file cannot be read.
-[[nodiscard]] std::string identity_of(Experiment& experiment, const std::set<std::filesystem::path>& inputs,
+[[nodiscard]] std::string identity_of(const Experiment& experiment,
+                                      const std::set<std::filesystem::path>& inputs,
                                       const std::vector<std::filesystem::path>& plugins,
                                       const Catalog& catalog, FileHashes& hashes);
 
-/// What can be said of variants before anything is loaded: without identities, inputs and starts.
-[[nodiscard]] Manifest sketch_of(std::vector<Variant>& variants, const std::filesystem::path& file,
+/// What can be said of variants before anything is loaded: without identities, values,
+/// inputs and starts.
+[[nodiscard]] Manifest sketch_of(const std::vector<Variant>& variants, const std::filesystem::path& file,
                                  const std::vector<std::filesystem::path>& plugins, const Catalog& catalog,
                                  FileHashes& hashes);
 
@@ -81,8 +84,9 @@ inline constexpr const char* shards_folder = ".shards";
                             ExperimentLoader& loader, FileHashes& hashes);
 
 /// Faults that say how what is asked for differs from what a folder was made for; none if it is the same, or
-/// has more variants.
+/// has more variants. `here` is the sketch of `variants`.
 [[nodiscard]] std::vector<Fault> differences(const Manifest& there, const Manifest& here,
+                                             const std::vector<Variant>& variants, const Catalog& catalog,
                                              const std::filesystem::path& shared);
 
 /// Whether some variant of `here` is not planned there.

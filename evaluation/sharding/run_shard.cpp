@@ -145,12 +145,12 @@ bool run_shard_trials(std::vector<Variant>& variants, const Manifest& manifest,
                       const RunOptions& options, ShardJournal& journal, const ShardCallbacks& callbacks) {
   std::map<std::size_t, std::vector<std::size_t>> of_variants;
   for (const PlannedTrial& place : trials) of_variants[place.variant].push_back(place.trial);
+  const auto places = places_of(manifest);
   ShardWorker worker(manifest, catalog, options, journal, callbacks);
   for (const std::size_t i : loading_order(variants, catalog)) {
-    const auto place = manifest.place_of(variants[i].name);
-    const auto of_variant = place ? of_variants.find(*place) : of_variants.end();
+    const auto of_variant = of_variants.find(places.at(variants[i].name));
     if (of_variant == of_variants.end()) continue;
-    if (callbacks.stop() || !worker.run(variants[i], *place, of_variant->second)) return false;
+    if (callbacks.stop() || !worker.run(variants[i], of_variant->first, of_variant->second)) return false;
   }
   return true;
 }

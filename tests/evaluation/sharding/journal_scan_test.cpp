@@ -24,7 +24,7 @@ constexpr TrialId first{1, 2}, second{3, 0xfedcba9876543210}, third{5, 6};
 TrialOutput output(std::size_t trial) {
   TrialOutput output{{trial, {Outcome::right, 2.0, 1.0 / 3.0}, "a line\n", "some \"steps\"\n"}, {}};
   output.entry.figures.step_ms = {{0.1, 1e-17, 2.0 / 3.0, 4.0, 0.0}};
-  output.files = {{"maps/a.bin", std::string("\0\xff\n\x80", 4)}, {"b.tum", "1 2 3\n"}};
+  output.files = {{"maps/a.bin", std::string("\0\xff\n\x80", 4)}, {"trajectories/b.tum", "1 2 3\n"}};
   return output;
 }
 
