@@ -156,7 +156,8 @@ std::string parallel_script(const ShardedRun& run, const ParallelJob& job) {
       "# glocal submit. Again, for what is missing:\n"
       "#   sh {}\n"
       "cd {} || exit 2\n"
-      "# Shards that ended well, by the joblog, are passed over. What became of the others, the merge says.\n"
+      "# Shards that ended well, by the joblog, are passed over; glocal submit begins a new one. What\n"
+      "# became of the others, the merge says.\n"
       "seq {} | parallel {} sh {} {{}}\n"
       "exec {}\n",
       shards_of(run), run.name, job.hosts.empty() ? "on this machine" : "on several machines",

@@ -257,13 +257,11 @@ void submit_to_parallel(const SubmitOptions& options, Context& context) {
   const fs::path folder = run.out / shards_folder;
   const fs::path script = folder / parallel_file;
   const fs::path hosts = options.hosts.empty() ? fs::path() : fs::absolute(options.hosts).lexically_normal();
-  const std::string text = parallel_script(run, {hosts, options.limit});
-  // The joblog knows shards by their numbers alone.
+  // It knows shards by their numbers alone, and nothing of what the experiment has got since then.
   std::error_code ignored;
-  const std::string shard_text = shard_script(run);
-  if (content_of(script) != text || content_of(folder / shard_file) != shard_text)
-    fs::remove(folder / joblog_file, ignored);
-  write_scripts(folder, {{folder / shard_file, shard_text}, {script, text}});
+  fs::remove(folder / joblog_file, ignored);
+  write_scripts(folder, {{folder / shard_file, shard_script(run)},
+                         {script, parallel_script(run, {hosts, options.limit})}});
   if (options.dry_run) {
     fmt::print("Nothing is run.\n");
     return;

@@ -121,7 +121,8 @@ exec /opt/bin/glocal run /home/me/room.yaml --shard "$1/8" --out /data/room
 # glocal submit. Again, for what is missing:
 #   sh /data/room/.shards/parallel.sh
 cd /data/room/.shards || exit 2
-# Shards that ended well, by the joblog, are passed over. What became of the others, the merge says.
+# Shards that ended well, by the joblog, are passed over; glocal submit begins a new one. What
+# became of the others, the merge says.
 seq 8 | parallel --joblog joblog --resume-failed sh shard.sh {}
 exec /opt/bin/glocal merge /data/room
 )");

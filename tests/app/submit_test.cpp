@@ -214,13 +214,17 @@ TEST_F(Submit, TellsWhatGnuParallelHasNotDone) {
   EXPECT_THAT(answer.err, HasSubstr("of 11 trials are missing"));
 }
 
-TEST_F(Submit, GnuParallelForgetsShardsOfAnotherDivision) {
-  ASSERT_EQ(submit("--parallel --shards 8 --dry-run").exit_code, 0);
-  std::ofstream(file("results/.shards/joblog")) << "shard 1 has ended well\n";
-  ASSERT_EQ(submit("--parallel --shards 8 --dry-run").exit_code, 0);
-  EXPECT_EQ(script("joblog"), "shard 1 has ended well\n");
-  ASSERT_EQ(submit("--parallel --shards 9 --dry-run").exit_code, 0);
-  EXPECT_FALSE(fs::exists(file("results/.shards/joblog")));
+TEST_F(Submit, GnuParallelRunsWhatAnExperimentHasGotSince) {
+  pretend("parallel",
+          "[ $1 = --version ] && echo GNU parallel 20221122 && exit; [ -f joblog ] || { sh shard.sh 1; sh "
+          "shard.sh 2; }; "
+          ">joblog");
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\n", "seeds: [1]\n");
+  ASSERT_EQ(submit("--parallel --shards 2").exit_code, 0);
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\n", "seeds: [1, 2]\n");
+  const Answer answer = submit("--parallel --shards 2");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_TRUE(fs::exists(file("results/seed-2/summary.json")));
 }
 
 }  // namespace
