@@ -9,7 +9,7 @@ without_times() { # from, to: absolute
   (
     cd "$2"
     find . -name summary.json -o -name '*.jsonl' | sort >"$2.files"
-    xargs jq -c '[input_filename, del(.stage_ms, .step_ms, .peak_rss_mb, .map.build_ms, .map.index_ms)]' <"$2.files" >"$2.lines"
+    xargs jq -c '[input_filename, del(.stage_ms, .step_ms, .peak_rss_mb, .map.build_ms, .map.index_ms, .map.index.build_ms)]' <"$2.files" >"$2.lines"
     xargs rm <"$2.files"
     mv "$2.lines" lines
     rm "$2.files"

@@ -10,8 +10,18 @@ work=$(cd "$work" && pwd)
 lab=$work/lab
 fail() { echo "FAILED: $1" >&2; exit 1; }
 
-# Only the build folder may have another name.
-sed -n '/^```bash$/,/^```$/{/^```/!p}' "$root/docs/tutorial.md" | sed "s#\$PWD/build/release#$build#" >"$work/commands"
+# Only the build folder may have another name, and where there is no cluster the section on it is left out.
+. "$root/tests/cluster/slurm.sh"
+leave_out=
+if slurm_is_installed && command -v parallel >/dev/null; then
+  trap stop_slurm EXIT
+  start_slurm
+else
+  echo 'without the section on clusters: Slurm or GNU parallel is missing (scripts/setup --cluster)'
+  leave_out='/^## .* On a cluster$/,/^## Where/d'
+fi
+sed "$leave_out" "$root/docs/tutorial.md" |
+  sed -n '/^```bash$/,/^```$/{/^```/!p}' | sed "s#\$PWD/build/release#$build#" >"$work/commands"
 [ "$(grep -c '^glocal ' "$work/commands")" -gt 10 ] || fail "the page has hardly any commands"
 grep -q "$build" "$work/commands" || fail "the page does not name the build folder"
 (cd "$root" && WORK=$lab bash -euo pipefail "$work/commands") >"$work/said" 2>&1 || { cat "$work/said"; fail "docs/tutorial.md"; }
@@ -49,3 +59,14 @@ jq -e -s 'map(select(.verdict == "localized"))
   fail "the tuned experiment is seldom localized, or wrong"
 jq -e -s 'map(select(.verdict == "unknown_place")) | length > 5 and all(.reference.x > 16.5)' "$lab/results/tuned/steps.jsonl" >/dev/null ||
   fail "the tuned experiment does not notice the room that is not on the map"
+
+# Shards leave what one machine leaves; times are left out as everywhere.
+if [ -d "$lab/results/cluster" ]; then
+  . "$root/scripts/compare_results.sh"
+  for ((i = 0; i < 100; ++i)); do [ -n "$(squeue --noheader)" ] || break; sleep 0.2; done
+  without_times "$lab/results/variants" "$work/variants"
+  for shards in cluster parallel; do
+    without_times "$lab/results/$shards" "$work/$shards"
+    diff -r -x provenance.json "$work/variants" "$work/$shards" >"$work/difference" || fail "$shards: $(head -c 1000 "$work/difference")"
+  done
+fi
