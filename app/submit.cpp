@@ -270,7 +270,8 @@ void submit_to_parallel(const SubmitOptions& options, Context& context) {
   std::fflush(stdout);
   listen_to_interrupts();
   const int code = run_program({"sh", script.string()});
-  context.exit_code = is_interrupted() ? 3 : code;
+  const bool was_ended_by_signal = code > 128;
+  context.exit_code = was_ended_by_signal && is_interrupted() ? 3 : code;
 }
 
 }  // namespace

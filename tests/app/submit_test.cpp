@@ -214,6 +214,17 @@ TEST_F(Submit, TellsWhatGnuParallelHasNotDone) {
   EXPECT_THAT(answer.err, HasSubstr("of 11 trials are missing"));
 }
 
+TEST_F(Submit, CtrlCEndsAllInGoodOrder) {
+  // It reaches the script and glocal, which has started it.
+  pretend(
+      "parallel",
+      "[ $1 = --version ] && echo GNU parallel 20221122 && exit; read -r _ _ _ glocal _ </proc/$PPID/stat; "
+      "kill -INT $PPID $glocal");
+  const Answer answer = submit("--parallel");
+  EXPECT_EQ(answer.exit_code, 3);
+  EXPECT_THAT(answer.err, Not(HasSubstr("missing"))) << "nothing is merged";
+}
+
 TEST_F(Submit, GnuParallelRunsWhatAnExperimentHasGotSince) {
   pretend("parallel",
           "[ $1 = --version ] && echo GNU parallel 20221122 && exit; [ -f joblog ] || { sh shard.sh 1; sh "

@@ -5,7 +5,8 @@ slurm_cores=2
 PATH=$PATH:/usr/sbin:/sbin
 
 slurm_is_installed() {
-  command -v slurmctld slurmd sbatch munged setpriv >/dev/null
+  local program
+  for program in slurmctld slurmd sbatch munged setpriv; do command -v "$program" >/dev/null || return 1; done
 }
 
 free_port() { # below those that the kernel gives away
