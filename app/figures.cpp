@@ -1,4 +1,4 @@
-// glocal figures: the paper's figures, drawn from what runs left.
+// glocal figures: the paper's figures, drawn from what runs left, and what a sweep has taught.
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -9,11 +9,14 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/named_runs.hpp"
 #include "app/programs.hpp"
 #include "app/python.hpp"
 #include "app/results_arguments.hpp"
 #include "config/text_file.hpp"
 #include "evaluation/results/atomic_file.hpp"
+#include "evaluation/sweeps/analysis.hpp"
+#include "evaluation/sweeps/sweep_report.hpp"
 #include "report/figures/figures_input.hpp"
 #include "report/figures/figures_script.hpp"
 
@@ -27,6 +30,7 @@ struct FiguresOptions {
   std::string out;
   std::string python;
   std::size_t trial = 0;
+  bool sweep = false;
   bool force = false;
 };
 
@@ -69,19 +73,50 @@ void write_script(const FiguresOptions& options) {
   files.commit();
 }
 
-void draw_figures(const FiguresOptions& options) {
-  const std::vector<std::string> folders = checked_folders(options);
-  const std::string python = python_with_matplotlib(options.python);
+/// What glocal sweep tells of the one folder.
+std::string checked_sweep(const FiguresOptions& options) {
+  const auto refuse = [](const std::string& folder, const char* why) {
+    throw ConfigError({{folder, 0, 0, why}});
+  };
+  if (options.folders.size() > 1)
+    refuse(options.folders.at(1), "is one folder too many; name that of one sweep");
+  check_out(options);
+  const SweepAnalysis analysis = analyse_sweep(read_sweep(options.folders.front()));
+  if (analysis.effects.empty())
+    refuse(options.folders.front(),
+           "no parameter varies, so that there is nothing to draw; name the folder of an experiment with "
+           "variants.grid, zip or sample");
+  return json_text(analysis);
+}
+
+void run_script(const FiguresOptions& options, const std::string& python,
+                const std::vector<std::string>& input) {
   write_script(options);
-  std::vector<std::string> words = {
-      python, script_of(options), "--out", options.out, "--trial", std::to_string(options.trial), "--"};
-  words.insert(words.end(), folders.begin(), folders.end());
+  std::vector<std::string> words = {python, script_of(options), "--out", options.out};
+  words.insert(words.end(), input.begin(), input.end());
   if (const int code = run_program(words); code != 0) {
     throw RunError(
         fmt::format("{}: ended with exit code {}; no figures were written. If it has been changed, "
                     "--force writes it anew",
                     script_of(options).string(), code));
   }
+}
+
+void draw_figures(const FiguresOptions& options) {
+  if (options.sweep) {
+    const std::string sweep = checked_sweep(options);
+    const std::string python = python_with_matplotlib(options.python);
+    const fs::path file = fs::absolute(options.out) / "sweep.json";
+    AtomicFiles files(true);
+    files.add(file, sweep);
+    files.commit();
+    run_script(options, python, {"--sweep", file});
+    return;
+  }
+  std::vector<std::string> input = {"--trial", std::to_string(options.trial), "--"};
+  const std::vector<std::string> folders = checked_folders(options);
+  input.insert(input.end(), folders.begin(), folders.end());
+  run_script(options, python_with_matplotlib(options.python), input);
 }
 
 }  // namespace
@@ -93,7 +128,12 @@ void add_figures(CLI::App& app, Context& /*context*/) {
   command->add_option("DIR", options->folders, "Folders of results, or folders that hold some")->required();
   command->add_option("-o,--out", options->out, "Folder for the figures and the script that draws them")
       ->required();
-  command->add_option("--trial", options->trial, "Number of the trial, from 0 (default: 0)");
+  CLI::Option* trial =
+      command->add_option("--trial", options->trial, "Number of the trial, from 0 (default: 0)");
+  command
+      ->add_flag("--sweep", options->sweep,
+                 "Draw what glocal sweep tells instead: effects of parameters, and a map of two")
+      ->excludes(trial);
   command->add_option("--python", options->python,
                       "Python with matplotlib (default: python3, or else /usr/bin/python3)");
   command->add_flag("--force", options->force, "Write figures.py anew, and into any folder");

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -29,8 +28,7 @@ void analyse(const SweepOptions& options) {
   if (!options.map.empty()) map = {options.map.at(0), options.map.at(1)};
   const SweepAnalysis analysis = analyse_sweep(runs, map);
   if (options.json) {
-    // Names of folders need not be UTF-8.
-    fmt::print("{}\n", to_json(analysis).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}", json_text(analysis));
   } else {
     fmt::print("{}", text_report(analysis, options.top));
   }

@@ -9,6 +9,8 @@
 
 #include "evaluation/comparison/comparison_writers.hpp"
 #include "evaluation/results/pcd.hpp"
+#include "evaluation/sweeps/analysis.hpp"
+#include "evaluation/sweeps/sweep_report.hpp"
 #include "report/map_points.hpp"
 #include "version.hpp"
 
@@ -151,6 +153,7 @@ Json ReportData::to_json(const std::vector<NamedRun>& runs, std::size_t baseline
   json["runs"] = Json::array();
   for (std::size_t i = 0; i < runs_.size(); ++i) json["runs"].push_back(to_json(runs_[i], runs[i].name));
   if (runs_.size() < 2) return json;
+  if (is_sweep(runs)) json["sweep"] = glocal::to_json(analyse_sweep(runs));
   try {
     json["comparison"] = glocal::to_json(compare(runs, baseline));
   } catch (const ConfigError& error) {

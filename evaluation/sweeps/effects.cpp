@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <set>
 
 #include "config/variants.hpp"
@@ -73,6 +74,14 @@ void use_single_values(const Column& column, ParameterEffect& effect) {
   }
 }
 
+/// Four digits, or all of a larger number.
+std::string edge_text(double edge) {
+  constexpr double large = 1e4;
+  constexpr double too_large = 1e15;
+  const bool is_plain = std::abs(edge) >= large && std::abs(edge) < too_large;
+  return is_plain ? fmt::format("{:.0f}", edge) : fmt::format("{:.4g}", edge);
+}
+
 /// A level for each quarter of the values.
 void use_quarters(const Column& column, ParameterEffect& effect) {
   effect.is_binned = true;
@@ -81,7 +90,7 @@ void use_quarters(const Column& column, ParameterEffect& effect) {
   for (const double p : {0.0, 0.25, 0.5, 0.75, 1.0}) edges.push_back(quantile(numbers, p));
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   for (std::size_t k = 0; k + 1 < edges.size(); ++k)
-    effect.levels.push_back({.label = fmt::format("{:.5g} to {:.5g}", edges[k], edges[k + 1])});
+    effect.levels.push_back({.label = edge_text(edges[k]) + " to " + edge_text(edges[k + 1])});
   for (std::size_t i = 0; i < column.numbers.size(); ++i) {
     if (!column.numbers[i]) continue;
     // An edge belongs to the quarter below it, and the smallest value to the first.

@@ -65,10 +65,12 @@ SweepRun checked_part(const NamedRun& run, const std::string& experiment) {
 }  // namespace
 
 bool is_sweep(const std::vector<NamedRun>& runs) {
-  return std::all_of(runs.begin(), runs.end(), [&](const NamedRun& run) {
-    return run.results.provenance.contains(part_key) &&
-           run.results.experiment == runs.front().results.experiment;
-  });
+  try {
+    static_cast<void>(sweep_of(runs));
+    return true;
+  } catch (const ConfigError&) {
+    return false;
+  }
 }
 
 std::vector<SweepRun> sweep_of(const std::vector<NamedRun>& runs) {

@@ -25,7 +25,7 @@ struct SweepRun {
   const std::map<TrialStart, TrialResult>* trials;          ///< Of the run that this was made of.
 };
 
-/// Whether each of these runs says which part of one experiment it is.
+/// Whether these runs are the parts of one sweep: whether sweep_of() takes them.
 [[nodiscard]] bool is_sweep(const std::vector<NamedRun>& runs);
 
 /// The parts of a sweep, in the order of the runs, which must stay. Throws ConfigError where they are none.

@@ -283,4 +283,8 @@ Json to_json(const SweepAnalysis& a) {
   return json;
 }
 
+std::string json_text(const SweepAnalysis& analysis) {
+  return to_json(analysis).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace glocal

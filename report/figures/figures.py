@@ -2,7 +2,9 @@
 """Draws Fig. 3, 4 and 5 of the paper from folders of results that `glocal run` left.
 
     python3 figures.py DIR... --out FOLDER [--trial N]
+    python3 figures.py --sweep FILE --out FOLDER
 
+The second draws what `glocal sweep --json` has told instead: what each parameter does, and two of them in a map.
 `glocal figures` calls it like this, and keeps the file as it is once it is there: change what you like.
 Needs matplotlib (Debian: python3-matplotlib). The same results give the same bytes.
 """
@@ -466,6 +468,81 @@ def draw_pictures(run):
             yield name, figure
 
 
+# What a sweep has taught.
+
+
+def read_sweep(file):
+    try:
+        sweep = json.loads(file.read_text(encoding="utf-8"))
+    except ValueError as problem:
+        sys.exit(f"{file}: is not what glocal sweep --json prints ({problem})")
+    if not sweep["effects"]:
+        sys.exit(f"{file}: no parameter varies; there is nothing to draw")
+    return sweep
+
+
+def per_cent(rate):
+    """Value, and how far its interval reaches down and up."""
+    return 100 * rate["value"], 100 * (rate["value"] - rate["low"]), 100 * (rate["high"] - rate["value"])
+
+
+def draw_effect(axes, number, effect):
+    """The levels of a parameter, the first on top, with their intervals."""
+    levels = [level for level in effect["levels"] if level["trials"]]
+    for place, level in enumerate(levels):
+        value, down, up = per_cent(level["success_rate"])
+        bar = axes.errorbar(value, place, xerr=[[down], [up]], color=BLUE, marker="o", markersize=3, linewidth=1)
+        bar.lines[0].set_gid(f"effect_{number}_{place}")
+    axes.set_yticks(range(len(levels)), [printable(level["label"]) for level in levels])
+    axes.set(xlim=(-1, 101), ylim=(len(levels) - 0.5, -0.5))
+    # Above, where a long name has room beside few levels.
+    axes.set_title(printable(effect["label"]), loc="left", fontsize=8, pad=3)
+    axes.xaxis.grid(True, linewidth=0.3, color="#d0d0d0")
+    axes.set_axisbelow(True)
+
+
+def draw_effects(effects):
+    heights = [len(effect["levels"]) + 1.2 for effect in effects]
+    figure = plt.figure(figsize=(COLUMN, 0.35 + 0.18 * sum(heights)), layout="constrained")
+    places = figure.add_gridspec(len(effects), 1, height_ratios=heights)
+    first = None
+    for number, (place, effect) in enumerate(zip(places, effects)):
+        axes = figure.add_subplot(place, sharex=first)
+        first = first or axes
+        draw_effect(axes, number, effect)
+        axes.tick_params(labelbottom=number == len(effects) - 1)
+    axes.set_xlabel("right trials (%), mean over all else")
+    return figure
+
+
+def draw_heat_map(heat):
+    rows, columns = heat["rows"], heat["columns"]
+    values = [[100 * cell["success_rate"]["value"] if cell["trials"] else math.nan for cell in row] for row in heat["cells"]]
+    figure = plt.figure(figsize=(COLUMN, 1.0 + 0.3 * len(values)), layout="constrained")
+    axes = figure.add_subplot()
+    image = axes.imshow(values, cmap=SHADES, vmin=0, vmax=100, aspect="auto")
+    for r, row in enumerate(values):
+        for c, value in enumerate(row):
+            # Viridis is dark below the middle. A cell without a setting stays empty.
+            style = {"ha": "center", "va": "center", "color": "black" if value > 43 or math.isnan(value) else "white"}
+            axes.text(c, r, "–" if math.isnan(value) else f"{value:.0f}", gid=f"cell_{r}_{c}", **style)
+    turned = any(len(label) > 6 for label in columns["levels"])
+    style = {"rotation": 30, "ha": "right"} if turned else {}
+    axes.set_xticks(range(len(columns["levels"])), [printable(label) for label in columns["levels"]], **style)
+    axes.set_yticks(range(len(rows["levels"])), [printable(label) for label in rows["levels"]])
+    axes.set(xlabel=printable(columns["label"]), ylabel=printable(rows["label"]))
+    axes.spines[:].set_visible(False)
+    figure.colorbar(image, ax=axes, label="right trials (%)", aspect=12, pad=0.02)
+    return figure
+
+
+def draw_sweep(sweep, out):
+    """Yields folder, names and figures."""
+    yield out, "sweep_effects", draw_effects(sweep["effects"])
+    if "map" in sweep:
+        yield out, "sweep_map", draw_heat_map(sweep["map"])
+
+
 # Files.
 
 
@@ -490,7 +567,8 @@ def write(out, figures):
             os.replace(file, target)
     targets = {target for _, target in moves}
     for folder in {target.parent for target in targets}:
-        for old in set(folder.glob("fig[345]*.*")) - targets:
+        drawn = "sweep_*.*" if folder / "sweep_effects.svg" in targets else "fig[345]*.*"
+        for old in set(folder.glob(drawn)) - targets:
             if old.is_file() and MAKER.encode() in old.read_bytes():
                 old.unlink()
     print(f"{len(moves) // len(FORMATS)} figures in {out}, each as {', '.join(FORMATS)}")
@@ -518,14 +596,20 @@ def draw_all(runs, out):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folders", nargs="+", metavar="DIR", help="folder of results, as glocal run leaves it")
+    parser.add_argument("folders", nargs="*", metavar="DIR", help="folder of results, as glocal run leaves it")
     parser.add_argument("--out", required=True, type=pathlib.Path, metavar="FOLDER", help="where to write the figures")
     parser.add_argument("--trial", type=int, default=0, metavar="N", help="number of the trial, from 0 (default: 0)")
+    parser.add_argument("--sweep", type=pathlib.Path, metavar="FILE", help="what glocal sweep --json printed")
     options = parser.parse_args()
+    if bool(options.folders) == bool(options.sweep):
+        parser.error("name folders of results, or a file with --sweep")
     sys.stdout.reconfigure(errors="surrogateescape")  # names of folders need not be UTF-8
     matplotlib.rcdefaults()  # whatever a matplotlibrc says
     matplotlib.rcParams.update(STYLE)
     try:
+        if options.sweep:
+            write(options.out, draw_sweep(read_sweep(options.sweep), options.out))
+            return
         runs = [Run(folder, options.trial) for folder in options.folders]
         give_names(runs)
         write(options.out, draw_all(runs, options.out))

@@ -1,4 +1,5 @@
 // glocal figures.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <map>
 #include <optional>
 
+#include "app/result_lines.hpp"
 #include "app/room.hpp"
 #include "app/svg.hpp"
 #include "glocal/pose2.hpp"
@@ -195,6 +197,82 @@ TEST_F(Figures, FailWithTheScript) {
   const Answer answer = figures("a", "b", "--python " + failing);
   EXPECT_EQ(answer.exit_code, 1);
   EXPECT_THAT(answer.err, AllOf(StartsWith("nonsense\n"), HasSubstr("b/figures.py: ended with exit code 7")));
+}
+
+/// A sweep of three by two values, right at so many of 4 starts: 0, 4; 1, 3; 3, 2.
+void write_sweep(const std::string& folder) {
+  const auto outcomes = [](int right) {
+    std::vector<nlohmann::json> trials(4, {{"outcome", "undecided"}});
+    for (int i = 0; i < right; ++i)
+      trials[static_cast<std::size_t>(i)] = {{"outcome", "right"}, {"steps", 2}};
+    return trials;
+  };
+  constexpr std::array<std::array<int, 2>, 3> right = {{{0, 4}, {1, 3}, {3, 2}}};
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string name = fmt::format("iterations-{}_min_side-{}", 100 * (i + 1), k + 1);
+      replace_lines(fs::path(folder) / name, outcomes(right.at(i).at(k)), {});
+    }
+  }
+}
+
+class SweepFigures : public Figures {
+ protected:
+  SweepFigures() {
+    write_experiment("trials: {every_scan: 9, max_steps: 1}\n",
+                     "variants:\n"
+                     "  grid:\n"
+                     "    localizer.matcher.ransam.iterations: [100, 200, 300]\n"
+                     "    localizer.matcher.ransam.min_side: [1, 2]\n"
+                     "output: {steps: false, maps: none}\n");
+    EXPECT_EQ(run_room("all").exit_code, 0);
+    write_sweep(file("all"));
+  }
+};
+
+TEST_F(SweepFigures, HandWhatSweepTellsToTheScript) {
+  const Answer answer = figures("all", "b", "--sweep" + pretended_python());
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(content(file("b/sweep.json")), run("sweep --json " + file("all")).out);
+  EXPECT_EQ(content(file("called")),
+            file("b/figures.py") + "\n--out\n" + file("b") + "\n--sweep\n" + file("b/sweep.json") + "\n");
+}
+
+TEST_F(SweepFigures, RefuseWhatIsNoSweep) {
+  write_experiment("trials: {every_scan: 9, max_steps: 1}\n", "seeds: 1..2\n");
+  ASSERT_EQ(run_room("seeds").exit_code, 0);
+  const Answer answer = figures("seeds", "c", "--sweep" + pretended_python());
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("/seeds: error: no parameter varies, so that there is nothing to draw"));
+  EXPECT_FALSE(fs::exists(file("c")));
+  const Answer several = run("figures --sweep " + file("all") + " " + file("seeds") + " -o " + file("c"));
+  EXPECT_EQ(several.exit_code, 2);
+  EXPECT_THAT(several.err, HasSubstr("/seeds: error: is one folder too many; name that of one sweep"));
+}
+
+TEST_F(SweepFigures, HaveTheSharesOfTheSweep) {
+  if (!has_matplotlib()) GTEST_SKIP() << "matplotlib is not installed";
+  const Answer answer = figures("all", "b", "--sweep");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out, "2 figures in " + file("b") + ", each as pdf, svg, png\n");
+  const std::string map = content(file("b/sweep_map.svg"));
+  // The parameter of the larger effect has the columns behind it: min_side 4 of 12 and 9 of 12, iterations 4,
+  // 4, 5 of 8.
+  const std::array<std::array<int, 3>, 2> shares = {{{0, 25, 75}, {100, 75, 50}}};
+  for (std::size_t r = 0; r < 2; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::string cell = map.substr(find_id(map, fmt::format("cell_{}_{}", r, c)), 60);
+      EXPECT_THAT(cell, HasSubstr(fmt::format("<!-- {} -->", shares.at(r).at(c)))) << r << ", " << c;
+    }
+  }
+  const std::string effects = content(file("b/sweep_effects.svg"));
+  const auto place = [&](const char* id) { return attribute(effects, " x=\"", find_id(effects, id)); };
+  // 1/3 and 3/4 above, 1/2, 1/2 and 5/8 below, on one axis.
+  const double per_share = (place("effect_0_1") - place("effect_0_0")) / (0.75 - 1.0 / 3.0);
+  EXPECT_GT(per_share, 50.0);
+  EXPECT_NEAR(place("effect_1_0") - place("effect_0_0"), per_share * (0.5 - 1.0 / 3.0), 0.01);
+  EXPECT_NEAR(place("effect_1_1"), place("effect_1_0"), 1e-9);
+  EXPECT_NEAR(place("effect_1_2") - place("effect_1_0"), per_share * 0.125, 0.01);
 }
 
 /// Those that are drawn.

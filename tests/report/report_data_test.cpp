@@ -178,6 +178,26 @@ TEST_F(ReportDataTest, ComparesRunsOrSaysWhyNot) {
   EXPECT_THAT(refused["comparison_refused"].get<std::string>(), HasSubstr("none of its 2 starts"));
 }
 
+TEST_F(ReportDataTest, HasWhatASweepHasTaught) {
+  write_run("b");
+  EXPECT_FALSE(data({"a", "b"}).contains("sweep"));
+  const auto tell = [&](const char* folder, const char* size) {
+    Json provenance = {{"host", "h"}, {"cpu", "c"}, {"threads", 2}, {"inputs_sha256", Json::object()}};
+    provenance["variant"] = {
+        {"setting", folder}, {"seed", 7}, {"case", ""}, {"role", "none"}, {"values", {{"x.size", size}}}};
+    write(std::string(folder) + "/provenance.json", provenance.dump());
+  };
+  tell("a", "1");
+  tell("b", "2");
+  const Json sweep = data({"a", "b"})["sweep"];
+  EXPECT_EQ(sweep["settings"].size(), 2U);
+  EXPECT_EQ(sweep["effects"][0]["path"], "x.size");
+  // Two runs of the same part are none of one sweep, but can be shown.
+  fs::copy(folder_ / "a/provenance.json", folder_ / "b/provenance.json",
+           fs::copy_options::overwrite_existing);
+  EXPECT_FALSE(data({"a", "b"}).contains("sweep"));
+}
+
 TEST_F(ReportDataTest, SharesItsLimitsAmongAllTrialsWithMaps) {
   write_run("b");
   // 4 lives and 3 points of scans each.

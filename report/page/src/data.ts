@@ -199,6 +199,58 @@ export interface Comparison {
   }[];
 }
 
+/** How the trials of a setting ended; rates are shares of 1. */
+export interface SettingOutcome {
+  trials: number;
+  right: number;
+  wrong: number;
+  undecided: number;
+  success_rate: Proportion;
+  score: number;
+  /** Absent where no trial was right. */
+  median_steps?: number;
+}
+
+export interface SweepLevel {
+  label: string;
+  settings: number;
+  trials: number;
+  success_rate: Proportion;
+}
+
+export interface ParameterEffect {
+  path: string;
+  label: string;
+  /** Levels are quarters of the values. */
+  quarters: boolean;
+  range: number;
+  spearman?: number;
+  levels: SweepLevel[];
+}
+
+export interface SweepAxis {
+  path: string;
+  label: string;
+  levels: string[];
+}
+
+export interface SweepMap {
+  rows: SweepAxis;
+  columns: SweepAxis;
+  cells: { settings: number; trials: number; success_rate: Proportion }[][];
+}
+
+export interface Sweep {
+  choose_on: string[];
+  judge_on: string[];
+  warnings: string[];
+  /** Best first. */
+  settings: { setting: string; complete: boolean; chosen: SettingOutcome; judged?: SettingOutcome }[];
+  /** Largest first. */
+  effects: ParameterEffect[];
+  map?: SweepMap;
+}
+
 export interface Live {
   experiment: string;
   variant: string;
@@ -217,6 +269,7 @@ export interface Report {
   runs: Run[];
   comparison?: Comparison;
   comparison_refused?: string;
+  sweep?: Sweep;
 }
 
 /** The data in the page. */

@@ -8,6 +8,7 @@ import { LiveNews } from "./live";
 import { MapView } from "./map_view";
 import { listenToKeys, Player } from "./player";
 import { Store } from "./store";
+import { sweepSection } from "./sweep_section";
 import { comparisonSection, configurationSection, provenanceSection, summarySection } from "./tables";
 import { Distributions, TrialList } from "./trials_section";
 
@@ -124,6 +125,7 @@ function show(report: Report, page: HTMLElement): void {
     ? [trials.element, configurationSection(report.runs)]
     : [
         summarySection(report.runs),
+        sweepSection(report),
         comparisonSection(report),
         // One trial has no distribution.
         report.runs.some((run) => run.trials.length > 1) ? distributions.element : null,

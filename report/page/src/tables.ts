@@ -139,7 +139,7 @@ export function provenanceSection(report: Report): HTMLElement {
   const told = (value: unknown): Node | string => {
     if (value === undefined) return "–";
     if (typeof value !== "object" || value === null) return String(value);
-    const entries = Array.isArray(value) ? value.map(String) : Object.entries(value).map(([k, v]) => `${k}: ${String(v)}`);
+    const entries = Array.isArray(value) ? value.map(String) : Object.entries(value).map(([k, v]) => `${k}: ${typeof v === "object" ? JSON.stringify(v) : String(v)}`);
     return entries.length === 0 ? "none" : el("ul", { class: "files" }, ...entries.map((entry) => el("li", {}, entry)));
   };
   return section(

@@ -1,0 +1,76 @@
+// What a sweep has taught, on the page.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { assertQuiet, closeBrowser, open, skip } from "./open.mjs";
+import { glocal, report, runExperiment, workFolder } from "./runs.mjs";
+
+let opened, page, sweep;
+
+before(async () => {
+  if (skip) return;
+  const work = workFolder();
+  const folder = runExperiment("sim_sweep", join(work, "sweep"), "--set", "trials.every_m=25");
+  sweep = JSON.parse(glocal("sweep", folder, "--json"));
+  opened = await open(report(join(work, "report.html"), folder));
+  page = opened.page;
+});
+after(async () => {
+  if (!skip) assertQuiet(opened);
+  await closeBrowser();
+});
+
+const percent = (share) => `${(100 * share).toFixed(1)} %`;
+
+test("settings are listed best first, with what they were judged by", { skip }, async () => {
+  const rows = page.locator("#sweep table").first().locator("tbody tr");
+  assert.deepEqual(await rows.locator("th").allInnerTexts(), sweep.settings.map((s) => s.setting));
+  const best = await rows.first().locator("td").allInnerTexts();
+  assert.ok(best[2].startsWith(percent(sweep.settings[0].chosen.success_rate.value)), best[2]);
+  assert.ok(best.at(-1).startsWith(percent(sweep.settings[0].judged.success_rate.value)), best.at(-1));
+  const text = await page.locator("#sweep").innerText();
+  for (const warning of sweep.warnings) assert.ok(text.includes(warning), warning);
+});
+
+test("each parameter has its levels where they belong on the axis", { skip }, async () => {
+  const charts = page.locator("#sweep .effect");
+  assert.equal(await charts.count(), sweep.effects.length);
+  for (const [i, effect] of sweep.effects.entries()) {
+    const chart = charts.nth(i);
+    assert.equal(await chart.locator("strong").innerText(), effect.label);
+    for (const [k, level] of effect.levels.entries()) {
+      const track = await chart.locator(".track").nth(k).boundingBox();
+      const dot = await chart.locator(".dot").nth(k).boundingBox();
+      const bar = await chart.locator(".interval").nth(k).boundingBox();
+      const share = (x) => (x - track.x) / track.width;
+      const { value, low, high } = level.success_rate;
+      assert.ok(Math.abs(share(dot.x + dot.width / 2) - value) < 0.01, `${effect.label}, ${level.label}`);
+      assert.ok(Math.abs(share(bar.x) - low) < 0.01 && Math.abs(share(bar.x + bar.width) - high) < 0.01);
+    }
+  }
+});
+
+test("cells of the map can be read on their colours", { skip }, async () => {
+  const cells = await page.locator("#sweep .heat td").evaluateAll((all) =>
+    all.map((cell) => {
+      const { backgroundColor, color } = getComputedStyle(cell);
+      return { text: cell.innerText, back: backgroundColor, ink: color };
+    }),
+  );
+  const expected = sweep.map.cells.flat();
+  assert.equal(cells.length, expected.length);
+  // WCAG 2: relative luminance and contrast.
+  const luminance = (colour) => {
+    const [r, g, b] = colour.match(/[\d.]+/g).map((c) => c / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  for (const [i, { text, back, ink }] of cells.entries()) {
+    const { trials, success_rate: rate } = expected[i];
+    assert.equal(text, trials > 0 ? (100 * rate.value).toFixed(0) : "–");
+    if (trials === 0) continue;
+    const [a, b] = [luminance(back), luminance(ink)].sort((x, y) => y - x);
+    assert.ok((a + 0.05) / (b + 0.05) > 4.5, `${text}: ${ink} on ${back}`);
+  }
+  for (const axis of [sweep.map.rows, sweep.map.columns])
+    assert.ok((await page.locator("#sweep .heat thead").innerText()).includes(axis.label));
+});
