@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -28,7 +29,7 @@ class Tally {
       add_trials({{place, {is_right ? 1U : 0U, 1}}}, right_);
       add_trials({{place, {is_wrong ? 1U : 0U, 1}}}, wrong_);
       if (is_right) steps_.push_back(trial.steps);
-      scores_[{run.case_name, run.seed, start}] = static_cast<std::int8_t>(is_right ? 1 : is_wrong ? -1 : 0);
+      scores_[{run.case_name, run.seed, start}] = is_right ? 1 : is_wrong ? -1 : 0;
     }
   }
 
@@ -46,12 +47,12 @@ class Tally {
   }
 
   [[nodiscard]] const TrialsByPlace& right() const { return right_; }
-  [[nodiscard]] const std::map<SharedStart, std::int8_t>& scores() const { return scores_; }
+  [[nodiscard]] const std::map<SharedStart, int>& scores() const { return scores_; }
 
  private:
   TrialsByPlace right_, wrong_;  ///< Successes are right trials, and wrong ones.
   std::vector<double> steps_;
-  std::map<SharedStart, std::int8_t> scores_;
+  std::map<SharedStart, int> scores_;
 };
 
 struct TalliedSetting {
@@ -95,23 +96,31 @@ bool is_better(const SettingResult& a, const SettingResult& b) {
   return key(a) != key(b) ? key(a) < key(b) : a.name < b.name;
 }
 
-/// The scores of all complete settings at the starts that all of them have.
-std::vector<ScoresAtStart> shared_scores(const std::vector<TalliedSetting>& settings) {
+/// Of all complete settings, over the trials that all of them have.
+std::optional<ChanceOfBest> chance_among(const std::vector<TalliedSetting>& settings) {
   std::vector<const TalliedSetting*> complete;
   for (const TalliedSetting& setting : settings) {
     if (setting.result.complete) complete.push_back(&setting);
   }
-  std::vector<ScoresAtStart> shared;
-  if (complete.empty()) return shared;
+  if (complete.empty()) return std::nullopt;
+  std::map<TrialPlace, ScoresAtPlace> places;
+  std::size_t trials = 0;
   for (const auto& [start, first] : complete.front()->chosen.scores()) {
-    ScoresAtStart scores;
+    ScoresAtPlace scores;
     for (const TalliedSetting* setting : complete) {
       const auto score = setting->chosen.scores().find(start);
       if (score != setting->chosen.scores().end()) scores.push_back(score->second);
     }
-    if (scores.size() == complete.size()) shared.push_back(std::move(scores));
+    if (scores.size() < complete.size()) continue;
+    ++trials;
+    const auto& [case_name, seed, at] = start;
+    ScoresAtPlace& sum = places[{case_name, at.sample}];
+    sum.resize(scores.size());
+    std::transform(sum.begin(), sum.end(), scores.begin(), sum.begin(), std::plus<>());
   }
-  return shared;
+  std::vector<ScoresAtPlace> all;
+  for (auto& [place, scores] : places) all.push_back(std::move(scores));
+  return chance_of_best(all, trials);
 }
 
 /// The parameter of this path or end of a path. Throws ConfigError.
@@ -174,7 +183,7 @@ SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& 
   analysis.effects = effects_of(tried);
   if (const auto axes = chosen_axes(map, analysis.effects))
     analysis.map = heat_map(tried, analysis.effects, axes->first, axes->second);
-  analysis.chance = chance_of_best(shared_scores(settings));
+  analysis.chance = chance_among(settings);
   return analysis;
 }
 

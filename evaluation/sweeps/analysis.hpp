@@ -42,7 +42,7 @@ struct SweepAnalysis {
   std::vector<std::string> incomplete;   ///< Names of runs without all their trials.
   std::vector<ParameterEffect> effects;  ///< Largest first, of `chosen`.
   std::optional<HeatMap> map;            ///< None with fewer than two parameters.
-  std::optional<ChanceOfBest> chance;    ///< None where settings share no starts.
+  std::optional<ChanceOfBest> chance;    ///< None where settings share no trials.
 };
 
 /// Which parameters to show in the map, by their paths, or by ends of these that no other one has; without,

@@ -1,6 +1,7 @@
 #include "evaluation/sweeps/chance.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -19,41 +20,41 @@ long best_of(const std::vector<long>& totals) {
   return *std::max_element(totals.begin(), totals.end());
 }
 
-void add(const ScoresAtStart& scores, std::vector<long>& totals) {
+void add(const ScoresAtPlace& scores, std::vector<long>& totals) {
   for (std::size_t i = 0; i < scores.size(); ++i) totals[i] += scores[i];
 }
 
 /// Fisher's and Yates' shuffle.
-void shuffle(ScoresAtStart& scores, Rng& rng) {
+void shuffle(ScoresAtPlace& scores, Rng& rng) {
   for (std::size_t i = scores.size(); i > 1; --i)
     std::swap(scores[i - 1], scores[rng.below(static_cast<std::uint32_t>(i))]);
 }
 
 }  // namespace
 
-std::optional<ChanceOfBest> chance_of_best(const std::vector<ScoresAtStart>& starts) {
-  if (starts.empty() || starts.front().size() < 2) return std::nullopt;
-  const std::size_t settings = starts.front().size();
+std::optional<ChanceOfBest> chance_of_best(const std::vector<ScoresAtPlace>& places, std::size_t trials) {
+  if (places.empty() || places.front().size() < 2) return std::nullopt;
+  const std::size_t settings = places.front().size();
   std::vector<long> totals(settings);
   // Where all settings end the same there is nothing to exchange.
-  std::vector<ScoresAtStart> differing;
+  std::vector<ScoresAtPlace> differing;
   std::vector<long> same(settings);
-  for (const ScoresAtStart& scores : starts) {
+  for (const ScoresAtPlace& scores : places) {
     add(scores, totals);
     const bool differs =
-        std::any_of(scores.begin(), scores.end(), [&](std::int8_t score) { return score != scores.front(); });
+        std::any_of(scores.begin(), scores.end(), [&](int score) { return score != scores.front(); });
     if (differs) {
       differing.push_back(scores);
     } else {
       add(scores, same);
     }
   }
-  const auto n = static_cast<double>(starts.size());
+  const auto n = static_cast<double>(trials);
   const long sum = std::accumulate(totals.begin(), totals.end(), 0L);
   const double all = static_cast<double>(sum) / static_cast<double>(settings);
   const auto lead_of = [&](long best) { return (static_cast<double>(best) - all) / n; };
 
-  ChanceOfBest chance{.settings = settings, .starts = starts.size(), .lead = lead_of(best_of(totals))};
+  ChanceOfBest chance{.settings = settings, .places = places.size(), .lead = lead_of(best_of(totals))};
   const std::size_t work = std::max<std::size_t>(differing.size() * settings, 1);
   chance.resamples = std::clamp(most_exchanges / work, fewest_resamples, most_resamples);
   const long best = best_of(totals);
@@ -62,7 +63,7 @@ std::optional<ChanceOfBest> chance_of_best(const std::vector<ScoresAtStart>& sta
   Rng rng(exchange_seed);
   for (std::size_t k = 0; k < chance.resamples; ++k) {
     totals = same;
-    for (ScoresAtStart& scores : differing) {
+    for (ScoresAtPlace& scores : differing) {
       shuffle(scores, rng);
       add(scores, totals);
     }

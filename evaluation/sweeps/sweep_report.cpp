@@ -133,13 +133,12 @@ std::optional<std::string> chance_warning(const SweepAnalysis& a) {
   const ChanceOfBest& c = *a.chance;
   const bool is_more = c.lead > c.high;
   return fmt::format(
-      "{} was chosen among {} settings by the very {} starts that its numbers are of, so they flatter it. "
-      "Its "
-      "score is {} points over the mean of all settings. The best of {} equal ones would be {} points over "
-      "it by "
-      "chance, and {} in 5 % of all cases. {}",
-      name_of(a.settings.front()), c.settings, c.starts, points(c.lead), c.settings, points(c.expected),
-      points(c.high),
+      "{} was chosen among {} settings by the very trials that its numbers are of, so they flatter it. Its "
+      "score "
+      "is {} points over the mean of all settings. The best of {} equal ones would be {} points over it by "
+      "chance, "
+      "and {} in 5 % of all cases. {}",
+      name_of(a.settings.front()), c.settings, points(c.lead), c.settings, points(c.expected), points(c.high),
       is_more ? "So there is more to it than chance, but part of the lead will not last."
               : "So all settings may be equally good.");
 }
@@ -213,7 +212,7 @@ Json to_json(const HeatMap& map, const std::vector<ParameterEffect>& effects) {
 }
 
 Json to_json(const ChanceOfBest& c) {
-  return {{"settings", c.settings}, {"starts", c.starts}, {"lead", c.lead},          {"expected", c.expected},
+  return {{"settings", c.settings}, {"places", c.places}, {"lead", c.lead},          {"expected", c.expected},
           {"high", c.high},         {"share", c.share},   {"resamples", c.resamples}};
 }
 

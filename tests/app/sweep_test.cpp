@@ -88,7 +88,7 @@ TEST_F(SweepCommand, HasAllNumbersAsJson) {
   EXPECT_EQ(json["settings"][1]["judged"]["right"], 2 * 1);
   EXPECT_EQ(json["map"]["rows"]["label"], "min_side");
   EXPECT_EQ(json["map"]["cells"][1][0]["success_rate"]["value"], 0.5);
-  EXPECT_EQ(json["chance"]["starts"], 8);
+  EXPECT_EQ(json["chance"]["places"], 4);
   EXPECT_EQ(json["choose_on"].dump(), R"(["near"])");
   EXPECT_EQ(run("sweep " + file("all") + " --json --map min_side iterations").out, answer.out);
 }

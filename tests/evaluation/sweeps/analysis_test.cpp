@@ -44,6 +44,20 @@ TEST(Sweep, SeedsOfAPlaceAreNoTrialsOfTheirOwn) {
   EXPECT_NEAR(outcome.success.high, 0.954413, 1e-6);
 }
 
+TEST(Sweep, ChanceIsThatOfPlacesWithAllTheirSeeds) {
+  std::vector<NamedRun> runs;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    runs.push_back(sweep_run({.setting = "a", .seed = seed}, "rrr"));
+    runs.push_back(sweep_run({.setting = "b", .seed = seed}, "uuu"));
+  }
+  const auto chance = analyse_sweep(runs).chance;
+  ASSERT_TRUE(chance.has_value());
+  EXPECT_EQ(chance->places, 3U);
+  // As with one seed: 3 of 3 in 2 of 8 ways, otherwise 2 of 3; the mean is 1.5 of 3.
+  EXPECT_DOUBLE_EQ(chance->lead, 0.5);
+  EXPECT_NEAR(chance->expected, 0.25, 0.02);
+}
+
 TEST(Sweep, WhatIsChosenAndWhatIsJudgedAreKeptApart) {
   const auto run = [](const std::string& setting, const std::string& role, const std::string& outcomes) {
     return sweep_run({.setting = setting, .case_name = role == "judge" ? "far" : "near", .role = role},
