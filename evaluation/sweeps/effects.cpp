@@ -31,9 +31,10 @@ struct Column {
 std::vector<Column> columns_of(const std::vector<TriedSetting>& settings) {
   std::vector<Column> columns;
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    for (const auto& [path, value] : settings[i].values) {
-      auto column =
-          std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.path == path; });
+    for (const auto& change : settings[i].values) {
+      const auto& [path, value] = change;
+      auto column = std::find_if(columns.begin(), columns.end(),
+                                 [&](const Column& c) { return c.path == change.first; });
       if (column == columns.end()) {
         columns.push_back({path, std::vector<std::optional<std::string>>(settings.size()),
                            std::vector<std::optional<double>>(settings.size())});

@@ -127,7 +127,7 @@ StructDoc document(AnyParams& params) {
 
 std::optional<FieldDoc> find_field(AnyParams& params, std::string_view path) {
   const auto take_part = [&] {
-    const std::string part(path.substr(0, path.find('.')));
+    std::string part(path.substr(0, path.find('.')));
     path.remove_prefix(std::min(part.size() + 1, path.size()));
     return part;
   };

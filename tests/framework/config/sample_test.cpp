@@ -1,6 +1,7 @@
 // variants.sample: how points fill their ranges, and every fault at its place.
 #include "config/sample.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -86,10 +87,11 @@ TEST_F(SampleTest, PointsHaveNumbersForNames) {
 
 TEST_F(SampleTest, SobolPointsFillEachRangeEvenly) {
   for (const char* seed : {"1", "2", "18446744073709551615"}) {
-    const auto all =
-        read("{count: 64, seed: " + std::string(seed) + ", ranges: {" + iterations + ": [5, 68], " + epsilon +
-             ": [0.5, 64.5], observations.toy_drive.mode: {choices: [fast, slow]}, "
-             "observations.toy_drive.salt: {from: 1, to: 255, scale: log}}}\n");
+    const auto all = read(
+        fmt::format("{{count: 64, seed: {}, ranges: {{{}: [5, 68], {}: [0.5, 64.5], "
+                    "observations.toy_drive.mode: {{choices: "
+                    "[fast, slow]}}, observations.toy_drive.salt: {{from: 1, to: 255, scale: log}}}}}}\n",
+                    seed, iterations, epsilon));
     // As many whole numbers as points: each of them once.
     const auto whole = counts(all, iterations);
     EXPECT_EQ(whole.size(), 64U);
@@ -126,7 +128,7 @@ TEST_F(SampleTest, RandomPointsFillTheRangesToo) {
 TEST_F(SampleTest, TheSeedDecidesAndOthersArePointsOfTheirOwn) {
   const auto values = [&](const std::string& how) {
     std::vector<std::string> all;
-    for (const Variant& variant : read("{" + how + ", ranges: {" + epsilon + ": [0.01, 1]}}\n"))
+    for (const Variant& variant : read(fmt::format("{{{}, ranges: {{{}: [0.01, 1]}}}}\n", how, epsilon)))
       all.push_back(variant.values.front().second);
     return all;
   };
