@@ -38,8 +38,7 @@ long killed_for_memory() {
 }
 
 [[noreturn]] void be_child(const std::function<int()>& work, pid_t parent, int tell) {
-  // Ctrl-C reaches the parent alone, which passes it on.
-  setpgid(0, 0);
+  listen_to_parent();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) std::_Exit(0);
   report_crashes_to(tell);
@@ -52,7 +51,6 @@ long killed_for_memory() {
 /// Waits until the child has ended; it says nothing but its last word.
 std::string wait_for(pid_t child, int listen, const std::function<void()>& now_and_then) {
   std::string said;
-  bool told = false;
   for (Clock::time_point called = Clock::now();;) {
     constexpr int ms = 200;
     pollfd input{listen, POLLIN, 0};
@@ -62,10 +60,8 @@ std::string wait_for(pid_t child, int listen, const std::function<void()>& now_a
       if (n == 0) return said;
       if (n > 0) said.append(text.data(), static_cast<std::size_t>(n));
     }
-    if (is_interrupted() && !told) {
-      kill(child, SIGTERM);
-      told = true;
-    }
+    // Again and again: it may not have listened yet.
+    if (is_interrupted()) interrupt_child(child);
     if (Clock::now() - called > between_calls) {
       now_and_then();
       called = Clock::now();
@@ -85,6 +81,8 @@ ChildEnd run_in_child(const std::function<int()>& work, const std::function<void
   const long killed_before = killed_for_memory();
   std::fflush(nullptr);
   const pid_t parent = getpid();
+  // Until it listens, the child is not to be ended by what its parent tells it.
+  std::signal(SIGUSR1, SIG_IGN);
   const pid_t child = fork();
   if (child < 0) fail();
   if (child == 0) {

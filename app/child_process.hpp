@@ -18,7 +18,7 @@ struct ChildEnd {
 
 /// Runs `work` in a child, whose exit code is what it returns, or what exit_code_of() makes of an exception,
 /// and waits for its end. Calls `now_and_then` twice a minute meanwhile. An interrupt of this process is
-/// passed on, once; the child does not outlive this process. To be called while this process has no threads
+/// passed on; the child does not outlive this process. To be called while this process has no threads
 /// besides its first. Throws RunError if there can be no child.
 [[nodiscard]] ChildEnd run_in_child(
     const std::function<int()>& work, const std::function<void()>& now_and_then = [] {});

@@ -16,11 +16,26 @@ void interrupt(int signal) {
   }
 }
 
+void note_interrupt(int /*signal*/) {
+  interrupted = true;
+}
+
 }  // namespace
 
 void listen_to_interrupts() {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
+}
+
+void listen_to_parent() {
+  interrupted = false;
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_IGN);
+  std::signal(SIGUSR1, note_interrupt);
+}
+
+void interrupt_child(pid_t child) {
+  kill(child, SIGUSR1);
 }
 
 bool is_interrupted() {

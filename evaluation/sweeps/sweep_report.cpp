@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of the settings that were chosen, so many are shown where they are judged.
-constexpr std::size_t most_judged = 5;
+/// Of the best settings, so many are shown with their values, and where they are judged.
+constexpr std::size_t most_looked_at = 5;
 
 std::string rate(const Proportion& p) {
   return fmt::format("{:.1f} ({:.1f} to {:.1f})", 100.0 * p.value, 100.0 * p.low, 100.0 * p.high);
@@ -65,13 +65,29 @@ Table settings_table(const SweepAnalysis& analysis, std::size_t most) {
 Table judged_table(const SweepAnalysis& analysis) {
   Table table{{"setting", "chosen by: %, 95 %", "wrong", "judged: %, 95 %", "right", "wrong", "trials"}, {}};
   for (const SettingResult& setting : analysis.settings) {
-    if (table.rows.size() == most_judged) break;
+    if (table.rows.size() == most_looked_at) break;
     if (!setting.judged) continue;
     const SettingOutcome& judged = *setting.judged;
     table.rows.push_back({name_of(setting), rate(setting.chosen.success),
                           std::to_string(setting.chosen.wrong), rate(judged.success),
                           std::to_string(judged.right), std::to_string(judged.wrong),
                           std::to_string(judged.trials)});
+  }
+  return table;
+}
+
+/// What the best settings change; a parameter has the column of its effect.
+Table values_table(const SweepAnalysis& analysis) {
+  Table table{{"setting"}, {}};
+  for (const ParameterEffect& effect : analysis.effects) table.header.push_back(effect.label);
+  for (const SettingResult& setting : analysis.settings) {
+    if (table.rows.size() == most_looked_at) break;
+    table.rows.push_back({name_of(setting)});
+    for (const ParameterEffect& effect : analysis.effects) {
+      const auto value = std::find_if(setting.values.begin(), setting.values.end(),
+                                      [&](const auto& v) { return v.first == effect.path; });
+      table.rows.back().push_back(value == setting.values.end() ? "-" : value->second);
+    }
   }
   return table;
 }
@@ -250,6 +266,10 @@ std::string text_report(const SweepAnalysis& analysis, std::size_t most_settings
   if (!analysis.judge_on.empty()) {
     report.emplace_back(Heading{"The best of these, judged by " + join(analysis.judge_on)});
     report.emplace_back(judged_table(analysis));
+  }
+  if (!analysis.effects.empty()) {
+    report.emplace_back(Heading{"Values of the best"});
+    report.emplace_back(values_table(analysis));
   }
   for (const ParameterEffect& effect : analysis.effects) {
     report.emplace_back(Heading{effect_heading(effect)});

@@ -53,6 +53,28 @@ class Shards : public Room {
     return trials;
   }
 
+  /// Starts the only shard, and ends it when some trials are finished; with all its processes, or the first
+  /// alone. What waitpid() tells of it.
+  [[nodiscard]] int end_shard(int signal, bool all) const {
+    const std::string experiment = file("room.yaml");
+    const std::string out = file("shared");
+    const pid_t child = fork();
+    if (child == 0) {
+      setpgid(0, 0);
+      execl(GLOCAL_PROGRAM, GLOCAL_PROGRAM, "run", experiment.c_str(), "--quiet", "--shard", "1/1", "--out",
+            out.c_str(), nullptr);
+      _exit(127);
+    }
+    for (int ms = 0; ms < 30'000; ++ms) {
+      if (fs::exists(file("shared/.shards/journals")) && finished().size() >= 3) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(all ? -child : child, signal);
+    int ended = 0;
+    waitpid(child, &ended, 0);
+    return ended;
+  }
+
   void expect_result_of_one_machine() const {
     ASSERT_EQ(run_room("one").exit_code, 0);
     for (const std::string variant : {"/iterations-10000", "/iterations-20000"}) {
@@ -125,23 +147,23 @@ TEST_F(Shards, WhatIsMissingIsListed) {
   expect_result_of_one_machine();
 }
 
+TEST_F(Shards, AnInterruptedOneEndsInGoodOrder) {
+  // A scheduler's signal reaches all processes of a job; that of a terminal, too.
+  const int ended = end_shard(SIGTERM, true);
+  ASSERT_TRUE(WIFEXITED(ended));
+  EXPECT_EQ(WEXITSTATUS(ended), 3);
+  const auto before = finished();
+  ASSERT_LT(before.size(), 22U);
+  for (const fs::path& journal : journals()) EXPECT_EQ(journal.extension(), ".jsonl");
+  EXPECT_EQ(status()["live_shards"], 0);
+  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  EXPECT_EQ(finished().size(), 22U);
+  ASSERT_EQ(merge().exit_code, 0);
+  expect_result_of_one_machine();
+}
+
 TEST_F(Shards, AKilledOneLosesNothingThatWasFinished) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::string experiment = file("room.yaml");
-    const std::string out = file("shared");
-    execl(GLOCAL_PROGRAM, GLOCAL_PROGRAM, "run", experiment.c_str(), "--quiet", "--shard", "1/1", "--out",
-          out.c_str(), nullptr);
-    _exit(127);
-  }
-  const auto wait_until = [](const auto& holds) {
-    for (int i = 0; i < 30'000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  };
-  wait_until([&] { return fs::exists(file("shared/.shards/journals")) && finished().size() >= 3; });
-  kill(child, SIGKILL);
-  int ended = 0;
-  waitpid(child, &ended, 0);
-  ASSERT_TRUE(WIFSIGNALED(ended));
+  ASSERT_TRUE(WIFSIGNALED(end_shard(SIGKILL, false)));
   const auto before = finished();
   ASSERT_LT(before.size(), 22U);
 

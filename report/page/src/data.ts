@@ -245,7 +245,14 @@ export interface Sweep {
   judge_on: string[];
   warnings: string[];
   /** Best first. */
-  settings: { setting: string; complete: boolean; chosen: SettingOutcome; judged?: SettingOutcome }[];
+  settings: {
+    setting: string;
+    /** What it changes, by path. */
+    values: Record<string, string>;
+    complete: boolean;
+    chosen: SettingOutcome;
+    judged?: SettingOutcome;
+  }[];
   /** Largest first. */
   effects: ParameterEffect[];
   map?: SweepMap;

@@ -125,7 +125,6 @@ function show(report: Report, page: HTMLElement): void {
     ? [trials.element, configurationSection(report.runs)]
     : [
         summarySection(report.runs),
-        sweepSection(report),
         comparisonSection(report),
         // One trial has no distribution.
         report.runs.some((run) => run.trials.length > 1) ? distributions.element : null,
@@ -133,9 +132,19 @@ function show(report: Report, page: HTMLElement): void {
         configurationSection(report.runs),
         provenanceSection(report),
       ];
-  const header = el("header", {}, el("h1", {}, headline(report)), runPicker(store), trialPicker(store), themeButton(redraw), links(sections));
+  // Of many runs this is what is asked for; single steps come after it.
+  const sweep = sweepSection(report);
+  const header = el(
+    "header",
+    {},
+    el("h1", {}, headline(report)),
+    runPicker(store),
+    trialPicker(store),
+    themeButton(redraw),
+    links([sweep, ...sections]),
+  );
   const view = el("main", { id: "view" }, map.element, curves.element, player.element, details.element);
-  replace(page, header, news?.element, view, keysHelp());
+  replace(page, header, news?.element, sweep, view, keysHelp());
   append(page, ...sections);
   listenToKeys(store, player, map);
   trials.fill();

@@ -47,11 +47,13 @@ function settingsTable(sweep: Sweep): HTMLElement {
         "score",
         "steps, median",
         ...(isJudged ? [`success judged${by(sweep.judge_on)}`] : []),
+        ...sweep.effects.map((effect) => effect.label),
       ],
       shown.map((setting) => [
         `${setting.setting || "the experiment"}${setting.complete ? "" : " (incomplete)"}`,
         ...cells(setting.chosen),
         ...(isJudged ? [setting.judged ? proportion(setting.judged.success_rate) : "–"] : []),
+        ...sweep.effects.map((effect) => setting.values[effect.path] ?? "–"),
       ]),
     ),
     sweep.settings.length > shown.length &&
