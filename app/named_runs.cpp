@@ -4,6 +4,7 @@
 #include <set>
 
 #include "app/results_arguments.hpp"
+#include "app/results_at_hand.hpp"
 #include "config/nearest.hpp"
 
 namespace glocal::app {
@@ -40,7 +41,8 @@ std::vector<NamedRun> read_runs(const std::vector<std::string>& folders,
 }
 
 std::vector<NamedRun> read_sweep(const std::string& folder) {
-  return read_runs({folder},
+  const ResultsAtHand results({folder});
+  return read_runs(results.folders(),
                    [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); });
 }
 

@@ -95,10 +95,8 @@ std::size_t Supervisor::crashes_of(const PlannedTrial& place) const {
 Supervisor::Open Supervisor::open() const {
   Open open;
   for (const PlannedTrial& place : share_) {
-    if (scan_.finished().contains(id(place))) continue;
-    const std::size_t crashes = crashes_of(place);
-    if (crashes == 0) open.fresh.push_back(place);
-    if (crashes > 0 && crashes < most_crashes) open.crashed.push_back(place);
+    if (scan_.finished().contains(id(place)) || scan_.is_given_up(id(place))) continue;
+    (crashes_of(place) == 0 ? open.fresh : open.crashed).push_back(place);
   }
   return open;
 }

@@ -110,48 +110,40 @@ std::uintmax_t bytes_in(const fs::path& folder) {
   return bytes;
 }
 
-void tell(benchmark::State& state, const fs::path& folder) {
-  const auto trials = static_cast<double>(state.range(0));
-  state.counters["journal_bytes_per_trial"] = static_cast<double>(bytes_in(journals_folder(folder))) / trials;
+/// Journals of as many trials as the benchmark's argument says, read by `read` from their folder.
+template <class Read>
+void with_journals(benchmark::State& state, const Read& read) {
+  const Folder folder;
+  const auto trials = static_cast<std::size_t>(state.range(0));
+  const Manifest manifest = manifest_of(trials);
+  write_journals(folder.path(), manifest);
+  for (auto _ : state) {
+    const JournalScan scan(journals_folder(folder.path()), [](const std::string&) {});
+    read(manifest, scan, folder.path());
+  }
+  state.counters["journal_bytes_per_trial"] =
+      static_cast<double>(bytes_in(journals_folder(folder.path()))) / static_cast<double>(trials);
   state.counters["peak_mb"] = peak_rss_mb();
 }
 
 void status_of_all(benchmark::State& state) {
-  const Folder folder;
-  const Manifest manifest = manifest_of(static_cast<std::size_t>(state.range(0)));
-  write_journals(folder.path(), manifest);
-  for (auto _ : state) {
-    const JournalScan scan(journals_folder(folder.path()), [](const std::string&) {});
+  with_journals(state, [](const Manifest& manifest, const JournalScan& scan, const fs::path& /*folder*/) {
     benchmark::DoNotOptimize(status_of(manifest, scan));
-  }
-  tell(state, folder.path());
+  });
 }
-BENCHMARK(status_of_all)
-    ->Name("sharding/status/trials")
-    ->Arg(10'000)
-    ->Arg(100'000)
-    ->Arg(1'000'000)
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
 
 void merge_all(benchmark::State& state) {
-  const Folder folder;
-  const Manifest manifest = manifest_of(static_cast<std::size_t>(state.range(0)));
-  write_journals(folder.path(), manifest);
-  for (auto _ : state) {
-    const JournalScan scan(journals_folder(folder.path()), [](const std::string&) {});
-    const MergeResult result = merge_shards(manifest, scan, {folder.path() / "merged"});
-    if (!result.run.complete) state.SkipWithError("trials are missing");
-  }
-  tell(state, folder.path());
+  with_journals(state, [&](const Manifest& manifest, const JournalScan& scan, const fs::path& folder) {
+    if (!merge_shards(manifest, scan, {folder / "merged"}).run.complete)
+      state.SkipWithError("trials are missing");
+  });
 }
-BENCHMARK(merge_all)
-    ->Name("sharding/merge/trials")
-    ->Arg(10'000)
-    ->Arg(100'000)
-    ->Arg(1'000'000)
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+
+void many_trials(benchmark::internal::Benchmark* b) {
+  b->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->Iterations(1)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(status_of_all)->Name("sharding/status/trials")->Apply(many_trials);
+BENCHMARK(merge_all)->Name("sharding/merge/trials")->Apply(many_trials);
 
 /// With the wait for the disk, beside the same bytes without it.
 void note_trial(benchmark::State& state) {

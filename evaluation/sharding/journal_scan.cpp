@@ -76,6 +76,11 @@ bool JournalScan::any_live() const {
   return std::any_of(journals_.begin(), journals_.end(), [](const Journal& j) { return j.is_live; });
 }
 
+bool JournalScan::is_given_up(const TrialId& id) const {
+  const auto crashes = crashes_.find(id);
+  return !finished_.contains(id) && crashes != crashes_.end() && crashes->second.size() >= most_crashes;
+}
+
 /// In the order of their names, so that of a trial that was run twice each reader takes the same output.
 void JournalScan::find_journals() {
   std::map<std::string, bool> found;  // Whether it is closed, by the name it has then.

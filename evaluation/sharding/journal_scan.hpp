@@ -15,6 +15,9 @@
 
 namespace glocal {
 
+/// A trial is given up when it has ended its process so often.
+inline constexpr std::size_t most_crashes = 2;
+
 /// Reads the journals of a folder, also while they are written. What trials leave stays in the files: memory
 /// holds where it is.
 class JournalScan {
@@ -60,6 +63,8 @@ class JournalScan {
   [[nodiscard]] const std::unordered_map<TrialId, std::vector<Crash>, TrialIdHash>& crashes() const {
     return crashes_;
   }
+  /// The trial has ended its process as often as it may, and has no result.
+  [[nodiscard]] bool is_given_up(const TrialId& id) const;
   /// Descriptions of variants by identity, one for each journal that has one.
   [[nodiscard]] const std::map<std::string, std::vector<Place>>& variants() const { return variants_; }
 
@@ -84,8 +89,5 @@ class JournalScan {
   std::map<std::string, std::vector<Place>> variants_;
   mutable std::map<std::size_t, int> open_;  ///< Some of the files.
 };
-
-/// A trial is given up when it has ended its process so often.
-inline constexpr std::size_t most_crashes = 2;
 
 }  // namespace glocal

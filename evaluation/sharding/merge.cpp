@@ -74,7 +74,6 @@ class VariantMerge {
 
  private:
   [[nodiscard]] TrialId id(std::size_t trial) const { return id_of(planned_, trial, starts_[trial]); }
-  [[nodiscard]] bool is_given_up(const TrialId& id) const;
   [[nodiscard]] std::optional<JournalEntry> take(OutputFolder& folder, std::size_t trial) const;
   [[nodiscard]] Json origin() const;
   void move_up(const fs::path& merged) const;
@@ -87,16 +86,11 @@ class VariantMerge {
   std::vector<Json> descriptions_;
 };
 
-bool VariantMerge::is_given_up(const TrialId& id) const {
-  const auto crashes = scan_.crashes().find(id);
-  return crashes != scan_.crashes().end() && crashes->second.size() >= most_crashes;
-}
-
 MissingTrials VariantMerge::missing() const {
   MissingTrials missing{planned_.name, {}};
   for (std::size_t trial = 0; trial < starts_.size(); ++trial) {
     const TrialId of_trial = id(trial);
-    if (!scan_.finished().contains(of_trial) && !is_given_up(of_trial)) missing.trials.push_back(trial);
+    if (!scan_.finished().contains(of_trial) && !scan_.is_given_up(of_trial)) missing.trials.push_back(trial);
   }
   return missing;
 }
@@ -129,7 +123,7 @@ std::optional<JournalEntry> VariantMerge::take(OutputFolder& folder, std::size_t
     for (const auto& [name, content] : output.files) folder.write(name, content);
     return std::move(output.entry);
   }
-  if (!is_given_up(of_trial)) return std::nullopt;
+  if (!scan_.is_given_up(of_trial)) return std::nullopt;
   const auto start = scan_.begun().find(of_trial);
   if (start == scan_.begun().end()) return std::nullopt;
   return crashed_entry(trial, parse_json(scan_.text_at(start->second)), scan_.crashes().at(of_trial));

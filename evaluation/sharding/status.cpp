@@ -65,7 +65,6 @@ SharedStatus status_of(const Manifest& manifest, const JournalScan& scan) {
       const TrialId id = id_of(manifest.variants[v], trial, starts[trial]);
       const auto finished = scan.finished().find(id);
       const auto begun = scan.begun().find(id);
-      const auto crashes = scan.crashes().find(id);
       if (finished != scan.finished().end()) {
         const Outcome outcome = finished->second.outcome;
         if (outcome == Outcome::failed) {
@@ -77,7 +76,7 @@ SharedStatus status_of(const Manifest& manifest, const JournalScan& scan) {
         variant.wrong += outcome == Outcome::wrong ? 1 : 0;
         costs[v].ms += finished->second.ms;
         ++costs[v].trials;
-      } else if (crashes != scan.crashes().end() && crashes->second.size() >= most_crashes) {
+      } else if (scan.is_given_up(id)) {
         ++variant.failed;
       } else if (begun != scan.begun().end() && scan.journals()[begun->second.journal].is_live) {
         ++variant.running;

@@ -294,6 +294,9 @@ TEST_F(Shards, AReportShowsWhatIsThereSoFar) {
   EXPECT_EQ(report.exit_code, 0) << report.err;
   EXPECT_THAT(report.err, HasSubstr("as far as it is: 10 of 22 trials"));
   EXPECT_THAT(content(file("so_far.html")), HasSubstr("iterations-10000"));
+  const Answer sweep = run("sweep " + file("shared"));
+  EXPECT_EQ(sweep.exit_code, 0) << sweep.err;
+  EXPECT_THAT(sweep.out, HasSubstr("2 runs without all trials"));
   EXPECT_FALSE(fs::exists(file("shared/iterations-10000"))) << "the folder is left as it is";
   ASSERT_EQ(run_shard("2/2").exit_code, 0);
   ASSERT_EQ(merge().exit_code, 0);
