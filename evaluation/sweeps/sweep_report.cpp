@@ -144,6 +144,17 @@ std::string heading(const SweepAnalysis& a) {
                      cases == 0 ? "" : ", " + counted(cases, "case"));
 }
 
+/// The best, and how many are as good: then only its name has put it first.
+std::string best_of(const SweepAnalysis& a) {
+  const SettingResult& best = a.settings.front();
+  const auto alike = std::count_if(a.settings.begin(), a.settings.end(), [&](const SettingResult& s) {
+    return s.complete && s.chosen.score() == best.chosen.score() &&
+           s.chosen.median_steps == best.chosen.median_steps;
+  });
+  if (alike < 2) return name_of(best);
+  return fmt::format("{}, the first of {} with the same score and steps,", name_of(best), alike);
+}
+
 std::optional<std::string> chance_warning(const SweepAnalysis& a) {
   if (!a.chance) return std::nullopt;
   const ChanceOfBest& c = *a.chance;
@@ -154,7 +165,7 @@ std::optional<std::string> chance_warning(const SweepAnalysis& a) {
       "is {} points over the mean of all settings. The best of {} equal ones would be {} points over it by "
       "chance, "
       "and {} in 5 % of all cases. {}",
-      name_of(a.settings.front()), c.settings, points(c.lead), c.settings, points(c.expected), points(c.high),
+      best_of(a), c.settings, points(c.lead), c.settings, points(c.expected), points(c.high),
       is_more ? "So there is more to it than chance, but part of the lead will not last."
               : "So all settings may be equally good.");
 }
@@ -166,8 +177,6 @@ std::string report_advice(const SweepAnalysis& a) {
         "The number to report is that of {}, where nothing was chosen: {} is right in {} %, with {} of {} "
         "trials wrong.",
         join(a.judge_on), name_of(best), rate(best.judged->success), best.judged->wrong, best.judged->trials);
-  if (!a.judge_on.empty())
-    return fmt::format("{} has not been run on {} yet.", name_of(best), join(a.judge_on));
   return "Judge the best by other logs or worlds (judge_on), and report what comes of that.";
 }
 
