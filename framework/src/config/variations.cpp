@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -97,14 +98,6 @@ std::vector<VariantChanges> cases_of(const Variations& variations, std::vector<F
   return cases;
 }
 
-/// Whether one of two paths leads to what the other one changes.
-bool overlap(std::string_view a, std::string_view b) {
-  const auto is_below = [](std::string_view path, std::string_view above) {
-    return path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '.');
-  };
-  return is_below(a, b) || is_below(b, a);
-}
-
 /// The first change to each path.
 std::vector<const Change*> each_path(const std::vector<VariantChanges>& variants) {
   std::set<std::string_view> seen;
@@ -117,18 +110,30 @@ std::vector<const Change*> each_path(const std::vector<VariantChanges>& variants
   return paths;
 }
 
+/// A change to what this path leads to, to a part of it, or to what it is a part of; null if there is none.
+const Change* overlapping(const std::string& path, const std::map<std::string_view, const Change*>& changes) {
+  for (std::size_t end = path.find('.');; end = path.find('.', end + 1)) {
+    const auto above = changes.find(std::string_view(path).substr(0, end));
+    if (above != changes.end()) return above->second;
+    if (end == std::string::npos) break;
+  }
+  const std::string begin = path + ".";
+  const auto below = changes.lower_bound(begin);
+  return below != changes.end() && below->first.starts_with(begin) ? below->second : nullptr;
+}
+
 /// What a case changes is the case's alone; otherwise a result would not tell which of the two it is of.
 void check_overlaps(const std::vector<VariantChanges>& settings, const std::vector<VariantChanges>& cases,
                     std::vector<Fault>& faults) {
-  const std::vector<const Change*> of_cases = each_path(cases);
+  std::map<std::string_view, const Change*> of_cases;
+  for (const Change* change : each_path(cases)) of_cases.emplace(change->path, change);
   for (const Change* change : each_path(settings)) {
-    const auto other = std::find_if(of_cases.begin(), of_cases.end(),
-                                    [&](const Change* c) { return overlap(c->path, change->path); });
-    if (other == of_cases.end()) continue;
+    const Change* other = overlapping(change->path, of_cases);
+    if (other == nullptr) continue;
     faults.push_back(fault_at(
         change->place,
         fmt::format("variants: '{}' is for the cases to change (line {}); leave it out in one of the two",
-                    (*other)->path, (*other)->place.line)));
+                    other->path, other->place.line)));
   }
 }
 
@@ -138,6 +143,12 @@ void check_seed_changes(const std::vector<VariantChanges>& variants, std::vector
       faults.push_back(fault_at(change->place, "seed: is changed here, and `seeds` is given; leave one out"));
     }
   }
+}
+
+std::size_t count_changes(const std::vector<VariantChanges>& variants) {
+  std::size_t n = 0;
+  for (const VariantChanges& variant : variants) n += variant.changes.size();
+  return n;
 }
 
 /// Each setting with each case.
@@ -232,6 +243,15 @@ Expansion expand(const Variations& variations, AnyParams& experiment, std::vecto
         fmt::format("variants: {} settings, {} cases and {} seeds make {} variants, at most {} are allowed; "
                     "leave some out",
                     all.variants.size(), cases.size(), all.seeds.size(), n, most_variants)));
+    return {};
+  }
+  const std::size_t changes =
+      count_changes(all.variants) * cases.size() + count_changes(cases) * all.variants.size();
+  if (changes > most_changes) {
+    faults.push_back(fault_at(
+        cases.front().place,
+        fmt::format("choose_on, judge_on: variants and cases change {} values in all; leave some out",
+                    changes)));
     return {};
   }
   if (!cases.empty()) all.variants = cross(all.variants, cases);

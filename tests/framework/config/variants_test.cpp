@@ -257,6 +257,11 @@ TEST_F(VariantsTest, MoreThanTenThousandOfAnyKindAreRefusedAtOnce) {
 }
 
 TEST_F(VariantsTest, WhatTakesTooMuchMemoryIsRefused) {
+  EXPECT_THAT(
+      faults_of("choose_on: {near: {" + count_to(900, "a.b", ": 1") + "}}\nvariants: {list: {" +
+                count_to(2000, "v", ": {}") + "}}\n"),
+      ElementsAre("e.yaml:7:13: error: choose_on, judge_on: variants and cases change 1800000 values in all; "
+                  "leave some out"));
   const std::string long_list = "[[" + count_to(30000, "", "") + "]]";
   EXPECT_THAT(faults_of("variants: {grid: {trials.starts_m: " + long_list + ", trials.every_m: [0], seed: [" +
                         count_to(1000, "", "") + "]}}\n"),
@@ -400,6 +405,13 @@ TEST_F(VariantsTest, BadCasesAreRefusedAtTheirPlace) {
                 "variants: {list: {b: {observations.toy_drive.noise.range: 1}, c: {trials.every_mm: 1}}}\n"),
       testing::Contains("e.yaml:8:23: error: variants: 'observations.toy_drive.noise' is for the cases to "
                         "change (line 7); leave it out in one of the two"));
+  // The other way round; and what only begins alike is no part of it.
+  EXPECT_THAT(
+      faults_of("choose_on: {a: {observations.toy_drive.noise.range: 1, trials.max_steps: 5}}\n"
+                "variants: {list: {b: {observations.toy_drive.noise: {}}, c: {trials.max: 1}}}\n"),
+      ElementsAre("e.yaml:8:23: error: variants: 'observations.toy_drive.noise.range' is for the cases to "
+                  "change (line 7); leave it out in one of the two",
+                  testing::HasSubstr("trials: unknown key 'max'")));
   EXPECT_THAT(faults_of("choose_on: {b_c: {}, c: {}}\nvariants: {list: {a: {}, a_b: {}}}\n"),
               ElementsAre("e.yaml:8:26: error: variants: 'a_b_c' is there twice (first in line 8)"));
   const std::string ninety(90, 'x');
