@@ -37,6 +37,9 @@ long killed_for_memory() {
   return 0;
 }
 
+/// What a child says when its work is over: others may call exit() before.
+constexpr char over = '.';
+
 [[noreturn]] void be_child(const std::function<int()>& work, pid_t parent, int tell) {
   listen_to_parent();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -44,8 +47,26 @@ long killed_for_memory() {
   report_crashes_to(tell);
   const int code = exit_code_of(work);
   std::fflush(nullptr);
+  static_cast<void>(!write(tell, &over, 1));
   // Without destructors: what this process has was made for the parent, too.
   std::_Exit(code);
+}
+
+ChildEnd end_of(int status, const std::string& said, bool out_of_memory) {
+  ChildEnd end;
+  if (WIFEXITED(status)) {
+    if (said == std::string(1, over)) {
+      end.exit_code = WEXITSTATUS(status);
+    } else {
+      end.cause = fmt::format("exit({})", WEXITSTATUS(status));
+      end.is_own_fault = true;
+    }
+    return end;
+  }
+  end.cause = signal_name(WTERMSIG(status)) + (out_of_memory ? ", memory ran out" : "");
+  end.is_own_fault = is_fault(WTERMSIG(status)) || out_of_memory;
+  end.crash = crash_report_of(said);
+  return end;
 }
 
 /// Waits until the child has ended; it says nothing but its last word.
@@ -94,15 +115,8 @@ ChildEnd run_in_child(const std::function<int()>& work, const std::function<void
   close(listen);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  ChildEnd end;
-  if (WIFEXITED(status)) {
-    end.exit_code = WEXITSTATUS(status);
-  } else {
-    end.signal = WTERMSIG(status);
-    end.out_of_memory = end.signal == SIGKILL && killed_for_memory() > killed_before;
-    end.crash = crash_report_of(said);
-  }
-  return end;
+  const bool is_killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+  return end_of(status, said, is_killed && killed_for_memory() > killed_before);
 }
 
 }  // namespace glocal::app

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "app/fatal_signals.hpp"
 
@@ -10,9 +11,10 @@ namespace glocal::app {
 
 /// How a child has ended.
 struct ChildEnd {
-  std::optional<int> exit_code;      ///< None if a signal ended it.
-  int signal = 0;                    ///< That one.
-  bool out_of_memory = false;        ///< The system has ended it, or another process, to get memory back.
+  std::optional<int> exit_code;  ///< None if something ended it before its work was over.
+  std::string cause;             ///< That: "SIGSEGV", "SIGKILL, memory ran out", "exit(0)".
+  /// What ended it came from within: a fault, too much memory, or a call of exit().
+  bool is_own_fault = false;
   std::optional<CrashReport> crash;  ///< Its last word.
 };
 

@@ -73,7 +73,7 @@ class Supervisor {
   int work(const std::vector<PlannedTrial>& trials, ShardJournal& journal);
   void note_death(const ChildEnd& end, const std::vector<PlannedTrial>& trials, ShardJournal& journal);
   void note_crash(const ChildEnd& end, const std::vector<PlannedTrial>& suspects, ShardJournal& journal);
-  void note_kill(int signal);
+  void note_kill(const std::string& cause);
 
   std::vector<Variant> variants_;
   Manifest manifest_;
@@ -172,10 +172,10 @@ void Supervisor::note_death(const ChildEnd& end, const std::vector<PlannedTrial>
     if (begun != scan_.begun().end() && scan_.journals()[begun->second.journal].file == journal.file())
       running.push_back(place);
   }
-  if (is_fault(end.signal) || end.out_of_memory) {
+  if (end.is_own_fault) {
     note_crash(end, running, journal);
   } else {
-    note_kill(end.signal);
+    note_kill(end.cause);
   }
 }
 
@@ -186,8 +186,7 @@ void Supervisor::note_crash(const ChildEnd& end, const std::vector<PlannedTrial>
     return end.crash && end.crash->trial && *end.crash->trial == place.trial;
   };
   const bool any_named = std::any_of(running.begin(), running.end(), is_named);
-  const Crash crash{signal_name(end.signal) + (end.out_of_memory ? ", memory ran out" : ""),
-                    end.crash ? end.crash->where : ""};
+  const Crash crash{end.cause, end.crash ? end.crash->where : ""};
   bool any = false;
   for (const PlannedTrial& place : running) {
     if (any_named && !is_named(place)) continue;
@@ -206,7 +205,7 @@ void Supervisor::note_crash(const ChildEnd& end, const std::vector<PlannedTrial>
 }
 
 /// Somebody has ended the process: its trials are not to blame. Whoever ends it may be about to end this one.
-void Supervisor::note_kill(int signal) {
+void Supervisor::note_kill(const std::string& cause) {
   constexpr std::size_t most_kills = 5;
   std::this_thread::sleep_for(std::chrono::seconds(1));
   if (is_interrupted()) return;
@@ -216,8 +215,8 @@ void Supervisor::note_kill(int signal) {
     throw RunError(
         fmt::format("{} processes were ended by {} one after the other before they had finished a "
                     "trial; what was finished before is kept",
-                    kills_, signal_name(signal)));
-  spdlog::warn("the process was ended by {}; another one goes on", signal_name(signal));
+                    kills_, cause));
+  spdlog::warn("the process was ended by {}; another one goes on", cause);
 }
 
 }  // namespace

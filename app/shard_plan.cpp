@@ -1,5 +1,6 @@
 #include "app/shard_plan.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "app/child_process.hpp"
@@ -38,7 +39,9 @@ std::optional<Manifest> planned_shards(std::vector<Variant>& variants, const std
     write_manifest(shared, plan(variants, file, plugins, context.catalog, loader, hashes));
     return 0;
   });
-  context.exit_code = end.exit_code.value_or(1);
+  if (!end.exit_code)
+    throw RunError(fmt::format("the process that loads maps and drives has ended too soon: {}", end.cause));
+  context.exit_code = *end.exit_code;
   if (context.exit_code != 0) return std::nullopt;
   return read_manifest(shared);
 }

@@ -212,6 +212,15 @@ TEST_F(CrashingShard, ATrialThatCrashesTwiceIsARowAndTakesNoOthersWithIt) {
   }
 }
 
+TEST_F(CrashingShard, ATrialThatEndsTheProgramHasCrashed) {
+  const Answer answer = run_shard("how: exit, stamp: 10");
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.err, HasSubstr("trial 2 has crashed (exit(0)); it is given up"));
+  const auto trials = merged_trials();
+  ASSERT_EQ(trials.size(), 4U);
+  EXPECT_EQ(trials[2]["why"], "crashed (exit(0)), in each of 2 processes");
+}
+
 TEST_F(CrashingShard, ATrialThatCrashesOnceIsNot) {
   const Answer answer = run_shard("how: abort, stamp: 10, once: " + file("mark"));
   EXPECT_EQ(answer.exit_code, 0);
