@@ -173,7 +173,8 @@ TEST_F(ExperimentFile, EachFaultHasItsPlaceAndRule) {
       {"seed: 42", "sede: 42", {"e.yaml:3:1: error: unknown key 'sede' (did you mean 'seed'?)"}},
       {"steps: true",
        "colour: 1",
-       {"e.yaml:13:10: error: output: unknown key 'colour' (known keys: steps, trajectories, clusters, maps)"}},
+       {"e.yaml:13:10: error: output: unknown key 'colour' (known keys: steps, trajectories, clusters, "
+        "maps)"}},
       {"iterations: 500",
        "iterations: 1, iterations: 2",
        {"e.yaml:11:29: error: localizer.matcher.ransam: duplicate key 'iterations' (first in line 11)"}},

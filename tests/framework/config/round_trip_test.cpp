@@ -159,8 +159,9 @@ localizer:
   EXPECT_TRUE(written.starts_with("# "));
   EXPECT_EQ(written.substr(comment_end, expected.size()), expected);
   EXPECT_THAT(written,
-              testing::EndsWith("evaluation:\n  max_translation_error: 0.5\n  max_rotation_error_deg: 10\n"
-                                "output:\n  steps: true\n  trajectories: true\n  clusters: 50\n  maps: first_trial\n"));
+              testing::EndsWith(
+                  "evaluation:\n  max_translation_error: 0.5\n  max_rotation_error_deg: 10\n"
+                  "output:\n  steps: true\n  trajectories: true\n  clusters: 50\n  maps: first_trial\n"));
 }
 
 TEST_F(RoundTrip, EachPartOfAnExperimentHasRandomNumbersOfItsOwn) {
