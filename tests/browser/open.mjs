@@ -37,7 +37,9 @@ export async function open(address, options = {}) {
   });
   const url = address.startsWith("http") ? address : `file://${address}`;
   await page.goto(url);
-  await page.waitForSelector("canvas[data-scale]");
+  await page.waitForSelector("body[data-step]");
+  // Without steps and maps there is nothing to draw.
+  if ((await page.locator("#view").count()) > 0) await page.waitForSelector("canvas[data-scale]");
   return { page, noted, url: page.url() };
 }
 

@@ -101,9 +101,12 @@ start_slurm() { # [jobs an array may have, and one]: exports SLURM_CONF
   wait_for_slurm
 }
 
-# What an administrator does after a failure: slurmctld drains a node that runs a job it does not know of, and holds jobs that it could not launch.
+# What systemd and an administrator do after a failure: daemons that have ended are started again; slurmctld drains a node that runs a job it does not know of,
+# and holds jobs that it could not launch.
 revive_slurm() {
   local job
+  kill -0 "$slurmctld_pid" || start_slurmctld
+  kill -0 "$slurmd_pid" || start_slurmd
   case $(sinfo -h -o %T) in drain* | down*) scontrol update NodeName=here State=RESUME ;; esac
   for job in $(squeue --noheader --array --states=PENDING --format='%i %r' | sed -n 's/ .*held.*//Ip'); do
     scontrol release "$job"

@@ -1,7 +1,7 @@
 // The page of glocal report and of glocal run --watch.
 import { verdictNames } from "./colours";
 import { Curves } from "./curves";
-import { embeddedReport, type Report } from "./data";
+import { embeddedReport, type Report, type Run } from "./data";
 import { Details } from "./details";
 import { append, el, replace } from "./elements";
 import { LiveNews } from "./live";
@@ -104,6 +104,10 @@ function links(sections: (HTMLElement | null)[]): HTMLElement {
   return el("nav", { "aria-label": "Parts of the report" }, ...sections.filter((s) => s !== null).map(link));
 }
 
+function hasMoreThanTrials(run: Run): boolean {
+  return run.map !== undefined || run.settings["output.steps"]?.text !== "false";
+}
+
 function show(report: Report, page: HTMLElement): void {
   if (report.format !== format) throw new Error(`the data has format ${report.format}, and this page reads ${format}`);
   if (report.runs.length === 0) throw new Error("the data has no run");
@@ -144,7 +148,9 @@ function show(report: Report, page: HTMLElement): void {
     links([sweep, ...sections]),
   );
   const view = el("main", { id: "view" }, map.element, curves.element, player.element, details.element);
-  replace(page, header, news?.element, sweep, view, keysHelp());
+  replace(page, header, news?.element, sweep);
+  // Large sweeps keep neither steps nor maps: there is nothing to step through.
+  if (!sweep || report.runs.some(hasMoreThanTrials)) append(page, view, keysHelp());
   append(page, ...sections);
   listenToKeys(store, player, map);
   trials.fill();
