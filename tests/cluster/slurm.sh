@@ -4,9 +4,12 @@
 slurm_cores=2
 PATH=$PATH:/usr/sbin:/sbin
 
-slurm_is_installed() {
+why_no_slurm() { # a sentence, or nothing where Slurm can run
   local program
-  for program in slurmctld slurmd sbatch munged setpriv; do command -v "$program" >/dev/null || return 1; done
+  for program in slurmctld slurmd sbatch munged setpriv; do
+    command -v "$program" >/dev/null || { echo "there is no $program (scripts/setup --cluster)"; return; }
+  done
+  [ -n "$(ls -A /sys/fs/cgroup 2>/dev/null)" ] || echo "slurmd cannot run here: nothing is mounted at /sys/fs/cgroup"
 }
 
 free_port() { # below those that the kernel gives away

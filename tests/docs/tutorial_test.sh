@@ -13,11 +13,13 @@ fail() { echo "FAILED: $1" >&2; exit 1; }
 # Only the build folder may have another name, and where there is no cluster the section on it is left out.
 . "$root/tests/cluster/slurm.sh"
 leave_out=
-if slurm_is_installed && command -v parallel >/dev/null; then
+why=$(why_no_slurm)
+command -v parallel >/dev/null || why='there is no GNU parallel (scripts/setup --cluster)'
+if [ -z "$why" ]; then
   trap stop_slurm EXIT
   start_slurm
 else
-  echo 'without the section on clusters: Slurm or GNU parallel is missing (scripts/setup --cluster)'
+  echo "without the section on clusters: $why"
   leave_out='/^## .* On a cluster$/,/^## Where/d'
 fi
 sed "$leave_out" "$root/docs/tutorial.md" |
