@@ -76,19 +76,15 @@ void add_strategy(Line& line, const RunningStage& stage) {
   line.add("'");
 }
 
-/// A line each of signal, trial and place, as crash_report_of() reads them.
-void tell_watcher(const FatalSignal& signal, const RunningStage* stage, int descriptor) {
+/// A line with the trial, and one with the place, as crash_report_of() reads them.
+void tell_watcher(const RunningStage& stage, int descriptor) {
   Line line;
-  line.add(signal.name);
+  line.add(stage.trial);
   line.add("\n");
-  if (stage != nullptr) {
-    line.add(stage->trial);
-    line.add("\n");
-    add_strategy(line, *stage);
-    if (stage->step != RunningStage::before_first) {
-      line.add(", step ");
-      line.add(std::uint64_t{stage->step});
-    }
+  add_strategy(line, stage);
+  if (stage.step != RunningStage::before_first) {
+    line.add(", step ");
+    line.add(std::uint64_t{stage.step});
   }
   line.write_to(descriptor);
 }
@@ -114,7 +110,7 @@ void say_where(int number) {
   }
   line.add("; what was finished before is kept\n");
   line.write_to(STDERR_FILENO);
-  if (const int descriptor = watcher; descriptor >= 0) tell_watcher(signal, stage, descriptor);
+  if (const int descriptor = watcher; descriptor >= 0 && stage != nullptr) tell_watcher(*stage, descriptor);
   raise(number);
 }
 
@@ -141,10 +137,8 @@ void report_crashes_to(int descriptor) {
 std::optional<CrashReport> crash_report_of(const std::string& text) {
   std::istringstream lines(text);
   CrashReport report;
-  std::string trial;
-  if (!std::getline(lines, report.signal)) return std::nullopt;
-  if (std::getline(lines, trial)) report.trial = std::stoull(trial);
-  std::getline(lines, report.where);
+  if (!(lines >> report.trial)) return std::nullopt;
+  std::getline(lines >> std::ws, report.where);
   return report;
 }
 

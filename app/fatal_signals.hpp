@@ -13,12 +13,11 @@ void name_strategy_in_crashes();
 
 /// What is said of a crash to a process that watches this one.
 struct CrashReport {
-  std::string signal;                  ///< "SIGSEGV"
-  std::string where;                   ///< "matcher 'ransam', step 3"; empty if no strategy was at work.
-  std::optional<std::uint64_t> trial;  ///< None if no strategy was at work.
+  std::uint64_t trial = 0;
+  std::string where;  ///< "matcher 'ransam', step 3"
 };
 
-/// From now on a crash is also reported through this file descriptor.
+/// From now on a crash in a strategy is also reported through this file descriptor.
 void report_crashes_to(int descriptor);
 
 /// What was written there; none if it is no report.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -39,11 +38,8 @@ std::string list_of(const std::vector<std::size_t>& numbers) {
 }
 
 void say_missing(const MergeResult& result, const Manifest& manifest, const JournalScan& scan) {
-  std::size_t n = 0;
-  for (const MissingTrials& missing : result.missing) n += missing.trials.size();
-  const auto live = std::count_if(scan.journals().begin(), scan.journals().end(),
-                                  [](const JournalScan::Journal& journal) { return journal.is_live; });
-  say("incomplete: {} of {} trials are missing\n", n, manifest.count_trials());
+  const std::size_t live = scan.count_live();
+  say("incomplete: {} of {} trials are missing\n", result.count_missing(), manifest.count_trials());
   for (const MissingTrials& missing : result.missing)
     say("  {}{}\n", missing.variant.empty() ? "trials " : missing.variant + ": trials ",
         list_of(missing.trials));

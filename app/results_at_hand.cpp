@@ -47,12 +47,10 @@ fs::path ResultsAtHand::put_together(const fs::path& shared) {
   // Pages and tables call runs by the names of their folders.
   const fs::path out = temporary_ / std::to_string(folders_.size()) / own_name(shared);
   const MergeResult result = merge_shards(manifest, scan, {out});
-  std::size_t missing = 0;
-  for (const MissingTrials& of_variant : result.missing) missing += of_variant.trials.size();
   if (result.run.variants.empty())
     throw ConfigError({{shared.string(), 0, 0, "no trial has come to an end yet; wait for the first"}});
-  spdlog::info("{}: as far as it is: {} of {} trials", shared.string(), manifest.count_trials() - missing,
-               manifest.count_trials());
+  spdlog::info("{}: as far as it is: {} of {} trials", shared.string(),
+               manifest.count_trials() - result.count_missing(), manifest.count_trials());
   return out;
 }
 

@@ -46,11 +46,7 @@ class Supervisor {
         quiet_(quiet),
         context_(context),
         scan_(journals_folder(options_.out), [](const std::string& text) { spdlog::warn(text); }) {
-    std::vector<std::vector<std::size_t>> steps(manifest_.variants.size());
-    for (std::size_t v = 0; v < steps.size(); ++v) {
-      for (const PlannedStart& start : manifest_.starts_of(v)) steps[v].push_back(start.steps);
-    }
-    share_ = share_of(steps, shard_);
+    share_ = share_of(steps_of(manifest_), shard_);
   }
 
   /// The exit code.
@@ -183,7 +179,7 @@ void Supervisor::note_death(const ChildEnd& end, const std::vector<PlannedTrial>
 void Supervisor::note_crash(const ChildEnd& end, const std::vector<PlannedTrial>& running,
                             ShardJournal& journal) {
   const auto is_named = [&](const PlannedTrial& place) {
-    return end.crash && end.crash->trial && *end.crash->trial == place.trial;
+    return end.crash && end.crash->trial == place.trial;
   };
   const bool any_named = std::any_of(running.begin(), running.end(), is_named);
   const Crash crash{end.cause, end.crash ? end.crash->where : ""};

@@ -82,11 +82,7 @@ nlohmann::ordered_json description() {
 }
 
 void write_journals(const fs::path& folder, const Manifest& manifest) {
-  std::vector<std::vector<std::size_t>> steps;
-  for (std::size_t v = 0; v < manifest.variants.size(); ++v) {
-    steps.emplace_back();
-    for (const PlannedStart& start : manifest.starts_of(v)) steps.back().push_back(start.steps);
-  }
+  const auto steps = steps_of(manifest);
   for (std::size_t k = 1; k <= shards; ++k) {
     ShardJournal journal(journals_folder(folder), {k, shards}, 1);
     std::size_t variant = variants;

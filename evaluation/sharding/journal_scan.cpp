@@ -72,8 +72,9 @@ void JournalScan::update() {
   for (std::size_t i = 0; i < journals_.size(); ++i) read(i);
 }
 
-bool JournalScan::any_live() const {
-  return std::any_of(journals_.begin(), journals_.end(), [](const Journal& j) { return j.is_live; });
+std::size_t JournalScan::count_live() const {
+  return static_cast<std::size_t>(
+      std::count_if(journals_.begin(), journals_.end(), [](const Journal& j) { return j.is_live; }));
 }
 
 bool JournalScan::is_given_up(const TrialId& id) const {

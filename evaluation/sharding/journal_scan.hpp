@@ -53,7 +53,8 @@ class JournalScan {
   void update();
 
   [[nodiscard]] const std::vector<Journal>& journals() const { return journals_; }
-  [[nodiscard]] bool any_live() const;
+  /// Writers that are at work.
+  [[nodiscard]] std::size_t count_live() const;
   /// Trials that are over. One that was run twice counts once.
   [[nodiscard]] const std::unordered_map<TrialId, Finished, TrialIdHash>& finished() const {
     return finished_;

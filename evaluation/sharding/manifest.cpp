@@ -185,6 +185,14 @@ std::map<std::string, std::size_t> places_of(const Manifest& manifest) {
   return places;
 }
 
+std::vector<std::vector<std::size_t>> steps_of(const Manifest& manifest) {
+  std::vector<std::vector<std::size_t>> steps(manifest.variants.size());
+  for (std::size_t v = 0; v < steps.size(); ++v) {
+    for (const PlannedStart& start : manifest.starts_of(v)) steps[v].push_back(start.steps);
+  }
+  return steps;
+}
+
 std::size_t Manifest::count_trials() const {
   std::size_t n = 0;
   for (const PlannedVariant& variant : variants) n += starts[variant.starts].size();

@@ -55,6 +55,9 @@ struct Manifest {
 /// Of variants by name.
 [[nodiscard]] std::map<std::string, std::size_t> places_of(const Manifest& manifest);
 
+/// The most steps of each trial, by variant and trial.
+[[nodiscard]] std::vector<std::vector<std::size_t>> steps_of(const Manifest& manifest);
+
 /// Where a shared folder has what shards need, and the journals in there.
 inline constexpr const char* shards_folder = ".shards";
 [[nodiscard]] std::filesystem::path manifest_file(const std::filesystem::path& shared);

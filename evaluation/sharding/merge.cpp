@@ -26,13 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// What one key has in all descriptions, each once: "a, b".
-std::string joined(const std::vector<Json>& descriptions, const char* key) {
-  std::set<std::string> values;
-  for (const Json& d : descriptions) values.insert(d.at("provenance").at(key).get<std::string>());
-  return fmt::format("{}", fmt::join(values, ", "));
-}
-
 std::optional<MapIndexInfo> index_of(const Json& map) {
   if (!map.contains("index")) return std::nullopt;
   const Json& index = map.at("index");
@@ -59,13 +52,14 @@ class VariantMerge {
         folder_(options.out / planned_.name) {
     const auto found = scan.variants().find(planned_.identity);
     if (found == scan.variants().end()) return;
-    for (const JournalScan::Place& at : found->second) descriptions_.push_back(parse_json(scan.text_at(at)));
+    places_ = &found->second;
+    first_ = parse_json(scan.text_at(places_->front()));
   }
 
   [[nodiscard]] std::size_t trials() const { return starts_.size(); }
   [[nodiscard]] MissingTrials missing() const;
   /// No shard has begun with it.
-  [[nodiscard]] bool is_empty() const { return descriptions_.empty(); }
+  [[nodiscard]] bool is_empty() const { return places_ == nullptr; }
   /// The summary of results that are there already, and complete. Throws ConfigError for those of other runs.
   [[nodiscard]] std::optional<Json> kept() const;
   Json write(bool is_complete) const;
@@ -75,7 +69,7 @@ class VariantMerge {
  private:
   [[nodiscard]] TrialId id(std::size_t trial) const { return id_of(planned_, trial, starts_[trial]); }
   [[nodiscard]] std::optional<JournalEntry> take(OutputFolder& folder, std::size_t trial) const;
-  [[nodiscard]] Json origin() const;
+  void add_machines(Json& origin, double& peak_rss_mb) const;
   void move_up(const fs::path& merged) const;
 
   const PlannedVariant& planned_;
@@ -83,7 +77,8 @@ class VariantMerge {
   const JournalScan& scan_;
   const MergeOptions& options_;
   fs::path folder_;
-  std::vector<Json> descriptions_;
+  const std::vector<JournalScan::Place>* places_ = nullptr;  ///< Of descriptions; null if there are none.
+  Json first_;                                               ///< The first of these.
 };
 
 MissingTrials VariantMerge::missing() const {
@@ -99,11 +94,10 @@ std::optional<Json> VariantMerge::kept() const {
   if (!is_results_folder(folder_) || is_complete(folder_) != true) return std::nullopt;
   const Json there = Json::parse(content_of(folder_ / "provenance.json"), nullptr, false);
   const auto same = [&](const char* key) {
-    return there.is_object() && there.contains(key) &&
-           there.at(key) == descriptions_.front().at("provenance").at(key);
+    return there.is_object() && there.contains(key) && there.at(key) == first_.at("provenance").at(key);
   };
-  if (content_of(folder_ / "effective.yaml") == descriptions_.front().at("effective") &&
-      same("program_sha256") && same("inputs_sha256"))
+  if (content_of(folder_ / "effective.yaml") == first_.at("effective") && same("program_sha256") &&
+      same("inputs_sha256"))
     return read_results(folder_).summary;
   if (!options_.force)
     throw ConfigError({{folder_.string(), 0, 0,
@@ -129,14 +123,17 @@ std::optional<JournalEntry> VariantMerge::take(OutputFolder& folder, std::size_t
   return crashed_entry(trial, parse_json(scan_.text_at(start->second)), scan_.crashes().at(of_trial));
 }
 
-/// Machines that have taken part are all named.
-Json VariantMerge::origin() const {
-  Json origin = descriptions_.front().at("provenance");
-  origin["host"] = joined(descriptions_, "host");
-  origin["cpu"] = joined(descriptions_, "cpu");
-  // Variants of the same values share what shards leave, though they have different names.
-  if (!planned_.origin.is_null()) origin["variant"] = planned_.origin;
-  return origin;
+/// Machines that have taken part are all named; memory is that of the largest process.
+void VariantMerge::add_machines(Json& origin, double& peak_rss_mb) const {
+  std::set<std::string> hosts, cpus;
+  for (const JournalScan::Place& at : *places_) {
+    const Json description = parse_json(scan_.text_at(at));
+    hosts.insert(description.at("provenance").at("host").get<std::string>());
+    cpus.insert(description.at("provenance").at("cpu").get<std::string>());
+    peak_rss_mb = std::max(peak_rss_mb, description.at("peak_rss_mb").get<double>());
+  }
+  origin["host"] = fmt::format("{}", fmt::join(hosts, ", "));
+  origin["cpu"] = fmt::format("{}", fmt::join(cpus, ", "));
 }
 
 Json VariantMerge::write(bool is_complete) const {
@@ -145,15 +142,17 @@ Json VariantMerge::write(bool is_complete) const {
   const bool is_beside = planned_.name.empty() && is_shared_folder(folder_);
   const fs::path place = is_beside ? folder_ / shards_folder / "merged" : folder_;
   OutputFolder folder(place, true);
-  const Json& first = descriptions_.front();
-  folder.write("effective.yaml", first.at("effective").get<std::string>());
-  folder.write("provenance.json", origin().dump(2) + "\n");
+  Json origin = first_.at("provenance");
   double peak = 0.0;
-  for (const Json& d : descriptions_) peak = std::max(peak, d.at("peak_rss_mb").get<double>());
-  const Json& map = first.at("map");
-  const Json summary = put_together(folder, first.at("steps"), starts_.size(),
+  add_machines(origin, peak);
+  // Variants of the same values share what shards leave, though they have different names.
+  if (!planned_.origin.is_null()) origin["variant"] = planned_.origin;
+  folder.write("effective.yaml", first_.at("effective").get<std::string>());
+  folder.write("provenance.json", origin.dump(2) + "\n");
+  const Json& map = first_.at("map");
+  const Json summary = put_together(folder, first_.at("steps"), starts_.size(),
                                     [&](std::size_t trial) { return take(folder, trial); })
-                           .to_json({first.at("name"), first.at("seed"), is_complete, map.at("points"),
+                           .to_json({first_.at("name"), first_.at("seed"), is_complete, map.at("points"),
                                      map.at("build_ms"), map.at("index_ms"), index_of(map), peak});
   folder.write_for_good("summary.json", summary.dump(2) + "\n");
   folder.commit();
@@ -204,28 +203,35 @@ auto with_journals(const PlannedVariant& planned, const Work& work) {
 
 }  // namespace
 
+std::size_t MergeResult::count_missing() const {
+  std::size_t n = 0;
+  for (const MissingTrials& of_variant : missing) n += of_variant.trials.size();
+  return n;
+}
+
 MergeResult merge_shards(const Manifest& manifest, const JournalScan& scan, const MergeOptions& options) {
   MergeResult result;
   result.run.folder = options.out;
   const std::size_t n = manifest.variants.size();
   const auto for_each = [&](const auto& work) {
     for (std::size_t i = 0; i < n; ++i)
-      with_journals(manifest.variants[i], [&] { work(VariantMerge(manifest, i, scan, options)); });
+      with_journals(manifest.variants[i], [&] { work(i, VariantMerge(manifest, i, scan, options)); });
   };
   // What is in the way is said before anything is written.
   FaultCollector faults;
-  for_each([&](const VariantMerge& merge) {
-    if (!merge.is_empty()) faults.collect([&] { static_cast<void>(merge.kept()); });
+  std::vector<std::optional<Json>> there(n);  // Summaries of what is complete already.
+  for_each([&](std::size_t i, const VariantMerge& merge) {
+    if (!merge.is_empty()) faults.collect([&] { there[i] = merge.kept(); });
   });
   faults.report();
-  for_each([&](const VariantMerge& merge) {
+  for_each([&](std::size_t i, const VariantMerge& merge) {
     MissingTrials missing = merge.missing();
     const bool is_complete = missing.trials.empty();
     if (merge.is_empty() && missing.trials.size() < merge.trials())
       throw std::invalid_argument("no journal describes it");
     if (!is_complete) result.missing.push_back(std::move(missing));
     if (merge.is_empty()) return;
-    const std::optional<Json> kept = is_complete ? merge.kept() : std::nullopt;
+    const std::optional<Json> kept = is_complete ? std::move(there[i]) : std::nullopt;
     if (kept && !merge.name().empty()) options.note(fmt::format("{}: kept, as it is complete", merge.name()));
     result.run.variants.push_back(
         result_of_variant(merge.name(), merge.folder(), kept ? *kept : merge.write(is_complete)));

@@ -21,6 +21,7 @@ struct MissingTrials {
 struct MergeResult {
   RunResult run;  ///< As the run of one machine would have told.
   std::vector<MissingTrials> missing;
+  [[nodiscard]] std::size_t count_missing() const;
 };
 
 struct MergeOptions {
