@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/named_runs.hpp"
 #include "evaluation/comparison/comparison.hpp"
 #include "evaluation/comparison/comparison_report.hpp"
 #include "evaluation/comparison/comparison_writers.hpp"
+#include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/atomic_file.hpp"
 
 namespace glocal::app {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/named_runs.hpp"
 #include "app/programs.hpp"
 #include "app/python.hpp"
-#include "app/results_arguments.hpp"
+#include "app/results_at_hand.hpp"
 #include "config/text_file.hpp"
+#include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/sweeps/analysis.hpp"
 #include "evaluation/sweeps/sweep_report.hpp"

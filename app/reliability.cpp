@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/results_arguments.hpp"
+#include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "glocal/error.hpp"
 

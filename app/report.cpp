@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/named_runs.hpp"
 #include "app/report_file.hpp"
 #include "app/results_at_hand.hpp"
+#include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "report/page.hpp"
 #include "report/page_text.hpp"

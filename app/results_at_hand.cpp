@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "app/named_runs.hpp"
+#include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/sharding/merge.hpp"
 #include "glocal/error.hpp"
@@ -52,6 +52,12 @@ fs::path ResultsAtHand::put_together(const fs::path& shared) {
   spdlog::info("{}: as far as it is: {} of {} trials", shared.string(),
                manifest.count_trials() - result.count_missing(), manifest.count_trials());
   return out;
+}
+
+std::vector<NamedRun> read_sweep(const std::string& folder) {
+  const ResultsAtHand results({folder});
+  return read_runs(results.folders(),
+                   [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); });
 }
 
 }  // namespace glocal::app

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/comparison/comparison.hpp"
+
 namespace glocal::app {
 
 /// Folders as they were given. In the place of one that shards have not filled yet stands a temporary one,
@@ -26,5 +28,9 @@ class ResultsAtHand {
   std::vector<std::string> folders_;
   std::filesystem::path temporary_;  ///< Empty if there is none.
 };
+
+/// The runs of an experiment that were left in one folder, but for their steps, which are most of them.
+/// Throws ConfigError as read_runs() does.
+[[nodiscard]] std::vector<NamedRun> read_sweep(const std::string& folder);
 
 }  // namespace glocal::app

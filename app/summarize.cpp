@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/named_runs.hpp"
+#include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/stored_figures.hpp"
 
 namespace glocal::app {

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/named_runs.hpp"
+#include "app/results_at_hand.hpp"
+#include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/sweeps/analysis.hpp"
 #include "evaluation/sweeps/sweep_report.hpp"
 

@@ -78,6 +78,10 @@ using Override = std::pair<std::string, std::string>;
 [[nodiscard]] Experiment read_experiment(const std::filesystem::path& file,
                                          const std::vector<Override>& overrides, const Catalog& catalog);
 
+/// A localizer's values, of which `overrides` change some, as in {"matcher.ransam.iterations", "50000"}.
+/// Throws ConfigError with every fault found in them.
+[[nodiscard]] LocalizerConfig read_localizer(const std::vector<Override>& overrides, const Catalog& catalog);
+
 /// What the results of a case are for.
 enum class CaseRole {
   none,    ///< There are no cases.

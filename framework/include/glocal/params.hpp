@@ -23,6 +23,14 @@ struct Doc {
   consteval Doc(const char* sentence)
       : text(sentence) {}  // NOLINT(google-explicit-constructor): reads as a string
   const char* text;
+
+  /// A sentence that is known when the program runs only, of a strategy in another language. It must outlive
+  /// all that is made of it.
+  [[nodiscard]] static Doc at_run_time(const std::string& sentence) {
+    Doc doc("");
+    doc.text = sentence.c_str();
+    return doc;
+  }
 };
 
 /// Who a field is for.

@@ -104,6 +104,15 @@ class Registry final : public RegistryBase {
     };
   }
 
+  /// The same for a strategy that no class stands for, such as one in another language: `make` is handed what
+  /// `default_params` made, with values from a file.
+  void add_made(std::string name, std::string doc, Motions motions,
+                std::function<std::unique_ptr<AnyParams>()> default_params,
+                std::function<std::unique_ptr<Interface>(const AnyParams&, const Setup&)> make) {
+    insert(name, std::move(doc), motions, std::move(default_params));
+    makers_[std::move(name)] = std::move(make);
+  }
+
   [[nodiscard]] std::unique_ptr<Interface> make(const StrategyChoice& choice, const Setup& setup) const {
     if (!choice.params) return make(choose(choice.name), setup);
     return makers_.at(choice.name)(*choice.params, setup);

@@ -76,6 +76,19 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
           {.doc = "When the robot counts as somewhere the map does not show."});
 }
 
+/// The section as a struct of its own.
+class LocalizerParams final : public AnyParams {
+ public:
+  LocalizerParams(LocalizerConfig& config, const Catalog& catalog) : section_{&config, &catalog} {}
+  void visit(ParamVisitor& visitor) override { describe(visitor, section_); }
+  [[nodiscard]] std::unique_ptr<AnyParams> clone() const override {
+    return std::make_unique<LocalizerParams>(*this);
+  }
+
+ private:
+  LocalizerSection section_;
+};
+
 constexpr Doc plugins_doc = "Modules with further strategies to load.";
 
 /// The one key of an experiment that must be known before the others.
@@ -319,6 +332,17 @@ Experiment read_experiment(const std::filesystem::path& file, const std::vector<
   static_cast<void>(read_file(file, overrides, params, faults));
   if (!faults.empty()) throw ConfigError(std::move(faults));
   return std::move(params.file.experiment);
+}
+
+LocalizerConfig read_localizer(const std::vector<Override>& overrides, const Catalog& catalog) {
+  LocalizerConfig config = default_experiment().localizer;
+  LocalizerParams params(config, catalog);
+  YamlNode tree = make_node(NodeKind::map, {std::make_shared<const Origin>(Origin{"localizer", "."}), 0, 0});
+  std::vector<Fault> faults;
+  apply_overrides(tree, overrides, params, faults);
+  read_params(tree, params, faults);
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  return config;
 }
 
 std::vector<Variant> read_variants(const std::filesystem::path& file, const std::vector<Override>& overrides,

@@ -115,6 +115,22 @@ class OriginOfRegistries {
   Catalog& catalog_;
 };
 
+/// Lets a plugin register its strategies. What it throws becomes a fault of the file.
+template <class Work>
+void register_all(const std::filesystem::path& file, const Work& work) {
+  try {
+    work();
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const std::invalid_argument& taken) {
+    refuse(file, std::string(taken.what()) + "; rename one, or load only one of them");
+  } catch (const std::exception& thrown) {
+    refuse(file, fmt::format("threw an exception while it registered its strategies: {}", thrown.what()));
+  } catch (...) {
+    refuse(file, "threw something that is no std::exception while it registered its strategies");
+  }
+}
+
 }  // namespace
 
 void PluginLoader::load(const std::filesystem::path& file) {
@@ -123,16 +139,13 @@ void PluginLoader::load(const std::filesystem::path& file) {
   const std::filesystem::path& path = error ? file : absolute;
   if (std::find(loaded_.begin(), loaded_.end(), path) != loaded_.end()) return;
 
-  const Plugin& plugin = plugin_of(open_library(path), file);
-  try {
+  if (const auto other = others_.find(path.extension()); other != others_.end()) {
+    const OriginOfRegistries origin(catalog_, path.filename().string());
+    register_all(file, [&] { other->second(path, catalog_); });
+  } else {
+    const Plugin& plugin = plugin_of(open_library(path), file);
     const OriginOfRegistries origin(catalog_, fmt::format("{} {}", plugin.name, plugin.version));
-    plugin.register_strategies(catalog_);
-  } catch (const std::invalid_argument& taken) {
-    refuse(file, std::string(taken.what()) + "; rename one, or load only one of them");
-  } catch (const std::exception& thrown) {
-    refuse(file, fmt::format("threw an exception while it registered its strategies: {}", thrown.what()));
-  } catch (...) {
-    refuse(file, "threw something that is no std::exception while it registered its strategies");
+    register_all(file, [&] { plugin.register_strategies(catalog_); });
   }
   loaded_.push_back(path);
 }

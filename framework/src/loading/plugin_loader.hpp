@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "glocal/catalog.hpp"
@@ -18,6 +21,11 @@ class PluginLoader {
 
   void load(const std::filesystem::path& file);
 
+  /// Files with this extension (".py") are no shared objects: `load` adds their strategies, whose origin is
+  /// the file's name. Throws what load() throws.
+  using LoadOther = std::function<void(const std::filesystem::path& file, Catalog& catalog)>;
+  void hand_over(std::string extension, LoadOther load) { others_[std::move(extension)] = std::move(load); }
+
   /// All files *.so of the folders in `path`, which are separated by colons; in the order of their names.
   void load_folders(const std::string& path);
 
@@ -26,6 +34,7 @@ class PluginLoader {
 
  private:
   Catalog& catalog_;
+  std::map<std::string, LoadOther> others_;  ///< By extension.
   std::vector<std::filesystem::path> loaded_;
 };
 

@@ -1,13 +1,13 @@
-#include "app/named_runs.hpp"
+#include "evaluation/comparison/named_runs.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "app/results_arguments.hpp"
-#include "app/results_at_hand.hpp"
 #include "config/nearest.hpp"
+#include "evaluation/results/results_folder.hpp"
+#include "glocal/error.hpp"
 
-namespace glocal::app {
+namespace glocal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,6 +28,21 @@ std::string own_name(const fs::path& folder) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
+void for_each_results_folder(const std::vector<std::string>& paths, FaultCollector& faults,
+                             const std::function<void(const fs::path&)>& work) {
+  std::set<fs::path> seen;
+  const auto hand_over = [&](const fs::path& folder) {
+    if (!seen.insert(fs::canonical(folder)).second)
+      throw ConfigError({{folder.string(), 0, 0, "is named twice; name each folder of results once"}});
+    work(folder);
+  };
+  for (const std::string& path : paths) {
+    faults.collect([&] {
+      for (const fs::path& folder : results_folders(path)) faults.collect([&] { hand_over(folder); });
+    });
+  }
+}
+
 std::vector<NamedRun> read_runs(const std::vector<std::string>& folders,
                                 const std::function<StoredRun(const fs::path&)>& read) {
   std::vector<NamedRun> runs;
@@ -38,12 +53,6 @@ std::vector<NamedRun> read_runs(const std::vector<std::string>& folders,
   faults.report();
   tell_apart(runs);
   return runs;
-}
-
-std::vector<NamedRun> read_sweep(const std::string& folder) {
-  const ResultsAtHand results({folder});
-  return read_runs(results.folders(),
-                   [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); });
 }
 
 std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& name) {
@@ -62,4 +71,4 @@ std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& 
                       "names none, or more than one, of the runs" + suggestion(name, names, "there are")}});
 }
 
-}  // namespace glocal::app
+}  // namespace glocal

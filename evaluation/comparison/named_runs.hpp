@@ -1,4 +1,4 @@
-// Runs that are named on the command line, by the folders that hold their results.
+// Runs by the folders that hold their results, with names that tell them apart.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,17 @@
 #include <vector>
 
 #include "evaluation/comparison/comparison.hpp"
+#include "evaluation/results/fault_collector.hpp"
 
-namespace glocal::app {
+namespace glocal {
 
 /// The folder's own name, whatever way it was written.
 [[nodiscard]] std::string own_name(const std::filesystem::path& folder);
+
+/// Hands over each folder of results that `paths` are or hold; none may be named twice. Faults of all of
+/// them, and those that `work` throws, are collected.
+void for_each_results_folder(const std::vector<std::string>& paths, FaultCollector& faults,
+                             const std::function<void(const std::filesystem::path&)>& work);
 
 /// The results in folders that are results, or hold some, as `read` reads each, in the same order. Throws
 /// ConfigError with every fault of all of them.
@@ -21,12 +27,8 @@ namespace glocal::app {
     const std::function<StoredRun(const std::filesystem::path&)>& read =
         [](const std::filesystem::path& folder) { return read_results(folder); });
 
-/// The runs of an experiment that were left in one folder, but for their steps, which are most of them.
-/// Throws ConfigError as read_runs() does.
-[[nodiscard]] std::vector<NamedRun> read_sweep(const std::string& folder);
-
-/// The run with that name, or the only one of the experiment with that name; the first without a name. Throws
-/// ConfigError.
+/// Of the options of what is compared: the run with that name, or the only one of the experiment with that
+/// name; the first without a name. Throws ConfigError.
 [[nodiscard]] std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& name);
 
-}  // namespace glocal::app
+}  // namespace glocal

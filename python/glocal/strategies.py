@@ -1,0 +1,452 @@
+"""Strategies in Python: a class with a name, and a dataclass of parameters.
+
+    @glocal.register("cells")
+    class Cells(glocal.Clusterer):
+        \"\"\"Joins hypotheses whose robot poses lie in the same cell.\"\"\"
+
+        @dataclass
+        class Params:
+            side: float = glocal.param(0.5, "Side of a cell.", unit="m", above=0)
+
+        def cluster(self, hypotheses, rng):
+            cells = np.floor(hypotheses.map_from_robot[:, :2] / self.params.side)
+            return np.unique(cells, axis=0, return_inverse=True)[1]
+
+From then on "cells" is a clusterer like any other: in YAML, in `with_()`, in `list_strategies()`. What a method is
+handed is lent for the call: keep arrays of it, not the objects. The contracts of C++ strategies hold for these, too.
+"""
+
+from __future__ import annotations
+
+import collections.abc
+import dataclasses
+import importlib.util
+import inspect
+import itertools
+import math
+import pathlib
+import sys
+import types
+import typing
+from dataclasses import dataclass
+from typing import Any, Callable, ClassVar, Literal, Sequence, TypeVar, Union
+
+from glocal._core import (
+    GlobalMap,
+    Hypotheses,
+    LocalMap,
+    MatchResult,
+    Observation,
+    Pose,
+    PoseGate,
+    Rng,
+    Sample,
+    SourceSetup,
+    StageSetup,
+    StepResult,
+    Clusters,
+    Verdict,
+    Verification,
+)
+from glocal.errors import ConfigError
+
+
+class _Strategy:
+    """What all strategies have in common."""
+
+    kind: ClassVar[str]
+    abstract: ClassVar[tuple[str, ...]]
+    #: Which motions it can work with: "planar", "upright", "free".
+    motions: ClassVar[tuple[str, ...]] = ("planar",)
+
+    def __init__(self, params: Any, setup: Any) -> None:
+        self.params = params
+        self.setup = setup
+
+
+class MapSource(_Strategy):
+    """Delivers the known map."""
+
+    kind = "map_source"
+    abstract = ("load",)
+    setup: SourceSetup
+
+    def load(self) -> GlobalMap:
+        raise NotImplementedError
+
+
+class ObservationSource(_Strategy):
+    """Delivers a drive, one sample after the other."""
+
+    kind = "observation_source"
+    abstract = ("next",)
+    setup: SourceSetup
+
+    def next(self) -> Sample | None:
+        """The next sample; None at the end, and ever after."""
+        raise NotImplementedError
+
+
+class _Stage(_Strategy):
+    setup: StageSetup
+
+    def reset(self) -> None:
+        """Forgets all earlier steps: a trial begins."""
+
+
+class LocalMapper(_Stage):
+    """Joins observations into a local map."""
+
+    kind = "local_mapper"
+    abstract = ("add", "map")
+
+    def add(self, observation: Observation) -> None:
+        raise NotImplementedError
+
+    def map(self) -> LocalMap:
+        """The map after the last add(). Its first observation lies at the origin, not turned."""
+        raise NotImplementedError
+
+
+class Matcher(_Stage):
+    """Proposes poses of the local map in the global map."""
+
+    kind = "matcher"
+    abstract = ("match",)
+
+    def match(
+        self, local: LocalMap, latest: Observation, omega_max: float, rng: Rng
+    ) -> Hypotheses | MatchResult:
+        """Hypotheses with a score of at least omega_max. The quality is Omega (eq. 4)."""
+        raise NotImplementedError
+
+    def restrict_to(self, gate: PoseGate) -> None:
+        """Which poses count in match() from now on. All others are dropped after it anyway."""
+
+    def take_up(self, found: Hypotheses, local: LocalMap) -> Hypotheses:
+        """Judges poses that a verifier found by contact, as match() judges its own."""
+        return found
+
+
+class Clusterer(_Stage):
+    """Groups hypotheses that mean the same robot pose."""
+
+    kind = "clusterer"
+    abstract = ("cluster",)
+
+    def cluster(self, hypotheses: Hypotheses, rng: Rng) -> Any:
+        """An integer for each hypothesis, the same for those of one cluster: N integers."""
+        raise NotImplementedError
+
+
+class Rater(_Stage):
+    """Says how much each cluster deserves trust."""
+
+    kind = "rater"
+    abstract = ("rate",)
+
+    def rate(self, clusters: Clusters, hypotheses: Hypotheses) -> Any:
+        """r of each cluster, in [0, 1]: N numbers."""
+        raise NotImplementedError
+
+
+class ThresholdPolicy(_Stage):
+    """Says which score a hypothesis must reach."""
+
+    kind = "threshold_policy"
+    abstract = ("omega_max", "update")
+
+    def omega_max(self) -> float:
+        """In [0, 1]; changes only in update() and reset()."""
+        raise NotImplementedError
+
+    def update(self, hypotheses: Hypotheses) -> None:
+        """Takes in the hypotheses of one step, perhaps none."""
+        raise NotImplementedError
+
+
+class VerdictRule(_Stage):
+    """Says whether the answer can be trusted."""
+
+    kind = "verdict_rule"
+    abstract = ("judge",)
+
+    def judge(self, step: StepResult) -> Verdict:
+        """Sees clusters and ratings, best first, and not the step's own verdict."""
+        raise NotImplementedError
+
+    def refute(self, verification: Verification) -> None:
+        """The pose that judge() has just declared has a rival, or lacks its certificate."""
+
+
+class Verifier(_Stage):
+    """Looks on the whole map for rivals of a pose that is about to be declared."""
+
+    kind = "verifier"
+    abstract = ("verify",)
+
+    def verify(self, local: LocalMap, map_from_local: Pose, gate: PoseGate) -> Verification:
+        raise NotImplementedError
+
+
+def param(
+    default: Any = dataclasses.MISSING,
+    doc: str = "",
+    *,
+    unit: str = "",
+    min: float = -math.inf,
+    max: float = math.inf,
+    above: float = -math.inf,
+    choices: Sequence[str] = (),
+    min_items: int = 0,
+    max_items: int | None = None,
+    is_folder: bool = False,
+) -> Any:
+    """A field of a strategy's `Params`: its default (none: the file must give it), what it is for, and its bounds.
+
+    unit: "m", "rad", "deg", "s"; empty for a plain number. min, max: inclusive; above: exclusive. choices: of a str.
+    Bounds of a list hold for each number in it; min_items and max_items for its length.
+    """
+    facts = {
+        "doc": doc,
+        "unit": unit,
+        "min": min,
+        "max": max,
+        "above": above,
+        "choices": list(choices),
+        "min_items": min_items,
+        "max_items": sys.maxsize if max_items is None else max_items,
+        "is_folder": is_folder,
+    }
+    if isinstance(default, (list, dict, set)):
+        copied = default
+        return dataclasses.field(default_factory=lambda: type(copied)(copied), metadata={"glocal": facts})
+    return dataclasses.field(default=default, metadata={"glocal": facts})
+
+
+# Names that the core knows the types by.
+_TYPES: dict[Any, str] = {
+    bool: "bool",
+    int: "int",
+    float: "float",
+    str: "str",
+    pathlib.Path: "path",
+}
+_LISTS: dict[Any, str] = {float: "floats", str: "strs", pathlib.Path: "paths"}
+
+
+@dataclass(frozen=True)
+class _Field:
+    """A parameter as the core reads it."""
+
+    name: str
+    type: str
+    default: Any
+    required: bool
+    doc: str
+    unit: str
+    min: float
+    max: float
+    above: float
+    choices: list[str]
+    min_items: int
+    max_items: int
+    is_folder: bool
+
+
+@dataclass(frozen=True)
+class _Registered:
+    """A strategy as the core reads it."""
+
+    kind: str
+    name: str
+    doc: str
+    motions: tuple[str, ...]
+    fields: list[_Field]
+    make: Callable[[dict[str, Any], Any], Any]
+    make_params: Callable[..., Any] | None
+    source: pathlib.Path | None
+
+
+def _core_type(hint: Any) -> tuple[str, list[str]]:
+    """The core's name of a type, and the choices that it leaves. Raises TypeError."""
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if hint in _TYPES:
+        return _TYPES[hint], []
+    if origin is Literal and all(isinstance(choice, str) for choice in arguments):
+        return "str", list(arguments)
+    if origin in (Union, types.UnionType) and set(arguments) == {float, type(None)}:
+        return "float or None", []
+    if origin in (list, collections.abc.Sequence) and arguments[0] in _LISTS:
+        return _LISTS[arguments[0]], []
+    raise TypeError(
+        f"{hint} is no type of a parameter; there are bool, int, float, float | None, str, Literal of str, pathlib.Path "
+        "and lists of float, str and pathlib.Path"
+    )
+
+
+def _default_of(field: dataclasses.Field[Any]) -> Any:
+    if field.default is not dataclasses.MISSING:
+        return field.default
+    return None if field.default_factory is dataclasses.MISSING else field.default_factory()
+
+
+def _field_of(field: dataclasses.Field[Any], hint: Any) -> _Field:
+    facts = field.metadata.get("glocal")
+    if not facts or not facts["doc"].strip():
+        raise TypeError(f"the parameter '{field.name}' has no sentence that says what it is for; give it with glocal.param()")
+    kind, choices = _core_type(hint)
+    required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+    facts = {**facts, "choices": facts["choices"] or choices}
+    return _Field(name=field.name, type=kind, default=_default_of(field), required=required, **facts)
+
+
+def _fields_of(params: type | None) -> list[_Field]:
+    if params is None:
+        return []
+    if not dataclasses.is_dataclass(params):
+        raise TypeError(f"{params.__qualname__} must be a dataclass: its fields are the strategy's parameters")
+    # Names of types that are written as text are those of the module, and of the class.
+    hints = typing.get_type_hints(params, localns=vars(sys.modules[params.__module__]))
+    return [_field_of(field, hints[field.name]) for field in dataclasses.fields(params)]
+
+
+def _source_of(strategy: type) -> pathlib.Path | None:
+    try:
+        return pathlib.Path(inspect.getfile(strategy)).resolve()
+    except (TypeError, OSError):  # of a notebook, or typed in
+        return None
+
+
+def _first_sentence(text: str | None) -> str:
+    paragraph = (text or "").strip().split("\n\n")[0]
+    return " ".join(paragraph.split())
+
+
+def _registered_as(name: str, strategy: type[_Strategy]) -> _Registered:
+    if not getattr(strategy, "kind", None):
+        raise TypeError(f"{strategy.__qualname__} must be a subclass of glocal.Matcher, glocal.Clusterer, ...")
+    missing = [method for method in strategy.abstract if _is_abstract(strategy, method)]
+    if missing:
+        raise TypeError(f"{strategy.__qualname__} lacks the method {', '.join(missing)}() that each {strategy.kind} must have")
+    doc = _first_sentence(strategy.__dict__.get("__doc__"))
+    if not doc:
+        raise TypeError(f"{strategy.__qualname__} needs a docstring: its first sentence tells users what it does")
+    params: type | None = getattr(strategy, "Params", None)
+    fields = _fields_of(params)
+
+    def make_params(**values: Any) -> Any:
+        paths = {f.name for f in fields if f.type in ("path", "paths")}
+        for key in paths & values.keys():
+            value = values[key]
+            values[key] = [pathlib.Path(p) for p in value] if isinstance(value, list) else pathlib.Path(value)
+        return params(**values) if params else None
+
+    def make(values: dict[str, Any], setup: Any) -> Any:
+        return strategy(make_params(**values), setup)
+
+    return _Registered(
+        kind=strategy.kind,
+        name=name,
+        doc=doc,
+        motions=tuple(strategy.motions),
+        fields=fields,
+        make=make,
+        make_params=make_params if hasattr(params, "__post_init__") else None,
+        source=_source_of(strategy),
+    )
+
+
+def _is_abstract(strategy: type[_Strategy], method: str) -> bool:
+    """Whether it has only the method of this file, which raises."""
+    return getattr(strategy, method).__module__ == __name__
+
+
+_registered: dict[tuple[str, str], _Registered] = {}
+_plugin_files: list[str] = []
+_of_plugin: dict[tuple[str, str], _Registered] | None = None  # while one is executed
+_versions = itertools.count()
+_version = next(_versions)
+
+_S = TypeVar("_S", bound=type[_Strategy])
+
+
+def register(name: str) -> Callable[[_S], _S]:
+    """Makes a class a strategy of that name. Its kind is that of its base class.
+
+    A class that is registered again, as a cell of a notebook does, takes the place of the one before. Experiments and
+    localizers that are there keep what they had.
+    """
+    if not name.isidentifier():
+        raise ValueError(f"'{name}' cannot be a strategy's name: letters, digits and underscores make one up")
+
+    def decorate(strategy: _S) -> _S:
+        global _version
+        entry = _registered_as(name, strategy)
+        into = _registered if _of_plugin is None else _of_plugin
+        into[entry.kind, name] = entry
+        _version = next(_versions)
+        return strategy
+
+    return decorate
+
+
+def load_plugin(file: str | pathlib.Path) -> None:
+    """Loads the strategies of a plugin, a shared object or a Python file, as the program's --plugin does.
+
+    Results of runs name it, so that the program can load it again.
+    """
+    global _version
+    path = str(pathlib.Path(file).resolve())
+    if path not in _plugin_files:
+        _plugin_files.append(path)
+        _version = next(_versions)
+        try:
+            from glocal import _core
+
+            _core.list_strategies()
+        except ConfigError:
+            _plugin_files.remove(path)
+            _version = next(_versions)
+            raise
+
+
+# What the core asks for.
+
+
+def version() -> int:
+    """Another number each time that something is registered."""
+    return _version
+
+
+def registered() -> list[_Registered]:
+    return list(_registered.values())
+
+
+def plugin_files() -> list[str]:
+    return list(_plugin_files)
+
+
+def sources() -> list[pathlib.Path]:
+    """Files that registered classes are written in."""
+    return sorted({entry.source for entry in _registered.values() if entry.source and entry.source.is_file()})
+
+
+def execute(file: str) -> list[_Registered]:
+    """Runs a Python file, and returns the strategies that it registers."""
+    global _of_plugin
+    name = "glocal_plugin_" + pathlib.Path(file).stem
+    spec = importlib.util.spec_from_file_location(name, file)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{file} is no Python file")
+    module = importlib.util.module_from_spec(spec)
+    before, _of_plugin = _of_plugin, {}
+    sys.modules[name] = module  # dataclasses look up their types there
+    try:
+        spec.loader.exec_module(module)
+        found = list(_of_plugin.values())
+    finally:
+        _of_plugin = before
+    if not found:
+        raise ImportError(f"{file} registers no strategy; decorate a class with @glocal.register(\"name\")")
+    return found

@@ -1,0 +1,59 @@
+#include "python/src/errors.hpp"
+
+#include <string_view>
+
+#include "glocal/error.hpp"
+
+namespace glocal::python {
+namespace {
+
+/// How a caller in Python knows what the program's user gave with an option.
+std::string place_of(const std::string& file) {
+  constexpr std::string_view dashes = "--";
+  return file.starts_with(dashes) ? file.substr(dashes.size()) : file;
+}
+
+py::object as_python(const ConfigError& error) {
+  const py::module_ errors = py::module_::import("glocal.errors");
+  py::list faults;
+  for (const Fault& fault : error.faults())
+    faults.append(errors.attr("Fault")(place_of(fault.file), fault.line, fault.column, fault.message));
+  return errors.attr("ConfigError")(faults);
+}
+
+void raise(const py::object& error) {
+  PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());
+}
+
+void raise_named(const char* name, const char* what) {
+  raise(py::module_::import("glocal.errors").attr(name)(what));
+}
+
+}  // namespace
+
+void translate_errors() {
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const ConfigError& error) {
+      raise(as_python(error));
+    } catch (const StrategyError& error) {
+      raise_named("StrategyError", error.what());
+    } catch (const RunError& error) {
+      raise_named("RunError", error.what());
+    }
+  });
+}
+
+std::string told(const py::error_already_set& error) {
+  const py::module_ traceback = py::module_::import("traceback");
+  const auto joined = [](const py::object& lines) {
+    return py::str("").attr("join")(lines).cast<std::string>();
+  };
+  const std::string last = joined(traceback.attr("format_exception_only")(error.type(), error.value()));
+  const std::string all = joined(traceback.attr("format_exception")(
+      error.type(), error.value(), error.trace() ? error.trace() : py::object(py::none())));
+  return last + all.substr(0, all.find_last_not_of('\n') + 1);
+}
+
+}  // namespace glocal::python

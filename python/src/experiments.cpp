@@ -1,0 +1,211 @@
+#include "python/src/experiments.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "evaluation/running/experiment_loader.hpp"
+#include "glocal/error.hpp"
+#include "glocal/localizer.hpp"
+#include "glocal/run_experiment.hpp"
+#include "python/src/conversions.hpp"
+#include "python/src/errors.hpp"
+#include "python/src/interrupts.hpp"
+#include "python/src/session.hpp"
+#include "python/src/values.hpp"
+
+namespace glocal::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Calls a function of Python, which is held until then.
+template <class... Arguments>
+auto calling(py::handle function) {
+  return [function](const Arguments&... arguments) {
+    const py::gil_scoped_acquire gil;
+    function(arguments...);
+  };
+}
+
+/// An experiment file with its overrides, read, and all its variants.
+class File {
+ public:
+  File(const fs::path& file, const py::list& overrides)
+      : session_(current_session()), file_(file), overrides_(overrides_of(overrides)) {
+    const py::gil_scoped_release others_may;
+    for (const FilePath& plugin : read_plugins(file_, overrides_)) session_->plugins.load(plugin.resolved);
+    variants_ = read_variants(file_, overrides_, session_->catalog);
+    // What is written must do without plugins that were loaded otherwise.
+    for (Variant& variant : variants_) {
+      variant.experiment.plugins.clear();
+      for (const fs::path& plugin : session_->plugins.loaded())
+        variant.experiment.plugins.push_back({plugin.string(), plugin});
+    }
+  }
+
+  [[nodiscard]] const std::string& name() const { return variants_.front().experiment.name; }
+  [[nodiscard]] std::vector<std::string> variants() const {
+    std::vector<std::string> names;
+    for (const Variant& variant : variants_) {
+      if (!variant.name.empty()) names.push_back(variant.name);
+    }
+    return names;
+  }
+  [[nodiscard]] std::string effective() const {
+    Experiment experiment = variants_.front().experiment;
+    return effective_yaml(experiment, session_->catalog);
+  }
+
+  /// The folder and whether it is complete.
+  [[nodiscard]] std::pair<fs::path, bool> run(RunOptions options, const std::vector<fs::path>& sources,
+                                              const py::object& on_begin, const py::object& on_trial,
+                                              const py::object& on_text) const {
+    options.plugins = session_->plugins.loaded();
+    options.plugins.insert(options.plugins.end(), sources.begin(), sources.end());
+    RunObserver observer;
+    observer.begin = [begin = calling<std::string, std::size_t, std::size_t>(on_begin)](
+                         const VariantBegin& v) { begin(v.name, v.trials, v.finished); };
+    observer.trial = [trial = calling<std::size_t, std::string, std::string>(on_trial)](const TrialEnd& t) {
+      trial(t.trial, std::string(to_string(t.outcome)), t.why);
+    };
+    const auto text = calling<std::string, std::string>(on_text);
+    observer.note = [text](const std::string& note) { text("note", note); };
+    observer.warn = [text](const std::string& warning) { text("warning", warning); };
+    const py::gil_scoped_release others_may;
+    const Interrupts interrupts;
+    observer.stop = [&] { return interrupts.happened(); };
+    const RunResult result = run_variants(variants_, file_, session_->catalog, options, observer);
+    return {result.folder, result.complete};
+  }
+
+  /// The experiment that has no variants.
+  [[nodiscard]] const Experiment& only() const {
+    if (variants_.size() > 1)
+      throw ConfigError({{file_.string(), 0, 0,
+                          "has variants, and one experiment is wanted; take one without, or choose "
+                          "the values of one with with_()"}});
+    return variants_.front().experiment;
+  }
+  [[nodiscard]] const std::shared_ptr<Session>& session() const { return session_; }
+
+  [[nodiscard]] SourceSetup source_setup() const {
+    SourceSetup setup;
+    setup.warn = [](const std::string& sentence) {
+      const py::gil_scoped_acquire gil;
+      py::module_::import("warnings").attr("warn")(sentence);
+    };
+    return setup;
+  }
+
+ private:
+  std::shared_ptr<Session> session_;
+  fs::path file_;
+  std::vector<Override> overrides_;
+  std::vector<Variant> variants_;
+};
+
+std::shared_ptr<GlobalMap> load_map_of(const File& file) {
+  const Experiment& experiment = file.only();
+  const py::gil_scoped_release others_may;
+  return std::make_shared<GlobalMap>(load_map(experiment, file.session()->catalog, file.source_setup()));
+}
+
+std::vector<Seen<Sample>> load_samples_of(const File& file) {
+  const Experiment& experiment = file.only();
+  std::shared_ptr<const Drive> drive;
+  {
+    const py::gil_scoped_release others_may;
+    drive =
+        std::make_shared<const Drive>(load_drive(experiment, file.session()->catalog, file.source_setup()));
+  }
+  std::vector<Seen<Sample>> samples;
+  for (const Sample& sample : drive->samples) samples.emplace_back(sample, drive, nullptr);
+  return samples;
+}
+
+/// A localizer with all that it needs.
+class BoundLocalizer {
+ public:
+  BoundLocalizer(std::shared_ptr<Session> session, const LocalizerConfig& config,
+                 std::shared_ptr<const GlobalMap> map, std::uint64_t seed, int threads)
+      : session_(std::move(session)), map_(std::move(map)) {
+    StageSetup setup;
+    setup.map = map_;
+    setup.threads = threads;
+    const py::gil_scoped_release others_may;
+    localizer_ = std::make_unique<Localizer>(config, session_->catalog, setup, seed);
+    localizer_->reset(0);
+  }
+
+  Seen<StepResult> step(const Seen<Observation>& observation) {
+    const Observation& given = *observation;
+    const py::gil_scoped_release others_may;
+    const std::lock_guard lock(one_at_a_time_);
+    return Seen<StepResult>(localizer_->step(given));
+  }
+  void reset(std::uint64_t trial) {
+    const py::gil_scoped_release others_may;
+    const std::lock_guard lock(one_at_a_time_);
+    localizer_->reset(trial);
+  }
+  /// As it is now: it changes with the next step.
+  [[nodiscard]] Seen<LocalMap> local_map() const { return Seen<LocalMap>(LocalMap(localizer_->local_map())); }
+  [[nodiscard]] std::shared_ptr<GlobalMap> map() const { return std::const_pointer_cast<GlobalMap>(map_); }
+
+ private:
+  std::shared_ptr<Session> session_;
+  std::shared_ptr<const GlobalMap> map_;
+  std::mutex one_at_a_time_;
+  std::unique_ptr<Localizer> localizer_;
+};
+
+std::unique_ptr<BoundLocalizer> localizer_of(const File& file, const std::shared_ptr<GlobalMap>& map) {
+  const Experiment& experiment = file.only();
+  return std::make_unique<BoundLocalizer>(file.session(), experiment.localizer, map,
+                                          seed_of(RandomPart::localizer, experiment), experiment.threads);
+}
+
+std::unique_ptr<BoundLocalizer> localizer_with(const std::shared_ptr<GlobalMap>& map,
+                                               const py::list& overrides, std::uint64_t seed, int threads) {
+  const auto session = current_session();
+  return std::make_unique<BoundLocalizer>(session, read_localizer(overrides_of(overrides), session->catalog),
+                                          map, seed, threads);
+}
+
+}  // namespace
+
+void bind_experiments(py::module_& module) {
+  py::class_<File>(module, "ExperimentFile")
+      .def(py::init<const fs::path&, const py::list&>(), py::arg("file"), py::arg("overrides"))
+      .def_property_readonly("name", &File::name)
+      .def_property_readonly("variants", &File::variants)
+      .def("effective", &File::effective)
+      .def(
+          "run",
+          [](const File& file, const fs::path& out, const std::vector<std::string>& only, int jobs,
+             bool force, const std::vector<fs::path>& sources, const py::object& on_begin,
+             const py::object& on_trial, const py::object& on_text) {
+            return file.run({.out = out, .only = only, .jobs = jobs, .force = force}, sources, on_begin,
+                            on_trial, on_text);
+          },
+          py::arg("out"), py::arg("only"), py::arg("jobs"), py::arg("force"), py::arg("sources"),
+          py::arg("on_begin"), py::arg("on_trial"), py::arg("on_text"))
+      .def("load_map", &load_map_of)
+      .def("load_samples", &load_samples_of)
+      .def("localizer", &localizer_of, py::arg("map"));
+  py::class_<BoundLocalizer>(module, "CoreLocalizer")
+      .def(py::init(&localizer_with), py::arg("map"), py::arg("overrides"), py::arg("seed"),
+           py::arg("threads"))
+      .def("step", &BoundLocalizer::step, py::arg("observation"))
+      .def("reset", &BoundLocalizer::reset, py::arg("trial"))
+      .def_property_readonly("local_map", &BoundLocalizer::local_map)
+      .def_property_readonly("map", &BoundLocalizer::map);
+}
+
+}  // namespace glocal::python

@@ -1,0 +1,92 @@
+#include "python/src/session.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "config/help.hpp"
+#include "config/nearest.hpp"
+#include "glocal/builtin.hpp"
+#include "glocal/error.hpp"
+#include "glocal/plugin.hpp"
+#include "python/src/errors.hpp"
+#include "python/src/python_strategies.hpp"
+
+namespace glocal::python {
+namespace {
+
+py::module_ registered() {
+  return py::module_::import("glocal.strategies");
+}
+
+void add_all(const py::object& strategies, Catalog& catalog) {
+  for (const py::handle& strategy : strategies)
+    add_strategy(catalog, read_strategy(py::reinterpret_borrow<py::object>(strategy)));
+}
+
+std::string listed(const std::string& kind, const Catalog& catalog) {
+  std::string text;
+  std::vector<std::string> kinds;
+  for (const RegistryBase* registry : catalog.registries()) {
+    kinds.push_back(registry->kind());
+    if (!kind.empty() && registry->kind() != kind) continue;
+    text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", registry->kind(), list_strategies(*registry));
+  }
+  if (text.empty())
+    throw py::value_error("unknown kind '" + kind + "'" + suggestion(kind, kinds, "there are"));
+  return text;
+}
+
+std::string described(const std::string& name, const Catalog& catalog) {
+  if (auto text = help(name, catalog)) return *std::move(text);
+  throw py::value_error("there is no strategy '" + name + "'; glocal.list_strategies() names all");
+}
+
+/// Called by the program, which has a catalog of its own.
+void load_into(const py::capsule& catalog, const std::string& file) {
+  load_python_plugin(file, *catalog.get_pointer<Catalog>());
+}
+
+}  // namespace
+
+Session::Session() {
+  register_builtin_strategies(catalog);
+  plugins.hand_over(".py", load_python_plugin);
+}
+
+std::shared_ptr<Session> current_session() {
+  // Never destroyed: at the end of the process Python is gone before it would be.
+  static auto& session = *new std::shared_ptr<Session>;
+  static long known = -1;
+  const auto version = registered().attr("version")().cast<long>();
+  if (session && version == known) return session;
+  auto renewed = std::make_shared<Session>();
+  for (const py::handle& file : registered().attr("plugin_files")())
+    renewed->plugins.load(file.cast<std::string>());
+  add_all(registered().attr("registered")(), renewed->catalog);
+  session = std::move(renewed);
+  known = version;
+  return session;
+}
+
+void load_python_plugin(const std::filesystem::path& file, Catalog& catalog) {
+  const py::gil_scoped_acquire gil;
+  try {
+    add_all(registered().attr("execute")(file.string()), catalog);
+  } catch (const py::error_already_set& error) {
+    throw ConfigError({{file.string(), 0, 0, "cannot be loaded: " + told(error)}});
+  }
+}
+
+void bind_session(py::module_& module) {
+  module.def(
+      "list_strategies", [](const std::string& kind) { return listed(kind, current_session()->catalog); },
+      py::arg("kind") = "", "All strategies, or those of a kind (matcher, clusterer, ...), a line each.");
+  module.def(
+      "describe", [](const std::string& name) { return described(name, current_session()->catalog); },
+      py::arg("name"), "What a strategy does, and its parameters with types, bounds and defaults.");
+  module.def("build_tag", &build_tag, "What a program must have in common with this module to load it.");
+  module.def("load_into", &load_into, py::arg("catalog"), py::arg("file"));
+}
+
+}  // namespace glocal::python
