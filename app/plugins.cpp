@@ -5,12 +5,16 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/python_plugins.hpp"
 
 namespace glocal::app {
 
 void add_plugins(CLI::App& app, Context& context) {
+  context.plugins.hand_over(".py", load_python_plugin);
   auto files = std::make_shared<std::vector<std::string>>();
-  app.add_option("--plugin", *files, "Load a plugin's strategies (repeatable)")->allow_extra_args(false);
+  app.add_option("--plugin", *files,
+                 "Load a plugin's strategies, a shared object or a Python file (repeatable)")
+      ->allow_extra_args(false);
   for (CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; }))
     command->fallthrough();
   app.parse_complete_callback([files, &context] {

@@ -32,6 +32,7 @@ from glocal._core import (
     contact_index,
     describe,
     list_strategies,
+    observation_from_ranges,
 )
 from glocal.errors import ConfigError, Fault, Interrupted, RunError, StrategyError
 from glocal.experiments import Experiment, Localizer, TrialProgress
@@ -103,6 +104,7 @@ __all__ = [
     "list_strategies",
     "load_plugin",
     "load_results",
+    "observation_from_ranges",
     "param",
     "register",
 ]

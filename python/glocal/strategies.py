@@ -215,7 +215,7 @@ def param(
         "above": above,
         "choices": list(choices),
         "min_items": min_items,
-        "max_items": sys.maxsize if max_items is None else max_items,
+        "max_items": max_items,
         "is_folder": is_folder,
     }
     if isinstance(default, (list, dict, set)):
@@ -250,7 +250,7 @@ class _Field:
     above: float
     choices: list[str]
     min_items: int
-    max_items: int
+    max_items: int | None
     is_folder: bool
 
 

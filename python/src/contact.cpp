@@ -13,7 +13,7 @@ namespace {
 using Index = std::shared_ptr<ContactIndex>;
 
 /// Points of the core are not copied.
-py::array_t<double> shares(const ContactIndex& index, const py::object& points, const py::object& poses) {
+py::array shares(const ContactIndex& index, const py::object& points, const py::object& poses) {
   Points own;
   const Points* all = &own;
   if (py::isinstance<Seen<Points>>(points)) {

@@ -181,6 +181,13 @@ std::unique_ptr<BoundLocalizer> localizer_with(const std::shared_ptr<GlobalMap>&
 }  // namespace
 
 void bind_experiments(py::module_& module) {
+  py::class_<BoundLocalizer>(module, "CoreLocalizer")
+      .def(py::init(&localizer_with), py::arg("map"), py::arg("overrides"), py::arg("seed"),
+           py::arg("threads"))
+      .def("step", &BoundLocalizer::step, py::arg("observation"))
+      .def("reset", &BoundLocalizer::reset, py::arg("trial"))
+      .def_property_readonly("local_map", &BoundLocalizer::local_map)
+      .def_property_readonly("map", &BoundLocalizer::map);
   py::class_<File>(module, "ExperimentFile")
       .def(py::init<const fs::path&, const py::list&>(), py::arg("file"), py::arg("overrides"))
       .def_property_readonly("name", &File::name)
@@ -199,13 +206,6 @@ void bind_experiments(py::module_& module) {
       .def("load_map", &load_map_of)
       .def("load_samples", &load_samples_of)
       .def("localizer", &localizer_of, py::arg("map"));
-  py::class_<BoundLocalizer>(module, "CoreLocalizer")
-      .def(py::init(&localizer_with), py::arg("map"), py::arg("overrides"), py::arg("seed"),
-           py::arg("threads"))
-      .def("step", &BoundLocalizer::step, py::arg("observation"))
-      .def("reset", &BoundLocalizer::reset, py::arg("trial"))
-      .def_property_readonly("local_map", &BoundLocalizer::local_map)
-      .def_property_readonly("map", &BoundLocalizer::map);
 }
 
 }  // namespace glocal::python

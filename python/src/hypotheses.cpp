@@ -89,13 +89,13 @@ void bind_list_of_hypotheses(py::module_& module) {
           "N x 7; set by the localizer.")
       .def_property_readonly(
           "heading",
-          [](const Bound& h) {
+          [](const Bound& h) -> py::array {
             py::array_t<double> array(h->size());
             std::transform(h->begin(), h->end(), array.mutable_data(),
                            [](const Hypothesis& x) { return x.map_from_robot.heading(); });
             return array;
           },
-          "Of map_from_robot, rad, in (-pi, pi]: N numbers, computed.")
+          "Of map_from_robot, rad, in (-pi, pi]; N numbers, computed.")
       .def_property_readonly(
           "quality",
           [](const Bound& h) { return column_of(h, 0, [](const Hypothesis& x) { return &x.quality; }); },
@@ -143,25 +143,25 @@ void bind_clusters(py::module_& module) {
             return column_of(c, pose_numbers,
                              [](const Cluster& x) { return pose_numbers_of(&Cluster::map_from_robot, x); });
           },
-          "The mean poses: N x 7 (x, y, z, qw, qx, qy, qz).")
+          "The mean poses, N x 7 (x, y, z, qw, qx, qy, qz).")
       .def_property_readonly(
           "sizes",
-          [](const Clusters& c) {
+          [](const Clusters& c) -> py::array {
             py::array_t<std::int64_t> array(c->size());
             std::transform(c->begin(), c->end(), array.mutable_data(),
                            [](const Cluster& x) { return static_cast<std::int64_t>(x.members.size()); });
             return array;
           },
-          "How many hypotheses each has: N integers, computed.");
+          "How many hypotheses each has, N integers, computed.");
   py::class_<Ratings>(module, "Ratings", "How much each cluster deserves trust.")
       .def("__len__", [](const Ratings& r) { return r->size(); })
       .def_property_readonly(
           "r", [](const Ratings& r) { return column_of(r, 0, [](const Rating& x) { return &x.r; }); },
-          "eq. 7, in [0, 1].")
+          "Of eq. 7, in [0, 1].")
       .def_property_readonly(
           "r_normalised",
           [](const Ratings& r) { return column_of(r, 0, [](const Rating& x) { return &x.r_normalised; }); },
-          "eq. 8: they add up to 1.");
+          "Of eq. 8; they add up to 1.");
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ void bind_hypotheses(py::module_& module) {
       .def(py::init([](const SeenHypotheses& hypotheses, std::size_t proposals, std::size_t points_tested) {
              return MatchResult{*hypotheses, proposals, points_tested};
            }),
-           py::arg("hypotheses"), py::kw_only(), py::arg("proposals") = 0, py::arg("points_tested") = 0,
+           py::arg("hypotheses"), py::arg("proposals") = 0, py::arg("points_tested") = 0,
            "proposals: poses proposed before any of them was judged. points_tested: single points tested for "
            "contact.");
 }

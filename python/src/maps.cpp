@@ -43,7 +43,7 @@ OccupancyGrid grid_of(const py::object& cells, double resolution, const py::obje
   }
   if (!(resolution > 0.0)) throw py::value_error("the resolution of a grid must be greater than 0 m");
   OccupancyGrid grid;
-  grid.map_from_grid = seen_from_above(pose_of(map_from_grid));
+  if (!map_from_grid.is_none()) grid.map_from_grid = seen_from_above(pose_of(map_from_grid));
   grid.resolution = resolution;
   grid.height = static_cast<int>(array.shape(0));
   grid.width = static_cast<int>(array.shape(1));
@@ -65,7 +65,7 @@ void bind_grid(py::module_& module) {
       .def(py::init([](const py::object& cells, double resolution, const py::object& map_from_grid) {
              return Bound(grid_of(cells, resolution, map_from_grid));
            }),
-           py::arg("cells"), py::arg("resolution"), py::arg("map_from_grid") = Pose3{},
+           py::arg("cells"), py::arg("resolution"), py::arg("map_from_grid") = py::none(),
            "From rows x columns cells, row 0 at the lowest y; the side of a cell (m); and the pose of the "
            "outer corner of "
            "cell (0, 0) in the map.")
@@ -75,7 +75,7 @@ void bind_grid(py::module_& module) {
             const Layout layout{{g->height, g->width}, {g->width, 1}};
             return numbers(reinterpret_cast<const std::uint8_t*>(g->cells.data()), layout, g.owner());
           },
-          "rows x columns, row 0 at the lowest y: 0 unknown, 1 free, 2 occupied.")
+          "Rows x columns, row 0 at the lowest y; 0 unknown, 1 free, 2 occupied.")
       .def_property_readonly(
           "resolution", [](const Bound& g) { return g->resolution; }, "Side of a cell, m.")
       .def_property_readonly(
@@ -110,7 +110,7 @@ void bind_maps(py::module_& module) {
   py::class_<GlobalMap, Map>(
       module, "GlobalMap",
       "The known map. Nothing changes it; all who work with it share it, and what they build of it.")
-      .def(py::init(&make_map), py::arg("points") = py::none(), py::kw_only(), py::arg("grid") = py::none(),
+      .def(py::init(&make_map), py::arg("points") = py::none(), py::arg("grid") = py::none(),
            py::arg("normals") = py::none(), py::arg("path") = py::none(), py::arg("resolution") = 0.0,
            "From points (N x 2 or N x 3, m) or, without any, from the centres of a grid's occupied cells. "
            "normals: a unit "
@@ -132,7 +132,7 @@ void bind_maps(py::module_& module) {
             const auto* first = reinterpret_cast<const double*>(map->path().data());
             return column(map->path(), first, pose_numbers, map);
           },
-          "Poses of the robot that made the map: P x 7 (x, y, z, qw, qx, qy, qz).")
+          "Poses of the robot that made the map, P x 7 (x, y, z, qw, qx, qy, qz).")
       .def_property_readonly(
           "resolution", [](const Map& map) { return map->resolution(); },
           "Side of the grid's cells, or distance of points, m; 0 if not known.")

@@ -24,15 +24,21 @@ std::vector<float> times_of(const py::object& times, std::size_t hits) {
   return result;
 }
 
+Point point_of(const py::object& origin) {
+  const std::vector<double> p = doubles_of(origin, "x, y and z (m) of the sensor");
+  if (p.size() != 3) throw py::value_error("x, y and z (m) of the sensor are wanted");
+  return as_point({p[0], p[1], p[2]});
+}
+
 BoundObservation make_observation(const py::object& hits, const py::object& odom_from_robot, double stamp,
-                                  const py::object& free_ends, const std::array<float, 3>& origin,
+                                  const py::object& free_ends, const py::object& origin,
                                   const py::object& times) {
   Observation observation;
   observation.stamp = stamp;
   observation.odom_from_robot = pose_of(odom_from_robot);
   observation.scan.hits = points_of(hits);
   if (!free_ends.is_none()) observation.scan.free_ends = points_of(free_ends);
-  observation.scan.origin = {origin[0], origin[1], origin[2]};
+  if (!origin.is_none()) observation.scan.origin = point_of(origin);
   observation.scan.times = times_of(times, observation.scan.hits.size());
   return BoundObservation(std::move(observation));
 }
@@ -47,7 +53,7 @@ BoundObservation from_ranges(const py::object& ranges, const py::object& angles,
     throw py::value_error(
         fmt::format("an angle is wanted for each of {} ranges, and not {} angles", r.size(), a.size()));
   if (!(max_range > 0.0)) throw py::value_error("max_range must be greater than 0 m");
-  const Pose3 mount = pose_of(robot_from_laser);
+  const Pose3 mount = robot_from_laser.is_none() ? Pose3{} : pose_of(robot_from_laser);
   Observation observation;
   observation.stamp = stamp;
   observation.odom_from_robot = pose_of(odom_from_robot);
@@ -66,18 +72,11 @@ void bind_observation(py::module_& module) {
       module, "Observation",
       "What the robot perceives in one step: a scan in the robot's frame, m, and odometry, of which "
       "only the increments mean something.")
-      .def(py::init(&make_observation), py::arg("hits"), py::arg("odom_from_robot"), py::kw_only(),
-           py::arg("stamp") = 0.0, py::arg("free_ends") = py::none(),
-           py::arg("origin") = std::array<float, 3>{}, py::arg("times") = py::none(),
+      .def(py::init(&make_observation), py::arg("hits"), py::arg("odom_from_robot"), py::arg("stamp") = 0.0,
+           py::arg("free_ends") = py::none(), py::arg("origin") = py::none(), py::arg("times") = py::none(),
            "hits: ends of the rays that met something, N x 2 or N x 3. free_ends: of those that met nothing. "
            "origin: the "
            "sensor. times: when each hit was measured, s after the stamp.")
-      .def_static("from_ranges", &from_ranges, py::arg("ranges"), py::arg("angles"), py::arg("max_range"),
-                  py::arg("odom_from_robot"), py::kw_only(), py::arg("stamp") = 0.0,
-                  py::arg("robot_from_laser") = Pose3{},
-                  "Of a planar laser: ranges (m) and angles (rad) of its beams. A range of max_range or more "
-                  "met nothing; "
-                  "NaN and 0 are left out.")
       .def_property_readonly(
           "stamp", [](const BoundObservation& o) { return o->stamp; }, "s")
       .def_property_readonly("odom_from_robot", [](const BoundObservation& o) { return o->odom_from_robot; })
@@ -94,6 +93,12 @@ void bind_observation(py::module_& module) {
       .def("__repr__", [](const BoundObservation& o) {
         return fmt::format("<Observation: {} hits at {:.3f} s>", o->scan.hits.size(), o->stamp);
       });
+  module.def("observation_from_ranges", &from_ranges, py::arg("ranges"), py::arg("angles"),
+             py::arg("max_range"), py::arg("odom_from_robot"), py::arg("stamp") = 0.0,
+             py::arg("robot_from_laser") = py::none(),
+             "An observation of a planar laser, from ranges (m) and angles (rad) of its beams. A range of "
+             "max_range or "
+             "more met nothing; NaN and 0 are left out. robot_from_laser is where the laser is mounted.");
 }
 
 void bind_sample(py::module_& module) {
@@ -110,7 +115,7 @@ void bind_sample(py::module_& module) {
           "map_from_robot", [](const Bound& s) { return s->map_from_robot; }, "Reference pose, or None.")
       .def_property_readonly(
           "segment", [](const Bound& s) { return s->segment; },
-          "Changes where the drive is interrupted: no trial runs across.");
+          "A number that changes where the drive is interrupted; no trial runs across.");
 }
 
 BoundLocalMap make_local_map(const py::object& points, const py::object& local_from_robot,
@@ -131,7 +136,7 @@ void bind_observations(py::module_& module) {
   bind_sample(module);
   py::class_<BoundLocalMap>(module, "LocalMap", "Points of all observations so far, in the local frame, m.")
       .def(py::init(&make_local_map), py::arg("points"), py::arg("local_from_robot"), py::arg("ends"),
-           py::kw_only(), py::arg("normals") = py::none(), py::arg("epoch") = 0,
+           py::arg("normals") = py::none(), py::arg("epoch") = 0,
            "ends: how many points there were after each observation. epoch: counts up when the frame is a "
            "new one.")
       .def_property_readonly("points", [](const BoundLocalMap& m) { return m.part(m->points); })

@@ -9,7 +9,7 @@
 namespace glocal::python {
 namespace {
 
-py::array_t<double> matrix(const Pose3& pose) {
+py::array matrix(const Pose3& pose) {
   const auto r = matrix_of(pose.rotation);
   py::array_t<double> array({4, 4});
   auto m = array.mutable_unchecked<2>();

@@ -49,7 +49,8 @@ std::unique_ptr<const Field> read_field(const py::handle& registered) {
   info.above = number("above");
   info.choices = registered.attr("choices").cast<std::vector<std::string>>();
   info.min_items = registered.attr("min_items").cast<std::size_t>();
-  info.max_items = registered.attr("max_items").cast<std::size_t>();
+  if (const py::object most = registered.attr("max_items"); !most.is_none())
+    info.max_items = most.cast<std::size_t>();
   info.required = registered.attr("required").cast<bool>();
   info.is_folder = registered.attr("is_folder").cast<bool>();
   return field;

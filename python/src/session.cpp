@@ -42,11 +42,6 @@ std::string described(const std::string& name, const Catalog& catalog) {
   throw py::value_error("there is no strategy '" + name + "'; glocal.list_strategies() names all");
 }
 
-/// Called by the program, which has a catalog of its own.
-void load_into(const py::capsule& catalog, const std::string& file) {
-  load_python_plugin(file, *catalog.get_pointer<Catalog>());
-}
-
 }  // namespace
 
 Session::Session() {
@@ -85,8 +80,10 @@ void bind_session(py::module_& module) {
   module.def(
       "describe", [](const std::string& name) { return described(name, current_session()->catalog); },
       py::arg("name"), "What a strategy does, and its parameters with types, bounds and defaults.");
-  module.def("build_tag", &build_tag, "What a program must have in common with this module to load it.");
-  module.def("load_into", &load_into, py::arg("catalog"), py::arg("file"));
+  // For the program, which has a catalog of its own: what it must have in common with this module, and what
+  // loads plugins into it.
+  module.attr("_build_tag") = build_tag();
+  module.attr("_loader") = py::capsule(reinterpret_cast<void*>(&load_python_plugin), "glocal._loader");
 }
 
 }  // namespace glocal::python

@@ -26,23 +26,24 @@ VerdictKind kind_of(const std::string& name) {
 
 Verdict make_verdict(const std::string& kind, const py::object& map_from_robot, const py::object& candidates,
                      const std::string& why, const py::object& estimate, double confidence,
-                     const std::map<std::string, double>& evidence, bool needs_certificate) {
+                     const std::optional<std::map<std::string, double>>& evidence, bool needs_certificate) {
   Verdict verdict;
   verdict.kind = kind_of(kind);
   if (!map_from_robot.is_none()) verdict.map_from_robot = pose_of(map_from_robot);
   if (!candidates.is_none()) verdict.candidates = poses_of(candidates);
   verdict.why = why;
   if (!estimate.is_none()) verdict.estimate = PoseEstimate{pose_of(estimate), confidence};
-  for (const auto& [name, value] : evidence) verdict.evidence.push_back({name, value});
+  for (const auto& [name, value] : evidence.value_or(std::map<std::string, double>{}))
+    verdict.evidence.push_back({name, value});
   verdict.needs_certificate = needs_certificate;
   return verdict;
 }
 
 void bind_verdict(py::module_& module) {
   py::class_<Verdict>(module, "Verdict", "What a verdict rule says, and why.")
-      .def(py::init(&make_verdict), py::arg("kind"), py::kw_only(), py::arg("map_from_robot") = py::none(),
+      .def(py::init(&make_verdict), py::arg("kind"), py::arg("map_from_robot") = py::none(),
            py::arg("candidates") = py::none(), py::arg("why") = "", py::arg("estimate") = py::none(),
-           py::arg("confidence") = 0.0, py::arg("evidence") = std::map<std::string, double>{},
+           py::arg("confidence") = 0.0, py::arg("evidence") = py::none(),
            py::arg("needs_certificate") = false,
            "kind: searching, ambiguous, localized or unknown_place. map_from_robot: the declared pose, of "
            "localized only. "
@@ -103,9 +104,9 @@ void bind_verification(py::module_& module) {
       .def_readonly("delta", &Certificate::delta, "m");
   py::class_<Verification>(module, "Verification",
                            "What a verifier says of a pose that is about to be declared.")
-      .def(py::init(&make_verification), py::kw_only(), py::arg("rivals") = py::none(),
-           py::arg("certificate") = std::optional<Certificate>{}, py::arg("distance") = 1.0,
-           py::arg("rotation") = 0.0, py::arg("margin") = 0.0, py::arg("points_tested") = 0,
+      .def(py::init(&make_verification), py::arg("rivals") = py::none(), py::arg("certificate") = py::none(),
+           py::arg("distance") = 1.0, py::arg("rotation") = 0.0, py::arg("margin") = 0.0,
+           py::arg("points_tested") = 0,
            "rivals: Hypotheses whose quality and score are the share of points in contact. certificate: None "
            "where the "
            "search was given up. distance (m), rotation (rad): what is farther away is a rival. margin: a "

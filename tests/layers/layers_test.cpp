@@ -29,7 +29,9 @@ const std::map<std::string, std::set<std::string>> layers_below = {
     {"evaluation", {"framework"}},
     {"report", {"evaluation", "framework"}},
     {"app",
-     {"report", "evaluation", "framework", "sources", "local_mappers", "matchers", "clustering", "raters"}}};
+     {"report", "evaluation", "framework", "sources", "local_mappers", "matchers", "clustering", "raters",
+      "python"}},
+    {"python", {"evaluation", "framework", "clustering"}}};
 
 /// Families of matchers that may include another one. indexed_ransam searches the whole map with the grid's
 /// pyramid before its first draw.
