@@ -7,6 +7,7 @@
 The second draws what `glocal sweep --json` has told instead: what each parameter does, and two of them in a map.
 `glocal figures` calls it like this, and keeps the file as it is once it is there: change what you like.
 Needs matplotlib (Debian: python3-matplotlib). The same results give the same bytes.
+The Python package has it as a module. Nothing is drawn or set when it is imported.
 """
 import argparse
 import array
@@ -21,12 +22,12 @@ from dataclasses import dataclass, field
 
 try:
     import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot as plt
     from matplotlib.collections import PolyCollection
+    from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 except ImportError as error:
+    if __name__ != "__main__":
+        raise
     sys.exit(f"figures.py needs matplotlib ({error}): install Debian's package python3-matplotlib")
 
 # What a run is called in legends, by the name of its folder: {"paper_simulation": "simulation"}.
@@ -73,7 +74,11 @@ METADATA = {  # without dates: the same results give the same bytes
 NEEDED = set("trial step stage_ms omega_best score_best omega_max hypotheses clusters best verdict local_from_robot".split())
 
 
-class LeftOut(Exception):
+class FiguresError(ValueError):
+    """What is wrong with results, and a way out."""
+
+
+class LeftOut(FiguresError):
     """Why a figure cannot be drawn from these results."""
 
 
@@ -103,11 +108,14 @@ def inverse(a):
 
 
 class Run:
-    """One trial of a run: the lines of steps.jsonl, and point clouds. docs/file-formats.md says what is in them."""
+    """One trial of a run: the lines of steps.jsonl, and point clouds. docs/file-formats.md says what is in them.
 
-    def __init__(self, folder, trial):
+    Each step must have the keys `needed`, `local_from_robot` among them.
+    """
+
+    def __init__(self, folder, trial, needed=NEEDED):
         self.folder, self.trial = pathlib.Path(folder), trial
-        self.steps = read_steps(self.folder / "steps.jsonl", trial)
+        self.steps = read_steps(self.folder / "steps.jsonl", trial, needed)
         # A local map's frame is the robot's pose where it was started: there again, and it has started over.
         origin = (0, 0, 0)
         epoch, last = 0, origin
@@ -125,10 +133,17 @@ class Run:
         return next(iter(self.with_verdict("localized", "estimate")), None)
 
     def global_map(self):
-        return read_pcd(self.folder / "maps/global.pcd")
+        return read_pcd(global_map_file(self.folder))
 
     def local_map(self, step):
-        return read_pcd(self.folder / f"maps/trial_{self.trial:04}/step_{step['step']:04}.pcd")
+        return read_pcd(self.local_map_file(step))
+
+    def local_map_file(self, step):
+        return self.folder / f"maps/trial_{self.trial:04}/step_{step['step']:04}.pcd"
+
+
+def global_map_file(folder):
+    return folder / "maps/global.pcd"
 
 
 def printable(text):
@@ -138,35 +153,51 @@ def printable(text):
     return " " + text if text.startswith("_") else text
 
 
-def read_steps(file, trial):
-    steps = []
+def read_lines(file, needed, way_out):
+    """Yields the objects of a file of results, one a line; each must have the keys `needed`."""
+    number = 1
     try:
         with open(file, encoding="utf-8") as lines:
             for number, line in enumerate(lines, 1):
-                step = json.loads(line)
-                if not NEEDED <= step.keys():
+                result = json.loads(line)
+                if not needed <= result.keys():
                     raise ValueError
-                if step["trial"] == trial:
-                    steps.append(step)
+                yield result
     except OSError:
-        sys.exit(f"{file}: cannot be read; run the experiment with --set output.steps=true")
+        raise FiguresError(f"{file}: cannot be read; {way_out}") from None
     except (ValueError, AttributeError):
-        sys.exit(f"{file}:{number}: is no line of results; run the experiment again")
+        raise FiguresError(f"{file}:{number}: is no line of results; run the experiment again") from None
+
+
+def read_steps(file, trial, needed):
+    lines = read_lines(file, needed, "run the experiment with --set output.steps=true")
+    steps = [step for step in lines if step["trial"] == trial]
     if not steps:
-        sys.exit(f"{file}: has no steps of trial {trial}")
+        raise FiguresError(f"{file}: has no steps of trial {trial}")
     return steps
 
 
-def read_pcd(file):
-    """Lists of x and y of a binary PCD file with three floats a point."""
+def read_points(file):
+    """x, y, z, x, ... of a binary PCD file with three floats a point."""
     if not file.exists():
         raise LeftOut(f"there is no {file}; run the experiment with --set output.maps=all")
     header, _, body = file.read_bytes().partition(b"DATA binary\n")
     points = re.search(rb"\nPOINTS (\d+)\n", header)
     if not points or len(body) != 12 * int(points[1]):
-        sys.exit(f"{file}: is no point cloud as glocal writes them, or a part of one; run the experiment again")
-    values = array.array("f", body)
+        why = "is no point cloud as glocal writes them, or a part of one; run the experiment again"
+        raise FiguresError(f"{file}: {why}")
+    return array.array("f", body)
+
+
+def read_pcd(file):
+    """Lists of x and y."""
+    values = read_points(file)
     return list(values[0::3]), list(values[1::3])
+
+
+def new_figure(width, height):
+    """In inches. It is no figure of pyplot's, which would keep it."""
+    return Figure(figsize=(width, height), layout="constrained")
 
 
 # Fig. 3: curves over steps.
@@ -256,15 +287,20 @@ def draw_panel(figure, place, panel, runs, letter, has_legend):
         all_axes[0].legend()
 
 
+def draw_panels(figure, runs):
+    """All of them."""
+    for letter, place, panel in zip("abcdef", figure.add_gridspec(3, 2), CURVES):
+        draw_panel(figure, place, panel, runs, f"\n({letter})", letter == "a")
+
+
 def draw_curves(runs):
     """Yields names and figures: each panel for itself, and all of them."""
     for letter, panel in zip("abcdef", CURVES):
-        figure = plt.figure(figsize=(COLUMN, 1.9), layout="constrained")
+        figure = new_figure(COLUMN, 1.9)
         draw_panel(figure, figure.add_gridspec(1, 1)[0], panel, runs, "", True)
         yield f"fig3{letter}", figure
-    figure = plt.figure(figsize=(COLUMN, 4.6), layout="constrained")
-    for letter, place, panel in zip("abcdef", figure.add_gridspec(3, 2), CURVES):
-        draw_panel(figure, place, panel, runs, f"\n({letter})", letter == "a")
+    figure = new_figure(COLUMN, 4.6)
+    draw_panels(figure, runs)
     yield "fig3", figure
 
 
@@ -280,10 +316,12 @@ class Picture:
     path: list = field(default_factory=list)  # poses
     rated: list = field(default_factory=list)  # (rating, pose)
     marks: list = field(default_factory=list)  # (pose, colour, what it is)
+    others: list = field(default_factory=list)  # poses that need room, too
+    is_ground: bool = False  # whether the global map is grey although there is no local one
 
     def extent(self):
         """Smallest and largest x and y, with a margin, and room for the scale bar below."""
-        poses = self.path + [p for _, p in self.rated] + [p for p, _, _ in self.marks]
+        poses = self.path + [p for _, p in self.rated] + [p for p, _, _ in self.marks] + self.others
         x = [*self.background[0], *self.foreground[0], *(p[0] for p in poses)]
         y = [*self.background[1], *self.foreground[1], *(p[1] for p in poses)]
         size = max(max(x) - min(x), max(y) - min(y), 1.0)
@@ -292,6 +330,11 @@ class Picture:
     def aspect(self):
         left, right, bottom, top = self.extent()
         return (right - left) / (top - bottom)
+
+    def mark_size(self):
+        """Of triangles, m."""
+        left, right, bottom, top = self.extent()
+        return 0.04 * max(right - left, top - bottom)
 
 
 def clusters_of_first_step(run):
@@ -406,16 +449,30 @@ def scale_bar(axes, left, right, bottom, top):
     length = max((metres for metres in lengths if metres <= 0.25 * (right - left)), default=0.1)
     x, y = left + 0.03 * (right - left), bottom + 0.02 * max(right - left, top - bottom)
     axes.plot([x, x + length], [y, y], color=BLACK, linewidth=1.2, solid_capstyle="butt")
-    axes.text(x + length, y, f"  {length:g} m", va="center", fontsize=7)
+    axes.text(x + length, y, f"  {length:g} m", va="center", fontsize=matplotlib.rcParams["legend.fontsize"])
 
 
-def draw_picture(figure, place, picture, letter):
-    axes = figure.add_subplot(place)
+def handles_of(marks):
+    """For a legend: one for each label."""
+    labels = {label: colour for _, colour, label in marks}
+    style = {"linestyle": "none", "marker": ">", "markersize": 4.5, "markeredgewidth": 0.3}
+    return [Line2D([], [], c=colour, mec=BLACK, label=label, **style) for label, colour in labels.items()]
+
+
+def draw_picture(axes, picture, letter):
+    """With a legend above."""
+    draw_things(axes, picture, letter)
+    if picture.marks:
+        place = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncol": 3, "borderpad": 0}
+        axes.legend(handles=handles_of(picture.marks), **place)
+
+
+def draw_things(axes, picture, letter=""):
     left, right, bottom, top = picture.extent()
     axes.set(xlim=(left, right), ylim=(bottom, top), xticks=[], yticks=[], aspect="equal", xlabel=letter)
     axes.spines[:].set_visible(False)
-    size = 0.04 * max(right - left, top - bottom)
-    alone = not picture.foreground[0]
+    size = picture.mark_size()
+    alone = not picture.foreground[0] and not picture.is_ground
     dots(axes, "global_map", picture.background, BLACK if alone else "#b0b0b0", 0.6 if alone else 1.2)
     dots(axes, "local_map", picture.foreground, BLACK, 0.6)
     x, y = [p[0] for p in picture.path], [p[1] for p in picture.path]
@@ -427,15 +484,10 @@ def draw_picture(figure, place, picture, letter):
         shapes.set_array([r for r, _ in rated])
         shapes.set_clim(0, 1)
         axes.add_collection(shapes)
-        figure.colorbar(shapes, ax=axes, location="left", label="$r(C_i)$", shrink=0.7, aspect=25, pad=0.01)
+        axes.figure.colorbar(shapes, ax=axes, location="left", label="$r(C_i)$", shrink=0.7, aspect=25, pad=0.01)
     for i, (robot, colour, _) in enumerate(picture.marks):
         style = {"facecolor": colour, "edgecolor": BLACK, "linewidth": 0.3, "zorder": 3}
         axes.fill(*zip(*triangle(robot, size)), gid=f"mark_{i}", **style)
-    labels = {label: colour for _, colour, label in picture.marks}
-    if labels:
-        style = {"linestyle": "none", "marker": ">", "markersize": 4.5, "markeredgewidth": 0.3}
-        handles = [Line2D([], [], c=colour, mec=BLACK, label=label, **style) for label, colour in labels.items()]
-        axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3, borderpad=0)
     scale_bar(axes, left, right, bottom, top)
 
 
@@ -454,17 +506,16 @@ def draw_pictures(run):
                 continue
             width = COLUMN - 0.6 if made[letter].rated else COLUMN  # beside the colour bar
             height = min(width / made[letter].aspect(), COLUMN) + 0.15
-            figure = plt.figure(figsize=(COLUMN, height), layout="constrained")
-            draw_picture(figure, figure.add_gridspec(1, 1)[0], made[letter], "")
+            figure = new_figure(COLUMN, height)
+            draw_picture(figure.add_subplot(), made[letter], "")
             yield name + letter, figure
         if made:
             aspects = [picture.aspect() for picture in made.values()]
             height = min((PAGE - 0.6) / sum(aspects), COLUMN)
-            size = (max(height * sum(aspects) + 0.6, COLUMN), height + 0.4)
-            figure = plt.figure(figsize=size, layout="constrained")
+            figure = new_figure(max(height * sum(aspects) + 0.6, COLUMN), height + 0.4)
             places = figure.add_gridspec(1, len(made), width_ratios=aspects)
             for place, (letter, picture) in zip(places, made.items()):
-                draw_picture(figure, place, picture, f"({letter})")
+                draw_picture(figure.add_subplot(place), picture, f"({letter})")
             yield name, figure
 
 
@@ -475,9 +526,9 @@ def read_sweep(file):
     try:
         sweep = json.loads(file.read_text(encoding="utf-8"))
     except ValueError as problem:
-        sys.exit(f"{file}: is not what glocal sweep --json prints ({problem})")
+        raise FiguresError(f"{file}: is not what glocal sweep --json prints ({problem})") from None
     if not sweep["effects"]:
-        sys.exit(f"{file}: no parameter varies; there is nothing to draw")
+        raise FiguresError(f"{file}: no parameter varies; there is nothing to draw")
     return sweep
 
 
@@ -496,15 +547,18 @@ def draw_effect(axes, number, effect):
     axes.set_yticks(range(len(levels)), [printable(level["label"]) for level in levels])
     axes.set(xlim=(-1, 101), ylim=(len(levels) - 0.5, -0.5))
     # Above, where a long name has room beside few levels.
-    axes.set_title(printable(effect["label"]), loc="left", fontsize=8, pad=3)
+    axes.set_title(printable(effect["label"]), loc="left", fontsize=matplotlib.rcParams["font.size"], pad=3)
     axes.xaxis.grid(True, linewidth=0.3, color="#d0d0d0")
     axes.set_axisbelow(True)
 
 
-def draw_effects(effects):
-    heights = [len(effect["levels"]) + 1.2 for effect in effects]
-    figure = plt.figure(figsize=(COLUMN, 0.35 + 0.18 * sum(heights)), layout="constrained")
-    places = figure.add_gridspec(len(effects), 1, height_ratios=heights)
+def rows_of(effect):
+    """How high its axes are: so many rows of text."""
+    return len(effect["levels"]) + 1.2
+
+
+def draw_effects(figure, effects):
+    places = figure.add_gridspec(len(effects), 1, height_ratios=[rows_of(effect) for effect in effects])
     first = None
     for number, (place, effect) in enumerate(zip(places, effects)):
         axes = figure.add_subplot(place, sharex=first)
@@ -512,13 +566,11 @@ def draw_effects(effects):
         draw_effect(axes, number, effect)
         axes.tick_params(labelbottom=number == len(effects) - 1)
     axes.set_xlabel("right trials (%), mean over all else")
-    return figure
 
 
-def draw_heat_map(heat):
+def draw_heat_map(figure, heat):
     rows, columns = heat["rows"], heat["columns"]
     values = [[100 * cell["success_rate"]["value"] if cell["trials"] else math.nan for cell in row] for row in heat["cells"]]
-    figure = plt.figure(figsize=(COLUMN, 1.0 + 0.3 * len(values)), layout="constrained")
     axes = figure.add_subplot()
     image = axes.imshow(values, cmap=SHADES, vmin=0, vmax=100, aspect="auto")
     for r, row in enumerate(values):
@@ -533,14 +585,17 @@ def draw_heat_map(heat):
     axes.set(xlabel=printable(columns["label"]), ylabel=printable(rows["label"]))
     axes.spines[:].set_visible(False)
     figure.colorbar(image, ax=axes, label="right trials (%)", aspect=12, pad=0.02)
-    return figure
 
 
 def draw_sweep(sweep, out):
     """Yields folder, names and figures."""
-    yield out, "sweep_effects", draw_effects(sweep["effects"])
+    figure = new_figure(COLUMN, 0.35 + 0.18 * sum(map(rows_of, sweep["effects"])))
+    draw_effects(figure, sweep["effects"])
+    yield out, "sweep_effects", figure
     if "map" in sweep:
-        yield out, "sweep_map", draw_heat_map(sweep["map"])
+        figure = new_figure(COLUMN, 1.0 + 0.3 * len(sweep["map"]["cells"]))
+        draw_heat_map(figure, sweep["map"])
+        yield out, "sweep_map", figure
 
 
 # Files.
@@ -561,7 +616,6 @@ def write(out, figures):
                 file = pathlib.Path(unfinished) / f"{len(moves)}.{extension}"
                 figure.savefig(file, metadata=METADATA.get(extension))
                 moves.append((file, folder / f"{name}.{extension}"))
-            plt.close(figure)
         for file, target in moves:
             target.parent.mkdir(exist_ok=True)
             os.replace(file, target)
@@ -613,6 +667,8 @@ def main():
         runs = [Run(folder, options.trial) for folder in options.folders]
         give_names(runs)
         write(options.out, draw_all(runs, options.out))
+    except FiguresError as problem:
+        sys.exit(str(problem))
     except OSError as problem:
         sys.exit(f"figures.py: {problem}")
 
