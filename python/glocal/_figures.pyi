@@ -1,0 +1,69 @@
+# What the package uses of report/figures/figures.py, which is installed as this module.
+import array
+import os
+import pathlib
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, SubFigure
+from matplotlib.lines import Line2D
+
+BLACK: str
+ORANGE: str
+GREEN: str
+BLUE: str
+RED: str
+STYLE: dict[str, Any]
+
+_Pose = tuple[float, float, float]  # x, y, theta
+_Xy = tuple[list[float], list[float]]
+_Mark = tuple[_Pose, str, str]
+
+def pose(json_pose: Mapping[str, float]) -> _Pose: ...
+
+class Run:
+    folder: pathlib.Path
+    trial: int
+    label: str
+    steps: list[dict[str, Any]]
+    def __init__(self, folder: str | os.PathLike[str], trial: int, needed: set[str] = ...) -> None: ...
+    def first_localized(self) -> dict[str, Any] | None: ...
+    def global_map(self) -> _Xy: ...
+    def local_map_file(self, step: Mapping[str, Any]) -> pathlib.Path: ...
+
+def global_map_file(folder: pathlib.Path) -> pathlib.Path: ...
+def printable(text: str) -> str: ...
+def read_lines(file: pathlib.Path, needed: set[str], way_out: str) -> Iterator[dict[str, Any]]: ...
+def read_points(file: pathlib.Path) -> array.array[float]: ...
+def read_pcd(file: pathlib.Path) -> _Xy: ...
+def draw_panels(figure: Figure | SubFigure, runs: list[Run]) -> None: ...
+
+class Picture:
+    background: _Xy
+    foreground: _Xy
+    path: list[_Pose]
+    rated: list[tuple[float, _Pose]]
+    marks: list[_Mark]
+    others: list[_Pose]
+    is_ground: bool
+    def __init__(
+        self,
+        background: _Xy = ...,
+        foreground: _Xy = ...,
+        path: list[_Pose] = ...,
+        rated: list[tuple[float, _Pose]] = ...,
+        marks: list[_Mark] = ...,
+        others: list[_Pose] = ...,
+        is_ground: bool = ...,
+    ) -> None: ...
+    def aspect(self) -> float: ...
+    def mark_size(self) -> float: ...
+
+def triangle(robot: _Pose, size: float) -> list[tuple[float, float]]: ...
+def handles_of(marks: list[_Mark]) -> list[Line2D]: ...
+def draw_things(axes: Axes, picture: Picture, letter: str = ...) -> None: ...
+def rows_of(effect: dict[str, Any]) -> float: ...
+def draw_effects(figure: Figure | SubFigure, effects: list[dict[str, Any]]) -> None: ...
+def draw_heat_map(figure: Figure | SubFigure, heat: dict[str, Any]) -> None: ...
+def give_names(runs: list[Run]) -> None: ...
