@@ -183,6 +183,11 @@ def test_map_has_a_local_map_in_space_seen_from_above(tmp_path):
     assert points_of(axes, "local_map") == approx([(10.0, 20.0), (11.0, 17.0)])
     assert robot_at(axes, "mark_0") == pytest.approx((10.0, 20.0, 0.0))
 
+    # A third of a turn about (1, 1, 1): x of the local map is y of the map, its y is z, and its z is x.
+    turned = {"x": 10.0, "y": 20.0, "z": 0.0, "qx": 0.5, "qy": 0.5, "qz": 0.5, "qw": 0.5, "theta": math.pi / 2}
+    write_lines(folder / "steps.jsonl", [step(0, "localized", estimate=turned)])
+    assert points_of(only_axes(plotting.plot_map(folder)), "local_map") == approx([(10.0, 20.0), (13.0, 21.0)])
+
 
 def test_map_shows_clusters_by_rating(drive):
     axes = only_axes(plotting.plot_map(drive, step=0))
@@ -494,6 +499,9 @@ def test_maps_of_any_shape_have_nothing_covered_or_cut(drive, outcomes, size):
         axes = only_axes(figure)
         parts = [axes.patch, axes.title, axes.get_legend(), *(more.patch for more in figure.axes[1:])]
         boxes = [part.get_window_extent() for part in parts]
+        figure.draw_without_rendering()
+        for part, box in zip(parts, boxes):
+            assert part.get_window_extent().bounds == pytest.approx(box.bounds, abs=4), "places are not settled"
         for a, b in itertools.combinations(boxes, 2):
             assert min(a.x1, b.x1) - max(a.x0, b.x0) < 1 or min(a.y1, b.y1) - max(a.y0, b.y0) < 1
         for box in boxes:
