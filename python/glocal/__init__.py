@@ -52,7 +52,7 @@ from glocal.strategies import (
     register,
 )
 
-__version__: str = _core.__version__
+__version__: str = _core.version
 
 __all__ = [
     "Certificate",

@@ -144,11 +144,11 @@ class Experiment:
         tell = _print_progress if progress is True else progress or None
         counted = _Progress(tell)
         folder, complete = self._file.run(
-            pathlib.Path(out or ""),
+            os.fspath(out or ""),
             list(only),
             jobs,
             force,
-            strategies.sources(),
+            [str(file) for file in strategies.sources()],
             counted.begin,
             counted.trial,
             _Texts(progress is False).tell,

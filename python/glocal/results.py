@@ -14,6 +14,7 @@ from glocal import _core
 from glocal.errors import ConfigError
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -178,11 +179,11 @@ class Results:
             raise ConfigError(f"{self.folder} holds several runs, and one is wanted: choose one of variants[...]: {names}")
         return self.folder
 
-    def plot_map(self, trial: int = 0, step: int | None = None, **options: Any) -> Figure:
+    def plot_map(self, trial: int = 0, step: int | None = None, *, axes: Axes | None = None) -> Figure:
         """A step of a trial on the map: see glocal.plotting.plot_map()."""
         from glocal import plotting
 
-        return plotting.plot_map(self._only(), trial, step, **options)
+        return plotting.plot_map(self._only(), trial, step, axes=axes)
 
     def plot_curves(self, trial: int = 0) -> Figure:
         """What changes from step to step of a trial, of each variant: see glocal.plotting.plot_curves()."""
@@ -190,13 +191,13 @@ class Results:
 
         return plotting.plot_curves(self._folders, trial)
 
-    def plot_outcomes(self, **options: Any) -> Figure:
+    def plot_outcomes(self, *, axes: Axes | None = None) -> Figure:
         """Right and wrong starts on the map: see glocal.plotting.plot_outcomes()."""
         from glocal import plotting
 
-        return plotting.plot_outcomes(self._only(), **options)
+        return plotting.plot_outcomes(self._only(), axes=axes)
 
-    def plot_sweep(self) -> Any:
+    def plot_sweep(self) -> Figure:
         """Effects of parameters, and a map of two: see glocal.plotting.plot_sweep()."""
         from glocal import plotting
 

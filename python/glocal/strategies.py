@@ -359,7 +359,7 @@ def _registered_as(name: str, strategy: type[_Strategy]) -> _Registered:
 
 def _is_abstract(strategy: type[_Strategy], method: str) -> bool:
     """Whether it has only the method of this file, which raises."""
-    return getattr(strategy, method).__module__ == __name__
+    return bool(getattr(strategy, method).__module__ == __name__)
 
 
 _registered: dict[tuple[str, str], _Registered] = {}

@@ -71,7 +71,7 @@ LoadPythonPlugin find_loader(const char* build_tag, std::string& error) {
     error = "it was built otherwise than this program; build and install both anew";
     return nullptr;
   }
-  void* function = PyCapsule_GetPointer(loader.get(), "glocal._loader");
+  void* function = PyLong_AsVoidPtr(loader.get());
   if (function == nullptr) error = last_error();
   return reinterpret_cast<LoadPythonPlugin>(function);
 }

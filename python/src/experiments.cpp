@@ -63,7 +63,7 @@ class File {
   }
 
   /// The folder and whether it is complete.
-  [[nodiscard]] std::pair<fs::path, bool> run(RunOptions options, const std::vector<fs::path>& sources,
+  [[nodiscard]] std::pair<fs::path, bool> run(RunOptions options, const std::vector<std::string>& sources,
                                               const py::object& on_begin, const py::object& on_trial,
                                               const py::object& on_text) const {
     options.plugins = session_->plugins.loaded();
@@ -195,8 +195,8 @@ void bind_experiments(py::module_& module) {
       .def("effective", &File::effective)
       .def(
           "run",
-          [](const File& file, const fs::path& out, const std::vector<std::string>& only, int jobs,
-             bool force, const std::vector<fs::path>& sources, const py::object& on_begin,
+          [](const File& file, const std::string& out, const std::vector<std::string>& only, int jobs,
+             bool force, const std::vector<std::string>& sources, const py::object& on_begin,
              const py::object& on_trial, const py::object& on_text) {
             return file.run({.out = out, .only = only, .jobs = jobs, .force = force}, sources, on_begin,
                             on_trial, on_text);

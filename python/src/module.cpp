@@ -12,7 +12,7 @@
 PYBIND11_MODULE(_core, module) {
   using namespace glocal::python;
   module.doc() = "The C++ core of glocal.";
-  module.attr("__version__") = glocal::version;
+  module.attr("version") = glocal::version;
   translate_errors();
   bind_poses(module);
   bind_maps(module);

@@ -104,7 +104,7 @@ void bind_poses(py::module_& module) {
           "inverse", [](const Pose3& p) { return inverse(p); }, "`source_from_target`.")
       .def(
           "__mul__", [](const Pose3& a, const Pose3& b) { return a * b; }, py::is_operator(),
-          "`a_from_c = a_from_b * b_from_c`.")
+          py::arg("other"), "`a_from_c = a_from_b * b_from_c`.")
       .def(
           "transform",
           [](const Pose3& pose, const py::object& points) {
@@ -119,7 +119,16 @@ void bind_poses(py::module_& module) {
           "rotation_to", [](const Pose3& a, const Pose3& b) { return rotation_between(a, b); },
           py::arg("other"), "Smallest rotation between the two, rad, in [0, pi].")
       .def(
-          "__eq__", [](const Pose3& a, const Pose3& b) { return a == b; }, py::is_operator())
+          "__eq__",
+          [](const Pose3& a, const py::object& b) {
+            return py::isinstance<Pose3>(b) && a == b.cast<Pose3>();
+          },
+          py::arg("other"))
+      .def("__hash__",
+           [](const Pose3& p) {
+             const Quaternion& q = p.rotation;
+             return py::hash(py::make_tuple(p.x, p.y, p.z, q.w, q.x, q.y, q.z));
+           })
       .def("__repr__", &text_of)
       .def(py::pickle(
           [](const Pose3& p) {

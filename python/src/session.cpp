@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 
 #include "config/help.hpp"
@@ -58,6 +59,7 @@ std::shared_ptr<Session> current_session() {
   auto renewed = std::make_shared<Session>();
   for (const py::handle& file : registered().attr("plugin_files")())
     renewed->plugins.load(file.cast<std::string>());
+  for (RegistryBase* registry : renewed->catalog.registries()) registry->set_origin("Python");
   add_all(registered().attr("registered")(), renewed->catalog);
   session = std::move(renewed);
   known = version;
@@ -83,7 +85,7 @@ void bind_session(py::module_& module) {
   // For the program, which has a catalog of its own: what it must have in common with this module, and what
   // loads plugins into it.
   module.attr("_build_tag") = build_tag();
-  module.attr("_loader") = py::capsule(reinterpret_cast<void*>(&load_python_plugin), "glocal._loader");
+  module.attr("_loader") = reinterpret_cast<std::uintptr_t>(&load_python_plugin);
 }
 
 }  // namespace glocal::python
