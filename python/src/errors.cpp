@@ -29,7 +29,29 @@ void raise_named(const char* name, const char* what) {
   raise(py::module_::import("glocal.errors").attr(name)(what));
 }
 
+/// A state that Python keeps of this thread.
+class KnownThread {
+ public:
+  KnownThread() : lock_(PyGILState_Ensure()), state_(PyEval_SaveThread()) {}
+  ~KnownThread() {
+    if (Py_IsInitialized() == 0) return;
+    PyEval_RestoreThread(state_);
+    PyGILState_Release(lock_);
+  }
+  KnownThread(const KnownThread&) = delete;
+  KnownThread& operator=(const KnownThread&) = delete;
+
+ private:
+  PyGILState_STATE lock_;
+  PyThreadState* state_;
+};
+
 }  // namespace
+
+void stay_known() {
+  if (PyGILState_GetThisThreadState() != nullptr) return;
+  thread_local const KnownThread thread;
+}
 
 void translate_errors() {
   py::register_exception_translator([](std::exception_ptr thrown) {
