@@ -22,7 +22,7 @@ py::array shares(const ContactIndex& index, const py::object& points, const py::
     own = points_of(points);
   }
   const std::vector<Pose3> moves = poses_of(poses);
-  py::array_t<double> result(moves.size());
+  py::array_t<double> result(static_cast<py::ssize_t>(moves.size()));
   double* out = result.mutable_data();
   const py::gil_scoped_release others_may;
   for (const Pose3& pose : moves) {

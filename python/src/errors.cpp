@@ -54,7 +54,8 @@ void stay_known() {
 }
 
 void translate_errors() {
-  py::register_exception_translator([](std::exception_ptr thrown) {
+  py::register_exception_translator([](std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param):
+                                                                     // the signature is pybind11's
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const ConfigError& error) {

@@ -90,7 +90,7 @@ void bind_list_of_hypotheses(py::module_& module) {
       .def_property_readonly(
           "heading",
           [](const Bound& h) -> py::array {
-            py::array_t<double> array(h->size());
+            py::array_t<double> array(static_cast<py::ssize_t>(h->size()));
             std::transform(h->begin(), h->end(), array.mutable_data(),
                            [](const Hypothesis& x) { return x.map_from_robot.heading(); });
             return array;
@@ -147,7 +147,7 @@ void bind_clusters(py::module_& module) {
       .def_property_readonly(
           "sizes",
           [](const Clusters& c) -> py::array {
-            py::array_t<std::int64_t> array(c->size());
+            py::array_t<std::int64_t> array(static_cast<py::ssize_t>(c->size()));
             std::transform(c->begin(), c->end(), array.mutable_data(),
                            [](const Cluster& x) { return static_cast<std::int64_t>(x.members.size()); });
             return array;

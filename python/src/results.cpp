@@ -82,7 +82,7 @@ class Table {
 
   void add_members(const Json& json, const std::string& path) {
     for (const auto& [key, value] : json.items()) {
-      const std::string name = path.empty() ? key : path + "." + key;
+      const std::string name = path.empty() ? key : fmt::format("{}.{}", path, key);
       if (value.is_object()) {
         add_members(value, name);
       } else if (!value.is_array() && !value.is_null()) {
