@@ -136,5 +136,26 @@ TEST_F(OverrideTest, APathDeeperThanAnyExperimentIsRefused) {
               ElementsAre(testing::HasSubstr("the path has 200001 parts; no value lies deeper than 32")));
 }
 
+TEST_F(OverrideTest, ALocalizerIsReadFromValuesAlone) {
+  const LocalizerConfig config = read_localizer(
+      {{"matcher.ransam.iterations", "5"}, {"contact_epsilon", "0.25"}, {"unknown_place.window", "3"}},
+      catalog_);
+  EXPECT_EQ(dynamic_cast<const ParamsOf<ToyMatcher::Params>&>(*config.matcher.params).value.iterations, 5);
+  EXPECT_EQ(config.contact_epsilon, 0.25);
+  EXPECT_EQ(config.unknown_place.window, 3);
+  EXPECT_EQ(config.motion, Motion::planar);
+}
+
+TEST_F(OverrideTest, EveryFaultOfALocalizersValuesIsFound) {
+  try {
+    static_cast<void>(read_localizer({{"matcher.ransam.iteration", "5"}, {"motion", "sideways"}}, catalog_));
+    FAIL() << "no fault was found";
+  } catch (const ConfigError& error) {
+    ASSERT_EQ(error.faults().size(), 2U);
+    EXPECT_EQ(error.faults()[0].file, "--set matcher.ransam.iteration=5");
+    EXPECT_EQ(error.faults()[1].file, "--set motion=sideways");
+  }
+}
+
 }  // namespace
 }  // namespace glocal::test::override_test
