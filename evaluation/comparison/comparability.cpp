@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <set>
 
@@ -134,33 +135,25 @@ void add_references(const NamedRun& run, const NamedRun& baseline, const TrialsB
       moved, mine.size(), run.name, baseline.name));
 }
 
-void add_machine(const NamedRun& run, const NamedRun& baseline, Sentences& warnings) {
-  const Machine& a = run.results.machine;
-  const Machine& b = baseline.results.machine;
-  if (a == b) return;
-  const auto text = [](const Machine& m) {
-    return fmt::format("{} ({}), {} threads", m.host, m.cpu, m.threads);
-  };
-  warnings.push_back(fmt::format("Times of {} and {} cannot be compared: {}, and {}.", run.name,
-                                 baseline.name, text(a), text(b)));
-}
-
 /// Trials that reach the next start see some of the same scans: their outcomes are not independent, as all
 /// tests take them to be.
 void add_overlaps(const std::vector<NamedRun>& runs, const std::vector<TrialStart>& starts,
                   const std::vector<TrialsByStart>& trials, Sentences& warnings) {
+  Sentences overlapping;
   for (std::size_t run = 0; run < runs.size(); ++run) {
     std::size_t overlaps = 0;
     for (std::size_t i = 0; i + 1 < starts.size(); ++i) {
       const double gap = starts[i + 1].distance_m - starts[i].distance_m;
       overlaps += trials[run][i]->distance_m > gap ? 1 : 0;
     }
-    if (static_cast<double>(overlaps) <= many_overlaps * static_cast<double>(starts.size())) continue;
-    warnings.push_back(
-        fmt::format("{} of {} trials of {} go on beyond the next start: neighbours are not independent, "
-                    "and p-values and intervals are too optimistic. Starts further apart would mend that.",
-                    overlaps, starts.size(), runs[run].name));
+    if (static_cast<double>(overlaps) > many_overlaps * static_cast<double>(starts.size()))
+      overlapping.push_back(fmt::format("{} of {}", overlaps, runs[run].name));
   }
+  if (overlapping.empty()) return;
+  warnings.push_back(
+      fmt::format("Of {} trials, these go on beyond the next start: {}. Neighbours are not independent, and "
+                  "p-values and intervals are too optimistic. Starts further apart would mend that.",
+                  starts.size(), joined(overlapping)));
 }
 
 void add_few_starts(std::size_t starts, Sentences& warnings) {
@@ -172,6 +165,34 @@ void add_few_starts(std::size_t starts, Sentences& warnings) {
 
 }  // namespace
 
+std::optional<std::string> why_times_differ(const NamedRun& run, const NamedRun& baseline) {
+  const Machine& a = run.results.machine;
+  const Machine& b = baseline.results.machine;
+  const auto refuse = [&](const std::string& mine, const std::string& other) {
+    return fmt::format("Times of {} and {} are not compared: {}, and {}.", run.name, baseline.name, mine,
+                       other);
+  };
+  if (a.host != b.host || a.cpu != b.cpu || a.threads != b.threads) {
+    const auto text = [](const Machine& m) {
+      return fmt::format("{} ({}), {} threads", m.host, m.cpu, m.threads);
+    };
+    return refuse(text(a), text(b));
+  }
+  if (a.jobs != b.jobs) {
+    const auto text = [](const Machine& m) { return fmt::format("--jobs {}", m.jobs); };
+    return refuse(text(a), text(b));
+  }
+  // Caches and clocks are shared: others slow down even what only the own processor's time is counted of.
+  constexpr double same_load = 0.5;
+  if (a.others_load && b.others_load && std::abs(*a.others_load - *b.others_load) > same_load) {
+    const auto text = [](const Machine& m) {
+      return fmt::format("others kept {:.1f} processors busy", *m.others_load);
+    };
+    return refuse(text(a), text(b));
+  }
+  return std::nullopt;
+}
+
 std::vector<std::string> comparability_warnings(const std::vector<NamedRun>& runs, std::size_t baseline,
                                                 const std::vector<TrialStart>& starts,
                                                 const std::vector<TrialsByStart>& trials) {
@@ -182,7 +203,7 @@ std::vector<std::string> comparability_warnings(const std::vector<NamedRun>& run
     if (i == baseline) continue;
     add_settings(runs[i], runs[baseline], warnings);
     add_references(runs[i], runs[baseline], trials[i], trials[baseline], warnings);
-    add_machine(runs[i], runs[baseline], warnings);
+    if (auto why = why_times_differ(runs[i], runs[baseline])) warnings.push_back(*std::move(why));
   }
   add_overlaps(runs, starts, trials, warnings);
   add_few_starts(starts.size(), warnings);

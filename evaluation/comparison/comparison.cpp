@@ -114,7 +114,9 @@ MeasureDifference compare_measure(const Measure& measure, std::size_t index, con
     if (!a || !b) continue;
     first.push_back(*a);
     second.push_back(*b);
-    differences.push_back(*b - *a);
+    const double difference = *b - *a;
+    const bool is_rounding = std::abs(difference) <= rounding * std::max(std::abs(*a), std::abs(*b));
+    differences.push_back(is_rounding ? 0.0 : difference);
   }
   MeasureDifference result;
   result.measure = measure;
@@ -125,6 +127,8 @@ MeasureDifference compare_measure(const Measure& measure, std::size_t index, con
   result.median = {median(differences), bootstrap(differences, median, stream(Stream::median, index))};
   result.mean = {mean(differences), bootstrap(differences, mean, stream(Stream::mean, index))};
   result.test = wilcoxon_signed_rank(differences);
+  result.shift = hodges_lehmann(differences);
+  result.smallest = measure.smallest * (measure.is_share ? std::abs(result.baseline_median) : 1.0);
   return result;
 }
 
@@ -171,13 +175,16 @@ void correct(Comparison& comparison) {
 
 std::span<const Measure> measures() {
   static constexpr std::array<Measure, 5> all = {{
-      {"steps", "", "steps to localize", [](const TrialResult& t) { return if_right(t, t.steps); }},
-      {"distance_m", "m", "way to localize", [](const TrialResult& t) { return if_right(t, t.distance_m); }},
-      {"translation_error_m", "m", "translation error",
+      {"steps", "", "steps to localize", 0.5, false,
+       [](const TrialResult& t) { return if_right(t, t.steps); }},
+      {"distance_m", "m", "way to localize", 0.1, false,
+       [](const TrialResult& t) { return if_right(t, t.distance_m); }},
+      {"translation_error_m", "m", "translation error", 0.01, false,
        [](const TrialResult& t) { return if_right(t, t.translation_error_m); }},
-      {"rotation_error_deg", "deg", "rotation error",
+      {"rotation_error_deg", "deg", "rotation error", 0.1, false,
        [](const TrialResult& t) { return if_right(t, t.rotation_error_deg); }},
-      {"step_ms", "ms", "time of a step", [](const TrialResult& t) { return t.step_ms; }},
+      {"step_cpu_ms", "ms", "CPU time of a step", 0.05, true,
+       [](const TrialResult& t) { return t.step_cpu_ms; }},
   }};
   return all;
 }
@@ -192,6 +199,13 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline,
   std::vector<TrialsByStart> trials;
   for (const NamedRun& run : runs) trials.push_back(trials_at(starts, run.results));
 
+  // Times come last.
+  const auto tested_of = [&](const NamedRun& run) {
+    return why_times_differ(run, runs[baseline])
+               ? measured.first(std::min(measured.size(), measures_but_time().size()))
+               : measured;
+  };
+
   Comparison comparison;
   comparison.baseline = runs[baseline].name;
   comparison.starts = starts.size();
@@ -200,12 +214,15 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline,
   for (std::size_t i = 0; i < runs.size(); ++i) {
     comparison.runs.push_back(figures(runs[i], trials[i], measured));
     if (i == baseline) continue;
-    comparison.pairs.push_back(compare_pair(runs[i].name, trials[baseline], trials[i], measured));
+    comparison.pairs.push_back(compare_pair(runs[i].name, trials[baseline], trials[i], tested_of(runs[i])));
   }
   correct(comparison);
-  for (PairComparison& pair : comparison.pairs) {
-    pair.conclusion = conclude(pair, comparison.baseline, comparison.starts);
-    pair.warnings = pair_warnings(pair, measured);
+  auto pair = comparison.pairs.begin();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i == baseline) continue;
+    pair->conclusion = conclude(*pair, comparison.baseline, comparison.starts);
+    pair->warnings = pair_warnings(*pair, tested_of(runs[i]));
+    ++pair;
   }
   return comparison;
 }

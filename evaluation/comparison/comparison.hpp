@@ -1,6 +1,7 @@
 // Runs on the same starts, compared with one of them.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -25,12 +26,19 @@ struct Measure {
   const char* name;
   const char* unit;   ///< Of the values; empty for counts.
   const char* label;  ///< In sentences.
+  /// Differences below it matter to nobody, however sure they are: as the values are, or as a share of the
+  /// baseline's median.
+  double smallest;
+  bool is_share;
   /// None where the trial has no such value: all but the time are of right trials.
   std::optional<double> (*of)(const TrialResult&);
 };
 [[nodiscard]] std::span<const Measure> measures();
 /// Those that are the same for runs with the same seed.
 [[nodiscard]] std::span<const Measure> measures_but_time();
+
+/// Differences of values this near are rounding, as a share of the values.
+inline constexpr double rounding = 1e-9;
 
 /// One run over the shared starts.
 struct RunFigures {
@@ -67,7 +75,11 @@ struct MeasureDifference {
   double baseline_median = 0.0, variant_median = 0.0;
   Difference median, mean;  ///< Of the differences at each start.
   SignedRank test;
+  ShiftEstimate shift;    ///< What the test is about.
+  double smallest = 0.0;  ///< Difference that matters, as the values are.
   double p_holm = 1.0;
+
+  [[nodiscard]] bool matters() const { return std::abs(shift.value) >= smallest; }
 };
 
 /// A variant and the baseline.

@@ -67,11 +67,14 @@ Table outcomes_table(const PairComparison& pair, const std::string& baseline) {
 }
 
 Table measures_table(const PairComparison& pair) {
-  Table table{{"difference", "starts", "median", "95 %", "mean", "95 %", "p", "p (Holm)", "", "test"}, {}};
+  Table table{
+      {"difference", "starts", "estimate", "95 %", "matters", "median", "95 %", "p", "p (Holm)", "", "test"},
+      {}};
   for (const MeasureDifference& d : pair.measures) {
-    table.rows.push_back({with_unit(d.measure), std::to_string(d.starts), signed_number(d.median.value),
-                          range(d.median.interval), signed_number(d.mean.value), range(d.mean.interval),
-                          p_value(d.test.p), p_value(d.p_holm), star(d.p_holm),
+    table.rows.push_back({with_unit(d.measure), std::to_string(d.starts), signed_number(d.shift.value),
+                          range({d.shift.low, d.shift.high}), number(d.smallest),
+                          signed_number(d.median.value), range(d.median.interval), p_value(d.test.p),
+                          p_value(d.p_holm), d.matters() ? star(d.p_holm) : "",
                           d.test.exact ? "exact" : "normal"});
   }
   return table;
@@ -86,12 +89,15 @@ std::string explanation(const Comparison& comparison) {
       "Differences are variant less {0}, start by start. Success and wrong with Wilson's intervals. Right "
       "and "
       "wrong: McNemar's exact test. Everything else: Wilcoxon's signed-rank test, zeros dropped; exact up to "
-      "{1} differences, otherwise the normal approximation with corrections for ties and continuity. Steps, "
-      "way "
-      "and errors are compared where both runs are right, times where both have them. Holm's correction in "
-      "two "
-      "families: the {2} tests of right and wrong, the {3} other ones; * marks p (Holm) < {4}. Bootstrap: "
-      "percentiles of {5} resamples of the starts.",
+      "{1} differences, otherwise the normal approximation with corrections for ties and continuity. The "
+      "estimate is what this test is about: that of Hodges and Lehmann, of the starts that differ; the "
+      "median "
+      "is of all. A difference below \"matters\" matters to nobody, whatever its p. Steps, way and errors "
+      "are "
+      "compared where both runs are right. The CPU time of a step is the median over a trial's steps. Holm's "
+      "correction in two families: the {2} tests of right and wrong, the {3} other ones; * marks p (Holm) < "
+      "{4} "
+      "of what matters. Bootstrap: percentiles of {5} resamples of the starts.",
       comparison.baseline, most_exact_differences, comparison.outcome_tests, comparison.measure_tests,
       significance, bootstrap_resamples);
 }

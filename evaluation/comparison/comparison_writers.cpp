@@ -62,6 +62,8 @@ Json to_json(const MeasureDifference& d) {
           {"starts", d.starts},
           {"baseline_median", d.baseline_median},
           {"variant_median", d.variant_median},
+          {"estimate", value_and_range(d.shift.value, d.shift.low, d.shift.high)},
+          {"smallest_that_matters", d.smallest},
           {"median_difference", to_json(d.median)},
           {"mean_difference", to_json(d.mean)},
           {"test", test_name(d.test)},
@@ -69,7 +71,8 @@ Json to_json(const MeasureDifference& d) {
           {"positive_rank_sum", d.test.positive_sum},
           {"p", d.test.p},
           {"p_holm", d.p_holm},
-          {"significant", d.p_holm < significance}};
+          {"significant", d.p_holm < significance},
+          {"matters", d.matters()}};
 }
 
 Json to_json(const PairComparison& pair);
@@ -106,14 +109,16 @@ std::string csv_row(const OutcomeDifference& d) {
   return fmt::format("{},{},{},{},{},{},{},,,,{},{},{},{},{},{},{}", d.name, starts, n.both + n.only_first,
                      n.both + n.only_second, d.points.value, d.points.interval.low, d.points.interval.high,
                      d.newcombe_points.low, d.newcombe_points.high, outcome_test_name,
-                     n.only_first + n.only_second, d.p, d.p_holm, d.p_holm < significance);
+                     n.only_first + n.only_second, d.p, d.p_holm, d.p_holm < significance) +
+         ",,,,";
 }
 
 std::string csv_row(const MeasureDifference& d) {
   return fmt::format("{},{},{},{},{},{},{},{},{},{},,,{},{},{},{},{}", d.measure.name, d.starts,
                      d.baseline_median, d.variant_median, d.median.value, d.median.interval.low,
                      d.median.interval.high, d.mean.value, d.mean.interval.low, d.mean.interval.high,
-                     test_name(d.test), d.test.nonzero, d.test.p, d.p_holm, d.p_holm < significance);
+                     test_name(d.test), d.test.nonzero, d.test.p, d.p_holm, d.p_holm < significance) +
+         fmt::format(",{},{},{},{}", d.shift.value, d.shift.low, d.shift.high, d.matters());
 }
 
 }  // namespace
@@ -134,7 +139,9 @@ Json to_json(const Comparison& comparison) {
 std::string to_csv(const Comparison& comparison) {
   std::string text =
       "variant,baseline,measure,starts,baseline_value,variant_value,difference,low,high,mean_difference,"
-      "mean_low,mean_high,newcombe_low,newcombe_high,test,differing,p,p_holm,significant\n";
+      "mean_low,mean_high,newcombe_low,newcombe_high,test,differing,p,p_holm,significant,estimate,estimate_"
+      "low,"
+      "estimate_high,matters\n";
   for (const PairComparison& pair : comparison.pairs) {
     const std::string names = csv_text(pair.variant) + "," + csv_text(comparison.baseline) + ",";
     for (const OutcomeDifference& d : pair.outcomes) text += names + csv_row(d) + "\n";

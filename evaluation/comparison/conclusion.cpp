@@ -21,14 +21,20 @@ std::string enumerated(const std::vector<std::string>& items) {
   return text;
 }
 
-/// What a measure differs by, told by the median, or by the mean where the median does not lean to the side
-/// that the test found.
-std::string effect(const MeasureDifference& difference, bool is_less) {
-  const bool by_median = is_less ? difference.median.value < 0.0 : difference.median.value > 0.0;
+/// What a measure differs by.
+std::string effect(const MeasureDifference& difference) {
   const char* unit = difference.measure.unit;
-  return fmt::format("{} {:+.3g}{}{}", by_median ? "median" : "mean",
-                     by_median ? difference.median.value : difference.mean.value, *unit == '\0' ? "" : " ",
-                     unit);
+  return fmt::format("{:+.3g}{}{}", difference.shift.value, *unit == '\0' ? "" : " ", unit);
+}
+
+/// "a run is significantly better than b in …, and worse in …".
+std::string told(const PairComparison& pair, const std::string& baseline,
+                 const std::vector<std::string>& better, const std::vector<std::string>& worse) {
+  std::string text = pair.variant + " is significantly ";
+  if (!better.empty()) text += "better than " + baseline + " in " + enumerated(better);
+  if (!better.empty() && !worse.empty()) text += ", and worse in " + enumerated(worse);
+  if (better.empty()) text += "worse than " + baseline + " in " + enumerated(worse);
+  return text + (worse.empty() || better.empty() ? "; nothing else differs significantly." : ".");
 }
 
 }  // namespace
@@ -42,22 +48,22 @@ std::string conclude(const PairComparison& pair, const std::string& baseline, st
         .push_back(fmt::format("{} ({:+.1f} points, {})", outcome.name, outcome.points.value,
                                p_text(outcome.p_holm)));
   }
+  std::vector<std::string> too_small;
   for (const MeasureDifference& difference : pair.measures) {
     if (difference.p_holm >= significance) continue;
-    const bool is_less = difference.test.positive_sum < difference.test.expected_sum;
-    (is_less ? better : worse)
-        .push_back(fmt::format("{} ({}, {})", difference.measure.label, effect(difference, is_less),
-                               p_text(difference.p_holm)));
+    const bool is_less = difference.shift.value < 0.0;
+    std::vector<std::string>& side = !difference.matters() ? too_small : is_less ? better : worse;
+    side.push_back(
+        fmt::format("{} ({}, {})", difference.measure.label, effect(difference), p_text(difference.p_holm)));
   }
-  if (better.empty() && worse.empty()) {
-    return fmt::format("Nothing can be told between {} and {}: no difference over {} starts is significant.",
-                       pair.variant, baseline, starts);
-  }
-  std::string text = pair.variant + " is significantly ";
-  if (!better.empty()) text += "better than " + baseline + " in " + enumerated(better);
-  if (!better.empty() && !worse.empty()) text += ", and worse in " + enumerated(worse);
-  if (better.empty()) text += "worse than " + baseline + " in " + enumerated(worse);
-  return text + (worse.empty() || better.empty() ? "; nothing else differs significantly." : ".");
+  const std::string rest =
+      too_small.empty() ? "" : fmt::format(" No difference that matters: {}.", enumerated(too_small));
+  if (!better.empty() || !worse.empty()) return told(pair, baseline, better, worse) + rest;
+  if (!too_small.empty())
+    return fmt::format("Nothing that matters differs between {} and {} over {} starts.{}", pair.variant,
+                       baseline, starts, rest);
+  return fmt::format("Nothing can be told between {} and {}: no difference over {} starts is significant.",
+                     pair.variant, baseline, starts);
 }
 
 std::vector<std::string> pair_warnings(const PairComparison& pair, std::span<const Measure> measured) {

@@ -170,7 +170,8 @@ class ResultsReader {
   struct TrialSteps {
     TrialStart start;
     std::size_t least = 0;  ///< Up to the declaration; there may be more.
-    std::vector<double> ms = {};
+    std::size_t steps = 0;  ///< So far.
+    std::vector<double> cpu_ms = {};
   };
 
   void read_head();
@@ -195,15 +196,19 @@ void ResultsReader::read_head() {
       for (const char* outcome : {"right", "wrong", "undecided"})
         static_cast<void>(whole_number(summary.at("trials"), outcome));
       steps_counted_ = whole_number(summary, "steps");
+      if (const auto load = summary.find("others_load"); load != summary.end())
+        run_.machine.others_load = load->get<double>();
       run_.summary = summary;
     });
   });
   std::map<std::string, std::string> hashes;
   faults_.collect([&] {
     with_json(run_.folder / mark_of_results, [&](const Json& provenance) {
-      run_.machine = {
-          provenance.at("host"), provenance.at("cpu"),
-          static_cast<int>(std::min<std::size_t>(whole_number(provenance, "threads"), most_threads))};
+      run_.machine.host = provenance.at("host");
+      run_.machine.cpu = provenance.at("cpu");
+      run_.machine.threads =
+          static_cast<int>(std::min<std::size_t>(whole_number(provenance, "threads"), most_threads));
+      if (provenance.contains("jobs")) run_.machine.jobs = whole_number(provenance, "jobs");
       hashes = provenance.at("inputs_sha256");
       run_.provenance = provenance;
     });
@@ -240,18 +245,21 @@ void ResultsReader::read_steps() {
     const auto trial = steps_.find(number);
     if (trial == steps_.end())
       throw std::invalid_argument(fmt::format("trials.jsonl has no trial {}", number));
-    std::vector<double>& ms = trial->second.ms;
-    if (const std::size_t step = whole_number(line, "step"); step != ms.size())
+    TrialSteps& of_trial = trial->second;
+    if (const std::size_t step = whole_number(line, "step"); step != of_trial.steps)
       throw std::invalid_argument(
-          fmt::format("step {} of trial {} is here, where step {} belongs", step, number, ms.size()));
+          fmt::format("step {} of trial {} is here, where step {} belongs", step, number, of_trial.steps));
     refuse_renamed(line, renamed_keys);
     if (line.contains("evidence")) refuse_renamed(line.at("evidence"), renamed_evidence);
-    ms.push_back(stage_times(line).total());
+    static_cast<void>(stage_times(line));
+    if (line.contains("stage_cpu_ms")) of_trial.cpu_ms.push_back(stage_times(line, "stage_cpu_ms").total());
+    ++of_trial.steps;
     also_.step(line);
   });
   check_all_steps(file, lines);
   for (auto& [number, trial] : steps_) {
-    if (!trial.ms.empty()) run_.trials.at(trial.start).step_ms = quantile(std::move(trial.ms), 0.5);
+    if (!trial.cpu_ms.empty())
+      run_.trials.at(trial.start).step_cpu_ms = quantile(std::move(trial.cpu_ms), 0.5);
   }
 }
 
@@ -260,8 +268,8 @@ void ResultsReader::check_all_steps(const fs::path& file, std::size_t lines) con
     refuse(file, std::max(lines, std::size_t{1}), fmt::format("ends here with {}; {}", what, way_out));
   };
   for (const auto& [number, trial] : steps_) {
-    if (trial.ms.size() < trial.least)
-      fail(fmt::format("{} of the {} steps of trial {}", trial.ms.size(), trial.least, number));
+    if (trial.steps < trial.least)
+      fail(fmt::format("{} of the {} steps of trial {}", trial.steps, trial.least, number));
   }
   if (steps_counted_ && *steps_counted_ != lines)
     fail(fmt::format("{} steps, where summary.json counts {}", lines, *steps_counted_));
@@ -269,8 +277,8 @@ void ResultsReader::check_all_steps(const fs::path& file, std::size_t lines) con
 
 }  // namespace
 
-StageTimes stage_times(const Json& step) {
-  const Json& ms = step.at("stage_ms");
+StageTimes stage_times(const Json& step, const char* key) {
+  const Json& ms = step.at(key);
   return {ms.at("local_map"), ms.at("match"), ms.at("cluster"), ms.at("rate"), ms.value("verify", 0.0)};
 }
 

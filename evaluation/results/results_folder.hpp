@@ -41,7 +41,9 @@ struct TrialResult {
   double steps = 0.0;       ///< Up to the declaration; all of them if there is none.
   double distance_m = 0.0;  ///< Driven in these steps.
   std::optional<double> translation_error_m, rotation_error_deg;  ///< Of the declared pose.
-  std::optional<double> step_ms;  ///< Median over its steps; none where steps were not written.
+  /// Of processors: median over its steps; none where steps were not written, or by a version that did not
+  /// measure it.
+  std::optional<double> step_cpu_ms;
 };
 
 /// A value of effective.yaml. Files are the same if their content is, wherever they lie.
@@ -50,10 +52,13 @@ struct Setting {
   std::string identity;  ///< The text, or the hash of the file it names.
 };
 
-/// The machine that times were taken on.
+/// The machine that times were taken on, and what it did besides.
 struct Machine {
   std::string host, cpu;
   int threads = 1;
+  std::size_t jobs = 1;  ///< Trials that ran side by side.
+  /// Processors that others kept busy meanwhile, in the mean; none if not known.
+  std::optional<double> others_load = {};
   friend bool operator==(const Machine&, const Machine&) = default;
 };
 
@@ -77,8 +82,9 @@ struct LineReaders {
   std::function<void(const nlohmann::ordered_json&)> step = [](const nlohmann::ordered_json&) {};
 };
 
-/// The times of a line of steps.jsonl. Throws a std::exception where they are not as glocal run writes them.
-[[nodiscard]] StageTimes stage_times(const nlohmann::ordered_json& step);
+/// The times of a line of steps.jsonl: those of `key`, `stage_ms` or `stage_cpu_ms`. Throws a std::exception
+/// where they are not as glocal run writes them.
+[[nodiscard]] StageTimes stage_times(const nlohmann::ordered_json& step, const char* key = "stage_ms");
 
 /// The values of an experiment as YAML, by path; `hashes` are those of the input files. `file` is where it
 /// comes from, for faults. Throws ConfigError.

@@ -105,6 +105,7 @@ Json Summary::to_json(const Run& run) const {
   json.update(figures());
   json["map"] = std::move(map);
   json["peak_rss_mb"] = run.peak_rss_mb;
+  if (run.others_load) json["others_load"] = *run.others_load;
   return json;
 }
 

@@ -40,6 +40,8 @@ class Summary {
     double map_index_ms = 0.0;  ///< To make all stages, which build what they look up in the map.
     std::optional<MapIndexInfo> map_index = {};
     double peak_rss_mb = 0.0;  ///< Of the process that ran the trials, or of the largest.
+    /// Processors that others kept busy while trials ran, in the mean; none if not known.
+    std::optional<double> others_load = {};
   };
   [[nodiscard]] nlohmann::ordered_json to_json(const Run& run) const;
   /// What follows from the trials alone.

@@ -62,6 +62,12 @@ Json to_json(const Verification& v, Motion motion) {
   return json;
 }
 
+Json to_json(const StageTimes& ms, bool is_verified) {
+  Json json = {{"local_map", ms.local_map}, {"match", ms.match}, {"cluster", ms.cluster}, {"rate", ms.rate}};
+  if (is_verified) json["verify"] = ms.verify;
+  return json;
+}
+
 std::string tum_line(double stamp, const Pose3& pose) {
   return fmt::format("{:.6f} {}\n", stamp, tum_text(pose));
 }
@@ -70,19 +76,16 @@ std::string tum_line(double stamp, const Pose3& pose) {
 
 Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
   const StepResult& step = record.result;
+  const bool is_verified = step.verification.has_value();
   Json json = {{"trial", trial},
                {"step", step.step},
                {"stamp", step.stamp},
-               {"stage_ms",
-                {{"local_map", step.stage_ms.local_map},
-                 {"match", step.stage_ms.match},
-                 {"cluster", step.stage_ms.cluster},
-                 {"rate", step.stage_ms.rate}}},
+               {"stage_ms", to_json(step.stage_ms, is_verified)},
+               {"stage_cpu_ms", to_json(step.stage_cpu_ms, is_verified)},
                {"local_map_points", step.local_map_points},
                {"omega_best", step.omega_best},
                {"score_best", step.score_best},
                {"omega_max", step.omega_max}};
-  if (step.verification) json["stage_ms"]["verify"] = step.stage_ms.verify;
   if (step.omega_place) json["omega_place"] = *step.omega_place;
   if (step.omega_scan) json["omega_scan"] = *step.omega_scan;
   json["proposals"] = step.proposals;

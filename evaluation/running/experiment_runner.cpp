@@ -13,6 +13,7 @@
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/results/run_results.hpp"
 #include "evaluation/running/elapsed.hpp"
+#include "evaluation/running/others_load.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -209,12 +210,13 @@ void ExperimentRunner::run_one(Variant& variant) {
     results.finish(record);
     callbacks_.trials.done(record);
   };
+  const OthersLoad others_load;
   const bool complete = run_trials(localizers, experiment, loaded, results.to_run(),
                                    {on_step, on_done, callbacks_.trials.stop});
 
   const Json summary = results.put_together().to_json(
       {experiment.name, experiment.seed, complete, loaded.map->points().size(), loaded.map_build_ms,
-       map_index_ms, localizers.front().map_index(), peak_rss_mb()});
+       map_index_ms, localizers.front().map_index(), peak_rss_mb(), others_load.mean()});
   // The summary comes last: a later run takes its word that all is there.
   folder.write_for_good("summary.json", summary.dump(2) + "\n");
   put_in_place(folder, variant.name, summary);

@@ -6,7 +6,9 @@
 
 #include <atomic>
 #include <map>
+#include <thread>
 
+#include "cpu_time.hpp"
 #include "glocal/running_stage.hpp"
 
 namespace glocal {
@@ -37,14 +39,20 @@ void parallel_for(int threads, std::size_t n, const std::function<void(std::size
   std::atomic<std::size_t> done{0};
   begun.store(1, std::memory_order_release);
   const RunningStage* const stage = running_stage();
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<std::int64_t> of_others_ns{0};
   arena.execute([&] {
     oneapi::tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
       (void)begun.load(std::memory_order_acquire);
       const StageScope scope(stage);
+      const bool is_other = std::this_thread::get_id() != caller;
+      const std::int64_t before = is_other ? cpu_time_ns() : 0;
       work(i);
+      if (is_other) of_others_ns.fetch_add(cpu_time_ns() - before, std::memory_order_relaxed);
       done.fetch_add(1, std::memory_order_release);
     });
   });
+  add_cpu_time_of_others(of_others_ns.load(std::memory_order_relaxed));
   (void)done.load(std::memory_order_acquire);
 }
 

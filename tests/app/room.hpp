@@ -14,7 +14,8 @@ using Json = nlohmann::ordered_json;
 
 /// Times are all that may differ between two runs of the same experiment.
 inline Json without_times(Json json) {
-  for (const char* key : {"stage_ms", "step_ms", "peak_rss_mb"}) json.erase(key);
+  for (const char* key : {"stage_ms", "stage_cpu_ms", "step_ms", "peak_rss_mb", "others_load"})
+    json.erase(key);
   if (json.contains("map")) {
     json["map"].erase("build_ms");
     json["map"].erase("index_ms");

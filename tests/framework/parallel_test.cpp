@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <chrono>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
+
+#include "cpu_time.hpp"
 
 namespace glocal::test::parallel_test {
 namespace {
@@ -27,6 +31,30 @@ TEST(ParallelFor, DoesNothingWithoutWork) {
     // Nor does it need any function then.
     EXPECT_NO_THROW(parallel_for(threads, 0, {}));
   }
+}
+
+/// Works for this long in time of a processor.
+void burn(double ms) {
+  const std::int64_t begin = cpu_time_ns();
+  while (static_cast<double>(cpu_time_ns() - begin) < 1e6 * ms) {
+  }
+}
+
+TEST(ParallelFor, CountsTheTimeOfAllProcessors) {
+  for (const int threads : {1, 2, 4}) {
+    const std::int64_t begin = cpu_time_ns();
+    parallel_for(threads, 20, [](std::size_t) { burn(2.0); });
+    const double ms = 1e-6 * static_cast<double>(cpu_time_ns() - begin);
+    EXPECT_GE(ms, 40.0) << threads;
+    // Not much besides, and nothing twice.
+    EXPECT_LT(ms, 60.0) << threads;
+  }
+}
+
+TEST(ParallelFor, CountsNoTimeOfWaiting) {
+  const std::int64_t begin = cpu_time_ns();
+  parallel_for(2, 4, [](std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(20)); });
+  EXPECT_LT(1e-6 * static_cast<double>(cpu_time_ns() - begin), 15.0);
 }
 
 TEST(ParallelFor, ThrowsWhatACallThrows) {

@@ -15,7 +15,7 @@ import pytest
 import glocal
 from conftest import ROOT
 
-TIMES = {"stage_ms", "step_ms", "peak_rss_mb"}
+TIMES = {"stage_ms", "stage_cpu_ms", "step_ms", "peak_rss_mb", "others_load"}
 TIMES_OF_THE_MAP = {"build_ms", "index_ms"}
 
 

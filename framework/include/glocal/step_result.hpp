@@ -74,7 +74,7 @@ struct Verdict {
   bool needs_certificate = false;
 };
 
-/// Wall-clock time of each stage, ms.
+/// Time of each stage, ms.
 struct StageTimes {
   double local_map = 0.0;
   double match = 0.0;
@@ -109,7 +109,8 @@ struct StepResult {
   std::vector<Rating> ratings;         ///< One for each cluster.
   Verdict verdict;
   std::optional<Verification> verification;  ///< Of a pose that was declared, or would have been.
-  StageTimes stage_ms;
+  StageTimes stage_ms;                       ///< On the wall.
+  StageTimes stage_cpu_ms;                   ///< Of all processors that worked for it.
 
   /// Robot pose the verdict rule believes in, else that of the best-rated cluster; declared or not.
   [[nodiscard]] std::optional<Pose3> estimate() const {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cpu_time.hpp"
 #include "glocal/error.hpp"
 #include "pipeline/stage_contracts.hpp"
 
@@ -20,12 +21,15 @@ namespace {
 /// Names of the random streams within a step.
 enum Stage : std::uint64_t { matching, clustering };
 
-/// Runs `work`, and adds to `ms` how long it took.
+/// Does a stage's work, and adds how long it took.
 template <class Work>
-void timed(double& ms, Work work) {
+void timed(double StageTimes::*stage, StepResult& result, Work work) {
   const auto start = std::chrono::steady_clock::now();
+  const std::int64_t cpu_start = cpu_time_ns();
   work();
-  ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  result.stage_cpu_ms.*stage += 1e-6 * static_cast<double>(cpu_time_ns() - cpu_start);
+  result.stage_ms.*stage +=
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// "matcher 'ransam'", and what has happened there: "breaks its contract in step 3".
@@ -189,7 +193,7 @@ StepResult Localizer::step(const Observation& observation) {
 
   const LocalMap* added = nullptr;
   in_stage(stages_.local_mapper, result.step, [&] {
-    timed(result.stage_ms.local_map, [&] {
+    timed(&StageTimes::local_map, result, [&] {
       local_mapper_->add(observation);
       added = &local_mapper_->map();
     });
@@ -212,7 +216,8 @@ StepResult Localizer::step(const Observation& observation) {
     Rng rng = rng_.stream({result.step, matching});
     MatchResult match;
     if (!gate_.is_open()) matcher_->restrict_to(gate_);
-    timed(result.stage_ms.match, [&] { match = matcher_->match(local, observation, result.omega_max, rng); });
+    timed(&StageTimes::match, result,
+          [&] { match = matcher_->match(local, observation, result.omega_max, rng); });
     check_match(match, result.omega_max, motion_);
     result.hypotheses = std::move(match.hypotheses);
     std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return !gate_.allows(h.map_from_local); });
@@ -232,11 +237,13 @@ StepResult Localizer::step(const Observation& observation) {
 
   in_stage(stages_.clusterer, result.step, [&] {
     Rng rng = rng_.stream({result.step, clustering});
-    timed(result.stage_ms.cluster, [&] { result.clusters = clusterer_->cluster(result.hypotheses, rng); });
+    timed(&StageTimes::cluster, result,
+          [&] { result.clusters = clusterer_->cluster(result.hypotheses, rng); });
     check_clusters(result.clusters, result.hypotheses.size(), motion_);
   });
   in_stage(stages_.rater, result.step, [&] {
-    timed(result.stage_ms.rate, [&] { result.ratings = rater_->rate(result.clusters, result.hypotheses); });
+    timed(&StageTimes::rate, result,
+          [&] { result.ratings = rater_->rate(result.clusters, result.hypotheses); });
     check_ratings(result.ratings, result.clusters.size());
   });
   sort_by_rating(result.clusters, result.ratings);
@@ -265,14 +272,14 @@ void Localizer::verify(StepResult& result, const LocalMap& local) {
   const Pose3 declared = *result.verdict.map_from_robot;
   std::optional<Verification>& verification = result.verification;
   in_stage(stages_.verifier, result.step, [&] {
-    timed(result.stage_ms.verify, [&] {
+    timed(&StageTimes::verify, result, [&] {
       verification = verifier_->verify(local, declared * inverse(local.local_from_robot), gate_);
     });
     check_verification(*verification, motion_);
   });
   is_verified_ = true;
   in_stage(stages_.matcher, result.step, [&] {
-    timed(result.stage_ms.verify,
+    timed(&StageTimes::verify, result,
           [&] { verification->rivals = matcher_->take_up(std::move(verification->rivals), local); });
     for (Hypothesis& h : verification->rivals) h.map_from_robot = h.map_from_local * local.local_from_robot;
     check_hypotheses(verification->rivals, 0.0, motion_);

@@ -80,9 +80,22 @@ TEST_F(Comparability, TellsOfAnotherSeedAndAnotherDrive) {
 }
 
 TEST_F(Comparability, TellsOfTimesOfAnotherMachine) {
-  b().machine = {"other", "CPU", 4};
+  b().machine.host = "other";
+  b().machine.cpu = "CPU";
+  b().machine.threads = 4;
   EXPECT_THAT(warnings(),
-              ElementsAre(HasSubstr("Times of b and a cannot be compared: other (CPU), 4 threads")));
+              ElementsAre(HasSubstr("Times of b and a are not compared: other (CPU), 4 threads")));
+}
+
+TEST_F(Comparability, TellsOfTimesTakenSideBySideAndUnderAnotherLoad) {
+  b().machine.others_load = 0.4;
+  EXPECT_THAT(warnings(), IsEmpty());
+  runs_[0].results.machine.others_load = 1.0;
+  EXPECT_THAT(warnings(),
+              ElementsAre("Times of b and a are not compared: others kept 0.4 processors busy, and "
+                          "others kept 1.0 processors busy."));
+  b().machine.jobs = 2;
+  EXPECT_THAT(warnings(), ElementsAre("Times of b and a are not compared: --jobs 2, and --jobs 1."));
 }
 
 TEST_F(Comparability, TellsOfTrialsThatReachTheNextStart) {
@@ -90,7 +103,7 @@ TEST_F(Comparability, TellsOfTrialsThatReachTheNextStart) {
   for (std::size_t i = 0; i < 3; ++i) trial(i).distance_m = 101.0;
   EXPECT_THAT(warnings(), IsEmpty());
   trial(3).distance_m = 101.0;
-  EXPECT_THAT(warnings(), ElementsAre(HasSubstr("4 of 30 trials of b go on beyond the next start")));
+  EXPECT_THAT(warnings(), ElementsAre(HasSubstr("Of 30 trials, these go on beyond the next start: 4 of b.")));
 }
 
 TEST_F(Comparability, TellsOfFewStarts) {

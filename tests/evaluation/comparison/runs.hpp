@@ -16,7 +16,7 @@ inline TrialResult right_after(double steps) {
   trial.distance_m = 0.5 * steps;
   trial.translation_error_m = 0.01 * steps;
   trial.rotation_error_deg = 0.1 * steps;
-  trial.step_ms = 2.0 * steps;
+  trial.step_cpu_ms = 2.0 * steps;
   return trial;
 }
 
@@ -25,7 +25,7 @@ inline TrialResult ended(Outcome outcome) {
   trial.outcome = outcome;
   trial.steps = 60.0;
   trial.distance_m = 30.0;
-  trial.step_ms = 5.0;
+  trial.step_cpu_ms = 5.0;
   return trial;
 }
 

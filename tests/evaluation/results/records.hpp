@@ -23,6 +23,7 @@ inline StepRecord step_record(std::size_t step, const Pose2& pose) {
   record.result.ratings = {{0.6, 0.75}, {0.2, 0.25}};
   record.result.verdict = {VerdictKind::searching, std::nullopt, {}, "not yet"};
   record.result.stage_ms = {1.0, 2.0, 3.0, 4.0};
+  record.result.stage_cpu_ms = {1.5, 2.5, 3.5, 4.5};
   record.hypotheses = 4;
   record.on_map = true;
   return record;

@@ -55,9 +55,10 @@ class ResultsFolder : public testing::Test {
   /// Of trial 0; `more` are further keys.
   static std::string step(int number, int match_ms, const std::string& more = "") {
     return fmt::format(
-        R"({{"trial":0,"step":{},"stage_ms":{{"local_map":0.5,"match":{},"cluster":0.25,"rate":0.25}}{}}})"
+        R"({{"trial":0,"step":{},"stage_ms":{{"local_map":0.5,"match":{},"cluster":0.25,"rate":0.25}},)"
+        R"("stage_cpu_ms":{{"local_map":0.5,"match":{},"cluster":0.25,"rate":0.25}}{}}})"
         "\n",
-        number, match_ms, more);
+        number, match_ms, match_ms + 10, more);
   }
 
   [[nodiscard]] fs::path folder() const { return temporary_.path() / "run"; }
@@ -92,10 +93,10 @@ TEST_F(ResultsFolder, IsReadWithTheTimesOfItsSteps) {
   EXPECT_EQ(right.rotation_error_deg, 2.0);
   ASSERT_TRUE(right.start_reference);
   EXPECT_EQ(right.start_reference->y, 2.0);
-  EXPECT_EQ(right.step_ms, 4.0);  // Of 2, 6 and 4.
+  EXPECT_EQ(right.step_cpu_ms, 14.0);  // Of 12, 16 and 14.
   const TrialResult& failed = results.trials.at({9, 6.5, 8.0});
   EXPECT_EQ(failed.outcome, Outcome::failed);
-  EXPECT_EQ(failed.step_ms, std::nullopt);
+  EXPECT_EQ(failed.step_cpu_ms, std::nullopt);
   EXPECT_EQ(failed.translation_error_m, std::nullopt);
 }
 
@@ -113,7 +114,7 @@ TEST_F(ResultsFolder, NeedsNoStepsIfTheRunWroteNone) {
   temporary_.write("run/effective.yaml", "output: {steps: false, maps: none}\n");
   const StoredRun results = read_results(folder());
   EXPECT_FALSE(results.has_steps);
-  EXPECT_EQ(results.trials.begin()->second.step_ms, std::nullopt);
+  EXPECT_EQ(results.trials.begin()->second.step_cpu_ms, std::nullopt);
   EXPECT_THAT(
       config_error(folder(), [&] { require_steps(results); }),
       HasSubstr("steps.jsonl: error: is not there; run the experiment again with --set output.steps=true"));

@@ -32,15 +32,17 @@ TEST(StepLine, HasTheKeysOfTheContract) {
   const Json json = parse_line(step_line(7, record));
   EXPECT_THAT(keys(json),
               ::testing::UnorderedElementsAre(
-                  "trial", "step", "stamp", "stage_ms", "local_map_points", "omega_best", "score_best",
-                  "omega_max", "omega_place", "omega_scan", "proposals", "points_tested", "hypotheses",
-                  "clusters", "best", "verdict", "why", "local_from_robot", "estimate", "reference", "on_map",
-                  "translation_error_m", "rotation_error_deg"));
+                  "trial", "step", "stamp", "stage_ms", "stage_cpu_ms", "local_map_points", "omega_best",
+                  "score_best", "omega_max", "omega_place", "omega_scan", "proposals", "points_tested",
+                  "hypotheses", "clusters", "best", "verdict", "why", "local_from_robot", "estimate",
+                  "reference", "on_map", "translation_error_m", "rotation_error_deg"));
   EXPECT_EQ(json["trial"], 7);
   EXPECT_EQ(json["step"], 3);
   EXPECT_EQ(json["stamp"], 101.5);
   EXPECT_EQ(json["stage_ms"],
             Json::parse(R"({"local_map": 1.0, "match": 2.0, "cluster": 3.0, "rate": 4.0})"));
+  EXPECT_EQ(json["stage_cpu_ms"],
+            Json::parse(R"({"local_map": 1.5, "match": 2.5, "cluster": 3.5, "rate": 4.5})"));
   EXPECT_EQ(json["omega_best"], 0.75);
   EXPECT_EQ(json["score_best"], 0.625);
   EXPECT_EQ(json["omega_max"], 0.5);

@@ -1,0 +1,45 @@
+#include "evaluation/running/others_load.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <fstream>
+#include <string>
+
+namespace glocal {
+namespace {
+
+/// Time that all processors have worked since the machine was started, s.
+std::optional<double> busy_seconds() {
+  std::ifstream file("/proc/stat");
+  std::string name;
+  double user = 0.0, nice = 0.0, system = 0.0;
+  if (!(file >> name >> user >> nice >> system) || name != "cpu") return std::nullopt;
+  return (user + nice + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+/// Time that processors have worked for this process, s.
+double own_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+}  // namespace
+
+OthersLoad::OthersLoad() : busy_s_(busy_seconds()), own_s_(own_seconds()) {}
+
+std::optional<double> OthersLoad::mean() const {
+  const std::optional<double> busy = busy_seconds();
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  // Ticks of 10 ms say nothing of less.
+  if (!busy || !busy_s_ || elapsed < 1.0) return std::nullopt;
+  return std::max(0.0, (*busy - *busy_s_) - (own_seconds() - own_s_)) / elapsed;
+}
+
+}  // namespace glocal
