@@ -25,7 +25,8 @@ void check(const std::string& file, const ExperimentOptions& options, Context& c
   static_cast<void>(count_trials(variants, loader, context.catalog));
   Experiment& first = variants.front().experiment;
   LoadedExperiment& loaded = loader.load(first);
-  static_cast<void>(make_localizer(first, context.catalog, loaded));
+  const Localizer localizer = make_localizer(first, context.catalog, loaded);
+  if (const auto why = why_never_declared(first, loaded, localizer)) spdlog::warn("{}: {}", file, *why);
   fmt::print("{}: ok, {} map points, {} observations, {} trials{}\n", file, loaded.map->points().size(),
              loaded.drive.samples.size(), loaded.starts.size(),
              variants.size() > 1 ? fmt::format(" of each of {} variants", variants.size()) : "");

@@ -16,6 +16,7 @@ struct Context {
   Catalog catalog;
   PluginLoader plugins{catalog};
   int exit_code = 0;
+  std::string command_line;  ///< As a shell would read it, for the record of runs.
 };
 
 /// The registry of a kind; null if there is none, of which unknown_kind() tells.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -27,16 +28,28 @@ Fault unknown_kind(const std::string& kind, const Catalog& catalog) {
 
 namespace {
 
-void list(const std::string& kind, const Catalog& catalog) {
-  if (!kind.empty()) {
-    const RegistryBase* registry = registry_of(kind, catalog);
-    if (registry == nullptr) throw ConfigError({unknown_kind(kind, catalog)});
-    fmt::print("{}", list_strategies(*registry));
-    return;
+/// The registry of that kind, or all of them without one.
+std::vector<const RegistryBase*> chosen(const std::string& kind, const Catalog& catalog) {
+  const auto all = catalog.registries();
+  if (kind.empty()) return {all.begin(), all.end()};
+  const RegistryBase* registry = registry_of(kind, catalog);
+  if (registry == nullptr) throw ConfigError({unknown_kind(kind, catalog)});
+  return {registry};
+}
+
+void list_as_json(const std::vector<const RegistryBase*>& registries) {
+  nlohmann::ordered_json strategies = nlohmann::ordered_json::array();
+  for (const RegistryBase* registry : registries) {
+    for (auto& strategy : strategies_json(*registry)) strategies.push_back(std::move(strategy));
   }
+  fmt::print("{}\n", strategies.dump(2));
+}
+
+void list(const std::string& kind, const Catalog& catalog) {
   std::string text;
-  for (const RegistryBase* registry : catalog.registries()) {
-    text += (text.empty() ? "" : "\n") + registry->kind() + "\n" + list_strategies(*registry);
+  for (const RegistryBase* registry : chosen(kind, catalog)) {
+    if (kind.empty()) text += (text.empty() ? "" : "\n") + registry->kind() + "\n";
+    text += list_strategies(*registry);
   }
   fmt::print("{}", text);
 }
@@ -45,9 +58,17 @@ void list(const std::string& kind, const Catalog& catalog) {
 
 void add_list(CLI::App& app, Context& context) {
   auto kind = std::make_shared<std::string>();
+  auto as_json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("list", "List the strategies there are.");
   command->add_option("KIND", *kind, "Only of this kind: matcher, map_source, ...");
-  command->callback([kind, &context] { list(*kind, context.catalog); });
+  command->add_flag("--json", *as_json, "Print them as JSON");
+  command->callback([kind, as_json, &context] {
+    if (*as_json) {
+      list_as_json(chosen(*kind, context.catalog));
+    } else {
+      list(*kind, context.catalog);
+    }
+  });
 }
 
 }  // namespace glocal::app

@@ -148,7 +148,7 @@ void localize(const LocalizeOptions& options, Context& context) {
 
   listen_to_interrupts();
   Narrator narrator;
-  RunOptions run{.out = out, .force = options.force};
+  RunOptions run{.out = out, .force = options.force, .command = context.command_line};
   run.plugins = context.plugins.loaded();
   const RunResult result = ExperimentRunner(options.changes.read_variants(file, context), file,
                                             context.catalog, std::move(run), narrator.callbacks())

@@ -9,6 +9,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/fatal_signals.hpp"
+#include "app/job_scripts.hpp"
 #include "app/standard_streams.hpp"
 #include "glocal/builtin.hpp"
 #include "version.hpp"
@@ -44,6 +45,13 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_new_plugin(app, context);
 }
 
+/// As a shell would read them.
+std::string words_of(int argc, char** argv) {
+  std::string words = "glocal";
+  for (int i = 1; i < argc; ++i) words += " " + glocal::app::shell_word(argv[i]);
+  return words;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -55,6 +63,7 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("glocal"));
   spdlog::set_pattern("%^%l%$: %v");
   glocal::app::Context context;
+  context.command_line = words_of(argc, argv);
   glocal::register_builtin_strategies(context.catalog);
   CLI::App app("Finds out where a mobile robot is on a known map from range scans and odometry.", "glocal");
   app.set_version_flag("--version",

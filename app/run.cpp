@@ -90,6 +90,7 @@ void run(const RunCommand& command, Context& context) {
   std::vector<Variant> variants = command.experiment.read_variants(command.experiment.file, context);
   RunOptions options = command.run;
   options.plugins = context.plugins.loaded();
+  options.command = context.command_line;
   if (shard) {
     run_shard(std::move(variants), command.experiment.file, *shard, options, command.quiet, context);
     return;

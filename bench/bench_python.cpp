@@ -10,8 +10,8 @@
 
 #include "app/python_plugins.hpp"
 #include "bench/scenes.hpp"
-#include "clustering/clusters_of.hpp"
 #include "glocal/catalog.hpp"
+#include "glocal/clusters_of.hpp"
 #include "loading/plugin_loader.hpp"
 
 namespace glocal::bench {

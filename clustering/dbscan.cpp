@@ -1,7 +1,7 @@
 #include "clustering/dbscan.hpp"
 
-#include "clustering/clusters_of.hpp"
 #include "clustering/density_labels.hpp"
+#include "glocal/clusters_of.hpp"
 
 namespace glocal {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "clustering/moments.hpp"
+#include "glocal/moments.hpp"
 
 namespace glocal {
 namespace {

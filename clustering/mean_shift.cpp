@@ -3,9 +3,9 @@
 #include <cmath>
 #include <span>
 
-#include "clustering/clusters_of.hpp"
 #include "clustering/density_labels.hpp"
 #include "clustering/pose_groups.hpp"
+#include "glocal/clusters_of.hpp"
 #include "glocal/pose_cells.hpp"
 
 namespace glocal {

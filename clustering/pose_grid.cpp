@@ -1,7 +1,7 @@
 #include "clustering/pose_grid.hpp"
 
-#include "clustering/clusters_of.hpp"
 #include "clustering/disjoint_sets.hpp"
+#include "glocal/clusters_of.hpp"
 #include "glocal/pose_cells.hpp"
 
 namespace glocal {

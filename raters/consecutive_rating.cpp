@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "raters/candidates.hpp"
+
 namespace glocal {
 
 void describe(ParamVisitor& v, ConsecutiveRating::Params& p) {
@@ -55,26 +57,27 @@ Verdict ConsecutiveRating::judge(const StepResult& step) {
       return {VerdictKind::localized,
               pose,
               {},
-              fmt::format("the same cluster was rated over {:.2f} in {} consecutive steps",
-                          params_.min_rating, count)};
+              fmt::format("the same cluster had r̄ over {:.2f} in {} consecutive steps", params_.min_rating,
+                          count)};
     }
     return {VerdictKind::searching,
             std::nullopt,
             {},
-            fmt::format("a cluster is rated {:.2f}, in {} of {} steps needed", rating, count,
+            fmt::format("a cluster has r̄ = {:.2f}, in {} of {} steps needed", rating, count,
                         params_.consecutive)};
   }
   last_.reset();
   std::vector<Pose3> poses = candidates(step);
   const std::size_t n = poses.size();
   if (n >= 2 && n <= static_cast<std::size_t>(params_.max_candidates)) {
-    return {VerdictKind::ambiguous, std::nullopt, std::move(poses),
-            fmt::format("{} poses explain the observations about equally well", n)};
+    return ambiguous(std::move(poses));
   }
   return {VerdictKind::searching,
           std::nullopt,
           {},
-          fmt::format("the best of {} clusters is rated only {:.2f}", step.clusters.size(), rating)};
+          fmt::format(
+              "the best of {} clusters has only r̄ = {:.2f} of all ratings, and more than {:.2f} is needed",
+              step.clusters.size(), rating, params_.min_rating)};
 }
 
 bool ConsecutiveRating::same(const Pose3& a, const Pose3& b) const {

@@ -26,6 +26,9 @@ class ConsecutiveRating final : public VerdictRule {
 
   explicit ConsecutiveRating(const Params& params) : params_(params) {}
   [[nodiscard]] Verdict judge(const StepResult& step) override;
+  [[nodiscard]] std::size_t least_steps() const override {
+    return static_cast<std::size_t>(params_.consecutive);
+  }
   void refute(const Verification& /*verification*/) override { last_.reset(); }
   void reset() override { last_.reset(); }
 

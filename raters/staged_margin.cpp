@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "raters/candidates.hpp"
 
 namespace glocal {
 
@@ -207,6 +210,16 @@ bool StagedMargin::Ladder::is_lost() const {
   return std::all_of(kept_.begin(), kept_.end(), [](const Kept& kept) { return kept.steps == 0; });
 }
 
+std::size_t StagedMargin::Ladder::least_steps() const {
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const Stage& stage : stages_) least = std::min(least, static_cast<std::size_t>(stage.steps));
+  return least;
+}
+
+std::size_t StagedMargin::least_steps() const {
+  return std::min(stages_.least_steps(), certified_stages_.least_steps());
+}
+
 Verdict StagedMargin::localized(const StepResult& step, double margin) const {
   return {VerdictKind::localized,
           step.hypotheses.front().map_from_robot,
@@ -219,8 +232,7 @@ Verdict StagedMargin::undecided(const StepResult& step, double margin) const {
   std::vector<Pose3> poses = candidates(step);
   const std::size_t n = poses.size();
   if (n >= 2 && n <= static_cast<std::size_t>(params_.max_candidates)) {
-    return {VerdictKind::ambiguous, std::nullopt, std::move(poses),
-            fmt::format("{} poses explain the observations about equally well", n)};
+    return ambiguous(std::move(poses));
   }
   return {VerdictKind::searching,
           std::nullopt,

@@ -56,6 +56,7 @@ class StagedMargin final : public VerdictRule {
 
   StagedMargin(const Params& params, const StageSetup& setup);
   [[nodiscard]] Verdict judge(const StepResult& step) override;
+  [[nodiscard]] std::size_t least_steps() const override;
   void refute(const Verification& verification) override;
   void reset() override;
 
@@ -74,6 +75,8 @@ class StagedMargin final : public VerdictRule {
     [[nodiscard]] bool is_reached(double margin, double driven);
     /// Whether not even the least margin was kept in the last step.
     [[nodiscard]] bool is_lost() const;
+    /// Steps of the shortest stage; the largest number there is without any.
+    [[nodiscard]] std::size_t least_steps() const;
 
    private:
     std::vector<Stage> stages_;

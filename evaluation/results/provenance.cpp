@@ -1,12 +1,14 @@
 #include "evaluation/results/provenance.hpp"
 
 #include <dlfcn.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <link.h>
 #include <openssl/evp.h>
 #include <unistd.h>
 
 #include <array>
+#include <ctime>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -154,10 +156,12 @@ Json origin_json(const Variant& variant) {
           {"values", std::move(values)}};
 }
 
-Json provenance_of_run(const Catalog& catalog, const Variant& variant, int jobs,
+Json provenance_of_run(const Catalog& catalog, const Variant& variant, const RunOptions& options,
                        const std::set<std::filesystem::path>& inputs, FileHashes& hashes) {
   Json json = provenance(catalog, variant.experiment.threads, inputs, hashes);
-  json["jobs"] = jobs;
+  json["jobs"] = options.jobs;
+  json["began"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  if (!options.command.empty()) json["command"] = valid_utf8(options.command);
   if (Json origin = origin_json(variant); !origin.is_null()) json["variant"] = std::move(origin);
   return json;
 }

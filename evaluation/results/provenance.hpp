@@ -11,6 +11,7 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/experiment.hpp"
+#include "glocal/run_experiment.hpp"
 
 namespace glocal {
 
@@ -47,9 +48,10 @@ class FileHashes {
 /// variants.
 [[nodiscard]] nlohmann::ordered_json origin_json(const Variant& variant);
 
-/// The provenance of a variant's results, with how many trials ran at once, and with origin_json().
+/// The provenance of a variant's results, with how many trials ran at once, by which command, since when
+/// (UTC), and with origin_json().
 [[nodiscard]] nlohmann::ordered_json provenance_of_run(const Catalog& catalog, const Variant& variant,
-                                                       int jobs,
+                                                       const RunOptions& options,
                                                        const std::set<std::filesystem::path>& inputs,
                                                        FileHashes& hashes);
 

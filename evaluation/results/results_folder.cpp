@@ -17,6 +17,7 @@
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
 #include "evaluation/results/pose_json.hpp"
+#include "evaluation/results/variant_order.hpp"
 #include "evaluation/statistics/statistics.hpp"
 #include "glocal/error.hpp"
 
@@ -350,7 +351,7 @@ std::vector<fs::path> results_folders(const fs::path& path) {
            "holds no results: there is no provenance.json, neither here nor in a folder below; name a folder "
            "that glocal run has left");
   }
-  std::sort(folders.begin(), folders.end());
+  sort_by_variant(path, folders);
   return folders;
 }
 

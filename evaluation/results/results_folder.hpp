@@ -107,7 +107,8 @@ enum class ResultParts { all, all_but_steps };
 /// Throws ConfigError if a run has left no steps, which this is about.
 void require_steps(const StoredRun& run);
 
-/// The results folder that `path` is, or those in it, sorted by name (hidden ones left out). Those count,
+/// The results folder that `path` is, or those in it, in the order of their file (variants.json) or else by
+/// name, in which numbers count as numbers (hidden ones left out). Those count,
 /// too, that have lost their provenance.json, of which read_results() tells. Throws ConfigError if there is
 /// none.
 [[nodiscard]] std::vector<std::filesystem::path> results_folders(const std::filesystem::path& path);

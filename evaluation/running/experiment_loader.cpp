@@ -101,6 +101,21 @@ Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, L
   return {experiment.localizer, catalog, setup, seed_of(RandomPart::localizer, experiment)};
 }
 
+std::optional<std::string> why_never_declared(const Experiment& experiment, const LoadedExperiment& loaded,
+                                              const Localizer& localizer) {
+  std::size_t longest = 0;
+  for (const std::size_t start : loaded.starts)
+    longest = std::max(longest, steps_left(loaded.drive, experiment.trials, start));
+  if (longest >= localizer.least_steps()) return std::nullopt;
+  const std::string& rule = experiment.localizer.verdict_rule.name;
+  return fmt::format(
+      "no trial can end with a declared pose: the verdict rule '{0}' declares none before step {1}, and no "
+      "trial "
+      "has more than {2}. Let it declare sooner (glocal describe {0}), or trials go on for longer "
+      "(trials.max_steps, a longer drive)",
+      rule, localizer.least_steps(), longest);
+}
+
 std::vector<std::size_t> loading_order(const std::vector<Variant>& variants, const Catalog& catalog) {
   std::map<std::string, std::size_t> firsts;  // The first variant that has these sources.
   std::vector<std::size_t> first_of, order;

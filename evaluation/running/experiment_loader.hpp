@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -63,6 +64,12 @@ class ExperimentLoader {
 /// ConfigError.
 [[nodiscard]] Localizer make_localizer(const Experiment& experiment, const Catalog& catalog,
                                        LoadedExperiment& loaded);
+
+/// Why no trial of an experiment can declare a pose, however good it is, and what to do about it, a sentence;
+/// none if one can.
+[[nodiscard]] std::optional<std::string> why_never_declared(const Experiment& experiment,
+                                                            const LoadedExperiment& loaded,
+                                                            const Localizer& localizer);
 
 /// Places of variants, in an order in which those with the same map and drive follow each other: these are
 /// loaded once then.

@@ -12,6 +12,7 @@
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/results/run_results.hpp"
+#include "evaluation/results/variant_order.hpp"
 #include "evaluation/running/elapsed.hpp"
 #include "evaluation/running/others_load.hpp"
 #include "glocal/error.hpp"
@@ -68,6 +69,7 @@ ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const std::fil
       loader_(catalog, callbacks_.warn, callbacks_.progress) {}
 
 RunResult ExperimentRunner::run() {
+  const std::vector<std::string> all_names = names_of(variants_);
   select();
   const std::vector<std::string> names = names_of(variants_);
   const bool has_variants = !names.front().empty();
@@ -82,6 +84,7 @@ RunResult ExperimentRunner::run() {
     if (callbacks_.trials.stop() && results_.size() > kept) break;
     run_one(variants_[i]);
   }
+  if (has_variants && !results_.empty()) write_variant_order(out_, all_names);
   const auto place = [&](const VariantResult& r) { return std::find(names.begin(), names.end(), r.name); };
   std::sort(results_.begin(), results_.end(),
             [&](const VariantResult& a, const VariantResult& b) { return place(a) < place(b); });
@@ -175,6 +178,7 @@ void ExperimentRunner::run_one(Variant& variant) {
   std::vector<Localizer> localizers;
   localizers.push_back(make_localizer(experiment, catalog_, loaded));
   const double map_index_ms = ms_since(start);
+  if (const auto why = why_never_declared(experiment, loaded, localizers.front())) callbacks_.warn(*why);
 
   // Nothing is written before everything is known to be in order.
   std::optional<std::string> declined;
@@ -229,7 +233,7 @@ void ExperimentRunner::run_one(Variant& variant) {
 void ExperimentRunner::write_origin(OutputFolder& folder, Variant& variant, const LoadedExperiment& loaded) {
   Experiment& experiment = variant.experiment;
   folder.write("effective.yaml", effective_yaml(experiment, catalog_, *loaded.map));
-  const Json origin = provenance_of_run(catalog_, variant, options_.jobs, loaded.inputs, hashes_);
+  const Json origin = provenance_of_run(catalog_, variant, options_, loaded.inputs, hashes_);
   // Names of files need not be UTF-8.
   folder.write("provenance.json", origin.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   if (experiment.output.maps != "none") folder.write("maps/global.pcd", pcd(loaded.map->points()));

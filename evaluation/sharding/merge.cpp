@@ -16,6 +16,7 @@
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/results/run_results.hpp"
+#include "evaluation/results/variant_order.hpp"
 #include "evaluation/results/writers.hpp"
 #include "evaluation/running/experiment_runner.hpp"
 #include "glocal/error.hpp"
@@ -201,6 +202,13 @@ auto with_journals(const PlannedVariant& planned, const Work& work) {
   }
 }
 
+/// In the order of the file.
+std::vector<std::string> variant_names(const Manifest& manifest) {
+  std::vector<std::string> names;
+  for (const PlannedVariant& variant : manifest.variants) names.push_back(variant.name);
+  return names;
+}
+
 }  // namespace
 
 std::size_t MergeResult::count_missing() const {
@@ -236,6 +244,8 @@ MergeResult merge_shards(const Manifest& manifest, const JournalScan& scan, cons
     result.run.variants.push_back(
         result_of_variant(merge.name(), merge.folder(), kept ? *kept : merge.write(is_complete)));
   });
+  if (!manifest.variants.front().name.empty() && !result.run.variants.empty())
+    write_variant_order(options.out, variant_names(manifest));
   result.run.complete = result.missing.empty();
   return result;
 }

@@ -130,7 +130,7 @@ Json ShardWorker::description(Variant& variant, const LoadedExperiment& loaded, 
   if (const auto index = localizer.map_index())
     map["index"] = {{"entries", index->entries}, {"bytes", index->bytes}, {"build_ms", index->build_ms}};
   return {{"effective", effective_yaml(experiment, catalog_, *loaded.map)},
-          {"provenance", provenance_of_run(catalog_, variant, options_.jobs, loaded.inputs, hashes_)},
+          {"provenance", provenance_of_run(catalog_, variant, options_, loaded.inputs, hashes_)},
           {"name", experiment.name},
           {"seed", experiment.seed},
           {"steps", experiment.output.steps},

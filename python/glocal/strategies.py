@@ -175,6 +175,10 @@ class VerdictRule(_Stage):
         """Sees clusters and ratings, best first, and not the step's own verdict."""
         raise NotImplementedError
 
+    def least_steps(self) -> int:
+        """In which step of a trial it can declare a pose at the earliest, counted from 1."""
+        return 1
+
     def refute(self, verification: Verification) -> None:
         """The pose that judge() has just declared has a rival, or lacks its certificate."""
 

@@ -67,6 +67,10 @@ class File {
                                               const py::object& on_begin, const py::object& on_trial,
                                               const py::object& on_text) const {
     options.plugins = session_->plugins.loaded();
+    // The strategies that come with the package are in its module.
+    options.plugins.emplace_back(py::module_::import("glocal._core").attr("__file__").cast<std::string>());
+    const py::object words = py::module_::import("sys").attr("orig_argv");
+    options.command = py::module_::import("shlex").attr("join")(words).cast<std::string>();
     options.plugins.insert(options.plugins.end(), sources.begin(), sources.end());
     RunObserver observer;
     observer.begin = [begin = calling<std::string, std::size_t, std::size_t>(on_begin)](

@@ -9,9 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "clustering/clusters_of.hpp"
-#include "clustering/moments.hpp"
+#include "glocal/clusters_of.hpp"
 #include "glocal/error.hpp"
+#include "glocal/moments.hpp"
 #include "python/src/conversions.hpp"
 #include "python/src/errors.hpp"
 #include "python/src/values.hpp"
@@ -269,12 +269,16 @@ class PythonVerdictRule final : public VerdictRule {
         },
         Seen(step, loan));
   }
+  std::size_t least_steps() const override {
+    return least_steps_([](const py::object& steps) { return steps.cast<std::size_t>(); });
+  }
   void refute(const Verification& verification) override { refute_(nothing, verification); }
   void reset() override { reset_(nothing); }
 
  private:
   Held object_;
-  Method judge_{object_, "judge"}, refute_{object_, "refute"}, reset_{object_, "reset"};
+  Method judge_{object_, "judge"}, least_steps_{object_, "least_steps"}, refute_{object_, "refute"},
+      reset_{object_, "reset"};
 };
 
 class PythonVerifier final : public Verifier {

@@ -16,6 +16,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using RunCommand = Room;
 
 TEST_F(RunCommand, LeavesTheFilesOfTheContract) {
@@ -30,6 +31,9 @@ TEST_F(RunCommand, LeavesTheFilesOfTheContract) {
         "trajectories/trial_0000_reference.tum"}) {
     EXPECT_TRUE(fs::exists(file("a") + "/" + name)) << name;
   }
+  const Json origin = json("a/provenance.json");
+  EXPECT_EQ(origin["command"], fmt::format("glocal run {} --out {}", file("room.yaml"), file("a")));
+  EXPECT_THAT(origin["began"].get<std::string>(), testing::MatchesRegex("20..-..-..T..:..:..Z"));
   const Json summary = json("a/summary.json");
   EXPECT_EQ(summary["complete"], true);
   const std::string trials = content(file("a/trials.jsonl"));
@@ -63,6 +67,21 @@ TEST_F(RunCommand, LeavesTheScanOfEachStepInTheRobotsFrame) {
     for (std::size_t i = 0; i < hits.size(); ++i)
       ASSERT_LT(distance_to_walls(map_from_robot(hits[i])), 0.15) << line.substr(0, 30);
   }
+}
+
+TEST_F(RunCommand, TellsOfAnExperimentThatCanNeverDeclare) {
+  // The default rule wants three steps in a row.
+  const std::string one_step = "--set trials.max_steps=1";
+  const std::string why =
+      "no trial can end with a declared pose: the verdict rule 'consecutive_rating' declares none before "
+      "step 3, "
+      "and no trial has more than 1.";
+  EXPECT_THAT(run_room("a", one_step).err, HasSubstr(why));
+  EXPECT_THAT(run("check " + file("room.yaml") + " " + one_step).err, HasSubstr(why));
+  EXPECT_THAT(run("check " + file("room.yaml")).err, Not(HasSubstr("no trial can end")));
+  const std::string sooner = " --set localizer.verdict_rule.consecutive_rating.consecutive=1";
+  EXPECT_THAT(run("check " + file("room.yaml") + " " + one_step + sooner).err,
+              Not(HasSubstr("no trial can end")));
 }
 
 TEST_F(RunCommand, QuietSaysNothing) {

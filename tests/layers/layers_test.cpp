@@ -31,7 +31,7 @@ const std::map<std::string, std::set<std::string>> layers_below = {
     {"app",
      {"report", "evaluation", "framework", "sources", "local_mappers", "matchers", "clustering", "raters",
       "python"}},
-    {"python", {"evaluation", "framework", "clustering"}}};
+    {"python", {"evaluation", "framework"}}};
 
 /// Families of matchers that may include another one. indexed_ransam searches the whole map with the grid's
 /// pyramid before its first draw.

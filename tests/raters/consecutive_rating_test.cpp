@@ -113,5 +113,27 @@ TEST(ConsecutiveRating, ResetForgets) {
   EXPECT_EQ(rule.judge(step({good})).kind, VerdictKind::searching);
 }
 
+TEST(ConsecutiveRating, CountsPlacesForPeople) {
+  ConsecutiveRating rule({});
+  const auto why = [&](const std::vector<Rated>& rated) { return rule.judge(step(rated)).why; };
+  // A metre and more apart, and half a metre.
+  EXPECT_EQ(why({{{0, 0, 0}, 0.5}, {{5, 0, 0}, 0.5}}), "2 poses explain the observations about equally well");
+  EXPECT_EQ(why({{{0, 0, 0}, 0.5}, {{0, 0, 3}, 0.5}, {{5, 0, 0}, 0.5}, {{5.5, 0, 1}, 0.5}}),
+            "4 poses at 2 places explain the observations about equally well");
+  EXPECT_EQ(why({{{0, 0, 0}, 0.5}, {{0, 0, 3}, 0.5}}),
+            "2 poses at one place explain the observations about equally well");
+}
+
+TEST(ConsecutiveRating, NamesTheRatingThatItLooksAt) {
+  ConsecutiveRating rule({.max_candidates = 2});
+  const std::vector<Rated> many = {{{0, 0, 0}, 0.4}, {{5, 0, 0}, 0.4}, {{0, 5, 0}, 0.4}, {{5, 5, 0}, 0.4}};
+  EXPECT_EQ(rule.judge(step(many)).why,
+            "the best of 4 clusters has only r̄ = 0.25 of all ratings, and more than 0.80 is needed");
+}
+
+TEST(ConsecutiveRating, KnowsWhenItCanDeclareAtTheEarliest) {
+  EXPECT_EQ(ConsecutiveRating({.consecutive = 5}).least_steps(), 5U);
+}
+
 }  // namespace
 }  // namespace glocal::consecutive_rating_test

@@ -235,5 +235,12 @@ TEST(StagedMargin, ARivalThatWasNotKnownBeginsAnew) {
   EXPECT_TRUE(rule.judge(step(0.9, 0.55)).needs_certificate);
 }
 
+TEST(StagedMargin, KnowsWhenItCanDeclareAtTheEarliest) {
+  EXPECT_EQ(StagedMargin({}, {}).least_steps(), 3U);
+  StageSetup with_verifier;
+  with_verifier.has_verifier = true;
+  EXPECT_EQ(StagedMargin({}, with_verifier).least_steps(), 2U);
+}
+
 }  // namespace
 }  // namespace glocal::staged_margin_test

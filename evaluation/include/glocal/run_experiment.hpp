@@ -26,6 +26,7 @@ struct RunOptions {
   /// Files that strategies of the catalog come from. Their hashes are noted with those of all other inputs:
   /// where one has changed, an unfinished run is not gone on with.
   std::vector<std::filesystem::path> plugins = {};
+  std::string command = {};  ///< How the user asked for the run, for its record.
 };
 
 /// A variant that is about to run.

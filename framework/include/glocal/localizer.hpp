@@ -64,6 +64,8 @@ class Localizer {
   [[nodiscard]] std::vector<MapFile> local_map_files() const { return local_mapper_->files(); }
   /// Which poses of the local map counted in the last step.
   [[nodiscard]] const PoseGate& gate() const { return gate_; }
+  /// In which step of a trial a pose can be declared at the earliest, counted from 1.
+  [[nodiscard]] std::size_t least_steps() const { return verdict_rule_->least_steps(); }
   /// What the matcher has made of the map.
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const { return matcher_->map_index(); }
 

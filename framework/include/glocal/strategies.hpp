@@ -152,6 +152,8 @@ class VerdictRule {
  public:
   virtual ~VerdictRule() = default;
   [[nodiscard]] virtual Verdict judge(const StepResult& step) = 0;
+  /// In which step of a trial it can declare a pose at the earliest, counted from 1.
+  [[nodiscard]] virtual std::size_t least_steps() const { return 1; }
   /// The pose that judge() has just declared is not: it has a rival that the rule did not know of, or lacks
   /// the certificate that the verdict needs.
   virtual void refute(const Verification& /*verification*/) {}

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "config/experiment_params.hpp"
 #include "config/field_docs.hpp"
 #include "config/nearest.hpp"
+#include "config/reader.hpp"
 
 namespace glocal {
 namespace {
@@ -62,7 +65,73 @@ std::string strategy_help(const StrategyInfo& info, const RegistryBase& registry
   return text;
 }
 
+using Json = nlohmann::ordered_json;
+
+Json struct_json(const StructDoc& doc);
+
+Json field_json(const FieldDoc& field) {
+  const FieldInfo& info = field.info;
+  Json json = {{"name", field.name}, {"type", type_name(field)}, {"doc", info.doc.text}};
+  if (info.required) json["required"] = true;
+  if (!field.default_value.is_null()) json["default"] = field.default_value;
+  if (*info.unit != '\0') json["unit"] = info.unit;
+  if (std::isfinite(info.min)) json["min"] = info.min;
+  if (std::isfinite(info.above)) json["above"] = info.above;
+  if (std::isfinite(info.max)) json["max"] = info.max;
+  if (!info.choices.empty()) json["choices"] = info.choices;
+  if (field.registry != nullptr) json["strategies"] = names_of(*field.registry);
+  if (info.audience != Audience::everyone)
+    json["audience"] = info.audience == Audience::tuner ? "tuner" : "expert";
+  if (!field.inner.empty()) json.update(struct_json(field.inner.front()));
+  return json;
+}
+
+/// Parameters, and rules that span them.
+Json struct_json(const StructDoc& doc) {
+  Json fields = Json::array();
+  for (const FieldDoc& field : doc.fields) fields.push_back(field_json(field));
+  Json json = {{"parameters", std::move(fields)}};
+  for (const RuleDoc& rule : doc.rules) json["rules"].push_back({{"about", rule.field}, {"rule", rule.rule}});
+  return json;
+}
+
+Json strategy_json(const StrategyInfo& info, const RegistryBase& registry) {
+  Json motions = Json::array();
+  for (const Motion motion : every_motion) {
+    if (info.motions.contain(motion)) motions.push_back(to_string(motion));
+  }
+  return {{"kind", registry.kind()},
+          {"name", info.name},
+          {"doc", info.doc},
+          {"origin", info.origin},
+          {"motions", std::move(motions)}};
+}
+
 }  // namespace
+
+std::optional<nlohmann::ordered_json> help_json(std::string_view name, const Catalog& catalog) {
+  Json found = Json::array();
+  ExperimentFileParams experiment(catalog);
+  if (name == "experiment") {
+    found.push_back({{"name", "experiment"}});
+    found.back().update(struct_json(document(experiment)));
+  } else if (const auto field = find_field(experiment, name)) {
+    found.push_back(field_json(*field));
+  }
+  for (const RegistryBase* registry : catalog.registries()) {
+    const StrategyInfo* info = registry->find(name);
+    if (info == nullptr) continue;
+    found.push_back(strategy_json(*info, *registry));
+    found.back().update(struct_json(document(*info->default_params())));
+  }
+  return found.empty() ? std::nullopt : std::optional(std::move(found));
+}
+
+nlohmann::ordered_json strategies_json(const RegistryBase& registry) {
+  Json all = Json::array();
+  for (const StrategyInfo* info : registry.all()) all.push_back(strategy_json(*info, registry));
+  return all;
+}
 
 std::optional<std::string> help(std::string_view name, const Catalog& catalog) {
   std::string text;
@@ -70,6 +139,9 @@ std::optional<std::string> help(std::string_view name, const Catalog& catalog) {
     ExperimentFileParams params(catalog);
     text = "experiment\nThe keys of an experiment file.\n\n";
     write_struct(document(params), 2, text);
+  } else if (ExperimentFileParams params(catalog); const auto field = find_field(params, name)) {
+    text = "A part of an experiment file.\n\n";
+    write_field(*field, 0, text);
   }
   for (const RegistryBase* registry : catalog.registries()) {
     const StrategyInfo* info = registry->find(name);

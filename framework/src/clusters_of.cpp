@@ -1,5 +1,7 @@
-#include "clustering/clusters_of.hpp"
+#include "glocal/clusters_of.hpp"
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace glocal {
@@ -14,6 +16,9 @@ std::vector<double> supports(const std::vector<Hypothesis>& hypotheses) {
 std::vector<Cluster> clusters_of(const std::vector<Hypothesis>& hypotheses,
                                  const std::vector<std::size_t>& labels) {
   const std::size_t none = labels.size();
+  if (none != hypotheses.size() ||
+      std::any_of(labels.begin(), labels.end(), [&](std::size_t label) { return label >= none; }))
+    throw std::invalid_argument("each hypothesis needs a label below the number of hypotheses");
   std::vector<std::size_t> cluster_with(labels.size(), none);
   std::vector<std::vector<std::size_t>> members;
   for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -1,10 +1,11 @@
+// Clusters of hypotheses, for clusterers.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "clustering/moments.hpp"
 #include "glocal/hypothesis.hpp"
+#include "glocal/moments.hpp"
 
 namespace glocal {
 
@@ -20,8 +21,9 @@ template <class Pose>
 /// How many proposals each of them stands for.
 [[nodiscard]] std::vector<double> supports(const std::vector<Hypothesis>& hypotheses);
 
-/// Clusters of the hypotheses that have the same label, below the number of hypotheses; in the order of their
-/// first ones.
+/// Clusters of the hypotheses that have the same label, in the order of their first ones, each with the mean
+/// and the variances of its robot poses (make_cluster()). Throws std::invalid_argument unless there is a
+/// label for each hypothesis, below the number of hypotheses.
 [[nodiscard]] std::vector<Cluster> clusters_of(const std::vector<Hypothesis>& hypotheses,
                                                const std::vector<std::size_t>& labels);
 

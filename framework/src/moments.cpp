@@ -1,4 +1,4 @@
-#include "clustering/moments.hpp"
+#include "glocal/moments.hpp"
 
 #include <algorithm>
 #include <utility>
