@@ -38,6 +38,22 @@ test("each run can be chosen, and goes on showing the same trial", { skip }, asy
   }
 });
 
+test("the page begins with what came out of each run", { skip }, async () => {
+  assert.match(await page.locator("h1").innerText(), /^paper_variants\s+3 runs$/);
+  for (const [i, name] of variants.entries()) {
+    const summary = JSON.parse(readFileSync(join(folder, name, "summary.json"), "utf8"));
+    const row = page.locator(`#figures tr[data-run="${i}"]`);
+    assert.equal(await row.locator("th").innerText(), name);
+    for (const outcome of ["right", "wrong", "undecided"])
+      assert.equal(await row.locator(`[data-figure=${outcome}]`).innerText(), String(summary.trials[outcome]));
+    assert.equal(await row.locator("[data-figure=error]").innerText(), `${summary.translation_error_m.median.toFixed(3)} m`);
+    const [bar, right] = await row.locator(".outcomes").evaluate((bar) => [bar, bar.querySelector(".right")].map((e) => e.getBoundingClientRect().width));
+    assert.ok(Math.abs(right / bar - summary.success_rate.value) < 0.01);
+  }
+  await page.locator('#figures tr[data-run="1"] button').click();
+  assert.equal(await page.locator("#run").inputValue(), "1");
+});
+
 test("curves of runs can be hidden and shown", { skip }, async () => {
   const boxes = page.locator(".curves .runs input");
   assert.equal(await boxes.count(), 3);

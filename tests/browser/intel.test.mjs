@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { assertQuiet, closeBrowser, drawn, open, skip as noBrowser } from "./open.mjs";
+import { assertQuiet, closeBrowser, drawn, moveSlider, open, skip as noBrowser } from "./open.mjs";
 import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { checkClusters, checkSteps } from "./steps_check.mjs";
 import { viridis } from "./viridis.mjs";
@@ -37,8 +37,17 @@ test("every trial can be chosen, and shows its own steps", { skip }, async () =>
 
 test("clusters of a real log are drawn where they are", { skip }, async () => {
   await page.locator("#trial").selectOption("0");
-  await page.keyboard.press("Escape");
+  await moveSlider(page, 0);
   assert.ok((await checkClusters(page, stepsOf(folder, 0)[0], viridis)) >= 1);
+});
+
+test("a trial opens at its first declaration, or else at its last step", { skip }, async () => {
+  for (const { trial } of [trials[1], trials[7]]) {
+    await page.locator("#trial").selectOption(String(trial));
+    const steps = stepsOf(folder, trial);
+    const declared = steps.findIndex(({ verdict }) => verdict === "localized");
+    assert.equal(await page.evaluate(() => document.body.dataset.step), String(declared < 0 ? steps.length - 1 : declared));
+  }
 });
 
 test("the list of trials tells what trials.jsonl does, and leads to a trial", { skip }, async () => {

@@ -58,7 +58,7 @@ test("names that look like markup show as text", { skip }, async () => {
   const name = "<script>window.hacked=1<img src=x onerror=alert(1)>&amp;";
   const folder = runExperiment("paper_lab", join(work, name));
   const opened = await open(report(join(work, "names.html"), folder));
-  assert.equal(await opened.page.locator("h1").innerText(), name);
+  assert.equal(await opened.page.locator("h1 .run-name").innerText(), name);
   assert.ok((await opened.page.title()).includes(name));
   assert.equal(await opened.page.evaluate(() => window.hacked), undefined);
   await moveSlider(opened.page, 1);

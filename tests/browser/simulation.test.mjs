@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { assertQuiet, closeBrowser, drawn, mapView, moveSlider, open, painted, showOnly, skip } from "./open.mjs";
+import { assertQuiet, closeBrowser, colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip } from "./open.mjs";
 import { report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 import { checkClusters, checkNumbers, checkRobot, checkSteps } from "./steps_check.mjs";
 import { viridis } from "./viridis.mjs";
@@ -27,6 +27,36 @@ after(async () => {
 test("is one file of less than 5 MB", { skip }, () => {
   assert.ok(statSync(file).size < 5e6);
   assert.equal(steps.length, 136);
+});
+
+test("opens at the declaration, under the numbers of the run", { skip }, async () => {
+  const declared = steps.findIndex(({ verdict }) => verdict === "localized");
+  assert.equal(await page.evaluate(() => document.body.dataset.step), String(declared));
+  const { trials, steps_to_localize: toLocalize, rotation_error_deg: angle } = JSON.parse(readFileSync(join(folder, "summary.json"), "utf8"));
+  const figure = (name) => page.locator(`#figures [data-figure="${name}"] dd`).innerText();
+  assert.deepEqual(await Promise.all(["right", "wrong", "undecided"].map(figure)), [trials.right, trials.wrong, trials.undecided].map(String));
+  assert.equal(await figure("steps"), String(toLocalize.median));
+  assert.equal(await figure("angle error"), `${angle.median.toFixed(2)}°`);
+});
+
+test("of clusters that overlap the best are drawn, and the others as one zooms in", { skip }, async () => {
+  await moveSlider(page, 0);
+  await showOnly(page, "clusters");
+  const hidden = async () => Number(/(\d+) more as you zoom in/.exec(await page.locator(".map .note").innerText())?.[1] ?? 0);
+  const counts = [await hidden()];
+  const best = steps[0].best[0].pose;
+  // The best one is always drawn.
+  assert.ok((await colourAt(page, (await mapView(page)).toScreen(best)))[3] === 255);
+  while (counts.at(-1) > 0 && counts.length < 30) {
+    await page.keyboard.press("+");
+    await drawn(page);
+    counts.push(await hidden());
+  }
+  assert.ok(counts[0] > 5, String(counts));
+  assert.equal(counts.at(-1), 0);
+  assert.ok(counts.every((n, i) => i === 0 || n <= counts[i - 1]), String(counts));
+  assert.equal(await page.locator(".hypotheses tbody tr").count(), steps[0].best.length);
+  await page.keyboard.press("0");
 });
 
 test("numbers are those of steps.jsonl", { skip }, async () => {

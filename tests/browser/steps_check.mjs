@@ -44,7 +44,7 @@ function expectedColour(viridis, r) {
 
 const distance = (a, b) => Math.hypot(a.x - b.x, a.y - b.y);
 
-/** Clusters that no other one lies on: their colour is that of r, and pointing at them tells r̄. */
+/** Clusters that no other one lies on, or shares a cell of 16 px with: their colour is that of r, and pointing at them tells r̄. */
 export async function checkClusters(page, step, viridis, most = 5) {
   await showOnly(page, "clusters");
   const view = await mapView(page);
@@ -52,13 +52,15 @@ export async function checkClusters(page, step, viridis, most = 5) {
   const inside = (at) =>
     at.x > view.box.left + 20 && at.x < view.box.left + view.box.width - 60 &&
     at.y > view.box.top + 20 && at.y < view.box.top + view.box.height - 50;
-  const alone = places.map((at, i) => i).filter((i) => inside(places[i]) && places.every((other, k) => k === i || distance(other, places[i]) > 20));
+  const alone = places.map((at, i) => i).filter((i) => inside(places[i]) && places.every((other, k) => k === i || distance(other, places[i]) > 23));
   for (const i of alone.slice(0, most)) {
     const cluster = step.best[i];
     const [red, green, blue, opacity] = await colourAt(page, places[i]);
     const expected = expectedColour(viridis, cluster.r);
-    [red, green, blue].forEach((value, k) => assert.ok(Math.abs(value - expected[k]) <= 3, `cluster ${i}: ${[red, green, blue]} for ${expected}`));
-    assert.equal(opacity, 255);
+    const isWeak = cluster.r < 0.95 * step.best[0].r;
+    // Weak ones are faint, and a faint colour is less exact.
+    [red, green, blue].forEach((value, k) => assert.ok(Math.abs(value - expected[k]) <= (isWeak ? 8 : 3), `cluster ${i}: ${[red, green, blue]} for ${expected}`));
+    assert.ok(isWeak ? opacity < 255 && opacity >= 50 : opacity === 255, `cluster ${i}: opacity ${opacity}`);
     await page.mouse.move(places[i].x, places[i].y);
     const tip = await page.locator(".tip").innerText();
     assertShown(/r̄ = (\S+)/.exec(tip)[1], cluster.r_normalised, "normalised rating");

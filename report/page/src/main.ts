@@ -8,6 +8,7 @@ import { LiveNews } from "./live";
 import { MapView } from "./map_view";
 import { listenToKeys, Player } from "./player";
 import { Store } from "./store";
+import { experimentsOf, summaryHeader } from "./summary_header";
 import { sweepSection } from "./sweep_section";
 import { comparisonSection, configurationSection, provenanceSection, summarySection } from "./tables";
 import { Distributions, TrialList } from "./trials_section";
@@ -90,12 +91,13 @@ function keysHelp(): HTMLElement {
   );
 }
 
-const mostNamed = 4;
-
-function headline({ runs }: Report): string {
-  if (runs.length <= mostNamed) return runs.map((run) => run.name).join(", ");
-  const experiments = new Set(runs.map((run) => run.settings.name?.text ?? run.name));
-  return `${runs.length} runs of ${[...experiments].join(", ")}`;
+/** The experiment, and the run where it is called otherwise. */
+function headline(report: Report): HTMLElement {
+  const title = el("h1", {}, experimentsOf(report));
+  const { runs } = report;
+  if (runs.length > 1) append(title, " ", el("small", {}, `${runs.length} runs`));
+  else if (runs[0].name !== title.textContent) append(title, " ", el("small", { class: "run-name" }, runs[0].name));
+  return title;
 }
 
 function links(sections: (HTMLElement | null)[]): HTMLElement {
@@ -141,14 +143,14 @@ function show(report: Report, page: HTMLElement): void {
   const header = el(
     "header",
     {},
-    el("h1", {}, headline(report)),
+    headline(report),
     runPicker(store),
     trialPicker(store),
     themeButton(redraw),
     links([sweep, ...sections]),
   );
   const view = el("main", { id: "view" }, map.element, curves.element, player.element, details.element);
-  replace(page, header, news?.element, sweep);
+  replace(page, header, summaryHeader(store), news?.element, sweep);
   // Large sweeps keep neither steps nor maps: there is nothing to step through.
   if (!sweep || report.runs.some(hasMoreThanTrials)) append(page, view, keysHelp());
   append(page, ...sections);

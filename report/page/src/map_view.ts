@@ -1,4 +1,5 @@
 // The map with everything that happened on it: the only drawing that is our own.
+import { opacityOf, thinnedOut } from "./candidates_shown";
 import { ratingColour, themeColour, verdictColours } from "./colours";
 import { poseAt, type GlobalMap, type PointLives, type Pose, type Scans, type Steps } from "./data";
 import { el, replace } from "./elements";
@@ -47,13 +48,6 @@ function frameAt(lives: PointLives | Scans, step: number): number {
   let frame = -1;
   while (frame + 1 < lives.steps.length && lives.steps[frame + 1] <= step) ++frame;
   return frame;
-}
-
-/** The clusters of a step with their place in the columns, lowest rating first, so that the best end on top. */
-function clustersOf(steps: Steps, step: number): number[] {
-  const indexes = [];
-  for (let k = steps.best.first[step + 1] - 1; k >= steps.best.first[step]; --k) indexes.push(k);
-  return indexes;
 }
 
 export class MapView {
@@ -277,11 +271,22 @@ export class MapView {
     context.globalAlpha = 1;
   }
 
+  /** Lowest rating first, so that the best end on top; the chosen one is always drawn. */
+  private clustersDrawn({ best }: Steps, step: number): number[] {
+    const [begin, end] = [best.first[step], best.first[step + 1]];
+    const drawn = thinnedOut(best, begin, end, this.view.scale);
+    const { hypothesis } = this.store.selected;
+    const chosen = typeof hypothesis === "number" ? begin + hypothesis : end;
+    return chosen < end && !drawn.includes(chosen) ? [...drawn, chosen] : drawn;
+  }
+
   private drawClusters(context: CanvasRenderingContext2D, steps: Steps, step: number): void {
     const { best } = steps;
     const chosen = this.store.selected.hypothesis;
-    for (const k of clustersOf(steps, step)) {
-      const isChosen = k - best.first[step] === chosen;
+    const begin = best.first[step];
+    for (const k of this.clustersDrawn(steps, step)) {
+      const isChosen = k - begin === chosen;
+      context.globalAlpha = isChosen ? 1 : opacityOf(best.r[k], best.r[begin]);
       context.fillStyle = ratingColour(best.r[k]);
       context.strokeStyle = themeColour(isChosen ? "local-map" : "ink");
       context.lineWidth = isChosen ? 3 : 0.8;
@@ -289,6 +294,7 @@ export class MapView {
       context.fill();
       context.stroke();
     }
+    context.globalAlpha = 1;
     context.strokeStyle = verdictColours.ambiguous;
     context.lineWidth = 2;
     const candidates = steps.candidates[step];
@@ -355,6 +361,8 @@ export class MapView {
     if (steps && steps.step.length > 0) {
       const listed = steps.best.first[step + 1] - steps.best.first[step];
       if (listed < steps.clusters[step]) missing.push(`The ${listed} best of ${steps.clusters[step]} clusters.`);
+      const hidden = listed - this.clustersDrawn(steps, step).length;
+      if (hidden > 0) missing.push(`${hidden} more as you zoom in.`);
       if (!chosenPose(this.store)) {
         missing.push(
           hypothesis === "estimate"
@@ -491,7 +499,7 @@ export class MapView {
     const { first, x, y } = steps.best;
     let nearest: number | null = null;
     let least = reach;
-    for (let k = first[step]; k < first[step + 1]; ++k) {
+    for (const k of this.clustersDrawn(steps, step).reverse()) {
       const at = this.toScreen(x[k], y[k]);
       const distance = Math.hypot(at.x - px, at.y - py);
       if (distance < least - 0.5) {

@@ -1,5 +1,5 @@
 // What is shown at the moment. Whoever shows something of it listens for changes.
-import type { Report, Run, Steps, Trial } from "./data";
+import { firstLocalized, type Report, type Run, type Steps, type Trial } from "./data";
 
 /** Which pose the local map is laid under: a cluster by its rank, what the verdict rule believes, or the truth. */
 export type Hypothesis = number | "estimate" | "reference";
@@ -29,6 +29,7 @@ export class Store {
 
   constructor(private current: Report) {
     if (current.live) this.selection = { ...this.selection, ...this.newest() };
+    else this.selection.step = openingStep(this.steps);
   }
 
   get report(): Report {
@@ -61,8 +62,8 @@ export class Store {
   }
 
   chooseTrial(trial: number): void {
-    if (!this.run.trials[trial]) return;
-    this.select({ ...this.selection, trial, step: 0, hypothesis: "estimate" });
+    const chosen = this.run.trials[trial];
+    if (chosen) this.select({ ...this.selection, trial, step: openingStep(chosen.columns), hypothesis: "estimate" });
   }
 
   chooseStep(step: number): void {
@@ -116,6 +117,12 @@ export class Store {
   private tell(change: Change): void {
     for (const listener of this.listeners) listener(change);
   }
+}
+
+/** Where a trial opens: at its declaration, or else at its last step. */
+function openingStep(steps: Steps | undefined): number {
+  const declared = firstLocalized(steps);
+  return declared >= 0 ? declared : Math.max(0, (steps?.step.length ?? 0) - 1);
 }
 
 /** Index of the run's trial that starts where `trial` does; -1 if there is none. */
