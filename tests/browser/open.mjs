@@ -40,13 +40,14 @@ export async function open(address, options = {}) {
   await page.waitForSelector("body[data-step]");
   // Without steps and maps there is nothing to draw.
   if ((await page.locator("#view").count()) > 0) await page.waitForSelector("canvas[data-scale]");
-  return { page, noted, url: page.url() };
+  return { page, noted, url: page.url().replace(/#.*/, "") };
 }
 
 /** Nothing was fetched besides the page itself, no error was told, and nothing asked the reader. */
 export function assertQuiet({ noted, url }) {
-  // The empty icon is part of the page.
-  assert.deepEqual(noted.requests.filter((address) => !address.startsWith("data:")), [url]);
+  // The empty icon is part of the page, and so are the files that it saves.
+  const fetched = noted.requests.filter((address) => !/^(data|blob):/.test(address)).map((address) => address.replace(/#.*/, ""));
+  assert.deepEqual(fetched, [url]);
   assert.deepEqual(noted.errors, []);
   assert.equal(noted.dialogs, 0);
 }

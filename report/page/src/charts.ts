@@ -1,6 +1,8 @@
 // What all charts share: how uPlot is set up to fit the page.
 import uPlot from "uplot";
+import { chartSvg } from "./chart_svg";
 import { themeColour } from "./colours";
+import { saveMenu } from "./export";
 import { significant } from "./numbers";
 
 export interface Line {
@@ -36,7 +38,7 @@ export interface ChartOptions {
 /** From one tick to the next. */
 const wholeSteps = [1, 10, 100, 1000, 10000].flatMap((power) => [power, 2 * power, 5 * power]);
 
-const font = "11px system-ui, sans-serif";
+export const font = "11px system-ui, sans-serif";
 
 function axis(label: string, more: Partial<uPlot.Axis>): uPlot.Axis {
   const ink = themeColour("ink");
@@ -111,7 +113,11 @@ export function chart(target: HTMLElement, options: ChartOptions): { plot: uPlot
     if (width > 0 && width !== plot.width) plot.setSize({ width, height: options.height });
   });
   observer.observe(target);
+  const title = (): string => target.closest(".panel")?.querySelector("h3")?.firstChild?.textContent ?? "plot";
+  const menu = saveMenu(title, () => chartSvg(plot, options, title()));
+  target.append(menu);
   const destroy = (): void => {
+    menu.remove();
     observer.disconnect();
     plot.destroy();
   };

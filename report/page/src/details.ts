@@ -57,7 +57,7 @@ export class Details {
     }
     return el(
       "div",
-      { class: "hypotheses" },
+      { class: "hypotheses", "data-table": "clusters" },
       el("p", {}, "Local map under ", button("estimate", "estimate"), button("reference", "reference"), " or a cluster:"),
       table(["cluster", "r", "r̄", "hypotheses", "x, m", "y, m", "θ, °"], rows),
     );

@@ -1,4 +1,5 @@
 // Making parts of the page. Text of results only ever becomes text, never markup.
+import { csvButton } from "./export";
 
 type Child = Node | string | number | null | undefined | false;
 type Attributes = Record<string, string | number | boolean | EventListener | undefined>;
@@ -35,7 +36,7 @@ export function section(id: string, title: string, ...children: Child[]): HTMLEl
   return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
 }
 
-/** A table whose first column names the rows. Cells may be elements. */
+/** A table whose first column names the rows, and which can be saved. Cells may be elements. */
 export function table(head: Child[], rows: Child[][], className = ""): HTMLElement {
   const headRow = el("tr", {}, ...head.map((cell) => el("th", { scope: "col" }, cell)));
   const body = el(
@@ -46,5 +47,6 @@ export function table(head: Child[], rows: Child[][], className = ""): HTMLEleme
     ),
   );
   // Tab-able, so that wide tables scroll by keyboard, too.
-  return el("div", { class: "scroll", tabindex: 0 }, el("table", { class: className }, el("thead", {}, headRow), body));
+  const all = el("table", { class: className }, el("thead", {}, headRow), body);
+  return el("div", { class: "table" }, el("div", { class: "scroll", tabindex: 0 }, all), csvButton(all));
 }

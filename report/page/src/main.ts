@@ -6,6 +6,7 @@ import { Details } from "./details";
 import { append, el, replace } from "./elements";
 import { LiveNews } from "./live";
 import { MapView } from "./map_view";
+import { PageState } from "./page_state";
 import { listenToKeys, Player } from "./player";
 import { Store } from "./store";
 import { experimentsOf, summaryHeader } from "./summary_header";
@@ -155,6 +156,7 @@ function show(report: Report, page: HTMLElement): void {
   if (!sweep || report.runs.some(hasMoreThanTrials)) append(page, view, keysHelp());
   append(page, ...sections);
   listenToKeys(store, player, map);
+  new PageState(store, map);
   trials.fill();
   details.update();
   player.newTrial();
@@ -167,6 +169,8 @@ function show(report: Report, page: HTMLElement): void {
 /** For whoever looks at the page from outside, as tests do. */
 function noteStep(store: Store): void {
   const verdict = store.steps?.verdict[store.selected.step];
+  document.body.dataset.run = store.run.name;
+  document.body.dataset.trial = String(store.trial?.trial ?? "");
   document.body.dataset.step = String(store.selected.step);
   document.body.dataset.verdict = verdict ? verdictNames[verdict] : "";
 }

@@ -4,8 +4,10 @@ import { ratingColour, themeColour, verdictColours } from "./colours";
 import { poseAt, type GlobalMap, type PointLives, type Pose, type Scans, type Steps } from "./data";
 import { el, replace } from "./elements";
 import { boundingBox, compose, degrees, inverse, union, type Box } from "./geometry";
+import { saveMenu } from "./export";
 import { fixed, significant } from "./numbers";
-import { PointLayer } from "./point_layer";
+import { SvgPen, type Pen } from "./pen";
+import { PointLayer, SvgPoints, type Placement, type PointSink } from "./point_layer";
 import type { Store } from "./store";
 
 const metres = 1e-3; // of the whole mm in which points are given
@@ -29,6 +31,11 @@ interface View {
   y: number;
   /** px per m. */
   scale: number;
+}
+
+/** px per m. */
+function withinLimits(scale: number): number {
+  return Math.min(Math.max(scale, 0.5), 5000);
 }
 
 /** Robot pose in the map that the local map is laid under; null without any. */
@@ -65,6 +72,9 @@ export class MapView {
   private fittedMap: GlobalMap | undefined;
   private follows = false;
   private moved = 0;
+  /** By the reader: the view is no longer that which shows everything. */
+  private isMoved = false;
+  private readonly boxes = new Map<Layer, HTMLInputElement>();
   private frame = 0;
 
   constructor(private readonly store: Store) {
@@ -84,17 +94,51 @@ export class MapView {
 
   zoom(factor: number, at = { x: this.width / 2, y: this.height / 2 }): void {
     const fixedPoint = this.toMap(at.x, at.y);
-    this.view.scale = Math.min(Math.max(this.view.scale * factor, 0.5), 5000);
+    this.view.scale = withinLimits(this.view.scale * factor);
     this.view.x = fixedPoint.x - (at.x - this.width / 2) / this.view.scale;
     this.view.y = fixedPoint.y + (at.y - this.height / 2) / this.view.scale;
-    this.draw();
+    this.hasMoved();
   }
 
   /** By px to the right and down. */
   pan(right: number, down: number): void {
     this.view.x -= right / this.view.scale;
     this.view.y += down / this.view.scale;
+    this.hasMoved();
+  }
+
+  /** What a link to this view says of it. */
+  state(): Record<string, string> {
+    const { x, y, scale } = this.view;
+    const hidden = (Object.keys(layers) as Layer[]).filter((layer) => !this.shown[layer]);
+    return {
+      ...(this.isMoved ? { x: x.toFixed(3), y: y.toFixed(3), zoom: scale.toPrecision(4) } : {}),
+      ...(hidden.length > 0 ? { hide: hidden.join(",") } : {}),
+    };
+  }
+
+  setState(said: URLSearchParams): void {
+    const hidden = (said.get("hide") ?? "").split(",");
+    for (const [layer, box] of this.boxes) this.shown[layer] = box.checked = !hidden.includes(layer);
+    const [x, y, zoom] = ["x", "y", "zoom"].map((name) => Number.parseFloat(said.get(name) ?? ""));
+    if (Number.isFinite(x) && Number.isFinite(y) && zoom > 0) {
+      this.view = { x, y, scale: withinLimits(zoom) };
+      this.fittedMap = this.globalMap();
+      this.isFitted = this.isMoved = true;
+      this.draw();
+    } else {
+      this.fit();
+    }
+  }
+
+  private hasMoved(): void {
+    this.isMoved = true;
+    this.tellView();
     this.draw();
+  }
+
+  private tellView(): void {
+    this.element.dispatchEvent(new Event("viewchange"));
   }
 
   /** Shows the whole map, or the whole drive where there is no map. */
@@ -104,12 +148,15 @@ export class MapView {
     const width = Math.max(box.high.x - box.low.x, 1);
     const height = Math.max(box.high.y - box.low.y, 1);
     this.isFitted = this.width > 0;
+    const wasMoved = this.isMoved;
+    this.isMoved = false;
     this.fittedMap = this.globalMap();
     this.view = {
       x: (box.low.x + box.high.x) / 2,
       y: (box.low.y + box.high.y) / 2,
       scale: Math.max(Math.min((this.width - 2 * margin) / width, (this.height - 2 * margin) / height), 0.5),
     };
+    if (wasMoved) this.tellView();
     this.draw();
   }
 
@@ -121,16 +168,38 @@ export class MapView {
   drawNow(): void {
     this.frame = 0;
     const context = this.canvas.getContext("2d");
-    if (!context || !this.isFitted) return;
+    if (!context || !this.isFitted || this.width === 0) return;
     const { x, y, scale } = this.view;
     Object.assign(this.canvas.dataset, { x, y, scale });
     const ratio = this.canvas.width / this.width;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    this.drawPoints(context, ratio);
-    const steps = this.store.steps;
-    if (steps && steps.step.length > 0) this.drawStep(context, steps);
-    this.drawScale(context);
+    const points = new PointLayer(this.canvas.width, this.canvas.height, this.placement(ratio));
+    this.drawPoints(points, ratio);
+    points.show(context);
+    this.drawLines(context);
     this.tellState();
+  }
+
+  /** The map as it is shown. */
+  svg(): string {
+    const pen = new SvgPen(this.width, this.height);
+    pen.within({ left: 0, top: 0, width: this.width, height: this.height }, 1, () => {
+      this.drawPoints(new SvgPoints(pen, this.width, this.height, this.placement(1)), 1);
+      this.drawLines(pen);
+    });
+    return pen.file(this.description(), themeColour("paper"));
+  }
+
+  private drawLines(pen: Pen): void {
+    const steps = this.store.steps;
+    if (steps && steps.step.length > 0) this.drawStep(pen, steps);
+    this.drawScale(pen);
+  }
+
+  /** Where the map lies on a drawing with so many pixels for one of the page. */
+  private placement(ratio: number): Placement {
+    const origin = this.toScreen(0, 0);
+    return { u0: origin.x * ratio, v0: origin.y * ratio, scale: this.view.scale * ratio };
   }
 
   private globalMap(): GlobalMap | undefined {
@@ -164,10 +233,7 @@ export class MapView {
   }
 
   /** Everything that is points: below all lines. */
-  private drawPoints(context: CanvasRenderingContext2D, ratio: number): void {
-    const origin = this.toScreen(0, 0);
-    const placement = { u0: origin.x * ratio, v0: origin.y * ratio, scale: this.view.scale * ratio };
-    const layer = new PointLayer(this.canvas.width, this.canvas.height, placement);
+  private drawPoints(layer: PointSink, ratio: number): void {
     const map = this.globalMap();
     if (map && this.shown.map) {
       const all = { x: map.x, y: map.y, begin: 0, end: map.x.length };
@@ -175,11 +241,10 @@ export class MapView {
     }
     const robot = chosenPose(this.store);
     if (robot) this.drawObserved(layer, robot, 2 * ratio);
-    layer.show(context);
   }
 
   /** The local map and the scan, laid on the map under a robot pose. */
-  private drawObserved(layer: PointLayer, robot: Pose, least: number): void {
+  private drawObserved(layer: PointSink, robot: Pose, least: number): void {
     const { step } = this.store.selected;
     const { local_map: lives, scans, columns } = this.store.trial ?? {};
     const size = this.globalMap()?.spacing_m ?? 0;
@@ -198,7 +263,7 @@ export class MapView {
     }
   }
 
-  private drawStep(context: CanvasRenderingContext2D, steps: Steps): void {
+  private drawStep(context: Pen, steps: Steps): void {
     const { step } = this.store.selected;
     if (this.shown.reference) this.drawReference(context, steps);
     if (this.shown.estimate) this.drawEstimates(context, steps, step);
@@ -210,7 +275,7 @@ export class MapView {
     if (estimate && this.shown.estimate) this.drawRobot(context, estimate, themeColour("estimate"), false);
   }
 
-  private drawReference(context: CanvasRenderingContext2D, steps: Steps): void {
+  private drawReference(context: Pen, steps: Steps): void {
     context.strokeStyle = themeColour("reference");
     context.lineWidth = 1.5;
     context.setLineDash([6, 4]);
@@ -230,7 +295,7 @@ export class MapView {
   }
 
   /** Dots, joined between steps that both are localized: before that, estimates jump about. Later ones are faint. */
-  private drawEstimates(context: CanvasRenderingContext2D, steps: Steps, shown: number): void {
+  private drawEstimates(context: Pen, steps: Steps, shown: number): void {
     context.strokeStyle = context.fillStyle = themeColour("estimate");
     context.lineWidth = 2;
     let before: { x: number; y: number } | null = null;
@@ -253,7 +318,7 @@ export class MapView {
   }
 
   /** Crosses where the robot was, as far as that is known. */
-  private drawUnknownPlaces(context: CanvasRenderingContext2D, steps: Steps, shown: number): void {
+  private drawUnknownPlaces(context: Pen, steps: Steps, shown: number): void {
     context.strokeStyle = verdictColours.unknown_place;
     context.lineWidth = 2;
     for (let i = 0; i < steps.step.length; ++i) {
@@ -280,7 +345,7 @@ export class MapView {
     return chosen < end && !drawn.includes(chosen) ? [...drawn, chosen] : drawn;
   }
 
-  private drawClusters(context: CanvasRenderingContext2D, steps: Steps, step: number): void {
+  private drawClusters(context: Pen, steps: Steps, step: number): void {
     const { best } = steps;
     const chosen = this.store.selected.hypothesis;
     const begin = best.first[step];
@@ -306,7 +371,7 @@ export class MapView {
     }
   }
 
-  private drawRobot(context: CanvasRenderingContext2D, pose: Pose, colour: string, dashed: boolean): void {
+  private drawRobot(context: Pen, pose: Pose, colour: string, dashed: boolean): void {
     context.strokeStyle = colour;
     context.lineWidth = 2.5;
     context.setLineDash(dashed ? [4, 3] : []);
@@ -316,7 +381,7 @@ export class MapView {
   }
 
   /** Points where the robot looks. */
-  private traceTriangle(context: CanvasRenderingContext2D, x: number, y: number, theta: number, size: number): void {
+  private traceTriangle(context: Pen, x: number, y: number, theta: number, size: number): void {
     const at = this.toScreen(x, y);
     const c = Math.cos(theta) * size;
     const s = Math.sin(theta) * size;
@@ -332,7 +397,7 @@ export class MapView {
     context.closePath();
   }
 
-  private drawScale(context: CanvasRenderingContext2D): void {
+  private drawScale(context: Pen): void {
     const longest = 120 / this.view.scale;
     const power = 10 ** Math.floor(Math.log10(longest));
     const length = [5, 2, 1].map((n) => n * power).find((l) => l <= longest) ?? power;
@@ -377,10 +442,14 @@ export class MapView {
       else if (frame >= 0 && lives.steps[frame] !== step) missing.push(`The local map is that of step ${lives.steps[frame]}.`);
     }
     replace(this.note, missing.join(" "));
-    const label = steps
-      ? `Map at step ${step} of trial ${trial?.trial}: ${steps.verdict[step] ?? "no step"}, ${steps.clusters[step] ?? 0} clusters`
-      : "Map";
-    this.canvas.setAttribute("aria-label", label);
+    this.canvas.setAttribute("aria-label", this.description());
+  }
+
+  private description(): string {
+    const { steps, trial, selected } = this.store;
+    const { step } = selected;
+    if (!steps) return "Map";
+    return `Map at step ${step} of trial ${trial?.trial}: ${steps.verdict[step] ?? "no step"}, ${steps.clusters[step] ?? 0} clusters`;
   }
 
   private legend(): HTMLElement {
@@ -391,9 +460,11 @@ export class MapView {
         "data-layer": layer,
         change: () => {
           this.shown[layer] = box.checked;
+          this.tellView();
           this.draw();
         },
       });
+      this.boxes.set(layer, box);
       return el("label", {}, box, el("span", { class: `symbol ${layer}`, "aria-hidden": "true" }), layers[layer]);
     };
     const stops = [0, 0.25, 0.5, 0.75, 1].map(ratingColour).join(", ");
@@ -424,6 +495,10 @@ export class MapView {
       button("Zoom in (+)", "+", () => this.zoom(1.5)),
       button("Zoom out (-)", "−", () => this.zoom(1 / 1.5)),
       button("Show everything (0)", "⤢", () => this.fit()),
+      saveMenu(
+        () => "map",
+        () => this.svg(),
+      ),
     );
   }
 
@@ -438,7 +513,7 @@ export class MapView {
     if (this.width === 0) return;
     this.canvas.width = Math.round(this.width * window.devicePixelRatio);
     this.canvas.height = Math.round(this.height * window.devicePixelRatio);
-    if (!this.isFitted) this.fit();
+    if (!this.isMoved) this.fit();
     this.drawNow();
   }
 

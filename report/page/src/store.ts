@@ -55,6 +55,13 @@ export class Store {
     this.listeners.push(listener);
   }
 
+  /** Shows all of this; without a step that which the trial opens at. */
+  show({ step, ...rest }: Omit<Selection, "step"> & { step: number | undefined }): void {
+    const steps = this.current.runs[rest.run].trials[rest.trial]?.columns;
+    const isStep = step !== undefined && Number.isInteger(step);
+    this.select({ ...rest, step: isStep ? step : openingStep(steps) });
+  }
+
   /** Shows another run: the trial with the same start, and the same step, where it has them. */
   chooseRun(run: number): void {
     const trial = matchingTrial(this.trial, this.current.runs[run]);

@@ -1,0 +1,60 @@
+// The page's address tells what is shown, so that a link leads others there.
+import type { MapView } from "./map_view";
+import type { Hypothesis, Store } from "./store";
+
+const pause = 250; // ms; browsers allow few changes of the address in a second
+
+export class PageState {
+  private timer = 0;
+
+  constructor(
+    private readonly store: Store,
+    private readonly map: MapView,
+  ) {
+    // Of a run that goes on, the page shows the newest step.
+    if (store.report.live) return;
+    this.read();
+    window.addEventListener("hashchange", () => this.read());
+    store.subscribe(() => this.writeSoon());
+    map.element.addEventListener("viewchange", () => this.writeSoon());
+  }
+
+  /** What is not said is as on a page that was just opened. An address of a part of the page says nothing. */
+  private read(): void {
+    const hash = location.hash.slice(1);
+    if (!hash.includes("=")) return;
+    const said = new URLSearchParams(hash);
+    const { runs } = this.store.report;
+    const run = Math.max(0, runs.findIndex(({ name }) => name === said.get("run")));
+    const number = said.get("trial");
+    const trial = Math.max(0, runs[run].trials.findIndex(({ trial: its }) => String(its) === number));
+    const step = said.get("step");
+    this.store.show({ run, trial, step: step === null ? undefined : Number(step), hypothesis: hypothesisOf(said.get("pose")) });
+    this.map.setState(said);
+  }
+
+  private writeSoon(): void {
+    window.clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => this.write(), pause);
+  }
+
+  private write(): void {
+    const { run, trial, selected } = this.store;
+    const said = new URLSearchParams({ run: run.name });
+    if (trial) said.set("trial", String(trial.trial));
+    said.set("step", String(selected.step));
+    if (selected.hypothesis !== "estimate") said.set("pose", String(selected.hypothesis));
+    for (const [name, value] of Object.entries(this.map.state())) said.set(name, value);
+    try {
+      history.replaceState(null, "", `#${said}`);
+    } catch {
+      // Pages within other pages may have no address of their own.
+    }
+  }
+}
+
+/** Clusters count from 0. */
+function hypothesisOf(text: string | null): Hypothesis {
+  if (text === "reference") return text;
+  return text !== null && /^\d+$/.test(text) ? Number(text) : "estimate";
+}

@@ -1,0 +1,202 @@
+// Links to what is shown, and pictures and tables as files.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { assertQuiet, closeBrowser, drawn, mapView, moveSlider, open, skip } from "./open.mjs";
+import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
+import { checkNumbers } from "./steps_check.mjs";
+
+const variants = ["fewer_draws", "paper"];
+let folder, file, opened, page;
+
+before(async () => {
+  if (skip) return;
+  const work = workFolder();
+  folder = runExperiment("paper_variants", join(work, "variants"), "--set", "output.maps=first_trial", ...variants.flatMap((name) => ["--only", name]));
+  file = report(join(work, "report.html"), folder);
+  opened = await open(file);
+  page = opened.page;
+});
+after(async () => {
+  if (!skip) assertQuiet(opened);
+  await closeBrowser();
+});
+
+const said = async (name) => new URLSearchParams(new URL(page.url()).hash.slice(1)).get(name);
+const shown = (page) => page.evaluate(() => ({ ...document.body.dataset }));
+
+test("a page that was just opened has a plain address", { skip }, async () => {
+  await page.waitForTimeout(400);
+  assert.equal(new URL(page.url()).hash, "");
+});
+
+test("the address follows what is shown, and leads there again", { skip }, async () => {
+  await page.locator("#run").selectOption("1");
+  await page.locator("#trial").selectOption("4");
+  await moveSlider(page, 1);
+  await page.locator("[data-hypothesis=reference]").click();
+  await page.locator("[data-layer=scan]").uncheck();
+  await page.keyboard.press("+");
+  await drawn(page);
+  await page.waitForFunction(() => location.hash.includes("zoom="));
+  const expected = { run: "paper", trial: "4", step: "1", pose: "reference", hide: "scan" };
+  for (const [name, value] of Object.entries(expected)) assert.equal(await said(name), value, name);
+  const view = await mapView(page);
+  const other = await open(`${file}${new URL(page.url()).hash}`);
+  const { run, trial, step } = await shown(other.page);
+  assert.deepEqual([run, trial, step], ["paper", "4", "1"]);
+  await checkNumbers(other.page, stepsOf(join(folder, "paper"), 4)[1]);
+  assert.equal(await other.page.locator("[data-hypothesis=reference]").getAttribute("aria-pressed"), "true");
+  assert.equal(await other.page.locator("[data-layer=scan]").isChecked(), false);
+  const again = await mapView(other.page);
+  assert.ok(Math.abs(again.scale / view.scale - 1) < 1e-3 && Math.hypot(again.x - view.x, again.y - view.y) < 2e-3);
+  assertQuiet(other);
+  await other.page.close();
+});
+
+test("a changed address changes what is shown; what it leaves out is as at the start", { skip }, async () => {
+  await page.evaluate(() => (location.hash = "run=fewer_draws&trial=2"));
+  await page.waitForFunction(() => document.body.dataset.trial === "2");
+  const { run, step } = await shown(page);
+  const steps = stepsOf(join(folder, "fewer_draws"), 2);
+  const declared = steps.findIndex(({ verdict }) => verdict === "localized");
+  assert.deepEqual([run, step], ["fewer_draws", String(declared < 0 ? steps.length - 1 : declared)]);
+  assert.equal(await page.locator("[data-layer=scan]").isChecked(), true);
+});
+
+test("addresses of nothing, and of parts of the page, do no harm", { skip }, async () => {
+  await page.evaluate(() => (location.hash = "run=no_such&trial=999&step=-7&pose=77777&zoom=nothing&x=1"));
+  await page.waitForFunction(() => document.body.dataset.step === "0");
+  assert.deepEqual((await shown(page)).run, variants[0]);
+  await page.evaluate(() => (location.hash = "summary"));
+  await page.waitForTimeout(400);
+  assert.equal((await shown(page)).run, variants[0]);
+});
+
+async function saved(button) {
+  const [download] = await Promise.all([page.waitForEvent("download"), button.evaluate((element) => element.click())]);
+  return { name: download.suggestedFilename(), content: readFileSync(await download.path()) };
+}
+
+/** Cells of a CSV file as RFC 4180 has it. */
+function cellsOf(text) {
+  const rows = [[]];
+  for (const [, quoted, plain, end] of text.matchAll(/(?:"((?:[^"]|"")*)"|([^",\r\n]*))(,|\r\n)/g)) {
+    rows.at(-1).push(quoted === undefined ? plain : quoted.replaceAll('""', '"'));
+    if (end !== ",") rows.push([]);
+  }
+  return rows.slice(0, -1);
+}
+
+test("tables are saved as CSV", { skip }, async () => {
+  await page.evaluate(() => (location.hash = "run=paper&trial=0&step=0"));
+  await page.waitForFunction(() => document.body.dataset.run === "paper" && document.body.dataset.step === "0");
+  const trials = await saved(page.locator("#trials .csv"));
+  assert.equal(trials.name, "paper_trials.csv");
+  const expected = trialsOf(join(folder, "paper"));
+  const rows = cellsOf(trials.content.toString());
+  assert.equal(rows.length, expected.length + 1);
+  assert.deepEqual(rows[0].slice(0, 4), ["trial", "start", "outcome", "steps"]);
+  expected.forEach((trial, i) => {
+    assert.deepEqual([rows[i + 1][0], rows[i + 1][2], rows[i + 1][3]], [trial.trial, trial.outcome, trial.steps].map(String));
+    assert.equal(rows[i + 1].at(-1), trial.why);
+  });
+  const clusters = await saved(page.locator(".hypotheses .csv"));
+  assert.equal(clusters.name, "paper_trial-0_step-0_clusters.csv");
+  const { best } = stepsOf(join(folder, "paper"), 0)[0];
+  const sizes = cellsOf(clusters.content.toString()).slice(1).map((row) => Number(row[3]));
+  assert.deepEqual(sizes, best.map(({ size }) => size));
+  // Each table has its button.
+  assert.equal(await page.locator(".csv").count(), await page.locator(".table table").count());
+});
+
+/** Pixels of an SVG or PNG file, in a page of their own. */
+async function pixelsOf(content, kind) {
+  const picture = await page.context().newPage();
+  const read = await picture.evaluate(async (url) => {
+    const image = new Image();
+    image.src = url;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    Object.assign(canvas, { width: image.width, height: image.height });
+    const context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+    const colours = {};
+    for (let i = 0; i < data.length; i += 4) {
+      const colour = `${data[i]},${data[i + 1]},${data[i + 2]}`;
+      colours[colour] = (colours[colour] ?? 0) + 1;
+    }
+    return { width: image.width, height: image.height, colours };
+  }, `data:${kind};base64,${content.toString("base64")}`);
+  await picture.close();
+  return read;
+}
+
+test("the map is saved as SVG and PNG, as it is shown", { skip }, async () => {
+  // The scan would cover the local map.
+  await page.locator("[data-layer=scan]").uncheck();
+  await drawn(page);
+  const svg = await saved(page.locator(".map [data-save=svg]"));
+  assert.equal(svg.name, "paper_trial-0_step-0_map.svg");
+  const png = await saved(page.locator(".map [data-save=png]"));
+  assert.equal(png.name, "paper_trial-0_step-0_map.png");
+  const { box } = await mapView(page);
+  const drawing = await pixelsOf(svg.content, "image/svg+xml");
+  assert.deepEqual([drawing.width, drawing.height], [Math.round(box.width), Math.round(box.height)]);
+  const picture = await pixelsOf(png.content, "image/png");
+  assert.deepEqual([picture.width, picture.height], [2 * drawing.width, 2 * drawing.height]);
+  const colour = (name) =>
+    page.evaluate((name) => {
+      const hex = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+      return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)).join(",");
+    }, name);
+  // Walls and the local map cover as much as on the page, twice as long and wide.
+  const onPage = await page.locator(".stage canvas").evaluate((canvas) => {
+    const copy = document.createElement("canvas");
+    Object.assign(copy, { width: canvas.width, height: canvas.height });
+    const context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    const colours = {};
+    for (let i = 0; i < data.length; i += 4) {
+      const colour = `${data[i]},${data[i + 1]},${data[i + 2]}`;
+      colours[colour] = (colours[colour] ?? 0) + 1;
+    }
+    return colours;
+  });
+  for (const name of ["wall", "local-map"]) {
+    const key = await colour(name);
+    assert.ok(onPage[key] > 50, `${name}: ${onPage[key]}`);
+    assert.ok(picture.colours[key] > 2 * onPage[key], `${name}: ${picture.colours[key]} for ${onPage[key]}`);
+  }
+});
+
+test("curves are saved with their lines and the names of the runs", { skip }, async () => {
+  const svg = await saved(page.locator("[data-curve=omega_best] [data-save=svg]"));
+  assert.equal(svg.name, "paper_trial-0_step-0_best-quality-ω.svg");
+  const text = svg.content.toString();
+  for (const name of ["Best quality Ω", ...variants]) assert.ok(text.includes(`>${name}</text>`) || text.includes(`>${name}</title>`), name);
+  // The line of the chosen run has a point for each step, at the height of its Ω.
+  const steps = stepsOf(join(folder, "paper"), 0);
+  const lines = [...text.matchAll(/<path d="([^"]+)" fill="none" stroke="[^"]+" stroke-width="2"\/>/g)].map(([, d]) =>
+    d.match(/[ML][\d.-]+ [\d.-]+/g).map((part) => part.slice(1).split(" ").map(Number)),
+  );
+  const line = lines.find((points) => points.length === steps.length);
+  assert.ok(line, "the line of the chosen run");
+  const [a, b] = [0, steps.length - 1];
+  for (let i = 1; i < steps.length - 1; ++i) {
+    // Heights are linear in Ω, places in the step.
+    assert.ok(Math.abs((line[i][0] - line[a][0]) / (line[b][0] - line[a][0]) - i / b) < 0.01);
+  }
+  const heights = steps.map(({ omega_best: omega }, i) => [omega, line[i][1]]);
+  const [low, high] = [heights.reduce((x, y) => (x[0] < y[0] ? x : y)), heights.reduce((x, y) => (x[0] > y[0] ? x : y))];
+  for (const [omega, v] of heights) {
+    const expected = low[1] + ((omega - low[0]) / Math.max(high[0] - low[0], 1e-9)) * (high[1] - low[1]);
+    assert.ok(Math.abs(v - expected) < 0.3, `${v} for ${expected}`);
+  }
+  const png = await saved(page.locator("[data-curve=omega_best] [data-save=png]"));
+  const picture = await pixelsOf(png.content, "image/png");
+  assert.ok(Object.keys(picture.colours).length > 10);
+});
