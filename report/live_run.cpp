@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "evaluation/results/map_files.hpp"
 #include "evaluation/results/writers.hpp"
 #include "report/map_points.hpp"
 #include "report/point_lives.hpp"
@@ -53,7 +54,9 @@ TrialRecord started(std::size_t trial, const LoadedExperiment& loaded) {
 
 void LiveRun::begin(const std::string& variant, const std::filesystem::path& folder,
                     const std::map<std::string, Setting>& settings, const LoadedExperiment& loaded) {
-  auto map = std::make_shared<const Json>(map_points(loaded.map->points()));
+  Json shown = map_points(loaded.map->points());
+  if (const OccupancyGrid& grid = loaded.map->grid(); !grid.cells.empty()) shown["grid"] = grid_json(grid);
+  auto map = std::make_shared<const Json>(std::move(shown));
   Json values = to_json(settings);
   const std::lock_guard lock(mutex_);
   variant_ = variant;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "evaluation/comparison/comparison_writers.hpp"
+#include "evaluation/results/map_files.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/sweeps/analysis.hpp"
 #include "evaluation/sweeps/sweep_report.hpp"
@@ -88,11 +89,13 @@ StoredRun ReportData::read_files(Run& run, FaultCollector& faults) const {
 }
 
 void ReportData::read_map(Run& run, FaultCollector& faults) {
-  const fs::path file = run.folder / "maps" / "global.pcd";
+  const fs::path points = run.folder / map_points_file();
+  const fs::path grid = run.folder / map_grid_file();
   std::error_code unreachable;
-  if (!fs::exists(file, unreachable)) return;
+  if (!fs::exists(points, unreachable)) return;
   faults.collect([&] {
-    Json map = map_points(read_pcd(file));
+    Json map = map_points(read_pcd(points));
+    if (fs::exists(grid, unreachable)) map["grid"] = read_grid(grid);
     const auto same = std::find(maps_.begin(), maps_.end(), map);
     run.map = static_cast<std::size_t>(same - maps_.begin());
     if (same == maps_.end()) maps_.push_back(std::move(map));

@@ -9,8 +9,8 @@
 #include "config/nearest.hpp"
 #include "evaluation/results/fault_collector.hpp"
 #include "evaluation/results/file_io.hpp"
+#include "evaluation/results/map_files.hpp"
 #include "evaluation/results/output_folder.hpp"
-#include "evaluation/results/pcd.hpp"
 #include "evaluation/results/run_results.hpp"
 #include "evaluation/results/variant_order.hpp"
 #include "evaluation/running/elapsed.hpp"
@@ -236,7 +236,8 @@ void ExperimentRunner::write_origin(OutputFolder& folder, Variant& variant, cons
   const Json origin = provenance_of_run(catalog_, variant, options_, loaded.inputs, hashes_);
   // Names of files need not be UTF-8.
   folder.write("provenance.json", origin.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (experiment.output.maps != "none") folder.write("maps/global.pcd", pcd(loaded.map->points()));
+  if (experiment.output.maps == "none") return;
+  for (const auto& [name, content] : map_files(*loaded.map)) folder.write(name, content);
 }
 
 void ExperimentRunner::begin(const Variant& variant, const OutputFolder& folder,

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "evaluation/results/pcd.hpp"
+#include "evaluation/results/map_files.hpp"
 #include "evaluation/results/summary.hpp"
 #include "evaluation/results/trial_output.hpp"
 #include "evaluation/results/writers.hpp"
@@ -89,8 +89,9 @@ bool ShardWorker::run(Variant& variant, std::size_t place, const std::vector<std
   };
   run.done = [&](const TrialRecord& record) {
     TrialOutput output = collector.finish(record);
-    if (record.trial == 0 && experiment.output.maps != "none")
-      output.files.emplace_back("maps/global.pcd", pcd(loaded.map->points()));
+    if (record.trial == 0 && experiment.output.maps != "none") {
+      for (auto& file : map_files(*loaded.map)) output.files.push_back(std::move(file));
+    }
     const auto since = [&] {
       const std::lock_guard lock(mutex);
       return begun.at(record.trial);

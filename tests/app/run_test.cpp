@@ -26,7 +26,7 @@ TEST_F(RunCommand, LeavesTheFilesOfTheContract) {
   EXPECT_THAT(answer.out, HasSubstr(file("a")));
   for (const char* name :
        {"summary.json", "trials.jsonl", "steps.jsonl", "effective.yaml", "provenance.json", "maps/global.pcd",
-        "maps/trial_0000/step_0000.pcd", "maps/trial_0000/scan_0000.pcd",
+        "maps/global_grid.json", "maps/trial_0000/step_0000.pcd", "maps/trial_0000/scan_0000.pcd",
         "trajectories/trial_0000_estimate.tum", "trajectories/trial_0000_localized.tum",
         "trajectories/trial_0000_reference.tum"}) {
     EXPECT_TRUE(fs::exists(file("a") + "/" + name)) << name;

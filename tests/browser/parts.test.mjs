@@ -7,7 +7,7 @@ import { pathToFileURL } from "node:url";
 import { workFolder } from "./runs.mjs";
 
 const page = process.env.GLOCAL_PAGE_FOLDER; // as it was built
-let geometry, numbers, shares;
+let geometry, numbers, shares, shown, view, files, background;
 
 before(async () => {
   const { build } = createRequire(join(page, "package.json"))("esbuild");
@@ -17,7 +17,8 @@ before(async () => {
     await build({ entryPoints: [join(page, "src", `${name}.ts`)], bundle: true, format: "esm", outfile, logLevel: "error" });
     return import(pathToFileURL(outfile).href);
   };
-  [geometry, numbers, shares] = await Promise.all(["geometry", "numbers", "shares"].map(load));
+  const names = ["geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export", "map_background"];
+  [geometry, numbers, shares, shown, view, files, background] = await Promise.all(names.map(load));
 });
 
 const near = (a, b) => assert.ok(Math.hypot(a.x - b.x, a.y - b.y, a.theta - b.theta) < 1e-12, JSON.stringify([a, b]));
@@ -52,4 +53,44 @@ test("numbers have the digits that mean something", () => {
   assert.equal(numbers.significant(null), "–");
   assert.equal(numbers.proportion({ value: 1, low: 0.9162, high: 1 }), "100.0 % (91.6 to 100.0 %)");
   assert.deepEqual([3.2, 300, 9000].map(numbers.duration), ["4 s", "5 min", "2.5 h"]);
+});
+
+test("of what shares a cell the first is drawn, and more as the scale grows", () => {
+  const places = { x: [0.1, 0.9, 2.1, 0.2], y: [0.1, 0.9, 0.1, 0.2] };
+  // At 16 px per m cells are 1 m wide, at 128 an eighth.
+  assert.deepEqual(shown.thinnedOut(places, 0, 4, 16), [2, 0]);
+  assert.deepEqual(shown.thinnedOut(places, 1, 4, 16), [2, 1]);
+  assert.deepEqual(shown.thinnedOut(places, 0, 4, 128), [3, 2, 1, 0]);
+});
+
+test("clusters next to the best are opaque, weak ones faint", () => {
+  assert.equal(shown.opacityOf(0.8, 0.8), 1);
+  assert.equal(shown.opacityOf(0.77, 0.8), 1);
+  assert.ok(Math.abs(shown.opacityOf(0.68, 0.8) - 0.6) < 1e-12);
+  assert.equal(shown.opacityOf(0.1, 0.8), 0.2);
+  assert.equal(shown.opacityOf(0, 0), 1);
+});
+
+test("a fan begins and ends at the robot where the laser does not see", () => {
+  const at = (degrees, range) => ({ x: range * Math.cos((degrees * Math.PI) / 180), y: range * Math.sin((degrees * Math.PI) / 180) });
+  // Ahead from -45.25 to 45.25 degrees, at 2 m; one hit farther in the same direction as another is hidden.
+  const ahead = Array.from({ length: 182 }, (_, i) => at(i / 2 - 45.25, 2));
+  const [fan, ...none] = view.fansOf([...ahead, at(0.25, 5)]);
+  assert.deepEqual(none, []);
+  assert.equal(fan.length, 183);
+  assert.deepEqual(fan[0], { x: 0, y: 0 });
+  assert.ok(fan.slice(1).every(({ x, y }) => Math.abs(Math.hypot(x, y) - 2) < 1e-9));
+  // Behind the robot angles jump from -180 to 180 degrees, and the view does not end.
+  assert.equal(view.fansOf(Array.from({ length: 61 }, (_, i) => at(150.25 + i, 1))).length, 1);
+  // All around there is no corner at the robot.
+  assert.deepEqual(view.fansOf([0.2, 90.2, 180.2, 270.2].flatMap((a) => Array.from({ length: 90 }, (_, i) => at(a + i, 1))))[0].length, 360);
+  assert.deepEqual(view.fansOf([]), []);
+});
+
+test("lines of the map are 1, 2 or 5 of a power of ten apart", () => {
+  assert.deepEqual([0.03, 0.5, 1.01, 4, 7, 10, 11].map(background.roundStep), [0.05, 0.5, 2, 5, 10, 10, 20]);
+});
+
+test("cells of CSV files are quoted where they must be, and numbers are plain", () => {
+  assert.equal(files.csvOf([["a", "12,345", "–", 'say "so", twice'], ["1,2,3", "1,234.5", "", "x\ny"]]), 'a,12345,,"say ""so"", twice"\r\n"1,2,3",1234.5,,"x\ny"\r\n');
 });

@@ -166,6 +166,19 @@ TEST_F(ReportDataTest, HasEachMapOnce) {
   EXPECT_EQ(json["runs"][2]["map"], 1);
 }
 
+TEST_F(ReportDataTest, HasTheCellsOfAMapThatHasSome) {
+  const Json grid = Json::parse(R"({"resolution": 0.05, "origin": {"x": 0, "y": 0, "theta": 0},
+    "width": 2, "height": 1, "cells": "1f1o"})");
+  write_run("b");
+  write("b/maps/global_grid.json", grid.dump());
+  const Json json = data({"a", "b"});
+  ASSERT_EQ(json["maps"].size(), 2U);
+  EXPECT_FALSE(json["maps"][0].contains("grid"));
+  EXPECT_EQ(json["maps"][1]["grid"], grid);
+  write("a/maps/global_grid.json", "{}");
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("a/maps/global_grid.json: error: is no grid")));
+}
+
 TEST_F(ReportDataTest, ComparesRunsOrSaysWhyNot) {
   write_run("b");
   write_run("elsewhere", 2.5);

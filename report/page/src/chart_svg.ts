@@ -42,6 +42,7 @@ function drawName(pen: Pen, line: Line, y: number): void {
   pen.lineTo(38, y);
   pen.stroke();
   pen.setLineDash([]);
+  pen.fillStyle = themeColour("ink");
   pen.textAlign = "start";
   pen.textBaseline = "middle";
   pen.fillText(line.label, 46, y);

@@ -37,12 +37,29 @@ const viridis = [
   [34, 168, 132], [68, 191, 112], [122, 209, 81], [189, 223, 38], [253, 231, 37],
 ];
 
+// From the blue of what is localized to a red brown.
+const errors = [[0, 114, 178], [86, 180, 233], [240, 228, 66], [230, 159, 0], [213, 94, 0]];
+
+/** At `share` of the way from the first colour to the last. */
+function mixed(colours: number[][], share: number): string {
+  const at = Math.min(Math.max(share, 0), 1) * (colours.length - 1);
+  const i = Math.min(Math.floor(at), colours.length - 2);
+  const mix = colours[i].map((low, k) => Math.round(low + (at - i) * (colours[i + 1][k] - low)));
+  return `rgb(${mix.join(", ")})`;
+}
+
 /** Of a rating r in [0, 1]. */
 export function ratingColour(r: number): string {
-  const at = Math.min(Math.max(r, 0), 1) * (viridis.length - 1);
-  const i = Math.min(Math.floor(at), viridis.length - 2);
-  const mix = viridis[i].map((low, k) => Math.round(low + (at - i) * (viridis[i + 1][k] - low)));
-  return `rgb(${mix.join(", ")})`;
+  return mixed(viridis, r);
+}
+
+/** m; smaller and larger errors look the same as these. */
+export const errorRange = { least: 0.01, most: 10 };
+
+/** Of an error in m; equal ratios of errors are equally far apart. */
+export function errorColour(error: number): string {
+  const { least, most } = errorRange;
+  return mixed(errors, Math.log(Math.max(error, least) / least) / Math.log(most / least));
 }
 
 /** A colour of the style sheet, which depends on light and dark. */

@@ -148,10 +148,23 @@ export interface Run {
   trials: Trial[];
 }
 
+/** What is known of square cells: row 0 has the lowest y of the grid's frame. */
+export interface Grid {
+  resolution: number;
+  /** The outer corner of the first cell, and the direction of the rows. */
+  origin: Pose;
+  width: number;
+  height: number;
+  /** Run lengths, row by row: "12u3f1o" is 12 unknown, 3 free, 1 occupied. */
+  cells: string;
+}
+
 export interface GlobalMap {
   x: number[];
   y: number[];
   spacing_m: number;
+  /** Absent where a map has points only. */
+  grid?: Grid;
 }
 
 export interface Difference {

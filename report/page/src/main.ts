@@ -7,6 +7,7 @@ import { append, el, replace } from "./elements";
 import { LiveNews } from "./live";
 import { MapView } from "./map_view";
 import { PageState } from "./page_state";
+import { bordersOf, followLength, FullScreen } from "./panes";
 import { listenToKeys, Player } from "./player";
 import { Store } from "./store";
 import { experimentsOf, summaryHeader } from "./summary_header";
@@ -83,12 +84,13 @@ function keysHelp(): HTMLElement {
     ["[ ]", "trial"],
     ["+ − 0", "zoom, show all"],
     ["Shift + arrows", "move the map"],
+    ["f", "full screen"],
   ];
   return el(
     "p",
     { class: "keys" },
     ...keys.flatMap(([key, meaning]) => [el("kbd", {}, key), ` ${meaning}  `]),
-    `Drag in a curve to zoom it, double-click to zoom out.`,
+    "Drag in a curve to zoom it, double-click to zoom out.",
   );
 }
 
@@ -150,12 +152,17 @@ function show(report: Report, page: HTMLElement): void {
     themeButton(redraw),
     links([sweep, ...sections]),
   );
-  const view = el("main", { id: "view" }, map.element, curves.element, player.element, details.element);
+  const view: HTMLElement = el("main", { id: "view" });
+  const [right, below] = bordersOf(() => view);
+  append(view, map.element, right, curves.element, below, player.element, details.element);
+  followLength(view, store);
+  const fullScreen = new FullScreen(view);
+  map.addButton("Full screen (f)", "▢", () => fullScreen.toggle());
   replace(page, header, summaryHeader(store), news?.element, sweep);
   // Large sweeps keep neither steps nor maps: there is nothing to step through.
   if (!sweep || report.runs.some(hasMoreThanTrials)) append(page, view, keysHelp());
   append(page, ...sections);
-  listenToKeys(store, player, map);
+  listenToKeys(store, player, map, fullScreen);
   new PageState(store, map);
   trials.fill();
   details.update();

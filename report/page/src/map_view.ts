@@ -1,10 +1,13 @@
 // The map with everything that happened on it: the only drawing that is our own.
 import { opacityOf, thinnedOut } from "./candidates_shown";
-import { ratingColour, themeColour, verdictColours } from "./colours";
-import { poseAt, type GlobalMap, type PointLives, type Pose, type Scans, type Steps } from "./data";
+import { errorColour, errorRange, ratingColour, themeColour, verdictColours } from "./colours";
+import { poseAt, type GlobalMap, type Grid, type PointLives, type Pose, type Scans, type Steps } from "./data";
 import { el, replace } from "./elements";
+import { fansOf } from "./field_of_view";
 import { boundingBox, compose, degrees, inverse, union, type Box } from "./geometry";
 import { saveMenu } from "./export";
+import { drawGridLines, drawGridNumbers, SpacePicture, type Screen } from "./map_background";
+import { NearPlaces } from "./near_places";
 import { fixed, significant } from "./numbers";
 import { SvgPen, type Pen } from "./pen";
 import { PointLayer, SvgPoints, type Placement, type PointSink } from "./point_layer";
@@ -15,15 +18,25 @@ const triangle = { length: 15, width: 10 }; // px
 const reach = 14; // px, of the pointer
 
 const layers = {
+  space: "free, unknown",
+  grid: "grid",
   map: "global map",
   local_map: "local map",
   scan: "scan",
+  view: "field of view",
   clusters: "clusters",
   estimate: "estimate",
   reference: "reference",
+  ends: "start, end",
   unknown_place: "unknown place",
 } as const;
 type Layer = keyof typeof layers;
+
+/** What the dots of the estimate tell by their colour. */
+const trajectoryColours = { plain: "one colour", verdict: "verdict", error: "error" } as const;
+type TrajectoryColour = keyof typeof trajectoryColours;
+
+const nearby = 1.0; // m, of a place that was clicked
 
 interface View {
   /** What is in the middle, m. */
@@ -50,6 +63,13 @@ function chosenPose(store: Store): Pose | null {
   return k < best.first[step + 1] ? { x: best.x[k], y: best.y[k], theta: best.theta[k] } : null;
 }
 
+/** Null where a step has no colour of its own. */
+function estimateColour(by: TrajectoryColour, steps: Steps, i: number): string | null {
+  if (by === "verdict") return verdictColours[steps.verdict[i]];
+  const error = steps.translation_error_m[i];
+  return by === "error" && error != null ? errorColour(error) : null;
+}
+
 /** The newest frame recorded up to this step; -1 if there is none. */
 function frameAt(lives: PointLives | Scans, step: number): number {
   let frame = -1;
@@ -62,6 +82,11 @@ export class MapView {
   private readonly canvas = el("canvas", { tabindex: 0, role: "img" });
   private readonly tip = el("div", { class: "tip", hidden: true });
   private readonly note = el("p", { class: "note" });
+  private readonly cursor = el("output", { class: "cursor", "aria-hidden": "true" });
+  private readonly near: NearPlaces;
+  private readonly colourBy = el("select", { "aria-label": "Colour of the estimate" });
+  private readonly errorScale = el("span", { class: "scale" });
+  private space: { grid: Grid; theme: string; picture: SpacePicture } | null = null;
   private readonly shown: Record<Layer, boolean>;
   private readonly pointers = new Map<number, PointerEvent>();
   private view: View = { x: 0, y: 0, scale: 20 };
@@ -79,7 +104,17 @@ export class MapView {
 
   constructor(private readonly store: Store) {
     this.shown = Object.fromEntries(Object.keys(layers).map((layer) => [layer, true])) as Record<Layer, boolean>;
-    const stage = el("div", { class: "stage" }, this.canvas, this.note, this.tip, this.zoomButtons());
+    this.near = new NearPlaces(store);
+    const stage = el(
+      "div",
+      { class: "stage" },
+      this.canvas,
+      this.note,
+      this.near.element,
+      this.tip,
+      this.cursor,
+      this.zoomButtons(),
+    );
     this.element = el("figure", { class: "map" }, stage, this.legend());
     this.listen();
     store.subscribe((change) => {
@@ -114,12 +149,16 @@ export class MapView {
     return {
       ...(this.isMoved ? { x: x.toFixed(3), y: y.toFixed(3), zoom: scale.toPrecision(4) } : {}),
       ...(hidden.length > 0 ? { hide: hidden.join(",") } : {}),
+      ...(this.colourBy.value === "plain" ? {} : { colour: this.colourBy.value }),
     };
   }
 
   setState(said: URLSearchParams): void {
     const hidden = (said.get("hide") ?? "").split(",");
     for (const [layer, box] of this.boxes) this.shown[layer] = box.checked = !hidden.includes(layer);
+    const colour = said.get("colour") ?? "";
+    this.colourBy.value = colour in trajectoryColours ? colour : "plain";
+    this.showErrorScale();
     const [x, y, zoom] = ["x", "y", "zoom"].map((name) => Number.parseFloat(said.get(name) ?? ""));
     if (Number.isFinite(x) && Number.isFinite(y) && zoom > 0) {
       this.view = { x, y, scale: withinLimits(zoom) };
@@ -176,6 +215,7 @@ export class MapView {
     const points = new PointLayer(this.canvas.width, this.canvas.height, this.placement(ratio));
     this.drawPoints(points, ratio);
     points.show(context);
+    this.drawBelow(context);
     this.drawLines(context);
     this.tellState();
   }
@@ -184,13 +224,61 @@ export class MapView {
   svg(): string {
     const pen = new SvgPen(this.width, this.height);
     pen.within({ left: 0, top: 0, width: this.width, height: this.height }, 1, () => {
+      if (this.shown.space) this.drawSpace(pen);
+      if (this.shown.grid) drawGridLines(pen, this.screen());
       this.drawPoints(new SvgPoints(pen, this.width, this.height, this.placement(1)), 1);
       this.drawLines(pen);
     });
     return pen.file(this.description(), themeColour("paper"));
   }
 
+  /** Points replace what is drawn: what lies below them is drawn later, the uppermost first. */
+  private drawBelow(context: CanvasRenderingContext2D): void {
+    context.save();
+    context.globalCompositeOperation = "destination-over";
+    if (this.shown.grid) drawGridLines(context, this.screen());
+    if (this.shown.space) this.drawSpace(context);
+    context.restore();
+  }
+
+  private drawSpace(pen: CanvasRenderingContext2D | SvgPen): void {
+    const picture = this.spacePicture();
+    if (!picture) return;
+    const unknown = (): void => {
+      pen.fillStyle = themeColour("unknown");
+      pen.fillRect(0, 0, this.width, this.height);
+    };
+    const matrix = picture.matrix(this.screen());
+    if (pen instanceof SvgPen) {
+      unknown();
+      pen.picture(picture.canvas, matrix);
+      return;
+    }
+    pen.save();
+    pen.transform(...matrix);
+    pen.imageSmoothingEnabled = matrix[3] < 1 && matrix[0] < 1;
+    pen.drawImage(picture.canvas, 0, 0);
+    pen.restore();
+    unknown();
+  }
+
+  /** Null for a map of points only. */
+  private spacePicture(): SpacePicture | null {
+    const grid = this.globalMap()?.grid;
+    const theme = document.documentElement.dataset.theme ?? "";
+    if (!grid || grid.width * grid.height === 0) return null;
+    if (this.space?.grid !== grid || this.space.theme !== theme) this.space = { grid, theme, picture: new SpacePicture(grid) };
+    return this.space.picture;
+  }
+
+  private screen(): Screen {
+    const { x, y, scale } = this.view;
+    const { width, height } = this;
+    return { x: (mx) => width / 2 + (mx - x) * scale, y: (my) => height / 2 - (my - y) * scale, scale, width, height };
+  }
+
   private drawLines(pen: Pen): void {
+    if (this.shown.grid) drawGridNumbers(pen, this.screen());
     const steps = this.store.steps;
     if (steps && steps.step.length > 0) this.drawStep(pen, steps);
     this.drawScale(pen);
@@ -265,9 +353,11 @@ export class MapView {
 
   private drawStep(context: Pen, steps: Steps): void {
     const { step } = this.store.selected;
+    if (this.shown.view) this.drawFieldOfView(context);
     if (this.shown.reference) this.drawReference(context, steps);
     if (this.shown.estimate) this.drawEstimates(context, steps, step);
     if (this.shown.unknown_place) this.drawUnknownPlaces(context, steps, step);
+    if (this.shown.ends) this.drawEnds(context, steps);
     if (this.shown.clusters) this.drawClusters(context, steps, step);
     const reference = poseAt(steps.reference, step);
     if (reference && this.shown.reference) this.drawRobot(context, reference, themeColour("reference"), true);
@@ -296,15 +386,18 @@ export class MapView {
 
   /** Dots, joined between steps that both are localized: before that, estimates jump about. Later ones are faint. */
   private drawEstimates(context: Pen, steps: Steps, shown: number): void {
-    context.strokeStyle = context.fillStyle = themeColour("estimate");
-    context.lineWidth = 2;
+    const plain = themeColour("estimate");
+    const by = this.colourBy.value as TrajectoryColour;
+    const size = by === "plain" ? 3 : 5;
+    context.lineWidth = size - 1;
     let before: { x: number; y: number } | null = null;
     for (let i = 0; i < steps.step.length; ++i) {
       context.globalAlpha = i <= shown ? 1 : 0.25;
+      context.strokeStyle = context.fillStyle = estimateColour(by, steps, i) ?? plain;
       const pose = poseAt(steps.estimate, i);
       const at = pose && this.toScreen(pose.x, pose.y);
       if (at) {
-        context.fillRect(at.x - 1.5, at.y - 1.5, 3, 3);
+        context.fillRect(at.x - size / 2, at.y - size / 2, size, size);
         if (before && steps.verdict[i] === "localized") {
           context.beginPath();
           context.moveTo(before.x, before.y);
@@ -315,6 +408,51 @@ export class MapView {
       before = steps.verdict[i] === "localized" ? at : null;
     }
     context.globalAlpha = 1;
+  }
+
+  /** What the laser sees from the pose that the local map is laid under. */
+  private drawFieldOfView(context: Pen): void {
+    const robot = chosenPose(this.store);
+    const { scans } = this.store.trial ?? {};
+    const { step } = this.store.selected;
+    const frame = scans ? frameAt(scans, step) : -1;
+    if (!robot || !scans || frame < 0 || scans.steps[frame] !== step) return;
+    const hits = [];
+    for (let i = scans.first[frame]; i < scans.first[frame + 1]; ++i) hits.push({ x: scans.x[i] * metres, y: scans.y[i] * metres });
+    context.fillStyle = themeColour("scan");
+    context.globalAlpha = 0.12;
+    for (const fan of fansOf(hits)) {
+      context.beginPath();
+      for (const corner of fan) {
+        const place = compose(robot, { ...corner, theta: 0 });
+        const at = this.toScreen(place.x, place.y);
+        context.lineTo(at.x, at.y);
+      }
+      context.closePath();
+      context.fill();
+    }
+    context.globalAlpha = 1;
+  }
+
+  /** Boxes where the trial begins and ends: by the reference, or else by the estimates. */
+  private drawEnds(context: Pen, steps: Steps): void {
+    const of = steps.reference.x.some((x) => x != null) ? steps.reference : steps.estimate;
+    const known = of.x.map((x, i) => (x == null ? -1 : i)).filter((i) => i >= 0);
+    if (known.length === 0) return;
+    const box = (i: number, name: string, isBelow: boolean): void => {
+      const at = this.toScreen(of.x[i] as number, of.y[i] as number);
+      const side = 12;
+      context.strokeStyle = context.fillStyle = themeColour("ink");
+      context.lineWidth = 1.5;
+      context.beginPath();
+      context.rect(at.x - side / 2, at.y - side / 2, side, side);
+      context.stroke();
+      context.font = "bold 11px system-ui, sans-serif";
+      context.textAlign = "start";
+      context.fillText(name, at.x + side / 2 + 4, isBelow ? at.y + 14 : at.y - 6);
+    };
+    box(known[0], "start", false);
+    if (known.length > 1) box(known[known.length - 1], "end", true);
   }
 
   /** Crosses where the robot was, as far as that is known. */
@@ -412,6 +550,7 @@ export class MapView {
     context.lineTo(12 + width, y - 4);
     context.stroke();
     context.font = "12px system-ui, sans-serif";
+    context.textAlign = "start";
     context.fillText(`${significant(length, 1)} m`, 16, y - 6);
   }
 
@@ -477,12 +616,36 @@ export class MapView {
         this.draw();
       },
     });
+    for (const [value, text] of Object.entries(trajectoryColours)) this.colourBy.append(el("option", { value }, text));
+    this.colourBy.addEventListener("change", () => {
+      this.showErrorScale();
+      this.tellView();
+      this.draw();
+    });
+    const { least, most } = errorRange;
+    const errorStops = [0, 0.25, 0.5, 0.75, 1].map((share) => errorColour(least * (most / least) ** share)).join(", ");
+    const errorBar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${errorStops})` });
+    replace(this.errorScale, `error  ${least} m `, errorBar, ` ${most} m`);
+    this.showErrorScale();
     return el(
       "figcaption",
       { class: "legend" },
       ...(Object.keys(layers) as Layer[]).map(entry),
       el("span", { class: "scale" }, "rating r  0 ", bar, " 1"),
+      el("label", {}, "estimate by ", this.colourBy),
       el("label", {}, follow, "follow the robot"),
+      this.errorScale,
+    );
+  }
+
+  private showErrorScale(): void {
+    this.errorScale.hidden = this.colourBy.value !== "error";
+  }
+
+  /** One more button beside those that zoom. */
+  addButton(label: string, text: string, work: () => void): void {
+    this.element.querySelector(".zoom")?.append(
+      el("button", { type: "button", title: label, "aria-label": label, click: work }, text),
     );
   }
 
@@ -540,14 +703,27 @@ export class MapView {
     canvas.addEventListener("pointercancel", released);
     canvas.addEventListener("pointerup", (event) => {
       released(event);
-      const cluster = this.moved < 4 ? this.clusterAt(event.offsetX, event.offsetY) : null;
-      if (cluster !== null) this.store.chooseHypothesis(cluster);
+      if (this.moved < 4) this.clicked(event.offsetX, event.offsetY);
     });
-    canvas.addEventListener("pointerleave", () => this.hideTip());
+    canvas.addEventListener("pointerleave", () => {
+      this.hideTip();
+      replace(this.cursor);
+    });
+  }
+
+  /** Chooses the cluster there, and lists those near it. */
+  private clicked(px: number, py: number): void {
+    const cluster = this.clusterAt(px, py);
+    if (cluster !== null) this.store.chooseHypothesis(cluster);
+    const { steps } = this.store;
+    if (!steps || steps.step.length === 0 || !this.shown.clusters) return;
+    this.near.show(steps, this.toMap(px, py), Math.max(nearby, reach / this.view.scale));
   }
 
   /** One pointer drags, two zoom and drag. */
   private pointerMoved(event: PointerEvent): void {
+    const { x, y } = this.toMap(event.offsetX, event.offsetY);
+    replace(this.cursor, `x ${fixed(x, 2)} m, y ${fixed(y, 2)} m`);
     const before = this.pointers.get(event.pointerId);
     if (!before) {
       this.showTip(event.offsetX, event.offsetY);

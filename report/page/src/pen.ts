@@ -144,6 +144,13 @@ export class SvgPen implements Pen {
     if (path.length > 0) this.parts.push(`<path fill="${inMarkup(colour)}" d="${path.join("")}"/>`);
   }
 
+  /** A picture, placed by a matrix as canvases have it; its pixels stay square. */
+  picture(canvas: HTMLCanvasElement, matrix: number[]): void {
+    const size = `width="${canvas.width}" height="${canvas.height}"`;
+    const look = `transform="matrix(${matrix.join(" ")})" style="image-rendering: pixelated"`;
+    this.parts.push(`<image ${size} href="${canvas.toDataURL()}" preserveAspectRatio="none" ${look}/>`);
+  }
+
   /** The file; `title` is for those who cannot see it. */
   file(title: string, paper: string): string {
     const size = `width="${tenths(this.width)}" height="${tenths(this.height)}" viewBox="0 0 ${tenths(this.width)} ${tenths(this.height)}"`;

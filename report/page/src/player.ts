@@ -2,6 +2,7 @@
 import { themeColour, verdictColours, verdictNames } from "./colours";
 import { el, replace } from "./elements";
 import type { MapView } from "./map_view";
+import type { FullScreen } from "./panes";
 import type { Store } from "./store";
 
 const speeds = [2, 5, 10, 30]; // steps a second
@@ -108,7 +109,7 @@ export class Player {
 }
 
 /** Keys that work wherever no text is being written. */
-export function listenToKeys(store: Store, player: Player, map: MapView): void {
+export function listenToKeys(store: Store, player: Player, map: MapView, fullScreen: FullScreen): void {
   const keys: Record<string, (event: KeyboardEvent) => void> = {
     ArrowLeft: (event) => (event.shiftKey ? map.pan(60, 0) : player.move(event.ctrlKey ? -10 : -1)),
     ArrowRight: (event) => (event.shiftKey ? map.pan(-60, 0) : player.move(event.ctrlKey ? 10 : 1)),
@@ -121,18 +122,19 @@ export function listenToKeys(store: Store, player: Player, map: MapView): void {
     "=": () => map.zoom(1.5),
     "-": () => map.zoom(1 / 1.5),
     "0": () => map.fit(),
+    f: () => fullScreen.toggle(),
     "[": () => store.chooseTrial(store.selected.trial - 1),
     "]": () => store.chooseTrial(store.selected.trial + 1),
   };
   document.addEventListener("keydown", (event) => {
     const { target } = event;
     const work = keys[event.key];
-    if (!work || event.altKey || event.metaKey || !(target instanceof HTMLElement)) return;
+    if (!work || event.altKey || event.metaKey || (event.ctrlKey && event.key === "f") || !(target instanceof HTMLElement)) return;
     if (target.matches("select, textarea, input:not([type=range]):not([type=checkbox])")) return;
     if (event.key === " " && target.matches("button, input, summary, a")) return;
     const scrolls = (event.key === "ArrowUp" || event.key === "ArrowDown") && !event.shiftKey;
     // Wide tables scroll by arrows, and the page by Home and End where a table has the focus.
-    if (scrolls || target.matches(".scroll")) return;
+    if (scrolls || target.matches(".scroll, [role=separator]")) return;
     event.preventDefault();
     work(event);
   });

@@ -1,0 +1,197 @@
+// What the map shows besides points and poses: space, places, the field of view; and how it is given room.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { assertQuiet, closeBrowser, colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip } from "./open.mjs";
+import { report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
+
+let folder, file, steps, opened, page;
+
+before(async () => {
+  if (skip) return;
+  const work = workFolder();
+  folder = runExperiment("paper_simulation", join(work, "simulation"));
+  file = report(join(work, "report.html"), folder);
+  steps = stepsOf(folder, 0);
+  opened = await open(file, { viewport: { width: 1440, height: 900 } });
+  page = opened.page;
+});
+after(async () => {
+  if (!skip) assertQuiet(opened);
+  await closeBrowser();
+});
+
+/** A colour of the style sheet: red, green, blue. */
+async function themed(name) {
+  const hex = await page.evaluate((name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(), name);
+  return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+}
+
+test("free, occupied and unknown cells are shaded as the run's grid has them", { skip }, async () => {
+  const { resolution, origin, width, height, cells } = JSON.parse(readFileSync(join(folder, "maps/global_grid.json"), "utf8"));
+  assert.equal(origin.theta, 0);
+  const kinds = [...cells.matchAll(/(\d+)([ufo])/g)].map(([, n, kind]) => kind.repeat(Number(n))).join("");
+  assert.equal(kinds.length, width * height);
+  await showOnly(page, "space");
+  const view = await mapView(page);
+  const colours = { f: await themed("free"), u: await themed("unknown") };
+  const checked = { f: 0, u: 0 };
+  for (let row = 4; row < height - 4; row += 37) {
+    for (let column = 4; column < width - 4; column += 41) {
+      const kind = kinds[row * width + column];
+      // Pixels are no smaller than cells are: only places amid their like have one colour.
+      const around = [-3, 0, 3].flatMap((dr) => [-3, 0, 3].map((dc) => kinds[(row + dr) * width + column + dc]));
+      if (around.some((other) => other !== kind)) continue;
+      const at = view.toScreen({ x: origin.x + (column + 0.5) * resolution, y: origin.y + (row + 0.5) * resolution });
+      assert.deepEqual((await colourAt(page, at)).slice(0, 3), colours[kind], `column ${column}, row ${row}`);
+      if (++checked[kind] > 12) break;
+    }
+    if (checked.f + checked.u > 40) break;
+  }
+  assert.ok(checked.f > 5 && checked.u > 5, JSON.stringify(checked));
+});
+
+test("the cursor's coordinates are told", { skip }, async () => {
+  const view = await mapView(page);
+  const at = view.toScreen({ x: 10, y: 5 });
+  await page.mouse.move(at.x, at.y);
+  const [, x, y] = /x (\S+) m, y (\S+) m/.exec(await page.locator(".stage .cursor").innerText());
+  assert.ok(Math.hypot(Number(x) - 10, Number(y) - 5) < 1.5 / view.scale + 0.01, `${x}, ${y}`);
+});
+
+test("the grid's lines are whole steps apart", { skip }, async () => {
+  await showOnly(page, "grid");
+  const view = await mapView(page);
+  // At this scale lines are 5 m apart; a place between them is empty.
+  const line = await painted(page, [view.toScreen({ x: 10, y: 7.5 }), view.toScreen({ x: 12.5, y: 10 })]);
+  assert.deepEqual(line, [true, true]);
+  assert.deepEqual(await painted(page, [view.toScreen({ x: 12.5, y: 7.5 })]), [false]);
+});
+
+/** x and y of the points of a PCD file as the program writes it. */
+function readPcd(name) {
+  const content = readFileSync(name);
+  const begin = content.indexOf("DATA binary\n") + "DATA binary\n".length;
+  const points = [];
+  for (let i = begin; i < content.length; i += 12) points.push({ x: content.readFloatLE(i), y: content.readFloatLE(i + 4) });
+  return points;
+}
+
+test("the field of view reaches from the robot to what the laser met, and no farther", { skip }, async () => {
+  const k = 100;
+  await moveSlider(page, k);
+  await showOnly(page, "view");
+  const view = await mapView(page);
+  const { estimate } = steps[k];
+  const hits = readPcd(join(folder, "maps", "trial_0000", "scan_0100.pcd"));
+  const along = (point, share) => ({
+    x: estimate.x + share * (Math.cos(estimate.theta) * point.x - Math.sin(estimate.theta) * point.y),
+    y: estimate.y + share * (Math.sin(estimate.theta) * point.x + Math.cos(estimate.theta) * point.y),
+  });
+  const seen = await painted(page, hits.map((hit) => view.toScreen(along(hit, 0.5))));
+  assert.ok(seen.every(Boolean), `${seen.filter(Boolean).length} of ${seen.length}`);
+  const farthest = hits.reduce((a, b) => (Math.hypot(a.x, a.y) > Math.hypot(b.x, b.y) ? a : b));
+  assert.deepEqual(await painted(page, [view.toScreen(along(farthest, 1.3))]), [false]);
+});
+
+test("boxes are where the drive begins and ends", { skip }, async () => {
+  await showOnly(page, "ends");
+  const view = await mapView(page);
+  for (const { reference } of [steps[0], steps.at(-1)]) {
+    const { x, y } = view.toScreen(reference);
+    assert.deepEqual(await painted(page, [{ x: x - 6, y }, { x: x + 6, y }, { x, y: y - 6 }, { x, y: y + 6 }]), [true, true, true, true]);
+    assert.deepEqual(await painted(page, [{ x, y }]), [false]);
+  }
+});
+
+test("the estimate's dots have the colour of the verdict or of the error", { skip }, async () => {
+  await moveSlider(page, steps.length - 1);
+  await showOnly(page, "estimate");
+  const view = await mapView(page);
+  const places = steps.map(({ estimate }) => estimate && view.toScreen(estimate));
+  const alone = (i) => places[i] && places.every((other, k) => k === i || !other || Math.hypot(other.x - places[i].x, other.y - places[i].y) > 9);
+  const ambiguous = steps.findIndex(({ verdict, translation_error_m: error }, i) => verdict === "ambiguous" && error > 10 && alone(i));
+  assert.ok(ambiguous >= 0);
+  const select = page.locator("select[aria-label='Colour of the estimate']");
+  await select.selectOption("verdict");
+  await drawn(page);
+  assert.deepEqual((await colourAt(page, places[ambiguous])).slice(0, 3), [230, 159, 0]);
+  const scale = page.locator(".legend .scale", { hasText: "error" });
+  assert.equal(await scale.isVisible(), false);
+  await select.selectOption("error");
+  await drawn(page);
+  // 10 m and more have the last colour of the scale.
+  assert.deepEqual((await colourAt(page, places[ambiguous])).slice(0, 3), [213, 94, 0]);
+  assert.equal(await scale.isVisible(), true);
+  await select.selectOption("plain");
+});
+
+test("a click lists the candidates near the place", { skip }, async () => {
+  await moveSlider(page, 0);
+  await showOnly(page, "clusters");
+  const view = await mapView(page);
+  const { best } = steps[0];
+  // The page has the place of a whole pixel.
+  const place = view.toScreen(best[0].pose);
+  const at = { x: Math.round(place.x), y: Math.round(place.y) };
+  const clicked = { x: view.x + (at.x - view.box.left - view.box.width / 2) / view.scale, y: view.y - (at.y - view.box.top - view.box.height / 2) / view.scale };
+  await page.mouse.click(at.x, at.y);
+  const distances = best.map(({ pose }) => Math.hypot(pose.x - clicked.x, pose.y - clicked.y));
+  const expected = distances.map((d, rank) => ({ d, rank })).filter(({ d }) => d <= 1).sort((a, b) => a.d - b.d);
+  assert.match(await page.locator(".near strong").innerText(), new RegExp(`^${expected.length} candidates? within 1.0 m`));
+  const listed = await page.locator(".near li button").allInnerTexts();
+  // The page's own place may be a part of a pixel away, so that neighbours change places.
+  const far = listed.map((text) => distances[Number(text.replace("cluster ", "")) - 1]);
+  assert.equal(new Set(listed).size, Math.min(8, expected.length));
+  far.forEach((d, i) => assert.ok(Math.abs(d - expected[i].d) < 1.5 / view.scale, `${d} for ${expected[i].d}`));
+  await page.locator(".near li button").last().click();
+  const chosen = page.locator(".hypotheses table [aria-pressed=true]");
+  assert.equal(`cluster ${await chosen.innerText()}`, listed.at(-1));
+  await page.locator(".near .close").press("Escape");
+  assert.equal(await page.locator(".near").isVisible(), false);
+});
+
+test("the map can have the whole window", { skip }, async () => {
+  const width = async () => (await page.locator(".stage").boundingBox()).width;
+  const before = await width();
+  await page.locator(".stage canvas").focus();
+  await page.keyboard.press("f");
+  await page.waitForFunction(() => document.querySelector(".stage").clientWidth > 1380);
+  assert.equal(await page.locator(".curves").isVisible(), false);
+  assert.equal(await page.locator(".player").isVisible(), true);
+  await page.keyboard.press("f");
+  await page.waitForFunction((before) => Math.abs(document.querySelector(".stage").getBoundingClientRect().width - before) < 2, before);
+});
+
+test("borders can be moved by pointer and keys", { skip }, async () => {
+  const stage = async () => page.locator(".stage").boundingBox();
+  const before = await stage();
+  const upright = page.locator(".border.vertical");
+  const box = await upright.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + 100);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 150, box.y + 100, { steps: 3 });
+  await page.mouse.up();
+  const wider = await stage();
+  assert.ok(Math.abs(wider.width - before.width - 150) < 20, `${before.width} to ${wider.width}`);
+  await upright.focus();
+  await page.keyboard.press("ArrowLeft");
+  assert.ok((await stage()).width < wider.width - 10);
+  // The step has not changed: the keys were the border's.
+  assert.equal(await page.evaluate(() => document.body.dataset.step), "0");
+  await page.locator(".border.horizontal").focus();
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await page.locator(".border.horizontal").getAttribute("aria-valuenow"), "580");
+  assert.ok(Math.abs((await stage()).height - 580) < 3);
+});
+
+test("nothing is wider than a telephone", { skip }, async () => {
+  const small = await open(file, { viewport: { width: 390, height: 844 } });
+  assert.equal(await small.page.evaluate(() => document.documentElement.scrollWidth), 390);
+  const parts = await small.page.locator("#view > *, #figures, header").evaluateAll((all) =>
+    all.filter((part) => part.getBoundingClientRect().right > 391).map((part) => part.className),
+  );
+  assert.deepEqual(parts, []);
+  assertQuiet(small);
+});
