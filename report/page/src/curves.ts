@@ -6,6 +6,7 @@ import { firstLocalized, type Column, type Run, type Steps } from "./data";
 import { el, replace } from "./elements";
 import { count, significant } from "./numbers";
 import { matchingTrial, type Change, type Store } from "./store";
+import { explained } from "./words";
 
 interface Curve {
   id: string;
@@ -156,7 +157,7 @@ class Panel {
         this.rebuild(this.shown);
       },
     });
-    const title = el("h3", {}, curve.title, " ", this.value);
+    const title = el("h3", {}, explained(el("span", {}, curve.title)), " ", this.value);
     this.element = el("div", { class: "panel", "data-curve": curve.id }, title, el("label", {}, log, "log"), this.target);
     this.target.addEventListener("click", (event) => this.chooseStepAt(event));
   }

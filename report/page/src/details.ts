@@ -5,6 +5,7 @@ import { el, replace, table } from "./elements";
 import { degrees } from "./geometry";
 import { count, fixed, percent, significant } from "./numbers";
 import type { Hypothesis, Store } from "./store";
+import { explained } from "./words";
 
 export class Details {
   readonly element = el("section", { class: "details", "aria-label": "The step in numbers" });
@@ -21,10 +22,13 @@ export class Details {
       return;
     }
     const focused = document.activeElement?.getAttribute("data-hypothesis");
+    const word = this.element.contains(document.activeElement) ? document.activeElement?.closest(".word")?.textContent : null;
     const scrolled = this.element.querySelector(".scroll")?.scrollTop ?? 0;
     replace(this.element, verdict(steps, step), facts(steps, step), this.hypotheses(steps, step));
     if (scrolled > 0) this.element.querySelector(".scroll")?.scrollTo(0, scrolled);
     if (focused != null) this.element.querySelector<HTMLElement>(`[data-hypothesis="${focused}"]`)?.focus();
+    // Steps are moved by keys, whatever has the focus.
+    if (word != null) [...this.element.querySelectorAll<HTMLElement>(".word")].find(({ textContent }) => textContent === word)?.focus();
   }
 
   /** What the local map can be laid under. */
@@ -59,7 +63,7 @@ export class Details {
       "div",
       { class: "hypotheses", "data-table": "clusters" },
       el("p", {}, "Local map under ", button("estimate", "estimate"), button("reference", "reference"), " or a cluster:"),
-      table(["cluster", "r", "r̄", "hypotheses", "x, m", "y, m", "θ, °"], rows),
+      table(["cluster", "r", "r̄", "hypotheses", "x, m", "y, m", "θ, °"].map((word) => explained(el("span", {}, word))), rows),
     );
   }
 }
@@ -95,5 +99,5 @@ function facts(steps: Steps, step: number): HTMLElement {
       .filter(([, values]) => values[step] != null)
       .map(([name, values]): [string, string] => [name.replaceAll("_", " "), significant(values[step])]),
   ];
-  return el("dl", {}, ...all.map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))));
+  return el("dl", {}, ...all.map(([name, value]) => el("div", {}, explained(el("dt", {}, name)), el("dd", {}, value))));
 }

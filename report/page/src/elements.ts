@@ -38,7 +38,7 @@ export function section(id: string, title: string, ...children: Child[]): HTMLEl
 
 /** A table whose first column names the rows, and which can be saved. Cells may be elements. */
 export function table(head: Child[], rows: Child[][], className = ""): HTMLElement {
-  const headRow = el("tr", {}, ...head.map((cell) => el("th", { scope: "col" }, cell)));
+  const headRow = el("tr", {}, ...head.map((cell) => (cell === "" ? el("td") : el("th", { scope: "col" }, cell))));
   const body = el(
     "tbody",
     {},

@@ -14,6 +14,7 @@ import { experimentsOf, summaryHeader } from "./summary_header";
 import { sweepSection } from "./sweep_section";
 import { comparisonSection, configurationSection, provenanceSection, summarySection } from "./tables";
 import { Distributions, TrialList } from "./trials_section";
+import { showMeanings } from "./words";
 
 /** The only format this page reads; the program that wrote the data has this page in it. */
 const format = 1;
@@ -87,8 +88,8 @@ function keysHelp(): HTMLElement {
     ["f", "full screen"],
   ];
   return el(
-    "p",
-    { class: "keys" },
+    "aside",
+    { class: "keys", "aria-label": "Keys" },
     ...keys.flatMap(([key, meaning]) => [el("kbd", {}, key), ` ${meaning}  `]),
     "Drag in a curve to zoom it, double-click to zoom out.",
   );
@@ -152,7 +153,7 @@ function show(report: Report, page: HTMLElement): void {
     themeButton(redraw),
     links([sweep, ...sections]),
   );
-  const view: HTMLElement = el("main", { id: "view" });
+  const view: HTMLElement = el("main", { id: "view" }, el("h2", { class: "unseen" }, "Step by step"));
   const [right, below] = bordersOf(() => view);
   append(view, map.element, right, curves.element, below, player.element, details.element);
   followLength(view, store);
@@ -162,6 +163,7 @@ function show(report: Report, page: HTMLElement): void {
   // Large sweeps keep neither steps nor maps: there is nothing to step through.
   if (!sweep || report.runs.some(hasMoreThanTrials)) append(page, view, keysHelp());
   append(page, ...sections);
+  showMeanings(page);
   listenToKeys(store, player, map, fullScreen);
   new PageState(store, map);
   trials.fill();

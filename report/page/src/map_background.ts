@@ -128,7 +128,7 @@ export function drawGridNumbers(pen: Pen, screen: Screen): void {
   pen.font = "10px system-ui, sans-serif";
   pen.textAlign = "center";
   pen.textBaseline = "alphabetic";
-  const free = { left: 150, right: 40, top: 140, bottom: 30 }; // of scale bar, buttons and corner
+  const free = { left: 150, right: 40, top: 180, bottom: 30 }; // of scale bar, buttons and corner
   for (const x of across) {
     const at = screen.x(x);
     if (at > free.left && at < screen.width - free.right) pen.fillText(told(x), at, screen.height - 4);

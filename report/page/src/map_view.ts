@@ -1,7 +1,7 @@
 // The map with everything that happened on it: the only drawing that is our own.
 import { opacityOf, thinnedOut } from "./candidates_shown";
-import { errorColour, errorRange, ratingColour, themeColour, verdictColours } from "./colours";
-import { poseAt, type GlobalMap, type Grid, type PointLives, type Pose, type Scans, type Steps } from "./data";
+import { errorColour, errorRange, ratingColour, themeColour, verdictColours, verdictNames } from "./colours";
+import { poseAt, type GlobalMap, type Grid, type PointLives, type Pose, type Scans, type Steps, type VerdictKind } from "./data";
 import { el, replace } from "./elements";
 import { fansOf } from "./field_of_view";
 import { boundingBox, compose, degrees, inverse, union, type Box } from "./geometry";
@@ -12,6 +12,7 @@ import { fixed, significant } from "./numbers";
 import { SvgPen, type Pen } from "./pen";
 import { PointLayer, SvgPoints, type Placement, type PointSink } from "./point_layer";
 import type { Store } from "./store";
+import { explained, meaningOf } from "./words";
 
 const metres = 1e-3; // of the whole mm in which points are given
 const triangle = { length: 15, width: 10 }; // px
@@ -25,6 +26,7 @@ const layers = {
   scan: "scan",
   view: "field of view",
   clusters: "clusters",
+  candidates: "candidates",
   estimate: "estimate",
   reference: "reference",
   ends: "start, end",
@@ -359,6 +361,7 @@ export class MapView {
     if (this.shown.unknown_place) this.drawUnknownPlaces(context, steps, step);
     if (this.shown.ends) this.drawEnds(context, steps);
     if (this.shown.clusters) this.drawClusters(context, steps, step);
+    if (this.shown.candidates) this.drawCandidates(context, steps, step);
     const reference = poseAt(steps.reference, step);
     if (reference && this.shown.reference) this.drawRobot(context, reference, themeColour("reference"), true);
     const estimate = poseAt(steps.estimate, step);
@@ -498,6 +501,9 @@ export class MapView {
       context.stroke();
     }
     context.globalAlpha = 1;
+  }
+
+  private drawCandidates(context: Pen, steps: Steps, step: number): void {
     context.strokeStyle = verdictColours.ambiguous;
     context.lineWidth = 2;
     const candidates = steps.candidates[step];
@@ -604,7 +610,11 @@ export class MapView {
         },
       });
       this.boxes.set(layer, box);
-      return el("label", {}, box, el("span", { class: `symbol ${layer}`, "aria-hidden": "true" }), layers[layer]);
+      const label = el("label", {}, box, el("span", { class: `symbol ${layer}`, "aria-hidden": "true" }), layers[layer]);
+      // Without a mark of its own: the box has the focus.
+      const meaning = meaningOf(layers[layer]) ?? meaningOf(layer);
+      if (meaning !== undefined) label.dataset.meaning = meaning;
+      return label;
     };
     const stops = [0, 0.25, 0.5, 0.75, 1].map(ratingColour).join(", ");
     const bar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${stops})` });
@@ -627,11 +637,21 @@ export class MapView {
     const errorBar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${errorStops})` });
     replace(this.errorScale, `error  ${least} m `, errorBar, ` ${most} m`);
     this.showErrorScale();
+    const verdictLegend = (): HTMLElement =>
+      el(
+        "span",
+        { class: "verdicts" },
+        explained(el("span", {}, "strip of verdicts"), "verdict"),
+        ...(Object.keys(verdictNames) as VerdictKind[]).map((kind) =>
+          el("span", {}, el("i", { class: "swatch", style: `background: ${verdictColours[kind]}` }), verdictNames[kind]),
+        ),
+      );
     return el(
       "figcaption",
       { class: "legend" },
       ...(Object.keys(layers) as Layer[]).map(entry),
-      el("span", { class: "scale" }, "rating r  0 ", bar, " 1"),
+      el("span", { class: "scale" }, explained(el("span", {}, "rating r"), "r"), "  0 ", bar, " 1"),
+      verdictLegend(),
       el("label", {}, "estimate by ", this.colourBy),
       el("label", {}, follow, "follow the robot"),
       this.errorScale,

@@ -3,6 +3,7 @@ import type { Report, Run, Summary } from "./data";
 import { el, replace } from "./elements";
 import { count, fixed, significant } from "./numbers";
 import type { Store } from "./store";
+import { explained } from "./words";
 
 /** More than these are in the summary further down. */
 const mostRuns = 12;
@@ -62,14 +63,19 @@ export function summaryHeader(store: Store): HTMLElement | null {
 function tiles(summary: Summary): HTMLElement {
   const { outcomes: shown, medians } = figuresOf([summary]);
   const tile = ({ label, kind, tell }: Figure): HTMLElement =>
-    el("div", { class: `tile ${kind(summary)}`, "data-figure": label }, el("dt", {}, label), el("dd", {}, tell(summary)));
+    el("div", { class: `tile ${kind(summary)}`, "data-figure": label }, word(label, "dt"), el("dd", {}, tell(summary)));
   const seeds = `${count(summary.trials.count)} ${summary.trials.count === 1 ? "trial" : "trials"}, seed ${summary.seed}`;
   return el(
-    "div",
-    { id: "figures", class: "figures" },
+    "section",
+    { id: "figures", class: "figures", "aria-label": "What came out" },
     el("dl", { class: "tiles" }, ...shown.map(tile), el("div", { class: "gap", "aria-hidden": "true" }), ...medians.map(tile)),
     el("p", { class: "note" }, `${seeds}. Steps, way and errors: medians of right trials. Time: median of all steps.`),
   );
+}
+
+/** The name of a figure, with what it means. */
+function word(label: string, tag: "dt" | "span"): HTMLElement {
+  return explained(el(tag, {}, label), label === "error" ? "error at declaration" : label);
 }
 
 /** Right, wrong and all others of a run's trials, as a bar of that length. */
@@ -111,18 +117,18 @@ function overview(store: Store, finished: Run[]): HTMLElement {
     rest > 0 && ` The other ${rest} runs are in the summary below.`,
   );
   return el(
-    "div",
-    { id: "figures", class: "figures" },
+    "section",
+    { id: "figures", class: "figures", "aria-label": "What came out" },
     el(
       "div",
-      { class: "scroll", tabindex: 0, role: "region", "aria-label": "Runs at a glance" },
+      { class: "scroll", tabindex: 0 },
       el(
         "table",
         { class: "overview" },
         el(
           "thead",
           {},
-          el("tr", {}, el("th", { scope: "col" }, "run"), el("th", { scope: "col" }, "trials"), ...columns.map((c) => el("th", { scope: "col" }, c.label))),
+          el("tr", {}, el("th", { scope: "col" }, "run"), el("th", { scope: "col" }, "trials"), ...columns.map((c) => el("th", { scope: "col" }, word(c.label, "span")))),
         ),
         el("tbody", {}, ...rows),
       ),
