@@ -2,7 +2,7 @@
 import { closeBrowser, moveSlider, open } from "./open.mjs";
 
 const [report, out, trial, step] = process.argv.slice(2);
-const { page } = await open(report, { viewport: { width: 1366, height: 860 }, colorScheme: "light" });
+const { page } = await open(report, { viewport: { width: 1366, height: 900 }, colorScheme: "light" });
 await page.locator("#trial").evaluate((select, value) => {
   select.value = value;
   select.dispatchEvent(new Event("change"));

@@ -58,6 +58,7 @@ interface Shown {
 }
 
 const mostAtFirst = 6;
+const tallScreen = 1100; // px
 
 export class Curves {
   readonly element: HTMLElement;
@@ -187,7 +188,7 @@ class Panel {
       labels: [curve.unit, second?.side === "right" ? `${second.unit} (dashed)` : ""],
       logY: curve.log,
       range: curve.range,
-      height: 150,
+      height: window.innerHeight < tallScreen ? 150 : 200,
       whole: true,
       sync: "steps",
       hooks: { draw: [(plot) => this.drawLocalized(plot), () => this.placeCursor()] },

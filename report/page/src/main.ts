@@ -91,7 +91,7 @@ function keysHelp(): HTMLElement {
     "aside",
     { class: "keys", "aria-label": "Keys" },
     ...keys.flatMap(([key, meaning]) => [el("kbd", {}, key), ` ${meaning}  `]),
-    "Drag in a curve to zoom it, double-click to zoom out.",
+    el("span", {}, "Drag in a curve to zoom it, double-click to zoom out."),
   );
 }
 
