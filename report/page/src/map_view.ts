@@ -393,10 +393,12 @@ export class MapView {
     const by = this.colourBy.value as TrajectoryColour;
     const size = by === "plain" ? 3 : 5;
     context.lineWidth = size - 1;
+    context.strokeStyle = context.fillStyle = plain;
     let before: { x: number; y: number } | null = null;
     for (let i = 0; i < steps.step.length; ++i) {
       context.globalAlpha = i <= shown ? 1 : 0.25;
-      context.strokeStyle = context.fillStyle = estimateColour(by, steps, i) ?? plain;
+      // Canvases take long to read a colour, and there may be thousands of dots.
+      if (by !== "plain") context.strokeStyle = context.fillStyle = estimateColour(by, steps, i) ?? plain;
       const pose = poseAt(steps.estimate, i);
       const at = pose && this.toScreen(pose.x, pose.y);
       if (at) {
