@@ -32,7 +32,7 @@ std::filesystem::path write_report(const ReportOptions& options) {
       read_runs(results.folders(), [&](const std::filesystem::path& folder) { return data.add(folder); });
   const auto json = data.to_json(runs, find_baseline(runs, options.baseline));
   AtomicFiles files(options.force);
-  files.add(options.out, page_with(page_text, title_of(runs), json));
+  files.add(options.out, page_with(page_text, title_of(runs), json, script_for(json)));
   files.commit();
   return std::filesystem::absolute(options.out).lexically_normal();
 }

@@ -7,9 +7,13 @@
 
 #include "report/millimetres.hpp"
 #include "report/numbers.hpp"
+#include "report/thinning.hpp"
 
 namespace glocal {
 namespace {
+
+/// A screen shows no more of a building at once, and a browser turns them without a hitch.
+constexpr std::size_t most_in_space = 150'000;
 
 /// Square of the distance to the nearest other point, mm².
 std::int64_t nearest_squared(const std::vector<GridPoint>& points, std::size_t which) {
@@ -19,7 +23,8 @@ std::int64_t nearest_squared(const std::vector<GridPoint>& points, std::size_t w
   const auto look = [&](std::size_t i) {
     const std::int64_t dx = squared(std::int64_t{points[i].x} - points[which].x);
     if (dx >= nearest) return false;
-    nearest = std::min(nearest, dx + squared(std::int64_t{points[i].y} - points[which].y));
+    nearest = std::min(nearest, dx + squared(std::int64_t{points[i].y} - points[which].y) +
+                                    squared(std::int64_t{points[i].z} - points[which].z));
     return true;
   };
   for (std::size_t i = which + 1; i < points.size() && look(i); ++i) {
@@ -43,15 +48,18 @@ double spacing_of(const std::vector<GridPoint>& points) {
 }  // namespace
 
 nlohmann::ordered_json map_points(const Points& points) {
-  std::vector<GridPoint> grid_points = in_millimetres(points);
+  std::vector<GridPoint> grid_points = in_millimetres(thinned_in_space(points, most_in_space));
   std::sort(grid_points.begin(), grid_points.end());
   grid_points.erase(std::unique(grid_points.begin(), grid_points.end()), grid_points.end());
-  std::vector<int> x, y;
+  std::vector<int> x, y, z;
   for (const GridPoint& point : grid_points) {
     x.push_back(point.x);
     y.push_back(point.y);
+    z.push_back(point.z);
   }
-  return {{"x", x}, {"y", y}, {"spacing_m", short_number(spacing_of(grid_points))}};
+  nlohmann::ordered_json json = {{"x", x}, {"y", y}, {"spacing_m", short_number(spacing_of(grid_points))}};
+  if (has_heights(z)) json["z"] = z;
+  return json;
 }
 
 }  // namespace glocal

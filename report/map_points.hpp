@@ -7,7 +7,8 @@
 
 namespace glocal {
 
-/// {"x", "y", "spacing_m"}: whole mm, each point once, and how far points lie apart.
+/// {"x", "y", "spacing_m"}: whole mm, each point once, and how far points lie apart. In space with "z", and
+/// at most 150,000 of them (thinned_in_space).
 [[nodiscard]] nlohmann::ordered_json map_points(const Points& points);
 
 }  // namespace glocal

@@ -1,6 +1,7 @@
 // Points on a grid of 1 mm, the finest that a report shows.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <compare>
 #include <vector>
@@ -13,6 +14,7 @@ namespace glocal {
 struct GridPoint {
   int x = 0;
   int y = 0;
+  int z = 0;
 
   friend auto operator<=>(const GridPoint&, const GridPoint&) = default;  // NOLINT(modernize-use-nullptr)
   friend bool operator==(const GridPoint&, const GridPoint&) = default;
@@ -24,8 +26,13 @@ struct GridPoint {
   std::vector<GridPoint> grid_points;
   grid_points.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    grid_points.push_back({rounded(points.x[i]), rounded(points.y[i])});
+    grid_points.push_back({rounded(points.x[i]), rounded(points.y[i]), rounded(points.z[i])});
   return grid_points;
+}
+
+/// False for what a planar laser has seen.
+[[nodiscard]] inline bool has_heights(const std::vector<int>& z) {
+  return std::any_of(z.begin(), z.end(), [](int height) { return height != 0; });
 }
 
 }  // namespace glocal

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
+
+#include "report/page_text.hpp"
 
 namespace glocal {
 namespace {
@@ -57,7 +60,15 @@ std::string json_text(const Json& data) {
   return data.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string page_with(std::string_view page, const std::string& title, const Json& data) {
+std::string_view script_for(const Json& data) {
+  const Json& maps = data.at("maps");
+  const bool is_in_space =
+      std::any_of(maps.begin(), maps.end(), [](const Json& map) { return map.contains("z"); });
+  return is_in_space ? space_text : std::string_view{};
+}
+
+std::string page_with(std::string_view page, const std::string& title, const Json& data,
+                      std::string_view script) {
   const auto [before_title, after_title] = split(page, "<!--glocal:title-->");
   const auto [before_data, after_data] = split(after_title, "<!--glocal:data-->");
   const std::string text_title = Json::parse(json_text(title)).get<std::string>();  // in UTF-8
@@ -67,6 +78,7 @@ std::string page_with(std::string_view page, const std::string& title, const Jso
   result += R"(<script type="application/json" id="glocal-data">)";
   result += in_script(json_text(data));
   result += "</script>";
+  if (!script.empty()) result.append("<script>").append(script).append("</script>");
   result += after_data;
   return result;
 }

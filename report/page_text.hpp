@@ -1,4 +1,4 @@
-// The page of framework/page, as it was built.
+// The page of report/page, as it was built.
 #pragma once
 
 #include <string_view>
@@ -7,5 +7,8 @@ namespace glocal {
 
 /// HTML with the places where title and data go: <!--glocal:title--> and <!--glocal:data-->.
 extern const std::string_view page_text;
+
+/// JavaScript that draws maps in space, for pages that have some.
+extern const std::string_view space_text;
 
 }  // namespace glocal

@@ -4,14 +4,21 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "report/thinning.hpp"
+
 namespace glocal {
+namespace {
+
+constexpr std::size_t most_of_a_step_in_space = 20'000;
+
+}  // namespace
 
 void PointLives::add(const Points& points) {
   const bool is_frame = added_ % stride_ == 0;
   const int frame = frames();
   ++added_;
   if (!is_frame) return;
-  std::vector<GridPoint> set = in_millimetres(points);
+  std::vector<GridPoint> set = in_millimetres(thinned_in_space(points, most_of_a_step_in_space));
   std::sort(set.begin(), set.end());
   set.erase(std::unique(set.begin(), set.end()), set.end());
 
@@ -73,14 +80,17 @@ std::vector<PointLife> PointLives::lives() const {
 }
 
 nlohmann::ordered_json to_json(const PointLives& lives) {
-  std::vector<int> x, y, from, to;
+  std::vector<int> x, y, z, from, to;
   for (const PointLife& life : lives.lives()) {
     x.push_back(life.at.x);
     y.push_back(life.at.y);
+    z.push_back(life.at.z);
     from.push_back(life.from);
     to.push_back(life.to);
   }
-  return {{"steps", lives.steps()}, {"x", x}, {"y", y}, {"from", from}, {"to", to}};
+  nlohmann::ordered_json json = {{"steps", lives.steps()}, {"x", x}, {"y", y}, {"from", from}, {"to", to}};
+  if (has_heights(z)) json["z"] = z;
+  return json;
 }
 
 }  // namespace glocal

@@ -28,7 +28,7 @@ class PointLives {
   /// At most so many lives, unless the first step alone has more.
   explicit PointLives(std::size_t most) : most_(most) {}
 
-  /// The set at the next step.
+  /// The set at the next step. In space at most 20,000 of its points are kept (thinned_in_space).
   void add(const Points& points);
 
   /// Allows fewer lives from now on.
@@ -50,7 +50,7 @@ class PointLives {
   std::vector<PointLife> there_;  ///< In the last frame, ascending; `to` means nothing yet.
 };
 
-/// {"steps", "x", "y", "from", "to"}
+/// {"steps", "x", "y", "from", "to"}, and "z" if any point is above or below 0.
 [[nodiscard]] nlohmann::ordered_json to_json(const PointLives& lives);
 
 }  // namespace glocal

@@ -15,13 +15,15 @@ class ScanFrames {
   /// At most so many points, unless the first scan alone has more.
   explicit ScanFrames(std::size_t most) : most_(most) {}
 
-  /// What the next step's scan has hit, in the robot's frame.
+  /// What the next step's scan has hit, in the robot's frame. In space at most 4,000 points of it are kept
+  /// (thinned_in_space).
   void add(const Points& hits);
 
   /// Allows fewer points from now on.
   void keep_at_most(std::size_t most);
 
-  /// {"steps", "first", "x", "y"}: the points of frame i are those from first[i] up to first[i + 1].
+  /// {"steps", "first", "x", "y"}, and "z" if any point is above or below 0: the points of frame i are those
+  /// from first[i] up to first[i + 1].
   [[nodiscard]] nlohmann::ordered_json to_json() const;
 
  private:
@@ -31,7 +33,7 @@ class ScanFrames {
   std::size_t added_ = 0;   ///< Steps.
   std::size_t stride_ = 1;  ///< Steps from one frame to the next.
   std::vector<std::size_t> first_ = {0};
-  std::vector<int> x_, y_;
+  std::vector<int> x_, y_, z_;
 };
 
 }  // namespace glocal

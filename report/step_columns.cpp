@@ -21,6 +21,7 @@ constexpr std::array optional_numbers = {"omega_place", "translation_error_m", "
                                          "confidence"};
 constexpr std::array poses = {"estimate", "reference", "local_from_robot"};
 constexpr std::array coordinates = {"x", "y", "theta"};
+constexpr std::array coordinates_in_space = {"z", "qx", "qy", "qz", "qw"};
 constexpr std::array cluster_numbers = {"size", "r", "r_normalised"};
 
 /// A writer has only null for infinity and for what is no number.
@@ -32,6 +33,10 @@ Json number(const Json& value) {
 
 Json number_or_null(const Json& line, const char* key) {
   return line.contains(key) ? number(line.at(key)) : Json(nullptr);
+}
+
+bool is_in_space(const Json& line) {
+  return line.contains("local_from_robot") && line.at("local_from_robot").contains("z");
 }
 
 Json empty_columns() {
@@ -74,7 +79,9 @@ void StepColumns::add(const Json& line) {
   columns_["verdict"].push_back(line.at("verdict").get<std::string>());
   columns_["on_map"].push_back(line.contains("on_map") ? Json(line.at("on_map").get<bool>()) : Json(nullptr));
   add_sentence(line.at("why"));
+  if (steps_ == 0 && is_in_space(line)) go_to_space();
   add_poses(line);
+  add_verification(line);
   add_evidence(line);
   add_clusters(line);
   ++steps_;
@@ -93,19 +100,37 @@ void StepColumns::add_sentence(const std::string& why) {
   columns_["why"].push_back(known->second);
 }
 
+/// Poses have a height and a rotation, too.
+void StepColumns::go_to_space() {
+  is_in_space_ = true;
+  for (const char* coordinate : coordinates_in_space) {
+    for (const char* pose : poses) columns_[pose][coordinate] = Json::array();
+    best_[coordinate] = Json::array();
+  }
+  columns_["candidates_in_space"] = Json::array();
+}
+
 void StepColumns::add_poses(const Json& line) {
   for (const char* pose : poses) {
-    for (const char* coordinate : coordinates)
-      columns_[pose][coordinate].push_back(line.contains(pose) ? number(line.at(pose).at(coordinate))
-                                                               : Json(nullptr));
+    for (auto& [coordinate, column] : columns_[pose].items())
+      column.push_back(line.contains(pose) ? number(line.at(pose).at(coordinate)) : Json(nullptr));
   }
-  Json candidates = Json::array();
-  if (line.contains("candidates")) {
-    for (const Json& pose : line.at("candidates")) {
-      for (const char* coordinate : coordinates) candidates.push_back(number(pose.at(coordinate)));
+  const auto add_candidates = [&](const char* key, const auto& keys) {
+    Json candidates = Json::array();
+    for (const Json& pose : line.value("candidates", Json::array())) {
+      for (const char* coordinate : keys) candidates.push_back(number(pose.at(coordinate)));
     }
-  }
-  columns_["candidates"].push_back(std::move(candidates));
+    columns_[key].push_back(std::move(candidates));
+  };
+  add_candidates("candidates", coordinates);
+  if (is_in_space_) add_candidates("candidates_in_space", coordinates_in_space);
+}
+
+void StepColumns::add_verification(const Json& line) {
+  if (!line.contains("verification")) return;
+  Json verification = line.at("verification");
+  verification["step"] = steps_;
+  columns_["verifications"].push_back(std::move(verification));
 }
 
 void StepColumns::add_evidence(const Json& line) {
@@ -125,8 +150,11 @@ void StepColumns::add_clusters(const Json& line) {
   const std::size_t n = std::min(best.size(), clusters_);
   for (std::size_t i = 0; i < n; ++i) {
     const Json& cluster = best.at(i);
-    for (const char* coordinate : coordinates)
-      best_[coordinate].push_back(number(cluster.at("pose").at(coordinate)));
+    const auto add_pose = [&](const auto& keys) {
+      for (const char* key : keys) best_[key].push_back(number(cluster.at("pose").at(key)));
+    };
+    add_pose(coordinates);
+    if (is_in_space_) add_pose(coordinates_in_space);
     for (const char* key : cluster_numbers) best_[key].push_back(number(cluster.at(key)));
   }
   best_["first"].push_back(best_["x"].size());

@@ -21,20 +21,24 @@ class StepColumns {
   void add(const nlohmann::ordered_json& line);
 
   [[nodiscard]] std::size_t size() const { return steps_; }
-  /// Such as {"step": [0, 1], "verdict": ["searching", "localized"], …}.
+  /// Such as {"step": [0, 1], "verdict": ["searching", "localized"], …}. "verifications" are no column: they
+  /// are those of the steps that have one, with their step.
   [[nodiscard]] nlohmann::ordered_json to_json() const;
 
  private:
   using Column = nlohmann::ordered_json;
 
+  void go_to_space();
   void add_numbers(const nlohmann::ordered_json& line);
   void add_poses(const nlohmann::ordered_json& line);
+  void add_verification(const nlohmann::ordered_json& line);
   void add_evidence(const nlohmann::ordered_json& line);
   void add_clusters(const nlohmann::ordered_json& line);
   void add_sentence(const std::string& why);
 
   std::size_t clusters_;
   std::size_t steps_ = 0;
+  bool is_in_space_ = false;
   nlohmann::ordered_json columns_;
   nlohmann::ordered_json evidence_ = nlohmann::ordered_json::object();
   nlohmann::ordered_json best_;

@@ -50,8 +50,10 @@ test("the keyboard reaches everything, and one sees where it is", { skip }, asyn
     await page.keyboard.press("Tab");
     const { id, name, outline } = await page.evaluate(() => {
       const e = document.activeElement;
-      const { outlineStyle, outlineWidth } = getComputedStyle(e);
-      return { id: e.dataset.reach, name: `${e.tagName}.${e.className}`, outline: e === document.body || (outlineStyle !== "none" && parseFloat(outlineWidth) >= 2) };
+      const { outlineStyle, outlineWidth, strokeWidth } = getComputedStyle(e);
+      const isOutlined = outlineStyle !== "none" && parseFloat(outlineWidth) >= 2;
+      const isStroked = e instanceof SVGElement && parseFloat(strokeWidth) >= 2;
+      return { id: e.dataset.reach, name: `${e.tagName}.${e.getAttribute("class")}`, outline: e === document.body || isOutlined || isStroked };
     });
     if (id !== undefined) reached.add(id);
     if (!outline) unseen.push(name);

@@ -69,6 +69,7 @@ test("the summary counts the trials", { skip }, async () => {
 
 test("the share of localized trials ends at that of right ones", { skip }, async () => {
   await page.locator("[data-share=over_steps] canvas").waitFor();
-  // Six charts over trials have something to show: only success of several runs is missing.
-  assert.equal(await page.locator("#distributions canvas").count(), 5);
+  // A run alone has curves of all that is told over trials, and no boxes beside each other.
+  assert.equal(await page.locator("#distributions .plot canvas").count(), 5);
+  assert.equal(await page.locator("#distributions [data-boxes]").count(), 0);
 });

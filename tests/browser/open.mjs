@@ -28,7 +28,9 @@ export async function open(address, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, ...options });
   const page = await context.newPage();
   const noted = { errors: [], requests: [], dialogs: 0 };
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && noted.errors.push(message.text()));
+  // Drawing in space without a graphics card is slow, of which the browser warns when a test looks at pixels.
+  const isOfDriver = (text) => text.includes("GPU stall due to ReadPixels");
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !isOfDriver(message.text()) && noted.errors.push(message.text()));
   page.on("pageerror", (error) => noted.errors.push(String(error)));
   page.on("request", (request) => noted.requests.push(request.url()));
   page.on("dialog", async (dialog) => {
@@ -53,7 +55,7 @@ export function assertQuiet({ noted, url }) {
 }
 
 export async function moveSlider(page, step) {
-  await page.locator("input[type=range]").evaluate((slider, value) => {
+  await page.locator(".player input[type=range]").evaluate((slider, value) => {
     slider.value = String(value);
     slider.dispatchEvent(new Event("input", { bubbles: true }));
   }, step);
@@ -65,9 +67,11 @@ export async function drawn(page) {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
 
+const plan = ".map:not(.space) .stage canvas";
+
 /** What the page says of its view, to find a place of the map on the screen (y up in the map, down on the screen). */
-export async function mapView(page) {
-  const { data, box } = await page.locator(".stage canvas").evaluate((canvas) => {
+export async function mapView(page, canvas = plan) {
+  const { data, box } = await page.locator(canvas).evaluate((canvas) => {
     window.scrollTo(0, 0);
     const rectangle = canvas.getBoundingClientRect();
     return { data: { ...canvas.dataset }, box: { left: rectangle.left, top: rectangle.top, width: rectangle.width, height: rectangle.height } };
@@ -86,8 +90,8 @@ export async function mapView(page) {
 }
 
 /** The map's drawing as it is: red, green, blue, opacity of its pixels, which places on the screen lead to. */
-async function drawing(page) {
-  const { bytes, width, height, box } = await page.locator(".stage canvas").evaluate((canvas) => {
+async function drawing(page, canvas) {
+  const { bytes, width, height, box } = await page.locator(canvas).evaluate((canvas) => {
     // Reading the page's own canvas again and again would have the browser warn of it.
     const copy = document.createElement("canvas");
     copy.width = canvas.width;
@@ -109,15 +113,20 @@ async function drawing(page) {
 }
 
 /** For each place on the screen whether anything is drawn there, or in a pixel beside it. */
-export async function painted(page, places) {
-  const at = await drawing(page);
+export async function painted(page, places, canvas = plan) {
+  const at = await drawing(page, canvas);
   const offsets = [-1, 0, 1];
   return places.map(({ x, y }) => offsets.some((dx) => offsets.some((dy) => at({ x: x + dx, y: y + dy })[3] > 0)));
 }
 
 /** Colour of the map's drawing at a place on the screen: red, green, blue, opacity. */
 export async function colourAt(page, place) {
-  return (await drawing(page))(place);
+  return (await drawing(page, plan))(place);
+}
+
+/** The same at many places. */
+export async function coloursAt(page, places, canvas = plan) {
+  return places.map(await drawing(page, canvas));
 }
 
 /** What is drawn: all layers but these are switched off. */

@@ -7,7 +7,7 @@ import { pathToFileURL } from "node:url";
 import { workFolder } from "./runs.mjs";
 
 const page = process.env.GLOCAL_PAGE_FOLDER; // as it was built
-let geometry, numbers, shares, shown, view, files, background;
+let geometry, numbers, shares, shown, view, files, background, boxes, certificate, groups, svg, spacePoses;
 
 before(async () => {
   const { build } = createRequire(join(page, "package.json"))("esbuild");
@@ -17,8 +17,12 @@ before(async () => {
     await build({ entryPoints: [join(page, "src", `${name}.ts`)], bundle: true, format: "esm", outfile, logLevel: "error" });
     return import(pathToFileURL(outfile).href);
   };
-  const names = ["geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export", "map_background"];
-  [geometry, numbers, shares, shown, view, files, background] = await Promise.all(names.map(load));
+  const names = [
+    "geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export", "map_background",
+    "boxes", "certificate", "groups", "svg", "space_poses",
+  ];
+  [geometry, numbers, shares, shown, view, files, background, boxes, certificate, groups, svg, spacePoses] =
+    await Promise.all(names.map(load));
 });
 
 const near = (a, b) => assert.ok(Math.hypot(a.x - b.x, a.y - b.y, a.theta - b.theta) < 1e-12, JSON.stringify([a, b]));
@@ -93,4 +97,55 @@ test("lines of the map are 1, 2 or 5 of a power of ten apart", () => {
 
 test("cells of CSV files are quoted where they must be, and numbers are plain", () => {
   assert.equal(files.csvOf([["a", "12,345", "–", 'say "so", twice'], ["1,2,3", "1,234.5", "", "x\ny"]]), 'a,12345,,"say ""so"", twice"\r\n"1,2,3",1234.5,,"x\ny"\r\n');
+});
+
+test("boxes hold half of the values, and whiskers no outlier", () => {
+  // Quarters at 3 and 7; whiskers reach to 13 at most.
+  assert.deepEqual(boxes.boxOf([9, 1, 2, 3, 4, 5, 6, 7, 40]), {
+    kind: "box", low: 1, quarter: 3, median: 5, three_quarters: 7, high: 9, outliers: [40],
+  });
+  assert.deepEqual(boxes.boxOf([3, 1, 2, 9]), { kind: "dots", median: 2.5, values: [1, 2, 3, 9] });
+  assert.deepEqual(boxes.boxOf([4]), { kind: "dots", median: 4, values: [4] });
+  assert.equal(boxes.boxOf([]), null);
+});
+
+test("ticks are round numbers", () => {
+  assert.deepEqual(svg.ticks(0, 10, 5), [0, 2, 4, 6, 8, 10]);
+  assert.deepEqual(svg.ticks(0.31, 0.52, 4), [0.4, 0.5]);
+  assert.deepEqual(svg.ticks(-0.25, 0.25, 5), [-0.2, -0.1, 0, 0.1, 0.2]);
+  assert.deepEqual(svg.logTicks(0.5, 2000), [1, 10, 100, 1000]);
+  assert.deepEqual(svg.logTicks(0.3, 12), [0.5, 1, 2, 5, 10]);
+});
+
+test("certificates are told with what they prove, and what they do not", () => {
+  const proved = { contact: 0.84, at_most: 0.61, distance_m: 1, rotation_deg: 30 };
+  const sentence =
+    "84.0 % of the local map's points are in contact at the declared pose; no pose more than 1 m or 30° away has more than 61.0 %.";
+  assert.equal(certificate.certificateSentence(proved), sentence);
+  assert.match(certificate.certificateSentence({ ...proved, at_most: 0.9 }), /a pose elsewhere may fit as well\.$/);
+  const verification = { step: 4, refuted: false, score: 0.8, margin: 0.05, rivals: [], certificate: proved };
+  assert.equal(certificate.verificationSentence(verification), `${sentence} No rival was found.`);
+  const rival = { pose: { x: 3, y: -1.5, theta: 0 }, contact: 0.79, score: 0.78 };
+  const refuted = certificate.verificationSentence({ ...verification, refuted: true, rivals: [rival], certificate: undefined });
+  assert.match(refuted, /^Refuted\. The search of the whole map was given up, so nothing is proved\./);
+  assert.match(refuted, /One rival was found; the best, at 3\.0 m, -1\.5 m, has score 0\.780, and 0\.750 is enough to refute/);
+});
+
+test("runs of a sweep over cases are looked at by setting, others by themselves", () => {
+  const run = (name, ...trials) => ({ name, trials });
+  const runs = [run("a_lab", 1), run("a_hall", 2), run("a_b_lab", 3), run("a_b_hall", 4)];
+  const sweep = { settings: [{ setting: "a_b" }, { setting: "a" }] };
+  assert.deepEqual(groups.groupsOf({ runs, sweep }), [run("a_b", 3, 4), run("a", 1, 2)]);
+  assert.equal(groups.groupsOf({ runs }), runs);
+  const plain = [run("a", 1), run("b", 2)];
+  assert.equal(groups.groupsOf({ runs: plain, sweep: { settings: [{ setting: "b" }, { setting: "a" }] } }), plain);
+});
+
+test("poses in space are read from their columns", () => {
+  const pose = { x: [1, null], y: [2, null], z: [3, null], qx: [0, null], qy: [0, null], qz: [0.6, null], qw: [0.8, null] };
+  assert.deepEqual(spacePoses.columnPose(pose, 0), { position: [1, 2, 3], rotation: [0, 0, 0.6, 0.8] });
+  assert.equal(spacePoses.columnPose(pose, 1), null);
+  assert.equal(spacePoses.columnPose({ x: [1], y: [2] }, 0), null);
+  const steps = { candidates: [[1, 2, 0, 4, 5, 0.1]], candidates_in_space: [[3, 0, 0, 0, 1, 6, 0, 0, 1, 0]] };
+  assert.deepEqual(spacePoses.candidatePose(steps, 0, 1), { position: [4, 5, 6], rotation: [0, 0, 1, 0] });
 });

@@ -62,7 +62,7 @@ export async function checkClusters(page, step, viridis, most = 5) {
     [red, green, blue].forEach((value, k) => assert.ok(Math.abs(value - expected[k]) <= (isWeak ? 8 : 3), `cluster ${i}: ${[red, green, blue]} for ${expected}`));
     assert.ok(isWeak ? opacity < 255 && opacity >= 50 : opacity === 255, `cluster ${i}: opacity ${opacity}`);
     await page.mouse.move(places[i].x, places[i].y);
-    const tip = await page.locator(".tip").innerText();
+    const tip = await page.locator(".map:not(.space) .tip").innerText();
     assertShown(/r̄ = (\S+)/.exec(tip)[1], cluster.r_normalised, "normalised rating");
     assertShown(/· r = (\S+)/.exec(tip)[1], cluster.r, "rating");
     assert.match(tip, new RegExp(`cluster ${i + 1}, ${cluster.size} `));

@@ -54,6 +54,34 @@ test("each parameter has its levels where they belong on the axis", { skip }, as
   }
 });
 
+test("each setting is a line from its values to its share of right trials", { skip }, async () => {
+  const lines = page.locator("#sweep .parallel .lines path");
+  assert.equal(await lines.count(), sweep.settings.length);
+  const axes = await page.locator("#sweep .parallel .axis").evaluateAll((all) =>
+    all.map((axis) => {
+      const [line, label] = [axis.querySelector("line"), axis.querySelector(".label")];
+      const [x, low, high] = ["x1", "y2", "y1"].map((key) => Number(line.getAttribute(key)));
+      return { x, low, high, label: label.lastChild.textContent };
+    }),
+  );
+  assert.equal(axes.length, sweep.effects.length + 1);
+  const epsilon = sweep.effects.findIndex(({ label }) => label === "contact_epsilon");
+  const all = sweep.settings.map(({ values }) => Number(values[sweep.effects[epsilon].path]));
+  for (const { setting, values, chosen } of sweep.settings) {
+    const points = (await page.locator(`#sweep [data-setting="${setting}"]`).getAttribute("d")).slice(1).split("L").map((point) => point.split(" ").map(Number));
+    const at = (axis, share) => axis.low + share * (axis.high - axis.low);
+    points.forEach(([x], k) => assert.ok(Math.abs(x - axes[k].x) < 0.1));
+    assert.ok(Math.abs(points.at(-1)[1] - at(axes.at(-1), chosen.success_rate.value)) < 0.1, setting);
+    const share = (Number(values[sweep.effects[epsilon].path]) - Math.min(...all)) / (Math.max(...all) - Math.min(...all));
+    assert.ok(Math.abs(points[epsilon][1] - at(axes[epsilon], share)) < 0.1, `${setting}: ${points[epsilon][1]}`);
+  }
+});
+
+test("curves and boxes over all trials are of settings", { skip }, async () => {
+  assert.deepEqual(await page.locator("#distributions .names span").allInnerTexts(), sweep.settings.map((s) => s.setting));
+  assert.equal(await page.locator("[data-boxes=steps] [data-run]").count(), sweep.settings.length);
+});
+
 test("cells of the map can be read on their colours", { skip }, async () => {
   const cells = await page.locator("#sweep .heat td").evaluateAll((all) =>
     all.map((cell) => {

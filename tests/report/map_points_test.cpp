@@ -44,6 +44,14 @@ TEST(MapPoints, AnywhereLieTheMedianDistanceApart) {
   EXPECT_NEAR(map_points(points_at(at))["spacing_m"].get<double>(), nearest[150], 1e-6);
 }
 
+TEST(MapPoints, InSpaceHaveHeights) {
+  Points points;
+  points.push_back({1.0F, 2.0F, 0.5F});
+  points.push_back({1.0F, 2.0F, -0.25F});
+  EXPECT_EQ(map_points(points).dump(),
+            R"({"x":[1000,1000],"y":[2000,2000],"spacing_m":0.75,"z":[-250,500]})");
+}
+
 TEST(MapPoints, OfNoneOrOneAreNothingApart) {
   EXPECT_EQ(map_points({}).dump(), R"({"x":[],"y":[],"spacing_m":0})");
   EXPECT_EQ(map_points(points_at({{1, 1}})).dump(), R"({"x":[1000],"y":[1000],"spacing_m":0})");

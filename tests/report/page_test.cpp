@@ -54,6 +54,17 @@ TEST(Page, HasEachPlaceOnce) {
   EXPECT_THROW(static_cast<void>(page_with(page + page, "", {})), std::logic_error);
 }
 
+TEST(Page, HasAScriptAfterItsDataWhereTheyNeedOne) {
+  EXPECT_EQ(page_with(small_page, "", {}, "draw()"),
+            "<title></title><body><script type=\"application/json\" id=\"glocal-data\">null</script>"
+            "<script>draw()</script></body>");
+  const Json planar = {{"maps", {{{"x", {1}}, {"y", {2}}}}}};
+  const Json in_space = {{"maps", {{{"x", {1}}, {"y", {2}}}, {{"x", {1}}, {"y", {2}}, {"z", {3}}}}}};
+  EXPECT_TRUE(script_for(planar).empty());
+  EXPECT_TRUE(script_for({{"maps", Json::array()}}).empty());
+  EXPECT_EQ(script_for(in_space), space_text);
+}
+
 TEST(Page, ThatIsBuiltInTakesDataAndNeedsNothingElse) {
   const std::string page = page_with(page_text, "room", {{"format", 1}});
   EXPECT_THAT(page, HasSubstr("room</title>"));

@@ -98,6 +98,18 @@ TEST(PointLives, LeaveOutAsFewStepsAsItTakes) {
   }
 }
 
+TEST(PointLives, TellPointsApartThatLieAboveEachOther) {
+  const auto at_height = [](float z) {
+    Points points;
+    points.push_back({1.0F, 2.0F, z});
+    return points;
+  };
+  PointLives lives(no_limit);
+  for (const float z : {0.0F, 0.5F, 0.5F}) lives.add(at_height(z));
+  EXPECT_EQ(to_json(lives).dump(),
+            R"({"steps":[0,1,2],"x":[1000,1000],"y":[2000,2000],"from":[0,1],"to":[1,3],"z":[0,500]})");
+}
+
 TEST(PointLives, CanBeMadeFewerLater) {
   const std::vector<Points> sets = random_sets(41);
   PointLives later = lives_of(sets, no_limit);

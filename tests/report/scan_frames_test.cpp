@@ -30,6 +30,16 @@ TEST(ScanFrames, LeaveOutEverySecondOrMoreWhereThereAreTooManyPoints) {
   EXPECT_EQ(frames.to_json()["first"], (std::vector<int>{0, 2}));
 }
 
+TEST(ScanFrames, InSpaceHaveHeights) {
+  ScanFrames frames(100);
+  Points hits;
+  hits.push_back({1.0F, 2.0F, 0.0F});
+  hits.push_back({3.0F, 4.0F, 0.5F});
+  frames.add(hits);
+  EXPECT_EQ(frames.to_json().dump(),
+            R"({"steps":[0],"first":[0,2],"x":[1000,3000],"y":[2000,4000],"z":[0,500]})");
+}
+
 TEST(ScanFrames, LeaveOutNoneWhereTheyFit) {
   ScanFrames frames(6);
   for (int i = 0; i < 3; ++i) frames.add(points_at({{1, 0}, {1, 1}}));

@@ -76,6 +76,38 @@ TEST(StepColumns, HaveAValueForEachStep) {
     "sentences": ["not yet", "two"]})"));
 }
 
+TEST(StepColumns, HaveHeightsAndRotationsInSpace) {
+  const Pose3 tilted{{1.0, 2.0, 3.0}, {0.8, 0.6, 0.0, 0.0}};
+  StepRecord record = step_record(0, {});
+  record.result.motion = Motion::upright;
+  record.result.clusters[0].map_from_robot = tilted;
+  record.result.verdict.candidates = {tilted, Pose2{4.0, 5.0, 0.0}};
+  record.reference = tilted;
+  const Json columns = columns_of({record}, 1);
+  EXPECT_EQ(columns["reference"], Json::parse(R"({"x": [1], "y": [2], "theta": [0], "z": [3], "qx": [0.6],
+                                                  "qy": [0], "qz": [0], "qw": [0.8]})"));
+  EXPECT_EQ(columns["candidates_in_space"], Json::parse("[[3, 0.6, 0, 0, 0.8, 0, 0, 0, 0, 1]]"));
+  EXPECT_EQ(columns["best"]["z"], Json::parse("[3]"));
+  EXPECT_EQ(columns["best"]["qx"], Json::parse("[0.6]"));
+}
+
+TEST(StepColumns, HaveTheVerificationsOfTheStepsThatWereVerified) {
+  StepRecord verified = step_record(1, {1, 2, 0});
+  Verification verification;
+  verification.score = 0.5;
+  verification.margin = 0.25;
+  verification.is_refuted = true;
+  verification.certificate = Certificate{.contact = 0.75, .at_most = 0.5};
+  verified.result.verification = verification;
+  const Json verifications = columns_of({step_record(0, {}), verified})["verifications"];
+  ASSERT_EQ(verifications.size(), 1U);
+  EXPECT_EQ(verifications[0]["step"], 1);
+  EXPECT_EQ(verifications[0]["refuted"], true);
+  EXPECT_EQ(verifications[0]["certificate"]["contact"], 0.75);
+  EXPECT_EQ(verifications[0]["certificate"]["at_most"], 0.5);
+  EXPECT_FALSE(columns_of({step_record(0, {})}).contains("verifications"));
+}
+
 TEST(StepColumns, OfNoStepsAreEmpty) {
   const Json columns = columns_of({});
   EXPECT_EQ(columns["step"], Json::array());

@@ -4,7 +4,16 @@
 /** null where a step has no such value. */
 export type Column = (number | null)[];
 
-export interface PoseColumns {
+/** Of runs in space only: height, and the rotation as a unit quaternion. */
+export interface SpaceColumns {
+  z?: Column;
+  qx?: Column;
+  qy?: Column;
+  qz?: Column;
+  qw?: Column;
+}
+
+export interface PoseColumns extends SpaceColumns {
   x: Column;
   y: Column;
   theta: Column;
@@ -14,6 +23,27 @@ export interface Pose {
   x: number;
   y: number;
   theta: number;
+}
+
+/** What a search of the whole map proves of a declared pose. Contacts are shares of 1. */
+export interface Certificate {
+  contact: number;
+  /** No pose farther away than the two below has more. */
+  at_most: number;
+  distance_m: number;
+  rotation_deg: number;
+}
+
+/** A declared pose against all others. */
+export interface Verification {
+  step: number;
+  refuted: boolean;
+  score: number;
+  /** A rival refutes if its score is at most this much lower. */
+  margin: number;
+  rivals: { pose: Pose; contact: number; score: number }[];
+  /** Absent where the search was given up. */
+  certificate?: Certificate;
 }
 
 export type VerdictKind = "searching" | "ambiguous" | "localized" | "unknown_place";
@@ -48,9 +78,13 @@ export interface Steps {
   local_from_robot: PoseColumns;
   /** x, y, theta of each candidate, one after the other. */
   candidates: number[][];
+  /** z, qx, qy, qz, qw of each candidate; of runs in space only. */
+  candidates_in_space?: number[][];
+  /** Of the steps in which a declaration was verified. */
+  verifications?: Verification[];
   evidence: Record<string, Column>;
   /** The clusters of step i are [first[i], first[i + 1]), falling rating. */
-  best: {
+  best: SpaceColumns & {
     first: number[];
     x: number[];
     y: number[];
@@ -67,6 +101,8 @@ export interface PointLives {
   steps: number[];
   x: number[];
   y: number[];
+  /** Of runs in space only, as in scans and maps. */
+  z?: number[];
   from: number[];
   to: number[];
 }
@@ -77,6 +113,7 @@ export interface Scans {
   first: number[];
   x: number[];
   y: number[];
+  z?: number[];
 }
 
 export type Outcome = "right" | "wrong" | "undecided" | "declared" | "failed";
@@ -93,6 +130,7 @@ export interface Trial {
   translation_error_m?: number;
   rotation_error_deg?: number;
   confidence?: number;
+  certificate?: Certificate;
   why?: string;
   /** Absent where steps were not written. */
   columns?: Steps;
@@ -162,6 +200,7 @@ export interface Grid {
 export interface GlobalMap {
   x: number[];
   y: number[];
+  z?: number[];
   spacing_m: number;
   /** Absent where a map has points only. */
   grid?: Grid;

@@ -1,4 +1,5 @@
 // The numbers of the chosen step, and its clusters.
+import { certificateNote } from "./certificate";
 import { ratingColour, verdictColours, verdictNames } from "./colours";
 import { stepTime, type Steps } from "./data";
 import { el, replace, table } from "./elements";
@@ -24,7 +25,13 @@ export class Details {
     const focused = document.activeElement?.getAttribute("data-hypothesis");
     const word = this.element.contains(document.activeElement) ? document.activeElement?.closest(".word")?.textContent : null;
     const scrolled = this.element.querySelector(".scroll")?.scrollTop ?? 0;
-    replace(this.element, verdict(steps, step), facts(steps, step), this.hypotheses(steps, step));
+    replace(
+      this.element,
+      verdict(steps, step),
+      trial && certificateNote(trial, step),
+      facts(steps, step),
+      this.hypotheses(steps, step),
+    );
     if (scrolled > 0) this.element.querySelector(".scroll")?.scrollTo(0, scrolled);
     if (focused != null) this.element.querySelector<HTMLElement>(`[data-hypothesis="${focused}"]`)?.focus();
     // Steps are moved by keys, whatever has the focus.

@@ -14,6 +14,7 @@ import { experimentsOf, summaryHeader } from "./summary_header";
 import { sweepSection } from "./sweep_section";
 import { comparisonSection, configurationSection, provenanceSection, summarySection } from "./tables";
 import { Distributions, TrialList } from "./trials_section";
+import { Views } from "./views";
 import { showMeanings } from "./words";
 
 /** The only format this page reads; the program that wrote the data has this page in it. */
@@ -119,6 +120,7 @@ function show(report: Report, page: HTMLElement): void {
   if (report.runs.length === 0) throw new Error("the data has no run");
   const store = new Store(report);
   const map = new MapView(store);
+  const views = new Views(store, map);
   const curves = new Curves(store);
   const player = new Player(store);
   const details = new Details(store);
@@ -126,7 +128,7 @@ function show(report: Report, page: HTMLElement): void {
   const distributions = new Distributions(store);
   const news = report.live ? new LiveNews(store) : null;
   const redraw = (): void => {
-    map.drawNow();
+    views.drawNow();
     curves.rebuild();
     distributions.rebuild();
     player.drawStrip();
@@ -155,7 +157,7 @@ function show(report: Report, page: HTMLElement): void {
   );
   const view: HTMLElement = el("main", { id: "view" }, el("h2", { class: "unseen" }, "Step by step"));
   const [right, below] = bordersOf(() => view);
-  append(view, map.element, right, curves.element, below, player.element, details.element);
+  append(view, views.element, right, curves.element, below, player.element, details.element);
   followLength(view, store);
   const fullScreen = new FullScreen(view);
   map.addButton("Full screen (f)", "▢", () => fullScreen.toggle());
@@ -164,7 +166,7 @@ function show(report: Report, page: HTMLElement): void {
   if (!sweep || report.runs.some(hasMoreThanTrials)) append(page, view, keysHelp());
   append(page, ...sections);
   showMeanings(page);
-  listenToKeys(store, player, map, fullScreen);
+  listenToKeys(store, player, views, fullScreen);
   new PageState(store, map);
   trials.fill();
   details.update();

@@ -73,7 +73,7 @@ function estimateColour(by: TrajectoryColour, steps: Steps, i: number): string |
 }
 
 /** The newest frame recorded up to this step; -1 if there is none. */
-function frameAt(lives: PointLives | Scans, step: number): number {
+export function frameAt(lives: PointLives | Scans, step: number): number {
   let frame = -1;
   while (frame + 1 < lives.steps.length && lives.steps[frame + 1] <= step) ++frame;
   return frame;
@@ -209,7 +209,7 @@ export class MapView {
   drawNow(): void {
     this.frame = 0;
     const context = this.canvas.getContext("2d");
-    if (!context || !this.isFitted || this.width === 0) return;
+    if (!context || !this.isFitted || this.width === 0 || this.element.hidden) return;
     const { x, y, scale } = this.view;
     Object.assign(this.canvas.dataset, { x, y, scale });
     const ratio = this.canvas.width / this.width;

@@ -109,7 +109,12 @@ export class Player {
 }
 
 /** Keys that work wherever no text is being written. */
-export function listenToKeys(store: Store, player: Player, map: MapView, fullScreen: FullScreen): void {
+export function listenToKeys(
+  store: Store,
+  player: Player,
+  map: Pick<MapView, "pan" | "zoom" | "fit">,
+  fullScreen: FullScreen,
+): void {
   const keys: Record<string, (event: KeyboardEvent) => void> = {
     ArrowLeft: (event) => (event.shiftKey ? map.pan(60, 0) : player.move(event.ctrlKey ? -10 : -1)),
     ArrowRight: (event) => (event.shiftKey ? map.pan(-60, 0) : player.move(event.ctrlKey ? 10 : 1)),

@@ -3,6 +3,7 @@ import { ratingColour } from "./colours";
 import type { ParameterEffect, Proportion, Report, SettingOutcome, Sweep, SweepMap } from "./data";
 import { el, section, table } from "./elements";
 import { count, fixed, percent, proportion } from "./numbers";
+import { parallelCoordinates } from "./parallel";
 
 const mostSettings = 20;
 
@@ -14,7 +15,7 @@ export function sweepSection({ sweep }: Report): HTMLElement | null {
     sweep.warnings.length > 0 && el("ul", { class: "warning" }, ...sweep.warnings.map((text) => el("li", {}, text))),
     settingsTable(sweep),
     sweep.effects.length > 0 && el("div", { class: "effects" }, ...sweep.effects.map(effectChart)),
-    sweep.map && heatMap(sweep.map),
+    el("div", { class: "maps" }, sweep.map && heatMap(sweep.map), parallelCoordinates(sweep)),
     el(
       "p",
       { class: "note" },

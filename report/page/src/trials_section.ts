@@ -4,15 +4,30 @@ import { chart, type ChartOptions, type Line } from "./charts";
 import { runLine, themeColour } from "./colours";
 import { lineSample } from "./curves";
 import { stepTime, type Run, type Trial } from "./data";
+import { BoxPlots } from "./distributions";
 import { el, replace, section, table } from "./elements";
-import { count, fixed } from "./numbers";
+import { groupsOf, type Group } from "./groups";
+import { count, fixed, percent } from "./numbers";
 import { cumulativeShare } from "./shares";
+import { hasStarts, StartsMap } from "./starts_map";
 import type { Store } from "./store";
+
+/** Chooses the trial, and shows it: in the list where nothing else is known of it. */
+function openTrial(store: Store, trial: number): void {
+  store.chooseTrial(trial);
+  const row = document.querySelector(`#trials [data-trial="${trial}"]`);
+  const view = document.getElementById("view") ?? row ?? document.getElementById("trials");
+  view?.scrollIntoView({ behavior: "auto" });
+}
+
+/** Laying out thousands of rows takes longer than all the rest of the page. */
+const mostRows = 500;
 
 /** The list of the chosen run's trials. */
 export class TrialList {
   readonly element: HTMLElement;
   private readonly list = el("div", {});
+  private hasAll = false;
 
   constructor(private readonly store: Store) {
     this.element = section("trials", "Trials", this.list);
@@ -23,25 +38,38 @@ export class TrialList {
   }
 
   fill(): void {
-    const choose = (i: number): void => {
-      this.store.chooseTrial(i);
-      document.getElementById("view")?.scrollIntoView({ behavior: "auto" });
-    };
-    const rows = this.store.run.trials.map((trial, i) => [
-      el("button", { type: "button", "data-trial": i, click: () => choose(i) }, String(trial.trial)),
+    const { trials } = this.store.run;
+    const hasCertificates = trials.some((trial) => trial.certificate);
+    const certificate = ({ certificate: c }: Trial): string[] =>
+      hasCertificates ? [c ? `${percent(c.contact)}, elsewhere ≤ ${percent(c.at_most)}` : "–"] : [];
+    const shown = this.hasAll ? trials : trials.slice(0, mostRows);
+    const rows = shown.map((trial, i) => [
+      el("button", { type: "button", "data-trial": i, click: () => openTrial(this.store, i) }, String(trial.trial)),
       `${fixed(trial.start.distance_m, 1)} m`,
       el("span", { class: `outcome ${trial.outcome ?? "running"}` }, trial.outcome ?? "running"),
       count(trial.steps),
       fixed(trial.distance_m, 2),
       fixed(trial.translation_error_m, 3),
       fixed(trial.rotation_error_deg, 2),
+      ...certificate(trial),
       trial.why ?? "",
     ]);
     replace(
       this.list,
-      table(["trial", "start", "outcome", "steps", "distance, m", "error, m", "error, °", "why"], rows, "trials"),
+      table(
+        ["trial", "start", "outcome", "steps", "distance, m", "error, m", "error, °", ...(hasCertificates ? ["contact certified"] : []), "why"],
+        rows,
+        "trials",
+      ),
+      shown.length < trials.length &&
+        el("p", { class: "note" }, `The first ${count(shown.length)}. `, el("button", { type: "button", click: () => this.fillAll() }, `all ${count(trials.length)} trials`)),
     );
     this.mark();
+  }
+
+  private fillAll(): void {
+    this.hasAll = true;
+    this.fill();
   }
 
   private mark(): void {
@@ -51,6 +79,9 @@ export class TrialList {
     });
   }
 }
+
+/** As many as lines are told apart. */
+const mostCurves = 18;
 
 interface Sample {
   label: string;
@@ -67,16 +98,18 @@ export class Distributions {
 
   constructor(store: Store) {
     const { runs } = store.report;
-    const rights = (value: (trial: Trial) => number | undefined) => (run: Run): Pick<Sample, "values" | "of"> => {
-      const right = run.trials.filter((trial) => trial.outcome === "right").map(value);
-      return { values: right.filter((v): v is number => v !== undefined), of: run.trials.length };
+    const groups = groupsOf(store.report);
+    const curved = groups.slice(0, mostCurves);
+    const rights = (value: (trial: Trial) => number | undefined) => (group: Group): Pick<Sample, "values" | "of"> => {
+      const right = group.trials.filter((trial) => trial.outcome === "right").map(value);
+      return { values: right.filter((v): v is number => v !== undefined), of: group.trials.length };
     };
-    const ofRight = (value: (trial: Trial) => number | undefined) => (run: Run): Pick<Sample, "values" | "of"> => {
-      const { values } = rights(value)(run);
+    const ofRight = (value: (trial: Trial) => number | undefined) => (group: Group): Pick<Sample, "values" | "of"> => {
+      const { values } = rights(value)(group);
       return { values, of: values.length };
     };
-    const times = (run: Run): Pick<Sample, "values" | "of"> => {
-      const values = run.trials.flatMap(({ columns }) =>
+    const times = (group: Group): Pick<Sample, "values" | "of"> => {
+      const values = group.trials.flatMap(({ columns }) =>
         columns ? columns.step.map((_, i) => stepTime(columns, i)) : [],
       );
       return { values, of: values.length };
@@ -85,26 +118,45 @@ export class Distributions {
       id: string,
       title: string,
       xLabel: string,
-      sample: (run: Run) => Pick<Sample, "values" | "of">,
+      sample: (group: Group) => Pick<Sample, "values" | "of">,
       options: Partial<ChartOptions> = {},
     ): ShareChart =>
-      new ShareChart(id, title, xLabel, runs.map((run, index) => ({ label: run.name, index, ...sample(run) })), options);
-    const charts = [
-      share("over_steps", "Localized, by steps", "steps", rights((trial) => trial.steps)),
-      share("over_distance", "Localized, by distance", "distance, m", rights((trial) => trial.distance_m)),
+      new ShareChart(id, title, xLabel, curved.map((group, index) => ({ label: group.name, index, ...sample(group) })), options);
+    const errors = [
       share("translation", "Translation error when localized", "m", ofRight((trial) => trial.translation_error_m)),
       share("rotation", "Rotation error when localized", "°", ofRight((trial) => trial.rotation_error_deg)),
       share("time", "Time for a step", "ms", times, { logX: true }),
     ];
-    const success = runs.length > 1 && runs.every((run) => run.summary) ? [new SuccessChart(runs)] : [];
-    this.charts = [...success, ...charts];
-    const names = runs.length > 1 ? runs.map((run, i) => el("span", {}, lineSample(i), run.name)) : [];
+    const curves = [
+      share("over_steps", "Localized, by steps", "steps", rights((trial) => trial.steps)),
+      share("over_distance", "Localized, by distance", "distance, m", rights((trial) => trial.distance_m)),
+      // Of several, box plots say the same side by side.
+      ...(groups.length > 1 ? [] : errors),
+    ].filter((each) => !each.isEmpty);
+    const success = groups === runs && runs.length > 1 && runs.every((run) => run.summary) ? [new SuccessChart(runs)] : [];
+    const starts = runs.some(hasStarts) ? [new StartsMap(store, (trial) => openTrial(store, trial))] : [];
+    this.charts = [...starts, ...success, ...curves];
+    const boxes = new BoxPlots(groups);
+    const names = curved.length > 1 ? curved.map((group, i) => el("span", {}, lineSample(i), group.name)) : [];
+    const left = groups.length - curved.length;
     this.element = section(
       "distributions",
       "Over all trials",
-      el("p", {}, "Shares are cumulative: what part of the trials was rightly localized by then, of right declarations had an error no larger, or of steps took no longer."),
-      names.length > 0 && el("p", { class: "names" }, ...names),
-      el("div", { class: "panels" }, ...[...success, ...charts].map((c) => c.element)),
+      names.length > 0 && el("p", { class: "names" }, ...names, left > 0 && el("span", {}, `and ${left} more, in the boxes below`)),
+      el(
+        "div",
+        { class: "over-trials" },
+        ...starts.map((each) => each.element),
+        el("div", { class: "panels" }, ...[...success, ...curves].map((each) => each.element)),
+      ),
+      boxes.element,
+      curves.length > 0 &&
+        el(
+          "p",
+          { class: "note" },
+          "Curves are cumulative: what part of all trials was rightly localized by then" +
+            (groups.length > 1 ? "." : ", of right declarations had an error no larger, or of steps took no longer."),
+        ),
     );
   }
 
@@ -128,14 +180,14 @@ class ShareChart {
     this.element = el("div", { class: "panel", "data-share": id }, el("h3", {}, title), this.target);
   }
 
+  get isEmpty(): boolean {
+    return this.samples.every((sample) => sample.values.length === 0);
+  }
+
   rebuild(): void {
     this.drawn?.destroy();
     this.drawn = null;
     const all = this.samples.flatMap((sample) => sample.values);
-    if (all.length === 0) {
-      replace(this.target, el("p", { class: "note" }, "There is nothing to show."));
-      return;
-    }
     const x = [...new Set(this.options.logX ? all.filter((v) => v > 0) : [0, ...all])].sort((a, b) => a - b);
     const lines = this.samples.map((sample): Line => ({
       label: sample.label,

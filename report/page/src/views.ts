@@ -1,0 +1,92 @@
+// The place of the map: the plan, and for runs in space the same seen from anywhere.
+import type { Report } from "./data";
+import { el, replace } from "./elements";
+import type { MapView } from "./map_view";
+import type { SpaceView } from "./space_view";
+import type { Store } from "./store";
+
+type View = "orbit" | "above" | "plan";
+
+const names: Record<View, string> = { orbit: "in space", above: "from above", plan: "plan" };
+
+/** Pages of runs in space have a script that sets this. */
+declare global {
+  interface Window {
+    glocalSpace?: { SpaceView: typeof SpaceView };
+  }
+}
+
+function isInSpace({ maps }: Report): boolean {
+  return maps.some((map) => map.z !== undefined);
+}
+
+/** A page that was opened before the map was there has no script for it. */
+function hintOf(store: Store): HTMLElement {
+  const hint = el("p", { class: "note" });
+  store.subscribe(() => replace(hint, isInSpace(store.report) && "Load this page again to see the run in space."));
+  return hint;
+}
+
+export class Views {
+  readonly element: HTMLElement;
+  private readonly space: SpaceView | null = null;
+  private readonly buttons = new Map<View, HTMLElement>();
+  private chosen: View = "plan";
+
+  constructor(
+    store: Store,
+    private readonly plan: MapView,
+  ) {
+    this.element = plan.element;
+    if (!window.glocalSpace) {
+      if (store.report.live) this.element = el("div", { class: "views" }, hintOf(store), plan.element);
+      return;
+    }
+    if (!isInSpace(store.report)) return;
+    const bar = el("div", { class: "view-bar", role: "group", "aria-label": "View of the map" });
+    try {
+      this.space = new window.glocalSpace.SpaceView(store);
+    } catch (error) {
+      replace(bar, el("p", { class: "note" }, `${error instanceof Error ? error.message : error} The plan shows the run from above.`));
+      this.element = el("div", { class: "views" }, bar, plan.element);
+      return;
+    }
+    for (const view of Object.keys(names) as View[]) {
+      const button = el("button", { type: "button", "data-view": view, click: () => this.choose(view) }, names[view]);
+      this.buttons.set(view, button);
+      bar.append(button);
+    }
+    this.element = el("div", { class: "views" }, bar, this.space.element, plan.element);
+    this.choose("orbit");
+  }
+
+  zoom(factor: number): void {
+    this.shown.zoom(factor);
+  }
+
+  pan(right: number, down: number): void {
+    this.shown.pan(right, down);
+  }
+
+  fit(): void {
+    this.shown.fit();
+  }
+
+  /** Colours may be others. */
+  drawNow(): void {
+    this.plan.drawNow();
+    this.space?.rebuild();
+  }
+
+  private get shown(): MapView | SpaceView {
+    return this.chosen === "plan" || !this.space ? this.plan : this.space;
+  }
+
+  private choose(view: View): void {
+    this.chosen = view;
+    this.plan.element.hidden = view !== "plan";
+    if (this.space) this.space.element.hidden = view === "plan";
+    if (view !== "plan") this.space?.look(view);
+    for (const [name, button] of this.buttons) button.setAttribute("aria-pressed", String(name === view));
+  }
+}

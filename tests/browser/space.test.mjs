@@ -1,0 +1,232 @@
+// A drive with a 3-D lidar in a simulated hall, seen in space.
+import assert from "node:assert/strict";
+import { readFileSync, statSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { assertQuiet, closeBrowser, coloursAt, drawn, mapView, moveSlider, open, painted, skip } from "./open.mjs";
+import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
+import { viridis } from "./viridis.mjs";
+
+const canvas = ".space .stage canvas";
+let folder, file, steps, opened, page, work;
+
+before(async () => {
+  if (skip) return;
+  work = workFolder();
+  folder = runExperiment("sim_lidar", join(work, "space"), "--set", "trials.every_m=80", "--set", "output.maps=all");
+  file = report(join(work, "report.html"), folder);
+  steps = stepsOf(folder, 0);
+  opened = await open(file);
+  page = opened.page;
+});
+after(async () => {
+  if (!skip) assertQuiet(opened);
+  await closeBrowser();
+});
+
+/** x, y, z of the points of a PCD file as the program writes it. */
+function readPcd(name) {
+  const content = readFileSync(name);
+  const begin = content.indexOf("DATA binary\n") + "DATA binary\n".length;
+  const points = [];
+  for (let i = begin; i < content.length; i += 12) points.push([0, 4, 8].map((k) => content.readFloatLE(i + k)));
+  return points;
+}
+
+async function showOnly(...layers) {
+  for (const box of await page.locator("input[data-space-layer]").all())
+    await box.setChecked(layers.includes(await box.getAttribute("data-space-layer")));
+  await drawn(page);
+}
+
+async function look(view) {
+  await page.locator(`[data-view=${view}]`).click();
+  await drawn(page);
+}
+
+async function showAllHeights() {
+  await page.locator(".cut input").evaluate((slider) => {
+    slider.value = slider.max;
+    slider.dispatchEvent(new Event("input"));
+  });
+  await drawn(page);
+}
+
+/** The share of places, of those inside the view, that are painted. */
+async function share(places) {
+  const view = await mapView(page, canvas);
+  const onScreen = places.map(([x, y]) => view.toScreen({ x, y })).filter(
+    ({ x, y }) => x > view.box.left + 2 && x < view.box.left + view.box.width - 2 && y > view.box.top + 2 && y < view.box.top + view.box.height - 2,
+  );
+  assert.ok(onScreen.length > 0.9 * places.length, `${onScreen.length} of ${places.length} are in view`);
+  const found = await painted(page, onScreen, canvas);
+  return found.filter(Boolean).length / found.length;
+}
+
+/** By a unit quaternion, as Hamilton has it: p + 2w (v × p) + 2 v × (v × p). */
+function rotated([x, y, z], { qx, qy, qz, qw }) {
+  const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
+  const v = [qx, qy, qz];
+  const once = cross(v, [x, y, z]);
+  const twice = cross(v, once);
+  return [x, y, z].map((value, i) => value + 2 * qw * once[i] + 2 * twice[i]);
+}
+const moved = (point, pose) => rotated(point, pose).map((value, i) => value + [pose.x, pose.y, pose.z][i]);
+const back = (point, pose) =>
+  rotated(point.map((value, i) => value - [pose.x, pose.y, pose.z][i]), { ...pose, qx: -pose.qx, qy: -pose.qy, qz: -pose.qz });
+
+test("only reports of runs in space carry what draws them", { skip }, () => {
+  const planar = report(join(work, "planar.html"), runExperiment("paper_lab", join(work, "planar")));
+  assert.ok(!readFileSync(planar, "utf8").includes("WebGL2"));
+  assert.ok(readFileSync(file, "utf8").includes("WebGL2"));
+  assert.ok(statSync(file).size < 20e6);
+});
+
+test("seen from above, each point of the map is where it belongs", { skip }, async () => {
+  await look("above");
+  await showAllHeights();
+  await showOnly("map");
+  const map = readPcd(join(folder, "maps", "global.pcd"));
+  const drawnThere = await share(map);
+  // A point that was thinned out lies beside the one that stands for it.
+  assert.ok(drawnThere > 0.97, String(drawnThere));
+  await showOnly();
+  assert.equal(await share(map), 0);
+});
+
+test("points have the colour of their height", { skip }, async () => {
+  await look("above");
+  await showAllHeights();
+  await showOnly("map");
+  const map = readPcd(join(folder, "maps", "global.pcd"));
+  const heights = map.map(([, , z]) => z).sort((a, b) => a - b);
+  const [low, high] = [heights[Math.round(0.005 * (heights.length - 1))], heights[Math.round(0.995 * (heights.length - 1))]];
+  const view = await mapView(page, canvas);
+  // What is seen from above is the highest point of each place, and of all that are drawn over it.
+  const cell = 0.3;
+  const key = (x, y) => `${Math.floor(x / cell)} ${Math.floor(y / cell)}`;
+  const highest = new Map();
+  for (const [x, y, z] of map) highest.set(key(x, y), Math.max(highest.get(key(x, y)) ?? -Infinity, z));
+  const around = ([x, y]) => [-1, 0, 1].flatMap((dx) => [-1, 0, 1].map((dy) => highest.get(key(x + dx * cell, y + dy * cell)) ?? -Infinity));
+  const onTop = map.filter((point) => point[2] >= Math.max(...around(point)) - 1e-6);
+  const colours = await coloursAt(page, onTop.map(([x, y]) => view.toScreen({ x, y })), canvas);
+  let [same, opaque] = [0, 0];
+  onTop.forEach(([, , z], i) => {
+    // Edges are blended, and the floor has gaps.
+    if (colours[i][3] < 255) return;
+    ++opaque;
+    const at = 10 * 0.86 * Math.min(Math.max((z - low) / (high - low), 0), 1);
+    const k = Math.min(Math.floor(at), 9);
+    const expected = viridis[k].map((from, c) => from + (at - k) * (viridis[k + 1][c] - from));
+    if (expected.every((value, c) => Math.abs(value - colours[i][c]) <= 8)) ++same;
+  });
+  assert.ok(opaque > 1000 && same > 0.9 * opaque, `${same} of ${opaque}`);
+});
+
+test("local map and scan lie under the estimate, and arrows at their poses", { skip }, async () => {
+  const k = steps.length - 1;
+  const { estimate, reference, local_from_robot: local } = steps[k];
+  await look("above");
+  await showAllHeights();
+  await moveSlider(page, k);
+  const recorded = (kind) => readPcd(join(folder, "maps", "trial_0000", `${kind}_${String(k).padStart(4, "0")}.pcd`));
+  await showOnly("local_map");
+  assert.ok((await share(recorded("step").map((point) => moved(back(point, local), estimate)))) > 0.99);
+  await showOnly("scan");
+  assert.ok((await share(recorded("scan").map((point) => moved(point, estimate)))) > 0.97);
+  for (const [layer, pose] of Object.entries({ estimate, reference })) {
+    // Half way along the arrow of 40 px.
+    const view = await mapView(page, canvas);
+    const middle = [pose.x + (Math.cos(pose.theta) * 20) / view.scale, pose.y + (Math.sin(pose.theta) * 20) / view.scale];
+    await showOnly(layer);
+    assert.equal(await share([middle]), 1, layer);
+    await showOnly();
+    assert.equal(await share([middle]), 0, layer);
+  }
+});
+
+test("in space the view turns by dragging, and heights can be cut", { skip }, async () => {
+  await look("orbit");
+  await showAllHeights();
+  await showOnly("map");
+  const picture = () => page.locator(canvas).evaluate((element) => element.toDataURL());
+  /** Of the colours that high points have: viridis is green from its middle on. */
+  const highPixels = () =>
+    page.locator(canvas).evaluate((element) => {
+      const copy = document.createElement("canvas");
+      Object.assign(copy, { width: element.width, height: element.height });
+      const context = copy.getContext("2d", { willReadFrequently: true });
+      context.drawImage(element, 0, 0);
+      const { data } = context.getImageData(0, 0, copy.width, copy.height);
+      return data.filter((value, i) => i % 4 === 1 && value > 140).length;
+    });
+  const [before, all] = [await picture(), await highPixels()];
+  assert.ok(all > 3000, `${all} pixels`);
+  const box = await page.locator(canvas).boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 200);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 300, box.y + 240, { steps: 4 });
+  await page.mouse.up();
+  await drawn(page);
+  assert.notEqual(await picture(), before);
+  await page.keyboard.press("0");
+  await drawn(page);
+  assert.equal(await picture(), before);
+  await page.locator(".cut input").evaluate((slider) => {
+    slider.value = slider.min;
+    slider.dispatchEvent(new Event("input"));
+  });
+  await drawn(page);
+  assert.ok((await highPixels()) < 0.05 * all);
+});
+
+test("a cluster is chosen by a click, and the plan is still there", { skip }, async () => {
+  await moveSlider(page, 0);
+  await look("above");
+  await showOnly("clusters");
+  const view = await mapView(page, canvas);
+  const places = steps[0].best.map(({ pose }) => view.toScreen(pose));
+  const alone = places.findIndex((at, i) => places.every((other, k) => k === i || Math.hypot(at.x - other.x, at.y - other.y) > 20));
+  assert.ok(alone >= 0);
+  await page.mouse.click(places[alone].x, places[alone].y);
+  assert.equal(await page.locator(".hypotheses table [aria-pressed=true]").getAttribute("data-hypothesis"), String(alone));
+  await look("plan");
+  assert.ok(await page.locator(".map:not(.space) canvas[data-scale]").isVisible());
+  assert.equal(await page.locator(canvas).isVisible(), false);
+});
+
+test("the certificate is told in a sentence with its numbers", { skip }, async () => {
+  const certified = steps.findIndex((step) => step.verification?.certificate);
+  assert.ok(certified >= 0);
+  const { contact, at_most, distance_m, rotation_deg } = steps[certified].verification.certificate;
+  await moveSlider(page, certified);
+  const text = await page.locator(".certificate").innerText();
+  const percent = (part) => `${(100 * part).toFixed(1)} %`;
+  assert.ok(text.includes(`${percent(contact)} of the local map's points are in contact`), text);
+  assert.ok(text.includes(`no pose more than ${distance_m} m or ${Math.round(rotation_deg)}° away has more than ${percent(at_most)}`), text);
+  assert.ok(text.includes(`${Math.abs(100 * (contact - at_most)).toFixed(1)} points`), text);
+  const without = steps.findIndex((step) => !step.verification);
+  await moveSlider(page, without);
+  assert.match(await page.locator(".certificate").innerText(), /certificate of the trial, of step \d+/);
+  const rows = page.locator("#trials tbody tr");
+  for (const [i, { certificate }] of trialsOf(folder).entries())
+    if (certificate) assert.ok((await rows.nth(i).innerText()).includes(`${percent(certificate.contact)}, elsewhere ≤ ${percent(certificate.at_most)}`));
+});
+
+test("without WebGL the plan is shown, and the page says so", { skip }, async () => {
+  const context = await page.context().browser().newContext();
+  await context.addInitScript(() => {
+    const original = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return kind.startsWith("webgl") ? null : original.call(this, kind, ...rest);
+    };
+  });
+  const plain = await context.newPage();
+  const errors = [];
+  plain.on("pageerror", (error) => errors.push(String(error)));
+  await plain.goto(`file://${file}`);
+  await plain.waitForSelector("canvas[data-scale]");
+  assert.match(await plain.locator(".views .note").first().innerText(), /WebGL is missing.*plan/);
+  assert.equal(await plain.locator("[data-view]").count(), 0);
+  assert.deepEqual(errors, []);
+});
