@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/compare_times.hpp"
 #include "evaluation/comparison/comparison.hpp"
 #include "evaluation/comparison/comparison_report.hpp"
 #include "evaluation/comparison/comparison_writers.hpp"
@@ -21,6 +22,8 @@ struct CompareOptions {
   std::string baseline;
   std::string csv, json, markdown;
   bool no_times = false;
+  bool time_anew = false;
+  bool trust_plugins = false;
   bool force = false;
 };
 
@@ -29,14 +32,15 @@ std::string json_text(const Comparison& comparison) {
   return to_json(comparison).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-void compare_runs(const CompareOptions& options) {
+void compare_runs(const CompareOptions& options, Context& context) {
   std::vector<NamedRun> runs = read_runs(options.folders);
   if (runs.size() < 2) {
     throw ConfigError({{options.folders.front(), 0, 0,
                         "there is nothing to compare it with; name two folders of results or more"}});
   }
-  const Comparison comparison = compare(runs, find_baseline(runs, options.baseline),
-                                        options.no_times ? measures_but_time() : measures());
+  const std::size_t baseline = find_baseline(runs, options.baseline);
+  if (options.time_anew) measure_times_anew(runs, options.trust_plugins, context);
+  const Comparison comparison = compare(runs, baseline, options.no_times ? measures_but_time() : measures());
   AtomicFiles files(options.force);
   if (!options.csv.empty()) files.add(options.csv, to_csv(comparison));
   if (!options.json.empty()) files.add(options.json, json_text(comparison));
@@ -47,7 +51,7 @@ void compare_runs(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Context& /*context*/) {
+void add_compare(CLI::App& app, Context& context) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command =
       app.add_subcommand("compare", "Compare runs on the same starts, with tests of what differs.");
@@ -57,9 +61,19 @@ void add_compare(CLI::App& app, Context& /*context*/) {
   command->add_option("--csv", options->csv, "Write a row for each variant and test");
   command->add_option("--json", options->json, "Write everything");
   command->add_option("--markdown", options->markdown, "Write the report as Markdown");
-  command->add_flag("--no-times", options->no_times, "Leave times out, which no two runs have in common");
+  CLI::Option* no_times =
+      command->add_flag("--no-times", options->no_times, "Leave times out, which no two runs have in common");
+  CLI::Option* time_anew =
+      command
+          ->add_flag("--time", options->time_anew,
+                     "Run all again on this machine, trial by trial in turn, and compare these times")
+          ->excludes(no_times);
+  command
+      ->add_flag("--trust-plugins", options->trust_plugins,
+                 "Load the plugins that the folders name, which are native code")
+      ->needs(time_anew);
   command->add_flag("--force", options->force, "Replace files that exist");
-  command->callback([options] { compare_runs(*options); });
+  command->callback([options, &context] { compare_runs(*options, context); });
 }
 
 }  // namespace glocal::app

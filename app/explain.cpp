@@ -26,7 +26,7 @@ struct ExplainOptions {
   bool trust_plugins = false;
 };
 
-[[noreturn]] void refuse(const std::string& file, const std::string& message) {
+[[noreturn]] void refuse_run(const std::string& file, const std::string& message) {
   throw ConfigError({{file, 0, 0, message}});
 }
 
@@ -54,8 +54,8 @@ enum class Threshold { configured, none };
 Replayed replay(const ExplainOptions& options, const Experiment& experiment, const Catalog& catalog,
                 LoadedExperiment& loaded, Threshold threshold) {
   if (options.trial >= loaded.starts.size()) {
-    refuse(options.folder,
-           fmt::format("there is no trial {}: the last one is {}", options.trial, loaded.starts.size() - 1));
+    refuse_run(options.folder, fmt::format("there is no trial {}: the last one is {}", options.trial,
+                                           loaded.starts.size() - 1));
   }
   const std::size_t start = loaded.starts[options.trial];
   const std::size_t index = start + options.step;
@@ -63,9 +63,9 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
   const bool runs_so_far = options.step < step_limit(experiment.trials) && index < samples.size() &&
                            samples[index].segment == samples[start].segment;
   if (!runs_so_far)
-    refuse(options.folder, fmt::format("trial {} has no step {}", options.trial, options.step));
+    refuse_run(options.folder, fmt::format("trial {} has no step {}", options.trial, options.step));
   if (!samples[index].map_from_robot)
-    refuse(options.folder, "the observations have no reference pose to compare with");
+    refuse_run(options.folder, "the observations have no reference pose to compare with");
 
   const bool is_whole = experiment.trials.whole || threshold == Threshold::none;
   Localizer localizer = make_localizer(experiment, catalog, loaded);
@@ -74,8 +74,9 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
   StepResult result;
   for (std::size_t i = start; i <= index; ++i) {
     if (result.verdict.kind == VerdictKind::localized && !is_whole) {
-      refuse(options.folder, fmt::format("trial {} has no step {}: it ended with a declaration in step {}",
-                                         options.trial, options.step, result.step));
+      refuse_run(options.folder,
+                 fmt::format("trial {} has no step {}: it ended with a declaration in step {}", options.trial,
+                             options.step, result.step));
     }
     result = localizer.step(samples[i].observation);
   }
@@ -189,7 +190,7 @@ std::string rivals_elsewhere(const Replayed& step, const LoadedExperiment& loade
 Experiment experiment_of(const ExplainOptions& options, Context& context) {
   const std::vector<std::filesystem::path> folders = results_folders(options.folder);
   if (folders.size() > 1)
-    refuse(options.folder, fmt::format("holds {} folders of results; name one of them", folders.size()));
+    refuse_run(options.folder, fmt::format("holds {} folders of results; name one of them", folders.size()));
   static_cast<void>(read_results(folders.front()));
   return read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context);
 }

@@ -8,7 +8,8 @@
 
 namespace glocal {
 
-/// Keeps in a folder of results, which is there, the names of the variants, in the order of their file (variants.json).
+/// Keeps in a folder of results, which is there, the names of the variants, in the order of their file
+/// (variants.json).
 void write_variant_order(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 /// Sorts the folders of results in `folder`: in the order that is kept there, and then others by their names.

@@ -54,8 +54,8 @@ void stay_known() {
 }
 
 void translate_errors() {
-  py::register_exception_translator([](std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param):
-                                                                     // the signature is pybind11's
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is pybind11's
+  py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const ConfigError& error) {

@@ -15,7 +15,8 @@ void translate_errors();
 /// What happened in Python: its last line, then the traceback.
 [[nodiscard]] std::string told(const py::error_already_set& error);
 
-/// Lets Python know this thread until it ends: to get to know it anew for each call takes several microseconds.
+/// Lets Python know this thread until it ends: to get to know it anew for each call takes several
+/// microseconds.
 void stay_known();
 
 /// Does something with Python's objects, from any thread. What Python raises becomes a std::runtime_error

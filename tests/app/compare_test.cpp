@@ -130,6 +130,34 @@ TEST_F(CompareCommand, SaysTheSameOfRunsWithTheSameSeedIfTimesAreLeftOut) {
   EXPECT_THAT(first.out, AllOf(HasSubstr("steps to localize"), Not(HasSubstr("CPU time of a step, ms"))));
 }
 
+TEST_F(CompareCommand, TakesTimesAnewAndInTurn) {
+  run_room("a", "--jobs 2");
+  run_room("b", "--set localizer.matcher.ransam.iterations=200000");
+  const std::string both = file("a") + " " + file("b") + " --json " + file("c.json");
+  EXPECT_THAT(run("compare " + both).out,
+              HasSubstr("Times of b and a are not compared: --jobs 1, and --jobs 2."));
+  const Answer answer = run("compare --time --force " + both);
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, Not(HasSubstr("are not compared")));
+  const json measures = json::parse(content(file("c.json")))["pairs"][0]["measures"];
+  const json& time = measures.back();
+  EXPECT_EQ(time["measure"], "step_cpu_ms");
+  // Drawing takes longer than looking up in an index.
+  EXPECT_GT(time["estimate"]["low"], 0.0);
+  EXPECT_EQ(time["matters"], true);
+}
+
+TEST_F(CompareCommand, RefusesTimesOfWhatAnswersOtherwiseNow) {
+  run_room("a");
+  run_room("b", "--set localizer.matcher.ransam.iterations=50");
+  // As if b had been run with other values than it says.
+  fs::copy_file(file("a/effective.yaml"), file("b/effective.yaml"), fs::copy_options::overwrite_existing);
+  const Answer answer = run("compare --time " + file("a") + " " + file("b"));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr(file("b") + ": error: trial "), HasSubstr("run it anew")));
+  EXPECT_EQ(run("compare --time --no-times " + file("a") + " " + file("b")).exit_code, 2);
+}
+
 TEST_F(CompareCommand, WarnsOfRunsThatDiffer) {
   run_room("a");
   run_room("b", "--seed 2 --set evaluation.max_translation_error=0.2 --set map.simulation.resolution=0.1");
