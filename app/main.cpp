@@ -24,6 +24,7 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_merge(app, context);
   add_submit(app, context);
   add_check(app, context);
+  add_help(app, context);
   add_list(app, context);
   add_describe(app, context);
   add_explain(app, context);

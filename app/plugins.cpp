@@ -15,8 +15,12 @@ void add_plugins(CLI::App& app, Context& context) {
   app.add_option("--plugin", *files,
                  "Load a plugin's strategies, a shared object or a Python file (repeatable)")
       ->allow_extra_args(false);
-  for (CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; }))
+  for (CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
     command->fallthrough();
+    // The option itself is the program's, whose help alone would tell of it.
+    command->footer(
+        "Besides, --plugin FILE (repeatable) loads strategies: a shared object or a Python file.");
+  }
   app.parse_complete_callback([files, &context] {
     if (const char* folders = std::getenv("GLOCAL_PLUGIN_PATH")) context.plugins.load_folders(folders);
     for (const std::string& file : *files) context.plugins.load(file);

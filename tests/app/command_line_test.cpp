@@ -67,6 +67,17 @@ TEST_F(CommandLine, CheckReportsAllFaultsOfAllFiles) {
   EXPECT_THAT(answer.err, testing::EndsWith("\n9 errors\n"));
 }
 
+TEST_F(CommandLine, HelpKnowsCommandsStrategiesAndPartsOfExperiments) {
+  EXPECT_EQ(run("help").out, run("--help").out);
+  EXPECT_EQ(run("help merge").out, run("merge --help").out);
+  EXPECT_THAT(run("help merge").out, HasSubstr("--plugin FILE"));
+  EXPECT_EQ(run("help ransam").out, run("describe ransam").out);
+  EXPECT_THAT(run("help trials").out, HasSubstr("max_steps: whole number"));
+  const Answer unknown = run("help merg");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("called 'merg' (did you mean 'merge'?)"));
+}
+
 TEST_F(CommandLine, CheckTakesOverrides) {
   const std::string file = folder_.write("a.yaml", "schema: 1\n");
   EXPECT_THAT(

@@ -52,8 +52,8 @@ test("shares count what is no larger, of all", () => {
 });
 
 test("numbers have the digits that mean something", () => {
-  const told = [0, 1, 0.00206464, 12345.6, -0.5, 1e-9, 999.6].map((value) => numbers.significant(value));
-  assert.deepEqual(told, ["0", "1.00", "0.00206", "12346", "-0.500", "1.00e-9", "1000"]);
+  const told = [0, 1.91e-16, 1, 0.00206464, 12345.6, -0.5, 1e-9, 999.6].map((value) => numbers.significant(value));
+  assert.deepEqual(told, ["0", "0", "1.00", "0.00206", "12346", "-0.500", "1.00e-9", "1000"]);
   assert.equal(numbers.significant(null), "–");
   assert.equal(numbers.proportion({ value: 1, low: 0.9162, high: 1 }), "100.0 % (91.6 to 100.0 %)");
   assert.deepEqual([3.2, 300, 9000].map(numbers.duration), ["4 s", "5 min", "2.5 h"]);

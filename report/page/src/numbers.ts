@@ -6,7 +6,8 @@ const none = "–";
 /** With so many significant digits, without exponent where it can be avoided. */
 export function significant(value: number | null | undefined, digits = 3): string {
   if (value == null || !Number.isFinite(value)) return none;
-  if (value === 0) return "0";
+  // Less than that is what rounding has left of nothing.
+  if (Math.abs(value) < 1e-12) return "0";
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
   if (magnitude < -4 || magnitude > 8) return value.toExponential(digits - 1);
   return value.toFixed(Math.max(0, digits - 1 - magnitude));
