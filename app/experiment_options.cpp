@@ -7,15 +7,6 @@
 #include "glocal/error.hpp"
 
 namespace glocal::app {
-namespace {
-
-/// All that are there, however they were named: the effective experiment must do without --plugin.
-void name_plugins(Experiment& experiment, const Context& context) {
-  experiment.plugins.clear();
-  for (const auto& plugin : context.plugins.loaded()) experiment.plugins.push_back({plugin.string(), plugin});
-}
-
-}  // namespace
 
 void ExperimentOptions::add_to(CLI::App& command) {
   command.add_option("FILE", file, "Experiment file (YAML)")->required();
@@ -58,14 +49,14 @@ std::vector<Override> ExperimentOptions::load_plugins(const std::string& other_f
 Experiment ExperimentOptions::read(const std::string& other_file, Context& context) const {
   const std::vector<Override> all = load_plugins(other_file, context);
   Experiment experiment = read_experiment(other_file, all, context.catalog);
-  name_plugins(experiment, context);
+  experiment.plugins = context.plugins.named();
   return experiment;
 }
 
 std::vector<Variant> ExperimentOptions::read_variants(const std::string& other_file, Context& context) const {
   const std::vector<Override> all = load_plugins(other_file, context);
   std::vector<Variant> variants = glocal::read_variants(other_file, all, context.catalog);
-  for (Variant& variant : variants) name_plugins(variant.experiment, context);
+  for (Variant& variant : variants) variant.experiment.plugins = context.plugins.named();
   return variants;
 }
 
@@ -93,7 +84,7 @@ Experiment read_stored_experiment(const std::filesystem::path& effective, bool t
   if (!faults.empty()) throw ConfigError(faults);
   // Those that are loaded may lie elsewhere by now.
   Experiment experiment = read_experiment(effective, {{"plugins", "[]"}}, context.catalog);
-  name_plugins(experiment, context);
+  experiment.plugins = context.plugins.named();
   return experiment;
 }
 

@@ -132,10 +132,18 @@ MeasureDifference compare_measure(const Measure& measure, std::size_t index, con
   return result;
 }
 
+/// Of these measures those that can be compared between two runs. Times come last.
+std::span<const Measure> comparable(std::span<const Measure> measured, const NamedRun& run,
+                                    const NamedRun& baseline) {
+  if (!why_times_differ(run, baseline)) return measured;
+  return measured.first(std::min(measured.size(), measures_but_time().size()));
+}
+
 PairComparison compare_pair(const std::string& name, const TrialsByStart& baseline,
                             const TrialsByStart& variant, std::span<const Measure> measured) {
   PairComparison pair;
   pair.variant = name;
+  pair.measured = measured;
   pair.outcomes = {
       compare_outcome({.name = "right", .more_is_better = true}, is_right, 0, baseline, variant),
       compare_outcome({.name = "wrong", .more_is_better = false}, is_wrong, 1, baseline, variant)};
@@ -199,13 +207,6 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline,
   std::vector<TrialsByStart> trials;
   for (const NamedRun& run : runs) trials.push_back(trials_at(starts, run.results));
 
-  // Times come last.
-  const auto tested_of = [&](const NamedRun& run) {
-    return why_times_differ(run, runs[baseline])
-               ? measured.first(std::min(measured.size(), measures_but_time().size()))
-               : measured;
-  };
-
   Comparison comparison;
   comparison.baseline = runs[baseline].name;
   comparison.starts = starts.size();
@@ -214,15 +215,13 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline,
   for (std::size_t i = 0; i < runs.size(); ++i) {
     comparison.runs.push_back(figures(runs[i], trials[i], measured));
     if (i == baseline) continue;
-    comparison.pairs.push_back(compare_pair(runs[i].name, trials[baseline], trials[i], tested_of(runs[i])));
+    comparison.pairs.push_back(compare_pair(runs[i].name, trials[baseline], trials[i],
+                                            comparable(measured, runs[i], runs[baseline])));
   }
   correct(comparison);
-  auto pair = comparison.pairs.begin();
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (i == baseline) continue;
-    pair->conclusion = conclude(*pair, comparison.baseline, comparison.starts);
-    pair->warnings = pair_warnings(*pair, tested_of(runs[i]));
-    ++pair;
+  for (PairComparison& pair : comparison.pairs) {
+    pair.conclusion = conclude(pair, comparison.baseline, comparison.starts);
+    pair.warnings = pair_warnings(pair);
   }
   return comparison;
 }

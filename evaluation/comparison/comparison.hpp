@@ -85,6 +85,7 @@ struct MeasureDifference {
 /// A variant and the baseline.
 struct PairComparison {
   std::string variant;
+  std::span<const Measure> measured = {};  ///< Those that tell of the runs, and not of the machine.
   std::vector<OutcomeDifference> outcomes;
   std::vector<MeasureDifference> measures;  ///< Those with at least one start.
   std::string conclusion;                   ///< One sentence.

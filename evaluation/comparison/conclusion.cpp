@@ -66,7 +66,7 @@ std::string conclude(const PairComparison& pair, const std::string& baseline, st
                      pair.variant, baseline, starts);
 }
 
-std::vector<std::string> pair_warnings(const PairComparison& pair, std::span<const Measure> measured) {
+std::vector<std::string> pair_warnings(const PairComparison& pair) {
   std::vector<std::string> few;
   for (const OutcomeDifference& outcome : pair.outcomes) {
     const std::size_t differing = outcome.counts.only_first + outcome.counts.only_second;
@@ -84,7 +84,7 @@ std::vector<std::string> pair_warnings(const PairComparison& pair, std::span<con
         enumerated(few)));
   }
   std::vector<std::string> missing;
-  for (const Measure& measure : measured) {
+  for (const Measure& measure : pair.measured) {
     const bool is_there =
         std::any_of(pair.measures.begin(), pair.measures.end(),
                     [&](const MeasureDifference& d) { return d.measure.name == measure.name; });

@@ -1,7 +1,6 @@
 // What the numbers of a comparison say, in words.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,6 @@ namespace glocal {
                                    std::size_t starts);
 
 /// What the pair has too few starts for, a sentence each.
-[[nodiscard]] std::vector<std::string> pair_warnings(const PairComparison& pair,
-                                                     std::span<const Measure> measured);
+[[nodiscard]] std::vector<std::string> pair_warnings(const PairComparison& pair);
 
 }  // namespace glocal

@@ -12,15 +12,21 @@
 namespace glocal {
 namespace {
 
-/// By counting, rank by rank, in how many of the 2^n ways to give signs the positive ranks have each sum. All
-/// counts are whole numbers up to 2^50, which a double holds exactly.
-double exact_p(const std::vector<std::size_t>& ranks, std::size_t positive_sum) {
+/// In how many of the 2^n ways to give signs the positive ranks have each sum, by counting, rank by rank. All
+/// are whole numbers up to 2^50, which a double holds exactly.
+std::vector<double> ways_to_sums(const std::vector<std::size_t>& ranks) {
   const std::size_t total = std::accumulate(ranks.begin(), ranks.end(), std::size_t{0});
   std::vector<double> ways(total + 1, 0.0);
   ways[0] = 1.0;
   for (const std::size_t rank : ranks) {
     for (std::size_t sum = total; sum >= rank; --sum) ways[sum] += ways[sum - rank];
   }
+  return ways;
+}
+
+double exact_p(const std::vector<std::size_t>& ranks, std::size_t positive_sum) {
+  const std::vector<double> ways = ways_to_sums(ranks);
+  const std::size_t total = ways.size() - 1;
   // The distribution is symmetric: the upper tail of a sum is the lower tail of what is left of the total.
   const std::size_t tail = std::min(positive_sum, total - positive_sum);
   const double at_most =
@@ -36,27 +42,18 @@ double approximate_p(const SignedRank& test, double tie_term) {
   return 2.0 * boost::math::cdf(boost::math::complement(standard, beyond / std::sqrt(variance)));
 }
 
-/// In how many of the 2^n ways to give the ranks 1 to n signs the positive ones add up to each sum, as
-/// shares.
-std::vector<double> sum_probabilities(std::size_t n) {
-  std::vector<double> ways(n * (n + 1) / 2 + 1, 0.0);
-  ways[0] = 1.0;
-  for (std::size_t rank = 1; rank <= n; ++rank) {
-    for (std::size_t sum = ways.size() - 1; sum >= rank; --sum) ways[sum] += ways[sum - rank];
-  }
-  for (double& way : ways) way /= std::exp2(static_cast<double>(n));
-  return ways;
-}
-
 /// The number of the mean, from the smallest on and counted from 1, at which the 95 % interval begins: at
 /// least the first.
 std::size_t rank_of_low(std::size_t n) {
   constexpr double tail = 0.025;
   if (n <= most_exact_differences) {
-    const std::vector<double> probabilities = sum_probabilities(n);
+    std::vector<std::size_t> ranks(n);
+    std::iota(ranks.begin(), ranks.end(), std::size_t{1});
+    const std::vector<double> ways = ways_to_sums(ranks);
+    const double wanted = tail * std::exp2(static_cast<double>(n));
     double below = 0.0;
     std::size_t sum = 0;
-    while ((below += probabilities[sum]) < tail) ++sum;
+    while ((below += ways[sum]) < wanted) ++sum;
     return std::max<std::size_t>(sum, 1);
   }
   const auto x = static_cast<double>(n);

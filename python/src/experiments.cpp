@@ -41,12 +41,7 @@ class File {
     const py::gil_scoped_release others_may;
     for (const FilePath& plugin : read_plugins(file_, overrides_)) session_->plugins.load(plugin.resolved);
     variants_ = read_variants(file_, overrides_, session_->catalog);
-    // What is written must do without plugins that were loaded otherwise.
-    for (Variant& variant : variants_) {
-      variant.experiment.plugins.clear();
-      for (const fs::path& plugin : session_->plugins.loaded())
-        variant.experiment.plugins.push_back({plugin.string(), plugin});
-    }
+    for (Variant& variant : variants_) variant.experiment.plugins = session_->plugins.named();
   }
 
   [[nodiscard]] const std::string& name() const { return variants_.front().experiment.name; }

@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { assertQuiet, closeBrowser, colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip } from "./open.mjs";
-import { report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
+import { readPcd, report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 
 let folder, file, steps, opened, page;
 
@@ -68,15 +68,6 @@ test("the grid's lines are whole steps apart", { skip }, async () => {
   assert.deepEqual(line, [true, true]);
   assert.deepEqual(await painted(page, [view.toScreen({ x: 12.5, y: 7.5 })]), [false]);
 });
-
-/** x and y of the points of a PCD file as the program writes it. */
-function readPcd(name) {
-  const content = readFileSync(name);
-  const begin = content.indexOf("DATA binary\n") + "DATA binary\n".length;
-  const points = [];
-  for (let i = begin; i < content.length; i += 12) points.push({ x: content.readFloatLE(i), y: content.readFloatLE(i + 4) });
-  return points;
-}
 
 test("the field of view reaches from the robot to what the laser met, and no farther", { skip }, async () => {
   const k = 100;

@@ -46,3 +46,15 @@ export function report(file, ...folders) {
 const lines = (file) => readFileSync(file, "utf8").split("\n").filter(Boolean).map((line) => JSON.parse(line));
 export const trialsOf = (folder) => lines(join(folder, "trials.jsonl"));
 export const stepsOf = (folder, trial) => lines(join(folder, "steps.jsonl")).filter((step) => step.trial === trial);
+
+/** x, y and z of the points of a PCD file as the program writes it. */
+export function readPcd(name) {
+  const content = readFileSync(name);
+  const begin = content.indexOf("DATA binary\n") + "DATA binary\n".length;
+  const points = [];
+  for (let i = begin; i < content.length; i += 12) {
+    const [x, y, z] = [0, 4, 8].map((k) => content.readFloatLE(i + k));
+    points.push({ x, y, z });
+  }
+  return points;
+}

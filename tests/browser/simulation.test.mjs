@@ -4,7 +4,7 @@ import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { assertQuiet, closeBrowser, colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip } from "./open.mjs";
-import { report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
+import { readPcd, report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 import { checkClusters, checkNumbers, checkRobot, checkSteps } from "./steps_check.mjs";
 import { viridis } from "./viridis.mjs";
 
@@ -102,15 +102,6 @@ test("estimate and reference are drawn at their poses", { skip }, async () => {
   await checkRobot(page, "estimate", steps[100].estimate);
   await checkRobot(page, "reference", steps[100].reference);
 });
-
-/** x and y of the points of a PCD file as the program writes it. */
-function readPcd(name) {
-  const content = readFileSync(name);
-  const begin = content.indexOf("DATA binary\n") + "DATA binary\n".length;
-  const points = [];
-  for (let i = begin; i < content.length; i += 12) points.push({ x: content.readFloatLE(i), y: content.readFloatLE(i + 4) });
-  return points;
-}
 
 test("the local map lies on the map under the estimate, and the scan under the robot", { skip }, async () => {
   const k = 100;

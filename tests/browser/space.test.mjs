@@ -4,7 +4,7 @@ import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { assertQuiet, closeBrowser, coloursAt, drawn, mapView, moveSlider, open, painted, skip } from "./open.mjs";
-import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
+import { readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { viridis } from "./viridis.mjs";
 
 const canvas = ".space .stage canvas";
@@ -24,14 +24,7 @@ after(async () => {
   await closeBrowser();
 });
 
-/** x, y, z of the points of a PCD file as the program writes it. */
-function readPcd(name) {
-  const content = readFileSync(name);
-  const begin = content.indexOf("DATA binary\n") + "DATA binary\n".length;
-  const points = [];
-  for (let i = begin; i < content.length; i += 12) points.push([0, 4, 8].map((k) => content.readFloatLE(i + k)));
-  return points;
-}
+const pointsOf = (name) => readPcd(name).map(({ x, y, z }) => [x, y, z]);
 
 async function showOnly(...layers) {
   for (const box of await page.locator("input[data-space-layer]").all())
@@ -86,7 +79,7 @@ test("seen from above, each point of the map is where it belongs", { skip }, asy
   await look("above");
   await showAllHeights();
   await showOnly("map");
-  const map = readPcd(join(folder, "maps", "global.pcd"));
+  const map = pointsOf(join(folder, "maps", "global.pcd"));
   const drawnThere = await share(map);
   // A point that was thinned out lies beside the one that stands for it.
   assert.ok(drawnThere > 0.97, String(drawnThere));
@@ -98,7 +91,7 @@ test("points have the colour of their height", { skip }, async () => {
   await look("above");
   await showAllHeights();
   await showOnly("map");
-  const map = readPcd(join(folder, "maps", "global.pcd"));
+  const map = pointsOf(join(folder, "maps", "global.pcd"));
   const heights = map.map(([, , z]) => z).sort((a, b) => a - b);
   const [low, high] = [heights[Math.round(0.005 * (heights.length - 1))], heights[Math.round(0.995 * (heights.length - 1))]];
   const view = await mapView(page, canvas);
@@ -129,7 +122,7 @@ test("local map and scan lie under the estimate, and arrows at their poses", { s
   await look("above");
   await showAllHeights();
   await moveSlider(page, k);
-  const recorded = (kind) => readPcd(join(folder, "maps", "trial_0000", `${kind}_${String(k).padStart(4, "0")}.pcd`));
+  const recorded = (kind) => pointsOf(join(folder, "maps", "trial_0000", `${kind}_${String(k).padStart(4, "0")}.pcd`));
   await showOnly("local_map");
   assert.ok((await share(recorded("step").map((point) => moved(back(point, local), estimate)))) > 0.99);
   await showOnly("scan");

@@ -150,6 +150,12 @@ void PluginLoader::load(const std::filesystem::path& file) {
   loaded_.push_back(path);
 }
 
+std::vector<FilePath> PluginLoader::named() const {
+  std::vector<FilePath> files;
+  for (const std::filesystem::path& file : loaded_) files.push_back({file.string(), file});
+  return files;
+}
+
 void PluginLoader::load_folders(const std::string& path) {
   std::istringstream folders(path);
   for (std::string folder; std::getline(folders, folder, ':');) {

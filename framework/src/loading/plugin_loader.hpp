@@ -31,6 +31,8 @@ class PluginLoader {
 
   /// Absolute paths, in the order of loading.
   [[nodiscard]] const std::vector<std::filesystem::path>& loaded() const { return loaded_; }
+  /// The same for an experiment that is written: whoever reads it must do without other ways to name plugins.
+  [[nodiscard]] std::vector<FilePath> named() const;
 
  private:
   Catalog& catalog_;

@@ -13,6 +13,7 @@ import { SvgPen, type Pen } from "./pen";
 import { PointLayer, SvgPoints, type Placement, type PointSink } from "./point_layer";
 import type { Store } from "./store";
 import { explained, meaningOf } from "./words";
+import { iconButton, zoomButtons } from "./zoom_buttons";
 
 const metres = 1e-3; // of the whole mm in which points are given
 const triangle = { length: 15, width: 10 }; // px
@@ -115,7 +116,7 @@ export class MapView {
       this.near.element,
       this.tip,
       this.cursor,
-      this.zoomButtons(),
+      zoomButtons(this, saveMenu(() => "map", () => this.svg())),
     );
     this.element = el("figure", { class: "map" }, stage, this.legend());
     this.listen();
@@ -666,25 +667,7 @@ export class MapView {
 
   /** One more button beside those that zoom. */
   addButton(label: string, text: string, work: () => void): void {
-    this.element.querySelector(".zoom")?.append(
-      el("button", { type: "button", title: label, "aria-label": label, click: work }, text),
-    );
-  }
-
-  private zoomButtons(): HTMLElement {
-    const button = (label: string, text: string, work: () => void): HTMLElement =>
-      el("button", { type: "button", title: label, "aria-label": label, click: work }, text);
-    return el(
-      "div",
-      { class: "zoom" },
-      button("Zoom in (+)", "+", () => this.zoom(1.5)),
-      button("Zoom out (-)", "−", () => this.zoom(1 / 1.5)),
-      button("Show everything (0)", "⤢", () => this.fit()),
-      saveMenu(
-        () => "map",
-        () => this.svg(),
-      ),
-    );
+    this.element.querySelector(".zoom")?.append(iconButton(label, text, work));
   }
 
   private centre(): void {

@@ -34,6 +34,7 @@ import { frameAt } from "./map_view";
 import { fixed, significant } from "./numbers";
 import { candidatePose, clusterPose, columnPose, type SpacePose } from "./space_poses";
 import type { Store } from "./store";
+import { zoomButtons } from "./zoom_buttons";
 
 const metres = 1e-3; // of the whole mm in which points are given
 const fieldOfView = 45; // degrees
@@ -151,7 +152,7 @@ export class SpaceView {
     this.controls.above.mouseButtons.LEFT = this.controls.orbit.mouseButtons.RIGHT;
     this.controls.above.touches.ONE = 1;
     this.cut.addEventListener("input", () => this.cutPoints());
-    replace(this.stage, this.canvas, this.note, this.tip, this.zoomButtons());
+    replace(this.stage, this.canvas, this.note, this.tip, zoomButtons(this));
     this.element = el("figure", { class: "map space" }, this.stage, this.legend());
     this.listen();
     this.rebuild();
@@ -523,18 +524,6 @@ export class SpaceView {
       ...(Object.keys(layers) as Layer[]).map(entry),
       el("span", { class: "scale" }, "height ", this.low, this.bar, this.high),
       el("label", { class: "cut" }, "show ", this.cut, this.cutAt),
-    );
-  }
-
-  private zoomButtons(): HTMLElement {
-    const button = (label: string, text: string, work: () => void): HTMLElement =>
-      el("button", { type: "button", title: label, "aria-label": label, click: work }, text);
-    return el(
-      "div",
-      { class: "zoom" },
-      button("Zoom in (+)", "+", () => this.zoom(1.5)),
-      button("Zoom out (-)", "−", () => this.zoom(1 / 1.5)),
-      button("Show everything (0)", "⤢", () => this.fit()),
     );
   }
 
