@@ -2,17 +2,16 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/compare_times.hpp"
 #include "evaluation/comparison/comparison.hpp"
-#include "evaluation/comparison/comparison_report.hpp"
-#include "evaluation/comparison/comparison_writers.hpp"
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/report_blocks.hpp"
+#include "evaluation/sweeps/comparison_output.hpp"
 
 namespace glocal::app {
 namespace {
@@ -27,11 +26,6 @@ struct CompareOptions {
   bool force = false;
 };
 
-std::string json_text(const Comparison& comparison) {
-  // Names of folders need not be UTF-8.
-  return to_json(comparison).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
 void compare_runs(const CompareOptions& options, Context& context) {
   std::vector<NamedRun> runs = read_runs(options.folders);
   if (runs.size() < 2) {
@@ -40,13 +34,14 @@ void compare_runs(const CompareOptions& options, Context& context) {
   }
   const std::size_t baseline = find_baseline(runs, options.baseline);
   if (options.time_anew) measure_times_anew(runs, options.trust_plugins, context);
-  const Comparison comparison = compare(runs, baseline, options.no_times ? measures_but_time() : measures());
+  const ComparisonOutput output =
+      comparison_output(runs, baseline, options.no_times ? measures_but_time() : measures());
   AtomicFiles files(options.force);
-  if (!options.csv.empty()) files.add(options.csv, to_csv(comparison));
-  if (!options.json.empty()) files.add(options.json, json_text(comparison));
-  if (!options.markdown.empty()) files.add(options.markdown, markdown_report(comparison));
+  if (!options.csv.empty()) files.add(options.csv, output.csv);
+  if (!options.json.empty()) files.add(options.json, output.json_text(2) + "\n");
+  if (!options.markdown.empty()) files.add(options.markdown, as_markdown(output.report));
   files.commit();
-  fmt::print("{}", text_report(comparison));
+  fmt::print("{}", as_text(output.report));
 }
 
 }  // namespace

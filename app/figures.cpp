@@ -82,7 +82,7 @@ std::string checked_sweep(const FiguresOptions& options) {
     refuse(options.folders.at(1), "is one folder too many; name that of one sweep");
   check_out(options);
   const SweepAnalysis analysis = analyse_sweep(read_sweep(options.folders.front()));
-  if (analysis.effects.empty())
+  if (analysis.parameters.effects.empty())
     refuse(options.folders.front(),
            "no parameter varies, so that there is nothing to draw; name the folder of an experiment with "
            "variants.grid, zip or sample");

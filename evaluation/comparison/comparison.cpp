@@ -35,28 +35,6 @@ std::optional<double> if_right(const TrialResult& trial, Value value) {
   return is_right(trial) ? std::optional<double>(value) : std::nullopt;
 }
 
-std::vector<TrialStart> shared_starts(const std::vector<NamedRun>& runs) {
-  std::vector<TrialStart> shared;
-  for (const auto& entry : runs.front().results.trials) {
-    const TrialStart& start = entry.first;
-    const bool all = std::all_of(runs.begin(), runs.end(),
-                                 [&](const NamedRun& run) { return run.results.trials.contains(start); });
-    if (all) shared.push_back(start);
-  }
-  if (shared.empty()) {
-    std::vector<Fault> faults;
-    for (const NamedRun& run : runs) {
-      faults.push_back(
-          {run.results.folder.string(), 0, 0,
-           fmt::format("none of its {} starts is one of all runs to compare; run all experiments "
-                       "with the same observations and trials",
-                       run.results.trials.size())});
-    }
-    throw ConfigError(std::move(faults));
-  }
-  return shared;
-}
-
 TrialsByStart trials_at(const std::vector<TrialStart>& starts, const StoredRun& results) {
   TrialsByStart trials;
   for (const TrialStart& start : starts) trials.push_back(&results.trials.at(start));
@@ -199,6 +177,28 @@ std::span<const Measure> measures() {
 
 std::span<const Measure> measures_but_time() {
   return measures().first(measures().size() - 1);
+}
+
+std::vector<TrialStart> shared_starts(const std::vector<NamedRun>& runs) {
+  std::vector<TrialStart> shared;
+  for (const auto& entry : runs.front().results.trials) {
+    const TrialStart& start = entry.first;
+    const bool all = std::all_of(runs.begin(), runs.end(),
+                                 [&](const NamedRun& run) { return run.results.trials.contains(start); });
+    if (all) shared.push_back(start);
+  }
+  if (shared.empty()) {
+    std::vector<Fault> faults;
+    for (const NamedRun& run : runs) {
+      faults.push_back(
+          {run.results.folder.string(), 0, 0,
+           fmt::format("none of its {} starts is one of all runs to compare; run all experiments "
+                       "with the same observations and trials",
+                       run.results.trials.size())});
+    }
+    throw ConfigError(std::move(faults));
+  }
+  return shared;
 }
 
 Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline,

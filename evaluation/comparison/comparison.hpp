@@ -106,8 +106,11 @@ struct Comparison {
 /// What Holm's p must be below for a difference to be called significant.
 inline constexpr double significance = 0.05;
 
-/// Compares runs, of which `baseline` is an index, over the starts that all of them have. Throws ConfigError
-/// if there are none. The same runs give the same comparison.
+/// The starts that all of these runs have. Throws ConfigError if there are none.
+[[nodiscard]] std::vector<TrialStart> shared_starts(const std::vector<NamedRun>& runs);
+
+/// Compares runs, of which `baseline` is an index, over their shared_starts(), and throws what it throws.
+/// The same runs give the same comparison.
 [[nodiscard]] Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline,
                                  std::span<const Measure> measured = measures());
 

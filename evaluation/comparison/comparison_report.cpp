@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "evaluation/results/report_blocks.hpp"
+#include "evaluation/results/proportions.hpp"
 
 namespace glocal {
 namespace {
@@ -19,9 +19,6 @@ std::string signed_number(double value) {
 }
 std::string range(const Interval& interval) {
   return signed_number(interval.low) + " to " + signed_number(interval.high);
-}
-std::string per_cent(const Proportion& p) {
-  return fmt::format("{:.1f} ({:.1f} to {:.1f})", 100.0 * p.value, 100.0 * p.low, 100.0 * p.high);
 }
 std::string p_value(double p) {
   return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p);
@@ -102,7 +99,9 @@ std::string explanation(const Comparison& comparison) {
       significance, bootstrap_resamples);
 }
 
-Report report_of(const Comparison& comparison) {
+}  // namespace
+
+Report comparison_report(const Comparison& comparison, const Report& parameters) {
   Report report;
   report.emplace_back(Heading{fmt::format("{} starts that all {} runs have, compared with {}",
                                           comparison.starts, comparison.runs.size(), comparison.baseline)});
@@ -116,19 +115,10 @@ Report report_of(const Comparison& comparison) {
     report.emplace_back(outcomes_table(pair, comparison.baseline));
     if (!pair.measures.empty()) report.emplace_back(measures_table(pair));
   }
+  report.insert(report.end(), parameters.begin(), parameters.end());
   report.emplace_back(Heading{"How to read this"});
   report.emplace_back(Paragraph{explanation(comparison)});
   return report;
-}
-
-}  // namespace
-
-std::string text_report(const Comparison& comparison) {
-  return as_text(report_of(comparison));
-}
-
-std::string markdown_report(const Comparison& comparison) {
-  return as_markdown(report_of(comparison));
 }
 
 }  // namespace glocal

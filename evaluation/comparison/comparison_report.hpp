@@ -1,16 +1,12 @@
 // A comparison for people to read.
 #pragma once
 
-#include <string>
-
 #include "evaluation/comparison/comparison.hpp"
+#include "evaluation/results/report_blocks.hpp"
 
 namespace glocal {
 
-/// For a terminal.
-[[nodiscard]] std::string text_report(const Comparison& comparison);
-
-/// The same as Markdown.
-[[nodiscard]] std::string markdown_report(const Comparison& comparison);
+/// `parameters` tell what is behind the differences; they come after them.
+[[nodiscard]] Report comparison_report(const Comparison& comparison, const Report& parameters = {});
 
 }  // namespace glocal

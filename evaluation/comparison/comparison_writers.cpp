@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "evaluation/results/proportions.hpp"
+
 namespace glocal {
 namespace {
 
@@ -16,10 +18,6 @@ constexpr const char* outcome_test_name = "mcnemar_exact";
 
 Json value_and_range(double value, double low, double high) {
   return {{"value", value}, {"low", low}, {"high", high}};
-}
-
-Json to_json(const Proportion& p) {
-  return value_and_range(p.value, p.low, p.high);
 }
 
 Json to_json(const Difference& d) {

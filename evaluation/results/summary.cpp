@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "evaluation/results/proportions.hpp"
 #include "evaluation/statistics/statistics.hpp"
 
 namespace glocal {
@@ -17,10 +18,6 @@ Json spread(const std::vector<double>& values) {
 
 Json median_and_p90(const std::vector<double>& values) {
   return {{"median", quantile(values, 0.5)}, {"p90", quantile(values, 0.9)}};
-}
-
-Json with_interval(const Proportion& p) {
-  return {{"value", p.value}, {"low", p.low}, {"high", p.high}};
 }
 
 }  // namespace
@@ -80,8 +77,8 @@ Json Summary::figures() const {
   if (!ms_.verify.empty()) stage_ms["verify"] = spread(ms_.verify);
   return {{"trials", std::move(trials)},
           {"steps", ms_.total.size()},
-          {"success_rate", with_interval(wilson(right_, count_))},
-          {"false_rate", with_interval(wilson(wrong_, count_))},
+          {"success_rate", glocal::to_json(wilson(right_, count_))},
+          {"false_rate", glocal::to_json(wilson(wrong_, count_))},
           {"steps_to_localize", median_and_p90(steps_)},
           {"distance_to_localize_m", median_and_p90(distances_m_)},
           {"translation_error_m", spread(translations_m_)},

@@ -46,7 +46,11 @@ class Tally {
     return outcome;
   }
 
-  [[nodiscard]] const TrialsByPlace& right() const { return right_; }
+  /// As a setting that changes these values.
+  [[nodiscard]] TriedSetting with(const std::vector<std::pair<std::string, std::string>>& values) const {
+    const SettingOutcome counts = outcome();
+    return {.values = values, .trials = right_, .wrong = counts.wrong, .steps = steps_};
+  }
   [[nodiscard]] const std::map<SharedStart, int>& scores() const { return scores_; }
 
  private:
@@ -151,6 +155,15 @@ std::optional<std::pair<std::size_t, std::size_t>> chosen_axes(const MapChoice& 
   return axes;
 }
 
+ParameterFigures figures_of(const std::vector<TalliedSetting>& settings, const MapChoice& map) {
+  std::vector<TriedSetting> tried;
+  for (const TalliedSetting& setting : settings) tried.push_back(setting.chosen.with(setting.result.values));
+  ParameterFigures figures{effects_of(tried), {}};
+  if (const auto axes = chosen_axes(map, figures.effects))
+    figures.map = heat_map(tried, figures.effects, axes->first, axes->second);
+  return figures;
+}
+
 void note_parts(const std::vector<SweepRun>& runs, SweepAnalysis& analysis) {
   const auto note = [](const auto& value, auto& list) {
     if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
@@ -174,17 +187,24 @@ SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& 
   analysis.runs = runs.size();
   note_parts(parts, analysis);
   const std::vector<TalliedSetting> settings = settings_of(parts);
-  std::vector<TriedSetting> tried;
-  for (const TalliedSetting& setting : settings) {
-    analysis.settings.push_back(setting.result);
-    tried.push_back({setting.result.values, setting.chosen.right()});
-  }
+  for (const TalliedSetting& setting : settings) analysis.settings.push_back(setting.result);
   std::sort(analysis.settings.begin(), analysis.settings.end(), is_better);
-  analysis.effects = effects_of(tried);
-  if (const auto axes = chosen_axes(map, analysis.effects))
-    analysis.map = heat_map(tried, analysis.effects, axes->first, axes->second);
+  analysis.parameters = figures_of(settings, map);
   analysis.chance = chance_among(settings);
   return analysis;
+}
+
+std::optional<ParameterFigures> compare_parameters(const std::vector<NamedRun>& runs) {
+  if (!is_sweep(runs)) return std::nullopt;
+  std::vector<SweepRun> parts = sweep_of(runs);
+  std::vector<std::map<TrialStart, TrialResult>> shared(parts.size());
+  for (const TrialStart& start : shared_starts(runs)) {
+    for (std::size_t i = 0; i < parts.size(); ++i) shared[i].emplace(start, parts[i].trials->at(start));
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i].trials = &shared[i];
+  ParameterFigures figures = figures_of(settings_of(parts), {});
+  if (figures.effects.empty() || figures.effects.size() > most_compared_parameters) return std::nullopt;
+  return figures;
 }
 
 }  // namespace glocal

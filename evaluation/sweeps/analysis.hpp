@@ -33,16 +33,21 @@ struct SettingResult {
   std::optional<SettingOutcome> judged;  ///< Over the cases of judge_on.
 };
 
+/// What each parameter does, and the map of two of them.
+struct ParameterFigures {
+  std::vector<ParameterEffect> effects;  ///< Of `chosen`; the largest first.
+  std::optional<HeatMap> map;            ///< None with fewer than two parameters.
+};
+
 struct SweepAnalysis {
   std::string experiment;
   std::size_t runs = 0;
   std::vector<std::string> choose_on, judge_on;  ///< Names of cases.
   std::vector<std::uint64_t> seeds;
-  std::vector<SettingResult> settings;   ///< Best first; incomplete ones behind all others.
-  std::vector<std::string> incomplete;   ///< Names of runs without all their trials.
-  std::vector<ParameterEffect> effects;  ///< Largest first, of `chosen`.
-  std::optional<HeatMap> map;            ///< None with fewer than two parameters.
-  std::optional<ChanceOfBest> chance;    ///< None where settings share no trials.
+  std::vector<SettingResult> settings;  ///< Best first; incomplete ones behind all others.
+  std::vector<std::string> incomplete;  ///< Names of runs without all their trials.
+  ParameterFigures parameters;
+  std::optional<ChanceOfBest> chance;  ///< None where settings share no trials.
 };
 
 /// Which parameters to show in the map, by their paths, or by ends of these that no other one has; without,
@@ -52,5 +57,12 @@ using MapChoice = std::optional<std::pair<std::string, std::string>>;
 /// Settings are ranked by their score, then by fewer median steps, then by name. Throws ConfigError for runs
 /// that are no sweep, and for parameters that are none.
 [[nodiscard]] SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& map = {});
+
+/// With more parameters than these a comparison of runs does not tell what each of them does.
+inline constexpr std::size_t most_compared_parameters = 2;
+
+/// What the parameters do in which runs that are compared differ, over the starts that all of them have. None
+/// where the runs are no sweep, or one of too many parameters.
+[[nodiscard]] std::optional<ParameterFigures> compare_parameters(const std::vector<NamedRun>& runs);
 
 }  // namespace glocal

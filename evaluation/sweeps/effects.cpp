@@ -100,22 +100,42 @@ void use_quarters(const Column& column, ParameterEffect& effect) {
   }
 }
 
+/// Settings that are counted together.
+class Group {
+ public:
+  void add(const TriedSetting& setting) {
+    ++settings_;
+    wrong_ += setting.wrong;
+    add_trials(setting.trials, trials_);
+    steps_.insert(steps_.end(), setting.steps.begin(), setting.steps.end());
+  }
+
+  [[nodiscard]] GroupOutcome outcome() const {
+    return {.settings = settings_,
+            .trials = count_trials(trials_),
+            .wrong = wrong_,
+            .success = success_of(trials_),
+            .median_steps = steps_.empty() ? std::nullopt : std::optional(quantile(steps_, 0.5))};
+  }
+
+ private:
+  std::size_t settings_ = 0, wrong_ = 0;
+  TrialsByPlace trials_;
+  std::vector<double> steps_;
+};
+
 void count_levels(const std::vector<TriedSetting>& settings, ParameterEffect& effect) {
-  std::vector<TrialsByPlace> trials(effect.levels.size());
+  std::vector<Group> groups(effect.levels.size());
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (!effect.level_of[i]) continue;
-    ++effect.levels[*effect.level_of[i]].settings;
-    add_trials(settings[i].trials, trials[*effect.level_of[i]]);
+    if (effect.level_of[i]) groups[*effect.level_of[i]].add(settings[i]);
   }
   double least = 1.0;
   double most = 0.0;
-  for (std::size_t k = 0; k < trials.size(); ++k) {
-    ParameterLevel& level = effect.levels[k];
-    level.trials = count_trials(trials[k]);
-    level.success = success_of(trials[k]);
-    if (level.trials == 0) continue;
-    least = std::min(least, level.success.value);
-    most = std::max(most, level.success.value);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const GroupOutcome& outcome = effect.levels[k].outcome = groups[k].outcome();
+    if (outcome.trials == 0) continue;
+    least = std::min(least, outcome.success.value);
+    most = std::max(most, outcome.success.value);
   }
   effect.range = std::max(0.0, most - least);
 }
@@ -181,20 +201,15 @@ HeatMap heat_map(const std::vector<TriedSetting>& settings, const std::vector<Pa
                  std::size_t row, std::size_t column) {
   const ParameterEffect& rows = effects[row];
   const ParameterEffect& columns = effects[column];
-  std::vector<std::vector<TrialsByPlace>> trials(rows.levels.size(),
-                                                 std::vector<TrialsByPlace>(columns.levels.size()));
-  HeatMap map{row, column, {}};
-  map.cells.assign(rows.levels.size(), std::vector<MapCell>(columns.levels.size()));
+  std::vector<std::vector<Group>> groups(rows.levels.size(), std::vector<Group>(columns.levels.size()));
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (!rows.level_of[i] || !columns.level_of[i]) continue;
-    ++map.cells[*rows.level_of[i]][*columns.level_of[i]].settings;
-    add_trials(settings[i].trials, trials[*rows.level_of[i]][*columns.level_of[i]]);
+    if (rows.level_of[i] && columns.level_of[i])
+      groups[*rows.level_of[i]][*columns.level_of[i]].add(settings[i]);
   }
-  for (std::size_t r = 0; r < trials.size(); ++r) {
-    for (std::size_t c = 0; c < trials[r].size(); ++c) {
-      map.cells[r][c].trials = count_trials(trials[r][c]);
-      map.cells[r][c].success = success_of(trials[r][c]);
-    }
+  HeatMap map{row, column, {}};
+  for (const std::vector<Group>& in_row : groups) {
+    map.cells.emplace_back();
+    for (const Group& group : in_row) map.cells.back().push_back(group.outcome());
   }
   return map;
 }

@@ -26,14 +26,22 @@ void add_trials(const TrialsByPlace& trials, TrialsByPlace& sum);
 /// What the effect of parameters is computed from.
 struct TriedSetting {
   std::vector<std::pair<std::string, std::string>> values;  ///< Paths and values, as written.
-  TrialsByPlace trials;
+  TrialsByPlace trials;                                     ///< Successes are right trials.
+  std::size_t wrong = 0;
+  std::vector<double> steps = {};  ///< To localize, of right trials.
+};
+
+/// How the trials of some settings ended: the mean over all in which these differ.
+struct GroupOutcome {
+  std::size_t settings = 0, trials = 0, wrong = 0;
+  Proportion success{};
+  std::optional<double> median_steps = {};  ///< To localize; none where no trial was right.
 };
 
 /// The settings with one value of a parameter, or with values in one range.
 struct ParameterLevel {
   std::string label;
-  std::size_t settings = 0, trials = 0;
-  Proportion success{};  ///< Mean over all else.
+  GroupOutcome outcome = {};
 };
 
 struct ParameterEffect {
@@ -55,13 +63,9 @@ inline constexpr std::size_t most_single_values = 6;
 [[nodiscard]] std::vector<ParameterEffect> effects_of(const std::vector<TriedSetting>& settings);
 
 /// The settings with one level of each of two parameters.
-struct MapCell {
-  std::size_t settings = 0, trials = 0;
-  Proportion success{};
-};
 struct HeatMap {
-  std::size_t row = 0, column = 0;          ///< Numbers of the effects.
-  std::vector<std::vector<MapCell>> cells;  ///< A list for each level of the row's parameter.
+  std::size_t row = 0, column = 0;               ///< Numbers of the effects.
+  std::vector<std::vector<GroupOutcome>> cells;  ///< A list for each level of the row's parameter.
 };
 [[nodiscard]] HeatMap heat_map(const std::vector<TriedSetting>& settings,
                                const std::vector<ParameterEffect>& effects, std::size_t row,

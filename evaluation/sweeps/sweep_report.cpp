@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "config/nearest.hpp"
+#include "evaluation/results/proportions.hpp"
 #include "evaluation/results/report_blocks.hpp"
+#include "evaluation/sweeps/parameter_report.hpp"
 
 namespace glocal {
 namespace {
@@ -18,31 +19,15 @@ using Json = nlohmann::ordered_json;
 /// Of the best settings, so many are shown with their values, and where they are judged.
 constexpr std::size_t most_looked_at = 5;
 
-std::string rate(const Proportion& p) {
-  return fmt::format("{:.1f} ({:.1f} to {:.1f})", 100.0 * p.value, 100.0 * p.low, 100.0 * p.high);
-}
-
-/// Adding 0 turns -0 into 0.
-std::string points(double share) {
-  return fmt::format("{:.1f}", 100.0 * share + 0.0);
-}
-
 std::string name_of(const SettingResult& setting) {
   return (setting.name.empty() ? "(the experiment)" : setting.name) + (setting.complete ? "" : " *");
 }
 
-std::string steps_cell(const SettingOutcome& outcome) {
-  return outcome.median_steps ? fmt::format("{:g}", *outcome.median_steps) : "-";
-}
-
 std::vector<std::string> outcome_cells(const SettingOutcome& o) {
-  return {std::to_string(o.trials),
-          std::to_string(o.right),
-          std::to_string(o.wrong),
-          std::to_string(o.trials - o.right - o.wrong),
-          rate(o.success),
-          points(o.score()),
-          steps_cell(o)};
+  return {std::to_string(o.trials),  std::to_string(o.right),
+          std::to_string(o.wrong),   std::to_string(o.trials - o.right - o.wrong),
+          per_cent(o.success),       points(o.score()),
+          steps_cell(o.median_steps)};
 }
 
 const std::vector<std::string>& outcome_columns() {
@@ -68,8 +53,8 @@ Table judged_table(const SweepAnalysis& analysis) {
     if (table.rows.size() == most_looked_at) break;
     if (!setting.judged) continue;
     const SettingOutcome& judged = *setting.judged;
-    table.rows.push_back({name_of(setting), rate(setting.chosen.success),
-                          std::to_string(setting.chosen.wrong), rate(judged.success),
+    table.rows.push_back({name_of(setting), per_cent(setting.chosen.success),
+                          std::to_string(setting.chosen.wrong), per_cent(judged.success),
                           std::to_string(judged.right), std::to_string(judged.wrong),
                           std::to_string(judged.trials)});
   }
@@ -79,51 +64,15 @@ Table judged_table(const SweepAnalysis& analysis) {
 /// What the best settings change; a parameter has the column of its effect.
 Table values_table(const SweepAnalysis& analysis) {
   Table table{{"setting"}, {}};
-  for (const ParameterEffect& effect : analysis.effects) table.header.push_back(effect.label);
+  for (const ParameterEffect& effect : analysis.parameters.effects) table.header.push_back(effect.label);
   for (const SettingResult& setting : analysis.settings) {
     if (table.rows.size() == most_looked_at) break;
     table.rows.push_back({name_of(setting)});
-    for (const ParameterEffect& effect : analysis.effects) {
+    for (const ParameterEffect& effect : analysis.parameters.effects) {
       const auto value = std::find_if(setting.values.begin(), setting.values.end(),
                                       [&](const auto& v) { return v.first == effect.path; });
       table.rows.back().push_back(value == setting.values.end() ? "-" : value->second);
     }
-  }
-  return table;
-}
-
-Table effect_table(const ParameterEffect& effect) {
-  Table table{{effect.label, "settings", "trials", "right, %, 95 %"}, {}};
-  for (const ParameterLevel& level : effect.levels) {
-    table.rows.push_back({level.label, std::to_string(level.settings), std::to_string(level.trials),
-                          level.trials == 0 ? "-" : rate(level.success)});
-  }
-  return table;
-}
-
-std::string effect_heading(const ParameterEffect& effect) {
-  return fmt::format(
-      "{}: {} points from the worst to the best{}{}", effect.path, points(effect.range),
-      effect.is_binned ? ", by quarters of its values" : "",
-      effect.spearman ? fmt::format("; rank correlation {:+.2f}", *effect.spearman + 0.0) : "");
-}
-
-/// "83 ####.": in print, and for whoever cannot tell colours apart, too.
-std::string map_cell(const MapCell& cell) {
-  if (cell.trials == 0) return "-      ";
-  constexpr int most = 5;
-  const int length = static_cast<int>(std::lround(most * cell.success.value));
-  return fmt::format("{:.0f} {:#<{}}{:.<{}}", 100.0 * cell.success.value, "", length, "", most - length);
-}
-
-Table map_table(const HeatMap& map, const std::vector<ParameterEffect>& effects) {
-  const ParameterEffect& rows = effects[map.row];
-  const ParameterEffect& columns = effects[map.column];
-  Table table{{rows.label + " \\ " + columns.label}, {}};
-  for (const ParameterLevel& level : columns.levels) table.header.push_back(level.label);
-  for (std::size_t r = 0; r < rows.levels.size(); ++r) {
-    table.rows.push_back({rows.levels[r].label});
-    for (const MapCell& cell : map.cells[r]) table.rows.back().push_back(map_cell(cell));
   }
   return table;
 }
@@ -176,12 +125,9 @@ std::string report_advice(const SweepAnalysis& a) {
     return fmt::format(
         "The number to report is that of {}, where nothing was chosen: {} is right in {} %, with {} of {} "
         "trials wrong.",
-        join(a.judge_on), name_of(best), rate(best.judged->success), best.judged->wrong, best.judged->trials);
+        join(a.judge_on), name_of(best), per_cent(best.judged->success), best.judged->wrong,
+        best.judged->trials);
   return "Judge the best by other logs or worlds (judge_on), and report what comes of that.";
-}
-
-Json to_json(const Proportion& p) {
-  return {{"value", p.value}, {"low", p.low}, {"high", p.high}};
 }
 
 Json to_json(const SettingOutcome& o) {
@@ -203,37 +149,6 @@ Json to_json(const SettingResult& s) {
       {"setting", s.name}, {"values", values}, {"complete", s.complete}, {"chosen", to_json(s.chosen)}};
   if (s.judged) json["judged"] = to_json(*s.judged);
   return json;
-}
-
-Json to_json(const ParameterEffect& e) {
-  Json levels = Json::array();
-  for (const ParameterLevel& level : e.levels) {
-    levels.push_back({{"label", level.label},
-                      {"settings", level.settings},
-                      {"trials", level.trials},
-                      {"success_rate", to_json(level.success)}});
-  }
-  Json json = {{"path", e.path}, {"label", e.label}, {"quarters", e.is_binned}, {"range", e.range}};
-  if (e.spearman) json["spearman"] = *e.spearman;
-  json["levels"] = std::move(levels);
-  return json;
-}
-
-Json to_json(const HeatMap& map, const std::vector<ParameterEffect>& effects) {
-  Json cells = Json::array();
-  for (const auto& row : map.cells) {
-    Json list = Json::array();
-    for (const MapCell& cell : row)
-      list.push_back(
-          {{"settings", cell.settings}, {"trials", cell.trials}, {"success_rate", to_json(cell.success)}});
-    cells.push_back(std::move(list));
-  }
-  const auto axis = [&](std::size_t i) {
-    Json labels = Json::array();
-    for (const ParameterLevel& level : effects[i].levels) labels.push_back(level.label);
-    return Json{{"path", effects[i].path}, {"label", effects[i].label}, {"levels", std::move(labels)}};
-  };
-  return {{"rows", axis(map.row)}, {"columns", axis(map.column)}, {"cells", std::move(cells)}};
 }
 
 Json to_json(const ChanceOfBest& c) {
@@ -276,18 +191,12 @@ std::string text_report(const SweepAnalysis& analysis, std::size_t most_settings
     report.emplace_back(Heading{"The best of these, judged by " + join(analysis.judge_on)});
     report.emplace_back(judged_table(analysis));
   }
-  if (!analysis.effects.empty()) {
+  if (!analysis.parameters.effects.empty()) {
     report.emplace_back(Heading{"Values of the best"});
     report.emplace_back(values_table(analysis));
   }
-  for (const ParameterEffect& effect : analysis.effects) {
-    report.emplace_back(Heading{effect_heading(effect)});
-    report.emplace_back(effect_table(effect));
-  }
-  if (analysis.map) {
-    report.emplace_back(Heading{"Right trials, %, by two parameters"});
-    report.emplace_back(map_table(*analysis.map, analysis.effects));
-  }
+  const Report parameters = parameter_report(analysis.parameters);
+  report.insert(report.end(), parameters.begin(), parameters.end());
   report.emplace_back(Heading{"How to read this"});
   report.emplace_back(Paragraph{
       "Score: right less wrong trials, in percentage points of all. Settings are ranked by it, then by fewer "
@@ -303,10 +212,9 @@ Json to_json(const SweepAnalysis& a) {
   Json json = {{"experiment", a.experiment}, {"runs", a.runs},   {"choose_on", a.choose_on},
                {"judge_on", a.judge_on},     {"seeds", a.seeds}, {"incomplete", a.incomplete},
                {"warnings", warnings_of(a)}};
-  for (const char* key : {"settings", "effects"}) json[key] = Json::array();
+  json["settings"] = Json::array();
   for (const SettingResult& setting : a.settings) json["settings"].push_back(to_json(setting));
-  for (const ParameterEffect& effect : a.effects) json["effects"].push_back(to_json(effect));
-  if (a.map) json["map"] = to_json(*a.map, a.effects);
+  json.update(to_json(a.parameters));
   if (a.chance) json["chance"] = to_json(*a.chance);
   return json;
 }

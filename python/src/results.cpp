@@ -11,11 +11,12 @@
 #include <variant>
 #include <vector>
 
-#include "evaluation/comparison/comparison_report.hpp"
-#include "evaluation/comparison/comparison_writers.hpp"
+#include "evaluation/comparison/comparison.hpp"
 #include "evaluation/comparison/named_runs.hpp"
+#include "evaluation/results/report_blocks.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/sweeps/analysis.hpp"
+#include "evaluation/sweeps/comparison_output.hpp"
 #include "evaluation/sweeps/sweep_report.hpp"
 #include "python/src/seen.hpp"
 
@@ -135,12 +136,12 @@ py::tuple compared(const std::vector<std::string>& folders, const std::string& b
     if (runs.size() < 2)
       throw ConfigError({{folders.empty() ? "" : folders.front(), 0, 0,
                           "there is nothing to compare it with; name two folders of results or more"}});
-    const Comparison comparison =
-        compare(runs, find_baseline(runs, baseline), times ? measures() : measures_but_time());
-    text = text_report(comparison);
-    markdown = markdown_report(comparison);
-    csv = to_csv(comparison);
-    json = to_json(comparison).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const ComparisonOutput output =
+        comparison_output(runs, find_baseline(runs, baseline), times ? measures() : measures_but_time());
+    text = as_text(output.report);
+    markdown = as_markdown(output.report);
+    csv = output.csv;
+    json = output.json_text(-1);
   }
   return py::make_tuple(text, markdown, csv, json);
 }

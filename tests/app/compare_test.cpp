@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/program.hpp"
+#include "app/result_lines.hpp"
+#include "app/room.hpp"
 
 namespace glocal::test::compare_test {
 namespace {
@@ -220,6 +222,41 @@ TEST_F(CompareCommand, ReplacesNoFileUnlessForced) {
   EXPECT_FALSE(fs::exists(file("new.csv")));
   EXPECT_EQ(run(command + file("old.json") + " --force").exit_code, 0);
   EXPECT_TRUE(json::accept(content(file("old.json"))));
+}
+
+class CompareVariants : public Room {};
+
+TEST_F(CompareVariants, TellsWhatOneOrTwoParametersDo) {
+  write_experiment("trials: {every_scan: 9, max_steps: 1}\n",
+                   "variants:\n"
+                   "  grid:\n"
+                   "    localizer.matcher.ransam.iterations: [200, 100]\n"
+                   "    localizer.matcher.ransam.min_side: [0.5, 1]\n"
+                   "output: {steps: false, maps: none}\n");
+  ASSERT_EQ(run_room("all").exit_code, 0);
+  const auto set_outcomes = [&](const std::string& setting, const std::string& outcome, int steps) {
+    replace_lines(file("all/" + setting), {{{"outcome", outcome}, {"steps", steps}}}, {});
+  };
+  set_outcomes("iterations-200_min_side-0.5", "right", 4);
+  set_outcomes("iterations-200_min_side-1", "right", 6);
+  set_outcomes("iterations-100_min_side-0.5", "right", 9);
+  set_outcomes("iterations-100_min_side-1", "wrong", 7);
+  const Answer answer =
+      run("compare " + file("all") + " --json " + file("all.json") + " --markdown " + file("all.md"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("compared with iterations-200_min_side-0.5\n"));
+  EXPECT_THAT(answer.out,
+              HasSubstr("localizer.matcher.ransam.iterations: 50.0 points from the worst to the best"));
+  // Of right trials, and of their steps.
+  EXPECT_THAT(answer.out, HasSubstr("iterations \\ min_side        0.5          1\n"));
+  EXPECT_THAT(answer.out, HasSubstr("  100                    100 #####    0 .....\n"));
+  EXPECT_THAT(answer.out, HasSubstr("  200                      4  6\n"));
+  EXPECT_THAT(content(file("all.md")), HasSubstr("Right trials, %, by two parameters"));
+  const nlohmann::json parameters = nlohmann::json::parse(content(file("all.json"))).at("parameters");
+  EXPECT_EQ(parameters["effects"][0]["levels"][0]["label"], "100");
+  EXPECT_EQ(parameters["effects"][0]["levels"][0]["wrong"], 1);
+  EXPECT_EQ(parameters["effects"][0]["levels"][1]["median_steps"], 5.0);
+  EXPECT_EQ(parameters["map"]["cells"][0][0]["median_steps"], 9.0);
 }
 
 }  // namespace

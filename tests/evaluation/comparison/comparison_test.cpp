@@ -142,8 +142,8 @@ TEST(Comparison, SaysNothingOfMeasuresThatAreNotAskedFor) {
   EXPECT_THAT(all.pairs.front().warnings,
               ElementsAre(HasSubstr("both have a value for CPU time of a step.")));
   EXPECT_THAT(some.pairs.front().warnings, IsEmpty());
-  EXPECT_THAT(text_report(all), HasSubstr("CPU time of a step, ms"));
-  EXPECT_THAT(text_report(some), Not(HasSubstr("CPU time of a step, ms")));
+  EXPECT_THAT(as_text(comparison_report(all)), HasSubstr("CPU time of a step, ms"));
+  EXPECT_THAT(as_text(comparison_report(some)), Not(HasSubstr("CPU time of a step, ms")));
 }
 
 TEST(Comparison, TellsWhatTheTestIsAbout) {

@@ -80,13 +80,13 @@ TEST(ComparisonReport, IsTheSameAsTextAndAsMarkdown) {
   runs[1].name = "qu|ck_2";
   runs[1].results.complete = false;
   const Comparison comparison = compare(runs, 0);
-  const std::string text = text_report(comparison);
+  const std::string text = as_text(comparison_report(comparison));
   EXPECT_THAT(text, HasSubstr("30 starts that all 2 runs have, compared with slow\n"));
   EXPECT_THAT(text, HasSubstr("  ! qu|ck_2 was interrupted: its later trials are missing.\n"));
   EXPECT_THAT(text, HasSubstr("  run      right              %, 95 %  wrong"));
   EXPECT_THAT(text, HasSubstr("  slow        21  70.0 (52.1 to 83.3)      9"));
   EXPECT_THAT(text, HasSubstr("qu|ck_2 is significantly better than slow in right"));
-  const std::string markdown = markdown_report(comparison);
+  const std::string markdown = as_markdown(comparison_report(comparison));
   EXPECT_THAT(markdown, HasSubstr("- qu\\|ck\\_2 was interrupted: its later trials are missing.\n"));
   EXPECT_THAT(markdown, HasSubstr("| run | right | %, 95 % | wrong |"));
   EXPECT_THAT(markdown, HasSubstr("| slow | 21 | 70.0 (52.1 to 83.3) | 9 |"));
@@ -94,7 +94,7 @@ TEST(ComparisonReport, IsTheSameAsTextAndAsMarkdown) {
 }
 
 TEST(ComparisonReport, KeepsToTheWidthOfATerminal) {
-  std::istringstream lines(text_report(compare(slow_and_quick(), 0)));
+  std::istringstream lines(as_text(comparison_report(compare(slow_and_quick(), 0))));
   for (std::string line; std::getline(lines, line);) {
     EXPECT_LE(line.size(), 120U) << line;
     EXPECT_THAT(line, Not(testing::EndsWith(" ")));

@@ -105,37 +105,37 @@ std::vector<NamedRun> grid() {
 
 TEST(Sweep, EffectsAreMeansOverAllElse) {
   const SweepAnalysis analysis = analyse_sweep(grid());
-  ASSERT_EQ(analysis.effects.size(), 2U);
+  ASSERT_EQ(analysis.parameters.effects.size(), 2U);
   // By size: 6 of 8 with 2, 1 of 8 with 10. By kind: 2 of 8 plain, 5 of 8 fine.
-  const ParameterEffect& size = analysis.effects[0];
+  const ParameterEffect& size = analysis.parameters.effects[0];
   EXPECT_EQ(size.path, "x.size");
   EXPECT_EQ(size.label, "size");
   EXPECT_FALSE(size.is_binned);
   ASSERT_EQ(size.levels.size(), 2U);
   EXPECT_EQ(size.levels[0].label, "2");
-  EXPECT_DOUBLE_EQ(size.levels[0].success.value, 0.75);
-  EXPECT_EQ(size.levels[0].settings, 2U);
-  EXPECT_EQ(size.levels[0].trials, 8U);
-  EXPECT_DOUBLE_EQ(size.levels[1].success.value, 0.125);
+  EXPECT_DOUBLE_EQ(size.levels[0].outcome.success.value, 0.75);
+  EXPECT_EQ(size.levels[0].outcome.settings, 2U);
+  EXPECT_EQ(size.levels[0].outcome.trials, 8U);
+  EXPECT_DOUBLE_EQ(size.levels[1].outcome.success.value, 0.125);
   EXPECT_DOUBLE_EQ(size.range, 0.625);
   // Values 10, 10, 2, 2 and successes 0, 1/4, 1/2, 1: ranks 3.5, 3.5, 1.5, 1.5 and 1, 2, 3, 4.
   EXPECT_NEAR(size.spearman.value_or(0.0), -4.0 / std::sqrt(4.0 * 5.0), 1e-12);
-  const ParameterEffect& kind = analysis.effects[1];
+  const ParameterEffect& kind = analysis.parameters.effects[1];
   EXPECT_EQ(kind.levels[0].label, "plain");
   EXPECT_DOUBLE_EQ(kind.range, 0.375);
   EXPECT_FALSE(kind.spearman.has_value());
-  ASSERT_TRUE(analysis.map.has_value());
+  ASSERT_TRUE(analysis.parameters.map.has_value());
   // Rows: 2 and 10; columns: plain and fine.
-  EXPECT_DOUBLE_EQ(analysis.map->cells[0][0].success.value, 0.5);
-  EXPECT_DOUBLE_EQ(analysis.map->cells[0][1].success.value, 1.0);
-  EXPECT_DOUBLE_EQ(analysis.map->cells[1][0].success.value, 0.0);
-  EXPECT_DOUBLE_EQ(analysis.map->cells[1][1].success.value, 0.25);
+  EXPECT_DOUBLE_EQ(analysis.parameters.map->cells[0][0].success.value, 0.5);
+  EXPECT_DOUBLE_EQ(analysis.parameters.map->cells[0][1].success.value, 1.0);
+  EXPECT_DOUBLE_EQ(analysis.parameters.map->cells[1][0].success.value, 0.0);
+  EXPECT_DOUBLE_EQ(analysis.parameters.map->cells[1][1].success.value, 0.25);
 }
 
 TEST(Sweep, TheIntervalOfAnEffectIsThatOfItsPlaces) {
   // 6 of 8 over 4 places with 2, 2, 1 and 1 right ones: the excess over 1.5 is 0.5 each, so that the squares
   // are 1 and 0.75 * 0.25 * 64 / max(1, 1.5) = 8 independent trials.
-  const Proportion interval = analyse_sweep(grid()).effects[0].levels[0].success;
+  const Proportion interval = analyse_sweep(grid()).parameters.effects[0].levels[0].outcome.success;
   const Proportion of_eight = wilson(6, 8);
   EXPECT_NEAR(interval.low, of_eight.low, 1e-12);
   EXPECT_NEAR(interval.high, of_eight.high, 1e-12);
@@ -149,16 +149,63 @@ TEST(Sweep, ManyNumbersAreShownInQuarters) {
                              i > 4 ? "rr" : "uu"));
   }
   runs.push_back(sweep_run({.setting = "base"}, "rr"));
-  const ParameterEffect effect = analyse_sweep(runs).effects.at(0);
+  const ParameterEffect effect = analyse_sweep(runs).parameters.effects.at(0);
   EXPECT_TRUE(effect.is_binned);
   ASSERT_EQ(effect.levels.size(), 4U);
   EXPECT_EQ(effect.levels[0].label, "1 to 2.75");
   EXPECT_EQ(effect.levels[3].label, "6.25 to 8");
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(effect.levels[k].settings, 2U);
-    EXPECT_DOUBLE_EQ(effect.levels[k].success.value, k < 2 ? 0.0 : 1.0);
+    EXPECT_EQ(effect.levels[k].outcome.settings, 2U);
+    EXPECT_DOUBLE_EQ(effect.levels[k].outcome.success.value, k < 2 ? 0.0 : 1.0);
   }
   EXPECT_DOUBLE_EQ(effect.range, 1.0);
+}
+
+/// 2 x 2 settings at 3 starts, of which the first run lacks the last one.
+std::vector<NamedRun> compared_grid() {
+  std::vector<NamedRun> runs;
+  const auto add = [&](const std::string& a, const std::string& b, const std::string& outcomes,
+                       double steps) {
+    runs.push_back(sweep_run({.setting = a + b, .values = {{"x.size", a}, {"y.kind", b}}}, outcomes, steps));
+  };
+  add("10", "plain", "uw", 5);
+  add("10", "fine", "ruw", 5);
+  add("2", "plain", "rrw", 9);
+  add("2", "fine", "rrw", 7);
+  return runs;
+}
+
+TEST(ComparedParameters, AreThoseOverTheStartsThatAllRunsHave) {
+  const auto figures = compare_parameters(compared_grid());
+  ASSERT_TRUE(figures.has_value());
+  ASSERT_EQ(figures->effects.size(), 2U);
+  // By size, over the first two starts: 4 of 4 with 2, 1 of 4 with 10, where the one is wrong.
+  const ParameterEffect& size = figures->effects[0];
+  EXPECT_EQ(size.levels[0].label, "2");
+  EXPECT_EQ(size.levels[0].outcome.trials, 4U);
+  EXPECT_EQ(size.levels[0].outcome.wrong, 0U);
+  EXPECT_DOUBLE_EQ(size.levels[0].outcome.success.value, 1.0);
+  EXPECT_EQ(size.levels[0].outcome.median_steps, 8.0) << "9, 9, 7, 7";
+  EXPECT_EQ(size.levels[1].outcome.trials, 4U);
+  EXPECT_EQ(size.levels[1].outcome.wrong, 1U);
+  EXPECT_DOUBLE_EQ(size.levels[1].outcome.success.value, 0.25);
+  EXPECT_EQ(size.levels[1].outcome.median_steps, 5.0);
+  ASSERT_TRUE(figures->map.has_value());
+  EXPECT_EQ(figures->map->cells[0][0].median_steps, 9.0);
+  EXPECT_EQ(figures->map->cells[0][1].median_steps, 7.0);
+  EXPECT_EQ(figures->map->cells[1][0].median_steps, std::nullopt);
+}
+
+TEST(ComparedParameters, AreAtMostTwoAndOfOneExperiment) {
+  std::vector<NamedRun> runs = {sweep_run({.setting = "a", .values = {{"x.size", "1"}}}, "r"),
+                                sweep_run({.setting = "b", .values = {{"x.size", "2"}}}, "r")};
+  ASSERT_TRUE(compare_parameters(runs).has_value());
+  EXPECT_FALSE(compare_parameters(runs)->map.has_value());
+  runs[1].results.experiment = "other";
+  EXPECT_FALSE(compare_parameters(runs).has_value());
+  runs = {sweep_run({.setting = "a", .values = {{"x.size", "1"}, {"x.side", "1"}, {"y.kind", "plain"}}}, "r"),
+          sweep_run({.setting = "b", .values = {{"x.size", "2"}, {"x.side", "2"}, {"y.kind", "fine"}}}, "r")};
+  EXPECT_FALSE(compare_parameters(runs).has_value());
 }
 
 TEST(Sweep, TheMapShowsWhatIsAskedFor) {
@@ -170,9 +217,9 @@ TEST(Sweep, TheMapShowsWhatIsAskedFor) {
         i >= 4 ? "rr" : (i % 2 == 0 ? "ru" : "uu")));
   }
   const SweepAnalysis two = analyse_sweep(runs, std::pair("a", "q.b"));
-  EXPECT_EQ(two.effects[two.map->row].path, "p.a");
-  EXPECT_EQ(two.effects[two.map->column].path, "q.b");
-  EXPECT_EQ(two.effects[0].path, "q.b") << "of the largest effect";
+  EXPECT_EQ(two.parameters.effects[two.parameters.map->row].path, "p.a");
+  EXPECT_EQ(two.parameters.effects[two.parameters.map->column].path, "q.b");
+  EXPECT_EQ(two.parameters.effects[0].path, "q.b") << "of the largest effect";
   const auto fault = [&](const std::string& a, const std::string& b) {
     try {
       static_cast<void>(analyse_sweep(runs, std::pair(a, b)));

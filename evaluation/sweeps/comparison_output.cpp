@@ -1,0 +1,27 @@
+#include "evaluation/sweeps/comparison_output.hpp"
+
+#include "evaluation/comparison/comparison_report.hpp"
+#include "evaluation/comparison/comparison_writers.hpp"
+#include "evaluation/sweeps/analysis.hpp"
+#include "evaluation/sweeps/parameter_report.hpp"
+
+namespace glocal {
+
+std::string ComparisonOutput::json_text(int indent) const {
+  return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+ComparisonOutput comparison_output(const std::vector<NamedRun>& runs, std::size_t baseline,
+                                   std::span<const Measure> measured) {
+  const Comparison comparison = compare(runs, baseline, measured);
+  ComparisonOutput output{{}, to_json(comparison), to_csv(comparison)};
+  Report parameters;
+  if (const auto figures = compare_parameters(runs)) {
+    parameters = parameter_report(*figures);
+    output.json["parameters"] = to_json(*figures);
+  }
+  output.report = comparison_report(comparison, parameters);
+  return output;
+}
+
+}  // namespace glocal
