@@ -44,6 +44,8 @@ void add_all(CLI::App& app, glocal::app::Context& context) {
   add_prepare(app, context);
   add_mapping(app, context);
   add_new_plugin(app, context);
+  add_completion(app, context);
+  add_manual(app, context);
 }
 
 /// As a shell would read them.

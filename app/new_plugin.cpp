@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/plugin_templates.hpp"
+#include "app/embedded_files.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "glocal/error.hpp"
 
@@ -93,10 +93,10 @@ void new_plugin(const NewPluginOptions& options, const Catalog& catalog) {
       {"LOCALIZER", localizer_with(options.kind, options.name)}};
 
   OutputFolder folder(options.folder, false);
-  folder.append("CMakeLists.txt", filled(plugin_template("CMakeLists.txt"), values));
-  folder.append(options.name + ".cpp", filled(plugin_template(options.kind + ".cpp"), values));
-  folder.append("experiment.yaml", filled(plugin_template("experiment.yaml"), values));
-  folder.append("world.yaml", filled(plugin_template("world.yaml"), values));
+  folder.append("CMakeLists.txt", filled(embedded_file("CMakeLists.txt"), values));
+  folder.append(options.name + ".cpp", filled(embedded_file(options.kind + ".cpp"), values));
+  folder.append("experiment.yaml", filled(embedded_file("experiment.yaml"), values));
+  folder.append("world.yaml", filled(embedded_file("world.yaml"), values));
   folder.commit();
   fmt::print(
       "A {} called {} in {}. Build it, test it, run it:\n"

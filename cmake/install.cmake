@@ -8,9 +8,19 @@ set_target_properties(glocal_app PROPERTIES EXPORT_NAME program)
 install(TARGETS glocal_app EXPORT glocal_targets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY framework/include/glocal evaluation/include/glocal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT glocal_targets FILE glocalTargets.cmake NAMESPACE glocal:: DESTINATION ${package_dir})
+# The program writes its own manual. Shells look for completions in folders of their own; these are Debian's.
+set(manual ${CMAKE_BINARY_DIR}/manual)
+add_custom_command(OUTPUT ${manual}/glocal.1 DEPENDS glocal_app
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual} COMMAND glocal_app manual ${manual})
+add_custom_target(manual ALL DEPENDS ${manual}/glocal.1)
+install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+set(completions ${CMAKE_SOURCE_DIR}/app/completion)
+install(FILES ${completions}/glocal.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME glocal)
+install(FILES ${completions}/glocal.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _glocal)
+install(FILES ${completions}/glocal.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 # Builds what is installed, and nothing else.
 get_property(package_plugins GLOBAL PROPERTY GLOCAL_PACKAGE_PLUGINS)
-add_custom_target(installed DEPENDS glocal glocal_builtin glocal_evaluation glocal_app ${package_plugins})
+add_custom_target(installed DEPENDS glocal glocal_builtin glocal_evaluation glocal_app manual ${package_plugins})
 
 install(FILES cmake/glocal_add_plugin.cmake cmake/plugin_exports.map DESTINATION ${package_dir})
 # The program finds its library wherever both have been put.

@@ -17,6 +17,10 @@ for library in mrpt pcl octomap Open3D vtk Qt; do
   ! ldd "$prefix/bin/glocal" "$prefix"/lib*/libglocal.so | grep -qi "lib$library" || fail "the framework needs $library"
 done
 
+for file in man/man1/glocal.1 man/man1/glocal-map-build.1 bash-completion/completions/glocal zsh/vendor-completions/_glocal fish/vendor_completions.d/glocal.fish; do
+  [ -s "$prefix/share/$file" ] || fail "$file is not installed"
+done
+
 # The plugins of this tree, where they are built, export what every plugin does.
 for plugin in "$prefix"/lib*/glocal/*.so; do
   [ -e "$plugin" ] || continue

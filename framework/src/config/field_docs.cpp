@@ -125,7 +125,7 @@ StructDoc document(AnyParams& params) {
   return documenter.take();
 }
 
-std::optional<FieldDoc> find_field(AnyParams& params, std::string_view path) {
+std::optional<PathEnd> find_path(AnyParams& params, std::string_view path) {
   const auto take_part = [&] {
     std::string part(path.substr(0, path.find('.')));
     path.remove_prefix(std::min(part.size() + 1, path.size()));
@@ -138,15 +138,42 @@ std::optional<FieldDoc> find_field(AnyParams& params, std::string_view path) {
                                  [&](const FieldDoc& field) { return field.name == name; });
     if (at == doc.fields.end()) return std::nullopt;
     const FieldDoc field = *at;
-    if (path.empty()) return field;
+    if (path.empty()) return PathEnd{field};
     if (field.type == FieldType::group) {
       doc = field.inner.front();
       continue;
     }
     const StrategyInfo* info = field.registry == nullptr ? nullptr : field.registry->find(take_part());
-    if (info == nullptr || path.empty()) return std::nullopt;
+    if (info == nullptr) return std::nullopt;
+    if (path.empty()) return PathEnd{field, info};
     doc = document(*info->default_params());
   }
+}
+
+std::vector<PathPart> parts_after(AnyParams& params, std::string_view path) {
+  const auto parts_of = [](const StructDoc& doc) {
+    std::vector<PathPart> parts;
+    for (const FieldDoc& field : doc.fields) {
+      const bool is_group = field.type == FieldType::group;
+      parts.push_back({.name = field.name,
+                       .doc = field.info.doc.text,
+                       .is_followed = is_group || field.registry != nullptr,
+                       .has_value = !is_group});
+    }
+    return parts;
+  };
+  if (path.empty()) return parts_of(document(params));
+  const std::optional<PathEnd> end = find_path(params, path);
+  if (!end) return {};
+  if (end->strategy != nullptr) return parts_of(document(*end->strategy->default_params()));
+  if (end->field.type == FieldType::group) return parts_of(end->field.inner.front());
+  std::vector<PathPart> parts;
+  if (end->field.registry == nullptr) return parts;
+  for (const StrategyInfo* info : end->field.registry->all()) {
+    const bool has_fields = !document(*info->default_params()).fields.empty();
+    parts.push_back({.name = info->name, .doc = info->doc, .is_followed = has_fields, .has_value = false});
+  }
+  return parts;
 }
 
 std::vector<std::string> to_tune(const StructDoc& doc) {

@@ -58,9 +58,25 @@ struct StructDoc {
 /// The struct's present values are the defaults.
 [[nodiscard]] StructDoc document(AnyParams& params);
 
-/// The field that a path (localizer.matcher.ransam.iterations) leads to, with the default of a strategy's
-/// parameters; none if it leads to no field.
-[[nodiscard]] std::optional<FieldDoc> find_field(AnyParams& params, std::string_view path);
+/// Where a path leads: to a field, or to a strategy that one can have.
+struct PathEnd {
+  FieldDoc field;
+  const StrategyInfo* strategy = nullptr;  ///< Of the field's registry; null if the path ends at the field.
+};
+
+/// Of a path such as localizer.matcher.ransam.iterations, with the default of a strategy's parameters; none
+/// if it leads nowhere.
+[[nodiscard]] std::optional<PathEnd> find_path(AnyParams& params, std::string_view path);
+
+/// What may follow a path, or begin one if it is empty.
+struct PathPart {
+  std::string name;
+  std::string doc;           ///< One sentence.
+  bool is_followed = false;  ///< By further parts.
+  bool has_value = true;     ///< Which can be set.
+};
+/// Empty if none may follow, or if the path leads nowhere.
+[[nodiscard]] std::vector<PathPart> parts_after(AnyParams& params, std::string_view path);
 
 /// The fields to tune first, by their names; those of a group by their paths.
 [[nodiscard]] std::vector<std::string> to_tune(const StructDoc& doc);

@@ -107,6 +107,13 @@ Json strategy_json(const StrategyInfo& info, const RegistryBase& registry) {
           {"motions", std::move(motions)}};
 }
 
+/// With its parameters.
+Json full_strategy_json(const StrategyInfo& info, const RegistryBase& registry) {
+  Json json = strategy_json(info, registry);
+  json.update(struct_json(document(*info.default_params())));
+  return json;
+}
+
 }  // namespace
 
 std::optional<nlohmann::ordered_json> help_json(std::string_view name, const Catalog& catalog) {
@@ -115,14 +122,13 @@ std::optional<nlohmann::ordered_json> help_json(std::string_view name, const Cat
   if (name == "experiment") {
     found.push_back({{"name", "experiment"}});
     found.back().update(struct_json(document(experiment)));
-  } else if (const auto field = find_field(experiment, name)) {
-    found.push_back(field_json(*field));
+  } else if (const auto end = find_path(experiment, name)) {
+    found.push_back(end->strategy == nullptr ? field_json(end->field)
+                                             : full_strategy_json(*end->strategy, *end->field.registry));
   }
   for (const RegistryBase* registry : catalog.registries()) {
     const StrategyInfo* info = registry->find(name);
-    if (info == nullptr) continue;
-    found.push_back(strategy_json(*info, *registry));
-    found.back().update(struct_json(document(*info->default_params())));
+    if (info != nullptr) found.push_back(full_strategy_json(*info, *registry));
   }
   return found.empty() ? std::nullopt : std::optional(std::move(found));
 }
@@ -139,9 +145,10 @@ std::optional<std::string> help(std::string_view name, const Catalog& catalog) {
     ExperimentFileParams params(catalog);
     text = "experiment\nThe keys of an experiment file.\n\n";
     write_struct(document(params), 2, text);
-  } else if (ExperimentFileParams params(catalog); const auto field = find_field(params, name)) {
+  } else if (ExperimentFileParams params(catalog); const auto end = find_path(params, name)) {
+    if (end->strategy != nullptr) return strategy_help(*end->strategy, *end->field.registry);
     text = "A part of an experiment file.\n\n";
-    write_field(*field, 0, text);
+    write_field(end->field, 0, text);
   }
   for (const RegistryBase* registry : catalog.registries()) {
     const StrategyInfo* info = registry->find(name);

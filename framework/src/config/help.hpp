@@ -11,7 +11,8 @@
 namespace glocal {
 
 /// Every strategy of that name, of whatever kind; the keys of an experiment file for "experiment", and those
-/// of a part of it for its path ("trials", "localizer.prior"). None if there is no such name.
+/// of a part of it for its path ("trials", "localizer.prior", "localizer.matcher.ransam"). None if there is
+/// no such name.
 [[nodiscard]] std::optional<std::string> help(std::string_view name, const Catalog& catalog);
 
 /// The same as data: a list with an object for each; docs/file-formats.md tells the keys.

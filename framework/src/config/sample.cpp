@@ -103,17 +103,20 @@ std::optional<Range> read_range(const YamlEntry& entry, AnyParams& experiment, s
     return choices == nullptr ? std::nullopt : std::optional(Range{&entry, choices});
   }
   // A path that leads nowhere is for the reader to refuse.
-  const std::optional<FieldDoc> field = find_field(experiment, entry.key);
-  if (field && !is_number(field->type)) {
+  const std::optional<PathEnd> end = find_path(experiment, entry.key);
+  const FieldDoc* field = end && end->strategy == nullptr ? &end->field : nullptr;
+  if (field != nullptr && !is_number(field->type)) {
     faults.push_back(fault_at(value.place, "expected {choices: [a, b]}, as the values are not numbers (" +
                                                type_name(*field) + ")"));
     return std::nullopt;
   }
   ParamsOf<Ends> params;
   Ends& ends = params.value;
-  if (field) ends.field = field->info;
-  if (field && field->type == FieldType::unsigned_whole) ends.field.min = std::max(ends.field.min, 0.0);
-  ends.is_whole = field && (field->type == FieldType::whole || field->type == FieldType::unsigned_whole);
+  if (field != nullptr) ends.field = field->info;
+  if (field != nullptr && field->type == FieldType::unsigned_whole)
+    ends.field.min = std::max(ends.field.min, 0.0);
+  ends.is_whole =
+      field != nullptr && (field->type == FieldType::whole || field->type == FieldType::unsigned_whole);
   const std::size_t before = faults.size();
   read_params(value.kind == NodeKind::list ? with_named_ends(value) : value, params, faults);
   return faults.size() == before ? std::optional(Range{&entry, nullptr, std::move(ends)}) : std::nullopt;

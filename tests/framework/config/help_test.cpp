@@ -51,6 +51,9 @@ TEST_F(HelpTest, APartOfAnExperimentIsFoundByItsPath) {
   EXPECT_EQ((*help_json("trials", catalog_))[0]["name"], "trials");
   EXPECT_EQ(field((*help_json("localizer", catalog_))[0]["parameters"], "matcher")["strategies"],
             Json::array({"indexed", "ransam"}));
+  EXPECT_EQ(help("localizer.matcher.ransam", catalog_), help("ransam", catalog_));
+  EXPECT_EQ(help_json("localizer.matcher.ransam", catalog_), help_json("ransam", catalog_));
+  EXPECT_EQ(help("localizer.matcher.none", catalog_), std::nullopt);
   EXPECT_EQ(help("trials.none", catalog_), std::nullopt);
   EXPECT_EQ(help_json("nothing", catalog_), std::nullopt);
 }
