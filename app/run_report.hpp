@@ -3,9 +3,6 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "glocal/run_experiment.hpp"
 
@@ -17,11 +14,7 @@ namespace glocal::app {
 /// The figures of one run, from its summary.
 void print_summary(const nlohmann::ordered_json& summary, const std::filesystem::path& folder);
 
-/// One line for each variant: its name and its summary.
-void print_table(const std::vector<std::pair<std::string, nlohmann::ordered_json>>& variants,
-                 const std::filesystem::path& folder);
-
-/// One of these for a whole run, of which there is at least one variant.
+/// The figures of a whole run: those of its one variant, or a table of all of them.
 void print_result(const RunResult& result);
 
 }  // namespace glocal::app

@@ -82,44 +82,14 @@ class Summary(dict[str, Any]):
     """The figures of a run, as summary.json has them (docs/file-formats.md). print() shows the main ones."""
 
     def __str__(self) -> str:
-        trials = self["trials"]
-        rate = self["success_rate"]
-        lines = [
-            f"{self['name']}, seed {self['seed']}" + ("" if self["complete"] else " (interrupted: some trials are missing)"),
-            f"  trials              {trials['count']}: {trials['right']} right, {trials['wrong']} wrong, "
-            f"{trials['undecided']} undecided" + (f", {trials['failed']} failed" if trials.get("failed") else ""),
-            f"  success             {100 * rate['value']:.1f} % (95 %: {100 * rate['low']:.1f} to {100 * rate['high']:.1f} %)",
-        ]
-        if trials["right"]:
-            lines += [
-                f"  localized after     {self['steps_to_localize']['median']:.0f} steps, "
-                f"{self['distance_to_localize_m']['median']:.1f} m (median)",
-                f"  error then          {self['translation_error_m']['median']:.3f} m, "
-                f"{self['rotation_error_deg']['median']:.2f} deg (median)",
-            ]
-        lines.append(
-            f"  time for a step     {self['step_ms']['median']:.1f} ms (median), {self['step_ms']['p95']:.1f} ms (95 %); "
-            f"matching {self['stage_ms']['match']['median']:.1f} ms (median)"
-        )
-        return "\n".join(lines)
+        return _core.summary_text(json.dumps(self))
 
 
 class Summaries(dict[str, Summary]):
     """Summaries of several variants by name. print() shows a table."""
 
     def __str__(self) -> str:
-        width = max([7, *map(len, self)])
-        head = f"{'variant':<{width}}  trials  right  wrong  undecided  steps (median)  step ms (median)"
-        return "\n".join([head, *(_row(name, width, summary) for name, summary in self.items())])
-
-
-def _row(name: str, width: int, summary: Summary) -> str:
-    trials = summary["trials"]
-    steps = f"{summary['steps_to_localize']['median']:g}" if trials["right"] else "-"
-    return (
-        f"{name:<{width}}  {trials['count']:>6}  {trials['right']:>5}  {trials['wrong']:>5}  {trials['undecided']:>9}  "
-        f"{steps:>14}  {summary['step_ms']['median']:>16.1f}"
-    )
+        return _core.variants_text([(name, json.dumps(summary)) for name, summary in self.items()])
 
 
 class Results:

@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/report_blocks.hpp"
 #include "evaluation/results/results_folder.hpp"
+#include "evaluation/results/summary_text.hpp"
 #include "evaluation/sweeps/analysis.hpp"
 #include "evaluation/sweeps/comparison_output.hpp"
 #include "evaluation/sweeps/sweep_report.hpp"
@@ -159,10 +161,20 @@ py::tuple swept(const std::string& folder, std::size_t most_settings) {
   return py::make_tuple(text, json);
 }
 
+std::string text_of_variants(const std::vector<std::pair<std::string, std::string>>& variants) {
+  std::vector<std::pair<std::string, Json>> summaries;
+  for (const auto& [name, summary] : variants) summaries.emplace_back(name, Json::parse(summary));
+  return variants_text(summaries);
+}
+
 }  // namespace
 
 void bind_results(py::module_& module) {
   module.def("read_folder", &read_folder, py::arg("folder"));
+  module.def(
+      "summary_text", [](const std::string& summary) { return summary_text(Json::parse(summary)); },
+      py::arg("summary"));
+  module.def("variants_text", &text_of_variants, py::arg("variants"));
   module.def("results_folders", &folders_in, py::arg("folder"));
   module.def("compare", &compared, py::arg("folders"), py::arg("baseline"), py::arg("times"));
   module.def("sweep", &swept, py::arg("folder"), py::arg("most_settings"));

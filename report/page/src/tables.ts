@@ -24,7 +24,7 @@ export function summarySection(runs: Run[]): HTMLElement {
           ? `${fixed(s.translation_error_m.median, 3)} m, ${fixed(s.rotation_error_deg.median, 2)}°`
           : "–",
     ],
-    ["time for a step, median (95 %)", (s) => `${fixed(s.step_ms.median, 1)} ms (${fixed(s.step_ms.p95, 1)} ms)`],
+    ["wall time of a step, median (95 %)", (s) => `${fixed(s.step_ms.median, 1)} ms (${fixed(s.step_ms.p95, 1)} ms)`],
     ["matching, median", (s) => `${fixed(s.stage_ms.match.median, 1)} ms`],
     ["points of the map", (s) => count(s.map.points)],
     ["memory, largest", (s) => `${fixed(s.peak_rss_mb, 0)} MiB`],
