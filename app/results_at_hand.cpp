@@ -45,7 +45,7 @@ fs::path ResultsAtHand::put_together(const fs::path& shared) {
   const Manifest manifest = read_manifest(shared);
   const JournalScan scan(journals_folder(shared), [](const std::string& text) { spdlog::warn(text); });
   // Pages and tables call runs by the names of their folders.
-  const fs::path out = temporary_ / std::to_string(folders_.size()) / own_name(shared);
+  fs::path out = temporary_ / std::to_string(folders_.size()) / own_name(shared);
   const MergeResult result = merge_shards(manifest, scan, {out});
   if (result.run.variants.empty())
     throw ConfigError({{shared.string(), 0, 0, "no trial has come to an end yet; wait for the first"}});

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "config/nearest.hpp"
+#include "evaluation/comparison/comparability.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -29,6 +30,7 @@ class Tally {
       add_trials({{place, {is_right ? 1U : 0U, 1}}}, right_);
       add_trials({{place, {is_wrong ? 1U : 0U, 1}}}, wrong_);
       if (is_right) steps_.push_back(trial.steps);
+      if (trial.step_cpu_ms) step_cpu_ms_.push_back(*trial.step_cpu_ms);
       scores_[{run.case_name, run.seed, start}] = is_right ? 1 : is_wrong ? -1 : 0;
     }
   }
@@ -47,15 +49,19 @@ class Tally {
   }
 
   /// As a setting that changes these values.
-  [[nodiscard]] TriedSetting with(const std::vector<std::pair<std::string, std::string>>& values) const {
-    const SettingOutcome counts = outcome();
-    return {.values = values, .trials = right_, .wrong = counts.wrong, .steps = steps_};
+  [[nodiscard]] TriedSetting with(const std::vector<std::pair<std::string, std::string>>& values,
+                                  bool with_times) const {
+    return {.values = values,
+            .trials = right_,
+            .wrong = outcome().wrong,
+            .steps = steps_,
+            .step_cpu_ms = with_times ? step_cpu_ms_ : std::vector<double>()};
   }
   [[nodiscard]] const std::map<SharedStart, int>& scores() const { return scores_; }
 
  private:
   TrialsByPlace right_, wrong_;  ///< Successes are right trials, and wrong ones.
-  std::vector<double> steps_;
+  std::vector<double> steps_, step_cpu_ms_;
   std::map<SharedStart, int> scores_;
 };
 
@@ -155,13 +161,20 @@ std::optional<std::pair<std::size_t, std::size_t>> chosen_axes(const MapChoice& 
   return axes;
 }
 
-ParameterFigures figures_of(const std::vector<TalliedSetting>& settings, const MapChoice& map) {
+ParameterFigures figures_of(const std::vector<TalliedSetting>& settings, const MapChoice& map,
+                            bool with_times) {
   std::vector<TriedSetting> tried;
-  for (const TalliedSetting& setting : settings) tried.push_back(setting.chosen.with(setting.result.values));
+  for (const TalliedSetting& setting : settings)
+    tried.push_back(setting.chosen.with(setting.result.values, with_times));
   ParameterFigures figures{effects_of(tried), {}};
   if (const auto axes = chosen_axes(map, figures.effects))
     figures.map = heat_map(tried, figures.effects, axes->first, axes->second);
   return figures;
+}
+
+bool are_times_comparable(const std::vector<NamedRun>& runs) {
+  return std::none_of(runs.begin(), runs.end(),
+                      [&](const NamedRun& run) { return why_times_differ(run, runs.front()).has_value(); });
 }
 
 void note_parts(const std::vector<SweepRun>& runs, SweepAnalysis& analysis) {
@@ -189,12 +202,12 @@ SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& 
   const std::vector<TalliedSetting> settings = settings_of(parts);
   for (const TalliedSetting& setting : settings) analysis.settings.push_back(setting.result);
   std::sort(analysis.settings.begin(), analysis.settings.end(), is_better);
-  analysis.parameters = figures_of(settings, map);
+  analysis.parameters = figures_of(settings, map, false);
   analysis.chance = chance_among(settings);
   return analysis;
 }
 
-std::optional<ParameterFigures> compare_parameters(const std::vector<NamedRun>& runs) {
+std::optional<ParameterFigures> compare_parameters(const std::vector<NamedRun>& runs, bool with_times) {
   if (!is_sweep(runs)) return std::nullopt;
   std::vector<SweepRun> parts = sweep_of(runs);
   std::vector<std::map<TrialStart, TrialResult>> shared(parts.size());
@@ -202,7 +215,7 @@ std::optional<ParameterFigures> compare_parameters(const std::vector<NamedRun>& 
     for (std::size_t i = 0; i < parts.size(); ++i) shared[i].emplace(start, parts[i].trials->at(start));
   }
   for (std::size_t i = 0; i < parts.size(); ++i) parts[i].trials = &shared[i];
-  ParameterFigures figures = figures_of(settings_of(parts), {});
+  ParameterFigures figures = figures_of(settings_of(parts), {}, with_times && are_times_comparable(runs));
   if (figures.effects.empty() || figures.effects.size() > most_compared_parameters) return std::nullopt;
   return figures;
 }

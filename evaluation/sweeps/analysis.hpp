@@ -62,7 +62,8 @@ using MapChoice = std::optional<std::pair<std::string, std::string>>;
 inline constexpr std::size_t most_compared_parameters = 2;
 
 /// What the parameters do in which runs that are compared differ, over the starts that all of them have. None
-/// where the runs are no sweep, or one of too many parameters.
-[[nodiscard]] std::optional<ParameterFigures> compare_parameters(const std::vector<NamedRun>& runs);
+/// where the runs are no sweep, or one of too many parameters. Times are told where they can be compared.
+[[nodiscard]] std::optional<ParameterFigures> compare_parameters(const std::vector<NamedRun>& runs,
+                                                                 bool with_times);
 
 }  // namespace glocal

@@ -16,7 +16,8 @@ ComparisonOutput comparison_output(const std::vector<NamedRun>& runs, std::size_
   const Comparison comparison = compare(runs, baseline, measured);
   ComparisonOutput output{{}, to_json(comparison), to_csv(comparison)};
   Report parameters;
-  if (const auto figures = compare_parameters(runs)) {
+  const bool with_times = measured.size() > measures_but_time().size();
+  if (const auto figures = compare_parameters(runs, with_times)) {
     parameters = parameter_report(*figures);
     output.json["parameters"] = to_json(*figures);
   }

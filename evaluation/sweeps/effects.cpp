@@ -102,12 +102,17 @@ void use_quarters(const Column& column, ParameterEffect& effect) {
 
 /// Settings that are counted together.
 class Group {
+  static std::optional<double> median(const std::vector<double>& values) {
+    return values.empty() ? std::nullopt : std::optional(quantile(values, 0.5));
+  }
+
  public:
   void add(const TriedSetting& setting) {
     ++settings_;
     wrong_ += setting.wrong;
     add_trials(setting.trials, trials_);
     steps_.insert(steps_.end(), setting.steps.begin(), setting.steps.end());
+    step_cpu_ms_.insert(step_cpu_ms_.end(), setting.step_cpu_ms.begin(), setting.step_cpu_ms.end());
   }
 
   [[nodiscard]] GroupOutcome outcome() const {
@@ -115,13 +120,14 @@ class Group {
             .trials = count_trials(trials_),
             .wrong = wrong_,
             .success = success_of(trials_),
-            .median_steps = steps_.empty() ? std::nullopt : std::optional(quantile(steps_, 0.5))};
+            .median_steps = median(steps_),
+            .median_step_cpu_ms = median(step_cpu_ms_)};
   }
 
  private:
   std::size_t settings_ = 0, wrong_ = 0;
   TrialsByPlace trials_;
-  std::vector<double> steps_;
+  std::vector<double> steps_, step_cpu_ms_;
 };
 
 void count_levels(const std::vector<TriedSetting>& settings, ParameterEffect& effect) {

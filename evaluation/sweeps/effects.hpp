@@ -28,14 +28,16 @@ struct TriedSetting {
   std::vector<std::pair<std::string, std::string>> values;  ///< Paths and values, as written.
   TrialsByPlace trials;                                     ///< Successes are right trials.
   std::size_t wrong = 0;
-  std::vector<double> steps = {};  ///< To localize, of right trials.
+  std::vector<double> steps = {};        ///< To localize, of right trials.
+  std::vector<double> step_cpu_ms = {};  ///< Of trials; empty where times are not to be told.
 };
 
 /// How the trials of some settings ended: the mean over all in which these differ.
 struct GroupOutcome {
   std::size_t settings = 0, trials = 0, wrong = 0;
   Proportion success{};
-  std::optional<double> median_steps = {};  ///< To localize; none where no trial was right.
+  std::optional<double> median_steps = {};        ///< To localize; none where no trial was right.
+  std::optional<double> median_step_cpu_ms = {};  ///< CPU time of a step; none where it is not to be told.
 };
 
 /// The settings with one value of a parameter, or with values in one range.

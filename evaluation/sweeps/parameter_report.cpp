@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -14,11 +15,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Table effect_table(const ParameterEffect& effect) {
+  const bool with_times = std::any_of(effect.levels.begin(), effect.levels.end(), [](const auto& level) {
+    return level.outcome.median_step_cpu_ms.has_value();
+  });
   Table table{{effect.label, "settings", "trials", "right, %, 95 %", "wrong", "steps"}, {}};
+  if (with_times) table.header.emplace_back("CPU time of a step, ms");
   for (const auto& [label, outcome] : effect.levels) {
     table.rows.push_back({label, std::to_string(outcome.settings), std::to_string(outcome.trials),
                           outcome.trials == 0 ? "-" : per_cent(outcome.success),
                           std::to_string(outcome.wrong), steps_cell(outcome.median_steps)});
+    const auto& ms = outcome.median_step_cpu_ms;
+    if (with_times) table.rows.back().push_back(ms ? fmt::format("{:.3g}", *ms) : "-");
   }
   return table;
 }
@@ -57,6 +64,7 @@ Json to_json(const GroupOutcome& outcome) {
                {"wrong", outcome.wrong},
                {"success_rate", to_json(outcome.success)}};
   if (outcome.median_steps) json["median_steps"] = *outcome.median_steps;
+  if (outcome.median_step_cpu_ms) json["median_step_cpu_ms"] = *outcome.median_step_cpu_ms;
   return json;
 }
 

@@ -176,7 +176,7 @@ std::vector<NamedRun> compared_grid() {
 }
 
 TEST(ComparedParameters, AreThoseOverTheStartsThatAllRunsHave) {
-  const auto figures = compare_parameters(compared_grid());
+  const auto figures = compare_parameters(compared_grid(), true);
   ASSERT_TRUE(figures.has_value());
   ASSERT_EQ(figures->effects.size(), 2U);
   // By size, over the first two starts: 4 of 4 with 2, 1 of 4 with 10, where the one is wrong.
@@ -196,16 +196,29 @@ TEST(ComparedParameters, AreThoseOverTheStartsThatAllRunsHave) {
   EXPECT_EQ(figures->map->cells[1][0].median_steps, std::nullopt);
 }
 
+TEST(ComparedParameters, TellTimesWhereTheyCanBeCompared) {
+  std::vector<NamedRun> runs = compared_grid();
+  // 2 ms for each step of right trials, and 5 ms: 18, 18, 14, 14 with 2.
+  const auto time_with_2 = [&](bool with_times) {
+    return compare_parameters(runs, with_times)->effects[0].levels[0].outcome.median_step_cpu_ms;
+  };
+  EXPECT_EQ(time_with_2(true), 16.0);
+  EXPECT_EQ(time_with_2(false), std::nullopt);
+  runs[1].results.machine.host = "another";
+  runs[0].results.machine.host = "one";
+  EXPECT_EQ(time_with_2(true), std::nullopt);
+}
+
 TEST(ComparedParameters, AreAtMostTwoAndOfOneExperiment) {
   std::vector<NamedRun> runs = {sweep_run({.setting = "a", .values = {{"x.size", "1"}}}, "r"),
                                 sweep_run({.setting = "b", .values = {{"x.size", "2"}}}, "r")};
-  ASSERT_TRUE(compare_parameters(runs).has_value());
-  EXPECT_FALSE(compare_parameters(runs)->map.has_value());
+  ASSERT_TRUE(compare_parameters(runs, true).has_value());
+  EXPECT_FALSE(compare_parameters(runs, true)->map.has_value());
   runs[1].results.experiment = "other";
-  EXPECT_FALSE(compare_parameters(runs).has_value());
+  EXPECT_FALSE(compare_parameters(runs, true).has_value());
   runs = {sweep_run({.setting = "a", .values = {{"x.size", "1"}, {"x.side", "1"}, {"y.kind", "plain"}}}, "r"),
           sweep_run({.setting = "b", .values = {{"x.size", "2"}, {"x.side", "2"}, {"y.kind", "fine"}}}, "r")};
-  EXPECT_FALSE(compare_parameters(runs).has_value());
+  EXPECT_FALSE(compare_parameters(runs, true).has_value());
 }
 
 TEST(Sweep, TheMapShowsWhatIsAskedFor) {
