@@ -113,7 +113,7 @@ void with_journals(benchmark::State& state, const Read& read) {
   const auto trials = static_cast<std::size_t>(state.range(0));
   const Manifest manifest = manifest_of(trials);
   write_journals(folder.path(), manifest);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const JournalScan scan(journals_folder(folder.path()), [](const std::string&) {});
     read(manifest, scan, folder.path());
   }
@@ -146,13 +146,13 @@ void note_trial(benchmark::State& state) {
   const Folder folder;
   ShardJournal journal(folder.path(), {1, 1}, 1);
   const TrialOutput output = output_of_trial(1);
-  for (auto _ : state) journal.finish({1, 2}, 20.0, output);
+  for ([[maybe_unused]] auto _ : state) journal.finish({1, 2}, 20.0, output);
 }
 BENCHMARK(note_trial)->Name("sharding/note_trial")->Unit(benchmark::kMicrosecond);
 
 void text_of_trial(benchmark::State& state) {
   const TrialOutput output = output_of_trial(1);
-  for (auto _ : state) benchmark::DoNotOptimize(output_text(output));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(output_text(output));
 }
 BENCHMARK(text_of_trial)->Name("sharding/text_of_trial")->Unit(benchmark::kMicrosecond);
 
