@@ -151,7 +151,7 @@ std::size_t place_of(std::vector<PlannedStart> starts, std::vector<std::vector<P
 std::string values_without_seed(const PlannedVariant& variant) {
   std::string text;
   for (const auto& [path, value] : variant.values) {
-    if (path != "seed") text += path + "=" + value + "\n";
+    if (path != "seed") text += fmt::format("{}={}\n", path, value);
   }
   return text;
 }

@@ -151,10 +151,10 @@ Json VariantMerge::write(bool is_complete) const {
   folder.write("effective.yaml", first_.at("effective").get<std::string>());
   folder.write("provenance.json", origin.dump(2) + "\n");
   const Json& map = first_.at("map");
-  const Json summary = put_together(folder, first_.at("steps"), starts_.size(),
-                                    [&](std::size_t trial) { return take(folder, trial); })
-                           .to_json({first_.at("name"), first_.at("seed"), is_complete, map.at("points"),
-                                     map.at("build_ms"), map.at("index_ms"), index_of(map), peak});
+  Json summary = put_together(folder, first_.at("steps"), starts_.size(),
+                              [&](std::size_t trial) { return take(folder, trial); })
+                     .to_json({first_.at("name"), first_.at("seed"), is_complete, map.at("points"),
+                               map.at("build_ms"), map.at("index_ms"), index_of(map), peak});
   folder.write_for_good("summary.json", summary.dump(2) + "\n");
   folder.commit();
   if (is_beside) move_up(place);
