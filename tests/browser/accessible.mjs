@@ -16,3 +16,12 @@ export async function assertAccessible(page, what) {
   assert.deepEqual(found.filter(({ impact }) => impact === "serious" || impact === "critical"), [], what);
   return found;
 }
+
+/** The same on light and on dark paper. */
+export async function assertAccessibleInBoth(page, what) {
+  for (const colorScheme of ["dark", "light"]) {
+    await page.emulateMedia({ colorScheme });
+    await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, colorScheme);
+    await assertAccessible(page, `${what}, ${colorScheme}`);
+  }
+}

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertQuiet, closeBrowser, drawn, moveSlider, open, skip as noBrowser } from "./open.mjs";
 import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { checkClusters, checkSteps } from "./steps_check.mjs";
@@ -73,3 +74,5 @@ test("the share of localized trials ends at that of right ones", { skip }, async
   assert.equal(await page.locator("#distributions .plot canvas").count(), 5);
   assert.equal(await page.locator("#distributions [data-boxes]").count(), 0);
 });
+
+test("axe finds nothing serious", { skip }, () => assertAccessibleInBoth(page, "intel"));

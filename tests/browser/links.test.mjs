@@ -1,10 +1,11 @@
 // Links to what is shown, and pictures and tables as files.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { assertTablesExplained } from "./meanings.mjs";
 import { assertQuiet, closeBrowser, drawn, mapView, moveSlider, open, skip } from "./open.mjs";
 import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
+import { cellsOf, pixelsOf, saved } from "./saved.mjs";
 import { checkNumbers } from "./steps_check.mjs";
 
 const variants = ["paper", "fewer_draws"]; // in the order of the file
@@ -55,6 +56,35 @@ test("the address follows what is shown, and leads there again", { skip }, async
   await other.page.close();
 });
 
+test("the address has the borders that were moved", { skip }, async () => {
+  const size = async (page) => {
+    const { width, height } = await page.locator(".stage").boundingBox();
+    return [width, height];
+  };
+  const [upright, level] = [page.locator(".border.vertical"), page.locator(".border.horizontal")];
+  const before = await size(page);
+  await upright.focus();
+  for (let i = 0; i < 4; ++i) await page.keyboard.press("ArrowRight");
+  await level.focus();
+  for (let i = 0; i < 6; ++i) await page.keyboard.press("ArrowDown");
+  await page.waitForFunction(() => location.hash.includes("height=680"));
+  assert.deepEqual([await said("width"), await said("height")], ["54", "680"]);
+  const moved = await size(page);
+  assert.ok(moved[0] > before[0] + 50 && Math.abs(moved[1] - 680) < 3, String(moved));
+  const other = await open(`${file}${new URL(page.url()).hash}`);
+  (await size(other.page)).forEach((length, i) => assert.ok(Math.abs(length - moved[i]) < 2, `${length} for ${moved[i]}`));
+  assert.equal(await other.page.locator(".border.vertical").getAttribute("aria-valuenow"), "54");
+  // No border is moved so far that the map is gone.
+  await other.page.evaluate(() => (location.hash = "width=1000&height=-5"));
+  await other.page.waitForFunction(() => document.querySelector(".border.vertical").getAttribute("aria-valuenow") === "80");
+  assert.equal(await other.page.locator(".border.horizontal").getAttribute("aria-valuenow"), "200");
+  assertQuiet(other);
+  await other.page.close();
+  for (const border of [upright, level]) await border.dblclick();
+  await page.waitForFunction(() => !location.hash.includes("height="));
+  (await size(page)).forEach((length, i) => assert.ok(Math.abs(length - before[i]) < 2, `${length} for ${before[i]}`));
+});
+
 test("a changed address changes what is shown; what it leaves out is as at the start", { skip }, async () => {
   await page.evaluate(() => (location.hash = "run=fewer_draws&trial=2"));
   await page.waitForFunction(() => document.body.dataset.trial === "2");
@@ -74,25 +104,12 @@ test("addresses of nothing, and of parts of the page, do no harm", { skip }, asy
   assert.equal((await shown(page)).run, variants[0]);
 });
 
-async function saved(button) {
-  const [download] = await Promise.all([page.waitForEvent("download"), button.evaluate((element) => element.click())]);
-  return { name: download.suggestedFilename(), content: readFileSync(await download.path()) };
-}
-
-/** Cells of a CSV file as RFC 4180 has it. */
-function cellsOf(text) {
-  const rows = [[]];
-  for (const [, quoted, plain, end] of text.matchAll(/(?:"((?:[^"]|"")*)"|([^",\r\n]*))(,|\r\n)/g)) {
-    rows.at(-1).push(quoted === undefined ? plain : quoted.replaceAll('""', '"'));
-    if (end !== ",") rows.push([]);
-  }
-  return rows.slice(0, -1);
-}
+test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 40));
 
 test("tables are saved as CSV", { skip }, async () => {
   await page.evaluate(() => (location.hash = "run=paper&trial=0&step=0"));
   await page.waitForFunction(() => document.body.dataset.run === "paper" && document.body.dataset.step === "0");
-  const trials = await saved(page.locator("#trials .csv"));
+  const trials = await saved(page, page.locator("#trials .csv"));
   assert.equal(trials.name, "paper_trials.csv");
   const expected = trialsOf(join(folder, "paper"));
   const rows = cellsOf(trials.content.toString());
@@ -102,50 +119,27 @@ test("tables are saved as CSV", { skip }, async () => {
     assert.deepEqual([rows[i + 1][0], rows[i + 1][2], rows[i + 1][3]], [trial.trial, trial.outcome, trial.steps].map(String));
     assert.equal(rows[i + 1].at(-1), trial.why);
   });
-  const clusters = await saved(page.locator(".hypotheses .csv"));
+  const clusters = await saved(page, page.locator(".hypotheses .csv"));
   assert.equal(clusters.name, "paper_trial-0_step-0_clusters.csv");
   const { best } = stepsOf(join(folder, "paper"), 0)[0];
   const sizes = cellsOf(clusters.content.toString()).slice(1).map((row) => Number(row[3]));
   assert.deepEqual(sizes, best.map(({ size }) => size));
   // Each table has its button.
-  assert.equal(await page.locator(".csv").count(), await page.locator(".table table").count());
+  assert.equal(await page.locator(".table .csv").count(), await page.locator(".table table").count());
 });
-
-/** Pixels of an SVG or PNG file, in a page of their own. */
-async function pixelsOf(content, kind) {
-  const picture = await page.context().newPage();
-  const read = await picture.evaluate(async (url) => {
-    const image = new Image();
-    image.src = url;
-    await image.decode();
-    const canvas = document.createElement("canvas");
-    Object.assign(canvas, { width: image.width, height: image.height });
-    const context = canvas.getContext("2d");
-    context.drawImage(image, 0, 0);
-    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
-    const colours = {};
-    for (let i = 0; i < data.length; i += 4) {
-      const colour = `${data[i]},${data[i + 1]},${data[i + 2]}`;
-      colours[colour] = (colours[colour] ?? 0) + 1;
-    }
-    return { width: image.width, height: image.height, colours };
-  }, `data:${kind};base64,${content.toString("base64")}`);
-  await picture.close();
-  return read;
-}
 
 test("the map is saved as SVG and PNG, as it is shown", { skip }, async () => {
   // The scan would cover the local map.
   await page.locator("[data-layer=scan]").uncheck();
   await drawn(page);
-  const svg = await saved(page.locator(".map [data-save=svg]"));
+  const svg = await saved(page, page.locator(".map [data-save=svg]"));
   assert.equal(svg.name, "paper_trial-0_step-0_map.svg");
-  const png = await saved(page.locator(".map [data-save=png]"));
+  const png = await saved(page, page.locator(".map [data-save=png]"));
   assert.equal(png.name, "paper_trial-0_step-0_map.png");
   const { box } = await mapView(page);
-  const drawing = await pixelsOf(svg.content, "image/svg+xml");
+  const drawing = await pixelsOf(page, svg.content, "image/svg+xml");
   assert.deepEqual([drawing.width, drawing.height], [Math.round(box.width), Math.round(box.height)]);
-  const picture = await pixelsOf(png.content, "image/png");
+  const picture = await pixelsOf(page, png.content, "image/png");
   assert.deepEqual([picture.width, picture.height], [2 * drawing.width, 2 * drawing.height]);
   const colour = (name) =>
     page.evaluate((name) => {
@@ -174,7 +168,7 @@ test("the map is saved as SVG and PNG, as it is shown", { skip }, async () => {
 });
 
 test("curves are saved with their lines and the names of the runs", { skip }, async () => {
-  const svg = await saved(page.locator("[data-curve=omega_best] [data-save=svg]"));
+  const svg = await saved(page, page.locator("[data-curve=omega_best] [data-save=svg]"));
   assert.equal(svg.name, "paper_trial-0_step-0_best-quality-ω.svg");
   const text = svg.content.toString();
   for (const name of ["Best quality Ω", ...variants]) assert.ok(text.includes(`>${name}</text>`) || text.includes(`>${name}</title>`), name);
@@ -196,7 +190,7 @@ test("curves are saved with their lines and the names of the runs", { skip }, as
     const expected = low[1] + ((omega - low[0]) / Math.max(high[0] - low[0], 1e-9)) * (high[1] - low[1]);
     assert.ok(Math.abs(v - expected) < 0.3, `${v} for ${expected}`);
   }
-  const png = await saved(page.locator("[data-curve=omega_best] [data-save=png]"));
-  const picture = await pixelsOf(png.content, "image/png");
+  const png = await saved(page, page.locator("[data-curve=omega_best] [data-save=png]"));
+  const picture = await pixelsOf(page, png.content, "image/png");
   assert.ok(Object.keys(picture.colours).length > 10);
 });

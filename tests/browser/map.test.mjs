@@ -143,6 +143,20 @@ test("a click lists the candidates near the place", { skip }, async () => {
   assert.equal(await page.locator(".near").isVisible(), false);
 });
 
+/** Presses a key so often before the browser has done anything about it. */
+async function pressAtOnce(key, times) {
+  await page.evaluate(([key, times]) => {
+    const again = () => {
+      for (let i = 1; i < times; ++i) document.activeElement.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    };
+    document.addEventListener("keyup", again, { once: true });
+  }, [key, times]);
+  await page.keyboard.press(key);
+}
+
+/** Whether the map has the whole window, and whether it has the whole screen. */
+const fullness = () => page.evaluate(() => [document.querySelector("main").classList.contains("full"), document.fullscreenElement !== null]);
+
 test("the map can have the whole window", { skip }, async () => {
   const width = async () => (await page.locator(".stage").boundingBox()).width;
   const before = await width();
@@ -151,8 +165,18 @@ test("the map can have the whole window", { skip }, async () => {
   await page.waitForFunction(() => document.querySelector(".stage").clientWidth > 1380);
   assert.equal(await page.locator(".curves").isVisible(), false);
   assert.equal(await page.locator(".player").isVisible(), true);
+  // The browser may not have followed by now.
   await page.keyboard.press("f");
   await page.waitForFunction((before) => Math.abs(document.querySelector(".stage").getBoundingClientRect().width - before) < 2, before);
+});
+
+test("who changes their mind before the browser has followed gets what they wanted last", { skip }, async () => {
+  await page.locator(".stage canvas").focus();
+  for (const times of [2, 4, 2, 4]) {
+    await pressAtOnce("f", times);
+    await page.waitForTimeout(500);
+    assert.deepEqual(await fullness(), [false, false], `${times} times`);
+  }
 });
 
 test("borders can be moved by pointer and keys", { skip }, async () => {
@@ -184,5 +208,11 @@ test("nothing is wider than a telephone", { skip }, async () => {
     all.filter((part) => part.getBoundingClientRect().right > 391).map((part) => part.className),
   );
   assert.deepEqual(parts, []);
+  // Nothing keeps room in the legend without being shown.
+  const gap = await small.page.locator(".map .legend").evaluate((legend) => {
+    const shown = [...legend.children].filter((part) => part.checkVisibility({ visibilityProperty: true }));
+    return legend.getBoundingClientRect().bottom - Math.max(...shown.map((part) => part.getBoundingClientRect().bottom));
+  });
+  assert.ok(gap < 4, `${gap} px`);
   assertQuiet(small);
 });

@@ -51,12 +51,19 @@ test("shares count what is no larger, of all", () => {
   assert.deepEqual(shares.cumulativeShare({ values: [], of: 0 }, [1, 2]), [null, null]);
 });
 
+test("axes are logarithmic where values differ much, but not by what rounding leaves of nothing", () => {
+  const ranges = [[1, 20], [1, 40], [0.001, 100], [0, 100], [1.9e-15, 2]];
+  assert.deepEqual(ranges.map(([low, high]) => svg.isLogarithmic(low, high)), [false, true, true, false, false]);
+});
+
 test("numbers have the digits that mean something", () => {
   const told = [0, 1.91e-16, 1, 0.00206464, 12345.6, -0.5, 1e-9, 999.6].map((value) => numbers.significant(value));
   assert.deepEqual(told, ["0", "0", "1.00", "0.00206", "12346", "-0.500", "1.00e-9", "1000"]);
   assert.equal(numbers.significant(null), "–");
   assert.equal(numbers.proportion({ value: 1, low: 0.9162, high: 1 }), "100.0 % (91.6 to 100.0 %)");
   assert.deepEqual([3.2, 300, 9000].map(numbers.duration), ["4 s", "5 min", "2.5 h"]);
+  const names = ["distance_m", "rotation_error_deg", "step_cpu_ms", "steps", "free_space_violation"].map(numbers.nameOf);
+  assert.deepEqual(names, ["distance, m", "rotation error, °", "CPU time of a step, ms", "steps", "free space violation"]);
 });
 
 test("of what shares a cell the first is drawn, and more as the scale grows", () => {

@@ -3,6 +3,8 @@ import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { assertAccessibleInBoth } from "./accessible.mjs";
+import { assertTablesExplained } from "./meanings.mjs";
 import { assertQuiet, closeBrowser, coloursAt, drawn, mapView, moveSlider, open, painted, skip } from "./open.mjs";
 import { readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { viridis } from "./viridis.mjs";
@@ -173,6 +175,81 @@ test("in space the view turns by dragging, and heights can be cut", { skip }, as
   assert.ok((await highPixels()) < 0.05 * all);
 });
 
+test("a step shows the map as a new drawing of it does, wherever it is seen from", { skip }, async (t) => {
+  const picture = () => page.locator(canvas).evaluate((element) => element.toDataURL());
+  const box = page.locator("input[data-space-layer=map]");
+  const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
+  for (const view of ["orbit", "above"]) {
+    await look(view);
+    await showAllHeights();
+    for (const other of await page.locator("input[data-space-layer]").all()) await other.check();
+    await page.keyboard.press("+");
+    await drawn(page);
+    const times = [];
+    for (let k = 0; k < 20; ++k) {
+      const begin = performance.now();
+      await moveSlider(page, k % steps.length);
+      times.push(performance.now() - begin);
+    }
+    t.diagnostic(`${view}: ${Math.round(median(times))} ms from one step to another, drawn`);
+    const pictures = [];
+    for (let k = 0; k < steps.length; ++k) {
+      await moveSlider(page, k);
+      pictures.push(await picture());
+      await box.uncheck();
+      await drawn(page);
+      assert.notEqual(await picture(), pictures[k], `${view}, step ${k}`);
+      await box.check();
+      await drawn(page);
+      assert.ok((await picture()) === pictures[k], `${view}, step ${k}`);
+    }
+    assert.equal(new Set(pictures).size, steps.length);
+  }
+});
+
+test("a link leads to what is seen, and from where", { skip }, async () => {
+  const eyeOf = (page) => page.locator(canvas).evaluate((element) => [element.dataset.camera, element.dataset.x, element.dataset.y, element.dataset.scale, element.toDataURL()]);
+  for (const view of ["above", "orbit"]) {
+    await look(view);
+    await page.keyboard.press("0");
+    await page.locator("input[data-space-layer=scan]").setChecked(view === "above");
+    await page.locator(".cut input").fill(view === "above" ? "100" : "55");
+    const box = await page.locator(canvas).boundingBox();
+    await page.mouse.move(box.x + 200, box.y + 200);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 260, box.y + 230, { steps: 3 });
+    await page.mouse.up();
+    await page.mouse.move(box.x + box.width / 2, box.y + 5);
+    await drawn(page);
+    // The address is written when all has been still for a while.
+    await page.waitForTimeout(400);
+    const address = new URL(page.url());
+    const said = new URLSearchParams(address.hash.slice(1));
+    assert.deepEqual([said.get("view"), said.get("hide_in_space")], view === "above" ? ["above", null] : [null, "scan"]);
+    const other = await open(`${file}${address.hash}`);
+    await drawn(other.page);
+    const [expected, found] = [await eyeOf(page), await eyeOf(other.page)];
+    assert.equal(found[0], view);
+    for (const k of [1, 2, 3]) assert.ok(Math.abs(found[k] - expected[k]) < 2e-3 * Math.max(1, Math.abs(expected[k])), `${view}: ${found[k]} for ${expected[k]}`);
+    assert.equal(await other.page.locator(".cut input").inputValue(), await page.locator(".cut input").inputValue());
+    assert.equal(await other.page.locator("input[data-space-layer=scan]").isChecked(), view === "above");
+    assertQuiet(other);
+    await other.page.close();
+  }
+  await look("plan");
+  await page.waitForTimeout(400);
+  const other = await open(`${file}${new URL(page.url()).hash}`);
+  assert.equal(await other.page.locator(canvas).isVisible(), false);
+  assert.equal(await other.page.locator("[data-view=plan]").getAttribute("aria-pressed"), "true");
+  // Without a word of it the run is seen as at first.
+  await other.page.evaluate(() => (location.hash = "step=0"));
+  await other.page.waitForFunction(() => document.querySelector("[data-view=orbit]").getAttribute("aria-pressed") === "true");
+  assert.equal(await other.page.locator("input[data-space-layer=scan]").isChecked(), true);
+  assertQuiet(other);
+  await other.page.close();
+  await look("orbit");
+});
+
 test("a cluster is chosen by a click, and the plan is still there", { skip }, async () => {
   await moveSlider(page, 0);
   await look("above");
@@ -206,6 +283,45 @@ test("the certificate is told in a sentence with its numbers", { skip }, async (
     if (certificate) assert.ok((await rows.nth(i).innerText()).includes(`${percent(certificate.contact)}, elsewhere ≤ ${percent(certificate.at_most)}`));
 });
 
+test("with a graphics card the same is drawn, without keeping the map", { skip }, async () => {
+  /** Cells of 6 px in which anything is painted: smooth edges change single pixels. */
+  const cells = (page) =>
+    page.locator(canvas).evaluate((element) => {
+      const copy = document.createElement("canvas");
+      Object.assign(copy, { width: element.width, height: element.height });
+      const context = copy.getContext("2d", { willReadFrequently: true });
+      context.drawImage(element, 0, 0);
+      const { data } = context.getImageData(0, 0, copy.width, copy.height);
+      const painted = new Set();
+      for (let i = 3; i < data.length; i += 4) {
+        const at = (i - 3) / 4;
+        if (data[i] > 127) painted.add(1000 * Math.floor(at / copy.width / 6) + Math.floor((at % copy.width) / 6));
+      }
+      return { painted: [...painted], isSmooth: element.getContext("webgl2").getContextAttributes().antialias };
+    });
+  const kept = await open(file);
+  await drawn(kept.page);
+  const context = await page.context().browser().newContext({ viewport: { width: 1366, height: 768 } });
+  // The page is not told what draws it.
+  await context.addInitScript(() => {
+    const original = WebGL2RenderingContext.prototype.getExtension;
+    WebGL2RenderingContext.prototype.getExtension = function (name) {
+      return name === "WEBGL_debug_renderer_info" ? null : original.call(this, name);
+    };
+  });
+  const direct = await context.newPage();
+  await direct.goto(`file://${file}`);
+  await direct.waitForSelector(`${canvas}[data-scale]`);
+  await drawn(direct);
+  const [a, b] = [await cells(kept.page), await cells(direct)];
+  assert.deepEqual([a.isSmooth, b.isSmooth], [false, true]);
+  const missing = (from, all) => from.filter((cell) => !all.includes(cell)).length;
+  const differing = missing(a.painted, b.painted) + missing(b.painted, a.painted);
+  assert.ok(a.painted.length > 1500 && differing < 0.02 * a.painted.length, `${differing} of ${a.painted.length}`);
+  await kept.page.close();
+  await context.close();
+});
+
 test("without WebGL the plan is shown, and the page says so", { skip }, async () => {
   const context = await page.context().browser().newContext();
   await context.addInitScript(() => {
@@ -223,3 +339,18 @@ test("without WebGL the plan is shown, and the page says so", { skip }, async ()
   assert.equal(await plain.locator("[data-view]").count(), 0);
   assert.deepEqual(errors, []);
 });
+
+test("the headings of curves have room for their numbers", { skip }, async () => {
+  const panels = await page.locator(".panel[data-curve]").evaluateAll((all) =>
+    all.map((panel) => {
+      const [number, box] = ["output", "label"].map((part) => panel.querySelector(part).getBoundingClientRect());
+      return { text: panel.querySelector("output").textContent, isClear: number.right <= box.left || number.top >= box.bottom };
+    }),
+  );
+  assert.ok(panels.some(({ text }) => text.includes("score (dashed)")));
+  assert.deepEqual(panels.filter(({ isClear }) => !isClear), []);
+});
+
+test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 20));
+
+test("axe finds nothing serious", { skip }, () => assertAccessibleInBoth(page, "space"));

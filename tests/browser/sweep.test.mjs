@@ -2,7 +2,10 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { assertAccessibleInBoth } from "./accessible.mjs";
+import { assertTablesExplained } from "./meanings.mjs";
 import { assertQuiet, closeBrowser, open, skip } from "./open.mjs";
+import { cellsOf, pixelsOf, saved } from "./saved.mjs";
 import { glocal, report, runExperiment, workFolder } from "./runs.mjs";
 
 let opened, page, sweep;
@@ -77,6 +80,60 @@ test("each setting is a line from its values to its share of right trials", { sk
   }
 });
 
+test("effects are saved as pictures and as numbers", { skip }, async () => {
+  for (const [i, effect] of sweep.effects.entries()) {
+    const chart = page.locator("#sweep .effect").nth(i);
+    const svg = await saved(page, chart.locator("[data-save=svg]"));
+    assert.equal(svg.name, `effect-of-${effect.label.replaceAll("_", "-")}.svg`);
+    const text = svg.content.toString();
+    assert.ok(text.includes(`>${effect.label}: `), text.slice(0, 300));
+    // A circle for each level, along the axis as its share is.
+    const circles = [...text.matchAll(/M([\d.]+) [\d.]+a4\.5 /g)].map(([, left]) => Number(left) + 4.5);
+    const ends = text.match(/M([\d.]+) [\d.]+L([\d.]+) [\d.]+" fill="none" stroke="#\w+" stroke-width="1"/).slice(1).map(Number);
+    const levels = effect.levels.filter(({ trials }) => trials > 0);
+    assert.equal(circles.length, levels.length);
+    circles.forEach((x, k) => assert.ok(Math.abs((x - ends[0]) / (ends[1] - ends[0]) - levels[k].success_rate.value) < 0.002));
+    const csv = await saved(page, chart.locator(".csv"));
+    const [head, ...rows] = cellsOf(csv.content.toString());
+    assert.deepEqual(head, [effect.label, "settings", "trials", "right", "low", "high"]);
+    assert.deepEqual(rows, effect.levels.map(({ label, settings, trials, success_rate: { value, low, high } }) => [label, ...[settings, trials, value, low, high].map(String)]));
+  }
+});
+
+test("the map of two parameters is saved as a picture and as numbers", { skip }, async () => {
+  const { rows, columns, cells } = sweep.map;
+  const figure = page.locator("#sweep .heat");
+  const csv = cellsOf((await saved(page, figure.locator(".csv"))).content.toString());
+  assert.deepEqual(csv[0].slice(1), columns.levels);
+  rows.levels.forEach((level, r) => {
+    assert.equal(csv[r + 1][0], level);
+    cells[r].forEach(({ trials, success_rate: { value } }, c) => assert.equal(csv[r + 1][c + 1], trials > 0 ? String(100 * value) : ""));
+  });
+  const png = await saved(page, figure.locator("[data-save=png]"));
+  const { colours } = await pixelsOf(page, png.content, "image/png");
+  const shown = await figure.locator("td:not(.empty)").evaluateAll((all) => all.map((cell) => getComputedStyle(cell).backgroundColor.match(/\d+/g).join(",")));
+  for (const colour of shown) assert.ok(colours[colour] > 2000, `${colour}: ${colours[colour]}`);
+});
+
+test("parallel coordinates and boxes are saved as they are shown", { skip }, async () => {
+  const figure = page.locator("#sweep .parallel");
+  const svg = await saved(page, figure.locator("[data-save=svg]"));
+  assert.equal(svg.name, "parallel-coordinates.svg");
+  const shown = await figure.locator(".lines path").evaluateAll((all) =>
+    all.map((path) => [path.getAttribute("d"), getComputedStyle(path).strokeWidth]),
+  );
+  const text = svg.content.toString();
+  const inFile = [...text.matchAll(/<path d="([^"]+)" style="([^"]+)"/g)].map(([, d, style]) => [d, /stroke-width: ([^;]+)/.exec(style)[1]]);
+  assert.deepEqual(inFile, shown);
+  // What it looks like is in the file alone: neither variables nor classes of the page.
+  assert.ok(!/var\(|class=|color-mix|color\(/.test(text));
+  for (const [part, name] of [["[data-boxes=steps]", "steps-to-localize.png"], ["#sweep .parallel", "parallel-coordinates.png"]]) {
+    const png = await saved(page, page.locator(part).locator("[data-save=png]"));
+    assert.equal(png.name, name);
+    assert.ok(Object.keys((await pixelsOf(page, png.content, "image/png")).colours).length > 20, part);
+  }
+});
+
 test("curves and boxes over all trials are of settings", { skip }, async () => {
   assert.deepEqual(await page.locator("#distributions .names span").allInnerTexts(), sweep.settings.map((s) => s.setting));
   assert.equal(await page.locator("[data-boxes=steps] [data-run]").count(), sweep.settings.length);
@@ -106,3 +163,7 @@ test("cells of the map can be read on their colours", { skip }, async () => {
   for (const axis of [sweep.map.rows, sweep.map.columns])
     assert.ok((await page.locator("#sweep .heat thead").innerText()).includes(axis.label));
 });
+
+test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 50));
+
+test("axe finds nothing serious", { skip }, () => assertAccessibleInBoth(page, "sweep"));

@@ -4,6 +4,7 @@ import { spawn } from "node:child_process";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { after, test } from "node:test";
+import { assertAccessibleInBoth } from "./accessible.mjs";
 import { closeBrowser, open, skip } from "./open.mjs";
 import { experiments, program, stepsOf, workFolder } from "./runs.mjs";
 
@@ -43,6 +44,7 @@ test("the page shows the run as it goes on, and keeps what it has when the progr
   await page.waitForFunction((before) => Number(document.querySelector("input[type=range]").max) > before, grown);
   assert.equal(await page.evaluate(() => document.body.dataset.step), "0");
   assert.match(await page.locator(".map .note").innerText(), /only the newest step has its local map/);
+  await assertAccessibleInBoth(page, "a run that goes on");
   run.kill("SIGINT");
   assert.equal(await ended, 3);
   await page.waitForFunction(() => /does not answer|finished/.test(document.querySelector(".live").textContent));

@@ -5,6 +5,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
+import { assertTablesExplained } from "./meanings.mjs";
 import { assertQuiet, closeBrowser, moveSlider, open, painted, mapView, showOnly, skip } from "./open.mjs";
 import { report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 
@@ -42,6 +43,8 @@ test("every number of the step, of the clusters and of the header tells what it 
   const bare = await page.locator(".map .legend label:has([data-layer])").evaluateAll((all) => all.filter((e) => !e.dataset.meaning).map((e) => e.textContent));
   assert.deepEqual(bare, []);
 });
+
+test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 20));
 
 test("meanings are told to pointer and keyboard", { skip }, async () => {
   const tip = page.locator("#meaning");

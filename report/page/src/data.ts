@@ -345,6 +345,13 @@ export function poseAt(poses: PoseColumns, i: number): Pose | null {
   return x == null || y == null || theta == null ? null : { x, y, theta };
 }
 
+/** The newest frame recorded up to this step; -1 if there is none. */
+export function frameAt(lives: PointLives | Scans, step: number): number {
+  let frame = -1;
+  while (frame + 1 < lives.steps.length && lives.steps[frame + 1] <= step) ++frame;
+  return frame;
+}
+
 /** Wall-clock time of the whole step, ms. */
 export function stepTime(steps: Steps, i: number): number {
   return steps.local_map_ms[i] + steps.match_ms[i] + steps.cluster_ms[i] + steps.rate_ms[i];

@@ -4,7 +4,7 @@ import { ratingColour, verdictColours, verdictNames } from "./colours";
 import { stepTime, type Steps } from "./data";
 import { el, replace, table } from "./elements";
 import { degrees } from "./geometry";
-import { count, fixed, percent, significant } from "./numbers";
+import { count, fixed, nameOf, percent, significant } from "./numbers";
 import type { Hypothesis, Store } from "./store";
 import { explained } from "./words";
 
@@ -70,7 +70,7 @@ export class Details {
       "div",
       { class: "hypotheses", "data-table": "clusters" },
       el("p", {}, "Local map under ", button("estimate", "estimate"), button("reference", "reference"), " or a cluster:"),
-      table(["cluster", "r", "r̄", "hypotheses", "x, m", "y, m", "θ, °"].map((word) => explained(el("span", {}, word))), rows),
+      table(["cluster", "r", "r̄", "hypotheses", "x, m", "y, m", "θ, °"], rows),
     );
   }
 }
@@ -90,7 +90,7 @@ function facts(steps: Steps, step: number): HTMLElement {
   const confidence = steps.confidence[step];
   const omega = steps.omega_best[step];
   const score = steps.score_best[step];
-  const all: [string, string][] = [
+  const all: [name: string, value: string, word?: string][] = [
     ["Ω best", significant(omega)],
     ...(score === omega ? [] : [["score best", significant(score)] as [string, string]]),
     ["Ω max", significant(steps.omega_max[step])],
@@ -104,7 +104,7 @@ function facts(steps: Steps, step: number): HTMLElement {
     ["time", `${fixed(stepTime(steps, step), 1)} ms, matching ${fixed(steps.match_ms[step], 1)} ms`],
     ...Object.entries(steps.evidence)
       .filter(([, values]) => values[step] != null)
-      .map(([name, values]): [string, string] => [name.replaceAll("_", " "), significant(values[step])]),
+      .map(([name, values]): [string, string, string] => [nameOf(name), significant(values[step]), `evidence: ${name}`]),
   ];
-  return el("dl", {}, ...all.map(([name, value]) => el("div", {}, explained(el("dt", {}, name)), el("dd", {}, value))));
+  return el("dl", {}, ...all.map(([name, value, word = name]) => el("div", {}, explained(el("dt", {}, name), word), el("dd", {}, value))));
 }

@@ -3,9 +3,11 @@ import { boxOf, type Box, type Dots } from "./boxes";
 import { runColour } from "./colours";
 import { stepTime, type Trial } from "./data";
 import { el, replace } from "./elements";
+import { saveMenu } from "./export";
 import type { Group } from "./groups";
 import { count, significant } from "./numbers";
-import { logTicks, svg, ticks } from "./svg";
+import { isLogarithmic, logTicks, svg, ticks } from "./svg";
+import { svgFile } from "./svg_file";
 
 interface Measure {
   id: string;
@@ -81,6 +83,7 @@ export class BoxPlots {
 class BoxChart {
   readonly element: HTMLElement;
   private readonly target = el("div", { class: "box-plot" });
+  private drawing: SVGSVGElement | null = null;
   private shown = mostAtFirst;
   private width = 0;
 
@@ -89,7 +92,9 @@ class BoxChart {
     private readonly entries: Entry[],
   ) {
     const { id, title, unit, of } = measure;
-    this.element = el("div", { class: "panel", "data-boxes": id }, el("h3", {}, unit === "steps" ? title : `${title}, ${unit}`, el("small", {}, ` of ${of}`)), this.target);
+    const told = unit === "steps" ? title : `${title}, ${unit}`;
+    const menu = saveMenu(() => title, () => (this.drawing ? svgFile(this.drawing, `${told} of ${of}`) : ""));
+    this.element = el("div", { class: "panel", "data-boxes": id }, el("h3", {}, told, el("small", {}, ` of ${of}`)), menu, this.target);
     new ResizeObserver(() => {
       // What is drawn makes the panel higher, not wider.
       if (this.target.clientWidth !== this.width) this.draw();
@@ -124,21 +129,21 @@ class BoxChart {
         svg("text", { x, y: bottom + 13, "text-anchor": "middle" }, label(tick)),
       );
     });
-    const drawing = svg(
+    this.drawing = svg(
       "svg",
       { viewBox: `0 0 ${this.width} ${height}`, width: this.width, height, role: "img", "aria-label": this.told(entries) },
       ...grid,
       svg("text", { class: "unit", x: (left + right) / 2, y: height - 3, "text-anchor": "middle" }, this.measure.unit + (scale.isLog ? ", logarithmic" : "")),
       ...entries.map((entry, i) => this.row(entry, i, scale.at, left)),
     );
-    replace(this.target, drawing);
+    replace(this.target, this.drawing);
   }
 
   /** From values to px. */
   private scale(entries: Entry[], left: number, right: number): { at: (value: number) => number; ticks: number[]; isLog: boolean } {
     const all = entries.flatMap(({ box }) => (box ? extremes(box) : []));
     let [low, high] = [Math.min(...all), Math.max(...all)];
-    const isLog = low > 0 && high / low > 30;
+    const isLog = isLogarithmic(low, high);
     const log = Math.log10;
     if (isLog) {
       const places = log(high) - log(low);

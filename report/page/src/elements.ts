@@ -1,5 +1,6 @@
 // Making parts of the page. Text of results only ever becomes text, never markup.
 import { csvButton } from "./export";
+import { explained } from "./words";
 
 type Child = Node | string | number | null | undefined | false;
 type Attributes = Record<string, string | number | boolean | EventListener | undefined>;
@@ -36,9 +37,26 @@ export function section(id: string, title: string, ...children: Child[]): HTMLEl
   return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
 }
 
+/** More sentences than these are read by few. */
+const mostSentences = 8;
+
+/** Sentences one below the other; many of them are folded, up to the first few. */
+export function list(sentences: string[], className = ""): HTMLElement | null {
+  if (sentences.length === 0) return null;
+  const points = (some: string[]): HTMLElement => el("ul", { class: className }, ...some.map((text) => el("li", {}, text)));
+  const rest = sentences.slice(mostSentences);
+  if (rest.length < 2) return points(sentences);
+  return el("div", {}, points(sentences.slice(0, mostSentences)), el("details", { class: "rest" }, el("summary", {}, `and ${rest.length} more`), points(rest)));
+}
+
+/** A word in a table tells what it means. */
+function told(cell: Child): Child {
+  return typeof cell === "string" ? explained(el("span", {}, cell)) : cell;
+}
+
 /** A table whose first column names the rows, and which can be saved. Cells may be elements. */
 export function table(head: Child[], rows: Child[][], className = ""): HTMLElement {
-  const headRow = el("tr", {}, ...head.map((cell) => (cell === "" ? el("td") : el("th", { scope: "col" }, cell))));
+  const headRow = el("tr", {}, ...head.map((cell) => (cell === "" ? el("td") : el("th", { scope: "col" }, told(cell)))));
   const body = el(
     "tbody",
     {},

@@ -69,19 +69,24 @@ export function csvOf(rows: string[][]): string {
   return rows.map((row) => `${row.map(cell).join(",")}\r\n`).join("");
 }
 
-/** Saves the table that is shown. */
-export function csvButton(table: HTMLTableElement): HTMLElement {
-  const rows = (): string[][] => [...table.rows].map((row) => [...row.cells].map((cell) => (cell.textContent ?? "").trim()));
-  const what = (): string => table.closest("[data-table], section")?.getAttribute("data-table") ?? table.closest("section")?.id ?? "table";
-  const button = el(
+/** Saves rows that are asked for when they are wanted. */
+export function csvButtonOf(what: () => string, rows: () => string[][]): HTMLElement {
+  const button: HTMLElement = el(
     "button",
     {
       type: "button",
       class: "csv",
-      title: "Save this table",
-      click: () => save(fileName(table, what(), "csv"), new Blob([csvOf(rows())], { type: "text/csv" })),
+      title: "Save these numbers",
+      click: () => save(fileName(button, what(), "csv"), new Blob([csvOf(rows())], { type: "text/csv" })),
     },
     "CSV",
   );
   return button;
+}
+
+/** Saves the table that is shown. */
+export function csvButton(table: HTMLTableElement): HTMLElement {
+  const rows = (): string[][] => [...table.rows].map((row) => [...row.cells].map((cell) => (cell.textContent ?? "").trim()));
+  const what = (): string => table.closest("[data-table], section")?.getAttribute("data-table") ?? table.closest("section")?.id ?? "table";
+  return csvButtonOf(what, rows);
 }

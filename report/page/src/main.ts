@@ -7,7 +7,7 @@ import { append, el, replace } from "./elements";
 import { LiveNews } from "./live";
 import { MapView } from "./map_view";
 import { PageState } from "./page_state";
-import { bordersOf, followLength, FullScreen } from "./panes";
+import { Borders, followLength, FullScreen } from "./panes";
 import { listenToKeys, Player } from "./player";
 import { Store } from "./store";
 import { experimentsOf, summaryHeader } from "./summary_header";
@@ -156,7 +156,8 @@ function show(report: Report, page: HTMLElement): void {
     links([sweep, ...sections]),
   );
   const view: HTMLElement = el("main", { id: "view" }, el("h2", { class: "unseen" }, "Step by step"));
-  const [right, below] = bordersOf(() => view);
+  const borders = new Borders(() => view);
+  const [right, below] = borders.handles;
   append(view, views.element, right, curves.element, below, player.element, details.element);
   followLength(view, store);
   const fullScreen = new FullScreen(view);
@@ -167,7 +168,7 @@ function show(report: Report, page: HTMLElement): void {
   append(page, ...sections);
   showMeanings(page);
   listenToKeys(store, player, views, fullScreen);
-  new PageState(store, map);
+  new PageState(store, view, [views, borders]);
   trials.fill();
   details.update();
   player.newTrial();

@@ -142,3 +142,23 @@ export function drawGridNumbers(pen: Pen, screen: Screen): void {
   pen.fillText("x, y in m", screen.width - 4, screen.height - 18);
   pen.restore();
 }
+
+/** A bar of a round length. */
+export function drawScale(context: Pen, screen: Screen): void {
+  const longest = 120 / screen.scale;
+  const power = 10 ** Math.floor(Math.log10(longest));
+  const length = [5, 2, 1].map((n) => n * power).find((l) => l <= longest) ?? power;
+  const width = length * screen.scale;
+  const y = screen.height - 12;
+  context.strokeStyle = context.fillStyle = themeColour("ink");
+  context.lineWidth = 2;
+  context.beginPath();
+  context.moveTo(12, y - 4);
+  context.lineTo(12, y);
+  context.lineTo(12 + width, y);
+  context.lineTo(12 + width, y - 4);
+  context.stroke();
+  context.font = "12px system-ui, sans-serif";
+  context.textAlign = "start";
+  context.fillText(`${significant(length, 1)} m`, 16, y - 6);
+}

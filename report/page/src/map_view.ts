@@ -1,43 +1,22 @@
 // The map with everything that happened on it: the only drawing that is our own.
-import { opacityOf, thinnedOut } from "./candidates_shown";
-import { errorColour, errorRange, ratingColour, themeColour, verdictColours, verdictNames } from "./colours";
-import { poseAt, type GlobalMap, type Grid, type PointLives, type Pose, type Scans, type Steps, type VerdictKind } from "./data";
+import { themeColour } from "./colours";
+import { frameAt, poseAt, type GlobalMap, type Grid, type Pose } from "./data";
 import { el, replace } from "./elements";
-import { fansOf } from "./field_of_view";
 import { boundingBox, compose, degrees, inverse, union, type Box } from "./geometry";
 import { saveMenu } from "./export";
-import { drawGridLines, drawGridNumbers, SpacePicture, type Screen } from "./map_background";
+import { drawGridLines, drawGridNumbers, drawScale, SpacePicture, type Screen } from "./map_background";
+import { MapLegend } from "./map_legend";
 import { NearPlaces } from "./near_places";
 import { fixed, significant } from "./numbers";
 import { SvgPen, type Pen } from "./pen";
 import { PointLayer, SvgPoints, type Placement, type PointSink } from "./point_layer";
+import { chosenPose, clustersDrawn, StepDrawing } from "./step_drawing";
 import type { Store } from "./store";
-import { explained, meaningOf } from "./words";
+import { tellView, type Linked } from "./view_change";
 import { iconButton, zoomButtons } from "./zoom_buttons";
 
 const metres = 1e-3; // of the whole mm in which points are given
-const triangle = { length: 15, width: 10 }; // px
 const reach = 14; // px, of the pointer
-
-const layers = {
-  space: "free, unknown",
-  grid: "grid",
-  map: "global map",
-  local_map: "local map",
-  scan: "scan",
-  view: "field of view",
-  clusters: "clusters",
-  candidates: "candidates",
-  estimate: "estimate",
-  reference: "reference",
-  ends: "start, end",
-  unknown_place: "unknown place",
-} as const;
-type Layer = keyof typeof layers;
-
-/** What the dots of the estimate tell by their colour. */
-const trajectoryColours = { plain: "one colour", verdict: "verdict", error: "error" } as const;
-type TrajectoryColour = keyof typeof trajectoryColours;
 
 const nearby = 1.0; // m, of a place that was clicked
 
@@ -54,43 +33,15 @@ function withinLimits(scale: number): number {
   return Math.min(Math.max(scale, 0.5), 5000);
 }
 
-/** Robot pose in the map that the local map is laid under; null without any. */
-function chosenPose(store: Store): Pose | null {
-  const steps = store.steps;
-  const { step, hypothesis } = store.selected;
-  if (!steps || steps.step.length === 0) return null;
-  if (hypothesis === "reference") return poseAt(steps.reference, step);
-  if (hypothesis === "estimate") return poseAt(steps.estimate, step);
-  const { best } = steps;
-  const k = best.first[step] + hypothesis;
-  return k < best.first[step + 1] ? { x: best.x[k], y: best.y[k], theta: best.theta[k] } : null;
-}
-
-/** Null where a step has no colour of its own. */
-function estimateColour(by: TrajectoryColour, steps: Steps, i: number): string | null {
-  if (by === "verdict") return verdictColours[steps.verdict[i]];
-  const error = steps.translation_error_m[i];
-  return by === "error" && error != null ? errorColour(error) : null;
-}
-
-/** The newest frame recorded up to this step; -1 if there is none. */
-export function frameAt(lives: PointLives | Scans, step: number): number {
-  let frame = -1;
-  while (frame + 1 < lives.steps.length && lives.steps[frame + 1] <= step) ++frame;
-  return frame;
-}
-
-export class MapView {
+export class MapView implements Linked {
   readonly element: HTMLElement;
   private readonly canvas = el("canvas", { tabindex: 0, role: "img" });
   private readonly tip = el("div", { class: "tip", hidden: true });
   private readonly note = el("p", { class: "note" });
   private readonly cursor = el("output", { class: "cursor", "aria-hidden": "true" });
   private readonly near: NearPlaces;
-  private readonly colourBy = el("select", { "aria-label": "Colour of the estimate" });
-  private readonly errorScale = el("span", { class: "scale" });
+  private readonly legend: MapLegend;
   private space: { grid: Grid; theme: string; picture: SpacePicture } | null = null;
-  private readonly shown: Record<Layer, boolean>;
   private readonly pointers = new Map<number, PointerEvent>();
   private view: View = { x: 0, y: 0, scale: 20 };
   /** Of the drawing, px; asking the page for them would have it laid out anew each time. */
@@ -102,12 +53,21 @@ export class MapView {
   private moved = 0;
   /** By the reader: the view is no longer that which shows everything. */
   private isMoved = false;
-  private readonly boxes = new Map<Layer, HTMLInputElement>();
   private frame = 0;
 
   constructor(private readonly store: Store) {
-    this.shown = Object.fromEntries(Object.keys(layers).map((layer) => [layer, true])) as Record<Layer, boolean>;
     this.near = new NearPlaces(store);
+    this.legend = new MapLegend(
+      () => {
+        tellView(this.element);
+        this.draw();
+      },
+      (follows) => {
+        this.follows = follows;
+        this.centre();
+        this.draw();
+      },
+    );
     const stage = el(
       "div",
       { class: "stage" },
@@ -118,7 +78,7 @@ export class MapView {
       this.cursor,
       zoomButtons(this, saveMenu(() => "map", () => this.svg())),
     );
-    this.element = el("figure", { class: "map" }, stage, this.legend());
+    this.element = el("figure", { class: "map" }, stage, this.legend.element);
     this.listen();
     store.subscribe((change) => {
       // Runs on one map are easier to compare if the view stays.
@@ -148,20 +108,14 @@ export class MapView {
   /** What a link to this view says of it. */
   state(): Record<string, string> {
     const { x, y, scale } = this.view;
-    const hidden = (Object.keys(layers) as Layer[]).filter((layer) => !this.shown[layer]);
     return {
       ...(this.isMoved ? { x: x.toFixed(3), y: y.toFixed(3), zoom: scale.toPrecision(4) } : {}),
-      ...(hidden.length > 0 ? { hide: hidden.join(",") } : {}),
-      ...(this.colourBy.value === "plain" ? {} : { colour: this.colourBy.value }),
+      ...this.legend.state(),
     };
   }
 
   setState(said: URLSearchParams): void {
-    const hidden = (said.get("hide") ?? "").split(",");
-    for (const [layer, box] of this.boxes) this.shown[layer] = box.checked = !hidden.includes(layer);
-    const colour = said.get("colour") ?? "";
-    this.colourBy.value = colour in trajectoryColours ? colour : "plain";
-    this.showErrorScale();
+    this.legend.setState(said);
     const [x, y, zoom] = ["x", "y", "zoom"].map((name) => Number.parseFloat(said.get(name) ?? ""));
     if (Number.isFinite(x) && Number.isFinite(y) && zoom > 0) {
       this.view = { x, y, scale: withinLimits(zoom) };
@@ -175,12 +129,8 @@ export class MapView {
 
   private hasMoved(): void {
     this.isMoved = true;
-    this.tellView();
+    tellView(this.element);
     this.draw();
-  }
-
-  private tellView(): void {
-    this.element.dispatchEvent(new Event("viewchange"));
   }
 
   /** Shows the whole map, or the whole drive where there is no map. */
@@ -198,7 +148,7 @@ export class MapView {
       y: (box.low.y + box.high.y) / 2,
       scale: Math.max(Math.min((this.width - 2 * margin) / width, (this.height - 2 * margin) / height), 0.5),
     };
-    if (wasMoved) this.tellView();
+    if (wasMoved) tellView(this.element);
     this.draw();
   }
 
@@ -227,8 +177,8 @@ export class MapView {
   svg(): string {
     const pen = new SvgPen(this.width, this.height);
     pen.within({ left: 0, top: 0, width: this.width, height: this.height }, 1, () => {
-      if (this.shown.space) this.drawSpace(pen);
-      if (this.shown.grid) drawGridLines(pen, this.screen());
+      if (this.legend.shown.space) this.drawSpace(pen);
+      if (this.legend.shown.grid) drawGridLines(pen, this.screen());
       this.drawPoints(new SvgPoints(pen, this.width, this.height, this.placement(1)), 1);
       this.drawLines(pen);
     });
@@ -239,8 +189,8 @@ export class MapView {
   private drawBelow(context: CanvasRenderingContext2D): void {
     context.save();
     context.globalCompositeOperation = "destination-over";
-    if (this.shown.grid) drawGridLines(context, this.screen());
-    if (this.shown.space) this.drawSpace(context);
+    if (this.legend.shown.grid) drawGridLines(context, this.screen());
+    if (this.legend.shown.space) this.drawSpace(context);
     context.restore();
   }
 
@@ -281,10 +231,9 @@ export class MapView {
   }
 
   private drawLines(pen: Pen): void {
-    if (this.shown.grid) drawGridNumbers(pen, this.screen());
-    const steps = this.store.steps;
-    if (steps && steps.step.length > 0) this.drawStep(pen, steps);
-    this.drawScale(pen);
+    if (this.legend.shown.grid) drawGridNumbers(pen, this.screen());
+    new StepDrawing(this.store, this.screen(), this.legend.shown, this.legend.colour).draw(pen);
+    drawScale(pen, this.screen());
   }
 
   /** Where the map lies on a drawing with so many pixels for one of the page. */
@@ -326,7 +275,7 @@ export class MapView {
   /** Everything that is points: below all lines. */
   private drawPoints(layer: PointSink, ratio: number): void {
     const map = this.globalMap();
-    if (map && this.shown.map) {
+    if (map && this.legend.shown.map) {
       const all = { x: map.x, y: map.y, begin: 0, end: map.x.length };
       layer.draw(all, { x: 0, y: 0, theta: 0 }, map.spacing_m, 1, themeColour("wall"));
     }
@@ -340,227 +289,18 @@ export class MapView {
     const { local_map: lives, scans, columns } = this.store.trial ?? {};
     const size = this.globalMap()?.spacing_m ?? 0;
     const inLocal = columns ? poseAt(columns.local_from_robot, step) : null;
-    if (lives && inLocal && this.shown.local_map) {
+    if (lives && inLocal && this.legend.shown.local_map) {
       const frame = frameAt(lives, step);
       const isShown = (i: number): boolean => lives.from[i] <= frame && frame < lives.to[i];
       const points = { x: lives.x, y: lives.y, begin: 0, end: lives.x.length, isShown };
       layer.draw(points, compose(robot, inverse(inLocal)), size, least, themeColour("local-map"));
     }
-    if (scans && this.shown.scan) {
+    if (scans && this.legend.shown.scan) {
       const frame = frameAt(scans, step);
       if (scans.steps[frame] !== step) return;
       const points = { x: scans.x, y: scans.y, begin: scans.first[frame], end: scans.first[frame + 1] };
       layer.draw(points, robot, size, 1.5 * least, themeColour("scan"));
     }
-  }
-
-  private drawStep(context: Pen, steps: Steps): void {
-    const { step } = this.store.selected;
-    if (this.shown.view) this.drawFieldOfView(context);
-    if (this.shown.reference) this.drawReference(context, steps);
-    if (this.shown.estimate) this.drawEstimates(context, steps, step);
-    if (this.shown.unknown_place) this.drawUnknownPlaces(context, steps, step);
-    if (this.shown.ends) this.drawEnds(context, steps);
-    if (this.shown.clusters) this.drawClusters(context, steps, step);
-    if (this.shown.candidates) this.drawCandidates(context, steps, step);
-    const reference = poseAt(steps.reference, step);
-    if (reference && this.shown.reference) this.drawRobot(context, reference, themeColour("reference"), true);
-    const estimate = poseAt(steps.estimate, step);
-    if (estimate && this.shown.estimate) this.drawRobot(context, estimate, themeColour("estimate"), false);
-  }
-
-  private drawReference(context: Pen, steps: Steps): void {
-    context.strokeStyle = themeColour("reference");
-    context.lineWidth = 1.5;
-    context.setLineDash([6, 4]);
-    context.beginPath();
-    let joined = false;
-    for (let i = 0; i < steps.step.length; ++i) {
-      const pose = poseAt(steps.reference, i);
-      if (pose) {
-        const at = this.toScreen(pose.x, pose.y);
-        if (joined) context.lineTo(at.x, at.y);
-        else context.moveTo(at.x, at.y);
-      }
-      joined = pose !== null;
-    }
-    context.stroke();
-    context.setLineDash([]);
-  }
-
-  /** Dots, joined between steps that both are localized: before that, estimates jump about. Later ones are faint. */
-  private drawEstimates(context: Pen, steps: Steps, shown: number): void {
-    const plain = themeColour("estimate");
-    const by = this.colourBy.value as TrajectoryColour;
-    const size = by === "plain" ? 3 : 5;
-    context.lineWidth = size - 1;
-    context.strokeStyle = context.fillStyle = plain;
-    let before: { x: number; y: number } | null = null;
-    for (let i = 0; i < steps.step.length; ++i) {
-      context.globalAlpha = i <= shown ? 1 : 0.25;
-      // Canvases take long to read a colour, and there may be thousands of dots.
-      if (by !== "plain") context.strokeStyle = context.fillStyle = estimateColour(by, steps, i) ?? plain;
-      const pose = poseAt(steps.estimate, i);
-      const at = pose && this.toScreen(pose.x, pose.y);
-      if (at) {
-        context.fillRect(at.x - size / 2, at.y - size / 2, size, size);
-        if (before && steps.verdict[i] === "localized") {
-          context.beginPath();
-          context.moveTo(before.x, before.y);
-          context.lineTo(at.x, at.y);
-          context.stroke();
-        }
-      }
-      before = steps.verdict[i] === "localized" ? at : null;
-    }
-    context.globalAlpha = 1;
-  }
-
-  /** What the laser sees from the pose that the local map is laid under. */
-  private drawFieldOfView(context: Pen): void {
-    const robot = chosenPose(this.store);
-    const { scans } = this.store.trial ?? {};
-    const { step } = this.store.selected;
-    const frame = scans ? frameAt(scans, step) : -1;
-    if (!robot || !scans || frame < 0 || scans.steps[frame] !== step) return;
-    const hits = [];
-    for (let i = scans.first[frame]; i < scans.first[frame + 1]; ++i) hits.push({ x: scans.x[i] * metres, y: scans.y[i] * metres });
-    context.fillStyle = themeColour("scan");
-    context.globalAlpha = 0.12;
-    for (const fan of fansOf(hits)) {
-      context.beginPath();
-      for (const corner of fan) {
-        const place = compose(robot, { ...corner, theta: 0 });
-        const at = this.toScreen(place.x, place.y);
-        context.lineTo(at.x, at.y);
-      }
-      context.closePath();
-      context.fill();
-    }
-    context.globalAlpha = 1;
-  }
-
-  /** Boxes where the trial begins and ends: by the reference, or else by the estimates. */
-  private drawEnds(context: Pen, steps: Steps): void {
-    const of = steps.reference.x.some((x) => x != null) ? steps.reference : steps.estimate;
-    const known = of.x.map((x, i) => (x == null ? -1 : i)).filter((i) => i >= 0);
-    if (known.length === 0) return;
-    const box = (i: number, name: string, isBelow: boolean): void => {
-      const at = this.toScreen(of.x[i] as number, of.y[i] as number);
-      const side = 12;
-      context.strokeStyle = context.fillStyle = themeColour("ink");
-      context.lineWidth = 1.5;
-      context.beginPath();
-      context.rect(at.x - side / 2, at.y - side / 2, side, side);
-      context.stroke();
-      context.font = "bold 11px system-ui, sans-serif";
-      context.textAlign = "start";
-      context.fillText(name, at.x + side / 2 + 4, isBelow ? at.y + 14 : at.y - 6);
-    };
-    box(known[0], "start", false);
-    if (known.length > 1) box(known[known.length - 1], "end", true);
-  }
-
-  /** Crosses where the robot was, as far as that is known. */
-  private drawUnknownPlaces(context: Pen, steps: Steps, shown: number): void {
-    context.strokeStyle = verdictColours.unknown_place;
-    context.lineWidth = 2;
-    for (let i = 0; i < steps.step.length; ++i) {
-      const pose = steps.verdict[i] === "unknown_place" ? (poseAt(steps.reference, i) ?? poseAt(steps.estimate, i)) : null;
-      if (!pose) continue;
-      context.globalAlpha = i <= shown ? 1 : 0.25;
-      const { x, y } = this.toScreen(pose.x, pose.y);
-      context.beginPath();
-      context.moveTo(x - 4, y - 4);
-      context.lineTo(x + 4, y + 4);
-      context.moveTo(x - 4, y + 4);
-      context.lineTo(x + 4, y - 4);
-      context.stroke();
-    }
-    context.globalAlpha = 1;
-  }
-
-  /** Lowest rating first, so that the best end on top; the chosen one is always drawn. */
-  private clustersDrawn({ best }: Steps, step: number): number[] {
-    const [begin, end] = [best.first[step], best.first[step + 1]];
-    const drawn = thinnedOut(best, begin, end, this.view.scale);
-    const { hypothesis } = this.store.selected;
-    const chosen = typeof hypothesis === "number" ? begin + hypothesis : end;
-    return chosen < end && !drawn.includes(chosen) ? [...drawn, chosen] : drawn;
-  }
-
-  private drawClusters(context: Pen, steps: Steps, step: number): void {
-    const { best } = steps;
-    const chosen = this.store.selected.hypothesis;
-    const begin = best.first[step];
-    for (const k of this.clustersDrawn(steps, step)) {
-      const isChosen = k - begin === chosen;
-      context.globalAlpha = isChosen ? 1 : opacityOf(best.r[k], best.r[begin]);
-      context.fillStyle = ratingColour(best.r[k]);
-      context.strokeStyle = themeColour(isChosen ? "local-map" : "ink");
-      context.lineWidth = isChosen ? 3 : 0.8;
-      this.traceTriangle(context, best.x[k], best.y[k], best.theta[k], 1);
-      context.fill();
-      context.stroke();
-    }
-    context.globalAlpha = 1;
-  }
-
-  private drawCandidates(context: Pen, steps: Steps, step: number): void {
-    context.strokeStyle = verdictColours.ambiguous;
-    context.lineWidth = 2;
-    const candidates = steps.candidates[step];
-    for (let k = 0; k + 2 < candidates.length; k += 3) {
-      const at = this.toScreen(candidates[k], candidates[k + 1]);
-      context.beginPath();
-      context.arc(at.x, at.y, triangle.length, 0, 2 * Math.PI);
-      context.stroke();
-    }
-  }
-
-  private drawRobot(context: Pen, pose: Pose, colour: string, dashed: boolean): void {
-    context.strokeStyle = colour;
-    context.lineWidth = 2.5;
-    context.setLineDash(dashed ? [4, 3] : []);
-    this.traceTriangle(context, pose.x, pose.y, pose.theta, 1.5);
-    context.stroke();
-    context.setLineDash([]);
-  }
-
-  /** Points where the robot looks. */
-  private traceTriangle(context: Pen, x: number, y: number, theta: number, size: number): void {
-    const at = this.toScreen(x, y);
-    const c = Math.cos(theta) * size;
-    const s = Math.sin(theta) * size;
-    const corner = (along: number, across: number): [number, number] => [
-      at.x + c * along - s * across,
-      at.y - s * along - c * across,
-    ];
-    const { length, width } = triangle;
-    context.beginPath();
-    context.moveTo(...corner((2 * length) / 3, 0));
-    context.lineTo(...corner(-length / 3, width / 2));
-    context.lineTo(...corner(-length / 3, -width / 2));
-    context.closePath();
-  }
-
-  private drawScale(context: Pen): void {
-    const longest = 120 / this.view.scale;
-    const power = 10 ** Math.floor(Math.log10(longest));
-    const length = [5, 2, 1].map((n) => n * power).find((l) => l <= longest) ?? power;
-    const width = length * this.view.scale;
-    const y = this.height - 12;
-    context.strokeStyle = context.fillStyle = themeColour("ink");
-    context.lineWidth = 2;
-    context.beginPath();
-    context.moveTo(12, y - 4);
-    context.lineTo(12, y);
-    context.lineTo(12 + width, y);
-    context.lineTo(12 + width, y - 4);
-    context.stroke();
-    context.font = "12px system-ui, sans-serif";
-    context.textAlign = "start";
-    context.fillText(`${significant(length, 1)} m`, 16, y - 6);
   }
 
   /** For those who cannot see the picture, and what is missing in it for those who can. */
@@ -574,7 +314,7 @@ export class MapView {
     if (steps && steps.step.length > 0) {
       const listed = steps.best.first[step + 1] - steps.best.first[step];
       if (listed < steps.clusters[step]) missing.push(`The ${listed} best of ${steps.clusters[step]} clusters.`);
-      const hidden = listed - this.clustersDrawn(steps, step).length;
+      const hidden = listed - clustersDrawn(steps, this.store.selected, this.view.scale).length;
       if (hidden > 0) missing.push(`${hidden} more as you zoom in.`);
       if (!chosenPose(this.store)) {
         missing.push(
@@ -598,71 +338,6 @@ export class MapView {
     const { step } = selected;
     if (!steps) return "Map";
     return `Map at step ${step} of trial ${trial?.trial}: ${steps.verdict[step] ?? "no step"}, ${steps.clusters[step] ?? 0} clusters`;
-  }
-
-  private legend(): HTMLElement {
-    const entry = (layer: Layer): HTMLElement => {
-      const box = el("input", {
-        type: "checkbox",
-        checked: true,
-        "data-layer": layer,
-        change: () => {
-          this.shown[layer] = box.checked;
-          this.tellView();
-          this.draw();
-        },
-      });
-      this.boxes.set(layer, box);
-      const label = el("label", {}, box, el("span", { class: `symbol ${layer}`, "aria-hidden": "true" }), layers[layer]);
-      // Without a mark of its own: the box has the focus.
-      const meaning = meaningOf(layers[layer]) ?? meaningOf(layer);
-      if (meaning !== undefined) label.dataset.meaning = meaning;
-      return label;
-    };
-    const stops = [0, 0.25, 0.5, 0.75, 1].map(ratingColour).join(", ");
-    const bar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${stops})` });
-    const follow = el("input", {
-      type: "checkbox",
-      change: () => {
-        this.follows = follow.checked;
-        this.centre();
-        this.draw();
-      },
-    });
-    for (const [value, text] of Object.entries(trajectoryColours)) this.colourBy.append(el("option", { value }, text));
-    this.colourBy.addEventListener("change", () => {
-      this.showErrorScale();
-      this.tellView();
-      this.draw();
-    });
-    const { least, most } = errorRange;
-    const errorStops = [0, 0.25, 0.5, 0.75, 1].map((share) => errorColour(least * (most / least) ** share)).join(", ");
-    const errorBar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${errorStops})` });
-    replace(this.errorScale, `error  ${least} m `, errorBar, ` ${most} m`);
-    this.showErrorScale();
-    const verdictLegend = (): HTMLElement =>
-      el(
-        "span",
-        { class: "verdicts" },
-        explained(el("span", {}, "strip of verdicts"), "verdict"),
-        ...(Object.keys(verdictNames) as VerdictKind[]).map((kind) =>
-          el("span", {}, el("i", { class: "swatch", style: `background: ${verdictColours[kind]}` }), verdictNames[kind]),
-        ),
-      );
-    return el(
-      "figcaption",
-      { class: "legend" },
-      ...(Object.keys(layers) as Layer[]).map(entry),
-      el("span", { class: "scale" }, explained(el("span", {}, "rating r"), "r"), "  0 ", bar, " 1"),
-      verdictLegend(),
-      el("label", {}, "estimate by ", this.colourBy),
-      el("label", {}, follow, "follow the robot"),
-      this.errorScale,
-    );
-  }
-
-  private showErrorScale(): void {
-    this.errorScale.hidden = this.colourBy.value !== "error";
   }
 
   /** One more button beside those that zoom. */
@@ -721,7 +396,7 @@ export class MapView {
     const cluster = this.clusterAt(px, py);
     if (cluster !== null) this.store.chooseHypothesis(cluster);
     const { steps } = this.store;
-    if (!steps || steps.step.length === 0 || !this.shown.clusters) return;
+    if (!steps || steps.step.length === 0 || !this.legend.shown.clusters) return;
     this.near.show(steps, this.toMap(px, py), Math.max(nearby, reach / this.view.scale));
   }
 
@@ -751,11 +426,11 @@ export class MapView {
   private clusterAt(px: number, py: number): number | null {
     const steps = this.store.steps;
     const { step } = this.store.selected;
-    if (!steps || steps.step.length === 0 || !this.shown.clusters) return null;
+    if (!steps || steps.step.length === 0 || !this.legend.shown.clusters) return null;
     const { first, x, y } = steps.best;
     let nearest: number | null = null;
     let least = reach;
-    for (const k of this.clustersDrawn(steps, step).reverse()) {
+    for (const k of clustersDrawn(steps, this.store.selected, this.view.scale).reverse()) {
       const at = this.toScreen(x[k], y[k]);
       const distance = Math.hypot(at.x - px, at.y - py);
       if (distance < least - 0.5) {

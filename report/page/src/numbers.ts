@@ -35,3 +35,12 @@ export function duration(seconds: number): string {
   if (seconds < 5400) return `${Math.round(seconds / 60)} min`;
   return `${(seconds / 3600).toFixed(1)} h`;
 }
+
+const units: Record<string, string> = { m: "m", deg: "°", ms: "ms" };
+const spoken: Record<string, string> = { step_cpu: "CPU time of a step" };
+
+/** The name of a number as results files have it, for people: "rotation_error_deg" is "rotation error, °". */
+export function nameOf(key: string): string {
+  const [, name, unit] = /^(.*)_(m|deg|ms)$/.exec(key) ?? [null, key, null];
+  return (spoken[name] ?? name.replaceAll("_", " ")) + (unit ? `, ${units[unit]}` : "");
+}

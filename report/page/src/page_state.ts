@@ -1,22 +1,26 @@
 // The page's address tells what is shown, so that a link leads others there.
-import type { MapView } from "./map_view";
 import type { Hypothesis, Store } from "./store";
+import type { Linked } from "./view_change";
 
 const pause = 250; // ms; browsers allow few changes of the address in a second
 
 export class PageState {
   private timer = 0;
+  /** What the address says, or would say of the page as it was opened. */
+  private known = "";
 
   constructor(
     private readonly store: Store,
-    private readonly map: MapView,
+    page: HTMLElement,
+    private readonly parts: Linked[],
   ) {
     // Of a run that goes on, the page shows the newest step.
     if (store.report.live) return;
+    this.known = this.address();
     this.read();
     window.addEventListener("hashchange", () => this.read());
     store.subscribe(() => this.writeSoon());
-    map.element.addEventListener("viewchange", () => this.writeSoon());
+    page.addEventListener("viewchange", () => this.writeSoon());
   }
 
   /** What is not said is as on a page that was just opened. An address of a part of the page says nothing. */
@@ -30,7 +34,8 @@ export class PageState {
     const trial = Math.max(0, runs[run].trials.findIndex(({ trial: its }) => String(its) === number));
     const step = said.get("step");
     this.store.show({ run, trial, step: step === null ? undefined : Number(step), hypothesis: hypothesisOf(said.get("pose")) });
-    this.map.setState(said);
+    for (const part of this.parts) part.setState(said);
+    this.known = this.address();
   }
 
   private writeSoon(): void {
@@ -39,17 +44,24 @@ export class PageState {
   }
 
   private write(): void {
+    const address = this.address();
+    if (address === this.known) return;
+    this.known = address;
+    try {
+      history.replaceState(null, "", `#${address}`);
+    } catch {
+      // Pages within other pages may have no address of their own.
+    }
+  }
+
+  private address(): string {
     const { run, trial, selected } = this.store;
     const said = new URLSearchParams({ run: run.name });
     if (trial) said.set("trial", String(trial.trial));
     said.set("step", String(selected.step));
     if (selected.hypothesis !== "estimate") said.set("pose", String(selected.hypothesis));
-    for (const [name, value] of Object.entries(this.map.state())) said.set(name, value);
-    try {
-      history.replaceState(null, "", `#${said}`);
-    } catch {
-      // Pages within other pages may have no address of their own.
-    }
+    for (const part of this.parts) for (const [name, value] of Object.entries(part.state())) said.set(name, value);
+    return said.toString();
   }
 }
 

@@ -2,9 +2,12 @@
 // step needs not.
 import { el } from "./elements";
 import type { Store } from "./store";
+import { tellView, type Linked } from "./view_change";
 
-interface Border {
+interface BorderKind {
   name: string;
+  /** In the page's address. */
+  key: string;
   orientation: "vertical" | "horizontal";
   /** Of what the border sets: percent of the width, or px. */
   least: number;
@@ -13,12 +16,13 @@ interface Border {
   step: number;
   /** From where the pointer is. */
   valueAt: (event: PointerEvent, view: HTMLElement) => number;
-  set: (view: HTMLElement, value: number) => void;
+  style: (value: number) => Record<string, string>;
 }
 
-const borders: Border[] = [
+const borders: BorderKind[] = [
   {
     name: "Width of the map",
+    key: "width",
     orientation: "vertical",
     least: 20,
     most: 80,
@@ -28,76 +32,117 @@ const borders: Border[] = [
       const { left, width } = view.getBoundingClientRect();
       return (100 * (event.clientX - left)) / width;
     },
-    set: (view, value) => {
-      view.style.setProperty("--map-width", `${value}fr`);
-      view.style.setProperty("--curves-width", `${100 - value}fr`);
-    },
+    style: (value) => ({ "--map-width": `${value}fr`, "--curves-width": `${100 - value}fr` }),
   },
   {
     name: "Height of the map",
+    key: "height",
     orientation: "horizontal",
     least: 200,
     most: 2000,
     start: 560,
     step: 20,
     valueAt: (event, view) => event.clientY - (view.querySelector(".stage")?.getBoundingClientRect().top ?? 0) - 10,
-    set: (view, value) => view.style.setProperty("--map-height", `${value}px`),
+    style: (value) => ({ "--map-height": `${value}px` }),
   },
 ];
 
 /** What moves a border, by pointer or by arrow keys; a double click puts it where it was. */
-function border(view: () => HTMLElement, how: Border): HTMLElement {
-  let value = how.start;
-  const set = (wanted: number): void => {
-    value = Math.round(Math.min(Math.max(wanted, how.least), how.most));
-    how.set(view(), value);
-    handle.setAttribute("aria-valuenow", String(value));
-  };
-  const isAcross = how.orientation === "vertical";
-  const keys: Record<string, number> = isAcross ? { ArrowLeft: -1, ArrowRight: 1 } : { ArrowUp: -1, ArrowDown: 1 };
-  const handle = el("div", {
-    class: `border ${how.orientation}`,
-    role: "separator",
-    tabindex: 0,
-    title: `${how.name}: drag, or arrow keys`,
-    "aria-label": how.name,
-    "aria-orientation": how.orientation,
-    "aria-valuemin": how.least,
-    "aria-valuemax": how.most,
-    "aria-valuenow": value,
-    dblclick: () => set(how.start),
-  });
-  handle.addEventListener("pointerdown", (event) => {
-    handle.setPointerCapture(event.pointerId);
-    event.preventDefault();
-    handle.focus();
-  });
-  handle.addEventListener("pointermove", (event) => {
-    if (handle.hasPointerCapture(event.pointerId)) set(how.valueAt(event, view()));
-  });
-  handle.addEventListener("keydown", (event) => {
-    const direction = keys[event.key];
-    if (direction === undefined) return;
-    event.preventDefault();
-    set(value + direction * how.step);
-  });
-  return handle;
+class Border {
+  readonly handle: HTMLElement;
+  /** Null where the style sheet has it. */
+  private value: number | null = null;
+
+  constructor(
+    private readonly view: () => HTMLElement,
+    readonly how: BorderKind,
+  ) {
+    const { name, orientation, least, most, start, step } = how;
+    const isAcross = orientation === "vertical";
+    const keys: Record<string, number> = isAcross ? { ArrowLeft: -1, ArrowRight: 1 } : { ArrowUp: -1, ArrowDown: 1 };
+    this.handle = el("div", {
+      class: `border ${orientation}`,
+      role: "separator",
+      tabindex: 0,
+      title: `${name}: drag, or arrow keys`,
+      "aria-label": name,
+      "aria-orientation": orientation,
+      "aria-valuemin": least,
+      "aria-valuemax": most,
+      "aria-valuenow": start,
+      dblclick: () => this.move(null),
+    });
+    const { handle } = this;
+    handle.addEventListener("pointerdown", (event) => {
+      handle.setPointerCapture(event.pointerId);
+      event.preventDefault();
+      handle.focus();
+    });
+    handle.addEventListener("pointermove", (event) => {
+      if (handle.hasPointerCapture(event.pointerId)) this.move(how.valueAt(event, view()));
+    });
+    handle.addEventListener("keydown", (event) => {
+      const direction = keys[event.key];
+      if (direction === undefined) return;
+      event.preventDefault();
+      this.move((this.value ?? start) + direction * step);
+    });
+  }
+
+  get state(): number | null {
+    return this.value;
+  }
+
+  set(wanted: number | null): void {
+    const { least, most, start, style } = this.how;
+    this.value = wanted === null ? null : Math.round(Math.min(Math.max(wanted, least), most));
+    for (const [name, text] of Object.entries(style(this.value ?? start)))
+      this.view().style.setProperty(name, this.value === null ? null : text);
+    this.handle.setAttribute("aria-valuenow", String(this.value ?? start));
+  }
+
+  private move(wanted: number | null): void {
+    this.set(wanted);
+    tellView(this.handle);
+  }
 }
 
 /** Of the map's right side and of its lower one. */
-export function bordersOf(view: () => HTMLElement): HTMLElement[] {
-  return borders.map((how) => border(view, how));
+export class Borders implements Linked {
+  private readonly all: Border[];
+
+  constructor(view: () => HTMLElement) {
+    this.all = borders.map((how) => new Border(view, how));
+  }
+
+  get handles(): HTMLElement[] {
+    return this.all.map(({ handle }) => handle);
+  }
+
+  state(): Record<string, string> {
+    return Object.fromEntries(this.all.flatMap(({ how, state }) => (state === null ? [] : [[how.key, String(state)]])));
+  }
+
+  setState(said: URLSearchParams): void {
+    for (const border of this.all) {
+      const value = Number.parseFloat(said.get(border.how.key) ?? "");
+      border.set(Number.isFinite(value) ? value : null);
+    }
+  }
 }
 
 /** Shows the map and the slider alone, on the whole screen where the browser allows that, or else in the whole window. */
 export class FullScreen {
   private isNative = false;
+  /** What the browser was asked for, and has not done yet. */
+  private isPending = false;
 
   constructor(private readonly view: HTMLElement) {
     document.addEventListener("fullscreenchange", () => {
       const was = this.isNative;
       this.isNative = document.fullscreenElement === view;
-      if (was && !this.isNative) view.classList.remove("full");
+      // The browser has its own keys to leave the whole screen.
+      if (was && !this.isNative && !this.isPending) view.classList.remove("full");
     });
     document.addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.isOn) this.toggle();
@@ -109,14 +154,24 @@ export class FullScreen {
   }
 
   toggle(): void {
-    if (this.isOn) {
-      this.view.classList.remove("full");
-      if (this.isNative) void document.exitFullscreen();
-      return;
+    this.view.classList.toggle("full");
+    void this.follow();
+  }
+
+  /** The browser takes its time, in which the reader may want something else again: one after the other. */
+  private async follow(): Promise<void> {
+    if (this.isPending) return;
+    this.isPending = true;
+    try {
+      for (let asked: boolean | null = null; asked !== this.isOn; ) {
+        asked = this.isOn;
+        if (asked === (document.fullscreenElement === this.view)) continue;
+        await (asked ? this.view.requestFullscreen() : document.exitFullscreen());
+      }
+    } catch {
+      // Pages within other pages may not have the whole screen.
     }
-    this.view.classList.add("full");
-    // Pages within other pages may not have the whole screen.
-    this.view.requestFullscreen?.().catch(() => undefined);
+    this.isPending = false;
   }
 }
 

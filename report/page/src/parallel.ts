@@ -2,8 +2,10 @@
 import { ratingColour } from "./colours";
 import type { Sweep } from "./data";
 import { el, replace } from "./elements";
+import { saveMenu } from "./export";
 import { percent } from "./numbers";
 import { svg } from "./svg";
+import { svgFile } from "./svg_file";
 
 const height = 230; // px
 const top = 26;
@@ -24,16 +26,19 @@ export function parallelCoordinates(sweep: Sweep): HTMLElement | null {
   if (sweep.settings.length < fewestSettings || sweep.effects.length < 2) return null;
   const target = el("div", { class: "parallel-plot" });
   const axes = [...sweep.effects.map(({ path, label }) => parameterAxis(sweep, path, label)), successAxis(sweep)];
+  const title = "Settings, a line for each, in the colour of their share of right trials; the best on top";
   let width = 0;
+  let shown: SVGSVGElement | null = null;
   new ResizeObserver(() => {
     if (target.clientWidth === width || target.clientWidth === 0) return;
     width = target.clientWidth;
-    replace(target, drawing(sweep, axes, width));
+    shown = drawing(sweep, axes, width);
+    replace(target, shown);
   }).observe(target);
   return el(
     "figure",
     { class: "parallel" },
-    el("figcaption", {}, "Settings, a line for each, in the colour of their share of right trials; the best on top"),
+    el("figcaption", {}, title, saveMenu(() => "parallel coordinates", () => (shown ? svgFile(shown, title) : ""))),
     el("div", { class: "scroll", tabindex: 0 }, target),
   );
 }
@@ -67,7 +72,7 @@ function parameterAxis({ settings }: Sweep, path: string, label: string): Axis {
   };
 }
 
-function drawing({ settings, effects }: Sweep, axes: Axis[], width: number): SVGElement {
+function drawing({ settings, effects }: Sweep, axes: Axis[], width: number): SVGSVGElement {
   const [left, right] = [50, width - 60];
   const x = (k: number): number => left + ((right - left) * k) / (axes.length - 1);
   const y = (at: number): number => bottom - at * (bottom - top);

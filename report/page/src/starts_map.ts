@@ -2,11 +2,13 @@
 import { ratingColour, themeColour } from "./colours";
 import type { GlobalMap, Outcome, Run, Trial } from "./data";
 import { el, replace } from "./elements";
+import { saveMenu } from "./export";
 import { boundingBox, union, type Box } from "./geometry";
 import { count, fixed } from "./numbers";
 import { PointLayer } from "./point_layer";
 import type { Store } from "./store";
 import { svg } from "./svg";
+import { svgFile } from "./svg_file";
 
 const metres = 1e-3; // of the whole mm in which points are given
 const margin = 14; // px
@@ -74,7 +76,9 @@ export class StartsMap {
     private readonly open: (trial: number) => void,
   ) {
     this.stage.append(this.drawing, this.tip);
-    this.element = el("div", { class: "panel starts", "data-share": "starts" }, el("h3", {}, "Where trials began"), this.choices, this.stage, this.legend);
+    const title = "Where trials began";
+    const menu = saveMenu(() => title, () => svgFile(this.drawing, title, this.canvas));
+    this.element = el("div", { class: "panel starts", "data-share": "starts" }, el("h3", {}, title), menu, this.choices, this.stage, this.legend);
     this.listen();
     store.subscribe((change) => {
       if (change.run) this.rebuild();

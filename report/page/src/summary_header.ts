@@ -39,7 +39,7 @@ const medians: Figure[] = [
   { label: "way", kind: () => "", tell: ofRight((s) => `${fixed(s.distance_to_localize_m.median, 2)} m`) },
   { label: "error", kind: () => "", tell: ofRight((s) => `${fixed(s.translation_error_m.median, 3)} m`) },
   { label: "angle error", kind: () => "", tell: ofRight((s) => `${fixed(s.rotation_error_deg.median, 2)}°`) },
-  { label: "time of a step", kind: () => "", tell: (s) => `${significant(s.step_ms.median, 2)} ms` },
+  { label: "wall time of a step", kind: () => "", tell: (s) => `${significant(s.step_ms.median, 2)} ms` },
 ];
 
 /** Those that every run has, and of the others those that some run has. */
@@ -128,7 +128,7 @@ function overview(store: Store, finished: Run[]): HTMLElement {
         el(
           "thead",
           {},
-          el("tr", {}, el("th", { scope: "col" }, "run"), el("th", { scope: "col" }, "trials"), ...columns.map((c) => el("th", { scope: "col" }, word(c.label, "span")))),
+          el("tr", {}, ...["run", "trials"].map((text) => el("th", { scope: "col" }, word(text, "span"))), ...columns.map((c) => el("th", { scope: "col" }, word(c.label, "span")))),
         ),
         el("tbody", {}, ...rows),
       ),

@@ -22,6 +22,11 @@ export function ticks(low: number, high: number, about: number): number[] {
   return Array.from({ length: to - from + 1 }, (_, i) => Number(((from + i) * step).toPrecision(12)));
 }
 
+/** Whether values from low to high are told apart better that way. What rounding has left of nothing would stretch it over many powers of ten. */
+export function isLogarithmic(low: number, high: number): boolean {
+  return low > 1e-6 * high && high / low > 30;
+}
+
 /** Powers of ten in [low, high], and their halves and fifths where there are few. */
 export function logTicks(low: number, high: number): number[] {
   const powers: number[] = [];

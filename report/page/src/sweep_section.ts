@@ -1,9 +1,12 @@
 // What a sweep has taught: its best settings, what each parameter does, and two of them in a map.
 import { ratingColour } from "./colours";
 import type { ParameterEffect, Proportion, Report, SettingOutcome, Sweep, SweepMap } from "./data";
-import { el, section, table } from "./elements";
+import { el, list, section, table } from "./elements";
+import { csvButtonOf, saveMenu } from "./export";
 import { count, fixed, percent, proportion } from "./numbers";
 import { parallelCoordinates } from "./parallel";
+import { effectSvg, heatSvg } from "./sweep_svg";
+import { explained, withMeaning } from "./words";
 
 const mostSettings = 20;
 
@@ -12,7 +15,7 @@ export function sweepSection({ sweep }: Report): HTMLElement | null {
   return section(
     "sweep",
     "Sweep",
-    sweep.warnings.length > 0 && el("ul", { class: "warning" }, ...sweep.warnings.map((text) => el("li", {}, text))),
+    list(sweep.warnings, "warning"),
     settingsTable(sweep),
     sweep.effects.length > 0 && el("div", { class: "effects" }, ...sweep.effects.map(effectChart)),
     el("div", { class: "maps" }, sweep.map && heatMap(sweep.map), parallelCoordinates(sweep)),
@@ -44,11 +47,11 @@ function settingsTable(sweep: Sweep): HTMLElement {
         "setting",
         "trials",
         "right, wrong, undecided",
-        `success${by(sweep.choose_on)}`,
-        "score",
+        explained(el("span", {}, `success${by(sweep.choose_on)}`), "success"),
+        explained(el("span", {}, "score"), "score of a setting"),
         "steps, median",
-        ...(isJudged ? [`success judged${by(sweep.judge_on)}`] : []),
-        ...sweep.effects.map((effect) => effect.label),
+        ...(isJudged ? [explained(el("span", {}, `success judged${by(sweep.judge_on)}`), "success judged")] : []),
+        ...sweep.effects.map(({ label, path }) => withMeaning(el("span", {}, label), `The setting's value of ${path}.`)),
       ],
       shown.map((setting) => [
         `${setting.setting || "the experiment"}${setting.complete ? "" : " (incomplete)"}`,
@@ -72,8 +75,17 @@ function intervalAndDot(p: Proportion): HTMLElement[] {
   ];
 }
 
+/** Shares are of 1. */
+function effectRows({ label, levels }: ParameterEffect): string[][] {
+  const head = [label, "settings", "trials", "right", "low", "high"];
+  const rows = levels.map(({ label, settings, trials, success_rate: { value, low, high } }) => [label, ...[settings, trials, value, low, high].map(String)]);
+  return [head, ...rows];
+}
+
 function effectChart(effect: ParameterEffect): HTMLElement {
   const correlation = effect.spearman === undefined ? "" : `; rank correlation ${fixed(effect.spearman, 2)}`;
+  const told = `: ${fixed(100 * effect.range, 1)} points${effect.quarters ? ", by quarters of its values" : ""}${correlation}`;
+  const what = (): string => `effect of ${effect.label}`;
   const ticks = [0, 0.25, 0.5, 0.75, 1];
   return el(
     "figure",
@@ -82,7 +94,9 @@ function effectChart(effect: ParameterEffect): HTMLElement {
       "figcaption",
       {},
       el("strong", { title: effect.path }, effect.label),
-      `: ${fixed(100 * effect.range, 1)} points${effect.quarters ? ", by quarters of its values" : ""}${correlation}`,
+      told,
+      saveMenu(what, () => effectSvg(effect, `${effect.label}${told}`)),
+      csvButtonOf(what, () => effectRows(effect)),
     ),
     ...effect.levels.flatMap((level) => [
       el("span", { class: "level", title: `${level.settings} settings, ${level.trials} trials` }, level.label),
@@ -96,6 +110,12 @@ function effectChart(effect: ParameterEffect): HTMLElement {
 
 /** Black or white, whichever is read more easily on the colour of a share: viridis is dark below the middle. */
 const inkOn = (share: number): string => (share > 0.43 ? "#000000" : "#ffffff");
+
+/** Percent of right trials, and nothing where there is no such setting. */
+function heatRows({ rows, columns, cells }: SweepMap): string[][] {
+  const number = ({ trials, success_rate: { value } }: SweepMap["cells"][0][0]): string => (trials > 0 ? String(100 * value) : "");
+  return [[`${rows.label} \\ ${columns.label}`, ...columns.levels], ...rows.levels.map((level, r) => [level, ...cells[r].map(number)])];
+}
 
 function heatMap(map: SweepMap): HTMLElement {
   const cell = (r: number, c: number): HTMLElement => {
@@ -111,10 +131,12 @@ function heatMap(map: SweepMap): HTMLElement {
     );
   };
   const stops = Array.from({ length: 11 }, (_, i) => ratingColour(i / 10)).join(", ");
+  const title = `Right trials, %, by ${map.rows.label} and ${map.columns.label}`;
+  const what = (): string => `${map.rows.label} and ${map.columns.label}`;
   return el(
     "figure",
     { class: "heat" },
-    el("figcaption", {}, `Right trials, %, by ${map.rows.label} and ${map.columns.label}`),
+    el("figcaption", {}, title, saveMenu(what, () => heatSvg(map, title, inkOn)), csvButtonOf(what, () => heatRows(map))),
     el(
       "div",
       { class: "scroll", tabindex: 0 },
@@ -125,12 +147,12 @@ function heatMap(map: SweepMap): HTMLElement {
           "thead",
           {},
           el("tr", {}, el("th", {}), el("th", { colspan: map.columns.levels.length, class: "name", title: map.columns.path }, map.columns.label)),
-          el("tr", {}, el("th", { class: "name", title: map.rows.path }, map.rows.label), ...map.columns.levels.map((text) => el("th", { scope: "col" }, text))),
+          el("tr", {}, el("th", { class: "name", title: map.rows.path }, map.rows.label), ...map.columns.levels.map((text) => el("th", { scope: "col", title: `${map.columns.path}: ${text}` }, text))),
         ),
         el(
           "tbody",
           {},
-          ...map.rows.levels.map((text, r) => el("tr", {}, el("th", { scope: "row" }, text), ...map.columns.levels.map((_, c) => cell(r, c)))),
+          ...map.rows.levels.map((text, r) => el("tr", {}, el("th", { scope: "row", title: `${map.rows.path}: ${text}` }, text), ...map.columns.levels.map((_, c) => cell(r, c)))),
         ),
       ),
     ),

@@ -1,7 +1,8 @@
 // What is told in tables: summaries, the comparison, configurations and where the results are from.
 import { type Comparison, type Difference, type Report, type Run, type Setting, type Summary } from "./data";
-import { el, replace, section, table } from "./elements";
-import { count, fixed, proportion, significant } from "./numbers";
+import { el, list, replace, section, table } from "./elements";
+import { count, fixed, nameOf, proportion, significant } from "./numbers";
+import { explained } from "./words";
 
 const name = (run: Run): string => run.name;
 
@@ -35,7 +36,7 @@ export function summarySection(runs: Run[]): HTMLElement {
     "Summary",
     interrupted.length > 0 &&
       el("p", { class: "warning" }, `Interrupted, so that trials are missing: ${interrupted.join(", ")}`),
-    table(["", ...runs.map(name)], rows.map(([title, tell]) => [title, ...cells(tell)])),
+    table(["", ...runs.map(name)], rows.map(([title, tell]) => [explained(el("span", {}, title)), ...cells(tell)])),
     el("p", { class: "note" }, "Intervals are those after Wilson, 95 %."),
   );
 }
@@ -49,10 +50,10 @@ export function comparisonSection(report: Report): HTMLElement | null {
   return section(
     "comparison",
     `Comparison with ${comparison.baseline}`,
-    el("ul", {}, ...comparison.pairs.map((pair) => el("li", {}, pair.conclusion))),
-    warnings.length > 0 && el("ul", { class: "warning" }, ...warnings.map((text) => el("li", {}, text))),
+    list(comparison.pairs.map((pair) => pair.conclusion)),
+    list(warnings, "warning"),
     table(
-      ["variant", "measure", comparison.baseline, "variant's", "difference (95 %)", "test", "p", "p after Holm"],
+      ["variant", "measure", explained(el("span", {}, comparison.baseline), "of the baseline"), "variant's", "difference (95 %)", "test", "p", "p after Holm"],
       comparisonRows(comparison),
     ),
     el(
@@ -84,7 +85,7 @@ function comparisonRows({ pairs }: Comparison): (Node | string)[][] {
     ]),
     ...pair.measures.map((m) => [
       pair.variant,
-      m.measure.replaceAll("_", " "),
+      nameOf(m.measure),
       significant(m.baseline_median),
       significant(m.variant_median),
       difference(m.median_difference),

@@ -11,6 +11,7 @@ import { count, fixed, percent } from "./numbers";
 import { cumulativeShare } from "./shares";
 import { hasStarts, StartsMap } from "./starts_map";
 import type { Store } from "./store";
+import { explained } from "./words";
 
 /** Chooses the trial, and shows it: in the list where nothing else is known of it. */
 function openTrial(store: Store, trial: number): void {
@@ -42,6 +43,7 @@ export class TrialList {
     const hasCertificates = trials.some((trial) => trial.certificate);
     const certificate = ({ certificate: c }: Trial): string[] =>
       hasCertificates ? [c ? `${percent(c.contact)}, elsewhere ≤ ${percent(c.at_most)}` : "–"] : [];
+    const word = (text: string, meant: string): HTMLElement => explained(el("span", {}, text), meant);
     const shown = this.hasAll ? trials : trials.slice(0, mostRows);
     const rows = shown.map((trial, i) => [
       el("button", { type: "button", "data-trial": i, click: () => openTrial(this.store, i) }, String(trial.trial)),
@@ -57,7 +59,17 @@ export class TrialList {
     replace(
       this.list,
       table(
-        ["trial", "start", "outcome", "steps", "distance, m", "error, m", "error, °", ...(hasCertificates ? ["contact certified"] : []), "why"],
+        [
+          "trial",
+          word("start", "start of a trial"),
+          "outcome",
+          word("steps", "steps of a trial"),
+          word("distance, m", "way of a trial"),
+          "error, m",
+          "error, °",
+          ...(hasCertificates ? ["contact certified"] : []),
+          "why",
+        ],
         rows,
         "trials",
       ),

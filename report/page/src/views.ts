@@ -4,10 +4,17 @@ import { el, replace } from "./elements";
 import type { MapView } from "./map_view";
 import type { SpaceView } from "./space_view";
 import type { Store } from "./store";
+import { tellView, type Linked } from "./view_change";
 
 type View = "orbit" | "above" | "plan";
 
 const names: Record<View, string> = { orbit: "in space", above: "from above", plan: "plan" };
+/** Of runs in space. */
+const opening: View = "orbit";
+
+function isView(text: string): text is View {
+  return text in names;
+}
 
 /** Pages of runs in space have a script that sets this. */
 declare global {
@@ -27,7 +34,7 @@ function hintOf(store: Store): HTMLElement {
   return hint;
 }
 
-export class Views {
+export class Views implements Linked {
   readonly element: HTMLElement;
   private readonly space: SpaceView | null = null;
   private readonly buttons = new Map<View, HTMLElement>();
@@ -52,12 +59,12 @@ export class Views {
       return;
     }
     for (const view of Object.keys(names) as View[]) {
-      const button = el("button", { type: "button", "data-view": view, click: () => this.choose(view) }, names[view]);
+      const button = el("button", { type: "button", "data-view": view, click: () => this.chosenByReader(view) }, names[view]);
       this.buttons.set(view, button);
       bar.append(button);
     }
     this.element = el("div", { class: "views" }, bar, this.space.element, plan.element);
-    this.choose("orbit");
+    this.choose(opening);
   }
 
   zoom(factor: number): void {
@@ -72,6 +79,19 @@ export class Views {
     this.shown.fit();
   }
 
+  state(): Record<string, string> {
+    const { plan, space, chosen } = this;
+    return { ...plan.state(), ...(space ? { ...(chosen === opening ? {} : { view: chosen }), ...space.state() } : {}) };
+  }
+
+  setState(said: URLSearchParams): void {
+    this.plan.setState(said);
+    if (!this.space) return;
+    const view = said.get("view") ?? "";
+    this.choose(isView(view) ? view : opening);
+    this.space.setState(said);
+  }
+
   /** Colours may be others. */
   drawNow(): void {
     this.plan.drawNow();
@@ -80,6 +100,11 @@ export class Views {
 
   private get shown(): MapView | SpaceView {
     return this.chosen === "plan" || !this.space ? this.plan : this.space;
+  }
+
+  private chosenByReader(view: View): void {
+    this.choose(view);
+    tellView(this.element);
   }
 
   private choose(view: View): void {

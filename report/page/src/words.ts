@@ -30,6 +30,11 @@ export const ofGlossary: Record<string, string> = {
   right: "declared, and near the reference.",
   wrong: "declared, and not near it.",
   undecided: "never declared.",
+  outcome: "right: declared, and near the reference. wrong: declared, and not near it. undecided: never declared.",
+  setting: "What a variant changes, apart from case and seed: what a sweep compares.",
+  variant: "The same experiment with some values changed: a setting, on a case, with a seed.",
+  baseline: "The run that glocal compare compares all others with.",
+  seed: "Fixes all random numbers. The same seed gives the same results.",
 };
 
 /** What the glossary has no word for. */
@@ -39,11 +44,39 @@ const ofPage: Record<string, string> = {
   "error at declaration": "How far the estimate is from the reference pose: the median of right trials, at the declaration.",
   steps: "Steps up to the declaration: the median of right trials.",
   way: "How far the robot drove up to the declaration: the median of right trials.",
-  "time of a step": "Wall-clock time of a whole step: local map, matching, clustering and rating. The median of all steps.",
+  "wall time of a step": "Wall-clock time of a whole step: local map, matching, clustering and rating. The median of all steps.",
   time: "Wall-clock time of this step, and of the matching in it.",
   "time per match": "Wall-clock time of the matching in each step.",
   failed: "Ended by an error of a strategy, which the trial's sentence names.",
   declared: "Declared, where no reference says whether that is right.",
+  run: "What one results folder holds.",
+  trials: "All trials of the run, or of the setting: of all its cases and seeds.",
+  success: "Share of right trials among all, with its 95 % interval.",
+  "success judged": "Share of right trials where nothing was chosen, with its 95 % interval: the number to report.",
+  "score of a setting": "Right less wrong trials, in points of 100 of all. Settings are ranked by it.",
+  "errors at declaration": "How far the estimate is from the reference pose, and turned against it: medians of right trials, at the declaration.",
+  "time, and of the slowest": "Wall-clock time of a whole step: the median of all steps, and what 95 % of them do not exceed.",
+  "time of matching": "Wall-clock time of the matching in a step: the median of all steps.",
+  "points of the map": "Points of the global map, as matchers take them.",
+  "memory, largest": "The most memory that the program held at once.",
+  measure: "What is compared: of all shared starts how trials ended, and of those at which both runs are right the rest.",
+  "of the baseline": "The baseline's number of trials, or its median.",
+  "variant's": "The variant's number of trials, or its median.",
+  "difference (95 %)": "Variant less baseline at the same starts, with its 95 % interval.",
+  test: "The statistical test that p is of.",
+  p: "How likely a difference no smaller would be if both runs were alike.",
+  "p after Holm": "p, made larger for the number of tests that were made. Bold: significant.",
+  "start of a trial": "How far along the drive the trial begins.",
+  "steps of a trial": "Steps up to the declaration; without one, all that the trial had.",
+  "way of a trial": "How far the robot drove up to the declaration; without one, in the whole trial.",
+  "error, m": "How far the declared pose is from the reference pose.",
+  "error, °": "How far the declared pose is turned against the reference pose.",
+  "contact certified": "How much of the local map is in contact with the map at the declared pose, and how much at most at any pose elsewhere.",
+  why: "The sentence of the verdict that the trial ended with, or of what made it fail.",
+  evidence: "A number that the verdict rests on.",
+  "evidence: steps": "For how many steps the best pose has been the same, moved by the local motion.",
+  "evidence: distance_m": "How far the robot drove in these steps.",
+  "evidence: turn_rate_deg": "How fast the robot turned since the step before, in degrees a second.",
   "x, y, θ": "Pose of the robot in the map: m, and degrees counter-clockwise from the map's x.",
   space: "Light: known to be free. Grey: nothing is known.",
   grid: "Lines with the map's coordinates in m.",
@@ -65,17 +98,30 @@ const same: Record<string, string> = {
   "x, m": "x, y, θ",
   "y, m": "x, y, θ",
   "θ, °": "x, y, θ",
+  "right, wrong, undecided": "outcome",
+  "experiment, seed": "seed",
+  "evidence: margin": "margin",
+  "evidence: free_space_violation": "free space violation",
+  "steps, median": "steps",
+  "steps to localize, median": "steps",
+  "distance to localize, median": "way",
+  "error when localized, median": "errors at declaration",
+  "wall time of a step, median (95 %)": "time, and of the slowest",
+  "matching, median": "time of matching",
 };
 
 export function meaningOf(word: string): string | undefined {
   const key = same[word] ?? word;
-  return ofGlossary[key] ?? ofPage[key];
+  return ofGlossary[key] ?? ofPage[key] ?? (word.startsWith("evidence: ") ? ofPage.evidence : undefined);
 }
 
 /** Makes an element tell what it means; nothing for words that mean nothing in particular. */
 export function explained<E extends HTMLElement>(element: E, word: string = element.textContent ?? ""): E {
   const meaning = meaningOf(word.trim());
-  if (meaning === undefined) return element;
+  return meaning === undefined ? element : withMeaning(element, meaning);
+}
+
+export function withMeaning<E extends HTMLElement>(element: E, meaning: string): E {
   element.classList.add("word");
   element.dataset.meaning = meaning;
   element.tabIndex = 0;
