@@ -97,13 +97,13 @@ std::vector<TalliedSetting> settings_of(const std::vector<SweepRun>& runs) {
   return settings;
 }
 
-/// Whether the one stands before the other.
+/// Whether the one is ranked before the other; equal ones stay as they are.
 bool is_better(const SettingResult& a, const SettingResult& b) {
   const auto key = [](const SettingResult& s) {
     return std::tuple(!s.complete, -s.chosen.score(),
                       s.chosen.median_steps.value_or(std::numeric_limits<double>::infinity()));
   };
-  return key(a) != key(b) ? key(a) < key(b) : a.name < b.name;
+  return key(a) < key(b);
 }
 
 /// Of all complete settings, over the trials that all of them have.
@@ -201,7 +201,7 @@ SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& 
   note_parts(parts, analysis);
   const std::vector<TalliedSetting> settings = settings_of(parts);
   for (const TalliedSetting& setting : settings) analysis.settings.push_back(setting.result);
-  std::sort(analysis.settings.begin(), analysis.settings.end(), is_better);
+  std::stable_sort(analysis.settings.begin(), analysis.settings.end(), is_better);
   analysis.parameters = figures_of(settings, map, false);
   analysis.chance = chance_among(settings);
   return analysis;

@@ -54,8 +54,8 @@ struct SweepAnalysis {
 /// those of the largest effect.
 using MapChoice = std::optional<std::pair<std::string, std::string>>;
 
-/// Settings are ranked by their score, then by fewer median steps, then by name. Throws ConfigError for runs
-/// that are no sweep, and for parameters that are none.
+/// Settings are ranked by their score, then by fewer median steps, then in the order of their first runs.
+/// Throws ConfigError for runs that are no sweep, and for parameters that are none.
 [[nodiscard]] SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& map = {});
 
 /// With more parameters than these a comparison of runs does not tell what each of them does.

@@ -167,7 +167,7 @@ TEST_F(PluginCommand, ACrashSaysInWhichStrategy) {
 /// Shards of trials that start at the stamps 0, 5, 10 and 15, one step each.
 class CrashingShard : public PluginCommand {
  protected:
-  CrashingShard() {
+  void SetUp() override {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "the sanitizer reports crashes itself";
 #endif

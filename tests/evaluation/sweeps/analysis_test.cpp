@@ -82,7 +82,7 @@ TEST(Sweep, IncompleteSettingsAreLastAndNeverTheBest) {
       sweep_run({.setting = "cut", .seed = 2}, "r")};
   runs.back().results.complete = false;
   const SweepAnalysis analysis = analyse_sweep(runs);
-  EXPECT_THAT(names(analysis), ElementsAre("a", "cut", "missing"));
+  EXPECT_THAT(names(analysis), ElementsAre("a", "missing", "cut")) << "equal ones in the order of their runs";
   EXPECT_TRUE(analysis.settings[0].complete);
   EXPECT_FALSE(analysis.settings[1].complete);
   EXPECT_FALSE(analysis.settings[2].complete);
