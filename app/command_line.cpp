@@ -21,7 +21,7 @@ constexpr int wrong_input = 2;
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
+  for (const CLI::App* command : subcommands_of(app)) {
     names.push_back(command->get_name());
   }
   return names;
@@ -71,6 +71,14 @@ int parse_and_run(CLI::App& app, const Context& context, int argc, char** argv) 
 }
 
 }  // namespace
+
+std::vector<const CLI::App*> subcommands_of(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App* /*any*/) { return true; });
+}
+
+std::vector<const CLI::App*> shown_subcommands(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); });
+}
 
 int run_command_line(CLI::App& app, const Context& context, int argc, char** argv) {
   return exit_code_of([&] { return parse_and_run(app, context, argc, argv); });

@@ -3,10 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <vector>
 
 #include "app/commands.hpp"
 
 namespace glocal::app {
+
+/// The commands below one.
+[[nodiscard]] std::vector<const CLI::App*> subcommands_of(const CLI::App& command);
+/// Those of them that are meant for people.
+[[nodiscard]] std::vector<const CLI::App*> shown_subcommands(const CLI::App& command);
 
 /// Parses the arguments and runs the subcommand they name. What goes wrong is said on stderr, and in the exit
 /// code: 1 failed while running, 2 wrong usage or configuration.

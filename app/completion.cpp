@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/embedded_files.hpp"
 #include "config/experiment_params.hpp"
@@ -34,15 +35,10 @@ const CLI::Option* option_named(std::string_view name, const CLI::App& app, cons
 }
 
 const CLI::App* subcommand_named(const std::string& name, const CLI::App& command) {
-  for (const CLI::App* sub : command.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
+  for (const CLI::App* sub : subcommands_of(command)) {
     if (sub->get_name() == name) return sub;
   }
   return nullptr;
-}
-
-/// How many words an option takes at least.
-int wanted_values(const CLI::Option& option) {
-  return option.get_items_expected_min();
 }
 
 Place place_after(const std::vector<std::string>& words, const CLI::App& app) {
@@ -56,9 +52,9 @@ Place place_after(const std::vector<std::string>& words, const CLI::App& app) {
       place.are_options_over = true;
     } else if (!place.are_options_over && word.size() > 1 && word.front() == '-') {
       const CLI::Option* option = option_named(word, app, *place.command);
-      if (option == nullptr || wanted_values(*option) == 0) continue;
+      if (option == nullptr || option->get_items_expected_min() == 0) continue;
       place.waiting = option;
-      still_wanted = wanted_values(*option);
+      still_wanted = option->get_items_expected_min();
     } else if (const CLI::App* sub = subcommand_named(word, *place.command); sub != nullptr) {
       place.command = sub;
       place.positionals = 0;
@@ -103,9 +99,8 @@ std::vector<Candidate> parts_of_experiments(const std::string& typed, const Cata
 
 std::vector<Candidate> subcommands(const CLI::App& command) {
   std::vector<Candidate> found;
-  for (const CLI::App* sub : command.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
-    if (!sub->get_group().empty()) found.push_back({sub->get_name(), sub->get_description()});
-  }
+  for (const CLI::App* sub : shown_subcommands(command))
+    found.push_back({sub->get_name(), sub->get_description()});
   return found;
 }
 

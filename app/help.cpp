@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "config/nearest.hpp"
 #include "glocal/error.hpp"
@@ -21,7 +22,7 @@ void help_on(const std::string& topic, const CLI::App& app, const Catalog& catal
     return;
   }
   std::vector<std::string> commands;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
+  for (const CLI::App* command : subcommands_of(app)) {
     commands.push_back(command->get_name());
     if (command->get_name() != topic) continue;
     fmt::print("{}", command->help(app.get_name()));

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "version.hpp"
@@ -50,14 +51,6 @@ std::string full_name(const CLI::App& command, char separator) {
                            : full_name(*parent, separator) + separator + command.get_name();
 }
 
-std::vector<const CLI::App*> subcommands_of(const CLI::App& command) {
-  std::vector<const CLI::App*> shown;
-  for (const CLI::App* sub : command.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
-    if (!sub->get_group().empty()) shown.push_back(sub);
-  }
-  return shown;
-}
-
 std::string synopsis(const CLI::App& command) {
   std::string text = ".SH SYNOPSIS\n" + bold(full_name(command, ' ')) + " [" + italic("OPTIONS") + "]";
   for (const CLI::Option* option : command.get_options()) {
@@ -66,7 +59,7 @@ std::string synopsis(const CLI::App& command) {
         italic(option->get_name()) + (option->get_items_expected_max() > 1 ? " ..." : "");
     text += option->get_required() ? " " + name : " [" + name + "]";
   }
-  if (!subcommands_of(command).empty()) text += " " + italic("COMMAND") + " ...";
+  if (!shown_subcommands(command).empty()) text += " " + italic("COMMAND") + " ...";
   return text + "\n";
 }
 
@@ -85,7 +78,7 @@ std::string options_section(const CLI::App& command, bool are_positional) {
 
 std::string subcommands_section(const CLI::App& command) {
   std::string text;
-  for (const CLI::App* sub : subcommands_of(command))
+  for (const CLI::App* sub : shown_subcommands(command))
     text += ".TP\n" + bold(full_name(*sub, '-')) + "(1)\n" + roff(sub->get_description()) + "\n";
   return text.empty() ? "" : ".SH COMMANDS\n" + text;
 }
@@ -133,7 +126,7 @@ std::string page_of(const CLI::App& command) {
 
 void add_pages(const CLI::App& command, OutputFolder& folder) {
   folder.append(full_name(command, '-') + ".1", page_of(command));
-  for (const CLI::App* sub : subcommands_of(command)) add_pages(*sub, folder);
+  for (const CLI::App* sub : shown_subcommands(command)) add_pages(*sub, folder);
 }
 
 }  // namespace
