@@ -29,7 +29,7 @@ const measures: Measure[] = [
   { id: "way", title: "Way to localize", unit: "m", of: "right trials", values: ofRight((t) => t.distance_m) },
   { id: "translation", title: "Error when localized", unit: "m", of: "right trials", values: ofRight((t) => t.translation_error_m) },
   { id: "rotation", title: "Error of the angle", unit: "°", of: "right trials", values: ofRight((t) => t.rotation_error_deg) },
-  { id: "time", title: "Time for a step", unit: "ms", of: "steps", values: stepTimes },
+  { id: "time", title: "Wall time of a step", unit: "ms", of: "steps", values: stepTimes },
 ];
 
 const mostAtFirst = 18;

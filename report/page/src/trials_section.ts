@@ -137,7 +137,7 @@ export class Distributions {
     const errors = [
       share("translation", "Translation error when localized", "m", ofRight((trial) => trial.translation_error_m)),
       share("rotation", "Rotation error when localized", "°", ofRight((trial) => trial.rotation_error_deg)),
-      share("time", "Time for a step", "ms", times, { logX: true }),
+      share("time", "Wall time of a step", "ms", times, { logX: true }),
     ];
     const curves = [
       share("over_steps", "Localized, by steps", "steps", rights((trial) => trial.steps)),
