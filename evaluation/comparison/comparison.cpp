@@ -55,8 +55,7 @@ RunFigures figures(const NamedRun& run, const TrialsByStart& trials, std::span<c
     for (const TrialResult* trial : trials) {
       if (const auto value = measure.of(*trial)) values.push_back(*value);
     }
-    figures.medians.push_back(values.empty() ? std::nullopt
-                                             : std::optional(quantile(std::move(values), 0.5)));
+    figures.medians.push_back(median_if_any(std::move(values)));
   }
   return figures;
 }

@@ -27,6 +27,10 @@ double quantile(std::vector<double> values, double p) {
   return std::lerp(values[below], values[above], place - std::floor(place));
 }
 
+std::optional<double> median_if_any(std::vector<double> values) {
+  return values.empty() ? std::nullopt : std::optional(quantile(std::move(values), 0.5));
+}
+
 double mean(const std::vector<double>& values) {
   if (values.empty()) return 0.0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace glocal {
@@ -9,6 +10,8 @@ namespace glocal {
 /// The p-quantile (p in [0, 1]) by linear interpolation between order statistics (R's type 7); 0 for no
 /// values.
 [[nodiscard]] double quantile(std::vector<double> values, double p);
+/// The median; none of no values.
+[[nodiscard]] std::optional<double> median_if_any(std::vector<double> values);
 
 /// 0 for no values.
 [[nodiscard]] double mean(const std::vector<double>& values);

@@ -44,7 +44,7 @@ class Tally {
     }
     outcome.success = success_of(right_);
     outcome.false_rate = success_of(wrong_);
-    if (!steps_.empty()) outcome.median_steps = quantile(steps_, 0.5);
+    outcome.median_steps = median_if_any(steps_);
     return outcome;
   }
 

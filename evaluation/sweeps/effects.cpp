@@ -102,10 +102,6 @@ void use_quarters(const Column& column, ParameterEffect& effect) {
 
 /// Settings that are counted together.
 class Group {
-  static std::optional<double> median(const std::vector<double>& values) {
-    return values.empty() ? std::nullopt : std::optional(quantile(values, 0.5));
-  }
-
  public:
   void add(const TriedSetting& setting) {
     ++settings_;
@@ -120,8 +116,8 @@ class Group {
             .trials = count_trials(trials_),
             .wrong = wrong_,
             .success = success_of(trials_),
-            .median_steps = median(steps_),
-            .median_step_cpu_ms = median(step_cpu_ms_)};
+            .median_steps = median_if_any(steps_),
+            .median_step_cpu_ms = median_if_any(step_cpu_ms_)};
   }
 
  private:

@@ -23,6 +23,12 @@ TEST(Quantile, OfOneValueIsThatValueAndOfNoneZero) {
   }
 }
 
+TEST(MedianIfAny, IsTheMiddleOneOrNone) {
+  EXPECT_EQ(median_if_any({8, 1, 4}), 4.0);
+  EXPECT_EQ(median_if_any({8, 1, 4, 2}), 3.0);
+  EXPECT_EQ(median_if_any({}), std::nullopt);
+}
+
 TEST(Mean, IsTheSumSharedOut) {
   EXPECT_DOUBLE_EQ(mean({1.0, 2.5, 4.0}), 2.5);
   EXPECT_EQ(mean({}), 0.0);
