@@ -25,6 +25,19 @@ oneapi::tbb::task_arena& arena_of(int threads) {
   return arenas.try_emplace(threads, threads).first->second;
 }
 
+/// What is done at the end of a scope, also if something is thrown.
+template <class Work>
+class AtEnd {
+ public:
+  explicit AtEnd(Work work) : work_(work) {}
+  AtEnd(const AtEnd&) = delete;
+  AtEnd& operator=(const AtEnd&) = delete;
+  ~AtEnd() { work_(); }
+
+ private:
+  Work work_;
+};
+
 }  // namespace
 
 void parallel_for(int threads, std::size_t n, const std::function<void(std::size_t)>& work) {
@@ -33,27 +46,27 @@ void parallel_for(int threads, std::size_t n, const std::function<void(std::size
     return;
   }
   oneapi::tbb::task_arena& arena = arena_of(threads);
-  // TBB orders these calls by itself, but ThreadSanitizer cannot see into it: said once more in terms it
-  // knows.
+  // TBB orders these calls and what they throw by itself, but ThreadSanitizer cannot see into it: said once
+  // more in terms it knows.
   std::atomic<std::size_t> begun{0};
   std::atomic<std::size_t> done{0};
   begun.store(1, std::memory_order_release);
   const RunningStage* const stage = running_stage();
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<std::int64_t> of_others_ns{0};
+  const AtEnd see_what_is_done([&] { (void)done.load(std::memory_order_acquire); });
   arena.execute([&] {
     oneapi::tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
       (void)begun.load(std::memory_order_acquire);
+      const AtEnd hand_over([&] { done.fetch_add(1, std::memory_order_release); });
       const StageScope scope(stage);
       const bool is_other = std::this_thread::get_id() != caller;
       const std::int64_t before = is_other ? cpu_time_ns() : 0;
       work(i);
       if (is_other) of_others_ns.fetch_add(cpu_time_ns() - before, std::memory_order_relaxed);
-      done.fetch_add(1, std::memory_order_release);
     });
   });
   add_cpu_time_of_others(of_others_ns.load(std::memory_order_relaxed));
-  (void)done.load(std::memory_order_acquire);
 }
 
 }  // namespace glocal
