@@ -18,7 +18,6 @@ using Json = nlohmann::ordered_json;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 
 /// Folders as glocal run leaves them: trial 0 of three steps with local maps and scans, trial 1 of one step.
 class ReportDataTest : public testing::Test {
