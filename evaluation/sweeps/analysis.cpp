@@ -48,12 +48,11 @@ class Tally {
     return outcome;
   }
 
-  /// As a setting that changes these values.
-  [[nodiscard]] TriedSetting with(const std::vector<std::pair<std::string, std::string>>& values,
-                                  bool with_times) const {
-    return {.values = values,
+  /// With what is known of its setting.
+  [[nodiscard]] TriedSetting tried(const SettingResult& setting, bool with_times) const {
+    return {.values = setting.values,
             .trials = right_,
-            .wrong = outcome().wrong,
+            .wrong = setting.chosen.wrong,
             .steps = steps_,
             .step_cpu_ms = with_times ? step_cpu_ms_ : std::vector<double>()};
   }
@@ -165,7 +164,7 @@ ParameterFigures figures_of(const std::vector<TalliedSetting>& settings, const M
                             bool with_times) {
   std::vector<TriedSetting> tried;
   for (const TalliedSetting& setting : settings)
-    tried.push_back(setting.chosen.with(setting.result.values, with_times));
+    tried.push_back(setting.chosen.tried(setting.result, with_times));
   ParameterFigures figures{effects_of(tried), {}};
   if (const auto axes = chosen_axes(map, figures.effects))
     figures.map = heat_map(tried, figures.effects, axes->first, axes->second);
