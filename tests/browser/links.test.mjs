@@ -3,9 +3,9 @@ import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, closeBrowser, drawn, mapView, moveSlider, open, skip } from "./open.mjs";
+import { assertQuiet, closeBrowser, drawn, mapView, moveSlider, open, pixelsOf, skip } from "./open.mjs";
 import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
-import { cellsOf, pixelsOf, saved } from "./saved.mjs";
+import { cellsOf, countColours, saved, seen } from "./saved.mjs";
 import { checkNumbers } from "./steps_check.mjs";
 
 const variants = ["paper", "fewer_draws"]; // in the order of the file
@@ -137,9 +137,9 @@ test("the map is saved as SVG and PNG, as it is shown", { skip }, async () => {
   const png = await saved(page, page.locator(".map [data-save=png]"));
   assert.equal(png.name, "paper_trial-0_step-0_map.png");
   const { box } = await mapView(page);
-  const drawing = await pixelsOf(page, svg.content, "image/svg+xml");
+  const drawing = await seen(page, svg.content, "image/svg+xml");
   assert.deepEqual([drawing.width, drawing.height], [Math.round(box.width), Math.round(box.height)]);
-  const picture = await pixelsOf(page, png.content, "image/png");
+  const picture = await seen(page, png.content, "image/png");
   assert.deepEqual([picture.width, picture.height], [2 * drawing.width, 2 * drawing.height]);
   const colour = (name) =>
     page.evaluate((name) => {
@@ -147,19 +147,7 @@ test("the map is saved as SVG and PNG, as it is shown", { skip }, async () => {
       return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)).join(",");
     }, name);
   // Walls and the local map cover as much as on the page, twice as long and wide.
-  const onPage = await page.locator(".stage canvas").evaluate((canvas) => {
-    const copy = document.createElement("canvas");
-    Object.assign(copy, { width: canvas.width, height: canvas.height });
-    const context = copy.getContext("2d");
-    context.drawImage(canvas, 0, 0);
-    const { data } = context.getImageData(0, 0, copy.width, copy.height);
-    const colours = {};
-    for (let i = 0; i < data.length; i += 4) {
-      const colour = `${data[i]},${data[i + 1]},${data[i + 2]}`;
-      colours[colour] = (colours[colour] ?? 0) + 1;
-    }
-    return colours;
-  });
+  const onPage = countColours(await pixelsOf(page, ".stage canvas"));
   for (const name of ["wall", "local-map"]) {
     const key = await colour(name);
     assert.ok(onPage[key] > 50, `${name}: ${onPage[key]}`);
@@ -191,6 +179,6 @@ test("curves are saved with their lines and the names of the runs", { skip }, as
     assert.ok(Math.abs(v - expected) < 0.3, `${v} for ${expected}`);
   }
   const png = await saved(page, page.locator("[data-curve=omega_best] [data-save=png]"));
-  const picture = await pixelsOf(page, png.content, "image/png");
+  const picture = await seen(page, png.content, "image/png");
   assert.ok(Object.keys(picture.colours).length > 10);
 });

@@ -89,22 +89,29 @@ export async function mapView(page, canvas = plan) {
   };
 }
 
-/** The map's drawing as it is: red, green, blue, opacity of its pixels, which places on the screen lead to. */
-async function drawing(page, canvas) {
-  const { bytes, width, height, box } = await page.locator(canvas).evaluate((canvas) => {
+/** What a canvas or an image shows: its width and height, and red, green, blue, opacity of each pixel, row by row. */
+export async function pixelsOf(page, element) {
+  const { bytes, width, height } = await page.locator(element).evaluate((element) => {
     // Reading the page's own canvas again and again would have the browser warn of it.
     const copy = document.createElement("canvas");
-    copy.width = canvas.width;
-    copy.height = canvas.height;
+    Object.assign(copy, { width: element.width, height: element.height });
     const context = copy.getContext("2d", { willReadFrequently: true });
-    context.drawImage(canvas, 0, 0);
+    context.drawImage(element, 0, 0);
     const { data, width, height } = context.getImageData(0, 0, copy.width, copy.height);
     let text = "";
     for (let i = 0; i < data.length; i += 8192) text += String.fromCharCode(...data.subarray(i, i + 8192));
-    const { left, top, width: shown } = canvas.getBoundingClientRect();
-    return { bytes: btoa(text), width, height, box: { left, top, ratio: canvas.width / shown } };
+    return { bytes: btoa(text), width, height };
   });
-  const data = Buffer.from(bytes, "base64");
+  return { data: Buffer.from(bytes, "base64"), width, height };
+}
+
+/** The map's drawing as it is: red, green, blue, opacity of its pixels, which places on the screen lead to. */
+async function drawing(page, canvas) {
+  const { data, width, height } = await pixelsOf(page, canvas);
+  const box = await page.locator(canvas).evaluate((canvas) => {
+    const { left, top, width: shown } = canvas.getBoundingClientRect();
+    return { left, top, ratio: canvas.width / shown };
+  });
   return ({ x, y }) => {
     const [column, row] = [Math.floor((x - box.left) * box.ratio), Math.floor((y - box.top) * box.ratio)];
     const isInside = column >= 0 && row >= 0 && column < width && row < height;

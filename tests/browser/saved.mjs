@@ -1,5 +1,6 @@
 // Files that a page saves.
 import { readFileSync } from "node:fs";
+import { pixelsOf } from "./open.mjs";
 
 /** What a button saves: the file's name and its content. */
 export async function saved(page, button) {
@@ -20,25 +21,22 @@ export function cellsOf(text) {
   return rows.slice(0, -1);
 }
 
-/** Pixels of an SVG or PNG file, in a page of their own. */
-export async function pixelsOf(page, content, kind) {
+/** How many pixels have each colour ("red,green,blue"). */
+export function countColours({ data }) {
+  const colours = {};
+  for (let i = 0; i < data.length; i += 4) {
+    const colour = `${data[i]},${data[i + 1]},${data[i + 2]}`;
+    colours[colour] = (colours[colour] ?? 0) + 1;
+  }
+  return colours;
+}
+
+/** Size and colours of an SVG or PNG file, seen in a page of its own. */
+export async function seen(page, content, kind) {
   const picture = await page.context().newPage();
-  const read = await picture.evaluate(async (url) => {
-    const image = new Image();
-    image.src = url;
-    await image.decode();
-    const canvas = document.createElement("canvas");
-    Object.assign(canvas, { width: image.width, height: image.height });
-    const context = canvas.getContext("2d");
-    context.drawImage(image, 0, 0);
-    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
-    const colours = {};
-    for (let i = 0; i < data.length; i += 4) {
-      const colour = `${data[i]},${data[i + 1]},${data[i + 2]}`;
-      colours[colour] = (colours[colour] ?? 0) + 1;
-    }
-    return { width: image.width, height: image.height, colours };
-  }, `data:${kind};base64,${content.toString("base64")}`);
+  await picture.setContent(`<img src="data:${kind};base64,${content.toString("base64")}">`);
+  await picture.locator("img").evaluate((image) => image.decode());
+  const pixels = await pixelsOf(picture, "img");
   await picture.close();
-  return read;
+  return { width: pixels.width, height: pixels.height, colours: countColours(pixels) };
 }

@@ -5,21 +5,12 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, closeBrowser, coloursAt, drawn, mapView, moveSlider, open, painted, skip } from "./open.mjs";
+import { assertQuiet, closeBrowser, coloursAt, drawn, mapView, moveSlider, open, painted, pixelsOf, skip } from "./open.mjs";
 import { readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { viridis } from "./viridis.mjs";
 
 const canvas = ".space .stage canvas";
 
-/** What a function, which the page calls, makes of what is drawn: an ImageData. */
-const ofPicture = (page, tell) =>
-  page.locator(canvas).evaluate((element, text) => {
-    const copy = document.createElement("canvas");
-    Object.assign(copy, { width: element.width, height: element.height });
-    const context = copy.getContext("2d", { willReadFrequently: true });
-    context.drawImage(element, 0, 0);
-    return new Function("picture", `return (${text})(picture)`)(context.getImageData(0, 0, copy.width, copy.height));
-  }, String(tell));
 let folder, file, steps, opened, page, work;
 
 before(async () => {
@@ -156,7 +147,7 @@ test("in space the view turns by dragging, and heights can be cut", { skip }, as
   await showOnly("map");
   const picture = () => page.locator(canvas).evaluate((element) => element.toDataURL());
   /** Of the colours that high points have: viridis is green from its middle on. */
-  const highPixels = () => ofPicture(page, ({ data }) => data.filter((value, i) => i % 4 === 1 && value > 140).length);
+  const highPixels = async () => (await pixelsOf(page, canvas)).data.filter((value, i) => i % 4 === 1 && value > 140).length;
   const [before, all] = [await picture(), await highPixels()];
   assert.ok(all > 3000, `${all} pixels`);
   const box = await page.locator(canvas).boundingBox();
@@ -287,15 +278,15 @@ test("the certificate is told in a sentence with its numbers", { skip }, async (
 
 test("with a graphics card the same is drawn, without keeping the map", { skip }, async () => {
   /** Cells of 6 px in which anything is painted: smooth edges change single pixels. */
-  const cells = (page) =>
-    ofPicture(page, ({ data, width }) => {
-      const painted = new Set();
-      for (let i = 3; i < data.length; i += 4) {
-        const at = (i - 3) / 4;
-        if (data[i] > 127) painted.add(1000 * Math.floor(at / width / 6) + Math.floor((at % width) / 6));
-      }
-      return [...painted];
-    });
+  const cells = async (page) => {
+    const { data, width } = await pixelsOf(page, canvas);
+    const painted = new Set();
+    for (let i = 3; i < data.length; i += 4) {
+      const at = (i - 3) / 4;
+      if (data[i] > 127) painted.add(1000 * Math.floor(at / width / 6) + Math.floor((at % width) / 6));
+    }
+    return [...painted];
+  };
   const isSmooth = (page) =>
     page.locator(canvas).evaluate((element) => element.getContext("webgl2").getContextAttributes().antialias);
   const kept = await open(file);

@@ -5,7 +5,7 @@ import { after, before, test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
 import { assertQuiet, closeBrowser, open, skip } from "./open.mjs";
-import { cellsOf, pixelsOf, saved } from "./saved.mjs";
+import { cellsOf, saved, seen } from "./saved.mjs";
 import { glocal, report, runExperiment, workFolder } from "./runs.mjs";
 
 let opened, page, sweep;
@@ -110,7 +110,7 @@ test("the map of two parameters is saved as a picture and as numbers", { skip },
     cells[r].forEach(({ trials, success_rate: { value } }, c) => assert.equal(csv[r + 1][c + 1], trials > 0 ? String(100 * value) : ""));
   });
   const png = await saved(page, figure.locator("[data-save=png]"));
-  const { colours } = await pixelsOf(page, png.content, "image/png");
+  const { colours } = await seen(page, png.content, "image/png");
   const shown = await figure.locator("td:not(.empty)").evaluateAll((all) => all.map((cell) => getComputedStyle(cell).backgroundColor.match(/\d+/g).join(",")));
   for (const colour of shown) assert.ok(colours[colour] > 2000, `${colour}: ${colours[colour]}`);
 });
@@ -130,7 +130,7 @@ test("parallel coordinates and boxes are saved as they are shown", { skip }, asy
   for (const [part, name] of [["[data-boxes=steps]", "steps-to-localize.png"], ["#sweep .parallel", "parallel-coordinates.png"]]) {
     const png = await saved(page, page.locator(part).locator("[data-save=png]"));
     assert.equal(png.name, name);
-    assert.ok(Object.keys((await pixelsOf(page, png.content, "image/png")).colours).length > 20, part);
+    assert.ok(Object.keys((await seen(page, png.content, "image/png")).colours).length > 20, part);
   }
 });
 
