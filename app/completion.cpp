@@ -17,7 +17,7 @@
 namespace glocal::app {
 namespace {
 
-/// What stands where on a command line: where the word begins that is to be completed.
+/// What stands before the word that is to be completed.
 struct Place {
   const CLI::App* command;
   const CLI::Option* waiting = nullptr;  ///< An option whose value comes next.

@@ -19,8 +19,7 @@ struct Completion {
   bool files = false;  ///< Any file or folder may stand there.
 };
 
-/// For the last of the words, as far as it is typed, behind the program's name; no word is wanted if it is
-/// empty.
+/// For the last of these words, which follow the program's name. An empty one has not been begun.
 [[nodiscard]] Completion complete(const std::vector<std::string>& words, const CLI::App& app,
                                   const Catalog& catalog);
 

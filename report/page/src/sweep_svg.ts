@@ -22,6 +22,11 @@ function titled(width: number, height: number, title: string): SvgPen {
   return pen;
 }
 
+function write(pen: SvgPen, words: string, x: number, y: number, align: CanvasTextAlign): void {
+  pen.textAlign = align;
+  pen.fillText(words, x, y);
+}
+
 /** A row for each level: its interval and its mean on an axis of shares. */
 export function effectSvg({ levels }: ParameterEffect, title: string): string {
   const left = margin + widthOf([...levels.map(({ label }) => label), "right trials"]) + 16;
@@ -29,16 +34,12 @@ export function effectSvg({ levels }: ParameterEffect, title: string): string {
   const at = (share: number): number => left + share * length;
   const bottom = titleHeight + row * levels.length;
   const pen = titled(left + length + 80, bottom + 2 * row, title);
-  const text = (words: string, x: number, y: number, align: CanvasTextAlign): void => {
-    pen.textAlign = align;
-    pen.fillText(words, x, y);
-  };
   levels.forEach((level, i) => {
     const y = titleHeight + row * (i + 0.5);
     const { value, low, high } = level.success_rate;
     pen.fillStyle = themeColour("ink");
-    text(level.label, left - 12, y, "end");
-    text(level.trials > 0 ? percent(value) : "–", left + length + 60, y, "end");
+    write(pen, level.label, left - 12, y, "end");
+    write(pen, level.trials > 0 ? percent(value) : "–", left + length + 60, y, "end");
     if (level.trials === 0) return;
     pen.strokeStyle = pen.fillStyle = themeColour("estimate");
     pen.lineWidth = 3;
@@ -57,8 +58,8 @@ export function effectSvg({ levels }: ParameterEffect, title: string): string {
   pen.lineTo(left + length, bottom);
   pen.stroke();
   pen.fillStyle = themeColour("soft");
-  for (const tick of [0, 0.25, 0.5, 0.75, 1]) text(`${100 * tick} %`, at(tick), bottom + row / 2, "center");
-  text("right trials", left - 24, bottom + row / 2, "end");
+  for (const tick of [0, 0.25, 0.5, 0.75, 1]) write(pen, `${100 * tick} %`, at(tick), bottom + row / 2, "center");
+  write(pen, "right trials", left - 24, bottom + row / 2, "end");
   return pen.file(title, themeColour("paper"));
 }
 
@@ -69,19 +70,15 @@ export function heatSvg({ rows, columns, cells }: SweepMap, title: string, inkOn
   const top = titleHeight + 2 * row;
   const high = 30;
   const pen = titled(left + side * columns.levels.length + margin, top + high * rows.levels.length + margin, title);
-  const text = (words: string, x: number, y: number, align: CanvasTextAlign): void => {
-    pen.textAlign = align;
-    pen.fillText(words, x, y);
-  };
   pen.font = `italic ${font}`;
-  text(columns.label, left + (side * columns.levels.length) / 2, titleHeight + row / 2, "center");
-  text(rows.label, left - 12, titleHeight + 1.5 * row, "end");
+  write(pen, columns.label, left + (side * columns.levels.length) / 2, titleHeight + row / 2, "center");
+  write(pen, rows.label, left - 12, titleHeight + 1.5 * row, "end");
   pen.font = font;
-  columns.levels.forEach((level, c) => text(level, left + side * (c + 0.5), titleHeight + 1.5 * row, "center"));
+  columns.levels.forEach((level, c) => write(pen, level, left + side * (c + 0.5), titleHeight + 1.5 * row, "center"));
   rows.levels.forEach((level, r) => {
     const y = top + high * (r + 0.5);
     pen.fillStyle = themeColour("ink");
-    text(level, left - 12, y, "end");
+    write(pen, level, left - 12, y, "end");
     cells[r].forEach(({ trials, success_rate: { value } }, c) => {
       const x = left + side * c;
       if (trials > 0) {
@@ -89,7 +86,7 @@ export function heatSvg({ rows, columns, cells }: SweepMap, title: string, inkOn
         pen.fillRect(x, top + high * r, side, high);
       }
       pen.fillStyle = trials > 0 ? inkOn(value) : themeColour("soft");
-      text(trials > 0 ? fixed(100 * value, 0) : "–", x + side / 2, y, "center");
+      write(pen, trials > 0 ? fixed(100 * value, 0) : "–", x + side / 2, y, "center");
     });
   });
   return pen.file(title, themeColour("paper"));
