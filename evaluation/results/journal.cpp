@@ -10,6 +10,7 @@
 #include "config/text_file.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
+#include "evaluation/results/pose_json.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -25,15 +26,29 @@ PoseError error_of(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>()};
 }
 
+Json to_json(const Declaration& declaration) {
+  return {{"at_m", declaration.at_m},
+          {"segment", declaration.segment},
+          {"map_from_robot", to_json(declaration.map_from_robot, Motion::free)},
+          {"odom_from_robot", to_json(declaration.odom_from_robot, Motion::free)}};
+}
+
+Declaration declaration_of(const Json& json) {
+  return {json.at("at_m"), json.at("segment"), pose_of(json.at("map_from_robot")),
+          pose_of(json.at("odom_from_robot"))};
+}
+
 Json to_json(const TrialFigures& figures) {
   Json step_ms = Json::array();
   for (const StageTimes& ms : figures.step_ms)
     step_ms.push_back({ms.local_map, ms.match, ms.cluster, ms.rate, ms.verify});
   Json later_errors = Json::array();
   for (const PoseError& error : figures.later_errors) later_errors.push_back(to_json(error));
-  return {{"outcome", to_string(figures.outcome)}, {"steps", figures.steps},
-          {"distance_m", figures.distance_m},      {"error", to_json(figures.error)},
-          {"step_ms", std::move(step_ms)},         {"later_errors", std::move(later_errors)}};
+  Json json = {{"outcome", to_string(figures.outcome)}, {"steps", figures.steps},
+               {"distance_m", figures.distance_m},      {"error", to_json(figures.error)},
+               {"step_ms", std::move(step_ms)},         {"later_errors", std::move(later_errors)}};
+  if (figures.declaration) json["declaration"] = to_json(*figures.declaration);
+  return json;
 }
 
 TrialFigures figures_of(const Json& json) {
@@ -45,6 +60,7 @@ TrialFigures figures_of(const Json& json) {
   for (const Json& ms : json.at("step_ms"))
     figures.step_ms.push_back({ms.at(0), ms.at(1), ms.at(2), ms.at(3), ms.at(4)});
   for (const Json& error : json.at("later_errors")) figures.later_errors.push_back(error_of(error));
+  if (json.contains("declaration")) figures.declaration = declaration_of(json.at("declaration"));
   return figures;
 }
 

@@ -31,6 +31,9 @@ double peak_rss_mb() {
 TrialFigures figures_of(const TrialRecord& trial) {
   TrialFigures figures{trial.outcome, static_cast<double>(trial.steps), trial.distance_m};
   if (trial.outcome == Outcome::right) figures.error = *trial.error;
+  if (trial.outcome == Outcome::declared)
+    figures.declaration = {trial.start_m + trial.distance_m, trial.segment, *trial.pose,
+                           *trial.odom_from_robot};
   for (const StepRecord& step : trial.records) {
     figures.step_ms.push_back(step.result.stage_ms);
     if (step.result.verdict.kind == VerdictKind::localized && step.on_map && step.error)
@@ -52,6 +55,7 @@ void Summary::add(const TrialFigures& trial) {
     translations_m_.push_back(trial.error.translation_m);
     rotations_deg_.push_back(degrees(trial.error.rotation_rad));
   }
+  if (trial.declaration) declarations_.push_back(*trial.declaration);
   for (const StageTimes& ms : trial.step_ms) {
     ms_.local_map.push_back(ms.local_map);
     ms_.match.push_back(ms.match);
@@ -68,7 +72,11 @@ void Summary::add(const TrialFigures& trial) {
 
 Json Summary::figures() const {
   Json trials = {{"count", count_}, {"right", right_}, {"wrong", wrong_}, {"undecided", undecided_}};
-  if (declared_ > 0) trials["declared_without_reference"] = declared_;
+  if (declared_ > 0) {
+    const Agreement agreement = agreement_of(declarations_);
+    trials["declared_without_reference"] = declared_;
+    trials["agreement"] = {{"pairs", agreement.pairs}, {"disagree_at_m", agreement.disagree_at_m}};
+  }
   if (failed_ > 0) trials["failed"] = failed_;
   Json stage_ms = {{"local_map", spread(ms_.local_map)},
                    {"match", spread(ms_.match)},

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/results/agreement.hpp"
 #include "evaluation/running/trials.hpp"
 #include "glocal/strategies.hpp"
 
@@ -17,9 +18,10 @@ struct TrialFigures {
   Outcome outcome = Outcome::undecided;
   double steps = 0.0;
   double distance_m = 0.0;
-  PoseError error = {};                      ///< Of a right declaration.
-  std::vector<StageTimes> step_ms = {};      ///< Of all steps.
-  std::vector<PoseError> later_errors = {};  ///< Of the steps on the map that are localized.
+  PoseError error = {};                         ///< Of a right declaration.
+  std::vector<StageTimes> step_ms = {};         ///< Of all steps.
+  std::vector<PoseError> later_errors = {};     ///< Of the steps on the map that are localized.
+  std::optional<Declaration> declaration = {};  ///< Of one that no reference can judge.
 };
 [[nodiscard]] TrialFigures figures_of(const TrialRecord& trial);
 
@@ -55,6 +57,7 @@ class Summary {
   std::vector<double> steps_, distances_m_;             ///< Of right trials.
   std::vector<double> translations_m_, rotations_deg_;  ///< Of right declarations.
   std::vector<double> later_translations_m_, later_rotations_deg_;
+  std::vector<Declaration> declarations_;
   Values ms_;
 };
 

@@ -6,12 +6,54 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <vector>
+
+#include "glocal/words.hpp"
 
 namespace glocal {
 namespace {
 
 double median(const nlohmann::ordered_json& values) {
   return values.at("median").get<double>();
+}
+
+int count(const nlohmann::ordered_json& trials, const char* outcome) {
+  return trials.value(outcome, 0);
+}
+
+/// Whether declared poses that nothing can judge agree with each other.
+std::string agreement_text(const nlohmann::ordered_json& agreement) {
+  const int pairs = agreement.at("pairs").get<int>();
+  const auto& disagree = agreement.at("disagree_at_m");
+  if (pairs == 0) return "";
+  if (disagree.empty())
+    return fmt::format("  agreement           {} along the drive, by odometry\n",
+                       pairs == 1 ? "both declared poses agree" : "all declared poses agree with each other");
+  std::vector<std::string> places;
+  for (const auto& place : disagree) places.push_back(fmt::format("{:.1f}", place.get<double>()));
+  return fmt::format(
+      "  agreement           {} of {} declared poses disagree with the one before, carried on by odometry: "
+      "at "
+      "{} m\n",
+      disagree.size(), pairs + 1, listed(places));
+}
+
+/// Of a run without references there is nothing that success could mean.
+std::string outcomes_text(const nlohmann::ordered_json& trials, const nlohmann::ordered_json& success) {
+  const int declared = count(trials, "declared_without_reference");
+  std::string judged = fmt::format("{} right, {} wrong, ", count(trials, "right"), count(trials, "wrong"));
+  if (declared > 0 && count(trials, "right") + count(trials, "wrong") == 0) judged.clear();
+  std::string text =
+      fmt::format("  trials              {}: {}{}{} undecided\n", count(trials, "count"),
+                  declared > 0 ? fmt::format("{} declared without reference pose, ", declared) : "", judged,
+                  count(trials, "undecided"));
+  if (trials.contains("failed")) text += fmt::format("  failed              {}\n", count(trials, "failed"));
+  if (trials.contains("agreement")) text += agreement_text(trials["agreement"]);
+  if (judged.empty()) return text;
+  return text + fmt::format("  success             {:.1f} % (95 %: {:.1f} to {:.1f} %)\n",
+                            100.0 * success.at("value").get<double>(),
+                            100.0 * success.at("low").get<double>(),
+                            100.0 * success.at("high").get<double>());
 }
 
 }  // namespace
@@ -21,15 +63,7 @@ std::string summary_text(const nlohmann::ordered_json& s) {
   std::string text =
       fmt::format("{}, seed {}{}\n", s.at("name").get<std::string>(), s.at("seed").get<std::uint64_t>(),
                   s.at("complete").get<bool>() ? "" : " (interrupted: some trials are missing)");
-  text += fmt::format("  trials              {}: {} right, {} wrong, {} undecided\n",
-                      trials.at("count").get<int>(), trials.at("right").get<int>(),
-                      trials.at("wrong").get<int>(), trials.at("undecided").get<int>());
-  if (trials.contains("failed"))
-    text += fmt::format("  failed              {}\n", trials["failed"].get<int>());
-  const auto& rate = s.at("success_rate");
-  text += fmt::format("  success             {:.1f} % (95 %: {:.1f} to {:.1f} %)\n",
-                      100.0 * rate.at("value").get<double>(), 100.0 * rate.at("low").get<double>(),
-                      100.0 * rate.at("high").get<double>());
+  text += outcomes_text(trials, s.at("success_rate"));
   if (trials.at("right").get<int>() > 0) {
     const auto& translation = s.at("translation_error_m");
     const auto& rotation = s.at("rotation_error_deg");

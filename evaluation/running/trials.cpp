@@ -113,6 +113,7 @@ TrialRecord begun_trial(const Drive& drive, Motion motion, std::size_t trial, st
   TrialRecord record;
   record.trial = trial;
   record.start_sample = start_sample;
+  record.segment = start.segment;
   record.start_m = drive.path_m[start_sample];
   record.start_stamp = start.observation.stamp;
   record.motion = motion;
@@ -143,7 +144,9 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
     record.steps = i - start_sample + 1;
     record.distance_m = drive.path_m[i] - record.start_m;
     record.why = step.result.verdict.why;
-    if (step.result.verdict.kind == VerdictKind::localized) declare(record, step, experiment.evaluation);
+    if (step.result.verdict.kind != VerdictKind::localized) continue;
+    record.odom_from_robot = sample.observation.odom_from_robot;
+    declare(record, step, experiment.evaluation);
   }
   return record;
 }

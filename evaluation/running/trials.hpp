@@ -35,6 +35,7 @@ struct StepRecord {
 struct TrialRecord {
   std::size_t trial = 0;
   std::size_t start_sample = 0;
+  int segment = 0;
   double start_m = 0.0;  ///< Along the drive.
   double start_stamp = 0.0;
   Motion motion = Motion::planar;  ///< Says how poses are written.
@@ -43,6 +44,7 @@ struct TrialRecord {
   std::size_t steps = 0;                     ///< Up to the declaration; all of them if there is none.
   double distance_m = 0.0;                   ///< Driven in these steps.
   std::optional<Pose3> pose;                 ///< Declared robot pose.
+  std::optional<Pose3> odom_from_robot;      ///< Odometry at the declaration.
   std::optional<PoseError> error;            ///< Of the declared pose.
   std::optional<PoseEstimate> estimate;      ///< Of the rule that declared it, where it has one.
   std::optional<double> nees;                ///< Normalised error squared of that, where it has a covariance.

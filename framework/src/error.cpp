@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "glocal/words.hpp"
+
 namespace glocal {
 namespace {
 
@@ -34,7 +36,7 @@ std::string to_string(const Fault& fault) {
   if (fault.line > 0) text += ':' + std::to_string(fault.line);
   if (fault.line > 0 && fault.column > 0) text += ':' + std::to_string(fault.column);
   if (!text.empty()) text += ": ";
-  return text + "error: " + fault.message;
+  return fit_message(text + "error: " + fault.message);
 }
 
 ConfigError::ConfigError(std::vector<Fault> faults)

@@ -18,7 +18,7 @@ struct Fault {
   friend bool operator==(const Fault&, const Fault&) = default;
 };
 
-/// `file:line:column: error: message`, leaving out what is not known.
+/// `file:line:column: error: message`, leaving out what is not known; printable, whatever the file has in it.
 [[nodiscard]] std::string to_string(const Fault& fault);
 
 /// Unusable configuration or input data: the program ends with exit code 2 before anything has been written.

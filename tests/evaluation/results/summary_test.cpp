@@ -17,7 +17,7 @@ TrialRecord trial(Outcome outcome, std::size_t steps, double distance_m, const P
   record.outcome = outcome;
   record.steps = steps;
   record.distance_m = distance_m;
-  if (outcome != Outcome::undecided) record.pose = Pose2{};
+  if (outcome != Outcome::undecided) record.pose = record.odom_from_robot = Pose2{};
   if (outcome == Outcome::right || outcome == Outcome::wrong) record.error = error;
   return record;
 }
@@ -105,9 +105,8 @@ TEST(Summary, ErrorsAfterTheDeclarationAreThoseOfLocalizedStepsOnTheMap) {
 
 TEST(Summary, DeclarationsWithoutReferenceAreCountedApart) {
   const Json json = sum_up({trial(Outcome::declared, 3, 1.0, {})});
-  EXPECT_EQ(json["trials"],
-            Json::parse(
-                R"({"count": 1, "right": 0, "wrong": 0, "undecided": 0, "declared_without_reference": 1})"));
+  EXPECT_EQ(json["trials"], Json::parse(R"({"count": 1, "right": 0, "wrong": 0, "undecided": 0,
+                            "declared_without_reference": 1, "agreement": {"pairs": 0, "disagree_at_m": []}})"));
 }
 
 TEST(Summary, OfNoTrialsHasAllKeysOfTheContract) {
