@@ -42,7 +42,7 @@ void pairs(benchmark::State& state, const Scene& s) {
 }
 
 void triangles(benchmark::State& state, const Scene& s) {
-  const Points found = voxel_downsampled(s.map(), 0.1);
+  const Points found = downsampled_in_plane(s.map(), 0.1);
   std::size_t bytes = 0;
   std::size_t n = 0;
   for ([[maybe_unused]] auto _ : state) {

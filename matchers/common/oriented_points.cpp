@@ -284,7 +284,7 @@ OrientedPoints oriented_points_of(const LocalMap& local, const OrientedPointRule
   return result;
 }
 
-Points voxel_downsampled(const Points& points, double side) {
+Points downsampled_in_plane(const Points& points, double side) {
   const Cells cells(points, side);
   Points result;
   for (std::size_t i = 0; i < cells.size(); ++i) result.push_back(middle_of(points, cells.members(i)));

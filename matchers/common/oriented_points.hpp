@@ -42,6 +42,6 @@ struct OrientedPointRule {
 [[nodiscard]] OrientedPoints oriented_points_of(const LocalMap& local, const OrientedPointRule& rule);
 
 /// The middle of the points in each square of this side (m); z is 0.
-[[nodiscard]] Points voxel_downsampled(const Points& points, double side);
+[[nodiscard]] Points downsampled_in_plane(const Points& points, double side);
 
 }  // namespace glocal

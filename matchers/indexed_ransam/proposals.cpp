@@ -77,7 +77,7 @@ void propose_by(const OrientedPairIndex& index, const RelationRule& rule, const 
 /// The second and third point near the first, as in the map's triangles: farther ones would have no partner.
 void propose_by(const TriangleIndex& index, const RelationRule& rule, const LocalMap& local,
                 std::size_t draws, Rng& rng, const TakePoses& take) {
-  const Points points = voxel_downsampled(local.points, rule.points.voxel_size);
+  const Points points = downsampled_in_plane(local.points, rule.points.voxel_size);
   const TriangleRule triangles = rule.triangles();
   const TripleSampler sampler(points, triangles.max_side);
   const std::uint64_t seed = rng.next();

@@ -38,7 +38,7 @@ RelationIndex index_of(const GlobalMap& map, const RelationRule& rule, int threa
     if (rule.relation == "oriented_pair" || points.share >= rule.min_oriented_share)
       return OrientedPairIndex(std::move(points), rule.pairs, threads);
   }
-  return TriangleIndex(voxel_downsampled(map.points(), rule.points.voxel_size), rule.triangles(),
+  return TriangleIndex(downsampled_in_plane(map.points(), rule.points.voxel_size), rule.triangles(),
                        rule.pairs.max_entries, threads);
 }
 

@@ -173,7 +173,7 @@ TEST(OrientedPoints, TheirShareIsThatOfThePlacesWithANormal) {
   data.grid = {{}, 0.1, 1, 1, {Cell::unknown}};
   const GlobalMap map(std::move(data));
   EXPECT_NEAR(oriented_points_of(map, {}).share, 0.75, 1e-9);
-  const Points places = voxel_downsampled(map.points(), 0.1);
+  const Points places = downsampled_in_plane(map.points(), 0.1);
   ASSERT_EQ(places.size(), 40U);
   EXPECT_NEAR(places.x[0], 0.05, 1e-6);  // of 0.025 and 0.075
   EXPECT_NEAR(places.y[0], 0.025, 1e-6);
