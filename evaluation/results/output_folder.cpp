@@ -133,6 +133,7 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::append(const fs::path& name, std::string_view content) {
+  process_.end_copies();
   const fs::path file = places_.unfinished / name;
   make_folder(file.parent_path(), name);
   check(append_to_file(file, content), name);
@@ -155,6 +156,7 @@ void OutputFolder::write_for_good(const fs::path& name, std::string_view content
 }
 
 fs::path OutputFolder::write_part(const fs::path& name, std::string_view content) {
+  process_.end_copies();
   fs::path part = (places_.unfinished / name).string() + ".part";
   std::error_code ignored;
   fs::remove(part, ignored);
@@ -189,6 +191,7 @@ void OutputFolder::sync() {
 }
 
 void OutputFolder::commit() {
+  process_.end_copies();
   sync();
   std::error_code error;
   // The check is repeated, as the run may have taken hours: what others have put there meanwhile is theirs.

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "evaluation/results/file_lock.hpp"
+#include "glocal/running_stage.hpp"
 
 namespace glocal {
 
@@ -83,6 +84,7 @@ class OutputFolder {
   std::mutex mutex_;  ///< For what is to be synced.
   std::set<std::filesystem::path> unsynced_;
   std::optional<FileLock> lock_;
+  ProcessMark process_;  ///< That which may write.
 };
 
 }  // namespace glocal

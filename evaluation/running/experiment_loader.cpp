@@ -14,6 +14,8 @@
 #include "evaluation/running/elapsed.hpp"
 #include "evaluation/running/reference_fit.hpp"
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
+#include "glocal/running_stage.hpp"
 #include "pipeline/stage_contracts.hpp"
 
 namespace glocal {
@@ -46,14 +48,26 @@ std::string sources_yaml(const Experiment& experiment, const Catalog& catalog) {
 MapData load_map(const Experiment& experiment, const Catalog& catalog, SourceSetup setup) {
   setup.seed = seed_of(RandomPart::map_source, experiment);
   setup.motion = experiment.localizer.motion;
+  std::string file;
+  const auto note = setup.note_input;
+  setup.note_input = [&](const std::filesystem::path& input) {
+    if (file.empty()) file = input.string();
+    note(input);
+  };
+  const RunningStage stage{.kind = catalog.map_sources.kind(), .name = experiment.map.name};
+  const StageScope scope(&stage);
   MapData map = catalog.map_sources.make(experiment.map, setup)->load();
   require_contract("map source", experiment.map, [&] { check_map(map, experiment.localizer.motion); });
+  if (const std::string fault = fault_of_map(map); !fault.empty())
+    throw ConfigError({{file, 0, 0, fmt::format("map source '{}': {}", experiment.map.name, fault)}});
   return map;
 }
 
 Drive load_drive(const Experiment& experiment, const Catalog& catalog, SourceSetup setup) {
   setup.seed = seed_of(RandomPart::observation_source, experiment);
   setup.motion = experiment.localizer.motion;
+  const RunningStage stage{.kind = catalog.observation_sources.kind(), .name = experiment.observations.name};
+  const StageScope scope(&stage);
   Drive drive = read_drive(*catalog.observation_sources.make(experiment.observations, setup));
   require_contract("observation source", experiment.observations, [&] {
     for (const Sample& sample : drive.samples) check_sample(sample, experiment.localizer.motion);
@@ -163,6 +177,7 @@ bool run_trials(std::vector<Localizer>& localizers, const Experiment& experiment
   std::atomic<std::size_t> next{0};
   std::atomic<bool> stopped{false};
   std::vector<std::exception_ptr> errors(localizers.size());
+  const ProcessMark process;
   const auto run_one = [&](Localizer& localizer, std::size_t trial) {
     const auto step = [&](const StepRecord& record, const Localizer& now) {
       callbacks.step(trial, record, now);
@@ -171,6 +186,7 @@ bool run_trials(std::vector<Localizer>& localizers, const Experiment& experiment
     callbacks.begin(trial);
     const auto record = run_trial(localizer, loaded.drive, *loaded.map, experiment, trial,
                                   loaded.starts[trial], {step, stop});
+    process.end_copies();
     if (record) {
       callbacks.done(*record);
     } else {

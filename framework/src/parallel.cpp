@@ -45,6 +45,7 @@ void parallel_for(int threads, std::size_t n, const std::function<void(std::size
     for (std::size_t i = 0; i < n; ++i) work(i);
     return;
   }
+  end_copies_of_stage();
   oneapi::tbb::task_arena& arena = arena_of(threads);
   // TBB orders these calls and what they throw by itself, but ThreadSanitizer cannot see into it: said once
   // more in terms it knows.

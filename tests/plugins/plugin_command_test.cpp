@@ -164,6 +164,25 @@ TEST_F(PluginCommand, ACrashSaysInWhichStrategy) {
   EXPECT_THAT(aborted.err, HasSubstr("error: crashed (SIGABRT, it gave up)" + where));
 }
 
+TEST_F(PluginCommand, CopiesOfTheProcessAreEnded) {
+  for (const char* how : {"fork", "fork_and_go_on"}) {
+    write_experiment("plugins: [" + plugin("every_kind") + ", " + plugin("ill_behaved") + "]\n",
+                     "{ill_behaved: {how: " + std::string(how) + "}}");
+    for (const char* options : {"", "--threads=2", "--jobs=2", "--shard=1/1"}) {
+      const Answer answer =
+          run("run " + file("e.yaml") + " --quiet --out " +
+              file(how + std::string(options[0] ? options + 2 : "").substr(0, 4)) + " " + options);
+      EXPECT_THAT(answer.err,
+                  HasSubstr("error: matcher 'ill_behaved', trial 0, step 0 has called fork(), and "
+                            "the copy has come back to the run; the copy is ended"))
+          << how << options;
+    }
+    // Four trials, as without copies.
+    const Json trials = Json::parse(content(file(std::string(how) + "/summary.json")))["trials"];
+    EXPECT_EQ(trials["count"], 4) << how;
+  }
+}
+
 /// Shards of trials that start at the stamps 0, 5, 10 and 15, one step each.
 class CrashingShard : public PluginCommand {
  protected:

@@ -56,7 +56,9 @@ struct FieldInfo {
   std::vector<std::string> choices = {};                    ///< For strings: the allowed values.
   std::size_t min_items = 0;                                ///< For lists; bounds hold for each number in it.
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
-  bool required = false;        ///< The file must give it.
+  bool may_be_nan =
+      false;              ///< Numbers: of files of other programs, which write it for what they do not know.
+  bool required = false;  ///< The file must give it.
   bool may_be_missing = false;  ///< For paths: whoever reads the file says what to do where there is none.
   bool is_folder = false;       ///< For paths: a folder is needed, not a file.
   bool may_be_folder = false;   ///< For paths: a folder or a file.

@@ -70,11 +70,17 @@ bool has_radix(std::string_view digits) {
   return digits.size() > 1 && digits[0] == '0' && letters.find(digits[1]) != std::string_view::npos;
 }
 
-bool is_not_finite(std::string_view digits) {
+/// A number's digits without the point that YAML writes before `nan` and `inf`, in small letters.
+std::string as_word(std::string_view digits) {
   std::string lower(digits.substr(digits.starts_with('.') ? 1 : 0));
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return lower == "nan" || lower == "inf" || lower == "infinity";
+  return lower;
+}
+
+bool is_not_finite(std::string_view digits) {
+  const std::string word = as_word(digits);
+  return word == "nan" || word == "inf" || word == "infinity";
 }
 
 std::string without_leading_zeros(const Signed& number) {
@@ -206,6 +212,11 @@ Refusal take_value(const YamlNode& node, const FieldInfo& info, std::uint64_t& v
 }
 
 Refusal take_value(const YamlNode& node, const FieldInfo& info, double& value) {
+  const bool is_plain = node.kind == NodeKind::scalar && !node.quoted;
+  if (info.may_be_nan && is_plain && as_word(split_sign(node.text).digits) == "nan") {
+    value = std::numeric_limits<double>::quiet_NaN();
+    return std::nullopt;
+  }
   if (auto refusal = check_notation(node, "a number")) return refusal;
   const std::string_view text = std::string_view(node.text).substr(node.text.starts_with('+') ? 1 : 0);
   double read = 0.0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "glocal/contact.hpp"
@@ -28,6 +29,21 @@ Range range_of(const std::vector<float>& values) {
   return {*low, *high};
 }
 
+/// The voxels along an axis: where the first one begins, and how many there are.
+struct Axis {
+  float begin;
+  double voxels;
+};
+
+/// Those that are within `epsilon` of the points and one more to either side. Far from the origin single
+/// precision may round by more than a voxel: what is not there at all would then be marked.
+Axis axis_of(const Range& range, double epsilon, double scale) {
+  const double margin = epsilon + 1.0 / scale;
+  auto begin = static_cast<float>(range.low - margin);
+  while (begin > range.low - epsilon) begin = std::nextafter(begin, -std::numeric_limits<float>::infinity());
+  return {begin, std::ceil((range.high + margin - begin) * scale) + 1.0};
+}
+
 }  // namespace
 
 BitsetContact::BitsetContact(const Points& points, double epsilon) {
@@ -36,18 +52,16 @@ BitsetContact::BitsetContact(const Points& points, double epsilon) {
     coarse_words_.assign(1, 0);
     return;
   }
-  const double voxel = epsilon / voxels_per_epsilon;
-  const double margin = epsilon + voxel;
+  scale_ = static_cast<float>(voxels_per_epsilon / epsilon);
   const Range x = range_of(points.x);
   const Range y = range_of(points.y);
   const Range z = range_of(points.z);
   const bool planar = z.low == z.high;
-  const auto voxels = [&](const Range& r) {
-    return std::ceil((r.high - r.low + 2.0 * margin) / voxel) + 1.0;
-  };
-  const double columns = std::ceil(voxels(x) / columns_step) * columns_step;
-  const double rows = voxels(y);
-  const double layers = planar ? 1.0 : voxels(z);
+  const Axis along_x = axis_of(x, epsilon, scale_), along_y = axis_of(y, epsilon, scale_);
+  const Axis along_z = planar ? Axis{static_cast<float>(z.low - epsilon), 1.0} : axis_of(z, epsilon, scale_);
+  const double columns = std::ceil(along_x.voxels / columns_step) * columns_step;
+  const double rows = along_y.voxels;
+  const double layers = along_z.voxels;
   const auto check_size = [&](double bytes) {
     if (bytes <= largest_bytes) return;
     throw ConfigError(
@@ -60,9 +74,7 @@ BitsetContact::BitsetContact(const Points& points, double epsilon) {
   const auto bricks = [](double lines) { return std::ceil(lines / (1U << brick_shift)); };
   const double words = columns / voxels_per_word * (planar ? rows : bricks(rows) * bricks(layers));
   check_size(words * sizeof(std::uint32_t));
-  min_ = {static_cast<float>(x.low - margin), static_cast<float>(y.low - margin),
-          static_cast<float>(planar ? z.low - epsilon : z.low - margin)};
-  scale_ = static_cast<float>(1.0 / voxel);
+  min_ = {along_x.begin, along_y.begin, along_z.begin};
   scale_z_ = planar ? static_cast<float>(0.5 / epsilon) : scale_;
   columns_ = static_cast<std::size_t>(columns);
   rows_ = static_cast<std::size_t>(rows);

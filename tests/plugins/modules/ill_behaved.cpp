@@ -1,4 +1,6 @@
 // A matcher that does what no matcher should.
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -40,6 +42,11 @@ class IllBehaved final : public Matcher {
     if (how_ == "abort") std::terminate();
     if (how_ == "exit") std::exit(0);
     if (how_ == "hang") std::this_thread::sleep_for(std::chrono::hours(1));
+    if (how_ == "fork") {
+      static_cast<void>(fork());
+      return {};
+    }
+    if (how_ == "fork_and_go_on" && fork() == 0) parallel_for(2, 100, [](std::size_t) {});
     if (how_ == "latin1") throw std::runtime_error("T\xfcr zu");
     return {{Hypothesis::by_contact(Pose2{std::numeric_limits<double>::quiet_NaN(), 0, 0}, 1.0)}, 1, 1};
   }
