@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
+#include "glocal/words.hpp"
 #include "sources/compressed_file.hpp"
 #include "sources/text_lines.hpp"
 
@@ -221,6 +223,7 @@ class Parser {
     scan.robot_from_laser = inverse(scan.odom_from_robot) * odom_from_laser;
     fields_.skip(fields_before_stamp);
     scan.stamp = fields_.finite("time stamp");
+    if (const std::string fault = fault_of_stamp(scan.stamp); !fault.empty()) throw BadLine{fault};
   }
 
   void add_scan(CarmenScan scan) {

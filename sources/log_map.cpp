@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
 #include "sources/grid_ray.hpp"
 
 namespace glocal {
@@ -160,7 +161,8 @@ LogMap::Params::Params() {
 
 void describe(ParamVisitor& v, LogMap::Params& p) {
   describe(v, p.log);
-  v.field("resolution", p.resolution, {.doc = "Side of a cell.", .unit = "m", .max = 10.0, .above = 0.0});
+  v.field("resolution", p.resolution,
+          {.doc = "Side of a cell.", .unit = "m", .min = least_resolution, .max = 10.0});
   v.field("min_hits", p.min_hits,
           {.doc = "A cell is occupied only if at least so many readings end in it.",
            .min = 1,

@@ -1,9 +1,12 @@
 #include "sources/ros_map.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
 #include "glocal/yaml.hpp"
 #include "sources/image.hpp"
 
@@ -78,19 +81,26 @@ OccupancyGrid grid_of(const RosMapFile& file, double max_size_gb) {
 void describe(ParamVisitor& v, RosMapFile& p) {
   v.field("image", p.image, {.doc = "PGM or PNG image; its lowest row is the lowest y.", .required = true});
   v.field("resolution", p.resolution,
-          {.doc = "Side of a pixel.", .unit = "m", .max = 100.0, .above = 0.0, .required = true});
+          {.doc = "Side of a pixel.",
+           .unit = "m",
+           .min = least_resolution,
+           .max = largest_resolution,
+           .required = true});
   v.field("origin", p.origin,
           {.doc = "Pose of the lower left pixel's corner: x, y (m), yaw (rad).",
-           .min = -1e6,
-           .max = 1e6,
+           .min = -farthest_m,
+           .max = farthest_m,
            .min_items = 3,
            .max_items = 3,
+           .may_be_nan = true,
            .required = true});
   v.field("negate", p.negate, {.doc = "1: light means occupied.", .min = 0.0, .max = 1.0});
   v.field("occupied_thresh", p.occupied_thresh,
           {.doc = "Darker than this is occupied.", .min = 0.0, .max = 1.0});
   v.field("free_thresh", p.free_thresh, {.doc = "Lighter than this is free.", .min = 0.0, .max = 1.0});
   v.field("mode", p.mode, {.doc = "How pixels become cells.", .choices = {"trinary", "scale", "raw"}});
+  v.require(p.origin.size() != 3 || std::isfinite(p.origin[0] + p.origin[1]), "origin",
+            "must begin with two finite numbers, x and y");
   v.require(p.free_thresh < p.occupied_thresh, "free_thresh", "must be below occupied_thresh");
 }
 
@@ -104,6 +114,12 @@ RosMap::RosMap(const Params& params, const SourceSetup& setup)
   ParamsOf<RosMapFile> file;
   read_yaml(params.path.resolved, file);
   file_ = std::move(file.value);
+  // There are tools that write it for maps that are not turned, and map servers take it for that.
+  double& yaw = file_.origin[2];
+  if (std::isnan(yaw)) {
+    setup.warn(fmt::format("{}: the origin's yaw is NaN, and is taken as 0", name_));
+    yaw = 0.0;
+  }
   setup.note_input(params.path.resolved);
   setup.note_input(file_.image.resolved);
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
 #include "sources/simulation.hpp"
 #include "sources/surface_points.hpp"
 #include "sources/world_grid.hpp"
@@ -11,8 +12,8 @@ void describe(ParamVisitor& v, SimulatedMap::Params& p) {
   v.field("resolution", p.resolution,
           {.doc = "Side of a cell, and of the cubes that have a point each.",
            .unit = "m",
-           .max = 10.0,
-           .above = 0.0});
+           .min = least_resolution,
+           .max = 10.0});
   v.field("points", p.points,
           {.doc = "Points of the map: the plan's occupied cells, or all surfaces in space, for a lidar.",
            .choices = {"plan", "space"}});

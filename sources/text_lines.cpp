@@ -20,14 +20,6 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields) 
   }
 }
 
-std::string shown(std::string_view field) {
-  constexpr std::size_t longest = 40;
-  std::string text(field.substr(0, longest));
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text + (field.size() > longest ? "…" : "");
-}
-
 std::optional<double> number_in(std::string_view field) {
   if (field.starts_with('+')) field.remove_prefix(1);
   double value = 0.0;

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,9 +10,6 @@ namespace glocal {
 
 /// The fields of a line; blanks, tabs and carriage returns part them.
 void split_fields(std::string_view line, std::vector<std::string_view>& fields);
-
-/// A field in a message: enough of it to find it by, and only what can be printed.
-[[nodiscard]] std::string shown(std::string_view field);
 
 /// The number that a field is, perhaps infinite or NaN; one too small for a double is 0. None if it is no
 /// number, or too large.

@@ -1,7 +1,6 @@
 #include "sources/bags/bag_drive.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <set>
 
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "sources/bags/sensor_scan.hpp"
 
 namespace glocal {
@@ -89,6 +89,9 @@ void describe(ParamVisitor& v, BagDrive::Params& p) {
           {.doc = "ROS 1 bag, ROS 2 bag (.db3 or its folder) or MCAP file.",
            .required = true,
            .may_be_folder = true});
+  v.field("strict", p.strict,
+          {.doc = "Refuse a recording that is damaged behind something whole. Otherwise what is whole is "
+                  "read, with a warning."});
   v.field("scans", p.scans,
           {.doc = "Topics with scans (LaserScan, PointCloud2). Those of the first one say when observations "
                   "are, and which; those of others are added. Empty: the only one there is."});
@@ -178,7 +181,7 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
       is_planar_(setup.motion == Motion::planar),
       warn_(setup.warn),
       max_gap_ns_(nanoseconds(params.max_gap)),
-      recording_(params.path.resolved) {
+      recording_(params.path.resolved, bags::damage_if(params.strict)) {
   recording_.tell_progress(setup.progress);
   const std::string file = params.path.resolved.string();
   contents_ = bags::read_contents(recording_, topics_of(params), file, warn_);
@@ -203,7 +206,7 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
 std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
   constexpr double longest_pause = 60.0;  // s
   const bags::ScanTopic& scans = contents_.scans.front();
-  const std::string at = fmt::format("{}: {}", params_.path.resolved.string(), scans.topic);
+  const std::string at = fmt::format("{}: {}", params_.path.resolved.string(), shown(scans.topic));
   std::vector<Frame> frames;
   std::size_t backwards = 0, lost = 0;
   int pauses = 0;
@@ -235,12 +238,12 @@ std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
                         fmt::format("{} has {} scans, and for none of them is it known where the robot and "
                                     "its sensor were within {} s; "
                                     "check the stamps, or set odometry, odom_frame, base_frame or max_gap",
-                                    scans.topic, scans.stamps_ns.size(), params_.max_gap)}});
+                                    shown(scans.topic), scans.stamps_ns.size(), params_.max_gap)}});
   }
   if (lost > 0)
     warn_(fmt::format("{}: {} of {} scans are left out, as {} is not known within {} s of their stamps", at,
-                      lost, scans.stamps_ns.size(), contents_.odometry.empty() ? "tf" : contents_.odometry,
-                      params_.max_gap));
+                      lost, scans.stamps_ns.size(),
+                      contents_.odometry.empty() ? "tf" : shown(contents_.odometry), params_.max_gap));
   return frames;
 }
 
@@ -282,7 +285,7 @@ void BagDrive::join_other_topics() {
     const auto alone = std::count(nearest.begin(), nearest.end(), none);
     if (alone > 0)
       warn_(fmt::format("{}: {} of {} observations are without a scan of {}", params_.path.resolved.string(),
-                        alone, frames_.size(), contents_.scans[topic].topic));
+                        alone, frames_.size(), shown(contents_.scans[topic].topic)));
   }
 }
 
@@ -295,9 +298,9 @@ void BagDrive::warn_of_references() const {
                     without, frames_.size()));
 }
 
-std::optional<Pose3> BagDrive::robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) const {
+std::optional<Pose3> BagDrive::robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) {
   if (params_.sensor_from == "given") return glocal::robot_from_sensor(params_.sensor);
-  return contents_.tree.pose(contents_.base_frame, frame, stamp_ns, max_gap_ns_);
+  return contents_.robot_from_sensor(frame, stamp_ns, max_gap_ns_);
 }
 
 std::optional<Pose3> BagDrive::reference_at(std::int64_t stamp_ns) const {
@@ -353,13 +356,13 @@ std::optional<bags::SensorScan> BagDrive::rays_of(const bags::RecordedMessage& m
     return is_cloud ? bags::rays_of(bags::read_point_cloud(message), limits)
                     : bags::rays_of(bags::read_laser_scan(message), limits);
   } catch (const ConfigError& error) {
-    warn_once(fmt::format("a scan of {} is left out: {}", message.connection->topic, error.what()));
+    warn_once(fmt::format("a scan of {} is left out: {}", shown(message.connection->topic), error.what()));
     return std::nullopt;
   }
 }
 
 std::optional<BagDrive::RayMover> BagDrive::mover_of(const bags::Header& header, const Frame& frame,
-                                                     const std::pair<double, double>& span) const {
+                                                     const std::pair<double, double>& span) {
   const auto sensor_at = [&](double time) -> std::optional<Pose3> {
     const std::int64_t stamp = header.stamp_ns + nanoseconds(time);
     const auto then_from_sensor = robot_from_sensor(header.frame, stamp);

@@ -37,6 +37,7 @@ class BagDrive final : public ObservationSource {
  public:
   struct Params {
     FilePath path;
+    bool strict = false;
     std::vector<std::string> scans;
     std::string odometry;
     std::string odom_frame;
@@ -83,13 +84,13 @@ class BagDrive final : public ObservationSource {
   void pick(const std::vector<Frame>& frames);
   void join_other_topics();
   void warn_of_references() const;
-  [[nodiscard]] std::optional<Pose3> robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) const;
+  [[nodiscard]] std::optional<Pose3> robot_from_sensor(const std::string& frame, std::int64_t stamp_ns);
   [[nodiscard]] std::optional<Pose3> reference_at(std::int64_t stamp_ns) const;
   void take(const bags::RecordedMessage& message);
   [[nodiscard]] std::optional<bags::SensorScan> rays_of(const bags::RecordedMessage& message, bool is_cloud);
   /// None where it is not known where the robot and its sensor were in this span of time, s after the stamp.
   [[nodiscard]] std::optional<RayMover> mover_of(const bags::Header& header, const Frame& frame,
-                                                 const std::pair<double, double>& span) const;
+                                                 const std::pair<double, double>& span);
   /// Adds a message's rays to the scan of a frame; false if they cannot be placed.
   bool add(const bags::SensorScan& rays, const bags::Header& header, const Frame& frame, Scan& scan);
   void warn_once(const std::string& text);

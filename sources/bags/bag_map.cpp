@@ -1,7 +1,6 @@
 #include "sources/bags/bag_map.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "sources/bags/messages.hpp"
 #include "sources/bags/recording.hpp"
 
@@ -29,10 +29,10 @@ std::string topic_of(const bags::Recording& recording, const BagMap::Params& par
   if (topics.empty())
     fail(params, fmt::format("has no map ({}); glocal bag info shows what it has", grid_type));
   if (params.topic.empty() && topics.size() > 1)
-    fail(params, fmt::format("has several maps; set topic to one of {}", fmt::join(topics, ", ")));
+    fail(params, fmt::format("has several maps; set topic to one of {}", listed(topics)));
   if (!params.topic.empty() && !topics.contains(params.topic))
     fail(params,
-         fmt::format("has no map on {}; set topic to one of {}", params.topic, fmt::join(topics, ", ")));
+         fmt::format("has no map on {}; set topic to one of {}", shown(params.topic), listed(topics)));
   return params.topic.empty() ? *topics.begin() : params.topic;
 }
 
@@ -43,7 +43,7 @@ bags::GridMessage last_grid(bags::Recording& recording, const std::string& topic
   while (const auto message = recording.next()) {
     if (message->connection->type == grid_type) last = bags::read_occupancy_grid(*message);
   }
-  if (!last) fail(params, fmt::format("has no message on {}", topic));
+  if (!last) fail(params, fmt::format("has no message on {}", shown(topic)));
   return std::move(*last);
 }
 
@@ -62,6 +62,9 @@ void describe(ParamVisitor& v, BagMap::Params& p) {
           {.doc = "ROS 1 bag, ROS 2 bag (.db3 or its folder) or MCAP file.",
            .required = true,
            .may_be_folder = true});
+  v.field("strict", p.strict,
+          {.doc = "Refuse a recording that is damaged behind something whole. Otherwise what is whole is "
+                  "read, with a warning."});
   v.field("topic", p.topic,
           {.doc = "Topic with the map (nav_msgs/OccupancyGrid). Empty: the only one there is."});
   v.field("occupied_thresh", p.occupied_thresh,
@@ -72,20 +75,21 @@ void describe(ParamVisitor& v, BagMap::Params& p) {
 }
 
 MapData BagMap::load() {
-  bags::Recording recording(params_.path.resolved);
+  bags::Recording recording(params_.path.resolved, bags::damage_if(params_.strict));
   recording.tell_progress(setup_.progress);
   for (const auto& file : recording.files()) setup_.note_input(file);
   const std::string topic = topic_of(recording, params_);
+  const std::string name = shown(topic);
   const bags::GridMessage grid = last_grid(recording, topic, params_);
   for (const std::string& warning : recording.warnings()) setup_.warn(warning);
   if (static_cast<double>(grid.cells.size()) > max_grid_cells)
     fail(params_,
          fmt::format("the map of {} has {} x {} cells, more than {:g}; record it with a coarser resolution",
-                     topic, grid.width, grid.height, max_grid_cells));
+                     name, grid.width, grid.height, max_grid_cells));
   constexpr double level = 1e-6;  // rad
   if (grid.frame_from_grid.tilt() > level)
     fail(params_,
-         fmt::format("the map of {} is tilted against its frame; only level maps can be used", topic));
+         fmt::format("the map of {} is tilted against its frame; only level maps can be used", name));
   MapData map;
   map.grid = {seen_from_above(grid.frame_from_grid), grid.resolution, static_cast<int>(grid.width),
               static_cast<int>(grid.height), std::vector<Cell>(grid.cells.size())};
@@ -95,7 +99,7 @@ MapData BagMap::load() {
   if (map.points.empty())
     fail(params_,
          fmt::format("the map of {} has no occupied cell; check occupied_thresh, or take another topic",
-                     topic));
+                     name));
   return map;
 }
 

@@ -13,6 +13,7 @@ class BagMap final : public MapSource {
  public:
   struct Params {
     FilePath path;
+    bool strict = false;
     std::string topic;
     double occupied_thresh = 0.65;
     double free_thresh = 0.196;

@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <queue>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,10 +47,19 @@ class ChunkedFile : public RecordingFile {
   [[nodiscard]] double share_read() const override;
 
  protected:
-  ChunkedFile(const std::filesystem::path& file, Note note) : file_(file), note_(std::move(note)) {}
+  ChunkedFile(const std::filesystem::path& file, Reading reading)
+      : file_(file), reading_(std::move(reading)) {}
 
-  /// The chunk, unpacked and read.
+  /// Goes through the records from `at` on, and ends where one is damaged: `note` takes it in, and returns
+  /// where the next one is, or none behind the last. Returns the offset behind what is whole. Throws
+  /// ConfigError if that is no chunk.
+  std::uint64_t go_through_records(std::uint64_t at,
+                                   const std::function<std::optional<std::uint64_t>(std::uint64_t)>& note);
+
+  /// The chunk, unpacked and read. Throws ConfigError if it is damaged.
   [[nodiscard]] virtual Chunk load(const ChunkSpan& span) = 0;
+  /// The same; none for one that is damaged, which is told.
+  [[nodiscard]] std::optional<Chunk> load_if_whole(const ChunkSpan& span);
 
   /// Of bytes of an unpacked chunk.
   [[nodiscard]] Place place_in(const ChunkSpan& span, std::size_t at) const {
@@ -55,7 +67,7 @@ class ChunkedFile : public RecordingFile {
   }
 
   FileBytes file_;
-  Note note_;
+  Reading reading_;
   std::vector<ChunkSpan> chunks_;
   std::string spare_;  ///< Memory of a chunk that is over, for the next one.
 
@@ -76,8 +88,11 @@ class ChunkedFile : public RecordingFile {
 
   void open_next_chunk();
   void step_over_last();
+  /// At the end of the file.
+  void tell_damaged_chunks() const;
 
   std::vector<bool> wanted_;
+  std::set<std::uint64_t> damaged_;  ///< Offsets of chunks.
   std::size_t next_chunk_ = 0;
   std::uint64_t open_bytes_ = 0;
   std::priority_queue<std::shared_ptr<OpenChunk>, std::vector<std::shared_ptr<OpenChunk>>, IsLater> open_;

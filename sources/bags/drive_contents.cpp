@@ -1,7 +1,6 @@
 #include "sources/bags/drive_contents.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "sources/bags/message_reader.hpp"
 #include "sources/bags/messages.hpp"
 #include "sources/bags/recording_summary.hpp"
@@ -47,11 +47,14 @@ class ContentsReader {
     for (auto& [topic, odometry] : odometry_) odometry.poses.settle();
     contents_.reference.settle();
     choose_frames();
+    contents_.tf_reference = contents_.tree.path(wanted_.reference_frame, contents_.base_frame);
     check_sensors();
     for (const std::string& warning : recording_.warnings()) warn(warning);
+    std::vector<std::string> unreadable;
     for (const auto& [topic, text] : unreadable_)
-      warn(fmt::format("{}: {} messages of {} are left out; the first: {}", file_, text.first, topic,
-                       text.second));
+      unreadable.push_back(fmt::format("{} messages of {} are left out; the first: {}", text.first,
+                                       shown(topic), text.second));
+    for (const std::string& text : first_of(std::move(unreadable))) warn(fmt::format("{}: {}", file_, text));
     return std::move(contents_);
   }
 
@@ -74,10 +77,9 @@ class ContentsReader {
   void check_topic(const std::string& topic, const std::vector<std::string>& there, const std::string& what,
                    const std::string& key) const {
     if (topic.empty() || std::find(there.begin(), there.end(), topic) != there.end()) return;
-    fail(fmt::format("has no topic {} with {}; {}", topic, what,
-                     there.empty()
-                         ? fmt::format("it has none at all: leave out {}", name_of(key))
-                         : fmt::format("set {} to one of {}", name_of(key), fmt::join(there, ", "))));
+    fail(fmt::format("has no topic {} with {}; {}", shown(topic), what,
+                     there.empty() ? fmt::format("it has none at all: leave out {}", name_of(key))
+                                   : fmt::format("set {} to one of {}", name_of(key), listed(there))));
   }
 
   void choose_scans() {
@@ -88,9 +90,11 @@ class ContentsReader {
     for (const std::string& topic : wanted_.scans) check_topic(topic, there, "scans", "scans");
     if (wanted_.scans.empty() && there.size() > 1) {
       std::string list;
+      std::vector<std::string> topics;
       for (const TopicSummary& topic : summary().topics) {
-        if (has_scans(topic.type)) list += "\n  " + text_of(topic);
+        if (has_scans(topic.type)) topics.push_back(text_of(topic));
       }
+      for (const std::string& topic : first_of(std::move(topics))) list += "\n  " + topic;
       fail(fmt::format("has several topics with scans; set {} to those of one sensor, or of several alike:{}",
                        name_of("scans"), list));
     }
@@ -165,10 +169,11 @@ class ContentsReader {
     std::vector<std::string> bases = {wanted_.base_frame};
     if (wanted_.base_frame.empty()) bases = {"base_footprint", "base_link"};
     const auto base = std::find_if(bases.begin(), bases.end(), [&](const std::string& frame) {
-      return frame != c.odom_frame && tree.connects(c.odom_frame, frame);
+      return frame != c.odom_frame && tree.path(c.odom_frame, frame);
     });
     if (wanted_.odometry.empty() && base != bases.end()) {
       c.base_frame = *base;
+      c.tf_odometry = tree.path(c.odom_frame, c.base_frame);
       return;
     }
     choose_odometry_topic(bases);
@@ -183,37 +188,39 @@ class ContentsReader {
       fail(fmt::format(
           "has no odometry: tf does not connect {} with {}, and there is no topic of {}; set {} and "
           "{} to frames of the tree, which is\n{}",
-          c.odom_frame, fmt::join(bases, " or "), odometry_type, name_of("odom_frame"), name_of("base_frame"),
-          tree_text()));
+          shown(c.odom_frame), listed(bases, " or "), odometry_type, name_of("odom_frame"),
+          name_of("base_frame"), tree_text()));
     if (topics.size() > 1)
       fail(fmt::format("has several topics with odometry; set {} to one of {}", name_of("odometry"),
-                       fmt::join(topics, ", ")));
+                       listed(topics)));
     const auto& [poses, frame, child] = odometry_.at(topics.front());
     c.odometry = topics.front();
     c.odom_frame = frame;
     c.base_frame = wanted_.base_frame.empty() ? child : wanted_.base_frame;
     c.odom_from_child = poses;
     if (c.base_frame == child) return;
-    if (!c.tree.is_still(child, c.base_frame))
+    const auto mount = c.tree.path(child, c.base_frame);
+    if (!mount || !mount->is_still())
       fail(fmt::format("odometry of {} says where {} is, and tf does not say where {} is on it; set {} to {}",
-                       c.odometry, child, c.base_frame, name_of("base_frame"), child));
-    c.child_from_base = *c.tree.pose(child, c.base_frame, 0, 0);
+                       shown(c.odometry), shown(child), shown(c.base_frame), name_of("base_frame"),
+                       shown(child)));
+    c.child_from_base = *mount->pose(0, 0);
   }
 
-  void check_sensors() const {
+  void check_sensors() {
     if (wanted_.sensor_is_given) return;
     for (const ScanTopic& scan : contents_.scans) {
-      if (scan.stamps_ns.empty() || contents_.tree.connects(contents_.base_frame, scan.frame)) continue;
+      if (scan.stamps_ns.empty() || contents_.mount(scan.frame)) continue;
       fail(fmt::format(
           "tf does not connect {}, the frame of {}, with {}; set {} to another one{}; the tree is\n{}",
-          scan.frame, scan.topic, contents_.base_frame, name_of("base_frame"),
+          shown(scan.frame), shown(scan.topic), shown(contents_.base_frame), name_of("base_frame"),
           wanted_.are_options ? "" : ", or sensor_from to given and sensor to where it is on the robot",
           tree_text()));
     }
   }
 
   [[nodiscard]] std::string tree_text() const {
-    const std::string text = frame_tree(contents_.tree.parents());
+    const std::string text = frame_tree(contents_.tree.parents(), most_listed);
     return text.empty() ? "empty" : text;
   }
 
@@ -234,14 +241,26 @@ bool has_scans(std::string_view type) {
 }
 
 std::optional<Pose3> DriveContents::odometry_at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
-  if (odometry.empty()) return tree.pose(odom_frame, base_frame, stamp_ns, max_gap_ns);
+  if (tf_odometry) return tf_odometry->pose(stamp_ns, max_gap_ns);
   const auto odom_from = odom_from_child.at(stamp_ns, max_gap_ns);
   return odom_from ? std::optional(*odom_from * child_from_base) : std::nullopt;
 }
 
 std::optional<Pose3> DriveContents::reference_at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
-  return reference_frame.empty() ? reference.at(stamp_ns, max_gap_ns)
-                                 : tree.pose(reference_frame, base_frame, stamp_ns, max_gap_ns);
+  if (reference_frame.empty()) return reference.at(stamp_ns, max_gap_ns);
+  return tf_reference ? tf_reference->pose(stamp_ns, max_gap_ns) : std::nullopt;
+}
+
+const std::optional<FramePath>& DriveContents::mount(const std::string& frame) {
+  const auto [mount, is_new] = mounts.try_emplace(frame);
+  if (is_new) mount->second = tree.path(base_frame, frame);
+  return mount->second;
+}
+
+std::optional<Pose3> DriveContents::robot_from_sensor(const std::string& frame, std::int64_t stamp_ns,
+                                                      std::int64_t max_gap_ns) {
+  const auto& path = mount(frame);
+  return path ? path->pose(stamp_ns, max_gap_ns) : std::nullopt;
 }
 
 DriveContents read_contents(Recording& recording, const DriveTopics& wanted, const std::string& file,

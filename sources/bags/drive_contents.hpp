@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,10 +47,18 @@ struct DriveContents {
   PoseTrack reference;          ///< Of the topic; empty if there is none.
   std::string reference_frame;  ///< Of tf; empty if there is none.
 
+  std::optional<FramePath> tf_odometry, tf_reference;           ///< Of the robot, where these are tf's.
+  std::map<std::string, std::optional<FramePath>> mounts = {};  ///< Of frames in base_frame, once asked for.
+
   /// The robot in odom_frame; none where it is not known at this time.
   [[nodiscard]] std::optional<Pose3> odometry_at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
   /// The robot in the reference's frame; none where it is not known at this time.
   [[nodiscard]] std::optional<Pose3> reference_at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
+  /// The way from base_frame to a sensor's frame; none if there is none.
+  [[nodiscard]] const std::optional<FramePath>& mount(const std::string& frame);
+  /// A sensor's frame on the robot; none where it is not known at this time.
+  [[nodiscard]] std::optional<Pose3> robot_from_sensor(const std::string& frame, std::int64_t stamp_ns,
+                                                       std::int64_t max_gap_ns);
 };
 
 /// Reads all but the scans' content, and finds out what is not asked for by name. Throws ConfigError, with

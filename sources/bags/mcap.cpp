@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "glocal/limits.hpp"
 #include "sources/bags/chunked_file.hpp"
 #include "sources/bags/mcap_records.hpp"
 #include "sources/bags/unpacked.hpp"
@@ -23,13 +24,17 @@ struct McapRecord {
   std::uint64_t size = 0;  ///< Of what follows its head.
 };
 
-std::int64_t stamp_of(std::uint64_t ns) {
-  return static_cast<std::int64_t>(ns);
+std::int64_t stamp(FieldReader& fields) {
+  const auto ns = static_cast<std::int64_t>(fields.number<std::uint64_t>());
+  // Those that are more than 63 bits are negative, and too early.
+  const std::string fault = fault_of_stamp_ns(ns);
+  if (!fault.empty()) fields.refuse(fault);
+  return ns;
 }
 
 class McapFile final : public ChunkedFile {
  public:
-  McapFile(const std::filesystem::path& file, Note note) : ChunkedFile(file, std::move(note)) {
+  McapFile(const std::filesystem::path& file, const Reading& reading) : ChunkedFile(file, reading) {
     scan();
     // Only a summary names the channels of chunks outside of them.
     if (!has_summary_) find_channels();
@@ -42,25 +47,21 @@ class McapFile final : public ChunkedFile {
   /// Goes through all records and skips what chunks hold. Messages outside of chunks are taken together as
   /// uncompressed ones.
   void scan() {
-    std::uint64_t at = mcap_mark.size();
     bool is_behind_data = false, has_end = false;
-    while (at < file_.size() && !has_end) {
-      const auto record = record_at(at);
-      if (!record) {
-        note_(fmt::format("{}: byte {}: the recording ends within a record; what comes before it is read",
-                          file_.name(), at));
-        break;
-      }
-      is_behind_data |= record->op == McapOp::data_end;
-      has_end = record->op == McapOp::footer;
-      has_summary_ |= is_behind_data && record->op == McapOp::channel;
-      note_record(at, *record);
-      at += record_head + record->size;
-    }
-    if (at == mcap_mark.size()) file_.refuse(at, "the recording has no whole record; get a fresh copy");
-    if (!has_end && at == file_.size())
-      note_(fmt::format("{}: byte {}: the recording ends without a footer; it may lack messages",
-                        file_.name(), at));
+    const std::uint64_t end =
+        go_through_records(mcap_mark.size(), [&](std::uint64_t at) -> std::optional<std::uint64_t> {
+          const McapRecord record = record_at(at);
+          is_behind_data |= record.op == McapOp::data_end;
+          has_end = record.op == McapOp::footer;
+          has_summary_ |= is_behind_data && record.op == McapOp::channel;
+          note_record(at, record);
+          if (has_end) return std::nullopt;
+          return at + record_head + record.size;
+        });
+    if (end == mcap_mark.size()) file_.refuse(end, "the recording has no record; get a fresh copy");
+    if (!has_end && end == file_.size())
+      reading_.note(fmt::format("{}: byte {}: the recording ends without a footer; it may lack messages",
+                                file_.name(), end));
   }
 
   /// A channel is named in the chunk that has its first message. Chunks all of whose channels are known,
@@ -71,19 +72,22 @@ class McapFile final : public ChunkedFile {
       const bool is_known =
           indexed != indexed_.end() && std::all_of(indexed->second.begin(), indexed->second.end(),
                                                    [&](std::uint16_t id) { return channels_.contains(id); });
-      if (!is_known) static_cast<void>(load(span));
+      if (!is_known) static_cast<void>(load_if_whole(span));
     }
     indexed_.clear();
   }
 
-  [[nodiscard]] std::optional<McapRecord> record_at(std::uint64_t at) const {
+  [[nodiscard]] McapRecord record_at(std::uint64_t at) const {
     const std::string_view head = file_.peek(at);
-    if (head.size() < record_head) return std::nullopt;
-    FieldReader reader(head, {file_.name(), at});
-    const auto op = static_cast<McapOp>(reader.number<std::uint8_t>());
-    const auto size = reader.number<std::uint64_t>();
-    if (size > file_.size() - at - record_head) return std::nullopt;
-    return McapRecord{op, size};
+    McapRecord record;
+    if (head.size() >= record_head) {
+      FieldReader reader(head, {file_.name(), at});
+      record.op = static_cast<McapOp>(reader.number<std::uint8_t>());
+      record.size = reader.number<std::uint64_t>();
+    }
+    if (head.size() < record_head || record.size > file_.size() - at - record_head)
+      file_.refuse(at, "the file ends within a record; get a fresh copy");
+    return record;
   }
 
   void note_record(std::uint64_t at, const McapRecord& record) {
@@ -100,15 +104,15 @@ class McapFile final : public ChunkedFile {
       note_channel_or_schema(record.op, fields);
     } else if (record.op == McapOp::chunk) {
       FieldReader fields = reader(file_.peek(begin));
-      const auto first = fields.number<std::uint64_t>(), last = fields.number<std::uint64_t>();
-      chunks_.push_back({at, record_head + record.size, stamp_of(first), stamp_of(last)});
+      const std::int64_t first = stamp(fields), last = stamp(fields);
+      chunks_.push_back({at, record_head + record.size, first, last});
     } else if (record.op == McapOp::message_index && !chunks_.empty()) {
       indexed_[chunks_.back().offset].insert(reader(file_.peek(begin)).number<std::uint16_t>());
     } else if (record.op == McapOp::message) {
       FieldReader fields = reader(file_.peek(begin));
       static_cast<void>(fields.number<std::uint16_t>());
       static_cast<void>(fields.number<std::uint32_t>());
-      add_loose_message(at, record_head + record.size, stamp_of(fields.number<std::uint64_t>()));
+      add_loose_message(at, record_head + record.size, stamp(fields));
     }
   }
 
@@ -188,7 +192,7 @@ class McapFile final : public ChunkedFile {
   [[nodiscard]] ChunkEntry entry_of(FieldReader& fields, std::size_t offset) const {
     const auto id = fields.number<std::uint16_t>();
     static_cast<void>(fields.number<std::uint32_t>());  // Sequence.
-    const auto stamp = fields.number<std::uint64_t>();
+    const std::int64_t received = stamp(fields);
     static_cast<void>(fields.number<std::uint64_t>());  // Time of publishing.
     const auto channel = channels_.find(id);
     if (channel == channels_.end())
@@ -196,7 +200,7 @@ class McapFile final : public ChunkedFile {
           fmt::format("the message is of channel {}, which the recording does not name; repair it with "
                       "'mcap recover'",
                       id));
-    return {stamp_of(stamp), channel->second, offset + fields.at(), fields.rest().size()};
+    return {received, channel->second, offset + fields.at(), fields.rest().size()};
   }
 
   std::map<std::uint16_t, std::pair<std::string, std::string>> schemas_;  ///< Type and definition.
@@ -214,8 +218,8 @@ bool is_mcap(std::string_view beginning) {
   return beginning.starts_with(mcap_mark);
 }
 
-std::unique_ptr<RecordingFile> open_mcap(const std::filesystem::path& file, const Note& note) {
-  return std::make_unique<McapFile>(file, note);
+std::unique_ptr<RecordingFile> open_mcap(const std::filesystem::path& file, const Reading& reading) {
+  return std::make_unique<McapFile>(file, reading);
 }
 
 }  // namespace glocal::bags

@@ -13,6 +13,7 @@ namespace glocal::bags {
 
 /// Opens a recording, with summary or without, in chunks (uncompressed, lz4, zstd) or not. Chunks' CRC-32 are
 /// checked where they are given. See Recording.
-[[nodiscard]] std::unique_ptr<RecordingFile> open_mcap(const std::filesystem::path& file, const Note& note);
+[[nodiscard]] std::unique_ptr<RecordingFile> open_mcap(const std::filesystem::path& file,
+                                                       const Reading& reading);
 
 }  // namespace glocal::bags

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "glocal/words.hpp"
+
 namespace glocal::bags {
 
 bool is_readable(const Connection& connection) {
@@ -15,7 +17,8 @@ MessageReader::MessageReader(const RecordedMessage& message)
       is_ros1_(message.connection->encoding == "ros1") {
   if (is_ros1_) return;
   if (connection_.encoding != "cdr")
-    refuse(fmt::format("messages encoded as '{}' cannot be read; ros1 and cdr can", connection_.encoding));
+    refuse(fmt::format("messages encoded as '{}' cannot be read; ros1 and cdr can",
+                       shown(connection_.encoding)));
   constexpr std::size_t header_size = 4;
   const std::string_view header = take(header_size);
   if (header[0] != 0 || (header[1] != 0 && header[1] != 1))
@@ -43,7 +46,8 @@ std::size_t MessageReader::count(std::size_t least_size) {
 }
 
 void MessageReader::refuse(const std::string& message) const {
-  place_.refuse(at_, fmt::format("{} of topic {}: {}", connection_.type, connection_.topic, message));
+  place_.refuse(
+      at_, fmt::format("{} of topic {}: {}", shown(connection_.type), shown(connection_.topic), message));
 }
 
 void MessageReader::align(std::size_t size) {

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
+#include "glocal/words.hpp"
 #include "sources/bags/message_reader.hpp"
 #include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"
@@ -81,7 +83,8 @@ CloudFields read_cloud_fields(MessageReader& reader) {
     const auto use = use_of(name);
     if (!use) continue;
     if (type < 1 || type > types.size())
-      reader.refuse(fmt::format("the field '{}' is of type {}; there are 1 to {}", name, type, types.size()));
+      reader.refuse(
+          fmt::format("the field '{}' is of type {}; there are 1 to {}", shown(name), type, types.size()));
     fields.at(*use) = CloudField{offset, types.at(type - 1)};
   }
   if (!fields[0] || !fields[1] || !fields[2]) reader.refuse("the cloud lacks one of the fields x, y and z");
@@ -130,6 +133,8 @@ LaserScan read_laser_scan(const RecordedMessage& message) {
                        &scan.scan_time, &scan.range_min, &scan.range_max})
     *value = reader.number<float>();
   scan.ranges = reader.numbers<float>();
+  const double end = static_cast<double>(scan.time_increment) * static_cast<double>(scan.ranges.size());
+  if (const std::string fault = fault_of_scan_times(0.0, end); !fault.empty()) reader.refuse(fault);
   return scan;
 }
 
@@ -165,6 +170,9 @@ PointCloud read_point_cloud(const RecordedMessage& message) {
       if (fields[3]) cloud.times.push_back(time);
     }
   }
+  if (cloud.times.empty()) return cloud;
+  const auto [first, last] = std::minmax_element(cloud.times.begin(), cloud.times.end());
+  if (const std::string fault = fault_of_scan_times(*first, *last); !fault.empty()) reader.refuse(fault);
   return cloud;
 }
 
@@ -218,8 +226,7 @@ GridMessage read_occupancy_grid(const RecordedMessage& message) {
   grid.height = reader.number<std::uint32_t>();
   grid.frame_from_grid = read_rigid_motion(reader);
   grid.cells = reader.numbers<std::int8_t>();
-  if (!(grid.resolution > 0.0 && std::isfinite(grid.resolution)))
-    reader.refuse(fmt::format("cells of {} m are none", grid.resolution));
+  if (const std::string fault = fault_of_resolution(grid.resolution); !fault.empty()) reader.refuse(fault);
   if (std::uint64_t{grid.width} * grid.height != grid.cells.size())
     reader.refuse(fmt::format("{} cells follow where {} x {} are announced", grid.cells.size(), grid.width,
                               grid.height));

@@ -29,14 +29,20 @@ std::string normal_type(std::string_view type) {
   return normal;
 }
 
+void Reading::note_damage(const ConfigError& error, const std::string& outcome) const {
+  if (damage == Damage::refused) throw error;
+  const Fault& fault = error.faults().front();
+  note(fmt::format("{}: {}; {}", fault.file, fault.message, outcome));
+}
+
 namespace {
 
-std::unique_ptr<RecordingFile> open_file(const fs::path& file, const Note& note) {
+std::unique_ptr<RecordingFile> open_file(const fs::path& file, const Reading& reading) {
   const FileBytes bytes(file);
   const std::string_view beginning = bytes.peek(0);
-  if (is_ros1_bag(beginning)) return open_ros1_bag(file, note);
-  if (is_mcap(beginning)) return open_mcap(file, note);
-  if (is_sqlite(beginning)) return open_sqlite_bag(file);
+  if (is_ros1_bag(beginning)) return open_ros1_bag(file, reading);
+  if (is_mcap(beginning)) return open_mcap(file, reading);
+  if (is_sqlite(beginning)) return open_sqlite_bag(file, reading);
   if (is_zstd(beginning))
     bytes.refuse(0, fmt::format("is compressed as a whole; unpack it: zstd -d {}", file.string()));
   bytes.refuse(0, beginning.empty()
@@ -54,17 +60,17 @@ bool is_recording(const fs::path& path) {
   return is_ros1_bag(beginning) || is_mcap(beginning) || is_sqlite(beginning);
 }
 
-Recording::Recording(const fs::path& path)
+Recording::Recording(const fs::path& path, Damage damage)
     : connections_(std::make_unique<std::vector<Connection>>()),
       warnings_(std::make_unique<std::vector<std::string>>()) {
   if (!fs::is_directory(path)) {
-    open(path);
+    open(path, damage);
   } else {
     const BagFolder folder = read_bag_folder(path);
     *warnings_ = folder.warnings;
     announced_ = folder.messages;
     metadata_of_ = path.string();
-    for (const fs::path& file : folder.files) open(file);
+    for (const fs::path& file : folder.files) open(file, damage);
   }
   rewind();
 }
@@ -77,10 +83,10 @@ void Recording::warn_once(std::vector<std::string>& warnings, const std::string&
   if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
 }
 
-void Recording::open(const fs::path& file) {
+void Recording::open(const fs::path& file, Damage damage) {
   const auto note = [warnings = warnings_.get()](const std::string& text) { warn_once(*warnings, text); };
   auto part = std::make_unique<Part>();
-  part->file = open_file(file, note);
+  part->file = open_file(file, {note, damage});
   format_ = part->file->format();
   for (const Connection& connection : part->file->connections()) {
     // Files of one recording have the same connections.

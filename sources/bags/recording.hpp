@@ -45,6 +45,16 @@ struct RecordedMessage {
 
 class RecordingFile;
 
+/// What becomes of a recording that is damaged behind something whole.
+enum class Damage {
+  passed_over,  ///< What is whole is read, with a warning that says where the damage begins, and how much it
+                ///< is.
+  refused,      ///< ConfigError.
+};
+[[nodiscard]] inline Damage damage_if(bool strict) {
+  return strict ? Damage::refused : Damage::passed_over;
+}
+
 /// A recording, message by message. Memory holds the chunks that overlap in time, up to 1 GiB (more are
 /// refused), and 32 bytes for each chunk of the file.
 class Recording {
@@ -52,8 +62,8 @@ class Recording {
   /// Opens a file, whose format its content tells, or a folder of ROS 2 (.db3 or .mcap files that are read as
   /// one; see read_bag_folder()). Messages that are compressed one by one (zstd) are unpacked. Throws
   /// ConfigError with file, byte, rule and fix for what is no recording, is of version 1, is encrypted or
-  /// damaged. A recording that ends early is read up to its last whole chunk, with a warning.
-  explicit Recording(const std::filesystem::path& path);
+  /// damaged from its beginning on; behind that `damage` says what to do.
+  explicit Recording(const std::filesystem::path& path, Damage damage = Damage::passed_over);
   ~Recording();
   Recording(Recording&&) noexcept;
   Recording& operator=(Recording&&) noexcept;
@@ -66,7 +76,8 @@ class Recording {
   [[nodiscard]] const std::vector<Connection>& connections() const { return *connections_; }
   /// Goes to the start; from there on only messages of these topics are read, or of all.
   void rewind(const std::optional<std::set<std::string>>& topics = std::nullopt);
-  /// The next message in order of receipt; none at the end. Throws ConfigError for damaged data.
+  /// The next message in order of receipt; none at the end. Throws ConfigError for damage that is refused,
+  /// and where nothing is whole.
   [[nodiscard]] std::optional<RecordedMessage> next();
   /// Takes the share that has been read since the last rewind(): now and then, and 1 at the end.
   void tell_progress(std::function<void(double)> progress) { progress_ = std::move(progress); }
@@ -77,7 +88,7 @@ class Recording {
   struct Part;
 
   static void warn_once(std::vector<std::string>& warnings, const std::string& text);
-  void open(const std::filesystem::path& file);
+  void open(const std::filesystem::path& file, Damage damage);
   /// With what metadata.yaml says, once all was read.
   void compare_counts();
   [[nodiscard]] double share_read() const;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "glocal/error.hpp"
 #include "sources/bags/file_bytes.hpp"
 #include "sources/bags/recording.hpp"
 
@@ -16,6 +17,15 @@ namespace glocal::bags {
 
 /// Takes a sentence for the user.
 using Note = std::function<void(const std::string&)>;
+
+/// How a file is read.
+struct Reading {
+  Note note;
+  Damage damage = Damage::passed_over;
+
+  /// Notes damage behind something whole, and what becomes of it; throws it where it is refused.
+  void note_damage(const ConfigError& error, const std::string& outcome) const;
+};
 
 /// A message of one file.
 struct FileMessage {

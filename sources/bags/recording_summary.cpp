@@ -1,12 +1,12 @@
 #include "sources/bags/recording_summary.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "sources/bags/message_reader.hpp"
 
 namespace glocal::bags {
@@ -50,7 +50,7 @@ class Summarizer {
   }
 
   RecordingSummary finish(std::vector<std::string>& remarks) {
-    remarks.insert(remarks.end(), remarks_.begin(), remarks_.end());
+    for (std::string& remark : first_of(std::move(remarks_))) remarks.push_back(std::move(remark));
     for (auto& [key, topic] : topics_) summary_.topics.push_back(std::move(topic));
     choose_odometry();
     return std::move(summary_);
@@ -106,15 +106,37 @@ class Summarizer {
   std::vector<std::string> remarks_;
 };
 
-using Children = std::map<std::string, std::vector<std::string>>;
+/// Writes the frames below a root, as deep as they go, until there are enough lines.
+class TreeText {
+ public:
+  TreeText(const std::map<std::string, std::string>& parents, std::size_t most_lines)
+      : parents_(parents), most_lines_(most_lines) {
+    for (const auto& [child, parent] : parents) children_[parent].push_back(child);
+  }
 
-void add_branch(const std::string& frame, std::size_t depth, const Children& children, std::string& text) {
-  text += std::string(2 * depth, ' ') + (depth < deepest_frame ? frame : "…") + "\n";
-  if (depth >= deepest_frame) return;
-  const auto own = children.find(frame);
-  if (own == children.end()) return;
-  for (const std::string& child : own->second) add_branch(child, depth + 1, children, text);
-}
+  std::string text() {
+    for (const auto& [parent, own] : children_) {
+      if (!parents_.contains(parent)) add(parent, 0);
+    }
+    if (lines_ <= most_lines_) return std::move(text_);
+    return fmt::format("{}and {} more\n", text_, lines_ - most_lines_);
+  }
+
+ private:
+  void add(const std::string& frame, std::size_t depth) {
+    const bool is_too_deep = depth >= deepest_frame;
+    if (++lines_ <= most_lines_)
+      text_ += std::string(2 * depth, ' ') + (is_too_deep ? "…" : shown(frame)) + "\n";
+    const auto own = children_.find(frame);
+    if (is_too_deep || own == children_.end()) return;
+    for (const std::string& child : own->second) add(child, depth + 1);
+  }
+
+  const std::map<std::string, std::string>& parents_;
+  std::map<std::string, std::vector<std::string>> children_;
+  std::size_t most_lines_, lines_ = 0;
+  std::string text_;
+};
 
 }  // namespace
 
@@ -130,8 +152,8 @@ RecordingSummary summarize_recording(Recording& recording, std::vector<std::stri
     summarizer.name(connection);
     if (!is_readable(connection)) foreign.insert(connection.encoding);
   }
-  for (const std::string& encoding : foreign)
-    remarks.push_back(fmt::format("messages encoded as '{}' are counted, but not read", encoding));
+  if (!foreign.empty())
+    remarks.push_back(fmt::format("messages encoded as {} are counted, but not read", listed(foreign)));
   recording.rewind();
   while (const auto message = recording.next()) summarizer.take(*message);
   return summarizer.finish(remarks);
@@ -143,19 +165,13 @@ std::string text_of(const LaserScan& scan) {
 }
 
 std::string text_of(const TopicSummary& topic) {
-  return fmt::format("{}: {:.1f} Hz, {}, frame {}", topic.topic, topic.rate_hz(),
-                     topic.first_scan ? text_of(*topic.first_scan) : topic.type,
-                     fmt::join(topic.frames, " "));
+  return fmt::format("{}: {:.1f} Hz, {}, frame {}", shown(topic.topic), topic.rate_hz(),
+                     topic.first_scan ? text_of(*topic.first_scan) : shown(topic.type),
+                     listed(topic.frames, " "));
 }
 
-std::string frame_tree(const std::map<std::string, std::string>& parents) {
-  Children children;
-  for (const auto& [child, parent] : parents) children[parent].push_back(child);
-  std::string text;
-  for (const auto& [parent, own] : children) {
-    if (!parents.contains(parent)) add_branch(parent, 0, children, text);
-  }
-  return text;
+std::string frame_tree(const std::map<std::string, std::string>& parents, std::size_t most_lines) {
+  return TreeText(parents, most_lines).text();
 }
 
 }  // namespace glocal::bags

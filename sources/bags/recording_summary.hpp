@@ -45,7 +45,8 @@ struct RecordingSummary {
 /// "/scan: 10.0 Hz, 1440 beams over 359.7 deg, range 0.50 to 250.00 m, frame laser"
 [[nodiscard]] std::string text_of(const TopicSummary& topic);
 
-/// The tree of frames, a line each, indented below its parent; 50 levels of it.
-[[nodiscard]] std::string frame_tree(const std::map<std::string, std::string>& parents);
+/// The tree of frames, a line each, indented below its parent; 50 levels of it, and so many lines.
+[[nodiscard]] std::string frame_tree(const std::map<std::string, std::string>& parents,
+                                     std::size_t most_lines);
 
 }  // namespace glocal::bags

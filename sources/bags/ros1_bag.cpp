@@ -8,9 +8,9 @@
 #include <tuple>
 #include <utility>
 
+#include "glocal/words.hpp"
 #include "sources/bags/chunked_file.hpp"
 #include "sources/bags/unpacked.hpp"
-#include "sources/text_lines.hpp"
 
 namespace glocal::bags {
 namespace {
@@ -65,7 +65,7 @@ class HeaderFields {
 
 class Ros1Bag final : public ChunkedFile {
  public:
-  Ros1Bag(const std::filesystem::path& file, Note note) : ChunkedFile(file, std::move(note)) {
+  Ros1Bag(const std::filesystem::path& file, const Reading& reading) : ChunkedFile(file, reading) {
     check_version();
     scan();
     for (ChunkSpan& span : chunks_) find_times_and_connections(span);
@@ -92,39 +92,32 @@ class Ros1Bag final : public ChunkedFile {
 
   /// Goes through all records and skips what chunks hold. An index is not needed for it.
   void scan() {
-    std::uint64_t at = version_2.size();
-    while (at < file_.size()) {
-      const auto record = record_at(at);
-      if (!record) {
-        note_(fmt::format("{}: byte {}: the file ends within a record; what comes before it is read",
-                          file_.name(), at));
-        break;
-      }
-      note_record(at, *record);
-      at = record->data + record->data_size;
-    }
-    if (at == version_2.size()) file_.refuse(at, "the bag has no whole record; get a fresh copy");
+    const std::uint64_t end = go_through_records(version_2.size(), [&](std::uint64_t at) {
+      const Record record = record_at(at);
+      note_record(at, record);
+      return std::optional(record.data + record.data_size);
+    });
+    if (end == version_2.size()) file_.refuse(end, "the bag has no record; get a fresh copy");
   }
 
-  /// None if the file ends before the record does.
-  [[nodiscard]] std::optional<Record> record_at(std::uint64_t at) const {
+  [[nodiscard]] Record record_at(std::uint64_t at) const {
     constexpr std::uint64_t largest_header = 1U << 20U, length_size = 4;
-    const auto length_at = [&](std::uint64_t offset) -> std::optional<std::uint32_t> {
+    const auto ends_early = [&] { file_.refuse(at, "the file ends within a record; get a fresh copy"); };
+    const auto length_at = [&](std::uint64_t offset) {
       const std::string_view bytes = file_.peek(offset);
-      if (bytes.size() < length_size) return std::nullopt;
+      if (bytes.size() < length_size) ends_early();
       return FieldReader(bytes, {file_.name(), offset}).number<std::uint32_t>();
     };
-    const auto header_size = length_at(at);
-    if (!header_size) return std::nullopt;
-    if (*header_size > largest_header)
+    const std::uint32_t header_size = length_at(at);
+    if (header_size > largest_header)
       file_.refuse(at,
                    fmt::format("a record's header of {} bytes is announced, at most {} are allowed; get a "
                                "fresh copy",
-                               *header_size, largest_header));
-    const std::uint64_t data_length = at + length_size + *header_size;
-    const auto data_size = length_at(data_length);
-    if (!data_size || *data_size > file_.size() - data_length - length_size) return std::nullopt;
-    return Record{file_.read(at + length_size, *header_size), data_length + length_size, *data_size};
+                               header_size, largest_header));
+    const std::uint64_t data_length = at + length_size + header_size;
+    const std::uint32_t data_size = length_at(data_length);
+    if (data_size > file_.size() - data_length - length_size) ends_early();
+    return {file_.read(at + length_size, header_size), data_length + length_size, data_size};
   }
 
   void note_record(std::uint64_t at, const Record& record) {
@@ -200,20 +193,20 @@ class Ros1Bag final : public ChunkedFile {
 
   /// For chunks that no index knows.
   void take_times_from_messages(ChunkSpan& span) {
-    const Chunk chunk = load(span);
-    for (const ChunkEntry& entry : chunk.entries) {
-      const bool is_first = &entry == &chunk.entries.front();
+    const auto chunk = load_if_whole(span);
+    if (!chunk) return;
+    for (const ChunkEntry& entry : chunk->entries) {
+      const bool is_first = &entry == &chunk->entries.front();
       span.first_ns = is_first ? entry.stamp_ns : std::min(span.first_ns, entry.stamp_ns);
       span.last_ns = is_first ? entry.stamp_ns : std::max(span.last_ns, entry.stamp_ns);
     }
   }
 
   [[nodiscard]] Chunk load(const ChunkSpan& span) override {
-    const auto record = record_at(span.offset);
-    if (!record) file_.refuse(span.offset, "the file has become shorter while it was read");
+    const Record record = record_at(span.offset);
     const Place in_file{file_.name(), span.offset};
-    const HeaderFields header(record->header, in_file);
-    Chunk chunk{unpacked(header.text("compression"), file_.read(record->data, record->data_size),
+    const HeaderFields header(record.header, in_file);
+    Chunk chunk{unpacked(header.text("compression"), file_.read(record.data, record.data_size),
                          header.number<std::uint32_t>("size"), in_file, std::move(spare_)),
                 {}};
     FieldReader records(chunk.bytes, place_in(span, 0));
@@ -260,8 +253,8 @@ bool is_ros1_bag(std::string_view beginning) {
   return beginning.starts_with("#ROS");
 }
 
-std::unique_ptr<RecordingFile> open_ros1_bag(const std::filesystem::path& file, const Note& note) {
-  return std::make_unique<Ros1Bag>(file, note);
+std::unique_ptr<RecordingFile> open_ros1_bag(const std::filesystem::path& file, const Reading& reading) {
+  return std::make_unique<Ros1Bag>(file, reading);
 }
 
 }  // namespace glocal::bags

@@ -14,6 +14,6 @@ namespace glocal::bags {
 
 /// Opens a bag, indexed or not; chunks are uncompressed, bz2 or lz4. See Recording.
 [[nodiscard]] std::unique_ptr<RecordingFile> open_ros1_bag(const std::filesystem::path& file,
-                                                           const Note& note);
+                                                           const Reading& reading);
 
 }  // namespace glocal::bags

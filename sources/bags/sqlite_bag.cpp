@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
 #include "sources/bags/unpacked.hpp"
 
 namespace glocal::bags {
@@ -15,7 +16,8 @@ namespace {
 
 class SqliteBag final : public RecordingFile {
  public:
-  explicit SqliteBag(const std::filesystem::path& file) : name_(file.string()) {
+  SqliteBag(const std::filesystem::path& file, Reading reading)
+      : name_(file.string()), reading_(std::move(reading)) {
     open();
     require_table("topics");
     require_table("messages");
@@ -32,7 +34,7 @@ class SqliteBag final : public RecordingFile {
   }
 
   [[nodiscard]] std::optional<FileMessage> next() override {
-    while (step(messages_)) {
+    while (step_if_whole()) {
       sqlite3_stmt* row = messages_.get();
       ++rows_read_;
       const std::int64_t id = sqlite3_column_int64(row, 0);
@@ -42,7 +44,9 @@ class SqliteBag final : public RecordingFile {
         place.refuse(0, fmt::format("the message is of topic {}, which the table of topics does not have",
                                     sqlite3_column_int64(row, 1)));
       if (!wanted_[topic->second]) continue;
-      return FileMessage{topic->second, sqlite3_column_int64(row, 2), blob(row, 3), place};
+      const std::int64_t stamp_ns = sqlite3_column_int64(row, 2);
+      if (const std::string fault = fault_of_stamp_ns(stamp_ns); !fault.empty()) place.refuse(0, fault);
+      return FileMessage{topic->second, stamp_ns, blob(row, 3), place};
     }
     return std::nullopt;
   }
@@ -96,6 +100,18 @@ class SqliteBag final : public RecordingFile {
     return answer == SQLITE_ROW;
   }
 
+  /// Whether there is one more message; behind damage there is none.
+  [[nodiscard]] bool step_if_whole() {
+    try {
+      return messages_ && step(messages_);
+    } catch (const ConfigError& error) {
+      if (rows_read_ == 0) throw;
+      reading_.note_damage(error, fmt::format("what comes before is read: {} messages", rows_read_));
+      messages_.reset();
+      return false;
+    }
+  }
+
   static std::string_view blob(sqlite3_stmt* row, int column) {
     const auto* bytes = static_cast<const char*>(sqlite3_column_blob(row, column));
     return bytes == nullptr
@@ -130,6 +146,7 @@ class SqliteBag final : public RecordingFile {
   }
 
   std::string name_;
+  Reading reading_;
   std::unique_ptr<sqlite3, decltype(&sqlite3_close)> database_{nullptr, sqlite3_close};
   Statement messages_{nullptr, sqlite3_finalize};
   std::map<std::int64_t, std::size_t> ids_;
@@ -143,8 +160,8 @@ bool is_sqlite(std::string_view beginning) {
   return beginning.starts_with(std::string_view("SQLite format 3\0", 16));
 }
 
-std::unique_ptr<RecordingFile> open_sqlite_bag(const std::filesystem::path& file) {
-  return std::make_unique<SqliteBag>(file);
+std::unique_ptr<RecordingFile> open_sqlite_bag(const std::filesystem::path& file, const Reading& reading) {
+  return std::make_unique<SqliteBag>(file, reading);
 }
 
 }  // namespace glocal::bags

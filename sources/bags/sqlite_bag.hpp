@@ -12,6 +12,7 @@ namespace glocal::bags {
 [[nodiscard]] bool is_sqlite(std::string_view beginning);
 
 /// Opens a .db3 file, read-only. See Recording.
-[[nodiscard]] std::unique_ptr<RecordingFile> open_sqlite_bag(const std::filesystem::path& file);
+[[nodiscard]] std::unique_ptr<RecordingFile> open_sqlite_bag(const std::filesystem::path& file,
+                                                             const Reading& reading);
 
 }  // namespace glocal::bags

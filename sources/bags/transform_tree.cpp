@@ -1,6 +1,7 @@
 #include "sources/bags/transform_tree.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace glocal::bags {
 
@@ -8,7 +9,7 @@ void TransformTree::add(const FrameTransform& transform, bool is_static) {
   constexpr std::size_t most_frames = 10'000;
   const std::string& child = transform.child_frame;
   if (edges_.size() >= most_frames && !edges_.contains(child)) return;
-  Edge& edge = edges_[child][transform.header.frame];
+  TransformEdge& edge = edges_[child][transform.header.frame];
   if (is_static) {
     edge.fixed = transform.parent_from_child;
   } else {
@@ -40,52 +41,60 @@ std::vector<std::string> TransformTree::line_of(const std::string& frame) const 
   return line;
 }
 
-std::optional<TransformTree::Way> TransformTree::way_between(const std::string& a,
-                                                             const std::string& b) const {
-  const std::vector<std::string> from_a = line_of(a), from_b = line_of(b);
-  const auto meeting = std::find_first_of(from_a.begin(), from_a.end(), from_b.begin(), from_b.end());
-  if (meeting == from_a.end()) return std::nullopt;
-  return Way{{from_a.begin(), meeting}, {from_b.begin(), std::find(from_b.begin(), from_b.end(), *meeting)}};
+std::optional<FramePath> TransformTree::path(const std::string& in, const std::string& of) const {
+  const std::vector<std::string> from_in = line_of(in), from_of = line_of(of);
+  const std::set<std::string> above_of(from_of.begin(), from_of.end());
+  const auto top = std::find_if(from_in.begin(), from_in.end(),
+                                [&](const std::string& frame) { return above_of.contains(frame); });
+  if (top == from_in.end()) return std::nullopt;
+  FramePath path;
+  path.from_first_ = climb(from_in, *top);
+  path.from_second_ = climb(from_of, *top);
+  return path;
 }
 
-bool TransformTree::connects(const std::string& a, const std::string& b) const {
-  return way_between(a, b).has_value();
+FramePath::Climb TransformTree::climb(const std::vector<std::string>& line, const std::string& top) const {
+  FramePath::Climb climb;
+  for (auto frame = line.begin(); *frame != top; ++frame)
+    climb.add(edges_.at(*frame).at(parents_.at(*frame)));
+  return climb;
 }
 
-const TransformTree::Edge& TransformTree::edge_above(const std::string& frame) const {
-  return edges_.at(frame).at(parents_.at(frame));
+std::optional<Pose3> TransformEdge::still() const {
+  if (fixed) return fixed;
+  return track.is_still() ? track.at(0, 0) : std::nullopt;
 }
 
-std::optional<Pose3> TransformTree::climbed(const std::vector<std::string>& frames, std::int64_t stamp_ns,
-                                            std::int64_t max_gap_ns) const {
-  Pose3 top_from_frame;
-  for (const std::string& frame : frames) {
-    const Edge& edge = edge_above(frame);
-    const auto parent_from_frame = edge.fixed ? edge.fixed : edge.track.at(stamp_ns, max_gap_ns);
+void FramePath::Climb::add(const TransformEdge& edge) {
+  const auto parent_from_frame = edge.still();
+  if (moving.empty() && parent_from_frame) {
+    still = *parent_from_frame * still;
+  } else {
+    moving.push_back(&edge);
+  }
+}
+
+std::optional<Pose3> FramePath::Climb::top_from_frame(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
+  Pose3 top_from_frame = still;
+  for (const TransformEdge* edge : moving) {
+    const auto parent_from_frame = edge->fixed ? edge->fixed : edge->track.at(stamp_ns, max_gap_ns);
     if (!parent_from_frame) return std::nullopt;
     top_from_frame = *parent_from_frame * top_from_frame;
   }
   return top_from_frame;
 }
 
-std::optional<Pose3> TransformTree::pose(const std::string& in, const std::string& of, std::int64_t stamp_ns,
-                                         std::int64_t max_gap_ns) const {
-  const auto way = way_between(in, of);
-  if (!way) return std::nullopt;
-  const auto top_from_in = climbed(way->up_from_a, stamp_ns, max_gap_ns);
-  const auto top_from_of = climbed(way->up_from_b, stamp_ns, max_gap_ns);
-  if (!top_from_in || !top_from_of) return std::nullopt;
-  return inverse(*top_from_in) * *top_from_of;
+std::optional<Pose3> FramePath::pose(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
+  const auto top_from_first = from_first_.top_from_frame(stamp_ns, max_gap_ns);
+  const auto top_from_second = from_second_.top_from_frame(stamp_ns, max_gap_ns);
+  if (!top_from_first || !top_from_second) return std::nullopt;
+  return inverse(*top_from_first) * *top_from_second;
 }
 
-bool TransformTree::is_still(const std::string& in, const std::string& of) const {
-  const auto way = way_between(in, of);
-  const auto stands = [&](const std::string& frame) {
-    const Edge& edge = edge_above(frame);
-    return edge.fixed || edge.track.is_still();
-  };
-  return way && std::all_of(way->up_from_a.begin(), way->up_from_a.end(), stands) &&
-         std::all_of(way->up_from_b.begin(), way->up_from_b.end(), stands);
+bool FramePath::is_still() const {
+  const auto stands = [](const TransformEdge* edge) { return edge->still().has_value(); };
+  return std::all_of(from_first_.moving.begin(), from_first_.moving.end(), stands) &&
+         std::all_of(from_second_.moving.begin(), from_second_.moving.end(), stands);
 }
 
 }  // namespace glocal::bags

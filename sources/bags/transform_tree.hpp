@@ -13,6 +13,38 @@
 
 namespace glocal::bags {
 
+/// What tf says of a frame in its parent.
+struct TransformEdge {
+  PoseTrack track;
+  std::optional<Pose3> fixed;
+
+  /// The pose that it always has; none if it moves.
+  [[nodiscard]] std::optional<Pose3> still() const;
+};
+
+/// The way through a tree from one frame to another one. Valid as long as its tree is, or what that was moved
+/// to.
+class FramePath {
+ public:
+  /// The pose of the second frame in the first one. None if a transform on the way is not known at this time
+  /// (PoseTrack::at).
+  [[nodiscard]] std::optional<Pose3> pose(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
+  /// Whether that pose never changes.
+  [[nodiscard]] bool is_still() const;
+
+ private:
+  friend class TransformTree;
+  /// From a frame up to where both ways meet.
+  struct Climb {
+    Pose3 still;                                    ///< Of the first edges together, all of which are.
+    std::vector<const TransformEdge*> moving = {};  ///< Those from the first on that is not.
+
+    void add(const TransformEdge& edge);
+    [[nodiscard]] std::optional<Pose3> top_from_frame(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
+  };
+  Climb from_first_, from_second_;
+};
+
 class TransformTree {
  public:
   /// A static one holds at all times; a later one takes its place. More than 10,000 frames are not noted.
@@ -21,33 +53,17 @@ class TransformTree {
   /// was named most often.
   void settle();
 
-  /// Whether there is a way through the tree from one frame to the other; each frame has one to itself.
-  [[nodiscard]] bool connects(const std::string& a, const std::string& b) const;
-  /// The pose of a frame in another one. None if no way connects them, or a transform on the way is not known
-  /// at this time (PoseTrack::at).
-  [[nodiscard]] std::optional<Pose3> pose(const std::string& in, const std::string& of, std::int64_t stamp_ns,
-                                          std::int64_t max_gap_ns) const;
-  /// Whether the pose of a frame in another one never changes.
-  [[nodiscard]] bool is_still(const std::string& in, const std::string& of) const;
+  /// The pose of one frame in the other over time; each frame has a way to itself. None if no way connects
+  /// them.
+  [[nodiscard]] std::optional<FramePath> path(const std::string& in, const std::string& of) const;
   [[nodiscard]] const std::map<std::string, std::string>& parents() const { return parents_; }
 
  private:
-  struct Edge {
-    PoseTrack track;
-    std::optional<Pose3> fixed;
-  };
   /// The frame, its parent, and so on up to the root.
   [[nodiscard]] std::vector<std::string> line_of(const std::string& frame) const;
-  /// Those up to, and without, where the lines of both frames meet.
-  struct Way {
-    std::vector<std::string> up_from_a, up_from_b;
-  };
-  [[nodiscard]] std::optional<Way> way_between(const std::string& a, const std::string& b) const;
-  [[nodiscard]] const Edge& edge_above(const std::string& frame) const;
-  [[nodiscard]] std::optional<Pose3> climbed(const std::vector<std::string>& frames, std::int64_t stamp_ns,
-                                             std::int64_t max_gap_ns) const;
+  [[nodiscard]] FramePath::Climb climb(const std::vector<std::string>& line, const std::string& top) const;
 
-  std::map<std::string, std::map<std::string, Edge>> edges_;  ///< By child and parent.
+  std::map<std::string, std::map<std::string, TransformEdge>> edges_;  ///< By child and parent.
   std::map<std::string, std::string> parents_;
 };
 

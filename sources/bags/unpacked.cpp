@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "sources/text_lines.hpp"
+#include "glocal/words.hpp"
 
 namespace glocal::bags {
 namespace {

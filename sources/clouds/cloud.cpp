@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
-#include "sources/text_lines.hpp"
+#include "glocal/words.hpp"
 
 namespace glocal {
 namespace {

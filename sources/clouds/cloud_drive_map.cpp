@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
 #include "glocal/rng.hpp"
 
 namespace glocal {
@@ -82,7 +83,7 @@ void describe(ParamVisitor& v, CloudDriveMap::Params& p) {
   v.field("resolution", p.resolution,
           {.doc = "Side of the cubes that have a point each, the mean of all that was met there.",
            .unit = "m",
-           .min = 0.001,
+           .min = least_resolution,
            .max = 10.0});
   v.field("min_clouds", p.min_clouds,
           {.doc = "A cube has a point only if at least so many clouds have met it: people are soon gone.",

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "glocal/words.hpp"
 #include "sources/text_lines.hpp"
 
 namespace glocal {

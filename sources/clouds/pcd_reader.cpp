@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "glocal/words.hpp"
 #include "sources/clouds/lzf.hpp"
 #include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "glocal/words.hpp"
 #include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"
 

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
+#include "glocal/words.hpp"
 #include "sources/text_lines.hpp"
 
 namespace glocal {
@@ -118,6 +120,7 @@ Trajectory parse_trajectory(std::string_view content, const std::string& file) {
     trajectory.has_stamps = lines.values().size() == tum_values;
     const auto index = static_cast<double>(trajectory.poses.size());
     const double stamp = trajectory.has_stamps ? lines.values().front() : index;
+    if (const std::string fault = fault_of_stamp(stamp); !fault.empty()) lines.refuse(fault);
     if (!trajectory.poses.empty() && stamp < trajectory.poses.back().stamp)
       lines.refuse(fmt::format("the stamp {} is before {}, that of the pose before; sort the lines", stamp,
                                trajectory.poses.back().stamp));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "sources/carmen_writer.hpp"
 #include "sources/log_drive.hpp"
 
@@ -45,7 +46,7 @@ LevelPose level_pose(const DriveScan& scan, const std::string& topic, const std:
         {{file, 0, 0,
           fmt::format("the sensor of {} is tilted by {:.1f} deg, and lasers of a CARMEN log are "
                       "level; convert to MCAP, or choose another topic with --scans",
-                      topic, tilt_deg)}});
+                      shown(topic), tilt_deg)}});
   const Pose3 half_turn({}, {0.0, 1.0, 0.0, 0.0});  // About x.
   return {seen_from_above(pose * half_turn), true};
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "sources/bags/cdr_writer.hpp"
 #include "sources/bags/message_definitions.hpp"
 
@@ -34,7 +35,8 @@ class RecordingCopier {
     writer_.finish();
     for (const auto& [topic, lost] : lost_)
       copied_.remarks.push_back(
-          fmt::format("{} messages of {} are left out: {}", lost.first, topic, lost.second));
+          fmt::format("{} messages of {} are left out: {}", lost.first, shown(topic), lost.second));
+    copied_.remarks = first_of(std::move(copied_.remarks));
     return std::move(copied_);
   }
 
@@ -76,8 +78,8 @@ class RecordingCopier {
   [[nodiscard]] static std::string why_left_out(const bags::Connection& connection) {
     if (!connection.encoding.empty() && connection.encoding != "cdr" && connection.encoding != "ros1")
       return fmt::format("they are encoded as '{}', and only messages of ROS are written",
-                         connection.encoding);
-    return fmt::format("the definition of {} for ROS 2 is not known", connection.type);
+                         shown(connection.encoding));
+    return fmt::format("the definition of {} for ROS 2 is not known", shown(connection.type));
   }
 
   void lose(const std::string& topic, const std::string& why) {

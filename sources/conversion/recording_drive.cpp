@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "sources/bags/cdr_writer.hpp"
 #include "sources/bags/message_definitions.hpp"
 #include "sources/bags/message_reader.hpp"
@@ -22,23 +23,21 @@ constexpr const char* base_frame = "base_link";
 }  // namespace
 
 RecordingDriveReader::RecordingDriveReader(const std::filesystem::path& path, const bags::DriveTopics& topics,
-                                           Warn warn, TellProgress progress)
-    : file_(path.string()), warn_(std::move(warn)), recording_(path) {
+                                           bags::Damage damage, Warn warn, TellProgress progress)
+    : file_(path.string()), warn_(std::move(warn)), recording_(path, damage) {
   recording_.tell_progress(std::move(progress));
   contents_ = bags::read_contents(recording_, topics, file_, warn_);
-  if (!contents_.reference_frame.empty() &&
-      !contents_.tree.connects(contents_.reference_frame, contents_.base_frame))
+  if (!contents_.reference_frame.empty() && !contents_.tf_reference)
     throw ConfigError({{file_, 0, 0,
                         fmt::format("tf does not connect {} with {}; give --reference a topic or a frame of "
                                     "the tree, which glocal bag info shows",
-                                    contents_.reference_frame, contents_.base_frame)}});
+                                    shown(contents_.reference_frame), shown(contents_.base_frame))}});
   std::set<std::string> with_scans;
   for (const bags::ScanTopic& scan : contents_.scans) {
     with_scans.insert(scan.topic);
-    const bool is_still = contents_.tree.is_still(contents_.base_frame, scan.frame);
-    sensors_.push_back(
-        {scan.topic, scan.frame, scan.are_clouds,
-         is_still ? contents_.tree.pose(contents_.base_frame, scan.frame, 0, longest_gap_ns) : std::nullopt});
+    const auto& mount = contents_.mount(scan.frame);
+    sensors_.push_back({scan.topic, scan.frame, scan.are_clouds,
+                        mount && mount->is_still() ? mount->pose(0, longest_gap_ns) : std::nullopt});
   }
   recording_.rewind(with_scans);
 }
@@ -71,7 +70,7 @@ std::optional<DriveScan> RecordingDriveReader::scan_of(const bags::RecordedMessa
   }
   scan.stamp_ns = header.stamp_ns;
   const auto odometry = contents_.odometry_at(header.stamp_ns, longest_gap_ns);
-  const auto mount = contents_.tree.pose(contents_.base_frame, header.frame, header.stamp_ns, longest_gap_ns);
+  const auto mount = contents_.robot_from_sensor(header.frame, header.stamp_ns, longest_gap_ns);
   if (!odometry || !mount) return std::nullopt;
   scan.odom_from_robot = *odometry;
   scan.robot_from_sensor = *mount;

@@ -23,7 +23,7 @@ class RecordingDriveReader final : public DriveReader {
  public:
   /// Throws ConfigError where Recording and bags::read_contents() do.
   RecordingDriveReader(
-      const std::filesystem::path& path, const bags::DriveTopics& topics, Warn warn,
+      const std::filesystem::path& path, const bags::DriveTopics& topics, bags::Damage damage, Warn warn,
       TellProgress progress = [](double) {});
 
   [[nodiscard]] const std::vector<DriveSensor>& sensors() const override { return sensors_; }

@@ -113,6 +113,23 @@ TEST(RosMap, TurnsWithItsOrigin) {
   EXPECT_EQ(map.grid.at(4.5, 6.5), f);
 }
 
+TEST(RosMap, TakesAYawThatIsNoNumberFor0) {
+  const test::TemporaryFolder folder;
+  folder.write("map.pgm", "P2 1 1 255\n0");
+  for (const char* yaw : {"-nan", "nan", ".nan", "NaN"}) {
+    const auto file =
+        folder.write("map.yaml", std::string("image: map.pgm\nresolution: 1\norigin: [5, 6, ") + yaw + "]\n");
+    std::vector<std::string> warnings;
+    SourceSetup setup;
+    setup.warn = [&](const std::string& text) { warnings.push_back(text); };
+    EXPECT_EQ(RosMap({test::file_path(file)}, setup).load().grid.map_from_grid, (Pose2{5.0, 6.0, 0.0}));
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr("map.yaml: the origin's yaw is NaN, and is taken as 0")));
+  }
+  const auto file = folder.write("map.yaml", "image: map.pgm\nresolution: 1\norigin: [nan, 6, 0]\n");
+  EXPECT_EQ(test::config_error(file.parent_path(), [&] { RosMap({test::file_path(file)}, {}); }),
+            "map.yaml:3:9: error: origin: must begin with two finite numbers, x and y");
+}
+
 TEST(RosMap, NamesThePlaceOfAFault) {
   const Row row({0, 255});
   const test::TemporaryFolder folder;
@@ -123,7 +140,7 @@ TEST(RosMap, NamesThePlaceOfAFault) {
   folder.write("map.pgm", "P5 1 1 255\n0");
   EXPECT_EQ(fault_of("image: no.pgm\nresolution: 0\norigin: [0, 0]\nnegatve: 0\nfree_thresh: nan\n"),
             "map.yaml:1:8: error: image: no such file: no.pgm\n"
-            "map.yaml:2:13: error: resolution: 0 is out of range, must be > 0 and <= 100 m\n"
+            "map.yaml:2:13: error: resolution: 0 is out of range, must be >= 0.001 and <= 100 m\n"
             "map.yaml:3:9: error: origin: expected 3 items, got 2\n"
             "map.yaml:4:1: error: unknown key 'negatve' (did you mean 'negate'?)\n"
             "map.yaml:5:14: error: free_thresh: nan is not a finite number");

@@ -33,12 +33,5 @@ TEST(TextLines, ReadNumbers) {
     EXPECT_FALSE(whole_number_in(text)) << text;
 }
 
-TEST(TextLines, ShowOnlyWhatCanBePrinted) {
-  EXPECT_EQ(shown("a\x01"
-                  "b\xff"),
-            "a?b?");
-  EXPECT_EQ(shown(std::string(50, 'a')), std::string(40, 'a') + "…");
-}
-
 }  // namespace
 }  // namespace glocal::text_lines_test

@@ -224,6 +224,26 @@ TEST(BitsetContact, RefusesToFillTheMemory) {
   }
 }
 
+/// Single precision is good to 3 cm at 500 km, and to 1 m at 1e7 m.
+TEST(BitsetContact, StaysWithinItsBitsFarFromTheOrigin) {
+  for (const float at : {5e5F, -5e5F, 1e7F, -1e7F, 3.3e6F}) {
+    for (const bool in_space : {false, true}) {
+      Points points;
+      for (const float d : {0.0F, 1.0F, 7.0F}) points.push_back({at + d, at - d, in_space ? at + d : 0.0F});
+      for (const double epsilon : {0.1, 0.013, 1.0}) {
+        const BitsetContact index(points, epsilon);
+        const double spacing = std::abs(at) * std::numeric_limits<float>::epsilon();
+        for (std::size_t i = 0; i < points.size() && spacing < epsilon; ++i)
+          EXPECT_TRUE(contact(index, points[i])) << at << ' ' << epsilon << ' ' << in_space;
+      }
+    }
+  }
+  // A corridor of 10,000 km: voxels are counted in single precision, too.
+  Points ends;
+  for (const float x : {-5e6F, 5e6F}) ends.push_back({x, 0.0F, 0.0F});
+  EXPECT_NO_THROW(BitsetContact(ends, 0.1));
+}
+
 TEST(BitsetContact, EmptyBricksTakeNoMemory) {
   // Two clouds, in the corners of 400 m x 300 m x 40 m: 49 billion voxels.
   Rng rng(8);

@@ -17,6 +17,7 @@ using glocal::bags::Connection;
 using glocal::bags::LaserScan;
 using glocal::bags::read_laser_scan;
 using glocal::bags::Recording;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -39,6 +40,13 @@ class Recordings : public testing::Test {
     folder_.write("file", bytes);
     return config_error(folder_.path(), [&] {
       Recording recording(folder_ / "file");
+      static_cast<void>(content(recording));
+    });
+  }
+  /// Of the file that was written last, where damage is refused.
+  [[nodiscard]] std::string strict_fault() const {
+    return config_error(folder_.path(), [&] {
+      Recording recording(folder_ / "file", glocal::bags::Damage::refused);
       static_cast<void>(content(recording));
     });
   }
@@ -143,6 +151,42 @@ TEST_F(Recordings, ThatEndEarlyAreReadUpToThere) {
   EXPECT_THAT(read(bag.substr(0, bag.size() - 1)), ElementsAre("1000000000 /a one"));
 }
 
+TEST_F(Recordings, ThatAreDamagedBehindSomethingWholeAreReadUpToThere) {
+  const std::string whole = ros1_magic + ros1_bag_header() +
+                            ros1_chunk(ros1_connection(0, "/a", "x/A") + ros1_message(0, 1, "one"), "bz2");
+  const std::string bag = whole + le<std::uint32_t>(528281152) + std::string(400, 'x');
+  folder_.write("file", bag);
+  Recording recording(folder_ / "file");
+  EXPECT_THAT(content(recording), ElementsAre("1000000000 /a one"));
+  EXPECT_THAT(recording.warnings(),
+              ElementsAre(AllOf(HasSubstr("byte " + std::to_string(whole.size()) +
+                                          ": a record's header of "
+                                          "528281152 bytes is announced"),
+                                HasSubstr("what comes before it is read: " + std::to_string(whole.size()) +
+                                          " of " + std::to_string(bag.size()) + " bytes"))));
+  EXPECT_THAT(strict_fault(), HasSubstr("a record's header of 528281152 bytes is announced"));
+}
+
+TEST_F(Recordings, ChunksThatAreDamagedAreLeftOut) {
+  const auto chunk = [](std::uint64_t at, const char* text) {
+    return mcap_chunk({at, at, two_channels + mcap_message(1, at, text), "zstd"});
+  };
+  std::string mcap = mcap_file(chunk(1, "one") + chunk(2, "two") + chunk(3, "three") + chunk(4, "four"));
+  for (const char* text : {"two", "four"}) {
+    const std::string part = chunk(text[0] == 't' ? 2 : 4, text);
+    mcap[mcap.find(part) + part.size() - 3] ^= 1;
+  }
+  folder_.write("file", mcap);
+  Recording recording(folder_ / "file");
+  EXPECT_THAT(content(recording), ElementsAre("1 /a one", "3 /a three"));
+  recording.rewind();
+  EXPECT_THAT(content(recording), ElementsAre("1 /a one", "3 /a three"));
+  EXPECT_THAT(recording.warnings(),
+              ElementsAre(HasSubstr("this chunk is left out, as are others that are damaged"),
+                          HasSubstr("2 of 4 chunks are damaged and left out, the first at byte ")));
+  EXPECT_THAT(strict_fault(), HasSubstr("get a fresh copy"));
+}
+
 TEST_F(Recordings, OfRos1NeedNoIndex) {
   for (const std::string compression : {"none", "bz2", "lz4"}) {
     EXPECT_THAT(read(ros1_magic + ros1_bag_header() +
@@ -166,7 +210,7 @@ TEST_F(Recordings, WithIndexesBehindTheirChunksAreNotUnpackedForTheirNames) {
   std::string damaged = mcap;
   damaged[damaged.find(second) + second.size() - 3] ^= 1;
   EXPECT_NO_THROW(Recording(folder_.write("file", damaged))) << "the second chunk is not looked into";
-  EXPECT_THAT(fault(damaged), HasSubstr("get a fresh copy"));
+  EXPECT_THAT(read(damaged), ElementsAre("3 /a three"));
 
   const std::string names = ros1_connection(0, "/a", "x/A");
   std::string late = ros1_chunk(names + ros1_message(0, 3, "three") + ros1_message(0, 5, "five"), "bz2");

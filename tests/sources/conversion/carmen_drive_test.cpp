@@ -50,7 +50,7 @@ class Conversion : public testing::Test {
     return folder_.write("drive.mcap", bytes);
   }
   std::filesystem::path as_log(const std::filesystem::path& recording, const bags::DriveTopics& choice) {
-    RecordingDriveReader reader(recording, choice, warn());
+    RecordingDriveReader reader(recording, choice, bags::Damage::passed_over, warn());
     std::string text;
     CarmenDriveWriter writer("drive.mcap", [&](std::string_view more) { text += more; });
     counts_ = pass_on(reader, writer, "drive.mcap", warn());
