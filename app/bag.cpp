@@ -1,6 +1,5 @@
 // glocal bag: look at robots' own recordings.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -10,8 +9,11 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/drive_options.hpp"
 #include "app/reading_bar.hpp"
+#include "app/standard_streams.hpp"
 #include "glocal/pose2.hpp"
+#include "glocal/words.hpp"
 #include "sources/bags/recording_summary.hpp"
 
 namespace glocal::app {
@@ -21,31 +23,42 @@ using Json = nlohmann::ordered_json;
 
 struct BagOptions {
   std::string file;
-  bool json = false;
+  bool json = false, strict = false;
 };
 
 double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-9;
 }
 
-void show(const bags::Recording& recording, const bags::RecordingSummary& summary) {
-  fmt::print("format      {}\n", recording.format());
-  fmt::print("messages    {}\n", summary.messages);
-  fmt::print("time        {:.3f} s, from {:.3f} s on\n", seconds(summary.last_ns - summary.first_ns),
-             seconds(summary.first_ns));
-  if (!summary.odometry.empty()) fmt::print("path        {:.2f} m by {}\n", summary.path_m, summary.odometry);
-  fmt::print("topics\n");
+/// Of more topics, or frames, than anybody reads the rest is counted.
+constexpr std::size_t most_lines = 1000;
+
+void show_topics(const std::vector<bags::TopicSummary>& topics) {
+  const std::size_t n = std::min(topics.size(), most_lines);
   std::size_t topic_width = 0, type_width = 0;
-  for (const bags::TopicSummary& topic : summary.topics) {
-    topic_width = std::max(topic_width, topic.topic.size());
-    type_width = std::max(type_width, topic.type.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    topic_width = std::max(topic_width, shown(topics[i].topic).size());
+    type_width = std::max(type_width, shown(topics[i].type).size());
   }
-  for (const bags::TopicSummary& topic : summary.topics) {
-    fmt::print("  {:{}}  {:{}} {:8} {:8.2f} Hz  {}\n", topic.topic, topic_width, topic.type, type_width,
-               topic.messages, topic.rate_hz(), fmt::join(topic.frames, " "));
-    if (topic.first_scan) fmt::print("  {:{}}  {}\n", "", topic_width, text_of(*topic.first_scan));
+  answer("topics\n");
+  for (std::size_t i = 0; i < n; ++i) {
+    const bags::TopicSummary& topic = topics[i];
+    answer("  {:{}}  {:{}} {:8} {:8.2f} Hz  {}\n", shown(topic.topic), topic_width, shown(topic.type),
+           type_width, topic.messages, topic.rate_hz(), listed(topic.frames, " "));
+    if (topic.first_scan) answer("  {:{}}  {}\n", "", topic_width, text_of(*topic.first_scan));
   }
-  if (!summary.parents.empty()) fmt::print("frames\n{}", bags::frame_tree(summary.parents));
+  if (n < topics.size()) answer("  and {} more; --json has all\n", topics.size() - n);
+}
+
+void show(const bags::Recording& recording, const bags::RecordingSummary& summary) {
+  answer("format      {}\n", recording.format());
+  answer("messages    {}\n", summary.messages);
+  answer("time        {:.3f} s, from {:.3f} s on\n", seconds(summary.last_ns - summary.first_ns),
+         seconds(summary.first_ns));
+  if (!summary.odometry.empty())
+    answer("path        {:.2f} m by {}\n", summary.path_m, shown(summary.odometry));
+  show_topics(summary.topics);
+  if (!summary.parents.empty()) answer("frames\n{}", bags::frame_tree(summary.parents, most_lines));
 }
 
 Json json_of(const bags::TopicSummary& topic) {
@@ -83,7 +96,7 @@ Json json_of(const bags::Recording& recording, const bags::RecordingSummary& sum
 
 void info(const BagOptions& options) {
   ReadingBar bar;
-  bags::Recording recording(options.file);
+  bags::Recording recording(options.file, bags::damage_if(options.strict));
   recording.tell_progress(bar.call());
   std::vector<std::string> remarks;
   const bags::RecordingSummary summary = bags::summarize_recording(recording, remarks);
@@ -91,7 +104,7 @@ void info(const BagOptions& options) {
   for (const std::string& remark : remarks) spdlog::warn("{}", remark);
   if (!options.json) return show(recording, summary);
   // Names in files may be of any bytes.
-  fmt::print("{}\n", json_of(recording, summary).dump(2, ' ', false, Json::error_handler_t::replace));
+  answer("{}\n", json_of(recording, summary).dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace
@@ -105,6 +118,7 @@ void add_bag(CLI::App& app, Context& /*context*/) {
   info_command->add_option("FILE", options->file, "ROS 1 bag, ROS 2 bag (.db3 or its folder) or MCAP")
       ->required();
   info_command->add_flag("--json", options->json, "As JSON");
+  add_strict(*info_command, options->strict);
   info_command->callback([options] { info(*options); });
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/fault_collector.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 
@@ -27,9 +28,9 @@ void check(const std::string& file, const ExperimentOptions& options, Context& c
   LoadedExperiment& loaded = loader.load(first);
   const Localizer localizer = make_localizer(first, context.catalog, loaded);
   if (const auto why = why_never_declared(first, loaded, localizer)) spdlog::warn("{}: {}", file, *why);
-  fmt::print("{}: ok, {} map points, {} observations, {} trials{}\n", file, loaded.map->points().size(),
-             loaded.drive.samples.size(), loaded.starts.size(),
-             variants.size() > 1 ? fmt::format(" of each of {} variants", variants.size()) : "");
+  answer("{}: ok, {} map points, {} observations, {} trials{}\n", file, loaded.map->points().size(),
+         loaded.drive.samples.size(), loaded.starts.size(),
+         variants.size() > 1 ? fmt::format(" of each of {} variants", variants.size()) : "");
 }
 
 void check_all(const CheckOptions& options, Context& context) {

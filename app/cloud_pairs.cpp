@@ -12,6 +12,7 @@
 #include "config/text_file.hpp"
 #include "evaluation/statistics/statistics.hpp"
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "sources/text_lines.hpp"
 
 namespace glocal::app {

@@ -9,9 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "app/job_scripts.hpp"
 #include "app/standard_streams.hpp"
 #include "config/nearest.hpp"
+#include "glocal/builtin.hpp"
 #include "glocal/error.hpp"
+#include "version.hpp"
 
 namespace glocal::app {
 namespace {
@@ -50,9 +53,47 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error) {
   return wrong_input;
 }
 
+void add_all(CLI::App& app, Context& context) {
+  add_localize(app, context);
+  add_run(app, context);
+  add_status(app, context);
+  add_merge(app, context);
+  add_submit(app, context);
+  add_check(app, context);
+  add_help(app, context);
+  add_list(app, context);
+  add_describe(app, context);
+  add_explain(app, context);
+  add_summarize(app, context);
+  add_sweep(app, context);
+  add_compare(app, context);
+  add_figures(app, context);
+  add_register(app, context);
+  add_reliability(app, context);
+  add_report(app, context);
+  add_schema(app, context);
+  add_reference(app, context);
+  add_simulate(app, context);
+  add_map(app, context);
+  add_bag(app, context);
+  add_convert(app, context);
+  add_prepare(app, context);
+  add_mapping(app, context);
+  add_new_plugin(app, context);
+  add_completion(app, context);
+  add_manual(app, context);
+}
+
+/// As a shell would read them.
+std::string words_of(int argc, char** argv) {
+  std::string words = "glocal";
+  for (int i = 1; i < argc; ++i) words += " " + shell_word(argv[i]);
+  return words;
+}
+
 int parse_and_run(CLI::App& app, const Context& context, int argc, char** argv) {
   if (argc <= 1) {
-    fmt::print("{}", app.help());
+    answer(app.help());
     flush_answers();
     return 0;
   }
@@ -80,7 +121,15 @@ std::vector<const CLI::App*> shown_subcommands(const CLI::App& command) {
   return command.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); });
 }
 
-int run_command_line(CLI::App& app, const Context& context, int argc, char** argv) {
+int run_program(int argc, char** argv) {
+  Context context;
+  context.command_line = words_of(argc, argv);
+  register_builtin_strategies(context.catalog);
+  CLI::App app("Finds out where a mobile robot is on a known map from range scans and odometry.", "glocal");
+  app.set_version_flag("--version", std::string("glocal ") + version + " (" + revision() + ")");
+  app.require_subcommand(1);
+  add_all(app, context);
+  add_plugins(app, context);
   return exit_code_of([&] { return parse_and_run(app, context, argc, argv); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/compare_times.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/comparison/comparison.hpp"
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/atomic_file.hpp"
@@ -41,7 +42,7 @@ void compare_runs(const CompareOptions& options, Context& context) {
   if (!options.json.empty()) files.add(options.json, output.json_text(2) + "\n");
   if (!options.markdown.empty()) files.add(options.markdown, as_markdown(output.report));
   files.commit();
-  fmt::print("{}", as_text(output.report));
+  answer(as_text(output.report));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/embedded_files.hpp"
+#include "app/standard_streams.hpp"
 #include "config/experiment_params.hpp"
 #include "config/field_docs.hpp"
 
@@ -219,9 +220,8 @@ Completion unfiltered(const Place& place, const std::string& typed, const CLI::A
 
 void print_completion(const std::vector<std::string>& words, const CLI::App& app, const Catalog& catalog) {
   const Completion completion = complete(words, app, catalog);
-  for (const Candidate& candidate : completion.candidates)
-    fmt::print("{}\t{}\n", candidate.text, candidate.doc);
-  if (completion.files) fmt::print(":files\n");
+  for (const Candidate& candidate : completion.candidates) answer("{}\t{}\n", candidate.text, candidate.doc);
+  if (completion.files) answer(":files\n");
 }
 
 }  // namespace
@@ -242,7 +242,7 @@ void add_completion(CLI::App& app, Context& context) {
   command->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  command->callback([shell] { fmt::print("{}", embedded_file("glocal." + *shell)); });
+  command->callback([shell] { answer(embedded_file("glocal." + *shell)); });
 
   auto words = std::make_shared<std::vector<std::string>>();
   CLI::App* answers =

@@ -14,6 +14,7 @@
 #include "app/drive_options.hpp"
 #include "app/interrupts.hpp"
 #include "app/reading_bar.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/provenance.hpp"
@@ -74,21 +75,20 @@ class GrowingFile {
 };
 
 void tell(const DriveCounts& counts, const ConvertOptions& options) {
-  fmt::print("{} scans, {} of them with reference pose, in {}\n", counts.scans, counts.references,
-             options.out);
+  answer("{} scans, {} of them with reference pose, in {}\n", counts.scans, counts.references, options.out);
 }
 
 void copy_to_mcap(const ConvertOptions& options) {
   options.in.refuse_choices("all topics of a recording are copied to MCAP");
   ReadingBar bar;
-  bags::Recording recording(options.in.file);
+  bags::Recording recording = options.in.open_recording();
   recording.tell_progress(bar.call());
   GrowingFile file(options.out, options.force);
   const CopiedRecording copied = copy_recording(recording, file.sink());
   for (const std::string& text : recording.warnings()) warn(text);
   for (const std::string& remark : copied.remarks) warn(fmt::format("{}: {}", options.in.file, remark));
   file.commit();
-  fmt::print("{} messages in {}\n", copied.messages, options.out);
+  answer("{} messages in {}\n", copied.messages, options.out);
 }
 
 void to_mcap(const ConvertOptions& options) {
@@ -120,8 +120,7 @@ void to_carmen(const ConvertOptions& options) {
 /// Experiments take the sensor to be where the robot is unless they say something else.
 void tell_mount(const Pose3& robot_from_sensor) {
   if (robot_from_sensor == Pose3{}) return;
-  fmt::print("the sensor's place: --set 'observations.cloud_drive.sensor={}'\n",
-             mount_yaml(robot_from_sensor));
+  answer("the sensor's place: --set 'observations.cloud_drive.sensor={}'\n", mount_yaml(robot_from_sensor));
 }
 
 void to_folder(const ConvertOptions& options, const Context& context) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/standard_streams.hpp"
 #include "config/help.hpp"
 #include "config/nearest.hpp"
 #include "config/reader.hpp"
@@ -27,12 +28,12 @@ void describe_name(const std::string& name, bool as_json, const Catalog& catalog
   if (as_json) {
     const auto found = help_json(name, catalog);
     if (!found) refuse(name, catalog);
-    fmt::print("{}\n", found->dump(2));
+    answer("{}\n", found->dump(2));
     return;
   }
   const auto text = help(name, catalog);
   if (!text) refuse(name, catalog);
-  fmt::print("{}", *text);
+  answer(*text);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::unique_ptr<DriveReader> open_recording(const DriveOptions& options, const Warn& warn,
-                                            const TellProgress& progress) {
+std::unique_ptr<DriveReader> open_recorded(const DriveOptions& options, const Warn& warn,
+                                           const TellProgress& progress) {
   bags::DriveTopics topics;
   if (!options.scans.empty()) topics.scans = {options.scans};
   topics.odometry = options.odometry;
@@ -23,7 +23,8 @@ std::unique_ptr<DriveReader> open_recording(const DriveOptions& options, const W
   topics.base_frame = options.base_frame;
   topics.are_options = true;
   (is_topic(options.reference) ? topics.reference : topics.reference_frame) = options.reference;
-  return std::make_unique<RecordingDriveReader>(options.file, topics, warn, progress);
+  return std::make_unique<RecordingDriveReader>(options.file, topics, bags::damage_if(options.strict), warn,
+                                                progress);
 }
 
 std::unique_ptr<DriveReader> open_carmen(const DriveOptions& options) {
@@ -54,6 +55,11 @@ std::unique_ptr<DriveReader> open_clouds(const DriveOptions& options, const Warn
 
 }  // namespace
 
+void add_strict(CLI::App& command, bool& strict) {
+  command.add_flag("--strict", strict,
+                   "Refuse a recording that is damaged behind something whole, instead of reading that");
+}
+
 void DriveOptions::add_to(CLI::App& command, const std::string& name) {
   command
       .add_option(name, file,
@@ -71,6 +77,11 @@ void DriveOptions::add_to(CLI::App& command, const std::string& name) {
                   "CARMEN logs that do not say it: readings from here on met nothing, m")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  add_strict(command, strict);
+}
+
+bags::Recording DriveOptions::open_recording() const {
+  return bags::Recording(file, bags::damage_if(strict));
 }
 
 void DriveOptions::refuse_choices(const std::string& why) const {
@@ -84,7 +95,7 @@ void DriveOptions::refuse_choices(const std::string& why) const {
 std::unique_ptr<DriveReader> DriveOptions::open(const Warn& warn, const TellProgress& progress) const {
   switch (kind_of_log(file)) {
     case LogKind::recording:
-      return open_recording(*this, warn, progress);
+      return open_recorded(*this, warn, progress);
     case LogKind::clouds:
       return open_clouds(*this, warn, progress);
     case LogKind::carmen:
@@ -96,7 +107,7 @@ std::unique_ptr<DriveReader> DriveOptions::open(const Warn& warn, const TellProg
 std::set<fs::path> DriveOptions::inputs() const {
   switch (kind_of_log(file)) {
     case LogKind::recording: {
-      const bags::Recording recording(file);
+      const bags::Recording recording = open_recording();
       return {recording.files().begin(), recording.files().end()};
     }
     case LogKind::clouds: {

@@ -9,18 +9,26 @@
 
 #include "app/log_kind.hpp"
 #include "glocal/catalog.hpp"
+#include "sources/bags/recording.hpp"
 #include "sources/conversion/carmen_drive.hpp"
 #include "sources/conversion/drive_stream.hpp"
 
 namespace glocal::app {
 
+/// Adds --strict.
+void add_strict(CLI::App& command, bool& strict);
+
 struct DriveOptions {
   std::string file;
   std::string scans, odometry, odom_frame, base_frame, reference;
   double max_range = sick_range;
+  bool strict = false;
 
   /// Adds the file, as `name`, and all others. This object must live as long as the command.
   void add_to(CLI::App& command, const std::string& name);
+
+  /// Opens the recording that the file is.
+  [[nodiscard]] bags::Recording open_recording() const;
 
   /// Throws ConfigError for the first option that was given: `why` this input has no use for them.
   void refuse_choices(const std::string& why) const;

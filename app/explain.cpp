@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "glocal/contact.hpp"
@@ -226,22 +227,21 @@ void explain(const ExplainOptions& options, Context& context) {
     return lost_by_matcher(open.result.hypotheses, step, limits);
   };
 
-  fmt::print("{}, trial {}, step {}, after {:.1f} m\n", experiment.name, options.trial, options.step,
-             step.driven_m);
-  fmt::print("  reference   {}\n", text_of(truth));
-  fmt::print(
+  answer("{}, trial {}, step {}, after {:.1f} m\n", experiment.name, options.trial, options.step,
+         step.driven_m);
+  answer("  reference   {}\n", text_of(truth));
+  answer(
       "  contact     {:.0f} % at the reference, {:.0f} % at the best fit near by ({:.2f} m, {:.1f} deg "
       "off)\n",
       100.0 * at_truth, 100.0 * near_truth, distance(fitted, truth),
       degrees(rotation_between(fitted, truth)));
-  fmt::print("  threshold   {:.2f}; best {}\n", result.omega_max,
-             worth(result.score_best, result.omega_best));
-  fmt::print("  hypothesis  {}\n", rank_text(result.hypotheses, hypothesis, truth));
-  fmt::print("  cluster     {}\n", rank_text(result.clusters, cluster, truth));
-  fmt::print("  verdict     {}: {}\n", to_string(result.verdict.kind), result.verdict.why);
+  answer("  threshold   {:.2f}; best {}\n", result.omega_max, worth(result.score_best, result.omega_best));
+  answer("  hypothesis  {}\n", rank_text(result.hypotheses, hypothesis, truth));
+  answer("  cluster     {}\n", rank_text(result.clusters, cluster, truth));
+  answer("  verdict     {}: {}\n", to_string(result.verdict.kind), result.verdict.why);
   if (experiment.localizer.motion == Motion::planar)
-    fmt::print("  rivals      {}\n", rivals_elsewhere(step, loaded, experiment, context.catalog, limits));
-  fmt::print("  lost        {}\n", lost());
+    answer("  rivals      {}\n", rivals_elsewhere(step, loaded, experiment, context.catalog, limits));
+  answer("  lost        {}\n", lost());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/standard_streams.hpp"
 #include "config/nearest.hpp"
 #include "glocal/error.hpp"
 
@@ -18,18 +19,18 @@ namespace {
 void help_on(const std::string& topic, const CLI::App& app, const Catalog& catalog) {
   if (topic.empty()) {
     // app.help() would be that of the command that runs: this one.
-    fmt::print("{}", app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
+    answer(app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
     return;
   }
   std::vector<std::string> commands;
   for (const CLI::App* command : subcommands_of(app)) {
     commands.push_back(command->get_name());
     if (command->get_name() != topic) continue;
-    fmt::print("{}", command->help(app.get_name()));
+    answer(command->help(app.get_name()));
     return;
   }
   if (const auto text = help(topic, catalog)) {
-    fmt::print("{}", *text);
+    answer(*text);
     return;
   }
   throw ConfigError({{"", 0, 0,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/standard_streams.hpp"
 #include "config/help.hpp"
 #include "config/nearest.hpp"
 #include "glocal/error.hpp"
@@ -42,7 +43,7 @@ void list_as_json(const std::vector<const RegistryBase*>& registries) {
   for (const RegistryBase* registry : registries) {
     for (auto& strategy : strategies_json(*registry)) strategies.push_back(std::move(strategy));
   }
-  fmt::print("{}\n", strategies.dump(2));
+  answer("{}\n", strategies.dump(2));
 }
 
 void list(const std::string& kind, const Catalog& catalog) {
@@ -51,7 +52,7 @@ void list(const std::string& kind, const Catalog& catalog) {
     if (kind.empty()) text += (text.empty() ? "" : "\n") + registry->kind() + "\n";
     text += list_strategies(*registry);
   }
-  fmt::print("{}", text);
+  answer(text);
 }
 
 }  // namespace

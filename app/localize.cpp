@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/drive_options.hpp"
 #include "app/experiment_options.hpp"
 #include "app/interrupts.hpp"
 #include "app/localize_plan.hpp"
 #include "app/reading_bar.hpp"
 #include "app/report_file.hpp"
 #include "app/run_report.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/running/experiment_runner.hpp"
 
@@ -65,9 +67,9 @@ class Narrator {
     motion_ = variant.experiment.localizer.motion;
     tells_steps_ = loaded.starts.size() == 1;
     first_sample_ = loaded.starts.front();
-    fmt::print("map         {} points\n", loaded.map->points().size());
-    fmt::print("drive       {} observations over {:.1f} m, {} {}\n\n", drive_->samples.size(),
-               drive_->path_m.back(), loaded.starts.size(), tells_steps_ ? "start" : "starts");
+    answer("map         {} points\n", loaded.map->points().size());
+    answer("drive       {} observations over {:.1f} m, {} {}\n\n", drive_->samples.size(),
+           drive_->path_m.back(), loaded.starts.size(), tells_steps_ ? "start" : "starts");
   }
 
   void step(const StepRecord& record) {
@@ -76,10 +78,10 @@ class Narrator {
     const auto pose = result.estimate();
     const auto& estimate = result.verdict.estimate;
     const double way = drive_->path_m[first_sample_ + result.step] - drive_->path_m[first_sample_];
-    fmt::print("step {:3}  {:6.2f} m  {:13}  {}{}\n", result.step + 1, way, to_string(result.verdict.kind),
-               pose ? text_of(*pose, motion_) : "no pose",
-               estimate ? fmt::format(", {:.0f} %", 100.0 * estimate->confidence) : "");
-    if (result.verdict.why != last_why_) fmt::print("          {}\n", result.verdict.why);
+    answer("step {:3}  {:6.2f} m  {:13}  {}{}\n", result.step + 1, way, to_string(result.verdict.kind),
+           pose ? text_of(*pose, motion_) : "no pose",
+           estimate ? fmt::format(", {:.0f} %", 100.0 * estimate->confidence) : "");
+    if (result.verdict.why != last_why_) answer("          {}\n", result.verdict.why);
     last_why_ = result.verdict.why;
   }
 
@@ -88,13 +90,13 @@ class Narrator {
     if (trial.outcome == Outcome::failed) {
       spdlog::error("{}{}", from, trial.why);
     } else if (trial.pose) {
-      fmt::print("{}localized after {} {}, {:.2f} m: {}{}\n", from, trial.steps,
-                 trial.steps == 1 ? "step" : "steps", trial.distance_m, text_of(*trial.pose, motion_),
-                 judged(trial));
+      answer("{}localized after {} {}, {:.2f} m: {}{}\n", from, trial.steps,
+             trial.steps == 1 ? "step" : "steps", trial.distance_m, text_of(*trial.pose, motion_),
+             judged(trial));
     } else {
       const auto guess = trial.records.empty() ? std::nullopt : trial.records.back().result.estimate();
-      fmt::print("{}not localized in {} steps, {:.2f} m: {}{}\n", from, trial.steps, trial.distance_m,
-                 trial.why, guess ? "; the best guess is " + text_of(*guess, motion_) : "");
+      answer("{}not localized in {} steps, {:.2f} m: {}{}\n", from, trial.steps, trial.distance_m, trial.why,
+             guess ? "; the best guess is " + text_of(*guess, motion_) : "");
     }
   }
 
@@ -111,7 +113,7 @@ void print_figures(const RunResult& result) {
   std::ifstream file(result.variants.front().summary);
   const auto summary = nlohmann::ordered_json::parse(file);
   if (summary["trials"]["count"].get<int>() < 2) return;
-  fmt::print("\n");
+  answer("\n");
   print_summary(summary, result.folder);
 }
 
@@ -142,8 +144,8 @@ void localize(const LocalizeOptions& options, Context& context) {
   const std::string out = options.out.empty() ? "results/" + plan.name : options.out;
   const std::string file = out + ".yaml";
   write_experiment(file, plan.experiment, options.force);
-  for (const std::string& choice : plan.choices) fmt::print("{}\n", choice);
-  fmt::print("experiment  {}\n", file);
+  for (const std::string& choice : plan.choices) answer("{}\n", choice);
+  answer("experiment  {}\n", file);
   std::fflush(stdout);
 
   listen_to_interrupts();
@@ -156,7 +158,7 @@ void localize(const LocalizeOptions& options, Context& context) {
   print_figures(result);
   context.exit_code = exit_code_of(result);
   ReportOptions report{.folders = {result.folder.string()}, .out = out + ".html", .force = options.force};
-  fmt::print("report      {}\n", write_report(report).string());
+  answer("report      {}\n", write_report(report).string());
 }
 
 }  // namespace
@@ -200,6 +202,7 @@ void add_localize(CLI::App& app, Context& context) {
                    "Look only at starts with headings half the width or less from this one, deg")
       ->type_name("DEG WIDTH")
       ->expected(2);
+  add_strict(*command, request.strict);
   options->changes.add_overrides_to(*command);
   command->add_option("--out", options->out, "Folder for the results (default: results/localize_LOG)");
   command->add_flag("--force", options->force, "Replace earlier results");

@@ -10,6 +10,7 @@
 #include "app/log_kind.hpp"
 #include "config/scalars.hpp"
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "glocal/yaml.hpp"
 #include "sources/bags/drive_contents.hpp"
 #include "sources/bags/file_bytes.hpp"
@@ -57,10 +58,13 @@ MapChoice choose_octree(const std::string& path, const Catalog& catalog) {
           true};
 }
 
-MapChoice choose_map(const fs::path& map, const Catalog& catalog) {
+MapChoice choose_map(const LocalizeRequest& request, const Catalog& catalog) {
+  const fs::path& map = request.map;
   expect_there(map);
   const std::string path = path_entry("path", map);
-  if (bags::is_recording(map)) return {fmt::format("bag_map: {{{}}}", path), "a map recorded as a message"};
+  if (bags::is_recording(map))
+    return {fmt::format("bag_map: {{{}{}}}", path, request.strict ? ", strict: true" : ""),
+            "a map recorded as a message"};
   if (is_file_of_octree(map)) return choose_octree(path, catalog);
   if (has_name_of_cloud(map)) return {fmt::format("point_cloud: {{{}}}", path), "a cloud of points", true};
   if (map.extension() != ".yaml" && map.extension() != ".yml")
@@ -106,15 +110,17 @@ std::vector<std::string> recording_texts(const bags::Recording& recording,
   std::vector<std::string> texts = {
       fmt::format("log         {}, {:.1f} s, {:.1f} m", recording.format(),
                   static_cast<double>(summary.last_ns - summary.first_ns) * 1e-9, summary.path_m)};
+  std::vector<std::string> scans;
   for (const bags::TopicSummary& topic : summary.topics) {
     if (!bags::has_scans(topic.type)) continue;
     const bool is_used = std::any_of(contents.scans.begin(), contents.scans.end(),
                                      [&](const auto& scan) { return scan.topic == topic.topic; });
-    texts.push_back(fmt::format("{}{}", is_used ? "scans       " : "not used    ", text_of(topic)));
+    scans.push_back(fmt::format("{}{}", is_used ? "scans       " : "not used    ", text_of(topic)));
   }
-  texts.push_back(fmt::format("robot       {}, odometry {} from {}", contents.base_frame,
-                              contents.odometry.empty() ? "by tf" : "of " + contents.odometry,
-                              contents.odom_frame));
+  for (std::string& text : first_of(std::move(scans))) texts.push_back(std::move(text));
+  texts.push_back(fmt::format("robot       {}, odometry {} from {}", shown(contents.base_frame),
+                              contents.odometry.empty() ? "by tf" : "of " + shown(contents.odometry),
+                              shown(contents.odom_frame)));
   return texts;
 }
 
@@ -125,11 +131,12 @@ std::string recording_yaml(const LocalizeRequest& request, const bags::DriveCont
                                  fmt::join(scans, ", "), entry("base_frame", contents.base_frame));
   yaml += fmt::format("    {}\n", contents.odometry.empty() ? entry("odom_frame", contents.odom_frame)
                                                             : entry("odometry", contents.odometry));
+  if (request.strict) yaml += "    strict: true\n";
   return yaml;
 }
 
 LogChoice choose_recording(const LocalizeRequest& request, const MapChoice& map) {
-  bags::Recording recording(request.log);
+  bags::Recording recording(request.log, bags::damage_if(request.strict));
   recording.tell_progress(request.progress);
   std::vector<std::string> told_by_the_source;
   const bags::RecordingSummary summary = bags::summarize_recording(recording, told_by_the_source);
@@ -202,7 +209,7 @@ std::string prior_entry(const Prior& prior) {
 }  // namespace
 
 LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& catalog) {
-  const MapChoice map = choose_map(request.map, catalog);
+  const MapChoice map = choose_map(request, catalog);
   const LogChoice log = choose_log(request, map);
   LocalizePlan plan{.name = "localize_" + plain_name(request.log),
                     .experiment = {},

@@ -20,6 +20,7 @@ struct LocalizeRequest {
   std::string reference;  ///< Of a recording: topic or frame of tf. Of a folder of clouds: file of poses.
   double start_m = 0.0;   ///< Along the drive.
   double every_m = 0.0;   ///< Way between starts; 0: a single one.
+  bool strict = false;    ///< Refuses recordings that are damaged in part.
   bool whole = false;     ///< Goes on after the declaration, to the end of the drive.
   Prior prior;            ///< Of each start.
   TellProgress progress = [](double) {};

@@ -14,6 +14,7 @@
 #include "app/filled_params.hpp"
 #include "app/map_align.hpp"
 #include "app/map_index.hpp"
+#include "app/standard_streams.hpp"
 #include "config/reader.hpp"
 #include "config/text_file.hpp"
 #include "config/yaml_parser.hpp"
@@ -92,16 +93,16 @@ std::string range_of(const std::vector<float>& values) {
 void show(const MapData& map) {
   const OccupancyGrid& grid = map.grid;
   const auto cells = [&](Cell kind) { return std::count(grid.cells.begin(), grid.cells.end(), kind); };
-  fmt::print("cells       {} x {} of {} m: {:.2f} m x {:.2f} m\n", grid.width, grid.height, grid.resolution,
-             grid.width * grid.resolution, grid.height * grid.resolution);
-  fmt::print("origin      x {:.3f} m, y {:.3f} m, yaw {:.2f} deg\n", grid.map_from_grid.x,
-             grid.map_from_grid.y, degrees(grid.map_from_grid.theta));
-  fmt::print("occupied    {}\nfree        {} ({:.1f} m^2)\nunknown     {}\n", cells(Cell::occupied),
-             cells(Cell::free), static_cast<double>(cells(Cell::free)) * grid.resolution * grid.resolution,
-             cells(Cell::unknown));
-  fmt::print("points      {}: x {} m, y {} m\n", map.points.size(), range_of(map.points.x),
-             range_of(map.points.y));
-  fmt::print("path        {} poses\n", map.path.size());
+  answer("cells       {} x {} of {} m: {:.2f} m x {:.2f} m\n", grid.width, grid.height, grid.resolution,
+         grid.width * grid.resolution, grid.height * grid.resolution);
+  answer("origin      x {:.3f} m, y {:.3f} m, yaw {:.2f} deg\n", grid.map_from_grid.x, grid.map_from_grid.y,
+         degrees(grid.map_from_grid.theta));
+  answer("occupied    {}\nfree        {} ({:.1f} m^2)\nunknown     {}\n", cells(Cell::occupied),
+         cells(Cell::free), static_cast<double>(cells(Cell::free)) * grid.resolution * grid.resolution,
+         cells(Cell::unknown));
+  answer("points      {}: x {} m, y {} m\n", map.points.size(), range_of(map.points.x),
+         range_of(map.points.y));
+  answer("path        {} poses\n", map.path.size());
 }
 
 struct AlignOptions {
@@ -136,10 +137,10 @@ void align(const AlignOptions& options, Context& context) {
         options.other.file, options.map.file, options.contact_epsilon));
   }
   const Pose2& p = found->map_from_other;
-  fmt::print("pose        [{:.3f}, {:.3f}, {:.3f}]: x, y (m), yaw (deg) of {} in {}\n", p.x, p.y,
-             degrees(p.theta), options.other.file, options.map.file);
-  fmt::print("contact     {:.1f} % of its points within {} m\n", 100.0 * found->in_contact,
-             options.contact_epsilon);
+  answer("pose        [{:.3f}, {:.3f}, {:.3f}]: x, y (m), yaw (deg) of {} in {}\n", p.x, p.y,
+         degrees(p.theta), options.other.file, options.map.file);
+  answer("contact     {:.1f} % of its points within {} m\n", 100.0 * found->in_contact,
+         options.contact_epsilon);
 }
 
 void index(const MapOptions& options, Context& context) {
@@ -147,8 +148,8 @@ void index(const MapOptions& options, Context& context) {
   MapData map = load_map(experiment, context.catalog, warning_setup());
   const MapIndexInfo saved =
       save_index(experiment, context.catalog, std::move(map), options.out, options.force);
-  fmt::print("entries     {}\nbytes       {}\nbuild       {:.1f} ms\n", saved.entries, saved.bytes,
-             saved.build_ms);
+  answer("entries     {}\nbytes       {}\nbuild       {:.1f} ms\n", saved.entries, saved.bytes,
+         saved.build_ms);
 }
 
 void add_output(CLI::App& command, MapOptions& options) {

@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "evaluation/running/mapping_accuracy.hpp"
 #include "evaluation/statistics/statistics.hpp"
@@ -66,19 +67,19 @@ void mapping(const MappingOptions& options, Context& context) {
     experiments.push_back(options.experiment.read(file, context));
   }
   if (options.windows.whole) {
-    fmt::print("Error of the local map's robot pose at the end of the drive.\n");
+    answer("Error of the local map's robot pose at the end of the drive.\n");
   } else {
-    fmt::print(
+    answer(
         "Error of the local map's robot pose after {} m, starts every {} m; failures ({} m or {} deg) after "
         "{} "
         "m.\n",
         options.windows.after_m, options.windows.every_m, options.windows.fail_translation,
         options.windows.fail_rotation_deg, options.windows.fail_after_m);
   }
-  fmt::print("{:<16}{:>8}{:>10}{:>10}{:>10}{:>12}{:>8}{:>10}{:>10}\n", "experiment", "windows", "median m",
-             "p90 m", "med. deg", "failures", "cells", "median ms", "p95 ms");
+  answer("{:<16}{:>8}{:>10}{:>10}{:>10}{:>12}{:>8}{:>10}{:>10}\n", "experiment", "windows", "median m",
+         "p90 m", "med. deg", "failures", "cells", "median ms", "p95 ms");
   for (const Experiment& experiment : experiments) {
-    fmt::print("{}", row(experiment.name, measure(experiment, context.catalog, options.windows)));
+    answer(row(experiment.name, measure(experiment, context.catalog, options.windows)));
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "app/commands.hpp"
 #include "app/embedded_files.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "glocal/error.hpp"
 
@@ -98,7 +99,7 @@ void new_plugin(const NewPluginOptions& options, const Catalog& catalog) {
   folder.append("experiment.yaml", filled(embedded_file("experiment.yaml"), values));
   folder.append("world.yaml", filled(embedded_file("world.yaml"), values));
   folder.commit();
-  fmt::print(
+  answer(
       "A {} called {} in {}. Build it, test it, run it:\n"
       "  cmake -S {} -B {}/build && cmake --build {}/build\n"
       "  ctest --test-dir {}/build\n"

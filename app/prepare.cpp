@@ -19,6 +19,7 @@
 #include "app/interrupts.hpp"
 #include "app/prepared_case.hpp"
 #include "app/reading_bar.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/results/provenance.hpp"
@@ -267,8 +268,8 @@ void prepare(const PrepareOptions& options, Context& context) {
   FileHashes hashes;
   folder.append("provenance.json", provenance(context.catalog, 1, inputs, hashes).dump(2) + "\n");
   folder.commit();
-  for (const auto& [name, value] : fact_lines(facts)) fmt::print("{:<11} {}\n", name, value);
-  fmt::print("{:<11} {}\n", "experiment", (folder.path() / "experiment.yaml").string());
+  for (const auto& [name, value] : fact_lines(facts)) answer("{:<11} {}\n", name, value);
+  answer("{:<11} {}\n", "experiment", (folder.path() / "experiment.yaml").string());
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ Progress::Progress(bool shown, std::size_t trials)
     : shown_(shown), on_terminal_(isatty(STDERR_FILENO) == 1), trials_(static_cast<double>(trials)) {}
 
 Progress::~Progress() {
-  if (shown_ && on_terminal_) say("\r\033[K");
+  if (shown_ && on_terminal_) say_over("");
 }
 
 void Progress::begin(const std::string& what) {
@@ -47,8 +47,8 @@ void Progress::step(std::size_t trial, std::size_t step, double share, const cha
     spdlog::info("{}{} of {:.0f} trials done{}", what_, finished_, trials_, left);
     return;
   }
-  say("\r\033[K{} {} of {:.0f}{}  {}trial {}, step {}  {}", text_bar(done), finished_, trials_, left, what_,
-      trial, step, verdict);
+  say_over(fmt::format("{} {} of {:.0f}{}  {}trial {}, step {}  {}", text_bar(done), finished_, trials_, left,
+                       what_, trial, step, verdict));
 }
 
 void Progress::finish(std::size_t trial) {

@@ -14,11 +14,11 @@ void ReadingBar::show(double share) {
   if (now - start_ < short_wait || now - last_ < between_lines || isatty(STDERR_FILENO) != 1) return;
   last_ = now;
   is_shown_ = true;
-  say("\r\033[K{} reading, {:.0f} %", text_bar(share), 100.0 * share);
+  say_over(fmt::format("{} reading, {:.0f} %", text_bar(share), 100.0 * share));
 }
 
 void ReadingBar::clear() {
-  if (is_shown_) say("\r\033[K");
+  if (is_shown_) say_over("");
   is_shown_ = false;
 }
 

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/standard_streams.hpp"
 
 namespace glocal::app {
 
 void add_reference(CLI::App& app, Context& context) {
   app.add_subcommand("reference", "Write the reference of all parameters, in Markdown.")
-      ->callback([&context] { fmt::print("{}", parameter_reference(context.catalog)); });
+      ->callback([&context] { answer(parameter_reference(context.catalog)); });
 }
 
 }  // namespace glocal::app

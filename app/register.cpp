@@ -15,6 +15,7 @@
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
 #include "app/filled_params.hpp"
+#include "app/standard_streams.hpp"
 #include "config/nearest.hpp"
 #include "config/reader.hpp"
 #include "evaluation/results/atomic_file.hpp"
@@ -162,7 +163,7 @@ void register_pair(const RegisterOptions& options, const Registering& registerin
   for (const std::string& method : registering.methods) {
     const PairOutcome outcome = outcome_of({options.source, options.target, options.source, options.target},
                                            source, target, method, options, registering);
-    fmt::print("{}", options.json ? json_line(outcome) : text_of(outcome));
+    answer(options.json ? json_line(outcome) : text_of(outcome));
     if (!options.out.empty()) write_joined(outcome, source, target, options);
   }
 }
@@ -175,13 +176,13 @@ void register_pairs(const RegisterOptions& options, const Registering& registeri
     const Cloud target = read(pair.target_file, options);
     for (std::size_t i = 0; i < methods.size(); ++i) {
       outcomes[i].push_back(outcome_of(pair, source, target, methods[i], options, registering));
-      if (options.json) fmt::print("{}", json_line(outcomes[i].back()));
+      if (options.json) answer(json_line(outcomes[i].back()));
     }
   }
   if (options.json) return;
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    if (!methods[i].empty()) fmt::print("{}{}\n", i == 0 ? "" : "\n", methods[i]);
-    fmt::print("{}", table_of(outcomes[i]));
+    if (!methods[i].empty()) answer("{}{}\n", i == 0 ? "" : "\n", methods[i]);
+    answer(table_of(outcomes[i]));
   }
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "glocal/error.hpp"
@@ -85,12 +86,11 @@ void add_folder(const std::filesystem::path& folder, Findings& findings) {
 }
 
 void print_bins(const char* title, const Reliability& reliability) {
-  fmt::print("\n{}\n", title);
-  fmt::print("  confidence    poses   mean    right   95 % interval\n");
+  answer("\n{}\n", title);
+  answer("  confidence    poses   mean    right   95 % interval\n");
   for (const Reliability::Bin& bin : reliability.bins()) {
-    fmt::print("  {:.2f} - {:.2f} {:8d}  {:.3f}    {:.3f}   {:.3f} - {:.3f}{}\n", bin.low, bin.high,
-               bin.count, bin.mean_confidence, bin.right.value, bin.right.low, bin.right.high,
-               bin.is_off() ? "  off" : "");
+    answer("  {:.2f} - {:.2f} {:8d}  {:.3f}    {:.3f}   {:.3f} - {:.3f}{}\n", bin.low, bin.high, bin.count,
+           bin.mean_confidence, bin.right.value, bin.right.low, bin.right.high, bin.is_off() ? "  off" : "");
   }
 }
 
@@ -101,7 +101,7 @@ void reliability(const ReliabilityOptions& options) {
                           [&](const std::filesystem::path& folder) { add_folder(folder, findings); });
   faults.report();
   const Proportion wrong = wilson(findings.wrong, findings.trials);
-  fmt::print(
+  answer(
       "{} trials: {} right, {} wrong ({:.2f} %, 95 % interval {:.2f} to {:.2f} %), {} without a "
       "declaration\n",
       findings.trials, findings.right, findings.wrong, 100.0 * wrong.value, 100.0 * wrong.low,
@@ -111,7 +111,7 @@ void reliability(const ReliabilityOptions& options) {
   if (findings.squared_errors == 0) return;
   const auto n = static_cast<double>(findings.squared_errors);
   // Each has 3 degrees of freedom: mean 3, variance 6.
-  fmt::print(
+  answer(
       "\nNormalised error squared of right declarations: {:.2f} in the mean; {:.2f} to {:.2f} if the "
       "covariances are right\n",
       findings.sum_of_squared_errors / n, 3.0 - 1.96 * std::sqrt(6.0 / n), 3.0 + 1.96 * std::sqrt(6.0 / n));

@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/report_file.hpp"
 #include "app/results_at_hand.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "report/page.hpp"
@@ -50,7 +51,7 @@ void add_report(CLI::App& app, Context& /*context*/) {
                    "Best clusters to keep of each step (default: all that the run has listed)")
       ->check(CLI::Range(0, 1'000'000));
   command->add_flag("--force", options->force, "Replace the file if it exists");
-  command->callback([options] { fmt::print("{}\n", write_report(*options).string()); });
+  command->callback([options] { answer("{}\n", write_report(*options).string()); });
 }
 
 }  // namespace glocal::app

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/standard_streams.hpp"
 #include "evaluation/results/summary_text.hpp"
 
 namespace glocal::app {
@@ -18,7 +19,7 @@ int exit_code_of(const RunResult& result) {
 }
 
 void print_summary(const nlohmann::ordered_json& summary, const std::filesystem::path& folder) {
-  fmt::print("{}  results             {}\n", summary_text(summary), folder.string());
+  answer("{}  results             {}\n", summary_text(summary), folder.string());
 }
 
 void print_result(const RunResult& result) {
@@ -31,7 +32,7 @@ void print_result(const RunResult& result) {
   if (summaries.front().first.empty()) {
     print_summary(summaries.front().second, folder);
   } else {
-    fmt::print("{}results in {}\n", variants_text(summaries), folder.string());
+    answer("{}results in {}\n", variants_text(summaries), folder.string());
   }
 }
 

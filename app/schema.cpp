@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/standard_streams.hpp"
 
 namespace glocal::app {
 
 void add_schema(CLI::App& app, Context& context) {
   app.add_subcommand("schema", "Write a JSON schema of experiment files, for editors.")->callback([&context] {
-    fmt::print("{}\n", experiment_schema(context.catalog).dump(2));
+    answer("{}\n", experiment_schema(context.catalog).dump(2));
   });
 }
 

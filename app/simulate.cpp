@@ -12,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
 #include "app/simulated_site.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/running/experiment_loader.hpp"
@@ -87,8 +88,8 @@ void simulate(const SimulateOptions& options, Context& context) {
   FileHashes hashes;
   folder.append("provenance.json", provenance(context.catalog, files.threads, inputs, hashes).dump(2) + "\n");
   folder.commit();
-  fmt::print("{} scans, a map of {} x {} cells and an experiment in {}\n", files.drive.observations,
-             files.grid.width, files.grid.height, folder.path().string());
+  answer("{} scans, a map of {} x {} cells and an experiment in {}\n", files.drive.observations,
+         files.grid.width, files.grid.height, folder.path().string());
 }
 
 }  // namespace

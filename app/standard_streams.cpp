@@ -1,15 +1,40 @@
 #include "app/standard_streams.hpp"
 
 #include <fcntl.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 
 #include "glocal/error.hpp"
+#include "glocal/words.hpp"
 
 namespace glocal::app {
+namespace {
+
+void write_to_stderr(const std::string& text) {
+  static_cast<void>(std::fputs(text.c_str(), stderr));
+}
+
+/// The words of a log's line.
+class FitWords final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
+              spdlog::memory_buf_t& line) override {
+    const std::string text = fit_message({message.payload.data(), message.payload.size()});
+    line.append(text.data(), text.data() + text.size());
+  }
+  [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<FitWords>();
+  }
+};
+
+}  // namespace
 
 void keep_standard_streams() {
   // In rising order: each takes the lowest number that is free. What is written to one that was closed fails.
@@ -19,8 +44,27 @@ void keep_standard_streams() {
   }
 }
 
+void answer(const std::string& text) {
+  fmt::print("{}", printable(text));
+}
+
+void answer_on_cleared_screen(const std::string& text) {
+  fmt::print("\033[H\033[J{}", printable(text));
+}
+
 void say(const std::string& text) {
-  static_cast<void>(std::fputs(text.c_str(), stderr));
+  write_to_stderr(fit_message(text));
+}
+
+void say_over(const std::string& text) {
+  write_to_stderr("\r\033[K" + fit_message(text));
+}
+
+void log_to_stderr() {
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<FitWords>('*').set_pattern("%^%l%$: %*");
+  spdlog::set_default_logger(spdlog::stderr_color_mt("glocal"));
+  spdlog::set_formatter(std::move(formatter));
 }
 
 std::string text_bar(double share) {

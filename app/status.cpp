@@ -82,8 +82,8 @@ void watch(const Manifest& manifest, JournalScan& scan) {
     const SharedStatus status = status_of(manifest, scan);
     const std::string text = text_of(status, manifest);
     const std::string line = text.substr(0, text.find('\n') + 1);
-    if (on_terminal) fmt::print("\033[H\033[J{}", text);
-    if (!on_terminal && line != before) fmt::print("{}", line);
+    if (on_terminal) answer_on_cleared_screen(text);
+    if (!on_terminal && line != before) answer(line);
     flush_answers();
     before = line;
     const VariantStatus total = status.total();
@@ -101,9 +101,9 @@ void show_status(const StatusCommand& command) {
   if (command.watch) {
     watch(manifest, scan);
   } else if (command.json) {
-    fmt::print("{}\n", to_json(status_of(manifest, scan)).dump(2));
+    answer("{}\n", to_json(status_of(manifest, scan)).dump(2));
   } else {
-    fmt::print("{}", text_of(status_of(manifest, scan), manifest));
+    answer(text_of(status_of(manifest, scan), manifest));
   }
 }
 

@@ -18,6 +18,7 @@
 #include "app/job_scripts.hpp"
 #include "app/programs.hpp"
 #include "app/shard_plan.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "glocal/error.hpp"
@@ -174,11 +175,11 @@ void write_scripts(const fs::path& folder, const std::vector<Script>& scripts) {
   AtomicFiles files(true);
   for (const Script& script : scripts) files.add(script.file, script.text);
   files.commit();
-  for (const Script& script : scripts) fmt::print("{}:\n\n{}\n", script.file.string(), script.text);
+  for (const Script& script : scripts) answer("{}:\n\n{}\n", script.file.string(), script.text);
 }
 
 void print_next(const ShardedRun& run) {
-  fmt::print(
+  answer(
       "How far they are:   glocal status {0} --watch\n"
       "If any is missing:  the same command again\n",
       shell_word(run.out.string()));
@@ -234,17 +235,16 @@ void submit_to_slurm(const SubmitOptions& options, Context& context) {
   const SlurmJob job{tasks, options.limit, options.time, options.sbatch_options};
   write_scripts(folder, {{array, array_script(run, job)}, {merge, merge_script(run, job)}});
   if (tasks < run.shards) {
-    fmt::print("Slurm takes at most {} tasks in an array: {} of them run {} shards, one after the other.\n",
-               most, tasks, run.shards);
+    answer("Slurm takes at most {} tasks in an array: {} of them run {} shards, one after the other.\n", most,
+           tasks, run.shards);
   }
   if (options.dry_run) {
-    fmt::print("Nothing is queued.\n");
+    answer("Nothing is queued.\n");
     return;
   }
   const std::string array_id = queued({}, array);
   const std::string merge_id = queued_merge(array_id, merge);
-  fmt::print("Queued: array {} runs the shards, then job {} puts the results together.\n", array_id,
-             merge_id);
+  answer("Queued: array {} runs the shards, then job {} puts the results together.\n", array_id, merge_id);
   print_next(run);
 }
 
@@ -263,7 +263,7 @@ void submit_to_parallel(const SubmitOptions& options, Context& context) {
   write_scripts(folder, {{folder / shard_file, shard_script(run)},
                          {script, parallel_script(run, {hosts, options.limit})}});
   if (options.dry_run) {
-    fmt::print("Nothing is run.\n");
+    answer("Nothing is run.\n");
     return;
   }
   print_next(run);

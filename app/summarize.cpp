@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/stored_figures.hpp"
 
@@ -147,11 +148,11 @@ void summarize(const SummarizeOptions& options) {
   for (const Row& row : rows) json.push_back(to_json(row));
   if (options.json) {
     // Names of folders need not be UTF-8.
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    answer("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     return;
   }
-  if (!options.no_head) fmt::print("{}", markdown_head());
-  for (const Json& row : json) fmt::print("{}", markdown_row(row));
+  if (!options.no_head) answer(markdown_head());
+  for (const Json& row : json) answer(markdown_row(row));
 }
 
 }  // namespace

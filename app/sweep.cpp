@@ -9,6 +9,7 @@
 
 #include "app/commands.hpp"
 #include "app/results_at_hand.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/sweeps/analysis.hpp"
 #include "evaluation/sweeps/sweep_report.hpp"
@@ -29,9 +30,9 @@ void analyse(const SweepOptions& options) {
   if (!options.map.empty()) map = {options.map.at(0), options.map.at(1)};
   const SweepAnalysis analysis = analyse_sweep(runs, map);
   if (options.json) {
-    fmt::print("{}", json_text(analysis));
+    answer(json_text(analysis));
   } else {
-    fmt::print("{}", text_report(analysis, options.top));
+    answer(text_report(analysis, options.top));
   }
 }
 

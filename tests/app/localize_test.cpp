@@ -73,6 +73,31 @@ TEST_F(Localize, ErrorsNameItsOptions) {
   EXPECT_EQ(localize("room/drive.mcap", "--odom-frame odom --base-frame base_link").exit_code, 0);
 }
 
+TEST_F(Localize, RefusesMapsThatNoMachineHoldsBeforeAnythingIsMade) {
+  const auto fault_of = [&](float resolution, const Pose2& origin) {
+    bags::RobotRecording recording;
+    recording.grid("/map", 0, resolution, 3, {100, 0, 100, 0, 0, 0, 100, 0, 100}, origin);
+    folder_.write("map.mcap", recording.bytes());
+    const Answer answer = run("localize " + file("map.mcap") + " " + file("room/drive.mcap") +
+                              " --force --out " + file("answer"));
+    EXPECT_EQ(answer.exit_code, 2) << answer.err;
+    return answer.err;
+  };
+  for (const float resolution : {1e-6F, 1e-30F, 0.0F, 1e30F})
+    EXPECT_THAT(fault_of(resolution, {}), HasSubstr("must be 0.001 to 100 m"));
+  for (const Pose2& origin : {Pose2{5e5, 5.4e6, 0.0}, Pose2{-1e7, 1e7, 0.0}})
+    EXPECT_THAT(fault_of(0.05F, origin),
+                HasSubstr("move the map (and reference poses) nearer to its origin"));
+}
+
+TEST_F(Localize, WithoutReferencesItTellsWhetherItAgreesWithItself) {
+  const Answer answer = localize("room/drive.mcap", "--every 2");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("declared without reference pose"));
+  EXPECT_THAT(answer.out, HasSubstr("all declared poses agree with each other along the drive"));
+  EXPECT_THAT(answer.out, Not(HasSubstr("success")));
+}
+
 TEST_F(Localize, TheExperimentThatItWritesGivesTheSameAnswer) {
   ASSERT_EQ(localize("room/drive.mcap").exit_code, 0);
   ASSERT_EQ(run("run " + file("answer.yaml") + " --out " + file("again")).exit_code, 0);

@@ -18,7 +18,7 @@ inline int try_recording(const std::uint8_t* data, std::size_t size, std::string
     std::size_t messages = 0;
     for (const bags::TopicSummary& topic : summary.topics) messages += topic.messages;
     must_hold(messages == summary.messages, "each message is of a topic");
-    static_cast<void>(bags::frame_tree(summary.parents));
+    static_cast<void>(bags::frame_tree(summary.parents, 1000));
   });
 }
 

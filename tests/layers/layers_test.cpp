@@ -171,6 +171,30 @@ TEST(Layers, TheCheckFindsWhatPointsUpwards) {
   EXPECT_EQ(resolved("app/main.cpp", "no_such_file.hpp"), std::nullopt);
 }
 
+/// What a file brought reaches a terminal only as what can be printed.
+TEST(Layers, TheProgramPrintsInOnePlace) {
+  const std::regex prints(
+      R"(fmt::print|fmt::println|std::(cout|cerr|clog)|\b(printf|puts|fputs|fwrite|fprintf|putchar)\()");
+  std::size_t found_in_its_place = 0;
+  for (const fs::path& file : files_in("app", {".cpp", ".hpp"})) {
+    for (const std::string& line : lines_of(file)) {
+      if (!std::regex_search(line, prints)) continue;
+      const bool is_the_place = file == "app/standard_streams.cpp";
+      found_in_its_place += is_the_place ? 1 : 0;
+      EXPECT_TRUE(is_the_place) << file << ": " << line << "\nanswer() and say() print, and spdlog by them";
+    }
+  }
+  EXPECT_GT(found_in_its_place, 2U);
+  // Libraries print nothing.
+  for (const std::string folder : {"framework", "sources", "local_mappers", "matchers", "clustering",
+                                   "raters", "evaluation", "report"}) {
+    for (const fs::path& file : files_in(folder, {".cpp", ".hpp"})) {
+      for (const std::string& line : lines_of(file))
+        EXPECT_FALSE(std::regex_search(line, prints)) << file << ": " << line;
+    }
+  }
+}
+
 /// What every strategy rests on must stay the smaller part of glocal.
 TEST(Layers, TheFrameworkIsAtMostAThirdOfTheCode) {
   const std::set<std::string> code = {".cpp", ".hpp", ".ts", ".py", ".in", ".mjs", ".css"};
