@@ -8,10 +8,10 @@ namespace glocal::app {
 
 void ReadingBar::show(double share) {
   constexpr std::chrono::seconds short_wait{1};
-  constexpr std::chrono::milliseconds between_lines{100};
+  constexpr std::chrono::milliseconds pause{100};
   if (share >= 1.0) return clear();
   const auto now = Clock::now();
-  if (now - start_ < short_wait || now - last_ < between_lines || isatty(STDERR_FILENO) != 1) return;
+  if (now - start_ < short_wait || now - last_ < pause || isatty(STDERR_FILENO) != 1) return;
   last_ = now;
   is_shown_ = true;
   say_over(fmt::format("{} reading, {:.0f} %", text_bar(share), 100.0 * share));

@@ -157,7 +157,8 @@ bool plan(ShardedRun& run, std::vector<Variant>& variants, Context& context) {
   const auto manifest = planned_shards(variants, run.file, run.out, context);
   if (!manifest) return false;
   // There is no more to share out.
-  run.shards = static_cast<int>(std::clamp<std::size_t>(manifest->count_trials(), 1, run.shards));
+  const auto asked = static_cast<std::size_t>(run.shards);
+  run.shards = static_cast<int>(std::clamp<std::size_t>(manifest->count_trials(), 1, asked));
   return true;
 }
 

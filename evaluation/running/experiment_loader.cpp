@@ -57,9 +57,9 @@ MapData load_map(const Experiment& experiment, const Catalog& catalog, SourceSet
   const RunningStage stage{.kind = catalog.map_sources.kind(), .name = experiment.map.name};
   const StageScope scope(&stage);
   MapData map = catalog.map_sources.make(experiment.map, setup)->load();
-  require_contract("map source", experiment.map, [&] { check_map(map, experiment.localizer.motion); });
   if (const std::string fault = fault_of_map(map); !fault.empty())
     throw ConfigError({{file, 0, 0, fmt::format("map source '{}': {}", experiment.map.name, fault)}});
+  require_contract("map source", experiment.map, [&] { check_map(map, experiment.localizer.motion); });
   return map;
 }
 

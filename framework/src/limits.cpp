@@ -69,11 +69,15 @@ std::string fault_of_map(const MapData& map) {
   if (cells > max_grid_cells)
     return fmt::format("{} x {} cells are more than {:g}; take a coarser resolution, or cut the map",
                        map.grid.width, map.grid.height, max_grid_cells);
+  const double farthest = farthest_of(map.points);
+  if (farthest > farthest_m)
+    return fmt::format("a place {:g} m from the origin, at most {:g} m are allowed; correct it, or the unit",
+                       farthest, farthest_m);
   const double resolution = map.grid.resolution > 0.0 ? map.grid.resolution : map.resolution;
   if (resolution == 0.0) return "";
   if (std::string fault = fault_of_resolution(resolution); !fault.empty()) return fault;
   constexpr double spacings_per_cell = 8.0;
-  const double farthest = farthest_of(map.points), spacing = spacing_at(farthest);
+  const double spacing = spacing_at(farthest);
   if (spacing * spacings_per_cell <= resolution) return "";
   return fmt::format(
       "places {:.0f} m from the origin, where single precision is good to {:.2g} m, are too far for a map of "

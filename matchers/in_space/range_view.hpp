@@ -47,7 +47,8 @@ class RangeView {
 inline std::size_t RangeView::cell_of(const Point& direction) {
   const auto cell = [](std::size_t face, float u, float v, float most) {
     constexpr float half = 0.5F * static_cast<float>(edge);
-    const float scale = most > 0.0F ? half / most : 0.0F;
+    constexpr float least = 1e-30F;  // m; of less the scale would be infinite.
+    const float scale = most > least ? half / most : 0.0F;
     const auto part = [&](float w) { return std::min(static_cast<std::size_t>(w * scale + half), edge - 1); };
     return (face * edge + part(u)) * edge + part(v);
   };

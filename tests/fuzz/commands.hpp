@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "app/commands.hpp"
+
 namespace glocal::fuzz {
 
-/// Runs the program with these arguments; an exit code other than 0, 1, 2 and 3 is a fault, and so is 1 if
-/// nothing can fail while running.
-void run_command(std::vector<std::string> arguments);
+/// Runs a command with these arguments, of which the first is its name. Building all commands each time would
+/// take longer than most of them run.
+void run_command(void (*add)(CLI::App&, app::Context&), std::vector<std::string> arguments);
 
 }  // namespace glocal::fuzz

@@ -69,18 +69,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string few = "trials.max_steps=1";
   switch (draw.one_of(4)) {
     case 0:
-      fuzz::run_command({"check", file});
+      fuzz::run_command(app::add_check, {"check", file});
       break;
     case 1:
-      fuzz::run_command(
-          {"run", file, "--shard", draw.digits(1) + "/" + draw.digits(2), "--out", out, "--quiet"});
-      fuzz::run_command({"status", out});
-      fuzz::run_command({"merge", out});
+      fuzz::run_command(app::add_run, {"run", file, "--shard", draw.digits(1) + "/" + draw.digits(2), "--out",
+                                       out, "--quiet"});
+      fuzz::run_command(app::add_status, {"status", out});
+      fuzz::run_command(app::add_merge, {"merge", out});
       break;
     default:
-      fuzz::run_command({"run", file, "--set", few, "--out", out, "--quiet"});
-      fuzz::run_command({"summarize", out});
-      fuzz::run_command({"compare", out});
+      fuzz::run_command(app::add_run, {"run", file, "--set", few, "--out", out, "--quiet"});
+      fuzz::run_command(app::add_summarize, {"summarize", out});
+      fuzz::run_command(app::add_compare, {"compare", out});
       break;
   }
   return 0;

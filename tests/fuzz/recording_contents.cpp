@@ -12,12 +12,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto file = fuzz::write("recording", fuzz::drawn_recording(draw));
   SourceSetup setup;
   setup.motion = motion;
-  fuzz::answer([&] {
+  // What lies too far away, the loader of experiments refuses.
+  const auto answer = [](const auto& read) {
+    try {
+      return fuzz::answer(read);
+    } catch (const BrokenContract&) {
+      return 0;
+    }
+  };
+  answer([&] {
     BagMap::Params map;
     map.path.resolved = file;
     check_map(BagMap(map, setup).load(), Motion::planar);
   });
-  return fuzz::answer([&] {
+  return answer([&] {
     BagDrive::Params params;
     params.path.resolved = file;
     params.scans = {draw.byte() % 2 == 0 ? "/scan" : "/points"};

@@ -17,7 +17,6 @@ constexpr double voxels_per_epsilon = 4.0;
 constexpr std::size_t voxels_per_word = 32;
 /// Rows of the coarse bits are whole words too.
 constexpr double columns_step = voxels_per_word << VoxelGrid::coarse_shift;
-constexpr double largest_bytes = 1024.0 * 1024.0 * 1024.0;
 
 struct Range {
   double low;
@@ -63,6 +62,7 @@ BitsetContact::BitsetContact(const Points& points, double epsilon) {
   const double rows = along_y.voxels;
   const double layers = along_z.voxels;
   const auto check_size = [&](double bytes) {
+    constexpr double largest_bytes = 1024.0 * 1024.0 * 1024.0;
     if (bytes <= largest_bytes) return;
     throw ConfigError(
         {{"", 0, 0,
