@@ -143,13 +143,14 @@ class McapFile final : public ChunkedFile {
     }
     const auto schema = fields.number<std::uint16_t>();
     const std::string_view topic = fields.text(), encoding = fields.text();
-    if (!channels_.try_emplace(id, connections_.size()).second) return;
+    if (channels_.contains(id)) return;
     // A channel without a schema has 0.
     const auto found = schemas_.find(schema);
     if (schema != 0 && found == schemas_.end())
       fields.refuse(fmt::format(
           "channel {} has the schema {}, which no record before it is; get a fresh copy", id, schema));
     const auto& [type, definition] = found == schemas_.end() ? no_schema_ : found->second;
+    channels_.emplace(id, connections_.size());
     connections_.push_back({std::string(topic), type, std::string(encoding), definition});
   }
 

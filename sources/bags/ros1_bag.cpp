@@ -148,8 +148,9 @@ class Ros1Bag final : public ChunkedFile {
 
   void note_connection(const HeaderFields& header, std::string_view data, const Place& place) {
     const auto id = header.number<std::uint32_t>("conn");
-    if (!ids_.try_emplace(id, connections_.size()).second) return;
+    if (ids_.contains(id)) return;
     const HeaderFields fields(data, place);
+    ids_.emplace(id, connections_.size());
     connections_.push_back({std::string(header.text("topic")), normal_type(fields.text("type")), "ros1",
                             std::string(fields.text("message_definition"))});
   }

@@ -29,14 +29,14 @@ Range range_of(const std::vector<float>& values) {
 }
 
 /// The voxels along an axis: where the first one begins, and how many there are.
-struct Axis {
+struct VoxelAxis {
   float begin;
   double voxels;
 };
 
 /// Those that are within `epsilon` of the points and one more to either side. Far from the origin single
 /// precision may round by more than a voxel: what is not there at all would then be marked.
-Axis axis_of(const Range& range, double epsilon, double scale) {
+VoxelAxis axis_of(const Range& range, double epsilon, double scale) {
   const double margin = epsilon + 1.0 / scale;
   auto begin = static_cast<float>(range.low - margin);
   while (begin > range.low - epsilon) begin = std::nextafter(begin, -std::numeric_limits<float>::infinity());
@@ -56,8 +56,9 @@ BitsetContact::BitsetContact(const Points& points, double epsilon) {
   const Range y = range_of(points.y);
   const Range z = range_of(points.z);
   const bool planar = z.low == z.high;
-  const Axis along_x = axis_of(x, epsilon, scale_), along_y = axis_of(y, epsilon, scale_);
-  const Axis along_z = planar ? Axis{static_cast<float>(z.low - epsilon), 1.0} : axis_of(z, epsilon, scale_);
+  const VoxelAxis along_x = axis_of(x, epsilon, scale_), along_y = axis_of(y, epsilon, scale_);
+  const VoxelAxis along_z =
+      planar ? VoxelAxis{static_cast<float>(z.low - epsilon), 1.0} : axis_of(z, epsilon, scale_);
   const double columns = std::ceil(along_x.voxels / columns_step) * columns_step;
   const double rows = along_y.voxels;
   const double layers = along_z.voxels;
