@@ -14,8 +14,8 @@ namespace glocal::app {
 /// Those of them that are meant for people.
 [[nodiscard]] std::vector<const CLI::App*> shown_subcommands(const CLI::App& command);
 
-/// The program: parses its arguments and runs the command they name. What goes wrong is said on stderr, and in
-/// the exit code: 1 failed while running, 2 wrong usage or configuration.
+/// The program: parses its arguments and runs the command they name. What goes wrong is said on stderr, and
+/// in the exit code: 1 failed while running, 2 wrong usage or configuration.
 [[nodiscard]] int run_program(int argc, char** argv);
 
 /// What `work` returns, or the code of what it throws, which is said on stderr.
