@@ -34,8 +34,8 @@ Json to_json(const Declaration& declaration) {
 }
 
 Declaration declaration_of(const Json& json) {
-  return {json.at("at_m"), json.at("segment"), pose_of(json.at("map_from_robot")),
-          pose_of(json.at("odom_from_robot"))};
+  return {json.at("at_m"), static_cast<int>(whole_number(json, "segment")),
+          pose_of(json.at("map_from_robot")), pose_of(json.at("odom_from_robot"))};
 }
 
 Json to_json(const TrialFigures& figures) {

@@ -23,6 +23,11 @@ bool is_too_deep(const std::string& text) {
   return depth > max_depth;
 }
 
+std::size_t whole(const nlohmann::ordered_json& json, const std::string& name) {
+  if (!json.is_number_unsigned()) throw std::invalid_argument("'" + name + "' is no whole number from 0 on");
+  return json.get<std::size_t>();
+}
+
 }  // namespace
 
 nlohmann::ordered_json parse_json(const std::string& text) {
@@ -33,10 +38,11 @@ nlohmann::ordered_json parse_json(const std::string& text) {
 }
 
 std::size_t whole_number(const nlohmann::ordered_json& object, const char* key) {
-  const auto& json = object.at(key);
-  if (!json.is_number_unsigned())
-    throw std::invalid_argument("'" + std::string(key) + "' is no whole number from 0 on");
-  return json.get<std::size_t>();
+  return whole(object.at(key), key);
+}
+
+std::size_t whole_number(const nlohmann::ordered_json& array, std::size_t index) {
+  return whole(array.at(index), std::to_string(index));
 }
 
 std::string reason(const std::exception& error) {

@@ -23,7 +23,7 @@ StoredRun read_figures(const std::filesystem::path& folder, const StepRange& ran
   };
   const auto add_step = [&](const nlohmann::ordered_json& line) {
     TrialFigures& trial = trials[line.at("trial")];
-    const std::size_t step = line.at("step");
+    const std::size_t step = whole_number(line, "step");
     if (step >= range.from && step < range.to) trial.step_ms.push_back(stage_times(line));
     if (line.at("verdict") == to_string(VerdictKind::localized) && line.value("on_map", false) &&
         line.contains("translation_error_m"))

@@ -78,7 +78,8 @@ std::vector<PlannedStart> starts_of(const Json& json) {
   const Json& samples = json.at("samples");
   const Json& steps = json.at("steps");
   std::vector<PlannedStart> starts;
-  for (std::size_t i = 0; i < samples.size(); ++i) starts.push_back({samples.at(i), steps.at(i)});
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    starts.push_back({whole_number(samples, i), whole_number(steps, i)});
   return starts;
 }
 

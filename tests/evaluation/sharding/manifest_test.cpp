@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "files.hpp"
 #include "glocal/builtin.hpp"
 #include "temporary_folder.hpp"
 
@@ -94,6 +95,21 @@ TEST_F(ManifestTest, IsReadAsItWasWritten) {
     EXPECT_EQ(read.variants[i].origin, manifest.variants[i].origin);
   }
   EXPECT_THAT(differences_of(variants(), read), IsEmpty());
+}
+
+TEST_F(ManifestTest, AStartThatIsNoWholeNumberIsRefused) {
+  write_manifest(folder_ / "shared", planned(variants()));
+  const fs::path file = manifest_file(folder_ / "shared");
+  std::ifstream in(file);
+  const std::string whole(std::istreambuf_iterator<char>(in), {});
+  const std::size_t first = whole.find('0', whole.find("\"samples\""));
+  ASSERT_NE(first, std::string::npos);
+  for (const std::string wrong : {"2.7e48", "-1", "0.5", "\"1\""}) {
+    std::ofstream(file) << whole.substr(0, first) << wrong << whole.substr(first + 1);
+    EXPECT_THAT(config_error(folder_.path(), [&] { static_cast<void>(read_manifest(folder_ / "shared")); }),
+                HasSubstr("is no whole number from 0 on"))
+        << wrong;
+  }
 }
 
 TEST_F(ManifestTest, TheSameTrialHasTheSameIdentityWhereverItsFilesLie) {
