@@ -1,16 +1,28 @@
 #include "app/experiment_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "config/scalars.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal::app {
 
 void ExperimentOptions::add_to(CLI::App& command) {
-  command.add_option("FILE", file, "Experiment file (YAML)")->required();
+  command.add_option("FILE", file, "Experiment file (YAML); not needed with --method and --case");
+  add_products_to(command);
   add_overrides_to(command);
+}
+
+void ExperimentOptions::add_products_to(CLI::App& command) {
+  command.add_option("--method", methods, "Localizer: a name (glocal list methods) or a file (repeatable)")
+      ->allow_extra_args(false);
+  command
+      .add_option("--case", cases, "Map, drive and starts: a name (glocal list cases) or a file (repeatable)")
+      ->allow_extra_args(false);
+  command.add_option("--seeds", seeds, "Run all with each of these seeds: 1..3, or [1, 5, 9]");
 }
 
 void ExperimentOptions::add_overrides_to(CLI::App& command) {
@@ -35,7 +47,38 @@ std::vector<Override> ExperimentOptions::overrides() const {
     }
   }
   if (!faults.empty()) throw ConfigError(faults);
+  const auto add_list = [&](const char* key, const std::vector<std::string>& names) {
+    std::vector<std::string> items;
+    for (const std::string& name : names) items.push_back(to_yaml(std::string_view(name)));
+    if (!items.empty()) overrides.emplace_back(key, fmt::format("[{}]", fmt::join(items, ", ")));
+  };
+  add_list("methods", methods);
+  add_list("cases", cases);
+  if (!seeds.empty()) overrides.emplace_back("seeds", seeds);
+  if (file.empty() && !methods.empty()) overrides.emplace_back("name", "comparison");
   return overrides;
+}
+
+std::vector<std::string> ExperimentOptions::words() const {
+  std::vector<std::string> words;
+  const auto add = [&](const char* option, const std::vector<std::string>& values) {
+    for (const std::string& value : values) words.insert(words.end(), {option, value});
+  };
+  add("--method", methods);
+  add("--case", cases);
+  if (!seeds.empty()) add("--seeds", {seeds});
+  add("--set", set);
+  if (seed) add("--seed", {*seed});
+  if (threads) add("--threads", {*threads});
+  return words;
+}
+
+void ExperimentOptions::require_file() const {
+  if (!file.empty() || (!methods.empty() && !cases.empty())) return;
+  throw ConfigError(
+      {{"", 0, 0,
+        "what is to be run? Give an experiment file, or --method and --case (glocal list methods, "
+        "glocal list cases)"}});
 }
 
 std::vector<Override> ExperimentOptions::load_plugins(const std::string& other_file, Context& context) const {
@@ -47,6 +90,7 @@ std::vector<Override> ExperimentOptions::load_plugins(const std::string& other_f
 }
 
 Experiment ExperimentOptions::read(const std::string& other_file, Context& context) const {
+  if (other_file.empty()) require_file();
   const std::vector<Override> all = load_plugins(other_file, context);
   Experiment experiment = read_experiment(other_file, all, context.catalog);
   experiment.plugins = context.plugins.named();
@@ -54,6 +98,7 @@ Experiment ExperimentOptions::read(const std::string& other_file, Context& conte
 }
 
 std::vector<Variant> ExperimentOptions::read_variants(const std::string& other_file, Context& context) const {
+  if (other_file.empty()) require_file();
   const std::vector<Override> all = load_plugins(other_file, context);
   std::vector<Variant> variants = glocal::read_variants(other_file, all, context.catalog);
   for (Variant& variant : variants) variant.experiment.plugins = context.plugins.named();

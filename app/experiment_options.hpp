@@ -18,17 +18,25 @@ struct ExperimentOptions {
   std::vector<std::string> set;  ///< "path=value", as given with --set.
   /// As given: what may be a seed is said once, for files and options alike.
   std::optional<std::string> seed, threads;
+  std::vector<std::string> methods, cases;  ///< Names or files.
+  std::string seeds;                        ///< "1..3"; empty: those of the file.
 
-  /// Adds FILE, --set, --seed and --threads. This object must live as long as the command.
+  /// Adds FILE, --method, --case, --seeds, --set, --seed and --threads. FILE may be left out where a method
+  /// and a case are given. This object must live as long as the command.
   void add_to(CLI::App& command);
-  /// Everything but FILE, for commands that take several files.
+  /// --method, --case and --seeds.
+  void add_products_to(CLI::App& command);
+  /// --set, --seed and --threads.
   void add_overrides_to(CLI::App& command);
 
   /// Only --set, with a help text of its own.
   void add_set_to(CLI::App& command, const std::string& help);
 
-  /// What was given with --set. Throws ConfigError for what is not of the form path=value.
+  /// What was given, as values of an experiment. Throws ConfigError for what is not of the form path=value.
   [[nodiscard]] std::vector<Override> overrides() const;
+
+  /// All of it but the file, as words of a command line.
+  [[nodiscard]] std::vector<std::string> words() const;
 
   /// Loads the plugins the file names, too. Throws ConfigError.
   [[nodiscard]] Experiment read(Context& context) const { return read(file, context); }
@@ -37,6 +45,8 @@ struct ExperimentOptions {
   [[nodiscard]] std::vector<Variant> read_variants(const std::string& other_file, Context& context) const;
 
  private:
+  /// Throws ConfigError without a file, or what stands for one.
+  void require_file() const;
   /// All that is changed; loads the plugins that are then named.
   [[nodiscard]] std::vector<Override> load_plugins(const std::string& other_file, Context& context) const;
 };

@@ -17,8 +17,8 @@ std::string shards_of(const ShardedRun& run) {
 std::string surroundings(const ShardedRun& run) {
   std::string text;
   if (!run.datasets.empty()) text += fmt::format("export GLOCAL_DATASETS={}\n", shell_word(run.datasets));
-  if (!run.set.empty()) {
-    text += fmt::format("# Relative paths given with --set start here.\ncd {} || exit 2\n",
+  if (!run.options.empty()) {
+    text += fmt::format("# Relative paths in options start here.\ncd {} || exit 2\n",
                         shell_word(run.working_folder.string()));
   }
   return text;
@@ -28,10 +28,9 @@ std::string surroundings(const ShardedRun& run) {
 std::string run_command(const ShardedRun& run, std::string_view shard) {
   std::string text = shell_word(run.program.string());
   for (const auto& plugin : run.plugins) text += " --plugin " + shell_word(plugin.string());
-  text += " run " + shell_word(run.file.string());
-  for (const std::string& value : run.set) text += " --set " + shell_word(value);
-  if (run.seed) text += " --seed " + shell_word(*run.seed);
-  if (run.threads) text += " --threads " + shell_word(*run.threads);
+  text += " run";
+  if (!run.file.empty()) text += " " + shell_word(run.file.string());
+  for (const std::string& word : run.options) text += " " + shell_word(word);
   text += fmt::format(" --shard \"{}/{}\" --out {}", shard, run.shards, shell_word(run.out.string()));
   if (run.jobs != 1) text += fmt::format(" --jobs {}", run.jobs);
   return text;

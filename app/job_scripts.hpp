@@ -14,9 +14,8 @@ struct ShardedRun {
   std::string name;  ///< Of the experiment.
   std::filesystem::path program, file, out;
   std::vector<std::filesystem::path> plugins = {};
-  std::vector<std::string> set = {};  ///< As given with --set.
-  std::optional<std::string> seed = {}, threads = {};
-  /// Where relative paths of --set start, and what GLOCAL_DATASETS says; empty if it is not set.
+  std::vector<std::string> options = {};  ///< What else says the experiment: --set, PATH=VALUE and so on.
+  /// Where relative paths of options start, and what GLOCAL_DATASETS says; empty if it is not set.
   std::filesystem::path working_folder = {};
   std::string datasets = {};
   int shards = 1;

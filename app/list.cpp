@@ -1,14 +1,16 @@
-// glocal list: which strategies there are.
+// glocal list: which strategies there are, and which methods and cases.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/standard_streams.hpp"
+#include "config/builtin_parts.hpp"
 #include "config/help.hpp"
 #include "config/nearest.hpp"
 #include "glocal/error.hpp"
@@ -46,6 +48,26 @@ void list_as_json(const std::vector<const RegistryBase*>& registries) {
   answer("{}\n", strategies.dump(2));
 }
 
+/// "methods" and "cases"; none for a kind of strategies.
+std::optional<PartKind> parts_named(const std::string& kind) {
+  if (kind == "methods" || kind == "method") return PartKind::method;
+  if (kind == "cases" || kind == "case") return PartKind::the_case;
+  return std::nullopt;
+}
+
+void list_parts(PartKind kind, bool as_json) {
+  const std::vector<BuiltinPart> parts = builtin_parts(kind);
+  if (as_json) {
+    auto json = nlohmann::ordered_json::array();
+    for (const BuiltinPart& part : parts)
+      json.push_back({{"name", part.name}, {"about", part.about}, {"file", part.file.string()}});
+    return answer("{}\n", json.dump(2));
+  }
+  std::size_t width = 0;
+  for (const BuiltinPart& part : parts) width = std::max(width, part.name.size());
+  for (const BuiltinPart& part : parts) answer("{:<{}}  {}\n", part.name, width, part.about);
+}
+
 void list(const std::string& kind, const Catalog& catalog) {
   std::string text;
   for (const RegistryBase* registry : chosen(kind, catalog)) {
@@ -60,11 +82,13 @@ void list(const std::string& kind, const Catalog& catalog) {
 void add_list(CLI::App& app, Context& context) {
   auto kind = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("list", "List the strategies there are.");
-  command->add_option("KIND", *kind, "Only of this kind: matcher, map_source, ...");
+  CLI::App* command = app.add_subcommand("list", "List the strategies, methods or cases there are.");
+  command->add_option("KIND", *kind, "methods, cases, or strategies of one kind: matcher, map_source, ...");
   command->add_flag("--json", *as_json, "Print them as JSON");
   command->callback([kind, as_json, &context] {
-    if (*as_json) {
+    if (const auto parts = parts_named(*kind)) {
+      list_parts(*parts, *as_json);
+    } else if (*as_json) {
       list_as_json(chosen(*kind, context.catalog));
     } else {
       list(*kind, context.catalog);

@@ -202,6 +202,10 @@ void add_localize(CLI::App& app, Context& context) {
                    "Look only at starts with headings half the width or less from this one, deg")
       ->type_name("DEG WIDTH")
       ->expected(2);
+  command->add_option(
+      "--method", request.method,
+      "Localizer: a name (glocal list methods) or a file (default: indexed, and for maps in space "
+      "lidar_upright)");
   add_strict(*command, request.strict);
   options->changes.add_overrides_to(*command);
   command->add_option("--out", options->out, "Folder for the results (default: results/localize_LOG)");

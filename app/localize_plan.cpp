@@ -8,7 +8,10 @@
 #include <tuple>
 
 #include "app/log_kind.hpp"
+#include "config/experiment_params.hpp"
+#include "config/products.hpp"
 #include "config/scalars.hpp"
+#include "config/writer.hpp"
 #include "glocal/error.hpp"
 #include "glocal/words.hpp"
 #include "glocal/yaml.hpp"
@@ -221,6 +224,8 @@ LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& ca
   if (is_fine)
     plan.choices.push_back(fmt::format(
         "contact     within {} m: the map's cells are finer than maps and sensors are true", least_epsilon));
+  const std::string method = request.method.empty() ? default_method(map.in_space) : request.method;
+  plan.choices.push_back(fmt::format("method      {}", shown(method)));
   if (request.prior.is_given())
     plan.choices.push_back(fmt::format("prior       only {}", to_string(request.prior)));
   plan.experiment = fmt::format(
@@ -235,21 +240,32 @@ LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& ca
       "trials: {{{}}}\n"
       "{}",
       entry("name", plan.name), map.yaml, log.yaml, trials_of(request),
-      default_localizer(map.in_space, (is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "") +
-                                          prior_entry(request.prior)));
+      localizer_yaml(
+          method,
+          (is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "") + prior_entry(request.prior),
+          catalog));
   return plan;
 }
 
-std::string default_localizer(bool in_space, const std::string& more) {
-  return fmt::format(
-      "localizer:\n"
-      "{}{}"
-      "  matcher: indexed_ransam\n"
-      "  threshold_policy:\n"
-      "    fixed: {{omega_max: 0.1}}\n"
-      "  verdict_rule: staged_margin\n"
-      "  verifier: whole_map\n",
-      in_space ? "  motion: upright\n  local_mapper: lidar_odometry\n" : "  local_mapper: bounded\n", more);
+std::string localizer_yaml(const std::string& method, const std::string& more, const Catalog& catalog) {
+  ExperimentFileParams params(catalog);
+  const YamlNode keys = read_method(method, params);
+  std::string yaml = fmt::format("# The method {}.\n", method);
+  if (const YamlEntry* plugins = find_entry(keys, "plugins")) {
+    std::vector<std::string> files;
+    for (const YamlNode& plugin : plugins->value.items) {
+      const bool is_relative = !plugin.text.starts_with("plugin:");
+      files.push_back(to_yaml(std::string_view(
+          is_relative ? fs::absolute(plugin.place.origin->folder / plugin.text).string() : plugin.text)));
+    }
+    yaml += fmt::format("plugins: [{}]\n", fmt::join(files, ", "));
+  }
+  yaml += "localizer:\n";
+  for (const YamlEntry& entry : find_entry(keys, "localizer")->value.entries) {
+    if (more.find("  " + entry.key + ":") == std::string::npos)
+      yaml += fmt::format("  {}: {}\n", entry.key, flow_yaml(entry.value));
+  }
+  return yaml + more;
 }
 
 }  // namespace glocal::app

@@ -21,6 +21,7 @@ struct LocalizeRequest {
   double start_m = 0.0;   ///< Along the drive.
   double every_m = 0.0;   ///< Way between starts; 0: a single one.
   bool strict = false;    ///< Refuses recordings that are damaged in part.
+  std::string method;     ///< Name or file; empty: one that fits the map.
   bool whole = false;     ///< Goes on after the declaration, to the end of the drive.
   Prior prior;            ///< Of each start.
   TellProgress progress = [](double) {};
@@ -37,7 +38,14 @@ struct LocalizePlan {
 /// ConfigError for what is none of these, and where a reader does.
 [[nodiscard]] LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& catalog);
 
-/// The localizer's part of an experiment that fits most robots and maps; `more`: further lines of it.
-[[nodiscard]] std::string default_localizer(bool in_space, const std::string& more);
+/// The built-in method that fits most robots and maps.
+[[nodiscard]] inline const char* default_method(bool in_space) {
+  return in_space ? "lidar_upright" : "indexed";
+}
+
+/// The localizer's part of an experiment, and the plugins it needs, as a method (name or file) has it;
+/// `more`: further lines of the localizer, which take the place of the method's. Throws ConfigError.
+[[nodiscard]] std::string localizer_yaml(const std::string& method, const std::string& more,
+                                         const Catalog& catalog);
 
 }  // namespace glocal::app

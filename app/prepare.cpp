@@ -249,7 +249,7 @@ void prepare(const PrepareOptions& options, Context& context) {
 
   OutputFolder folder(options.out, options.force);
   write_drive(options, references, facts.has_clouds, folder, bar.call());
-  folder.append("experiment.yaml", case_experiment(facts));
+  folder.append("experiment.yaml", case_experiment(facts, context.catalog));
   const LoadedExperiment loaded = load_case(folder, context.catalog, warnings);
   facts.fit_within_m = std::max(0.1, 2.0 * loaded.map->data().resolution);
   facts.fit = reference_fit(mapped_part(loaded), *loaded.map, facts.fit_within_m);

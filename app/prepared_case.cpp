@@ -88,7 +88,7 @@ double way_of(const std::vector<Pose3>& poses) {
   return way;
 }
 
-std::string case_experiment(const CaseFacts& facts) {
+std::string case_experiment(const CaseFacts& facts, const Catalog& catalog) {
   const std::string map_segments = segments_yaml(facts.split.map),
                     run_segments = segments_yaml(facts.split.run);
   std::string map, observations;
@@ -114,7 +114,7 @@ std::string case_experiment(const CaseFacts& facts) {
       "trials: {{{}}}\n"
       "{}",
       to_yaml(std::string_view(facts.name)), map, observations, trials_of(facts),
-      default_localizer(facts.has_clouds, ""));
+      localizer_yaml(default_method(facts.has_clouds), "", catalog));
 }
 
 std::vector<std::pair<std::string, std::string>> fact_lines(const CaseFacts& facts) {

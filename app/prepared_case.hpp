@@ -46,7 +46,7 @@ struct CaseFacts {
 [[nodiscard]] double way_of(const std::vector<Pose3>& poses);
 
 /// As `glocal run` reads it, with paths from the case's folder on.
-[[nodiscard]] std::string case_experiment(const CaseFacts& facts);
+[[nodiscard]] std::string case_experiment(const CaseFacts& facts, const Catalog& catalog);
 
 /// Names and values for people.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> fact_lines(const CaseFacts& facts);

@@ -78,7 +78,7 @@ void simulate(const SimulateOptions& options, Context& context) {
     throw ConfigError({{"simulate", 0, 0, "takes an experiment file, or --site office in its place"}});
   OutputFolder::check(options.out, options.force);
   std::set<std::filesystem::path> inputs;
-  const SimulatedFiles files = is_site ? simulated_site(options.site, seed_of_site(options))
+  const SimulatedFiles files = is_site ? simulated_site(options.site, seed_of_site(options), context.catalog)
                                        : simulated_experiment(options.experiment, context, inputs);
   OutputFolder folder(options.out, options.force);
   folder.append(files.drive.file_name, files.drive.content);

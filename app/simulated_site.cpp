@@ -42,7 +42,8 @@ int starts_of(const SiteOptions& options) {
   return std::clamp(static_cast<int>(length_of(options) / metres_a_start), 1, most_starts);
 }
 
-std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const std::string& log) {
+std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const std::string& log,
+                          const Catalog& catalog) {
   const LogParams limits = scan_limits(drive_params().laser);
   return fmt::format(
       "# A simulated {} of {:g} m x {:g} m, seed {}. Written by glocal simulate.\n"
@@ -57,7 +58,7 @@ std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const 
       "{}",
       options.site, options.side, options.side, seed, options.site, options.side, seed, seed, log,
       limits.min_range, limits.max_range, limits.free_range, length_of(options) / starts_of(options),
-      default_localizer(false, ""));
+      localizer_yaml(default_method(false), "", catalog));
 }
 
 /// CLI::Range takes what is no number.
@@ -91,14 +92,14 @@ void SiteOptions::add_to(CLI::App& command) {
       ->needs(kind);
 }
 
-SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed) {
+SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed, const Catalog& catalog) {
   if (options.side == 0.0)
     throw ConfigError({{"--site " + options.site, 0, 0, "needs --side, its side in metres"}});
   World world = sites::office_site(options.side, length_of(options), seed);
   OccupancyGrid grid = plan_of(world, options.resolution);
   SimulatedFiles files{
       *Simulation(drive_params(), std::move(world), seed).recording(), std::move(grid), {}, 1};
-  files.experiment = experiment_of(options, seed, files.drive.file_name);
+  files.experiment = experiment_of(options, seed, files.drive.file_name, catalog);
   return files;
 }
 

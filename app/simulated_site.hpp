@@ -30,6 +30,7 @@ struct SiteOptions {
 };
 
 /// Throws ConfigError where there is no side, and for a drive of too many observations.
-[[nodiscard]] SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed);
+[[nodiscard]] SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed,
+                                            const Catalog& catalog);
 
 }  // namespace glocal::app

@@ -136,12 +136,10 @@ ShardedRun described(const SubmitOptions& options, const std::vector<Variant>& v
   ShardedRun run;
   run.name = variants.front().experiment.name;
   run.program = fs::read_symlink("/proc/self/exe");
-  run.file = fs::absolute(options.experiment.file).lexically_normal();
+  if (!options.experiment.file.empty()) run.file = fs::absolute(options.experiment.file).lexically_normal();
   run.out = fs::absolute(options.out.empty() ? "results/" + run.name : options.out).lexically_normal();
   run.plugins = context.plugins.loaded();
-  run.set = options.experiment.set;
-  run.seed = options.experiment.seed;
-  run.threads = options.experiment.threads;
+  run.options = options.experiment.words();
   run.working_folder = fs::current_path();
   if (const char* datasets = std::getenv("GLOCAL_DATASETS"); datasets != nullptr && *datasets != '\0')
     run.datasets = fs::absolute(datasets).lexically_normal();

@@ -60,7 +60,7 @@ VariantResult result_of_variant(const std::string& name, const std::filesystem::
 ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const std::filesystem::path& file,
                                    const Catalog& catalog, RunOptions options, RunnerCallbacks callbacks)
     : variants_(std::move(variants)),
-      file_(std::filesystem::absolute(file)),
+      file_(file.empty() ? file : std::filesystem::absolute(file)),
       catalog_(catalog),
       options_(std::move(options)),
       callbacks_(std::move(callbacks)),
@@ -172,7 +172,7 @@ std::optional<std::string> ExperimentRunner::why_other(const std::filesystem::pa
 void ExperimentRunner::run_one(Variant& variant) {
   Experiment& experiment = variant.experiment;
   LoadedExperiment& loaded = loader_.load(experiment);
-  loaded.inputs.insert(file_);
+  if (!file_.empty()) loaded.inputs.insert(file_);
   loaded.inputs.insert(options_.plugins.begin(), options_.plugins.end());
   const auto start = std::chrono::steady_clock::now();
   std::vector<Localizer> localizers;

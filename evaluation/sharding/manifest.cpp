@@ -238,7 +238,7 @@ Manifest sketch_of(const std::vector<Variant>& variants, const fs::path& file,
                    const std::vector<fs::path>& plugins, const Catalog& catalog, FileHashes& hashes) {
   Manifest manifest;
   manifest.experiment = variants.front().experiment.name;
-  manifest.file = fs::absolute(file).string();
+  if (!file.empty()) manifest.file = fs::absolute(file).string();
   manifest.program = program_identity(hashes);
   for (const fs::path& plugin : plugins) manifest.plugins[plugin.string()] = hashes.of(plugin);
   for (const Variant& variant : variants) {

@@ -64,7 +64,7 @@ bool ShardWorker::run(Variant& variant, std::size_t place, const std::vector<std
   while (localizers.size() < std::min(jobs, trials.size()))
     localizers.push_back(make_localizer(experiment, catalog_, loaded));
 
-  loaded.inputs.insert(manifest_.file);
+  if (!manifest_.file.empty()) loaded.inputs.insert(manifest_.file);
   loaded.inputs.insert(options_.plugins.begin(), options_.plugins.end());
   Json described = description(variant, loaded, localizers.front(), map_index_ms);
   journal_.add_variant(planned.identity, described);

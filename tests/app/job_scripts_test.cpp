@@ -29,9 +29,8 @@ ShardedRun full_run() {
   ShardedRun run = plain_run();
   run.plugins = {"/opt/my plugin.so", "/opt/b.so"};
   run.file = "/home/it's me/room.yaml";
-  run.set = {"name=a b", "map.ros_map.path=$HOME/`x`.yaml"};
-  run.seed = "7";
-  run.threads = "2";
+  run.options = {"--set",  "name=a b", "--set",     "map.ros_map.path=$HOME/`x`.yaml",
+                 "--seed", "7",        "--threads", "2"};
   run.working_folder = "/home/it's me";
   run.datasets = "/data/sets";
   run.out = "/data/a \"b\" 100%";
@@ -83,7 +82,7 @@ TEST(JobScripts, ArrayWithAllOptionsAndOddPaths) {
 # SIGTERM to all of its processes, and SIGKILL 30 s later (KillWait). glocal then ends after the step under
 # way, so no --signal is needed.
 export GLOCAL_DATASETS=/data/sets
-# Relative paths given with --set start here.
+# Relative paths in options start here.
 cd '/home/it'\''s me' || exit 2
 # Slurm takes no more tasks in an array: each runs several shards, one after the other.
 code=0

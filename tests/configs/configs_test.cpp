@@ -65,6 +65,43 @@ TEST_P(Experiments, PassTheCheck) {
 
 INSTANTIATE_TEST_SUITE_P(Configs, Experiments, testing::ValuesIn(names_in("experiments")), name_of);
 
+/// Whether a method or a case is about points in space.
+bool is_in_space(const std::string& text) {
+  return std::regex_search(text, std::regex("motion: |points: space|point_cloud:|lidar3d/"));
+}
+
+class Methods : public CommandLine, public testing::WithParamInterface<std::string> {};
+
+TEST_P(Methods, PassTheCheckWithACase) {
+  const std::string text = content(path_of("methods", GetParam()));
+  EXPECT_THAT(text, testing::StartsWith("# "));
+  if (const auto at = text.find("plugin:"); at != std::string::npos) {
+    const std::string name = text.substr(at + 7, text.find(']', at) - at - 7);
+    if (!fs::exists(fs::path(GLOCAL_PLUGINS_FOLDER) / ("glocal_" + name + ".so")))
+      GTEST_SKIP() << "its plugin is not built: the package it brings is not installed";
+  }
+  if (is_in_space(text) && dataset("").empty()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
+  const Answer answer = run("check --method " + GetParam() + " --case " +
+                            (is_in_space(text) ? "building_single" : "paper_simulation"));
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, Methods, testing::ValuesIn(names_in("methods")), name_of);
+
+class Cases : public CommandLine, public testing::WithParamInterface<std::string> {};
+
+TEST_P(Cases, PassTheCheckWithAMethod) {
+  const std::string text = content(path_of("cases", GetParam()));
+  EXPECT_THAT(text, testing::StartsWith("# "));
+  if (text.find("data:") != std::string::npos && dataset("").empty())
+    GTEST_SKIP() << "GLOCAL_DATASETS is not set";
+  const Answer answer = run("check --method " + std::string(is_in_space(text) ? "lidar_free" : "indexed") +
+                            " --case " + GetParam());
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, Cases, testing::ValuesIn(names_in("cases")), name_of);
+
 class Worlds : public CommandLine, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Worlds, OpenWithWhatTheyAre) {
@@ -72,11 +109,13 @@ TEST_P(Worlds, OpenWithWhatTheyAre) {
 }
 
 TEST_P(Worlds, AreUsed) {
-  const std::vector<std::string> experiments = names_in("experiments");
-  EXPECT_TRUE(std::any_of(experiments.begin(), experiments.end(), [&](const std::string& experiment) {
-    return content(path_of("experiments", experiment)).find("worlds/" + GetParam() + ".yaml") !=
-           std::string::npos;
-  }));
+  const auto is_used_in = [&](const char* folder) {
+    const std::vector<std::string> names = names_in(folder);
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return content(path_of(folder, name)).find("worlds/" + GetParam() + ".yaml") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(is_used_in("cases") || is_used_in("experiments"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Configs, Worlds, testing::ValuesIn(names_in("worlds")), name_of);

@@ -73,8 +73,8 @@ void describe(ParamVisitor& v, Experiment& e, const Catalog& catalog);
 /// is YAML.
 using Override = std::pair<std::string, std::string>;
 
-/// Reads an experiment file, without its variants. Throws ConfigError with every fault found in it and in the
-/// overrides.
+/// Reads an experiment file, without its variants; one of several methods or cases needs overrides that leave
+/// one of each (methods=[indexed]). Throws ConfigError with every fault found in it and in the overrides.
 [[nodiscard]] Experiment read_experiment(const std::filesystem::path& file,
                                          const std::vector<Override>& overrides, const Catalog& catalog);
 
@@ -98,15 +98,19 @@ struct Variant {
   Experiment experiment;
   /// Its setting has another map, other observations, trials or another seed.
   bool changes_trials = false;
-  std::string setting = {};    ///< What is compared; empty if nothing but case and seed vary.
-  std::string case_name = {};  ///< One of choose_on or judge_on; empty without.
+  std::string setting =
+      {};  ///< What is compared: method and changes; empty if nothing but case and seed vary.
+  std::string case_name = {};  ///< One of `cases`, choose_on or judge_on; empty without.
   CaseRole role = CaseRole::none;
-  std::vector<Override> values = {};  ///< What the setting changes, as written; not the case, nor the seed.
+  /// What the setting changes, as written; not the case, nor the seed. The method counts as a value of the
+  /// path `method`.
+  std::vector<Override> values = {};
 };
 
-/// Reads the variants of an experiment file in the order of list, grid and zip, each with every case (those
-/// of choose_on first) and every seed, seeds changing fastest; of a file without any, the experiment itself.
-/// Overrides are applied before the variants' changes. Throws ConfigError with every fault of all variants.
+/// Reads the variants of an experiment file: each method, in the order of list, grid and zip, with every case
+/// (those of choose_on first) and every seed, seeds changing fastest; of a file without any, the experiment
+/// itself. Overrides are applied before the variants' changes. Without a file they say all. Throws
+/// ConfigError with every fault of all variants.
 [[nodiscard]] std::vector<Variant> read_variants(const std::filesystem::path& file,
                                                  const std::vector<Override>& overrides,
                                                  const Catalog& catalog);

@@ -12,6 +12,7 @@
 
 #include "config/experiment_params.hpp"
 #include "config/overrides.hpp"
+#include "config/products.hpp"
 #include "config/reader.hpp"
 #include "config/text_file.hpp"
 #include "config/variants.hpp"
@@ -99,14 +100,15 @@ void describe(ParamVisitor& v, PluginsSection& s) {
   v.field("plugins", s.plugins, {.doc = plugins_doc});
 }
 
-/// The tree of a file with the overrides put in, and what is read of it. None where it is no tree at all.
-std::optional<YamlNode> read_file(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                                  ExperimentFileParams& params, std::vector<Fault>& faults) {
-  auto tree = parse_yaml(read_text_file(file), origin_of(file), faults);
-  if (tree) {
-    apply_overrides(*tree, overrides, params, faults);
-    read_params(*tree, params, faults);
-  }
+/// The tree of a file with the overrides put in; without a file, of the overrides alone. None where it is no
+/// tree at all.
+std::optional<YamlNode> tree_of(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                                AnyParams& params, std::vector<Fault>& faults) {
+  auto tree =
+      file.empty()
+          ? parse_yaml("schema: 1", std::make_shared<const Origin>(Origin{"the command line", "."}), faults)
+          : parse_yaml(read_text_file(file), origin_of(file), faults);
+  if (tree) apply_overrides(*tree, overrides, params, faults);
   return tree;
 }
 
@@ -227,6 +229,66 @@ void check_seed(const YamlNode& tree, std::vector<Fault>& faults) {
       "seed: the experiment has `seeds`; leave one out (--set seeds=[] leaves out those of the file)"));
 }
 
+/// A method with a case; null where the experiment says these itself.
+struct Product {
+  const ExperimentPart* method;
+  const ExperimentPart* one_case;
+};
+
+/// Says of variants which product they are of.
+void name_product(const Product& product, Expansion& all, std::vector<Fault>& faults) {
+  const auto& [method, one_case] = product;
+  if (method == nullptr && one_case == nullptr) return;
+  const Place& place = (method != nullptr ? method : one_case)->place;
+  if (all.variants.empty()) all.variants.push_back({"", place, {}});
+  for (VariantChanges& variant : all.variants) {
+    if (method != nullptr)
+      variant.setting = method->name + (variant.setting.empty() ? "" : "_") + variant.setting;
+    if (one_case == nullptr) continue;
+    if (!variant.case_name.empty())
+      faults.push_back(
+          fault_at(variant.place,
+                   "choose_on, judge_on: have changes to the experiment, and there are cases, too; "
+                   "leave one of them out"));
+    variant.case_name = one_case->name;
+    variant.role = one_case->role;
+  }
+  check_names(all.variants, "methods, cases", faults);
+}
+
+/// Adds the variants of a product, with each seed.
+void add_variants(const YamlNode& experiment, const Product& product, const Catalog& catalog,
+                  std::vector<Variant>& variants, std::set<Fault>& faults) {
+  std::vector<Fault> found;
+  ExperimentFileParams params(catalog);
+  YamlNode tree = experiment;
+  if (product.method != nullptr || product.one_case != nullptr)
+    tree = joined(experiment, product.method, product.one_case, params, found);
+  read_params(tree, params, found);
+  const std::set<Fault> of_base(found.begin(), found.end());
+  Expansion all = expand(params.file.variations, params, found);
+  if (!all.seeds.empty()) check_seed(tree, found);
+  name_product(product, all, found);
+  faults.insert(found.begin(), found.end());
+  std::erase_if(tree.entries, [](const YamlEntry& entry) { return is_variation(entry.key); });
+  const std::size_t first = variants.size();
+  if (all.variants.empty()) {
+    variants.push_back({"", std::move(params.file.experiment)});
+  } else if (can_be_held(tree, all) && first + all.variants.size() <= most_variants) {
+    std::vector<Variant> own = read_all(tree, all, catalog, of_base, faults);
+    std::move(own.begin(), own.end(), std::back_inserter(variants));
+  } else {
+    faults.insert(
+        fault_at(all.variants.front().place,
+                 fmt::format("variants: are more than {}, or have more than 20 million values together; "
+                             "leave some out, or shorten the lists of the experiment",
+                             most_variants)));
+  }
+  if (product.method == nullptr) return;
+  for (std::size_t i = first; i < variants.size(); ++i)
+    variants[i].values.insert(variants[i].values.begin(), {"method", product.method->name});
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, TrialsConfig& p) {
@@ -329,7 +391,23 @@ Experiment read_experiment(const std::filesystem::path& file, const std::vector<
                            const Catalog& catalog) {
   std::vector<Fault> faults;
   ExperimentFileParams params(catalog);
-  static_cast<void>(read_file(file, overrides, params, faults));
+  auto tree = tree_of(file, overrides, params, faults);
+  if (tree) {
+    const Products products = take_products(*tree, params, faults);
+    const auto only = [&](PartKind kind, const std::vector<ExperimentPart>& parts) {
+      if (parts.size() > 1)
+        faults.push_back(
+            fault_at(parts[1].place, fmt::format("the experiment has several {0}s; name one of them: "
+                                                 "--{0} {1}",
+                                                 to_string(kind), parts[0].name)));
+      return parts.empty() ? nullptr : &parts.front();
+    };
+    const auto* method = only(PartKind::method, products.methods);
+    const auto* one_case = only(PartKind::the_case, products.cases);
+    if (!faults.empty() && products.given) throw ConfigError(std::move(faults));
+    if (products.given) tree = joined(*tree, method, one_case, params, faults);
+    read_params(*tree, params, faults);
+  }
   if (!faults.empty()) throw ConfigError(std::move(faults));
   return std::move(params.file.experiment);
 }
@@ -349,21 +427,25 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
                                    const Catalog& catalog) {
   std::vector<Fault> found;
   ExperimentFileParams params(catalog);
-  auto tree = read_file(file, overrides, params, found);
-  const std::set<Fault> of_base(found.begin(), found.end());
-  const Expansion all = expand(params.file.variations, params, found);
-  if (tree && !all.seeds.empty()) check_seed(*tree, found);
+  auto tree = tree_of(file, overrides, params, found);
+  const Products products = tree ? take_products(*tree, params, found) : Products{};
   std::set<Fault> faults(found.begin(), found.end());
-  if (tree) std::erase_if(tree->entries, [](const YamlEntry& entry) { return is_variation(entry.key); });
   std::vector<Variant> variants;
-  if (all.variants.empty()) {
-    variants.push_back({"", std::move(params.file.experiment)});
-  } else if (can_be_held(*tree, all)) {
-    variants = read_all(*tree, all, catalog, of_base, faults);
-  } else {
-    faults.insert(fault_at(all.variants.front().place,
-                           "variants: have more than 20 million values together; leave some out, or shorten "
-                           "the lists of the experiment"));
+  if (tree && faults.empty()) {
+    const auto each = [](const std::vector<ExperimentPart>& parts) {
+      std::vector<const ExperimentPart*> all(1, nullptr);
+      if (!parts.empty()) all.clear();
+      for (const ExperimentPart& part : parts) all.push_back(&part);
+      return all;
+    };
+    for (const ExperimentPart* method : each(products.methods)) {
+      for (const ExperimentPart* one_case : each(products.cases))
+        add_variants(*tree, {method, one_case}, catalog, variants, faults);
+    }
+  } else if (tree && !products.given) {
+    found.clear();
+    read_params(*tree, params, found);
+    faults.insert(found.begin(), found.end());
   }
   if (!faults.empty()) throw ConfigError({faults.begin(), faults.end()});
   return variants;
@@ -372,13 +454,23 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
 std::vector<FilePath> read_plugins(const std::filesystem::path& file,
                                    const std::vector<Override>& overrides) {
   std::vector<Fault> ignored;
-  auto tree = parse_yaml(read_text_file(file), origin_of(file), ignored);
+  ParamsOf<PluginsSection> params;
+  std::vector<Override> of_products;
+  std::copy_if(overrides.begin(), overrides.end(), std::back_inserter(of_products),
+               [](const Override& o) { return o.first == "methods"; });
+  auto tree = tree_of(file, of_products, params, ignored);
   if (!tree || tree->kind != NodeKind::map) return {};
+  const Products products = take_products(*tree, params, ignored);
   std::erase_if(tree->entries, [](const YamlEntry& entry) { return entry.key != "plugins"; });
+  for (const ExperimentPart& method : products.methods) {
+    YamlNode of_method = method.tree;
+    std::erase_if(of_method.entries, [](const YamlEntry& entry) { return entry.key != "plugins"; });
+    const ExperimentPart plugins{method.name, method.place, std::move(of_method)};
+    tree = joined(*tree, &plugins, nullptr, params, ignored);
+  }
   std::vector<Override> of_plugins;
   std::copy_if(overrides.begin(), overrides.end(), std::back_inserter(of_plugins),
                [](const Override& o) { return o.first == "plugins"; });
-  ParamsOf<PluginsSection> params;
   apply_overrides(*tree, of_plugins, params, ignored);
   read_params(*tree, params, ignored);
   std::erase_if(params.value.plugins, [](const FilePath& plugin) { return plugin.resolved.empty(); });

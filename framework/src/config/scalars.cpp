@@ -8,13 +8,14 @@
 #include <limits>
 #include <system_error>
 
+#include "config/builtin_parts.hpp"
 #include "config/nearest.hpp"
 #include "config/text_file.hpp"
 
 namespace glocal {
 namespace {
 
-constexpr std::string_view data_prefix = "data:";
+constexpr std::string_view data_prefix = "data:", plugin_prefix = "plugin:";
 constexpr std::string_view automatic = "auto";
 
 bool is_digit(char c) {
@@ -150,6 +151,13 @@ Refusal resolve(const std::string& text, const std::filesystem::path& folder,
     if (rest.empty() || rest.is_absolute())
       return "expected a relative path after 'data:', got '" + text + "'";
     path = std::filesystem::absolute(datasets) / rest;
+  } else if (text.starts_with(plugin_prefix)) {
+    const std::string name = text.substr(plugin_prefix.size());
+    const auto file = builtin_plugin(name);
+    if (!file)
+      return "the plugin '" + name + "' is not built here; install what it needs (scripts/setup --" + name +
+             "), and build again";
+    path = *file;
   } else {
     path = std::filesystem::absolute(folder) / path;
   }

@@ -1,0 +1,81 @@
+#include "config/builtin_parts.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <system_error>
+
+namespace glocal {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* folder_of(PartKind kind) {
+  return kind == PartKind::method ? "methods" : "cases";
+}
+
+/// What stands behind '#' in the lines that a file begins with, up to the first full stop.
+std::string first_comment(const fs::path& file) {
+  std::ifstream lines(file);
+  std::string about;
+  for (std::string line; std::getline(lines, line) && line.starts_with("#");) {
+    about += line.substr(std::min<std::size_t>(line.find_first_not_of("# "), line.size())) + " ";
+    if (const std::size_t end = about.find(". "); end != std::string::npos) return about.substr(0, end + 1);
+  }
+  return about;
+}
+
+}  // namespace
+
+const char* to_string(PartKind kind) {
+  return kind == PartKind::method ? "method" : "case";
+}
+
+fs::path library_folder() {
+  Dl_info library{};
+  if (dladdr(reinterpret_cast<void*>(&library_folder), &library) == 0) return {};
+  return fs::absolute(library.dli_fname).parent_path();
+}
+
+std::optional<fs::path> builtin_plugin(const std::string& name) {
+  for (const char* folder : {"../plugins", "glocal"}) {
+    fs::path file = (library_folder() / folder / ("glocal_" + name + ".so")).lexically_normal();
+    std::error_code ignored;
+    if (fs::is_regular_file(file, ignored)) return file;
+  }
+  return std::nullopt;
+}
+
+fs::path configs_folder() {
+  if (const char* given = std::getenv("GLOCAL_CONFIGS"); given != nullptr) return given;
+  // Debian has a folder for each kind of processor below lib.
+  for (const char* up : {"..", "../.."}) {
+    std::error_code ignored;
+    fs::path configs = (library_folder() / up / "share/glocal/configs").lexically_normal();
+    if (fs::is_directory(configs, ignored)) return configs;
+  }
+  return {};
+}
+
+std::vector<BuiltinPart> builtin_parts(PartKind kind) {
+  std::vector<BuiltinPart> parts;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(configs_folder() / folder_of(kind), ignored)) {
+    if (entry.path().extension() == ".yaml")
+      parts.push_back({entry.path().stem().string(), entry.path(), first_comment(entry.path())});
+  }
+  std::sort(parts.begin(), parts.end(),
+            [](const BuiltinPart& a, const BuiltinPart& b) { return a.name < b.name; });
+  return parts;
+}
+
+std::optional<BuiltinPart> find_builtin_part(PartKind kind, const std::string& name) {
+  for (BuiltinPart& part : builtin_parts(kind)) {
+    if (part.name == name) return std::move(part);
+  }
+  return std::nullopt;
+}
+
+}  // namespace glocal

@@ -1,0 +1,35 @@
+// The methods and cases that glocal comes with, each a file of its own.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glocal {
+
+/// What an experiment is made of besides values of its own: a localizer, or a place to try it.
+enum class PartKind { method, the_case };
+/// "method", "case".
+[[nodiscard]] const char* to_string(PartKind kind);
+
+struct BuiltinPart {
+  std::string name;
+  std::filesystem::path file;
+  std::string about;  ///< Its first comment, a sentence.
+};
+
+/// Where the library lies that this is in.
+[[nodiscard]] std::filesystem::path library_folder();
+
+/// The module of a plugin of this tree, as it is built or installed; none if it is not there.
+[[nodiscard]] std::optional<std::filesystem::path> builtin_plugin(const std::string& name);
+
+/// The folder of all that is built in: $GLOCAL_CONFIGS, or else share/glocal/configs beside the library.
+[[nodiscard]] std::filesystem::path configs_folder();
+
+/// Those of a kind, by name: NAME.yaml in configs/methods or configs/cases.
+[[nodiscard]] std::vector<BuiltinPart> builtin_parts(PartKind kind);
+[[nodiscard]] std::optional<BuiltinPart> find_builtin_part(PartKind kind, const std::string& name);
+
+}  // namespace glocal

@@ -1,0 +1,278 @@
+#include "config/products.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "config/builtin_parts.hpp"
+#include "config/nearest.hpp"
+#include "config/overrides.hpp"
+#include "config/reader.hpp"
+#include "config/text_file.hpp"
+#include "config/variants.hpp"
+#include "config/yaml_parser.hpp"
+#include "glocal/words.hpp"
+
+namespace glocal {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 2> of_methods = {"localizer", "plugins"};
+constexpr std::array<std::string_view, 4> of_cases = {"map", "observations", "trials", "evaluation"};
+
+template <class Keys>
+bool has(const Keys& keys, std::string_view key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+bool is_key_of(PartKind kind, std::string_view key) {
+  return kind == PartKind::method ? has(of_methods, key) : has(of_cases, key);
+}
+
+/// Whether text names a file, and not what is built in.
+bool is_file_name(std::string_view text) {
+  return text.ends_with(".yaml") || text.ends_with(".yml") || text.find('/') != std::string_view::npos;
+}
+
+std::vector<std::string> names_of(PartKind kind) {
+  std::vector<std::string> names;
+  for (const BuiltinPart& part : builtin_parts(kind)) names.push_back(part.name);
+  return names;
+}
+
+constexpr const char* extends_key = "extends";
+
+void check_keys(PartKind kind, const std::string& name, const YamlNode& part, std::vector<Fault>& faults) {
+  const PartKind other = kind == PartKind::method ? PartKind::the_case : PartKind::method;
+  const std::string keys =
+      kind == PartKind::method ? "localizer and plugins" : "map, observations, trials and evaluation";
+  for (const YamlEntry& entry : part.entries) {
+    if (is_key_of(kind, entry.key) || entry.key == extends_key) continue;
+    const std::string why = is_key_of(other, entry.key)
+                                ? fmt::format("'{}' belongs into a {}", entry.key, to_string(other))
+                                : fmt::format("unknown key '{}'", shown(entry.key));
+    faults.push_back(fault_at(entry.place, fmt::format("{} {}: {}; a {} has {}", to_string(kind), shown(name),
+                                                       why, to_string(kind), keys)));
+  }
+  if (find_entry(part, extends_key) != nullptr) return;
+  const auto require = [&](const char* key) {
+    if (find_entry(part, key) == nullptr)
+      faults.push_back(
+          fault_at(part.place, fmt::format("{} {}: missing key '{}'", to_string(kind), shown(name), key)));
+  };
+  if (kind == PartKind::method) return require("localizer");
+  for (const char* key : {"map", "observations", "trials"}) require(key);
+}
+
+std::optional<fs::path> file_of(PartKind kind, const YamlNode& value, std::vector<Fault>& faults) {
+  const std::string& text = value.text;
+  const fs::path beside = value.place.origin->folder / text;
+  if (is_file_name(text)) {
+    if (const auto why = why_unreadable(beside)) {
+      faults.push_back(fault_at(value.place, fmt::format("{}: {}", to_string(kind), *why)));
+      return std::nullopt;
+    }
+    return beside;
+  }
+  const auto builtin = find_builtin_part(kind, text);
+  std::error_code ignored;
+  if (builtin && fs::is_regular_file(beside, ignored)) {
+    faults.push_back(
+        fault_at(value.place, fmt::format("'{0}' is a {1} that is built in and a file, too; write "
+                                          "./{0} for the file, or rename it",
+                                          text, to_string(kind))));
+    return std::nullopt;
+  }
+  if (builtin) return builtin->file;
+  faults.push_back(
+      fault_at(value.place, fmt::format("unknown {} '{}'{}; files are named with .yaml", to_string(kind),
+                                        shown(text), suggestion(text, names_of(kind), "built in are"))));
+  return std::nullopt;
+}
+
+/// The name of what is given without one: that of the file, without its ending.
+std::string own_name(const std::string& text) {
+  return is_file_name(text) ? fs::path(text).stem().string() : text;
+}
+
+/// Takes a key out of the tree; none if it is not there.
+std::optional<YamlNode> take(YamlNode& tree, std::string_view key) {
+  const auto found = std::find_if(tree.entries.begin(), tree.entries.end(),
+                                  [&](const YamlEntry& entry) { return entry.key == key; });
+  if (found == tree.entries.end()) return std::nullopt;
+  YamlNode value = std::move(found->value);
+  tree.entries.erase(found);
+  return value;
+}
+
+/// Puts each value of an entry where it stands in there into the tree.
+void overlay(YamlNode& tree, const std::string& path, const YamlEntry& entry, AnyParams& params,
+             std::vector<Fault>& faults) {
+  if (entry.value.kind != NodeKind::map || entry.value.entries.empty()) {
+    apply_change(tree, path, entry.value, entry.place, params, faults);
+    return;
+  }
+  for (const YamlEntry& below : entry.value.entries)
+    overlay(tree, path + "." + below.key, below, params, faults);
+}
+
+/// Puts the values of `own` over those of `tree`; plugins are added to those that are there.
+void lay_over(YamlNode& tree, const YamlNode& own, AnyParams& params, std::vector<Fault>& faults) {
+  for (const YamlEntry& entry : own.entries) {
+    YamlEntry* there = find_entry(tree, entry.key);
+    if (there == nullptr) {
+      tree.entries.push_back(entry);
+    } else if (entry.key == "plugins" && entry.value.kind == NodeKind::list) {
+      const auto& more = entry.value.items;
+      there->value.items.insert(there->value.items.end(), more.begin(), more.end());
+    } else {
+      overlay(tree, entry.key, entry, params, faults);
+    }
+  }
+}
+
+/// Reads parts of an experiment.
+class PartReader {
+ public:
+  PartReader(AnyParams& params, std::vector<Fault>& faults) : params_(params), faults_(faults) {}
+
+  [[nodiscard]] YamlNode read(PartKind kind, const std::string& name, const YamlNode& value, int depth = 0) {
+    YamlNode part = value;
+    if (value.kind == NodeKind::null) {
+      part = make_node(NodeKind::scalar, value.place);
+      part.text = name;
+    }
+    if (part.kind == NodeKind::scalar) part = from_file(kind, part);
+    if (part.kind == NodeKind::invalid) return part;
+    if (part.kind != NodeKind::map)
+      return refuse(part.place, fmt::format("{} {}: expected a map, a file or a name, got {}",
+                                            to_string(kind), shown(name), name_of(part)));
+    check_keys(kind, name, part, faults_);
+    const auto base = take(part, extends_key);
+    if (!base) return part;
+    constexpr int deepest = 8;
+    if (depth >= deepest)
+      return refuse(base->place, fmt::format("{} {}: extends another one, and that another one, {} times; "
+                                             "does one extend itself?",
+                                             to_string(kind), shown(name), deepest));
+    YamlNode tree = read(kind, base->text, *base, depth + 1);
+    if (tree.kind == NodeKind::map) lay_over(tree, part, params_, faults_);
+    return tree;
+  }
+
+  /// Of a list of names, files and `name: {keys}`, or a map of these.
+  void add_all(PartKind kind, const std::string& key, const YamlNode& written, CaseRole role,
+               std::vector<ExperimentPart>& parts) {
+    if (written.kind == NodeKind::map) {
+      for (const YamlEntry& entry : written.entries) add(kind, entry, role, parts);
+      return;
+    }
+    const std::vector<YamlNode> one = {written};
+    for (const YamlNode& item : written.kind == NodeKind::list ? written.items : one) {
+      if (item.kind == NodeKind::scalar) {
+        add(kind, {own_name(item.text), item.place, item}, role, parts);
+      } else if (item.kind == NodeKind::map && item.entries.size() == 1) {
+        add(kind, item.entries.front(), role, parts);
+      } else if (item.kind != NodeKind::invalid) {
+        faults_.push_back(
+            fault_at(item.place, fmt::format("{}: expected the name of a {}, its file or `name: "
+                                             "{{keys}}`, got {}",
+                                             key, to_string(kind), name_of(item))));
+      }
+    }
+  }
+
+ private:
+  void add(PartKind kind, const YamlEntry& entry, CaseRole role, std::vector<ExperimentPart>& parts) {
+    const auto& [name, place, value] = entry;
+    const auto is_same = [&](const ExperimentPart& part) { return part.name == name; };
+    if (!is_folder_name(name)) {
+      refuse(place, fmt::format("'{}' is no name for a {}: at most 100 letters, digits, '_', '-' and '.', "
+                                "beginning with a letter, a digit or '_'",
+                                shown(name), to_string(kind)));
+    } else if (std::any_of(parts.begin(), parts.end(), is_same)) {
+      refuse(place,
+             fmt::format("the {} '{}' is there twice; give each once, or names of their own (NAME: file)",
+                         to_string(kind), name));
+    } else {
+      parts.push_back({name, place, read(kind, name, value), role});
+    }
+  }
+
+  [[nodiscard]] YamlNode from_file(PartKind kind, const YamlNode& text) {
+    const auto file = file_of(kind, text, faults_);
+    if (!file) return make_node(NodeKind::invalid, text.place);
+    const std::size_t before = faults_.size();
+    auto tree = parse_yaml(read_text_file(*file), origin_of(*file), faults_);
+    return tree && faults_.size() == before ? *std::move(tree) : make_node(NodeKind::invalid, text.place);
+  }
+
+  YamlNode refuse(const Place& place, std::string message) {
+    faults_.push_back(fault_at(place, std::move(message)));
+    return make_node(NodeKind::invalid, place);
+  }
+
+  AnyParams& params_;
+  std::vector<Fault>& faults_;
+};
+
+}  // namespace
+
+Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults) {
+  Products products;
+  if (experiment.kind != NodeKind::map) return products;
+  PartReader reader(params, faults);
+  const auto add = [&](PartKind kind, const char* key, const YamlNode& written, CaseRole role) {
+    products.given = true;
+    reader.add_all(kind, key, written, role, kind == PartKind::method ? products.methods : products.cases);
+  };
+  if (const auto methods = take(experiment, "methods"))
+    add(PartKind::method, "methods", *methods, CaseRole::none);
+  if (const auto cases = take(experiment, "cases")) add(PartKind::the_case, "cases", *cases, CaseRole::none);
+  for (const auto& [key, role] :
+       {std::pair("choose_on", CaseRole::choose), std::pair("judge_on", CaseRole::judge)}) {
+    const YamlEntry* entry = find_entry(experiment, key);
+    // A map has changes to the experiment: cases of another kind.
+    if (entry == nullptr || entry->value.kind == NodeKind::map) continue;
+    if (!products.cases.empty() && products.cases.front().role == CaseRole::none)
+      faults.push_back(
+          fault_at(entry->place, fmt::format("{}: there is `cases`, too; leave it out, or write all "
+                                             "cases into choose_on and judge_on",
+                                             key)));
+    add(PartKind::the_case, key, *take(experiment, key), role);
+  }
+  if (!products.cases.empty() && products.cases.front().role == CaseRole::judge)
+    faults.push_back(fault_at(products.cases.front().place,
+                              "judge_on: there is no choose_on; say there by which cases to choose what is "
+                              "judged here"));
+  return products;
+}
+
+YamlNode read_method(const std::string& name, AnyParams& params) {
+  std::vector<Fault> faults;
+  YamlNode value =
+      make_node(NodeKind::scalar, {std::make_shared<const Origin>(Origin{"--method " + name, "."}), 0, 0});
+  value.text = name;
+  YamlNode method = PartReader(params, faults).read(PartKind::method, name, value);
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  return method;
+}
+
+YamlNode joined(const YamlNode& experiment, const ExperimentPart* method, const ExperimentPart* one_case,
+                AnyParams& params, std::vector<Fault>& faults) {
+  YamlNode tree = make_node(NodeKind::map, experiment.place);
+  for (const ExperimentPart* part : {one_case, method}) {
+    if (part == nullptr) continue;
+    tree.entries.insert(tree.entries.end(), part->tree.entries.begin(), part->tree.entries.end());
+  }
+  lay_over(tree, experiment, params, faults);
+  return tree;
+}
+
+}  // namespace glocal

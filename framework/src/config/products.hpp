@@ -1,0 +1,41 @@
+// Experiments as products: methods × cases, each from a file of its own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/builtin_parts.hpp"
+#include "config/node.hpp"
+#include "glocal/experiment.hpp"
+
+namespace glocal {
+
+/// A method or a case.
+struct ExperimentPart {
+  std::string name;
+  Place place;                     ///< Where the experiment names it.
+  YamlNode tree;                   ///< Its keys: those of an experiment.
+  CaseRole role = CaseRole::none;  ///< Of a case.
+};
+
+/// What an experiment file names as `methods`, `cases`, and lists in `choose_on` and `judge_on`.
+struct Products {
+  std::vector<ExperimentPart> methods, cases;
+  bool given = false;  ///< Whether the file names any, be it wrongly.
+};
+
+/// Takes these keys out of the tree of an experiment file, and reads the files that they name. A method is a
+/// map with `localizer` and perhaps `plugins`; a case has `map`, `observations`, `trials` and perhaps
+/// `evaluation`. Either may extend another one, of which it gives other values. What is wrong goes to
+/// `faults`, at the file where it stands; `params` are an experiment's.
+[[nodiscard]] Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults);
+
+/// The keys of a method, by its name or file. Throws ConfigError.
+[[nodiscard]] YamlNode read_method(const std::string& name, AnyParams& params);
+
+/// The experiment of one of each; null for none. Values that the experiment itself gives take the place of
+/// those of method and case, part by part; its plugins are added to the method's.
+[[nodiscard]] YamlNode joined(const YamlNode& experiment, const ExperimentPart* method,
+                              const ExperimentPart* one_case, AnyParams& params, std::vector<Fault>& faults);
+
+}  // namespace glocal

@@ -1,0 +1,72 @@
+// Experiments of methods and cases by their names, without a file.
+#include <gmock/gmock.h>
+
+#include "app/room.hpp"
+
+namespace glocal::test::products_command_test {
+namespace {
+
+using testing::HasSubstr;
+
+class ProductsCommand : public Room {
+ protected:
+  ProductsCommand() {
+    folder_.write("few.yaml", "localizer: {matcher: {ransam: {iterations: 5000}}}\n");
+    folder_.write("many.yaml", "extends: few.yaml\nlocalizer: {matcher: {ransam: {iterations: 20000}}}\n");
+    folder_.write("small_room.yaml",
+                  "map: {simulation: {world: world.yaml}}\n"
+                  "observations: {simulation: {world: world.yaml}}\n"
+                  "trials: {every_scan: 6, max_steps: 5}\n");
+  }
+
+  [[nodiscard]] std::string case_option() const { return " --case " + file("small_room.yaml") + " "; }
+};
+
+TEST_F(ProductsCommand, RunLeavesAFolderForEachMethodCaseAndSeed) {
+  const std::string out = file("results");
+  const Answer answer = run("run --quiet --method " + file("few.yaml") + " --method " + file("many.yaml") +
+                            case_option() + "--seeds 1..2 --out " + out);
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  for (const char* name : {"few_small_room_seed-1", "few_small_room_seed-2", "many_small_room_seed-1",
+                           "many_small_room_seed-2"}) {
+    const Json provenance = Json::parse(content(out + "/" + name + "/provenance.json"));
+    const std::string method = provenance["variant"]["values"]["method"];
+    EXPECT_EQ(provenance["variant"]["case"], "small_room");
+    EXPECT_THAT(std::string(name), testing::StartsWith(method));
+  }
+  EXPECT_THAT(content(out + "/many_small_room_seed-2/effective.yaml"), HasSubstr("20000"));
+}
+
+TEST_F(ProductsCommand, JobsAreGivenTheNamesToo) {
+  const Answer answer = run("submit --parallel --dry-run --shards 2 --method " + file("few.yaml") +
+                            case_option() + "--seeds 1..2 --out " + file("shared"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out,
+              HasSubstr(" run --method " + file("few.yaml") + case_option() + "--seeds 1..2 --shard"));
+}
+
+TEST_F(ProductsCommand, AFileThatLacksOnlyAMethodIsGivenOne) {
+  folder_.write(
+      "lacks.yaml",
+      "schema: 1\nname: lacks\ncases: [small_room.yaml]\nevaluation: {max_translation_error: 0.4}\n");
+  const Answer answer = run("check " + file("lacks.yaml") + " --method " + file("few.yaml"));
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+}
+
+TEST_F(ProductsCommand, HalfAnExperimentIsRefused) {
+  const Answer answer = run("run --method indexed --out " + file("results"));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("Give an experiment file, or --method and --case"));
+}
+
+TEST_F(ProductsCommand, ListTellsWhatIsBuiltIn) {
+  EXPECT_THAT(run("list methods").out, HasSubstr("\nlidar_free "));
+  const Json cases = Json::parse(run("list cases --json").out);
+  const auto intel =
+      std::find_if(cases.begin(), cases.end(), [](const Json& c) { return c["name"] == "intel"; });
+  ASSERT_NE(intel, cases.end());
+  EXPECT_THAT((*intel)["about"].get<std::string>(), HasSubstr("Intel Research Lab"));
+}
+
+}  // namespace
+}  // namespace glocal::test::products_command_test
