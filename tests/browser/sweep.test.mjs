@@ -57,6 +57,13 @@ test("what came out is told of the settings over the cases that they are chosen 
   await page.locator("#level").selectOption("setting");
 });
 
+test("runs without steps can be chosen, too", { skip }, async () => {
+  assert.equal(await page.locator("#view").count(), 0);
+  await page.locator("#run").selectOption("1");
+  assert.equal(await page.evaluate(() => document.body.dataset.run), await page.locator("#run option:checked").innerText());
+  await page.locator("#run").selectOption("0");
+});
+
 test("each parameter has its levels where they belong on the axis", { skip }, async () => {
   const charts = page.locator("#sweep .effect");
   assert.equal(await charts.count(), sweep.effects.length);

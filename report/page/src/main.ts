@@ -165,7 +165,7 @@ async function show(report: Report, page: HTMLElement): Promise<void> {
   );
   const borders = new Borders(() => view);
   const [right, below] = borders.handles;
-  append(view, el("div", { class: "view-head" }, pickers, details.verdict), views.element, right, curves.element, below, player.element, details.element);
+  append(view, el("div", { class: "view-head" }, hasView && pickers, details.verdict), views.element, right, curves.element, below, player.element, details.element);
   followLength(view, store);
   const fullScreen = new FullScreen(view);
   map.addButton("Full screen (f)", "▢", () => fullScreen.toggle());

@@ -106,7 +106,6 @@ const same: Record<string, string> = {
   "experiment, seed": "seed",
   "evidence: margin": "margin",
   "evidence: free_space_violation": "free space violation",
-  "steps, median": "steps",
   "steps to localize, median": "steps",
   "distance to localize, median": "way",
   "error when localized, median": "errors at declaration",
