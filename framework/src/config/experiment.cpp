@@ -470,7 +470,7 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
       for (const ExperimentPart* one_case : each(products.cases))
         add_variants(*tree, {method, one_case}, own_overrides, catalog, variants, faults);
     }
-    check_names_of_all(*tree, variants, faults);
+    if (faults.empty()) check_names_of_all(*tree, variants, faults);
   }
   if (!faults.empty()) throw ConfigError({faults.begin(), faults.end()});
   return variants;
