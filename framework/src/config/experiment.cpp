@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -289,6 +291,36 @@ void add_variants(const YamlNode& experiment, const Product& product, const Cata
     variants[i].values.insert(variants[i].values.begin(), {"method", product.method->name});
 }
 
+/// The numbers of a case's starts that are in a share.
+std::vector<double> starts_in_share(const Variant& variant, double share) {
+  std::vector<double> starts;
+  const SuiteCase& one_case = *variant.suite->find_case(variant.case_name);
+  for (std::size_t i = 0; i < one_case.starts; ++i) {
+    if (is_in_share(one_case.name, variant.experiment.seed, i, share))
+      starts.push_back(static_cast<double>(i));
+  }
+  return starts;
+}
+
+/// Says of variants that they are of a suite, and leaves out those of which nothing is in the share.
+void join_suite(const YamlNode& experiment, const Products& products, std::vector<Variant>& variants,
+                std::set<Fault>& faults) {
+  for (Variant& variant : variants) {
+    variant.suite = products.suite;
+    variant.share = products.share;
+    if (variant.changes_trials)
+      faults.insert(
+          fault_at(experiment.place, fmt::format("variant '{}': changes the trials of {}; leave that out",
+                                                 variant.name, products.suite->id())));
+    if (products.share < 1.0) variant.experiment.trials.only = starts_in_share(variant, products.share);
+  }
+  if (products.share >= 1.0) return;
+  std::erase_if(variants, [](const Variant& variant) { return variant.experiment.trials.only.empty(); });
+  if (variants.empty())
+    faults.insert(fault_at(experiment.place, fmt::format("share: {:g} of {} has no start; take more of it",
+                                                         products.share, products.suite->id())));
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, TrialsConfig& p) {
@@ -315,6 +347,14 @@ void describe(ParamVisitor& v, TrialsConfig& p) {
            "was recorded at its free cells, one without cells at its points.",
        .unit = "m",
        .min = 0.0});
+  v.field(
+      "only", p.only,
+      {.doc = "Numbers of starts, from 0 on in the order of the drive: of all that there are, only these are "
+              "run, with the random numbers that they have among all. Empty: all.",
+       .min = 0.0});
+  v.require(std::all_of(p.only.begin(), p.only.end(), [](double n) { return std::trunc(n) == n; }) &&
+                std::is_sorted(p.only.begin(), p.only.end(), std::less_equal<>()),
+            "only", "must be whole numbers, each greater than the one before");
   const int given = (p.every_m > 0.0 ? 1 : 0) + (p.starts_m.empty() ? 0 : 1) + (p.every_scan > 0 ? 1 : 0) +
                     (p.whole ? 1 : 0);
   v.require(given == 1, "", "exactly one of every_m, starts_m, every_scan and whole must be given");
@@ -442,6 +482,7 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
       for (const ExperimentPart* one_case : each(products.cases))
         add_variants(*tree, {method, one_case}, catalog, variants, faults);
     }
+    if (products.suite && faults.empty()) join_suite(*tree, products, variants, faults);
   } else if (tree && !products.given) {
     found.clear();
     read_params(*tree, params, found);

@@ -109,6 +109,9 @@ struct Expansion {
 [[nodiscard]] Expansion expand(const Variations& variations, AnyParams& experiment,
                                std::vector<Fault>& faults);
 
+/// The seeds that are written, in their order.
+[[nodiscard]] std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& faults);
+
 /// Letters, digits, `_`, `-` and `.`, at most 100, beginning with a letter, a digit or `_`: fit for a folder,
 /// and for a command line.
 [[nodiscard]] bool is_folder_name(std::string_view name);

@@ -53,35 +53,6 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> range_of(const YamlNode& 
   return std::nullopt;
 }
 
-std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& faults) {
-  std::vector<std::uint64_t> seeds;
-  if (!list.written || list.written->kind == NodeKind::null || list.written->kind == NodeKind::invalid)
-    return seeds;
-  const YamlNode& written = *list.written;
-  std::set<std::uint64_t> seen;
-  for (const YamlNode& item : written.kind == NodeKind::list ? written.items : std::vector{written}) {
-    if (item.kind == NodeKind::invalid) continue;
-    const auto range = range_of(item, faults);
-    if (!range) continue;
-    const auto [first, last] = *range;
-    if (last - first >= most_variants - seeds.size()) {
-      faults.push_back(
-          fault_at(item.place, fmt::format("seeds: more than {} seeds; leave some out", most_variants)));
-      return {};
-    }
-    for (std::uint64_t k = 0; k <= last - first; ++k) {
-      if (seen.insert(first + k).second) {
-        seeds.push_back(first + k);
-      } else {
-        faults.push_back(
-            fault_at(item.place, fmt::format("seeds: {} is there twice; give each seed once", first + k)));
-        break;
-      }
-    }
-  }
-  return seeds;
-}
-
 /// The cases by which to choose, and those by which to judge; the changes of each are those of a setting.
 std::vector<VariantChanges> cases_of(const Variations& variations, std::vector<Fault>& faults) {
   std::vector<VariantChanges> cases = named_settings(variations.choose_on, "choose_on", faults);
@@ -185,6 +156,35 @@ void check_full_names(const std::vector<VariantChanges>& variants, const std::ve
 }
 
 }  // namespace
+
+std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& faults) {
+  std::vector<std::uint64_t> seeds;
+  if (!list.written || list.written->kind == NodeKind::null || list.written->kind == NodeKind::invalid)
+    return seeds;
+  const YamlNode& written = *list.written;
+  std::set<std::uint64_t> seen;
+  for (const YamlNode& item : written.kind == NodeKind::list ? written.items : std::vector{written}) {
+    if (item.kind == NodeKind::invalid) continue;
+    const auto range = range_of(item, faults);
+    if (!range) continue;
+    const auto [first, last] = *range;
+    if (last - first >= most_variants - seeds.size()) {
+      faults.push_back(
+          fault_at(item.place, fmt::format("seeds: more than {} seeds; leave some out", most_variants)));
+      return {};
+    }
+    for (std::uint64_t k = 0; k <= last - first; ++k) {
+      if (seen.insert(first + k).second) {
+        seeds.push_back(first + k);
+      } else {
+        faults.push_back(
+            fault_at(item.place, fmt::format("seeds: {} is there twice; give each seed once", first + k)));
+        break;
+      }
+    }
+  }
+  return seeds;
+}
 
 void describe(ParamVisitor& v, Variations& s) {
   v.field("variants", s.variants,
