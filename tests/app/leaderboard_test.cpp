@@ -33,7 +33,8 @@ class Leaderboard : public Room {
   void write_method(int iterations) const {
     folder_.write("configs/methods/few.yaml",
                   "# Few draws.\nlocalizer: {contact_epsilon: 0.05, matcher: {ransam: {iterations: " +
-                      std::to_string(iterations) + "}}, verdict_rule: {consecutive_rating: {consecutive: 1}}}\n");
+                      std::to_string(iterations) +
+                      "}}, verdict_rule: {consecutive_rating: {consecutive: 1}}}\n");
   }
 
   void pin() const {
@@ -75,7 +76,8 @@ class Leaderboard : public Room {
   }
 
   [[nodiscard]] Answer import(const std::string& csv) const {
-    return run("leaderboard import " + folder_.write("poses.csv", csv).string() + " --suite tiny --method theirs");
+    return run("leaderboard import " + folder_.write("poses.csv", csv).string() +
+               " --suite tiny --method theirs");
   }
 
   const std::string suite_ = "# A room.\nversion: 1\nseeds: 1..2\ncases: [small_room]\n";
@@ -104,7 +106,8 @@ TEST_F(Leaderboard, KeepsShowsAndChecksResults) {
 
   const Answer same = run("leaderboard check --share 0.3");
   EXPECT_EQ(same.exit_code, 0) << same.out;
-  EXPECT_TRUE(std::regex_search(same.out, std::regex("tiny@1, few: [1-9]\\d* starts run anew, as they are stored")))
+  EXPECT_TRUE(
+      std::regex_search(same.out, std::regex("tiny@1, few: [1-9]\\d* starts run anew, as they are stored")))
       << same.out;
 }
 
@@ -115,7 +118,9 @@ TEST_F(Leaderboard, ACheckSaysWhichStartsEndOtherwise) {
   const Answer other = run("leaderboard check tiny@1 --method few --share 1");
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_THAT(other.out, HasSubstr("  small_room, seed 1, start "));
-  EXPECT_THAT(other.out, HasSubstr("renew leaderboard/tiny@1/few.json with:\n  glocal run --suite tiny@1 --method few "));
+  EXPECT_THAT(
+      other.out,
+      HasSubstr("renew leaderboard/tiny@1/few.json with:\n  glocal run --suite tiny@1 --method few "));
 }
 
 TEST_F(Leaderboard, RenewingNeedsForceAndComparesOldAndNew) {
@@ -161,7 +166,8 @@ TEST_F(Leaderboard, AnInputThatHasChangedIsNamedWithBothHashes) {
 TEST_F(Leaderboard, StartsThatAreNotAsManyAsPinnedAreRefused) {
   pin();
   const std::string pinned = content(file("configs/suites/tiny.yaml"));
-  folder_.write("configs/suites/tiny.yaml", std::regex_replace(pinned, std::regex("starts: \\d+"), "starts: 4"));
+  folder_.write("configs/suites/tiny.yaml",
+                std::regex_replace(pinned, std::regex("starts: \\d+"), "starts: 4"));
   const Answer ran = run("run --quiet --suite tiny@1 --method few --out " + file("results"));
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_THAT(ran.err, HasSubstr("starts with seed 1, and 4 are pinned"));
@@ -179,7 +185,8 @@ TEST_F(Leaderboard, ImportedPosesAreJudgedLikeOnesOwn) {
       if (!trial.contains("pose")) continue;
       const Json& pose = trial.at("pose");
       csv += fmt::format("small_room,{},{},{},{},{},1,{}\n", trial.at("trial").get<int>(),
-                         trial.at("steps").get<int>() - 1, pose.at("x").get<double>(), pose.at("y").get<double>(),
+                         trial.at("steps").get<int>() - 1, pose.at("x").get<double>(),
+                         pose.at("y").get<double>(),
                          pose.at("theta").get<double>() * 180.0 / 3.141592653589793, seed);
     }
   }
@@ -197,16 +204,20 @@ TEST_F(Leaderboard, WhatIsWrongWithImportedRowsIsSaidOfEach) {
   const std::string good = "small_room,1,0,0,1,3,0,1\n";
   EXPECT_THAT(import(head + good + "small_room,1,999,0,1,3,0,1\n").err,
               HasSubstr("poses.csv:3: error: the case small_room has no start 999: they are 0 to "));
-  EXPECT_THAT(import(head + good + good).err, HasSubstr("poses.csv:3: error: step 0 of start 0 of small_room is there "
-                                                        "twice (first in line 2)"));
+  EXPECT_THAT(import(head + good + good).err,
+              HasSubstr("poses.csv:3: error: step 0 of start 0 of small_room is there "
+                        "twice (first in line 2)"));
   EXPECT_THAT(import(head + "small_room,1,0,0,nan,3,0,1\n").err,
               HasSubstr("poses.csv:2: error: x: 'nan' is no finite number"));
-  EXPECT_THAT(import(head + "small_room,1,0,5,1,3,0,1\n").err,
-              HasSubstr("poses.csv:2: error: start 0 of small_room has 5 steps, from 0 on; there is no step 5"));
+  EXPECT_THAT(
+      import(head + "small_room,1,0,5,1,3,0,1\n").err,
+      HasSubstr("poses.csv:2: error: start 0 of small_room has 5 steps, from 0 on; there is no step 5"));
   EXPECT_THAT(import(head + "large_room,1,0,0,1,3,0,1\n").err, HasSubstr("tiny@1 has no case 'large_room'"));
   EXPECT_THAT(import(head + "small_room,3,0,0,1,3,0,1\n").err, HasSubstr("tiny@1 has no seed 3"));
-  EXPECT_THAT(import("case,start,step,x,y,declared\n").err, HasSubstr("poses.csv:1: error: has no column 'yaw_deg'"));
-  EXPECT_THAT(import(head + "small_room,1,0\n").err, HasSubstr("has 3 values, and the first line names 8 columns"));
+  EXPECT_THAT(import("case,start,step,x,y,declared\n").err,
+              HasSubstr("poses.csv:1: error: has no column 'yaw_deg'"));
+  EXPECT_THAT(import(head + "small_room,1,0\n").err,
+              HasSubstr("has 3 values, and the first line names 8 columns"));
   EXPECT_THAT(import(head).err, HasSubstr("has no rows"));
   EXPECT_FALSE(fs::exists(file("leaderboard")));
 }
@@ -217,8 +228,9 @@ TEST_F(Leaderboard, PosesOfAnotherFrameAreToldByHowTheyFit) {
   EXPECT_EQ(import(moved_references(0.0)).exit_code, 0);
   const Answer moved = import(moved_references(7.0));
   EXPECT_EQ(moved.exit_code, 2);
-  EXPECT_TRUE(std::regex_search(moved.err, std::regex("its poses are of another frame: \\d+ of \\d+ fit if all are "
-                                                      "turned by -?0.0 deg and moved by \\(-7.00, -?0.00\\) m")))
+  EXPECT_TRUE(
+      std::regex_search(moved.err, std::regex("its poses are of another frame: \\d+ of \\d+ fit if all are "
+                                              "turned by -?0.0 deg and moved by \\(-7.00, -?0.00\\) m")))
       << moved.err;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/builtin_parts.hpp"
@@ -20,6 +21,7 @@ struct ExperimentPart {
   Place place;                     ///< Where the experiment names it.
   YamlNode tree;                   ///< Its keys: those of an experiment.
   CaseRole role = CaseRole::none;  ///< Of a case.
+  bool is_fixed = false;           ///< Given without a list: not one of several, so that no name tells it.
 };
 
 /// What an experiment file names as `methods`, `cases`, and lists in `choose_on` and `judge_on`.
@@ -34,11 +36,18 @@ struct Products {
 [[nodiscard]] std::optional<std::filesystem::path> part_file(PartKind kind, const YamlNode& value,
                                                              std::vector<Fault>& faults);
 
+/// Whether an experiment must leave a key to its suite.
+[[nodiscard]] bool is_key_of_suite(std::string_view key);
+
+/// Whether a path leads to one of these keys.
+[[nodiscard]] bool names_parts(std::string_view path);
+
 /// Takes these keys out of the tree of an experiment file, and reads the files that they name. A method is a
 /// map with `localizer` and perhaps `plugins`; a case has `map`, `observations`, `trials` and perhaps
-/// `evaluation`. Either may extend another one, of which it gives other values. A `suite` has cases, of which
-/// the experiment may name some, and seeds, which stay in the tree. What is wrong goes to `faults`, at the
-/// file where it stands; `params` are an experiment's.
+/// `evaluation`. What the experiment says itself, a part may leave out. Either may extend another one, of
+/// which it gives other values. A `suite` has cases, of which the experiment may name some, and seeds, which
+/// stay in the tree. What is wrong goes to `faults`, at the file where it stands; `params` are an
+/// experiment's.
 [[nodiscard]] Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults);
 
 /// The keys of a method, by its name or file. Throws ConfigError.

@@ -79,8 +79,10 @@ TEST(BoardEntryTest, FiguresAreRoundedAndStandOnALineForEachCaseAndSeed) {
   const std::string text = to_text(some_entry());
   EXPECT_THAT(text, HasSubstr("\"outcome\": \"rwu\",\n   \"steps\": [2,5,41],\n   \"m\": [0.3,1,12],\n"
                               "   \"cm\": [3.7,300,null],\n   \"deg\": [0.46,90,null]}"));
-  EXPECT_THAT(text, HasSubstr("\"localized\": 90, \"largest_cm\": 8.34, \"largest_deg\": 0.18, \"clusters\": [800, 1], "
-                              "\"outcome\": \"r\", \"steps\": [40], \"m\": [0.3], \"cm\": [3.7], \"deg\": [0.46]}"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("\"localized\": 90, \"largest_cm\": 8.34, \"largest_deg\": 0.18, \"clusters\": [800, 1], "
+                "\"outcome\": \"r\", \"steps\": [40], \"m\": [0.3], \"cm\": [3.7], \"deg\": [0.46]}"));
 }
 
 TEST(BoardEntryTest, DamagedFilesAreRefused) {
@@ -124,16 +126,18 @@ TEST(DifferencesTest, NameEachStartThatEndsOtherwise) {
   fresh.starts = {right_after(2), undecided_after(42)};
   TrialsConfig trials;
   trials.only = {0.0, 2.0};
-  EXPECT_THAT(differences(stored, fresh, trials),
-              testing::ElementsAre("room, seed 1, start 2: undecided after 41 steps is stored, undecided after 42 "
-                                   "steps it is now"));
+  EXPECT_THAT(
+      differences(stored, fresh, trials),
+      testing::ElementsAre("room, seed 1, start 2: undecided after 41 steps is stored, undecided after 42 "
+                           "steps it is now"));
 }
 
 TEST(DifferencesTest, WholeDrivesDifferInWhatComesAfterTheDeclaration) {
   const CaseResult stored = some_entry().results[2];
   CaseResult fresh = stored;
   fresh.drive->cm = 8.4;
-  EXPECT_THAT(differences(stored, fresh, {}), testing::ElementsAre(HasSubstr("hall, seed 1: localized in 90 steps")));
+  EXPECT_THAT(differences(stored, fresh, {}),
+              testing::ElementsAre(HasSubstr("hall, seed 1: localized in 90 steps")));
 }
 
 // p by hand: 4 of 4 starts that differ do so in one way, 2 / 2^4.
@@ -143,17 +147,19 @@ TEST(PairedText, CountsWhatHasChanged) {
   const std::string text = paired_text(before, now);
   EXPECT_THAT(text, HasSubstr("right  4 before, 8 now: 0 no more, 4 newly (p 0.12)"));
   EXPECT_THAT(text, HasSubstr("wrong  4 before, 0 now: 4 no more, 0 newly (p 0.12)"));
-  EXPECT_THAT(text, HasSubstr("steps  0 of 4 starts that are right both times need fewer, 2 more, by 1 in the mean"));
+  EXPECT_THAT(
+      text, HasSubstr("steps  0 of 4 starts that are right both times need fewer, 2 more, by 1 in the mean"));
 }
 
 TEST(BoardTables, BestComesFirstAndEachCaseHasItsLine) {
-  const std::vector<BoardEntry> entries = {some_entry(),
-                                           entry_of("yours", {right_after(2), right_after(4), undecided_after(41)})};
+  const std::vector<BoardEntry> entries = {
+      some_entry(), entry_of("yours", {right_after(2), right_after(4), undecided_after(41)})};
   const std::string all = as_text(board_tables(small_suite(), entries, {}));
   EXPECT_LT(all.find("yours"), all.find("mine"));
   // Wilson's interval of 2 of 8, by his formula.
   EXPECT_THAT(all, HasSubstr("2, 7.1 to 59.1 %"));
-  const std::string room = as_text(board_tables(small_suite(), entries, {.by_case = true, .cases = {"room"}}));
+  const std::string room =
+      as_text(board_tables(small_suite(), entries, {.by_case = true, .cases = {"room"}}));
   EXPECT_THAT(room, HasSubstr("room, mine"));
   EXPECT_THAT(room, Not(HasSubstr("hall")));
   const std::string alone = as_text(board_tables(small_suite(), {some_entry()}, {.by_case = true}));

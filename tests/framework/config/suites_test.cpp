@@ -38,17 +38,18 @@ class SuitesTest : public testing::Test {
 
   /// Two cases with three seeds, of which one has 40 starts.
   void write_pinned() const {
-    write_suite(fmt::format("version: 2\n"
-                            "seeds: 1..3\n"
-                            "cases:\n"
-                            "  dense: {{extends: room, trials: {{every_m: 2}}}}\n"
-                            "  room: room\n"
-                            "pinned:\n"
-                            "  cases:\n"
-                            "    dense: {{starts: 40, values: \"{}\"}}\n"
-                            "    room: {{starts: 2, values: \"{}\"}}\n",
-                            hash_of("{map: {toy_map: {path: map.txt}}, observations: toy_drive, trials: {every_m: 2}}"),
-                            hash_of("{map: {toy_map: {path: map.txt}}, observations: toy_drive, trials: {every_m: 6}}")));
+    write_suite(fmt::format(
+        "version: 2\n"
+        "seeds: 1..3\n"
+        "cases:\n"
+        "  dense: {{extends: room, trials: {{every_m: 2}}}}\n"
+        "  room: room\n"
+        "pinned:\n"
+        "  cases:\n"
+        "    dense: {{starts: 40, values: \"{}\"}}\n"
+        "    room: {{starts: 2, values: \"{}\"}}\n",
+        hash_of("{map: {toy_map: {path: map.txt}}, observations: toy_drive, trials: {every_m: 2}}"),
+        hash_of("{map: {toy_map: {path: map.txt}}, observations: toy_drive, trials: {every_m: 6}}")));
   }
 
   std::vector<Variant> read(const std::string& suite, const std::vector<Override>& more = {}) {
@@ -71,11 +72,13 @@ class SuitesTest : public testing::Test {
 };
 
 TEST_F(SuitesTest, ASuiteIsItsCasesWithItsSeeds) {
-  write_suite("version: 1\nseeds: [4, 8]\ncases:\n  dense: {extends: room, trials: {every_m: 2}}\n  room: room\n");
+  write_suite(
+      "version: 1\nseeds: [4, 8]\ncases:\n  dense: {extends: room, trials: {every_m: 2}}\n  room: room\n");
   const auto all = read("small@1");
   std::vector<std::string> names;
   for (const Variant& variant : all) names.push_back(variant.name);
-  EXPECT_THAT(names, ElementsAre("fast_dense_seed-4", "fast_dense_seed-8", "fast_room_seed-4", "fast_room_seed-8"));
+  EXPECT_THAT(names,
+              ElementsAre("fast_dense_seed-4", "fast_dense_seed-8", "fast_room_seed-4", "fast_room_seed-8"));
   EXPECT_EQ(all[0].experiment.trials.every_m, 2.0);
   EXPECT_EQ(all[3].experiment.trials.every_m, 6.0);
   EXPECT_EQ(all[0].experiment.name, "small-1");
@@ -133,7 +136,8 @@ TEST_F(SuitesTest, AnotherVersionIsRefused) {
 
 TEST_F(SuitesTest, WhatASuiteSaysCannotBeSaidAgain) {
   write_pinned();
-  EXPECT_THAT(faults_of("small", {{"trials.every_m", "3"}}), HasSubstr("trials: small@2 has its own; leave it out"));
+  EXPECT_THAT(faults_of("small", {{"trials.every_m", "3"}}),
+              HasSubstr("trials: small@2 has its own; leave it out"));
   EXPECT_THAT(faults_of("small", {{"seeds", "7"}}), HasSubstr("seeds: small@2 has its own; leave it out"));
   EXPECT_THAT(faults_of("small", {{"share", "1.5"}}), HasSubstr("share: "));
   EXPECT_THAT(faults_of("small", {{"share", "1e-9"}}), HasSubstr("share: 1e-09 of small@2 has no start"));
