@@ -148,7 +148,7 @@ TEST_F(SuitesTest, FaultsOfItsFileAreSaidWhereTheyStand) {
   const std::string faults = faults_of("small");
   EXPECT_THAT(faults, HasSubstr("small.yaml:1:10: error: suite: version: "));
   EXPECT_THAT(faults, HasSubstr("small.yaml:3:1: error: suite: unknown key 'colour'"));
-  EXPECT_THAT(faults, HasSubstr("small.yaml:5:25: error: suite: starts: "));
+  EXPECT_THAT(faults, HasSubstr("small.yaml:5:26: error: suite: starts: "));
   write_suite("version: 1\n");
   EXPECT_THAT(faults_of("small"), HasSubstr("suite: missing key 'cases'"));
 }
