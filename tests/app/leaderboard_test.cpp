@@ -254,5 +254,29 @@ TEST_F(Leaderboard, ExportWritesPlainFilesWithoutReferences) {
   EXPECT_EQ(run("leaderboard export tiny@1 --force " + file("plain")).exit_code, 0);
 }
 
+/// A Python that has numpy; empty if there is none.
+std::string python_with_numpy() {
+  for (const char* python : {"python3", "/usr/bin/python3"}) {
+    if (std::system((std::string(python) + " -c 'import numpy' 2>/dev/null").c_str()) == 0) return python;
+  }
+  return "";
+}
+
+TEST_F(Leaderboard, TheExampleInPythonFindsMostStartsOfASmallRoom) {
+  const std::string python = python_with_numpy();
+  if (python.empty()) GTEST_SKIP() << "there is no Python with numpy";
+  pin();
+  ASSERT_EQ(run("leaderboard export tiny " + file("plain")).exit_code, 0);
+  const std::string script = GLOCAL_SOURCE_DIR "/examples/python/particle_filter.py";
+  ASSERT_EQ(std::system((python + " " + script + " " + file("plain") + " " + file("poses.csv")).c_str()), 0);
+  const Answer imported =
+      run("leaderboard import " + file("poses.csv") + " --suite tiny --method particle_filter");
+  ASSERT_EQ(imported.exit_code, 0) << imported.err;
+  std::smatch counts;
+  ASSERT_TRUE(std::regex_search(imported.out, counts, std::regex("(\\d+) wrong, (\\d+) right")));
+  EXPECT_LE(std::stoi(counts[1]), 2);
+  EXPECT_GE(std::stoi(counts[2]), 20);
+}
+
 }  // namespace
 }  // namespace glocal::test::leaderboard_test
