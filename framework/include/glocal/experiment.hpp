@@ -23,7 +23,7 @@ struct TrialsConfig {
   int max_steps = 60;
   int min_steps = 1;
   double within_map_m = 0.0;
-  std::vector<double> only;  ///< Whole numbers; empty: all.
+  std::vector<double> only = {};  ///< Whole numbers; empty: all.
 };
 void describe(ParamVisitor& v, TrialsConfig& p);
 
