@@ -520,8 +520,8 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
       for (const ExperimentPart* one_case : each(products.cases))
         add_variants(*tree, {method, one_case}, own_overrides, catalog, variants, faults);
     }
-    check_names_of_all(*tree, variants, faults);
     if (products.suite) check_own_values(own_overrides, *products.suite, faults);
+    if (faults.empty()) check_names_of_all(*tree, variants, faults);
     if (products.suite && faults.empty()) join_suite(*tree, products, variants, faults);
   }
   if (!faults.empty()) throw ConfigError({faults.begin(), faults.end()});
