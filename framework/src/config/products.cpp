@@ -250,13 +250,25 @@ std::optional<YamlNode> take_suite(YamlNode& experiment, Products& products, std
   return std::move(read->cases);
 }
 
+/// What a tree says, whatever the order of its keys.
+std::string sorted_text(YamlNode tree) {
+  const auto sort = [](YamlNode& node, const auto& again) -> void {
+    std::sort(node.entries.begin(), node.entries.end(),
+              [](const YamlEntry& a, const YamlEntry& b) { return a.key < b.key; });
+    for (YamlEntry& entry : node.entries) again(entry.value, again);
+    for (YamlNode& item : node.items) again(item, again);
+  };
+  sort(tree, sort);
+  return flow_yaml(tree);
+}
+
 /// The suite with what its cases say, which must be what it pins.
 std::shared_ptr<const Suite> with_values(const Suite& suite, const std::vector<ExperimentPart>& cases,
                                          std::vector<Fault>& faults) {
   Suite result = suite;
   result.cases.clear();
   for (const ExperimentPart& part : cases) {
-    result.cases.push_back({part.name, hash_of(flow_yaml(part.tree)), 0});
+    result.cases.push_back({part.name, hash_of(sorted_text(part.tree)), 0});
     if (!suite.is_pinned) continue;
     const SuiteCase* pinned = suite.find_case(part.name);
     const std::string& now = result.cases.back().values;
