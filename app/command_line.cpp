@@ -61,6 +61,7 @@ void add_all(CLI::App& app, Context& context) {
   add_submit(app, context);
   add_check(app, context);
   add_help(app, context);
+  add_leaderboard(app, context);
   add_list(app, context);
   add_describe(app, context);
   add_explain(app, context);

@@ -36,6 +36,7 @@ void add_describe(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_figures(CLI::App& app, Context& context);
 void add_help(CLI::App& app, Context& context);
+void add_leaderboard(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_localize(CLI::App& app, Context& context);
 void add_manual(CLI::App& app, Context& context);

@@ -71,7 +71,7 @@ Replayed replay(const ExplainOptions& options, const Experiment& experiment, con
   const bool is_whole = experiment.trials.whole || threshold == Threshold::none;
   Localizer localizer = make_localizer(experiment, catalog, loaded);
   if (threshold == Threshold::none) localizer.use(std::make_unique<NoThreshold>());
-  localizer.reset(options.trial);
+  localizer.reset(start_number(experiment.trials, options.trial));
   StepResult result;
   for (std::size_t i = start; i <= index; ++i) {
     if (result.verdict.kind == VerdictKind::localized && !is_whole) {

@@ -66,6 +66,8 @@ TEST_F(Contract, ARecordingIsReadBackAsTheDriveItself) {
 
 TEST_F(Contract, SourcesNoteTheFilesTheyRead) {
   std::size_t noted = 0;
+  // An office is made up.
+  const auto reads_files = [](const StrategyChoice& choice) { return choice.name != "office"; };
   const SourceSetup setup{.note_input = [&](const std::filesystem::path& file) {
     ++noted;
     EXPECT_TRUE(std::filesystem::is_regular_file(file)) << file;
@@ -73,12 +75,12 @@ TEST_F(Contract, SourcesNoteTheFilesTheyRead) {
   for_each(catalog_.observation_sources, [&](const StrategyChoice& choice) {
     noted = 0;
     static_cast<void>(all_of(*catalog_.observation_sources.make(choice, setup)));
-    EXPECT_GT(noted, 0U);
+    EXPECT_EQ(noted > 0, reads_files(choice));
   });
   for_each(catalog_.map_sources, [&](const StrategyChoice& choice) {
     noted = 0;
     static_cast<void>(catalog_.map_sources.make(choice, setup)->load());
-    EXPECT_GT(noted, 0U);
+    EXPECT_EQ(noted > 0, reads_files(choice));
   });
 }
 

@@ -304,6 +304,24 @@ INSTANTIATE_TEST_SUITE_P(Docs, DocsPages, testing::ValuesIn(pages()), [](const a
   return std::regex_replace(page.param, std::regex("[^A-Za-z0-9]"), "_");
 });
 
+/// What stands behind `<!-- table: COMMAND -->` is what the command prints.
+TEST_F(DocsExamples, TablesAreWhatTheirCommandsPrint) {
+  std::size_t tables = 0;
+  for (const fs::path& document : documents()) {
+    const std::string text = read(document);
+    constexpr std::string_view begin = "<!-- table: glocal ", mid = " -->\n", end = "<!-- /table -->";
+    for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1), ++tables) {
+      const std::size_t command = at + begin.size();
+      const std::size_t table = text.find(mid, command) + mid.size();
+      const Answer answer = run(text.substr(command, table - mid.size() - command));
+      EXPECT_EQ(answer.exit_code, 0) << answer.err;
+      EXPECT_EQ(text.substr(table, text.find(end, table) - table), answer.out)
+          << document << ": scripts/tables writes it anew";
+    }
+  }
+  EXPECT_GT(tables, 0U);
+}
+
 /// Every command that reads results is on some page, and is run as it is written there.
 TEST(Docs, CommandsThatReadResultsAreShown) {
   std::string text = "\n";
