@@ -27,8 +27,8 @@ void for_each_results_folder(const std::vector<std::string>& paths, FaultCollect
     const std::function<StoredRun(const std::filesystem::path&)>& read =
         [](const std::filesystem::path& folder) { return read_results(folder); });
 
-/// Of the options of what is compared: the run with that name, or the only one of the experiment with that
-/// name; the first without a name. Throws ConfigError.
+/// Of the options of what is compared: a run of the method with that name, the run with that name, or the
+/// only one of the experiment with that name; the first without a name. Throws ConfigError.
 [[nodiscard]] std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& name);
 
 }  // namespace glocal
