@@ -125,8 +125,8 @@ std::string measures_text(const PairComparison& pair) {
     side.push_back(effect(difference));
   }
   std::string text;
-  if (!less.empty()) text += " Less " + enumerated(less) + ".";
-  if (!more.empty()) text += " More " + enumerated(more) + ".";
+  if (!less.empty()) text += " Lower: " + enumerated(less) + ".";
+  if (!more.empty()) text += " Higher: " + enumerated(more) + ".";
   if (!too_small.empty()) text += " No difference that matters: " + enumerated(too_small) + ".";
   return text;
 }

@@ -122,7 +122,8 @@ Interval interval_of_mean(const std::vector<PlaceSum>& places, Rng rng) {
     const MeanAndError resample = fill([&](std::size_t s, std::size_t /*i*/) {
       return rng.below(static_cast<std::uint32_t>(strata[s].size()));
     });
-    if (found.error > 0.0) excess = (resample.mean - found.mean) / std::max(resample.error, least_error);
+    if (found.error > 0.0 && std::isfinite(found.error))
+      excess = (resample.mean - found.mean) / std::max(least_error, resample.error);
   }
   const boost::math::students_t student(static_cast<double>(places.size() - 1));
   const double least = boost::math::quantile(student, 0.975);

@@ -129,8 +129,8 @@ TEST(Comparison, SaysWhoIsBetterInWhatMattersFirst) {
   EXPECT_THAT(
       quick.conclusion,
       AllOf(MatchesRegex("quick is better than slow: wrong less often \\(-30.0 points, .* to .*, p = "
-                         "0.008\\) and right more often \\(\\+26.7 points, .*, p = 0.021\\)\\. Less .*"),
-            HasSubstr(" Less steps to localize (-2 in the mean of 20 starts, which all differ, p < 0.001)"),
+                         "0.008\\) and right more often \\(\\+26.7 points, .*, p = 0.021\\)\\. Lower: .*"),
+            HasSubstr(" Lower: steps to localize (-2 in the mean of 20 starts, which all differ, p < 0.001)"),
             HasSubstr("translation error (-0.02 m ")));
   const PairComparison slow = compare(slow_and_quick(), 1).pairs.front();
   EXPECT_THAT(slow.conclusion, StartsWith("slow is worse than quick: wrong more often (+30.0 points"));
@@ -151,7 +151,7 @@ TEST(Comparison, WhatIsRightLessOftenIsNotHeadlinedForBeingFast) {
   EXPECT_THAT(conclusion, StartsWith("few against paper: "));
   EXPECT_THAT(conclusion, HasSubstr("Nothing can be told of right (-33.3 points, "));
   EXPECT_LT(conclusion.find("Nothing can be told of right"),
-            conclusion.find("Less CPU time of a step (-17.5 ms"));
+            conclusion.find("Lower: CPU time of a step (-17.5 ms"));
   EXPECT_THAT(conclusion, Not(HasSubstr("better")));
 }
 
@@ -229,7 +229,7 @@ TEST(Comparison, CallsSureDifferencesThatMatterToNobodyByTheirName) {
   EXPECT_TRUE(pair.measures[4].matters());
   // 5 % of the median, 49 ms.
   EXPECT_DOUBLE_EQ(pair.measures[4].smallest, 0.05 * 49.0);
-  EXPECT_THAT(pair.conclusion, AllOf(HasSubstr(" More CPU time of a step (+2.9"),
+  EXPECT_THAT(pair.conclusion, AllOf(HasSubstr(" Higher: CPU time of a step (+2.9"),
                                      HasSubstr("No difference that matters: translation error (-0.001 m")));
 }
 
