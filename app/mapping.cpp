@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands.hpp"
@@ -62,9 +63,15 @@ std::string row(const std::string& name, const MappingAccuracy& accuracy) {
 }
 
 void mapping(const MappingOptions& options, Context& context) {
-  std::vector<Experiment> experiments;
+  // What goes by which name: an experiment, or a variant of what --method and --case say.
+  std::vector<std::pair<std::string, Experiment>> experiments;
   for (const std::string& file : options.files) {
-    experiments.push_back(options.experiment.read(file, context));
+    Experiment experiment = options.experiment.read(file, context);
+    experiments.emplace_back(experiment.name, std::move(experiment));
+  }
+  if (options.files.empty()) {
+    for (Variant& variant : options.experiment.read_variants("", context))
+      experiments.emplace_back(variant.name, std::move(variant.experiment));
   }
   if (options.windows.whole) {
     answer("Error of the local map's robot pose at the end of the drive.\n");
@@ -78,9 +85,8 @@ void mapping(const MappingOptions& options, Context& context) {
   }
   answer("{:<16}{:>8}{:>10}{:>10}{:>10}{:>12}{:>8}{:>10}{:>10}\n", "experiment", "windows", "median m",
          "p90 m", "med. deg", "failures", "cells", "median ms", "p95 ms");
-  for (const Experiment& experiment : experiments) {
-    answer(row(experiment.name, measure(experiment, context.catalog, options.windows)));
-  }
+  for (const auto& [name, experiment] : experiments)
+    answer(row(name, measure(experiment, context.catalog, options.windows)));
 }
 
 }  // namespace
@@ -89,9 +95,10 @@ void add_mapping(CLI::App& app, Context& context) {
   auto options = std::make_shared<MappingOptions>();
   CLI::App* command =
       app.add_subcommand("mapping", "Measure how far an experiment's local mapper drifts along its drive.");
-  command
-      ->add_option("FILE", options->files, "Experiment files (YAML) whose observations have reference poses")
-      ->required();
+  command->add_option("FILE", options->files,
+                      "Experiment files (YAML) whose observations have reference poses; none needed with "
+                      "--method and --case");
+  options->experiment.add_products_to(*command);
   command->add_flag("--whole", options->windows.whole,
                     "One start only, and the error at the end of the drive or where it is interrupted");
   command->add_option("--every", options->windows.every_m, "Way from one start to the next, m")

@@ -76,11 +76,13 @@ void register_all() {
   for (const bool lsh : {false, true}) {
     const std::string how = lsh ? "/lsh" : "/all";
     add("iransac/intel" + how,
-        [lsh](benchmark::State& state) { match<IRansac>(state, scene("intel_indexed"), {.lsh = lsh}, 0.1); })
+        [lsh](benchmark::State& state) {
+          match<IRansac>(state, scene("indexed", "intel"), {.lsh = lsh}, 0.1);
+        })
         ->Arg(0)
         ->Arg(20);
     add("nearest/intel" + how, [lsh](benchmark::State& state) {
-      nearest(state, scene("intel_indexed"), lsh ? std::optional(HashRule{}) : std::nullopt);
+      nearest(state, scene("indexed", "intel"), lsh ? std::optional(HashRule{}) : std::nullopt);
     });
   }
 }

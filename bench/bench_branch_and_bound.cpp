@@ -93,7 +93,7 @@ void register_all() {
   const auto add = [](const std::string& log, const std::string& name, auto run) {
     return benchmark::RegisterBenchmark(
                (name + "/" + log).c_str(),
-               [run, log](benchmark::State& state) { run(state, scene(log + "_indexed")); })
+               [run, log](benchmark::State& state) { run(state, scene("indexed", log)); })
         ->Unit(benchmark::kMillisecond);
   };
   for (const char* log : {"intel", "fhw"}) {

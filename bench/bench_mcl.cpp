@@ -91,7 +91,7 @@ void build_field(benchmark::State& state, const Scene& s) {
 
 void register_all() {
   if (!has_datasets()) return;
-  const Scene& s = scene("intel_mcl");
+  const Scene& s = scene("mcl", "intel");
   const auto add = [&](const std::string& name, auto run) {
     return benchmark::RegisterBenchmark(name.c_str(), [run, &s](benchmark::State& state) { run(state, s); });
   };

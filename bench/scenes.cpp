@@ -18,12 +18,18 @@ namespace {
 constexpr float tile_width = 26.16F;
 constexpr float tile_height = 26.7F;
 
-Scene load(const std::string& name) {
+Scene load(const std::string& file, const std::vector<Override>& overrides) {
   Scene scene;
-  scene.experiment =
-      read_experiment(GLOCAL_SOURCE_DIR "/configs/experiments/" + name + ".yaml", {}, catalog());
+  scene.experiment = read_experiment(file, overrides, catalog());
   scene.loaded = load_experiment(scene.experiment, catalog(), [](const std::string&) {});
   return scene;
+}
+
+const Scene& loaded_once(const std::string& name, const std::string& file,
+                         const std::vector<Override>& overrides) {
+  static std::map<std::string, Scene> scenes;
+  const auto known = scenes.find(name);
+  return known != scenes.end() ? known->second : scenes.emplace(name, load(file, overrides)).first->second;
 }
 
 /// Whether a copy of the map lacks what stands in this square metre.
@@ -44,9 +50,12 @@ const Catalog& catalog() {
 }
 
 const Scene& scene(const std::string& name) {
-  static std::map<std::string, Scene> scenes;
-  const auto known = scenes.find(name);
-  return known != scenes.end() ? known->second : scenes.emplace(name, load(name)).first->second;
+  return loaded_once(name, GLOCAL_SOURCE_DIR "/configs/experiments/" + name + ".yaml", {});
+}
+
+const Scene& scene(const std::string& method, const std::string& case_name) {
+  return loaded_once(method + "_" + case_name, {},
+                     {{"name", "scene"}, {"methods", method}, {"cases", case_name}});
 }
 
 bool has_datasets() {

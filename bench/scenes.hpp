@@ -24,6 +24,8 @@ struct Scene {
 
 /// configs/experiments/NAME.yaml, loaded once. Experiments on recorded drives need GLOCAL_DATASETS.
 [[nodiscard]] const Scene& scene(const std::string& name);
+/// A built-in method on a built-in case, loaded once.
+[[nodiscard]] const Scene& scene(const std::string& method, const std::string& case_name);
 /// The paper's simulated drive.
 [[nodiscard]] inline const Scene& simulation() {
   return scene("paper_simulation");

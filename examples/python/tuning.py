@@ -42,7 +42,7 @@ def simulated(world):
 
 
 def recorded(log):
-    return glocal.Experiment.load(ROOT / "configs/experiments" / f"{log}.yaml").with_(**{"trials.max_steps": 10})
+    return glocal.Experiment.load(ROOT / "configs/experiments/intel.yaml").with_(cases=log, **{"trials.max_steps": 10})
 
 
 if HAS_LOGS:

@@ -46,10 +46,10 @@ TEST_F(RunVariants, EachHasAFolderAndALineOfTheTable) {
 }
 
 TEST_F(RunVariants, ResultsSayWhatSettingCaseAndSeedTheyAreOf) {
-  write_experiment("trials: {every_scan: 9, max_steps: 2}\n",
+  write_experiment("",
                    "seeds: 4..5\n"
-                   "choose_on: {few: {trials.max_steps: 1}}\n"
-                   "judge_on: {more: {}}\n"
+                   "choose_on: {few: {trials: {every_scan: 9, max_steps: 1}}}\n"
+                   "judge_on: {more: {trials: {every_scan: 9, max_steps: 2}}}\n"
                    "variants: {list: {paper: {}, other: {localizer.matcher.ransam.iterations: 15000}}}\n");
   ASSERT_EQ(run_room("all", "--quiet --only paper_few_seed-4 --only other_more_seed-5").exit_code, 0);
   EXPECT_EQ(json("all/paper_few_seed-4/provenance.json")["variant"].dump(),

@@ -24,13 +24,13 @@ std::vector<nlohmann::json> outcomes(const std::string& letters) {
 class SweepCommand : public Room {
  protected:
   SweepCommand() {
-    write_experiment("trials: {every_scan: 9, max_steps: 1}\n",
+    write_experiment("",
                      "variants:\n"
                      "  grid:\n"
                      "    localizer.matcher.ransam.iterations: [100, 200]\n"
                      "    localizer.matcher.ransam.min_side: [0.5, 1]\n"
-                     "choose_on: {near: {}}\n"
-                     "judge_on: {far: {trials.every_scan: 8}}\n"
+                     "choose_on: {near: {trials: {every_scan: 9, max_steps: 1}}}\n"
+                     "judge_on: {far: {trials: {every_scan: 8, max_steps: 1}}}\n"
                      "seeds: 1..2\n"
                      "output: {steps: false, maps: none}\n");
     EXPECT_EQ(run_room("all").exit_code, 0);

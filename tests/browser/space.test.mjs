@@ -16,7 +16,9 @@ let folder, file, steps, opened, page, work;
 before(async () => {
   if (skip) return;
   work = workFolder();
-  folder = runExperiment("sim_lidar", join(work, "space"), "--set", "trials.every_m=80", "--set", "output.maps=all");
+  glocal("run", "--method", "lidar_upright", "--case", "workshop_lidar", "--out", join(work, "space"), "--quiet",
+    "--set", "localizer.local_mapper=odometry", "--set", "trials.every_m=80", "--set", "output.maps=all");
+  folder = join(work, "space", "lidar_upright_workshop_lidar");
   file = report(join(work, "report.html"), folder);
   steps = stepsOf(folder, 0);
   opened = await open(file);

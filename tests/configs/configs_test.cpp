@@ -41,24 +41,34 @@ TEST_P(Experiments, OpenWithWhatTheyShow) {
   EXPECT_THAT(text, testing::HasSubstr("\nname: " + GetParam() + "\n"));
 }
 
-/// Names the plugins of this build where the experiment names those of the usual one. None if they are not
-/// built.
-std::optional<std::string> plugins_of(const std::string& experiment) {
-  std::smatch name;
-  if (!std::regex_search(experiment, name, std::regex("plugins: \\[.*/(\\w+\\.so)\\]"))) return "";
-  const fs::path plugin = fs::path(GLOCAL_PLUGINS_FOLDER) / name[1].str();
-  if (!fs::exists(plugin)) return std::nullopt;
-  return " --set plugins=[" + plugin.string() + "]";
+/// A file with all methods and cases that it is made of.
+std::string text_with_parts(const std::string& file) {
+  std::string text = content(file);
+  const std::string own = text;
+  const std::regex parts("(?:methods|cases|extends): (\\w+)");
+  for (std::sregex_iterator part(own.begin(), own.end(), parts); part != std::sregex_iterator(); ++part) {
+    for (const char* folder : {"methods", "cases"}) {
+      const std::string named = path_of(folder, (*part)[1]);
+      if (named != file && fs::exists(named)) text += text_with_parts(named);
+    }
+  }
+  return text;
+}
+
+/// Why what stands in this text cannot be read here; empty if it can.
+std::string why_not_here(const std::string& text) {
+  std::smatch plugin;
+  if (std::regex_search(text, plugin, std::regex("plugin:(\\w+)")) &&
+      !fs::exists(fs::path(GLOCAL_PLUGINS_FOLDER) / ("glocal_" + plugin[1].str() + ".so")))
+    return "its plugin is not built: the package it brings is not installed";
+  if (text.find("data:") != std::string::npos && dataset("").empty()) return "GLOCAL_DATASETS is not set";
+  return "";
 }
 
 TEST_P(Experiments, PassTheCheck) {
   const std::string file = path_of("experiments", GetParam());
-  const auto plugins = plugins_of(content(file));
-  if (!plugins) GTEST_SKIP() << "its plugin is not built: the package it brings is not installed";
-  if (content(file).find("data:") != std::string::npos && dataset("").empty()) {
-    GTEST_SKIP() << "GLOCAL_DATASETS is not set";
-  }
-  const Answer answer = run("check " + file + *plugins);
+  if (const std::string why = why_not_here(text_with_parts(file)); !why.empty()) GTEST_SKIP() << why;
+  const Answer answer = run("check " + file);
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, testing::HasSubstr(": ok, "));
 }
@@ -73,16 +83,12 @@ bool is_in_space(const std::string& text) {
 class Methods : public CommandLine, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Methods, PassTheCheckWithACase) {
-  const std::string text = content(path_of("methods", GetParam()));
+  const std::string text = text_with_parts(path_of("methods", GetParam()));
   EXPECT_THAT(text, testing::StartsWith("# "));
-  if (const auto at = text.find("plugin:"); at != std::string::npos) {
-    const std::string name = text.substr(at + 7, text.find(']', at) - at - 7);
-    if (!fs::exists(fs::path(GLOCAL_PLUGINS_FOLDER) / ("glocal_" + name + ".so")))
-      GTEST_SKIP() << "its plugin is not built: the package it brings is not installed";
-  }
-  if (is_in_space(text) && dataset("").empty()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
-  const Answer answer = run("check --method " + GetParam() + " --case " +
-                            (is_in_space(text) ? "building_single" : "paper_simulation"));
+  const std::string one_case = is_in_space(text) ? "building_single" : "paper_simulation";
+  const std::string why = why_not_here(text + content(path_of("cases", one_case)));
+  if (!why.empty()) GTEST_SKIP() << why;
+  const Answer answer = run("check --method " + GetParam() + " --case " + one_case);
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
 }
 
@@ -91,10 +97,9 @@ INSTANTIATE_TEST_SUITE_P(Configs, Methods, testing::ValuesIn(names_in("methods")
 class Cases : public CommandLine, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Cases, PassTheCheckWithAMethod) {
-  const std::string text = content(path_of("cases", GetParam()));
+  const std::string text = text_with_parts(path_of("cases", GetParam()));
   EXPECT_THAT(text, testing::StartsWith("# "));
-  if (text.find("data:") != std::string::npos && dataset("").empty())
-    GTEST_SKIP() << "GLOCAL_DATASETS is not set";
+  if (const std::string why = why_not_here(text); !why.empty()) GTEST_SKIP() << why;
   const Answer answer = run("check --method " + std::string(is_in_space(text) ? "lidar_free" : "indexed") +
                             " --case " + GetParam());
   EXPECT_EQ(answer.exit_code, 0) << answer.err;

@@ -187,7 +187,8 @@ class DocsExamples : public CommandLine {
   static std::string tried(const std::string& command) {
     if (command.starts_with("mapping ")) {
       std::string check = "check";
-      for (const std::string& word : words_like(command, R"(--set \S+|\S+\.yaml)")) check += " " + word;
+      for (const std::string& word : words_like(command, R"(--(?:set|method|case) \S+|\S+\.yaml)"))
+        check += " " + word;
       return check;
     }
     if (command.starts_with("run ")) {
@@ -195,7 +196,7 @@ class DocsExamples : public CommandLine {
       // do.
       if (command.find("/intel_variants.yaml") != std::string::npos)
         return command + " --quiet --set trials.max_steps=1 --set trials.every_m=50";
-      if (command.find("/willow_single.yaml") != std::string::npos)
+      if (command.find("--case willow_single") != std::string::npos)
         return command + " --quiet --set trials.every_scan=100";
       return command + " --quiet";
     }
@@ -215,8 +216,19 @@ class DocsExamples : public CommandLine {
     // results/NAME is where the experiment of that name leaves its results.
     for (const std::string& folder : words_like(command, R"(results/\w+)"))
       experiments.push_back("configs/experiments/" + folder.substr(8) + ".yaml");
-    return std::any_of(experiments.begin(), experiments.end(), [](const std::string& file) {
-      return fs::exists(file) && read(file).find("\"data:") != std::string::npos;
+    for (const std::string& option : words_like(command, R"(--case \w+)"))
+      experiments.push_back("configs/cases/" + option.substr(7) + ".yaml");
+    return std::any_of(experiments.begin(), experiments.end(), names_data_sets);
+  }
+
+  /// Whether this file names some, or one that it takes its case from.
+  static bool names_data_sets(const std::string& file) {
+    if (!fs::exists(file)) return false;
+    const std::string text = read(file);
+    if (text.find("\"data:") != std::string::npos) return true;
+    const std::vector<std::smatch> cases = matches(text, R"((?:^|\n)(?:cases|extends): (\w+))");
+    return std::any_of(cases.begin(), cases.end(), [](const std::smatch& match) {
+      return names_data_sets("configs/cases/" + match[1].str() + ".yaml");
     });
   }
 

@@ -362,15 +362,13 @@ TEST_F(Mrpt, AnswersAreTheSameInEveryThread) {
 
 /// Trials of a simulated drive, one after the other and two at a time.
 TEST_F(Mrpt, FindsTheRobotOnSimulatedDrivesWithAnyNumberOfJobs) {
-  const std::filesystem::path file =
-      std::filesystem::path(GLOCAL_SOURCE_DIR) / "configs/experiments/sim_tracking.yaml";
+  const std::filesystem::path file;
   const std::vector<Override> overrides = {
+      {"name", "tracking"},
+      {"methods", "mrpt_mcl"},
+      {"cases", "tracking"},
       {"trials", "{every_m: 5, max_steps: 40, min_steps: 40}"},
-      {"localizer.matcher", "{mrpt_mcl: {particles_count: 20000, kld_params: {kld_max_sample_size: 20000}}}"},
-      {"localizer.clusterer", "{hierarchical_kmeans: {max_variance_translation: 0.04}}"},
-      {"localizer.rater", "{cluster_rating: {weights: [1, 0, 0, 0]}}"},
-      {"localizer.threshold_policy", "{fixed: {omega_max: 0}}"},
-      {"localizer.verdict_rule", "{consecutive_rating: {min_rating: 0.9}}"}};
+      {"localizer.matcher.mrpt_mcl", "{particles_count: 20000, kld_params: {kld_max_sample_size: 20000}}"}};
   const auto run = [&](int jobs) {
     std::mutex mutex;
     std::map<std::size_t, std::pair<std::size_t, std::optional<Pose3>>> ends;

@@ -96,6 +96,10 @@ struct SeedList {
   std::shared_ptr<const YamlNode> written = nullptr;
 };
 
+/// Methods or cases of an experiment: a list of names, files and `name: {keys}`, or a map of these. They are
+/// put into the experiment before its values are read.
+struct PartList {};
+
 class ParamVisitor;
 class RegistryBase;
 struct StrategyChoice;
@@ -147,6 +151,7 @@ class ParamVisitor {
   virtual void field(std::string_view name, ListedChanges& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, RangedChanges& value, const FieldInfo& info) = 0;
   virtual void field(std::string_view name, SeedList& value, const FieldInfo& info) = 0;
+  virtual void field(std::string_view name, PartList& value, const FieldInfo& info) = 0;
 
   /// A struct within a struct.
   template <Described T>

@@ -100,16 +100,28 @@ void describe(ParamVisitor& v, PluginsSection& s) {
   v.field("plugins", s.plugins, {.doc = plugins_doc});
 }
 
-/// The tree of a file with the overrides put in; without a file, of the overrides alone. None where it is no
-/// tree at all.
-std::optional<YamlNode> tree_of(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                                AnyParams& params, std::vector<Fault>& faults) {
-  auto tree =
+/// What an experiment file and overrides say.
+struct ExperimentSources {
+  std::optional<YamlNode> tree;  ///< Without methods and cases; none where it is no tree at all.
+  Products products;
+  std::vector<Override> overrides;  ///< Of the products: those that name parts are used up.
+};
+
+/// Without a file the overrides say all.
+ExperimentSources sources_of(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                             AnyParams& params, std::vector<Fault>& faults) {
+  ExperimentSources sources;
+  std::vector<Override> of_parts;
+  for (const Override& change : overrides)
+    (names_parts(change.first) ? of_parts : sources.overrides).push_back(change);
+  sources.tree =
       file.empty()
           ? parse_yaml("schema: 1", std::make_shared<const Origin>(Origin{"the command line", "."}), faults)
           : parse_yaml(read_text_file(file), origin_of(file), faults);
-  if (tree) apply_overrides(*tree, overrides, params, faults);
-  return tree;
+  if (!sources.tree) return sources;
+  apply_overrides(*sources.tree, of_parts, params, faults);
+  sources.products = take_products(*sources.tree, params, faults);
+  return sources;
 }
 
 /// Where something is written.
@@ -160,7 +172,7 @@ bool changes_trials(const Change& change) {
 Variant read_variant(YamlNode tree, const VariantChanges& changes, const Catalog& catalog,
                      const std::set<Fault>& of_base, std::set<Fault>& faults) {
   Variant variant{
-      .name = name_of(changes),
+      .name = changes.name,
       .experiment = {},
       .changes_trials = std::any_of(changes.changes.begin(), changes.changes.end(), changes_trials),
       .setting = changes.setting,
@@ -170,15 +182,13 @@ Variant read_variant(YamlNode tree, const VariantChanges& changes, const Catalog
     variant.values.emplace_back(change.path, flow_yaml(*change.value));
   ExperimentFileParams params(catalog);
   std::vector<Fault> found;
-  std::vector<Change> all = changes.changes;
-  all.insert(all.end(), changes.case_changes.begin(), changes.case_changes.end());
-  for (const Change& change : all)
+  for (const Change& change : changes.changes)
     apply_change(tree, change.path, *change.value, change.place, params, found);
   read_params(tree, params, found);
   std::erase_if(found, [&](const Fault& fault) { return of_base.contains(fault); });
   if (!found.empty()) {
-    const std::set<Spot> spots = spots_of(all);
-    for (const Fault& fault : found) faults.insert(fault_of(all, spots, fault));
+    const std::set<Spot> spots = spots_of(changes.changes);
+    for (const Fault& fault : found) faults.insert(fault_of(changes.changes, spots, fault));
   }
   variant.experiment = std::move(params.file.experiment);
   return variant;
@@ -192,9 +202,7 @@ bool can_be_held(const YamlNode& tree, const Expansion& all) {
   const std::size_t seeds = std::max<std::size_t>(all.seeds.size(), 1);
   for (const VariantChanges& changes : all.variants) {
     values += seeds * of_base;
-    for (const auto* list : {&changes.changes, &changes.case_changes}) {
-      for (const Change& change : *list) values += seeds * count_nodes(*change.value);
-    }
+    for (const Change& change : changes.changes) values += seeds * count_nodes(*change.value);
     if (values > most_values) return false;
   }
   return true;
@@ -235,40 +243,60 @@ struct Product {
   const ExperimentPart* one_case;
 };
 
+/// Those that are not empty, with '_' between them.
+std::string joined_name(std::initializer_list<std::string_view> parts) {
+  std::string name;
+  for (const std::string_view part : parts) {
+    if (!name.empty() && !part.empty()) name += '_';
+    name += part;
+  }
+  return name;
+}
+
 /// Says of variants which product they are of.
-void name_product(const Product& product, Expansion& all, std::vector<Fault>& faults) {
+void name_product(const Product& product, Expansion& all) {
   const auto& [method, one_case] = product;
-  if (method == nullptr && one_case == nullptr) return;
-  const Place& place = (method != nullptr ? method : one_case)->place;
-  if (all.variants.empty()) all.variants.push_back({"", place, {}});
+  const ExperimentPart* any = method != nullptr ? method : one_case;
+  if (all.variants.empty() && any != nullptr) all.variants.push_back({"", any->place, {}});
+  const auto name_told = [](const ExperimentPart* part) {
+    return part == nullptr || part->is_fixed ? std::string_view() : std::string_view(part->name);
+  };
   for (VariantChanges& variant : all.variants) {
-    if (method != nullptr)
-      variant.setting = method->name + (variant.setting.empty() ? "" : "_") + variant.setting;
+    variant.name = joined_name({name_told(method), variant.setting, name_told(one_case)});
+    if (method != nullptr) variant.setting = joined_name({method->name, variant.setting});
     if (one_case == nullptr) continue;
-    if (!variant.case_name.empty())
-      faults.push_back(
-          fault_at(variant.place,
-                   "choose_on, judge_on: have changes to the experiment, and there are cases, too; "
-                   "leave one of them out"));
     variant.case_name = one_case->name;
     variant.role = one_case->role;
   }
-  check_names(all.variants, "methods, cases", faults);
+}
+
+/// Two products may make one name: method a_b with case c, and method a with case b_c.
+void check_names_of_all(const YamlNode& experiment, const std::vector<Variant>& variants,
+                        std::set<Fault>& faults) {
+  std::set<std::string_view> names;
+  for (const Variant& variant : variants) {
+    if (names.insert(variant.name).second) continue;
+    faults.insert(fault_at(
+        experiment.place, fmt::format("methods, cases: two of their products have the name '{}'; give one of "
+                                      "the parts another name (NAME: file)",
+                                      variant.name)));
+  }
 }
 
 /// Adds the variants of a product, with each seed.
-void add_variants(const YamlNode& experiment, const Product& product, const Catalog& catalog,
-                  std::vector<Variant>& variants, std::set<Fault>& faults) {
+void add_variants(const YamlNode& experiment, const Product& product, const std::vector<Override>& overrides,
+                  const Catalog& catalog, std::vector<Variant>& variants, std::set<Fault>& faults) {
   std::vector<Fault> found;
   ExperimentFileParams params(catalog);
-  YamlNode tree = experiment;
-  if (product.method != nullptr || product.one_case != nullptr)
-    tree = joined(experiment, product.method, product.one_case, params, found);
+  YamlNode tree = joined(experiment, product.method, product.one_case, params, found);
+  apply_overrides(tree, overrides, params, found);
   read_params(tree, params, found);
   const std::set<Fault> of_base(found.begin(), found.end());
   Expansion all = expand(params.file.variations, params, found);
   if (!all.seeds.empty()) check_seed(tree, found);
-  name_product(product, all, found);
+  name_product(product, all);
+  // Faults of the parts say more than those of the names that they make.
+  if (found.size() == of_base.size()) check_full_names(all, found);
   faults.insert(found.begin(), found.end());
   std::erase_if(tree.entries, [](const YamlEntry& entry) { return is_variation(entry.key); });
   const std::size_t first = variants.size();
@@ -391,22 +419,22 @@ Experiment read_experiment(const std::filesystem::path& file, const std::vector<
                            const Catalog& catalog) {
   std::vector<Fault> faults;
   ExperimentFileParams params(catalog);
-  auto tree = tree_of(file, overrides, params, faults);
-  if (tree) {
-    const Products products = take_products(*tree, params, faults);
-    const auto only = [&](PartKind kind, const std::vector<ExperimentPart>& parts) {
-      if (parts.size() > 1)
-        faults.push_back(
-            fault_at(parts[1].place, fmt::format("the experiment has several {0}s; name one of them: "
-                                                 "--{0} {1}",
-                                                 to_string(kind), parts[0].name)));
-      return parts.empty() ? nullptr : &parts.front();
-    };
-    const auto* method = only(PartKind::method, products.methods);
-    const auto* one_case = only(PartKind::the_case, products.cases);
-    if (!faults.empty() && products.given) throw ConfigError(std::move(faults));
-    if (products.given) tree = joined(*tree, method, one_case, params, faults);
-    read_params(*tree, params, faults);
+  const ExperimentSources sources = sources_of(file, overrides, params, faults);
+  const auto only = [&](PartKind kind, const std::vector<ExperimentPart>& parts) {
+    if (parts.size() > 1)
+      faults.push_back(
+          fault_at(parts[1].place, fmt::format("the experiment has several {0}s; name one of them: "
+                                               "--{0} {1}",
+                                               to_string(kind), parts[0].name)));
+    return parts.empty() ? nullptr : &parts.front();
+  };
+  const auto* method = only(PartKind::method, sources.products.methods);
+  const auto* one_case = only(PartKind::the_case, sources.products.cases);
+  const bool are_parts_bad = sources.products.given && !faults.empty();
+  if (sources.tree && !are_parts_bad) {
+    YamlNode tree = joined(*sources.tree, method, one_case, params, faults);
+    apply_overrides(tree, sources.overrides, params, faults);
+    read_params(tree, params, faults);
   }
   if (!faults.empty()) throw ConfigError(std::move(faults));
   return std::move(params.file.experiment);
@@ -427,11 +455,11 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
                                    const Catalog& catalog) {
   std::vector<Fault> found;
   ExperimentFileParams params(catalog);
-  auto tree = tree_of(file, overrides, params, found);
-  const Products products = tree ? take_products(*tree, params, found) : Products{};
+  const auto& [tree, products, own_overrides] = sources_of(file, overrides, params, found);
   std::set<Fault> faults(found.begin(), found.end());
+  const bool are_parts_bad = products.given && !faults.empty();
   std::vector<Variant> variants;
-  if (tree && faults.empty()) {
+  if (tree && !are_parts_bad) {
     const auto each = [](const std::vector<ExperimentPart>& parts) {
       std::vector<const ExperimentPart*> all(1, nullptr);
       if (!parts.empty()) all.clear();
@@ -440,12 +468,9 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
     };
     for (const ExperimentPart* method : each(products.methods)) {
       for (const ExperimentPart* one_case : each(products.cases))
-        add_variants(*tree, {method, one_case}, catalog, variants, faults);
+        add_variants(*tree, {method, one_case}, own_overrides, catalog, variants, faults);
     }
-  } else if (tree && !products.given) {
-    found.clear();
-    read_params(*tree, params, found);
-    faults.insert(found.begin(), found.end());
+    if (faults.empty()) check_names_of_all(*tree, variants, faults);
   }
   if (!faults.empty()) throw ConfigError({faults.begin(), faults.end()});
   return variants;
@@ -455,24 +480,20 @@ std::vector<FilePath> read_plugins(const std::filesystem::path& file,
                                    const std::vector<Override>& overrides) {
   std::vector<Fault> ignored;
   ParamsOf<PluginsSection> params;
-  std::vector<Override> of_products;
-  std::copy_if(overrides.begin(), overrides.end(), std::back_inserter(of_products),
-               [](const Override& o) { return o.first == "methods"; });
-  auto tree = tree_of(file, of_products, params, ignored);
-  if (!tree || tree->kind != NodeKind::map) return {};
-  const Products products = take_products(*tree, params, ignored);
-  std::erase_if(tree->entries, [](const YamlEntry& entry) { return entry.key != "plugins"; });
-  for (const ExperimentPart& method : products.methods) {
-    YamlNode of_method = method.tree;
-    std::erase_if(of_method.entries, [](const YamlEntry& entry) { return entry.key != "plugins"; });
-    const ExperimentPart plugins{method.name, method.place, std::move(of_method)};
-    tree = joined(*tree, &plugins, nullptr, params, ignored);
+  ExperimentSources sources = sources_of(file, overrides, params, ignored);
+  if (!sources.tree || sources.tree->kind != NodeKind::map) return {};
+  const auto leave_plugins = [](YamlNode& tree) {
+    std::erase_if(tree.entries, [](const YamlEntry& entry) { return entry.key != "plugins"; });
+  };
+  YamlNode tree = *std::move(sources.tree);
+  leave_plugins(tree);
+  for (ExperimentPart& method : sources.products.methods) {
+    leave_plugins(method.tree);
+    tree = joined(tree, &method, nullptr, params, ignored);
   }
-  std::vector<Override> of_plugins;
-  std::copy_if(overrides.begin(), overrides.end(), std::back_inserter(of_plugins),
-               [](const Override& o) { return o.first == "plugins"; });
-  apply_overrides(*tree, of_plugins, params, ignored);
-  read_params(*tree, params, ignored);
+  std::erase_if(sources.overrides, [](const Override& change) { return change.first != "plugins"; });
+  apply_overrides(tree, sources.overrides, params, ignored);
+  read_params(tree, params, ignored);
   std::erase_if(params.value.plugins, [](const FilePath& plugin) { return plugin.resolved.empty(); });
   return params.value.plugins;
 }

@@ -46,6 +46,8 @@ template <>
 constexpr FieldType type_of<RangedChanges> = FieldType::ranged_changes;
 template <>
 constexpr FieldType type_of<SeedList> = FieldType::seeds;
+template <>
+constexpr FieldType type_of<PartList> = FieldType::parts;
 
 template <class T>
 Json to_json_value(const T& value) {
@@ -74,6 +76,9 @@ Json to_json_value(const RangedChanges& /*value*/) {
   return {};
 }
 Json to_json_value(const SeedList& /*value*/) {
+  return {};
+}
+Json to_json_value(const PartList& /*value*/) {
   return {};
 }
 
@@ -223,6 +228,8 @@ std::string type_name(const FieldDoc& field) {
       return "map of paths and ranges";
     case FieldType::seeds:
       return "whole numbers and ranges A..B";
+    case FieldType::parts:
+      return "names, files and maps of keys";
     case FieldType::group:
       return "map";
     case FieldType::list:

@@ -28,6 +28,7 @@ enum class FieldType {
   listed_changes,
   ranged_changes,
   seeds,
+  parts,
   group,
   list,
   strategy

@@ -48,7 +48,9 @@ std::vector<std::string> names_of(PartKind kind) {
 
 constexpr const char* extends_key = "extends";
 
-void check_keys(PartKind kind, const std::string& name, const YamlNode& part, std::vector<Fault>& faults) {
+/// What a part lacks may stand in the experiment itself.
+void check_keys(PartKind kind, const std::string& name, const YamlNode& part, const YamlNode& experiment,
+                std::vector<Fault>& faults) {
   const PartKind other = kind == PartKind::method ? PartKind::the_case : PartKind::method;
   const std::string keys =
       kind == PartKind::method ? "localizer and plugins" : "map, observations, trials and evaluation";
@@ -62,7 +64,7 @@ void check_keys(PartKind kind, const std::string& name, const YamlNode& part, st
   }
   if (find_entry(part, extends_key) != nullptr) return;
   const auto require = [&](const char* key) {
-    if (find_entry(part, key) == nullptr)
+    if (find_entry(part, key) == nullptr && find_entry(experiment, key) == nullptr)
       faults.push_back(
           fault_at(part.place, fmt::format("{} {}: missing key '{}'", to_string(kind), shown(name), key)));
   };
@@ -122,6 +124,13 @@ void overlay(YamlNode& tree, const std::string& path, const YamlEntry& entry, An
     overlay(tree, path + "." + below.key, below, params, faults);
 }
 
+/// Where trials start is said in one way: a new one takes the place of the one before.
+void drop_starts(YamlNode& trials, const YamlNode& own) {
+  constexpr std::array<std::string_view, 4> ways = {"every_m", "starts_m", "every_scan", "whole"};
+  const auto is_way = [&](const YamlEntry& entry) { return has(ways, entry.key); };
+  if (std::any_of(own.entries.begin(), own.entries.end(), is_way)) std::erase_if(trials.entries, is_way);
+}
+
 /// Puts the values of `own` over those of `tree`; plugins are added to those that are there.
 void lay_over(YamlNode& tree, const YamlNode& own, AnyParams& params, std::vector<Fault>& faults) {
   for (const YamlEntry& entry : own.entries) {
@@ -132,6 +141,7 @@ void lay_over(YamlNode& tree, const YamlNode& own, AnyParams& params, std::vecto
       const auto& more = entry.value.items;
       there->value.items.insert(there->value.items.end(), more.begin(), more.end());
     } else {
+      if (entry.key == "trials") drop_starts(there->value, entry.value);
       overlay(tree, entry.key, entry, params, faults);
     }
   }
@@ -140,7 +150,9 @@ void lay_over(YamlNode& tree, const YamlNode& own, AnyParams& params, std::vecto
 /// Reads parts of an experiment.
 class PartReader {
  public:
-  PartReader(AnyParams& params, std::vector<Fault>& faults) : params_(params), faults_(faults) {}
+  /// Of this experiment.
+  PartReader(const YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults)
+      : experiment_(experiment), params_(params), faults_(faults) {}
 
   [[nodiscard]] YamlNode read(PartKind kind, const std::string& name, const YamlNode& value, int depth = 0) {
     YamlNode part = value;
@@ -153,7 +165,7 @@ class PartReader {
     if (part.kind != NodeKind::map)
       return refuse(part.place, fmt::format("{} {}: expected a map, a file or a name, got {}",
                                             to_string(kind), shown(name), name_of(part)));
-    check_keys(kind, name, part, faults_);
+    check_keys(kind, name, part, experiment_, faults_);
     const auto base = take(part, extends_key);
     if (!base) return part;
     constexpr int deepest = 8;
@@ -177,6 +189,7 @@ class PartReader {
     for (const YamlNode& item : written.kind == NodeKind::list ? written.items : one) {
       if (item.kind == NodeKind::scalar) {
         add(kind, {own_name(item.text), item.place, item}, role, parts);
+        if (written.kind == NodeKind::scalar && !parts.empty()) parts.back().is_fixed = true;
       } else if (item.kind == NodeKind::map && item.entries.size() == 1) {
         add(kind, item.entries.front(), role, parts);
       } else if (item.kind != NodeKind::invalid) {
@@ -218,16 +231,22 @@ class PartReader {
     return make_node(NodeKind::invalid, place);
   }
 
+  const YamlNode& experiment_;
   AnyParams& params_;
   std::vector<Fault>& faults_;
 };
 
 }  // namespace
 
+bool names_parts(std::string_view path) {
+  constexpr std::array<std::string_view, 4> keys = {"methods", "cases", "choose_on", "judge_on"};
+  return has(keys, path.substr(0, path.find('.')));
+}
+
 Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults) {
   Products products;
   if (experiment.kind != NodeKind::map) return products;
-  PartReader reader(params, faults);
+  PartReader reader(experiment, params, faults);
   const auto add = [&](PartKind kind, const char* key, const YamlNode& written, CaseRole role) {
     products.given = true;
     reader.add_all(kind, key, written, role, kind == PartKind::method ? products.methods : products.cases);
@@ -237,15 +256,14 @@ Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Faul
   if (const auto cases = take(experiment, "cases")) add(PartKind::the_case, "cases", *cases, CaseRole::none);
   for (const auto& [key, role] :
        {std::pair("choose_on", CaseRole::choose), std::pair("judge_on", CaseRole::judge)}) {
-    const YamlEntry* entry = find_entry(experiment, key);
-    // A map has changes to the experiment: cases of another kind.
-    if (entry == nullptr || entry->value.kind == NodeKind::map) continue;
+    const auto named = take(experiment, key);
+    if (!named) continue;
     if (!products.cases.empty() && products.cases.front().role == CaseRole::none)
       faults.push_back(
-          fault_at(entry->place, fmt::format("{}: there is `cases`, too; leave it out, or write all "
+          fault_at(named->place, fmt::format("{}: there is `cases`, too; leave it out, or write all "
                                              "cases into choose_on and judge_on",
                                              key)));
-    add(PartKind::the_case, key, *take(experiment, key), role);
+    add(PartKind::the_case, key, *named, role);
   }
   if (!products.cases.empty() && products.cases.front().role == CaseRole::judge)
     faults.push_back(fault_at(products.cases.front().place,
@@ -259,13 +277,15 @@ YamlNode read_method(const std::string& name, AnyParams& params) {
   YamlNode value =
       make_node(NodeKind::scalar, {std::make_shared<const Origin>(Origin{"--method " + name, "."}), 0, 0});
   value.text = name;
-  YamlNode method = PartReader(params, faults).read(PartKind::method, name, value);
+  const YamlNode no_experiment = make_node(NodeKind::map, value.place);
+  YamlNode method = PartReader(no_experiment, params, faults).read(PartKind::method, name, value);
   if (!faults.empty()) throw ConfigError(std::move(faults));
   return method;
 }
 
 YamlNode joined(const YamlNode& experiment, const ExperimentPart* method, const ExperimentPart* one_case,
                 AnyParams& params, std::vector<Fault>& faults) {
+  if (method == nullptr && one_case == nullptr) return experiment;
   YamlNode tree = make_node(NodeKind::map, experiment.place);
   for (const ExperimentPart* part : {one_case, method}) {
     if (part == nullptr) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/builtin_parts.hpp"
@@ -16,6 +17,7 @@ struct ExperimentPart {
   Place place;                     ///< Where the experiment names it.
   YamlNode tree;                   ///< Its keys: those of an experiment.
   CaseRole role = CaseRole::none;  ///< Of a case.
+  bool is_fixed = false;           ///< Given without a list: not one of several, so that no name tells it.
 };
 
 /// What an experiment file names as `methods`, `cases`, and lists in `choose_on` and `judge_on`.
@@ -24,9 +26,13 @@ struct Products {
   bool given = false;  ///< Whether the file names any, be it wrongly.
 };
 
+/// Whether a path leads to one of these keys.
+[[nodiscard]] bool names_parts(std::string_view path);
+
 /// Takes these keys out of the tree of an experiment file, and reads the files that they name. A method is a
 /// map with `localizer` and perhaps `plugins`; a case has `map`, `observations`, `trials` and perhaps
-/// `evaluation`. Either may extend another one, of which it gives other values. What is wrong goes to
+/// `evaluation`. What the experiment says itself, a part may leave out. Either may extend another one, of
+/// which it gives other values. What is wrong goes to
 /// `faults`, at the file where it stands; `params` are an experiment's.
 [[nodiscard]] Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults);
 

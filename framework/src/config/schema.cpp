@@ -84,6 +84,14 @@ Json seeds_schema() {
   return {{"anyOf", {one, {{"type", "array"}, {"items", one}}, {{"type", "null"}}}}};
 }
 
+/// Names, files and maps of keys.
+Json parts_schema() {
+  const Json name = {{"type", "string"}};
+  const Json named = {{"type", "object"}, {"additionalProperties", {{"type", {"object", "string", "null"}}}}};
+  return {{"anyOf",
+           {name, named, {{"type", "array"}, {"items", {{"anyOf", {name, named}}}}}, {{"type", "null"}}}}};
+}
+
 Json type_schema(const FieldDoc& field) {
   const FieldInfo& info = field.info;
   switch (field.type) {
@@ -117,6 +125,8 @@ Json type_schema(const FieldDoc& field) {
       return map_schema(range_schema());
     case FieldType::seeds:
       return seeds_schema();
+    case FieldType::parts:
+      return parts_schema();
     case FieldType::group:
       return struct_schema(field.inner.front());
     case FieldType::list:

@@ -54,6 +54,7 @@ class UniformVisitor : public ParamVisitor {
     self().value(name, v, info);
   }
   void field(std::string_view name, SeedList& v, const FieldInfo& info) final { self().value(name, v, info); }
+  void field(std::string_view name, PartList& v, const FieldInfo& info) final { self().value(name, v, info); }
 
  private:
   Derived& self() { return static_cast<Derived&>(*this); }

@@ -101,6 +101,25 @@ bool are_too_many(std::size_t points, const std::vector<Axis>& axes, const char*
   return true;
 }
 
+/// What is changed by names, in the order of the file.
+void add_list(const NamedChanges& list, std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
+  if (!list.written) return;
+  const std::size_t size = list.written->entries.size();
+  if (size > most_variants) {
+    faults.push_back(
+        fault_at(list.written->place,
+                 fmt::format("variants.list: has {} variants, at most {} are allowed; leave some out", size,
+                             most_variants)));
+    return;
+  }
+  for (const YamlEntry& named : list.written->entries) {
+    VariantChanges variant{named.key, named.place, {}};
+    for (const YamlEntry& entry : checked_paths(named.value, "variants", faults))
+      variant.changes.push_back(change_of(entry, entry.value, list.written));
+    variants.push_back(std::move(variant));
+  }
+}
+
 void add_grid(const ListedChanges& grid, std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
   const std::vector<Axis> axes = axes_of(grid, faults);
   if (axes.empty()) return;
@@ -137,6 +156,24 @@ void add_zip(const ListedChanges& zip, std::vector<VariantChanges>& variants, st
   }
 }
 
+/// Adds a fault for each setting that is there twice, or whose name fits no folder.
+void check_settings(const std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
+  std::map<std::string, int> first_lines;
+  for (const VariantChanges& variant : variants) {
+    const auto [first, is_new] = first_lines.try_emplace(variant.setting, variant.place.line);
+    if (!is_new) {
+      faults.push_back(fault_at(variant.place, fmt::format("variants: '{}' is there twice (first in line {})",
+                                                           variant.setting, first->second)));
+    } else if (!is_folder_name(variant.setting)) {
+      faults.push_back(
+          fault_at(variant.place, fmt::format("variants: '{}' is no name for a folder: at most 100 letters, "
+                                              "digits, '_', '-' and '.', beginning with a letter, a digit or "
+                                              "'_'; variants.list lets you choose names",
+                                              variant.setting)));
+    }
+  }
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, VariantsSection& s) {
@@ -167,54 +204,16 @@ const std::vector<YamlEntry>& checked_paths(const YamlNode& map, const std::stri
   return are_short ? map.entries : none;
 }
 
-std::vector<VariantChanges> named_settings(const NamedChanges& list, const std::string& key,
-                                           std::vector<Fault>& faults) {
-  std::vector<VariantChanges> variants;
-  if (!list.written) return variants;
-  const std::size_t size = list.written->entries.size();
-  if (size > most_variants) {
-    faults.push_back(fault_at(list.written->place,
-                              fmt::format("{}: has {} variants, at most {} are allowed; leave some out", key,
-                                          size, most_variants)));
-    return variants;
-  }
-  for (const YamlEntry& named : list.written->entries) {
-    VariantChanges variant{named.key, named.place, {}};
-    for (const YamlEntry& entry : checked_paths(named.value, key.substr(0, key.find('.')), faults))
-      variant.changes.push_back(change_of(entry, entry.value, list.written));
-    variants.push_back(std::move(variant));
-  }
-  return variants;
-}
-
 std::vector<VariantChanges> settings_of(const VariantsSection& section, AnyParams& experiment,
                                         std::vector<Fault>& faults) {
-  std::vector<VariantChanges> variants = named_settings(section.list, "variants.list", faults);
+  std::vector<VariantChanges> variants;
+  add_list(section.list, variants, faults);
   add_grid(section.grid, variants, faults);
   add_zip(section.zip, variants, faults);
   std::vector<VariantChanges> drawn = sampled_settings(section.sample, experiment, faults);
   std::move(drawn.begin(), drawn.end(), std::back_inserter(variants));
-  check_names(variants, "variants", faults);
+  check_settings(variants, faults);
   return variants;
-}
-
-void check_names(const std::vector<VariantChanges>& variants, const std::string& key,
-                 std::vector<Fault>& faults) {
-  std::map<std::string, int> first_lines;
-  for (const VariantChanges& variant : variants) {
-    const std::string name = name_of(variant);
-    const auto [first, is_new] = first_lines.try_emplace(name, variant.place.line);
-    if (!is_new) {
-      faults.push_back(fault_at(variant.place, fmt::format("{}: '{}' is there twice (first in line {})", key,
-                                                           name, first->second)));
-    } else if (!is_folder_name(name)) {
-      faults.push_back(
-          fault_at(variant.place,
-                   fmt::format("{}: '{}' is no name for a folder: at most 100 letters, digits, "
-                               "'_', '-' and '.', beginning with a letter, a digit or '_'{}",
-                               key, name, key == "variants" ? "; variants.list lets you choose names" : "")));
-    }
-  }
 }
 
 std::string distinct_end(const std::string& path, const std::vector<std::string>& all) {

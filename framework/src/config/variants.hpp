@@ -33,10 +33,12 @@ void describe(ParamVisitor& v, VariantsSection& s);
 
 /// The keys of an experiment file that make many experiments of one.
 struct Variations {
+  PartList methods;
+  PartList cases;
+  PartList choose_on;
+  PartList judge_on;
   VariantsSection variants;
   SeedList seeds;
-  NamedChanges choose_on;
-  NamedChanges judge_on;
 };
 /// Each is a key of its own, beside those of the experiment.
 void describe(ParamVisitor& v, Variations& s);
@@ -58,15 +60,13 @@ struct Change {
 /// What makes a variant of an experiment, but for its seed.
 struct VariantChanges {
   std::string setting;
-  Place place;  ///< Of the setting's name, or of the values it is made from; of the case where there is none.
-  std::vector<Change> changes;  ///< Of the setting.
+  Place place;  ///< Of the setting's name, or of the values it is made from; of method or case without one.
+  std::vector<Change> changes;
+  std::string name = {};  ///< Of the variant, without its seed.
   std::string case_name = {};
   CaseRole role = CaseRole::none;
-  std::vector<Change> case_changes = {};  ///< Put in behind those of the setting.
 };
 
-/// The name of a variant without its seed: `SETTING_CASE`, or what there is of it.
-[[nodiscard]] std::string name_of(const VariantChanges& variant);
 /// The name behind which the seed has been put: `NAME_seed-N`.
 [[nodiscard]] std::string name_with_seed(const std::string& name, std::uint64_t seed);
 
@@ -89,25 +89,19 @@ struct VariantChanges {
 [[nodiscard]] const std::vector<YamlEntry>& checked_paths(const YamlNode& map, const std::string& key,
                                                           std::vector<Fault>& faults);
 
-/// What is changed by names, in the order of the file; `key` is where, for faults: `variants.list`.
-[[nodiscard]] std::vector<VariantChanges> named_settings(const NamedChanges& list, const std::string& key,
-                                                         std::vector<Fault>& faults);
-
-/// Adds a fault for each name that is there twice, or fits no folder; names are those of name_of().
-void check_names(const std::vector<VariantChanges>& variants, const std::string& key,
-                 std::vector<Fault>& faults);
-
-/// What an experiment file asks for.
+/// What an experiment file asks for, of each method with each case.
 struct Expansion {
-  std::vector<VariantChanges>
-      variants;                      ///< Each setting with each case; none if there is neither, nor seeds.
-  std::vector<std::uint64_t> seeds;  ///< Each variant is run with each; none: with the experiment's.
+  std::vector<VariantChanges> variants;  ///< The settings; none if there are neither these nor seeds.
+  std::vector<std::uint64_t> seeds;      ///< Each variant is run with each; none: with the experiment's.
 };
 
-/// All settings, each with every case (those of choose_on first), and all seeds. Settings are as in
-/// settings_of(). What is wrong goes to `faults`; too many variants are none.
+/// All settings, as in settings_of(), and all seeds. What is wrong goes to `faults`; too many variants are
+/// none.
 [[nodiscard]] Expansion expand(const Variations& variations, AnyParams& experiment,
                                std::vector<Fault>& faults);
+
+/// Adds a fault for each name that fits no folder, with the longest seed behind it.
+void check_full_names(const Expansion& all, std::vector<Fault>& faults);
 
 /// Letters, digits, `_`, `-` and `.`, at most 100, beginning with a letter, a digit or `_`: fit for a folder,
 /// and for a command line.

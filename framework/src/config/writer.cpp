@@ -51,6 +51,7 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
   void value(std::string_view /*name*/, ListedChanges& /*v*/, const FieldInfo& /*info*/) {}
   void value(std::string_view /*name*/, RangedChanges& /*v*/, const FieldInfo& /*info*/) {}
   void value(std::string_view /*name*/, SeedList& /*v*/, const FieldInfo& /*info*/) {}
+  void value(std::string_view /*name*/, PartList& /*v*/, const FieldInfo& /*info*/) {}
 
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
                 const FieldInfo& /*info*/) override {

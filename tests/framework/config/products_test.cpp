@@ -131,11 +131,45 @@ TEST_F(ProductsTest, VariantsVaryParametersOfEachMethod) {
 }
 
 TEST_F(ProductsTest, CasesAreChosenOnAndJudgedOn) {
-  const auto all = read("methods: [fast]\nchoose_on: [room]\njudge_on: [hall]\n");
-  ASSERT_EQ(all.size(), 2U);
+  const auto all = read(
+      "localizer: {matcher: ransam}\nseeds: [1, 2]\nchoose_on: [room]\njudge_on: [hall]\n"
+      "variants: {grid: {localizer.matcher.ransam.iterations: [50, 200]}}\n");
+  std::vector<std::string> names;
+  for (const Variant& variant : all) names.push_back(variant.name);
+  EXPECT_THAT(names, ElementsAre("iterations-50_room_seed-1", "iterations-50_room_seed-2",
+                                 "iterations-200_room_seed-1", "iterations-200_room_seed-2",
+                                 "iterations-50_hall_seed-1", "iterations-50_hall_seed-2",
+                                 "iterations-200_hall_seed-1", "iterations-200_hall_seed-2"));
   EXPECT_EQ(all[0].role, CaseRole::choose);
-  EXPECT_EQ(all[1].role, CaseRole::judge);
-  EXPECT_EQ(all[1].case_name, "hall");
+  EXPECT_EQ(all[7].role, CaseRole::judge);
+  EXPECT_EQ(all[7].case_name, "hall");
+  EXPECT_EQ(all[7].setting, "iterations-200");
+  EXPECT_THAT(all[7].values, ElementsAre(Pair("localizer.matcher.ransam.iterations", "200")));
+  EXPECT_FALSE(all[7].changes_trials);
+}
+
+TEST_F(ProductsTest, OneOfEachIsAnExperimentOfItsOwn) {
+  const auto all = read("methods: fast\ncases: room\n");
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].name, "");
+  EXPECT_EQ(all[0].setting, "fast");
+  EXPECT_EQ(all[0].case_name, "room");
+  EXPECT_EQ(read("methods: fast\ncases: room\nseeds: 4\n").front().name, "seed-4");
+  EXPECT_EQ(read("methods: fast\ncases: [room]\nseeds: 4\n").front().name, "room_seed-4");
+}
+
+TEST_F(ProductsTest, WhatAnExperimentSaysItselfACaseMayLeaveOut) {
+  const auto all = read(
+      "map: {toy_map: {path: map.txt}}\nobservations: toy_drive\nlocalizer: {matcher: ransam}\n"
+      "cases: {near: {trials: {every_m: 2}}, far: {trials: {every_m: 5}}}\n");
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].experiment.trials.every_m, 2.0);
+  EXPECT_EQ(all[1].experiment.trials.every_m, 5.0);
+}
+
+TEST_F(ProductsTest, ProductsOfOneNameAreRefused) {
+  EXPECT_THAT(faults_of("methods: {a: fast, a_b: slow}\ncases: {b_c: room, c: hall}\n"),
+              HasSubstr("two of their products have the name 'a_b_c'"));
 }
 
 TEST_F(ProductsTest, AnExperimentOfOneIsNamedOutOfSeveral) {

@@ -144,8 +144,9 @@ TEST_F(SchemaTest, AcceptsWhatTheReaderAccepts) {
     EXPECT_TRUE(accepts("/variants/sample/ranges/seed", Json::parse(range))) << range;
   for (const char* seeds : {"7", "\"1..30\"", "[1, \"3..5\", 18446744073709551615]", "[]", "null"})
     EXPECT_TRUE(accepts("/seeds", Json::parse(seeds))) << seeds;
-  EXPECT_TRUE(accepts("/choose_on", Json::parse(R"({"a": {"trials.every_m": 3}})")));
-  EXPECT_TRUE(accepts("/judge_on", Json::parse(R"({"a": {}})")));
+  for (const char* parts :
+       {R"("intel")", R"(["intel", {"mine": "mine.yaml"}])", R"({"a": {"trials": {}}, "b": null})"})
+    EXPECT_TRUE(accepts("/cases", Json::parse(parts))) << parts;
   EXPECT_TRUE(accepts("/variants/grid", Json::parse(R"({"seed": [1, 2], "localizer.matcher": ["ransam"]})")));
 }
 
@@ -179,7 +180,7 @@ TEST_F(SchemaTest, RefusesWhatTheReaderRefuses) {
     EXPECT_FALSE(accepts("/variants/sample/ranges/seed", Json::parse(range))) << range;
   for (const char* seeds : {"-1", "1.5", "\"1..\"", "\"1..x\"", "\"5\"", "[[1]]", "{}"})
     EXPECT_FALSE(accepts("/seeds", Json::parse(seeds))) << seeds;
-  EXPECT_FALSE(accepts("/choose_on", Json::parse(R"({"a": 3})")));
+  EXPECT_FALSE(accepts("/methods", Json::parse(R"({"a": 3})")));
 }
 
 TEST_F(SchemaTest, KindWithoutStrategiesAcceptsNothing) {

@@ -257,11 +257,6 @@ TEST_F(VariantsTest, MoreThanTenThousandOfAnyKindAreRefusedAtOnce) {
 }
 
 TEST_F(VariantsTest, WhatTakesTooMuchMemoryIsRefused) {
-  EXPECT_THAT(
-      faults_of("choose_on: {near: {" + count_to(900, "a.b", ": 1") + "}}\nvariants: {list: {" +
-                count_to(2000, "v", ": {}") + "}}\n"),
-      ElementsAre("e.yaml:7:13: error: choose_on, judge_on: variants and cases change 1800000 values in all; "
-                  "leave some out"));
   const std::string long_list = "[[" + count_to(30000, "", "") + "]]";
   EXPECT_THAT(faults_of("variants: {grid: {trials.starts_m: " + long_list + ", trials.every_m: [0], seed: [" +
                         count_to(1000, "", "") + "]}}\n"),
@@ -309,14 +304,9 @@ TEST_F(VariantsTest, SeedsAreSaidOnceAndInOnePlace) {
       ElementsAre("--set seed=5: error: seed: the experiment has `seeds`; leave one out (--set seeds=[] "
                   "leaves out those of the file)"));
   EXPECT_THAT(names(read("seeds: 1..3\n", {{"seeds", "[]"}, {"seed", "5"}})), ElementsAre(""));
-  EXPECT_THAT(
-      faults_of("seeds: 1..3\n"
-                "variants: {list: {a: {seed: 4}}, grid: {seed: [5, 6]}}\n"
-                "choose_on: {c: {seed: 9}}\n"),
-      ElementsAre("e.yaml:8:23: error: seed: is changed here, and `seeds` is given; leave one out",
-                  "e.yaml:8:23: error: variants: 'seed' is for the cases to change (line 9); leave it "
-                  "out in one of the two",
-                  "e.yaml:9:17: error: seed: is changed here, and `seeds` is given; leave one out"));
+  EXPECT_THAT(faults_of("seeds: 1..3\n"
+                        "variants: {list: {a: {seed: 4}}, grid: {seed: [5, 6]}}\n"),
+              ElementsAre("e.yaml:8:23: error: seed: is changed here, and `seeds` is given; leave one out"));
 }
 
 TEST_F(VariantsTest, BadSeedsAreRefusedAtTheirPlace) {
@@ -341,31 +331,8 @@ TEST_F(VariantsTest, BadSeedsAreRefusedAtTheirPlace) {
               ElementsAre("e.yaml:7:8: error: seeds: more than 10000 seeds; leave some out"));
   EXPECT_THAT(faults_of("seeds: 1..101\nvariants: {grid: {localizer.matcher.ransam.iterations: [" +
                         count_to(100, "1", "") + "]}}\n"),
-              ElementsAre("e.yaml:8:57: error: variants: 100 settings, 0 cases and 101 seeds make 10100 "
+              ElementsAre("e.yaml:8:57: error: variants: 100 settings and 101 seeds make 10100 "
                           "variants, at most 10000 are allowed; leave some out"));
-}
-
-TEST_F(VariantsTest, EachSettingRunsOnEachCaseThoseToChooseOnFirst) {
-  const auto all = read(
-      "seeds: [1, 2]\n"
-      "variants: {grid: {localizer.matcher.ransam.iterations: [50, 200]}}\n"
-      "judge_on: {far: {observations.toy_drive.max_range: 90, trials.every_m: 3}}\n"
-      "choose_on: {near: {observations.toy_drive.max_range: 30}}\n");
-  EXPECT_THAT(names(all), ElementsAre("iterations-50_near_seed-1", "iterations-50_near_seed-2",
-                                      "iterations-50_far_seed-1", "iterations-50_far_seed-2",
-                                      "iterations-200_near_seed-1", "iterations-200_near_seed-2",
-                                      "iterations-200_far_seed-1", "iterations-200_far_seed-2"));
-  EXPECT_EQ(all[0].role, CaseRole::choose);
-  EXPECT_EQ(all[0].case_name, "near");
-  EXPECT_EQ(all[0].setting, "iterations-50");
-  EXPECT_EQ(all[6].role, CaseRole::judge);
-  EXPECT_EQ(all[6].case_name, "far");
-  EXPECT_DOUBLE_EQ(all[1].experiment.trials.every_m, 6.0);
-  EXPECT_DOUBLE_EQ(all[7].experiment.trials.every_m, 3.0);
-  EXPECT_EQ(matcher(all[7]).iterations, 200);
-  EXPECT_THAT(all[7].values, ElementsAre(Override("localizer.matcher.ransam.iterations", "200")));
-  EXPECT_FALSE(all[7].changes_trials);
-  EXPECT_THAT(names(read("choose_on: {a: {}, b: {trials.every_m: 3}}\n")), ElementsAre("a", "b"));
 }
 
 TEST_F(VariantsTest, ValuesAreToldAsTheyCouldBeSet) {
@@ -387,33 +354,7 @@ TEST_F(VariantsTest, ValuesAreToldAsTheyCouldBeSet) {
   }
 }
 
-TEST_F(VariantsTest, BadCasesAreRefusedAtTheirPlace) {
-  EXPECT_THAT(faults_of("judge_on: {a: {}}\n"),
-              ElementsAre("e.yaml:7:12: error: judge_on: there is no choose_on; say there by which cases to "
-                          "choose what is judged here"));
-  EXPECT_THAT(faults_of("choose_on: {a: {trials.every_m: 0.5}, a/b: {name: x, seeds: 3}}\n"
-                        "judge_on: {a: {trials.every_m: -1}}\n"),
-              ElementsAre(testing::StartsWith("e.yaml:7:39: error: choose_on, judge_on: 'a/b' is no name"),
-                          "e.yaml:7:45: error: choose_on: 'name' is the same for all variants and cannot be "
-                          "changed",
-                          "e.yaml:7:54: error: choose_on: 'seeds' is the same for all variants and cannot be "
-                          "changed",
-                          "e.yaml:8:12: error: choose_on, judge_on: 'a' is there twice (first in line 7)",
-                          "e.yaml:8:32: error: trials: every_m: -1 is out of range, must be >= 0 m"));
-  EXPECT_THAT(
-      faults_of("choose_on: {a: {observations.toy_drive.noise: {}}}\n"
-                "variants: {list: {b: {observations.toy_drive.noise.range: 1}, c: {trials.every_mm: 1}}}\n"),
-      testing::Contains("e.yaml:8:23: error: variants: 'observations.toy_drive.noise' is for the cases to "
-                        "change (line 7); leave it out in one of the two"));
-  // The other way round; and what only begins alike is no part of it.
-  EXPECT_THAT(
-      faults_of("choose_on: {a: {observations.toy_drive.noise.range: 1, trials.max_steps: 5}}\n"
-                "variants: {list: {b: {observations.toy_drive.noise: {}}, c: {trials.max: 1}}}\n"),
-      ElementsAre("e.yaml:8:23: error: variants: 'observations.toy_drive.noise.range' is for the cases to "
-                  "change (line 7); leave it out in one of the two",
-                  testing::HasSubstr("trials: unknown key 'max'")));
-  EXPECT_THAT(faults_of("choose_on: {b_c: {}, c: {}}\nvariants: {list: {a: {}, a_b: {}}}\n"),
-              ElementsAre("e.yaml:8:26: error: variants: 'a_b_c' is there twice (first in line 8)"));
+TEST_F(VariantsTest, NamesWithSeedsFitFolders) {
   const std::string ninety(90, 'x');
   EXPECT_THAT(faults_of("seeds: [10000]\nvariants: {list: {" + ninety + ": {}}}\n"),
               ElementsAre(testing::HasSubstr("_seed-10000' is too long for a folder's name")));
