@@ -80,7 +80,7 @@ std::string outcomes_text(const PairComparison& pair, const std::string& baselin
         worse.push_back(significant_phrase(outcome));
         break;
       case Told::alike:
-        alike.push_back(fmt::format("as often {} ({})", outcome.name, points_text(outcome)));
+        alike.push_back(fmt::format("{} ({})", outcome.name, points_text(outcome)));
         break;
       case Told::nothing:
         rest.push_back(nothing_told(outcome));
@@ -96,7 +96,8 @@ std::string outcomes_text(const PairComparison& pair, const std::string& baselin
                        enumerated(better.empty() ? worse : better));
   } else {
     text = alike.empty() ? fmt::format("{} against {}:", pair.variant, baseline)
-                         : fmt::format("{} against {}: it is {}.", pair.variant, baseline, enumerated(alike));
+                         : fmt::format("{} against {}: no difference that matters in {}.", pair.variant, baseline,
+                                       enumerated(alike));
   }
   for (const std::string& sentence : rest) text += " " + sentence;
   return text;

@@ -263,5 +263,40 @@ TEST_F(CompareVariants, TellsWhatOneOrTwoParametersDo) {
   EXPECT_EQ(parameters["map"]["cells"][0][0]["median_steps"], 9.0);
 }
 
+TEST_F(CompareVariants, PairsMethodsWithinCaseAndSeed) {
+  folder_.write("few.yaml", "localizer: {matcher: {ransam: {iterations: 500}}}\n");
+  folder_.write("many.yaml", "localizer: {matcher: {ransam: {iterations: 5000}}}\n");
+  for (const char* name : {"near.yaml", "far.yaml"})
+    folder_.write(name,
+                  "map: {simulation: {world: world.yaml}}\n"
+                  "observations: {simulation: {world: world.yaml}}\n"
+                  "trials: {every_scan: 9, max_steps: 1}\n");
+  const std::string options = "run --quiet --method " + file("few.yaml") + " --method " + file("many.yaml") +
+                              " --case " + file("near.yaml") + " --case " + file("far.yaml") +
+                              " --set output.maps=none --set output.steps=false --seeds 1..2 --out " + file("r");
+  ASSERT_EQ(run(options).exit_code, 0);
+  for (const char* one_case : {"near", "far"}) {
+    for (const char* seed : {"1", "2"}) {
+      const auto results = [&](const std::string& method) {
+        return file("r/" + method + "_" + one_case + "_seed-" + seed);
+      };
+      const nlohmann::json right = {{"outcome", "right"}, {"steps", 4}};
+      const nlohmann::json undecided = {{"outcome", "undecided"}, {"steps", 4}};
+      replace_lines(results("few"), std::vector<nlohmann::json>(4, undecided), {});
+      replace_lines(results("many"), std::vector<nlohmann::json>(4, right), {});
+    }
+  }
+  const Answer answer = run("compare --no-times " + file("r"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("1 method compared with few, by 16 starts: 8 places of 2 cases, 2 seeds\n"));
+  // 2 / 2^8: seeds are no places.
+  EXPECT_THAT(answer.out, HasSubstr("many is better than few: right more often (+100.0 points, "));
+  EXPECT_THAT(answer.out, HasSubstr("p = 0.008)."));
+  fs::remove_all(file("r/few_far_seed-2"));
+  EXPECT_THAT(run("compare --no-times " + file("r") + " --baseline many").out,
+              AllOf(HasSubstr("1 method compared with many, by 12 starts"),
+                    HasSubstr("! Left out, as not all methods have them: far with seed 2 (only many).")));
+}
+
 }  // namespace
 }  // namespace glocal::test::compare_test
