@@ -32,37 +32,40 @@ std::string name_of(const testing::TestParamInfo<std::string>& info) {
   return info.param;
 }
 
-class Experiments : public CommandLine, public testing::WithParamInterface<std::string> {};
+class ConfigsTest : public CommandLine {
+ protected:
+  /// A file with all methods and cases that it is made of.
+  static std::string text_with_parts(const std::string& file) {
+    std::string text = content(file);
+    const std::string own = text;
+    const std::regex parts("(?:methods|cases|extends): (\\w+)");
+    for (std::sregex_iterator part(own.begin(), own.end(), parts); part != std::sregex_iterator(); ++part) {
+      for (const char* folder : {"methods", "cases"}) {
+        const std::string named = path_of(folder, (*part)[1]);
+        if (named != file && fs::exists(named)) text += text_with_parts(named);
+      }
+    }
+    return text;
+  }
+
+  /// Why what stands in this text cannot be read here; empty if it can.
+  static std::string why_not_here(const std::string& text) {
+    std::smatch plugin;
+    if (std::regex_search(text, plugin, std::regex("plugin:(\\w+)")) &&
+        !fs::exists(fs::path(GLOCAL_PLUGINS_FOLDER) / ("glocal_" + plugin[1].str() + ".so")))
+      return "its plugin is not built: the package it brings is not installed";
+    if (text.find("data:") != std::string::npos && dataset("").empty()) return "GLOCAL_DATASETS is not set";
+    return "";
+  }
+};
+
+class Experiments : public ConfigsTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Experiments, OpenWithWhatTheyShow) {
   const std::string text = content(path_of("experiments", GetParam()));
   EXPECT_THAT(text, testing::StartsWith("# "));
   EXPECT_GT(text.find('\n'), 20U);
   EXPECT_THAT(text, testing::HasSubstr("\nname: " + GetParam() + "\n"));
-}
-
-/// A file with all methods and cases that it is made of.
-std::string text_with_parts(const std::string& file) {
-  std::string text = content(file);
-  const std::string own = text;
-  const std::regex parts("(?:methods|cases|extends): (\\w+)");
-  for (std::sregex_iterator part(own.begin(), own.end(), parts); part != std::sregex_iterator(); ++part) {
-    for (const char* folder : {"methods", "cases"}) {
-      const std::string named = path_of(folder, (*part)[1]);
-      if (named != file && fs::exists(named)) text += text_with_parts(named);
-    }
-  }
-  return text;
-}
-
-/// Why what stands in this text cannot be read here; empty if it can.
-std::string why_not_here(const std::string& text) {
-  std::smatch plugin;
-  if (std::regex_search(text, plugin, std::regex("plugin:(\\w+)")) &&
-      !fs::exists(fs::path(GLOCAL_PLUGINS_FOLDER) / ("glocal_" + plugin[1].str() + ".so")))
-    return "its plugin is not built: the package it brings is not installed";
-  if (text.find("data:") != std::string::npos && dataset("").empty()) return "GLOCAL_DATASETS is not set";
-  return "";
 }
 
 TEST_P(Experiments, PassTheCheck) {
@@ -80,7 +83,7 @@ bool is_in_space(const std::string& text) {
   return std::regex_search(text, std::regex("motion: |points: space|point_cloud:|lidar3d/"));
 }
 
-class Methods : public CommandLine, public testing::WithParamInterface<std::string> {};
+class Methods : public ConfigsTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Methods, PassTheCheckWithACase) {
   const std::string text = text_with_parts(path_of("methods", GetParam()));
@@ -94,7 +97,7 @@ TEST_P(Methods, PassTheCheckWithACase) {
 
 INSTANTIATE_TEST_SUITE_P(Configs, Methods, testing::ValuesIn(names_in("methods")), name_of);
 
-class Cases : public CommandLine, public testing::WithParamInterface<std::string> {};
+class Cases : public ConfigsTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Cases, PassTheCheckWithAMethod) {
   const std::string text = text_with_parts(path_of("cases", GetParam()));
