@@ -127,7 +127,7 @@ std::string explanation(const Comparison& comparison) {
       "over "
       "a trial's steps. A difference below \"matters\" matters to nobody, whatever its p. Holm's correction "
       "in "
-      "two families: the {2} tests of right and wrong, the {3} other ones; tests with fewer than 6 places "
+      "two families: tests of right and wrong ({2}), and others ({3}); tests with fewer than 6 places "
       "that "
       "differ could not be significant and are not among them. * marks p (Holm) < {4} of what matters. "
       "Medians "

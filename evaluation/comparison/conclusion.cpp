@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace glocal {
@@ -57,7 +58,10 @@ std::string wanted(double needed, std::size_t places, const std::string& size) {
   constexpr double most_told = 1e5;
   if (!(more >= 1.0)) return "";
   if (more > most_told) return "; no number of places that anybody has would tell " + size;
-  return fmt::format("; about {:.0f} more {} would tell {}", more, more < 1.5 ? "place" : "places", size);
+  // Two digits are more than is known of the variance.
+  const double digits = std::pow(10.0, std::max(0.0, std::floor(std::log10(more)) - 1.0));
+  return fmt::format("; about {:.0f} more {} would tell {}", digits * std::round(more / digits),
+                     more < 1.5 ? "place" : "places", size);
 }
 
 std::string nothing_told(const OutcomeDifference& outcome) {
@@ -96,8 +100,8 @@ std::string outcomes_text(const PairComparison& pair, const std::string& baselin
                        enumerated(better.empty() ? worse : better));
   } else {
     text = alike.empty() ? fmt::format("{} against {}:", pair.variant, baseline)
-                         : fmt::format("{} against {}: no difference that matters in {}.", pair.variant, baseline,
-                                       enumerated(alike));
+                         : fmt::format("{} against {}: no difference that matters in {}.", pair.variant,
+                                       baseline, enumerated(alike));
   }
   for (const std::string& sentence : rest) text += " " + sentence;
   return text;
@@ -141,7 +145,7 @@ std::string conclude(const PairComparison& pair, const std::string& baseline) {
 std::vector<std::string> pair_warnings(const PairComparison& pair) {
   Phrases few;
   const auto note = [&](const std::string& name, const TestResult& test) {
-    if (!test.has_chance()) few.push_back(fmt::format("{} ({})", name, test.differing));
+    if (test.differing > 0 && !test.has_chance()) few.push_back(fmt::format("{} ({})", name, test.differing));
   };
   for (const OutcomeDifference& outcome : pair.outcomes) note(outcome.name, outcome.test);
   for (const MeasureDifference& difference : pair.measures) note(difference.measure.label, difference.test);

@@ -45,7 +45,7 @@ void tell_methods_apart(const std::vector<NamedRun>& runs, std::vector<Method>& 
   rename_equal([](const fs::path& folder, const std::string& name) { return (folder / name).string(); });
 }
 
-using CellKey = std::pair<std::size_t, std::uint64_t>;  ///< Number of the case, and seed.
+using CellKey = std::pair<std::size_t, std::uint64_t>;                     ///< Number of the case, and seed.
 using RunsByCell = std::map<CellKey, std::map<std::size_t, std::size_t>>;  ///< Of each method its run.
 
 /// "intel with seeds 1, 2"; without seeds where any will do.
@@ -174,9 +174,9 @@ std::vector<Method> methods_of(const std::vector<NamedRun>& runs) {
       const auto [other, is_first] =
           seen.try_emplace({number->second, part->case_name, part->seed}, runs[i].name);
       if (!is_first)
-        refuse_provenance(runs[i],
-                          fmt::format("is of the same setting, case and seed as {}; leave one of them out",
-                                      other->second));
+        refuse_provenance(
+            runs[i],
+            fmt::format("is of the same setting, case and seed as {}; leave one of them out", other->second));
       methods[number->second].runs.push_back({part->case_name, part->seed, i});
     });
   }

@@ -121,7 +121,8 @@ TEST(Comparison, FivePlacesThatDifferAreNoTestOfTheFamily) {
   const PairComparison& pair = comparison.pairs.front();
   EXPECT_DOUBLE_EQ(right_of(pair).test.p, 0.0625);
   EXPECT_EQ(pair.measures[0].test.p_holm, 0.03125);
-  EXPECT_THAT(pair.warnings, ElementsAre(AllOf(HasSubstr("fewer than 6"), HasSubstr("right (5), "))));
+  EXPECT_THAT(pair.warnings,
+              ElementsAre(AllOf(HasSubstr("fewer than 6"), HasSubstr("this is so for right (5)."))));
 }
 
 TEST(Comparison, SaysWhoIsBetterInWhatMattersFirst) {
@@ -166,7 +167,7 @@ TEST(Comparison, SaysHowManyMorePlacesItTakes) {
   const double needed = std::ceil(25.0 * std::pow(2.801585 * error / 2.0, 2.0));
   EXPECT_NEAR(right_of(pair).places_needed, needed, 1.0);
   EXPECT_THAT(pair.conclusion,
-              ContainsRegex("Nothing can be told of right \\(-12.0 points, [^;]*; about 31[0-9][0-9] "
+              ContainsRegex("Nothing can be told of right \\(-12.0 points, [^;]*; about 3[12]00 "
                             "more places would tell 2 points\\)"));
   EXPECT_THAT(pair.conclusion, HasSubstr("No place differs in wrong: "));
 }
