@@ -1,4 +1,4 @@
-// glocal compare: which of several runs on the same starts is better, and whether that can be told.
+// glocal compare: which of several methods on the same starts is better, and whether that can be told.
 #include <fmt/format.h>
 
 #include <memory>
@@ -21,6 +21,7 @@ struct CompareOptions {
   std::vector<std::string> folders;
   std::string baseline;
   std::string csv, json, markdown;
+  bool full = false;
   bool no_times = false;
   bool time_anew = false;
   bool trust_plugins = false;
@@ -40,9 +41,13 @@ void compare_runs(const CompareOptions& options, Context& context) {
   AtomicFiles files(options.force);
   if (!options.csv.empty()) files.add(options.csv, output.csv);
   if (!options.json.empty()) files.add(options.json, output.json_text(2) + "\n");
-  if (!options.markdown.empty()) files.add(options.markdown, as_markdown(output.report));
+  if (!options.markdown.empty()) files.add(options.markdown, as_markdown(output.full));
   files.commit();
-  answer(as_text(output.report));
+  if (options.full) {
+    answer(as_text(output.full));
+  } else {
+    answer("{}\n  Tests, medians and means: --full.\n", as_text(output.brief));
+  }
 }
 
 }  // namespace
@@ -50,10 +55,13 @@ void compare_runs(const CompareOptions& options, Context& context) {
 void add_compare(CLI::App& app, Context& context) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command =
-      app.add_subcommand("compare", "Compare runs on the same starts, with tests of what differs.");
+      app.add_subcommand("compare", "Compare methods on the same starts, with tests of what differs.");
   command->add_option("DIR", options->folders, "Folders of results, or folders that hold some")->required();
-  command->add_option("--baseline", options->baseline,
-                      "Run to compare with, by the name of its folder or experiment (default: the first)");
+  command->add_option(
+      "--baseline", options->baseline,
+      "Method to compare with, by its name, or by its run's folder or experiment (default: the "
+      "first)");
+  command->add_flag("--full", options->full, "Show all tests, and how to read them");
   command->add_option("--csv", options->csv, "Write a row for each variant and test");
   command->add_option("--json", options->json, "Write everything");
   command->add_option("--markdown", options->markdown, "Write the report as Markdown");
