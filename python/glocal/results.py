@@ -179,7 +179,7 @@ class Results:
 
 
 class Comparison(dict[str, Any]):
-    """Runs on the same starts, compared with one of them: what `glocal compare --json` writes. print() tells it."""
+    """Runs on the same starts, compared with one of them: what `glocal compare --json` prints. print() tells it."""
 
     def __init__(self, text: str, markdown: str, csv: str, numbers: str) -> None:
         super().__init__(json.loads(numbers))
