@@ -179,7 +179,7 @@ class Results:
 
 
 class Comparison(dict[str, Any]):
-    """Methods on the same starts, compared with one of them: what `glocal compare --json` writes.
+    """Methods on the same starts, compared with one of them: what `glocal compare --json` prints.
 
     print() tells it in short; `full` has all tests, as --full shows them, and `markdown` the same for notebooks.
     """

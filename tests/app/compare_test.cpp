@@ -47,7 +47,7 @@ class CompareCommand : public CommandLine {
   }
 
   void expect_refused(const std::string& arguments, const std::string& why) const {
-    const Answer answer = run("compare " + arguments + " --json " + file("refused.json"));
+    const Answer answer = run("compare " + arguments + " -o " + file("refused.json"));
     EXPECT_EQ(answer.exit_code, 2) << arguments;
     EXPECT_EQ(answer.out, "") << arguments;
     EXPECT_THAT(answer.err, HasSubstr(why)) << arguments;
@@ -57,8 +57,8 @@ class CompareCommand : public CommandLine {
 
 TEST_F(CompareCommand, ComparesWhatRunHasLeft) {
   run_both();
-  const std::string command = "compare " + file("all/some") + " " + file("all/none") + " --force --json " +
-                              file("c.json") + " --csv " + file("c.csv") + " --markdown " + file("c.md");
+  const std::string command = "compare " + file("all/some") + " " + file("all/none") + " --force -o " +
+                              file("c.json") + " -o " + file("c.csv") + " -o " + file("c.md");
   const Answer answer = run(command);
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_EQ(answer.err, "");
@@ -119,7 +119,7 @@ TEST_F(CompareCommand, TellsFoldersOfOneNameApart) {
 TEST_F(CompareCommand, FindsNothingBetweenARunAndItself) {
   run_room("a");
   run_room("b");
-  const Answer answer = run("compare " + file("a") + " " + file("b") + " --json " + file("c.json"));
+  const Answer answer = run("compare " + file("a") + " " + file("b") + " -o " + file("c.json"));
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, Not(HasSubstr("better than a")));
   const json comparison = json::parse(content(file("c.json")));
@@ -142,7 +142,7 @@ TEST_F(CompareCommand, SaysTheSameOfRunsWithTheSameSeedIfTimesAreLeftOut) {
 TEST_F(CompareCommand, TakesTimesAnewAndInTurn) {
   run_room("a", "--jobs 2");
   run_room("b", "--set localizer.matcher.ransam.iterations=200000");
-  const std::string both = file("a") + " " + file("b") + " --json " + file("c.json");
+  const std::string both = file("a") + " " + file("b") + " -o " + file("c.json");
   EXPECT_THAT(run("compare " + both).out,
               HasSubstr("Times of b and a are not compared: --jobs 1, and --jobs 2."));
   const Answer answer = run("compare --time --force " + both);
@@ -170,7 +170,7 @@ TEST_F(CompareCommand, RefusesTimesOfWhatAnswersOtherwiseNow) {
 TEST_F(CompareCommand, WarnsOfRunsThatDiffer) {
   run_room("a");
   run_room("b", "--seed 2 --set evaluation.max_translation_error=0.2 --set map.simulation.resolution=0.1");
-  const Answer answer = run("compare " + file("a") + " " + file("b") + " --json " + file("c.json"));
+  const Answer answer = run("compare " + file("a") + " " + file("b") + " -o " + file("c.json"));
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const std::string warnings = json::parse(content(file("c.json")))["warnings"].dump();
   EXPECT_THAT(warnings, HasSubstr("evaluation.max_translation_error: 0.2 instead of 0.5"));
@@ -184,7 +184,7 @@ TEST_F(CompareCommand, WarnsOfAWorldThatHasChanged) {
   run_room("a");
   std::ofstream(file("world.yaml"), std::ios::app) << "circles: [{centre: [2, 1], radius: 0.2}]\n";
   run_room("b");
-  const Answer answer = run("compare " + file("a") + " " + file("b") + " --json " + file("c.json"));
+  const Answer answer = run("compare " + file("a") + " " + file("b") + " -o " + file("c.json"));
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(json::parse(content(file("c.json")))["warnings"].dump(),
               AllOf(HasSubstr("map.simulation.world: " + file("world.yaml") + " has changed"),
@@ -216,11 +216,22 @@ TEST_F(CompareCommand, ReportsTheFaultsOfAllFolders) {
               AllOf(HasSubstr("holds no results"), HasSubstr("is no folder"), HasSubstr("2 errors")));
 }
 
+TEST_F(CompareCommand, PrintsAsJsonWhatItWrites) {
+  run_both();
+  const std::string command = "compare " + file("all") + " --no-times ";
+  const Answer printed = run(command + "--json");
+  ASSERT_EQ(printed.exit_code, 0) << printed.err;
+  ASSERT_EQ(run(command + "-o " + file("c.json")).exit_code, 0);
+  EXPECT_EQ(printed.out, content(file("c.json")));
+  const Answer refused = run(command + "-o " + file("c.txt"));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("end it with .json, .csv or .md"));
+}
+
 TEST_F(CompareCommand, ReplacesNoFileUnlessForced) {
   run_room("a");
   run_room("b");
-  const std::string command =
-      "compare " + file("a") + " " + file("b") + " --csv " + file("new.csv") + " --json ";
+  const std::string command = "compare " + file("a") + " " + file("b") + " -o " + file("new.csv") + " -o ";
   std::ofstream(file("old.json")) << "kept";
   const Answer refused = run(command + file("old.json"));
   EXPECT_EQ(refused.exit_code, 2);
@@ -249,7 +260,7 @@ TEST_F(CompareVariants, TellsWhatOneOrTwoParametersDo) {
   set_outcomes("iterations-100_min_side-0.5", "right", 9);
   set_outcomes("iterations-100_min_side-1", "wrong", 7);
   const Answer answer =
-      run("compare --full " + file("all") + " --json " + file("all.json") + " --markdown " + file("all.md"));
+      run("compare --full " + file("all") + " -o " + file("all.json") + " -o " + file("all.md"));
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("3 methods compared with iterations-200_min_side-0.5, "));
   EXPECT_THAT(answer.out,

@@ -87,8 +87,8 @@ def test_damaged_results_are_an_error_with_their_place(results):
 
 
 def test_a_comparison_is_that_of_the_program(results, program, tmp_path):
-    answer = program("compare", results.folder, "--baseline", "many", "--no-times", "--json", tmp_path / "c.json",
-                     "--csv", tmp_path / "c.csv", "--markdown", tmp_path / "c.md")
+    answer = program("compare", results.folder, "--baseline", "many", "--no-times", "-o", tmp_path / "c.json",
+                     "-o", tmp_path / "c.csv", "-o", tmp_path / "c.md")
     assert answer.returncode == 0
     comparison = results.compare(baseline="many", times=False)
     assert comparison == json.loads((tmp_path / "c.json").read_text())
