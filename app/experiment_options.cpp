@@ -23,6 +23,10 @@ void ExperimentOptions::add_products_to(CLI::App& command) {
       .add_option("--case", cases, "Map, drive and starts: a name (glocal list cases) or a file (repeatable)")
       ->allow_extra_args(false);
   command.add_option("--seeds", seeds, "Run all with each of these seeds: 1..3, or [1, 5, 9]");
+  CLI::Option* of_suite = command.add_option(
+      "--suite", suite,
+      "Cases and seeds: those of a suite, as planar@1 (glocal list suites), or of its file");
+  command.add_option("--share", share, "Run a fixed share of the suite's starts: 0.05")->needs(of_suite);
 }
 
 void ExperimentOptions::add_overrides_to(CLI::App& command) {
@@ -55,7 +59,9 @@ std::vector<Override> ExperimentOptions::overrides() const {
   add_list("methods", methods);
   add_list("cases", cases);
   if (!seeds.empty()) overrides.emplace_back("seeds", seeds);
-  if (file.empty() && !methods.empty()) overrides.emplace_back("name", "comparison");
+  if (!suite.empty()) overrides.emplace_back("suite", to_yaml(std::string_view(suite)));
+  if (!share.empty()) overrides.emplace_back("share", share);
+  if (file.empty() && suite.empty() && !methods.empty()) overrides.emplace_back("name", "comparison");
   return overrides;
 }
 
@@ -67,6 +73,8 @@ std::vector<std::string> ExperimentOptions::words() const {
   add("--method", methods);
   add("--case", cases);
   if (!seeds.empty()) add("--seeds", {seeds});
+  if (!suite.empty()) add("--suite", {suite});
+  if (!share.empty()) add("--share", {share});
   add("--set", set);
   if (seed) add("--seed", {*seed});
   if (threads) add("--threads", {*threads});
@@ -74,11 +82,11 @@ std::vector<std::string> ExperimentOptions::words() const {
 }
 
 void ExperimentOptions::require_file() const {
-  if (!file.empty() || (!methods.empty() && !cases.empty())) return;
+  if (!file.empty() || (!methods.empty() && (!cases.empty() || !suite.empty()))) return;
   throw ConfigError(
       {{"", 0, 0,
-        "what is to be run? Give an experiment file, or --method and --case (glocal list methods, "
-        "glocal list cases)"}});
+        "what is to be run? Give an experiment file, or --method and --case or --suite (glocal list methods, "
+        "glocal list cases, glocal list suites)"}});
 }
 
 std::vector<Override> ExperimentOptions::load_plugins(const std::string& other_file, Context& context) const {

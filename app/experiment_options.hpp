@@ -20,11 +20,12 @@ struct ExperimentOptions {
   std::optional<std::string> seed, threads;
   std::vector<std::string> methods, cases;  ///< Names or files.
   std::string seeds;                        ///< "1..3"; empty: those of the file.
+  std::string suite, share;                 ///< "planar@1", "0.05"; empty: none, and all.
 
-  /// Adds FILE, --method, --case, --seeds, --set, --seed and --threads. FILE may be left out where a method
-  /// and a case are given. This object must live as long as the command.
+  /// Adds FILE, --method, --case, --seeds, --suite, --share, --set, --seed and --threads. FILE may be left
+  /// out where a method and a case or a suite are given. This object must live as long as the command.
   void add_to(CLI::App& command);
-  /// --method, --case and --seeds.
+  /// --method, --case, --seeds, --suite and --share.
   void add_products_to(CLI::App& command);
   /// --set, --seed and --threads.
   void add_overrides_to(CLI::App& command);

@@ -1,4 +1,4 @@
-// glocal list: which strategies there are, and which methods and cases.
+// glocal list: which strategies there are, and which methods, cases and suites.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "config/builtin_parts.hpp"
 #include "config/help.hpp"
 #include "config/nearest.hpp"
+#include "config/suites.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal::app {
@@ -48,15 +49,19 @@ void list_as_json(const std::vector<const RegistryBase*>& registries) {
   answer("{}\n", strategies.dump(2));
 }
 
-/// "methods" and "cases"; none for a kind of strategies.
+/// "methods", "cases" and "suites"; none for a kind of strategies.
 std::optional<PartKind> parts_named(const std::string& kind) {
   if (kind == "methods" || kind == "method") return PartKind::method;
   if (kind == "cases" || kind == "case") return PartKind::the_case;
+  if (kind == "suites" || kind == "suite") return PartKind::suite;
   return std::nullopt;
 }
 
 void list_parts(PartKind kind, bool as_json) {
-  const std::vector<BuiltinPart> parts = builtin_parts(kind);
+  std::vector<BuiltinPart> parts = builtin_parts(kind);
+  if (kind == PartKind::suite) {
+    for (BuiltinPart& part : parts) part.name = read_suite(part.name).id();
+  }
   if (as_json) {
     auto json = nlohmann::ordered_json::array();
     for (const BuiltinPart& part : parts)
@@ -82,8 +87,9 @@ void list(const std::string& kind, const Catalog& catalog) {
 void add_list(CLI::App& app, Context& context) {
   auto kind = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("list", "List the strategies, methods or cases there are.");
-  command->add_option("KIND", *kind, "methods, cases, or strategies of one kind: matcher, map_source, ...");
+  CLI::App* command = app.add_subcommand("list", "List the strategies, methods, cases or suites there are.");
+  command->add_option("KIND", *kind,
+                      "methods, cases, suites, or strategies of one kind: matcher, map_source, ...");
   command->add_flag("--json", *as_json, "Print them as JSON");
   command->callback([kind, as_json, &context] {
     if (const auto parts = parts_named(*kind)) {

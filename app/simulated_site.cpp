@@ -10,6 +10,7 @@
 #include "app/localize_plan.hpp"
 #include "glocal/error.hpp"
 #include "sources/simulation.hpp"
+#include "sources/sites/office.hpp"
 #include "sources/sites/office_site.hpp"
 #include "sources/world_grid.hpp"
 
@@ -18,23 +19,10 @@ namespace {
 
 constexpr int most_starts = 150;  // unless more are asked for
 
-/// Metres driven for each metre of the side, so that starts are all over the site; and at most.
-constexpr double drive_per_side = 5.0;
-constexpr double longest_drive = 3000.0;
 constexpr double metres_a_start = 10.0;
 
-/// As in the experiments on other simulated worlds.
-DriveParams drive_params() {
-  DriveParams params;
-  params.step_length = 0.3;
-  params.step_turn_deg = 15.0;
-  params.step_seconds = 0.5;
-  params.laser.max_range = 20.0;
-  return params;
-}
-
 double length_of(const SiteOptions& options) {
-  return options.length > 0.0 ? options.length : std::min(drive_per_side * options.side, longest_drive);
+  return options.length > 0.0 ? options.length : sites::usual_length(options.side);
 }
 
 int starts_of(const SiteOptions& options) {
@@ -44,7 +32,7 @@ int starts_of(const SiteOptions& options) {
 
 std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const std::string& log,
                           const Catalog& catalog) {
-  const LogParams limits = scan_limits(drive_params().laser);
+  const LogParams limits = scan_limits(sites::office_drive().laser);
   return fmt::format(
       "# A simulated {} of {:g} m x {:g} m, seed {}. Written by glocal simulate.\n"
       "schema: 1\n"
@@ -98,7 +86,7 @@ SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed, co
   World world = sites::office_site(options.side, length_of(options), seed);
   OccupancyGrid grid = plan_of(world, options.resolution);
   SimulatedFiles files{
-      *Simulation(drive_params(), std::move(world), seed).recording(), std::move(grid), {}, 1};
+      *Simulation(sites::office_drive(), std::move(world), seed).recording(), std::move(grid), {}, 1};
   files.experiment = experiment_of(options, seed, files.drive.file_name, catalog);
   return files;
 }

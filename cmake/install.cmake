@@ -7,10 +7,12 @@ install(TARGETS glocal glocal_builtin glocal_evaluation EXPORT glocal_targets LI
 set_target_properties(glocal_app PROPERTIES EXPORT_NAME program)
 install(TARGETS glocal_app EXPORT glocal_targets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY framework/include/glocal evaluation/include/glocal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-# Methods and cases are found beside the library, in the build's folder too.
-install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/glocal)
+# Methods, cases and suites are found beside the library, in the build's folder too, and so is the leaderboard.
+install(DIRECTORY configs leaderboard DESTINATION ${CMAKE_INSTALL_DATADIR}/glocal)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share/glocal)
-file(CREATE_LINK ${CMAKE_SOURCE_DIR}/configs ${CMAKE_BINARY_DIR}/share/glocal/configs SYMBOLIC)
+foreach(folder configs leaderboard)
+  file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${CMAKE_BINARY_DIR}/share/glocal/${folder} SYMBOLIC)
+endforeach()
 install(EXPORT glocal_targets FILE glocalTargets.cmake NAMESPACE glocal:: DESTINATION ${package_dir})
 # The program writes its own manual. Shells look for completions in folders of their own; these are Debian's.
 set(manual ${CMAKE_BINARY_DIR}/manual)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "evaluation/comparison/comparison_writers.hpp"
+#include "evaluation/comparison/methods.hpp"
 #include "evaluation/results/map_files.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/sweeps/analysis.hpp"
@@ -190,7 +191,8 @@ PageData ReportData::page_data(const std::vector<NamedRun>& runs, std::size_t ba
   if (runs_.size() < 2) return page;
   if (is_sweep(runs)) head["sweep"] = glocal::to_json(analyse_sweep(runs));
   try {
-    head["comparison"] = glocal::to_json(compare(runs, baseline));
+    // Cases and seeds of one method alone have nothing to be compared with.
+    if (methods_of(runs).size() > 1) head["comparison"] = glocal::to_json(compare(runs, baseline));
   } catch (const ConfigError& error) {
     const Fault& fault = error.faults().front();
     head["comparison_refused"] = fmt::format("{}: {}", fault.file, fault.message);

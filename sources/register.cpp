@@ -10,6 +10,7 @@
 #include "sources/random_scans.hpp"
 #include "sources/ros_map.hpp"
 #include "sources/simulation.hpp"
+#include "sources/sites/office.hpp"
 
 namespace glocal {
 
@@ -19,6 +20,8 @@ void register_sources(Catalog& catalog) {
   catalog.observation_sources.add<CloudDrive>("cloud_drive", "A drive recorded as clouds of points.");
   catalog.observation_sources.add<Simulation>("simulation",
                                               "A drive through a simulated world, or through a ROS map.");
+  catalog.observation_sources.add<sites::OfficeDrive>("office",
+                                                      "A drive through a simulated office of any size.");
   catalog.observation_sources.add<RandomScans>("random_scans", "Single scans at random places of a ROS map.");
   catalog.map_sources.add<BagMap>("bag_map", "A map recorded as a message: ROS bag or MCAP.");
   catalog.map_sources.add<LogMap>("log_map", "A map from the reference poses of a CARMEN log.");
@@ -28,6 +31,7 @@ void register_sources(Catalog& catalog) {
   catalog.map_sources.add<PointCloudMap>("point_cloud",
                                          "A cloud of points: PCD, PLY, KITTI, or OctoMap's .bt.");
   catalog.map_sources.add<SimulatedMap>("simulation", "The map of a simulated world.");
+  catalog.map_sources.add<sites::OfficeMap>("office", "The map of a simulated office of any size.");
 }
 
 }  // namespace glocal

@@ -15,6 +15,7 @@
 #include <sstream>
 #include <string>
 
+#include "config/suites.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
 #include "evaluation/results/valid_text.hpp"
@@ -149,11 +150,13 @@ Json origin_json(const Variant& variant) {
   if (variant.name.empty() && variant.setting.empty() && variant.case_name.empty()) return {};
   Json values = Json::object();
   for (const auto& [path, value] : variant.values) values[path] = valid_utf8(value);
-  return {{"setting", variant.setting},
-          {"seed", variant.experiment.seed},
-          {"case", variant.case_name},
-          {"role", to_string(variant.role)},
-          {"values", std::move(values)}};
+  Json origin = {{"setting", variant.setting},
+                 {"seed", variant.experiment.seed},
+                 {"case", variant.case_name},
+                 {"role", to_string(variant.role)},
+                 {"values", std::move(values)}};
+  if (variant.suite) origin.update({{"suite", variant.suite->id()}, {"share", variant.share}});
+  return origin;
 }
 
 Json provenance_of_run(const Catalog& catalog, const Variant& variant, const RunOptions& options,

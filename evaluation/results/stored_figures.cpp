@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "evaluation/results/json_text.hpp"
+
 namespace glocal {
 namespace {
 

@@ -142,4 +142,21 @@ std::vector<std::size_t> trial_starts(const TrialsConfig& config, const Drive& d
   return starts;
 }
 
+std::vector<std::size_t> chosen_starts(const TrialsConfig& config, const std::vector<std::size_t>& all) {
+  if (config.only.empty()) return all;
+  std::vector<std::size_t> chosen;
+  for (const double number : config.only) {
+    if (number >= static_cast<double>(all.size()))
+      throw ConfigError({{"", 0, 0,
+                          fmt::format("trials.only: there is no start {:g}; the starts are 0 to {}", number,
+                                      all.size() - 1)}});
+    chosen.push_back(all[static_cast<std::size_t>(number)]);
+  }
+  return chosen;
+}
+
+std::size_t start_number(const TrialsConfig& config, std::size_t trial) {
+  return config.only.empty() ? trial : static_cast<std::size_t>(config.only[trial]);
+}
+
 }  // namespace glocal

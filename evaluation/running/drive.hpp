@@ -24,4 +24,11 @@ struct Drive {
 [[nodiscard]] std::vector<std::size_t> trial_starts(const TrialsConfig& config, const Drive& drive,
                                                     const GlobalMap& map);
 
+/// Those of all starts that `only` names. Throws ConfigError where it names one that is not there.
+[[nodiscard]] std::vector<std::size_t> chosen_starts(const TrialsConfig& config,
+                                                     const std::vector<std::size_t>& all);
+
+/// The number that a trial's start has among all: it names the trial's random numbers.
+[[nodiscard]] std::size_t start_number(const TrialsConfig& config, std::size_t trial);
+
 }  // namespace glocal

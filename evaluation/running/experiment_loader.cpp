@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "evaluation/running/elapsed.hpp"
+#include "evaluation/running/pins.hpp"
 #include "evaluation/running/reference_fit.hpp"
 #include "glocal/error.hpp"
 #include "glocal/limits.hpp"
@@ -89,7 +90,9 @@ LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& ca
   const auto doubt =
       doubt_of_references(loaded.drive, *loaded.map, contact_epsilon_on(*loaded.map, experiment.localizer));
   if (doubt) warn(*doubt);
-  loaded.starts = trial_starts(experiment.trials, loaded.drive, *loaded.map);
+  const std::vector<std::size_t> all = trial_starts(experiment.trials, loaded.drive, *loaded.map);
+  loaded.all_starts = all.size();
+  loaded.starts = chosen_starts(experiment.trials, all);
   return loaded;
 }
 
@@ -148,7 +151,9 @@ void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
   std::vector<Fault> faults;
   for (const std::size_t i : loading_order(variants, loader.catalog())) {
     try {
-      work(i, loader.load(variants[i].experiment));
+      LoadedExperiment& loaded = loader.load(variants[i].experiment);
+      check_pins(variants[i], loaded, loader.hashes());
+      work(i, loaded);
     } catch (const ConfigError& error) {
       for (Fault fault : error.faults()) {
         if (!seen.insert(fault).second) continue;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/results/provenance.hpp"
 #include "evaluation/running/drive.hpp"
 #include "evaluation/running/trials.hpp"
 #include "glocal/catalog.hpp"
@@ -25,6 +26,7 @@ struct LoadedExperiment {
   double map_build_ms = 0.0;
   Drive drive;
   std::vector<std::size_t> starts;         ///< Samples at which trials start.
+  std::size_t all_starts = 0;              ///< That there are, of which trials.only may have chosen some.
   std::set<std::filesystem::path> inputs;  ///< Files that were read.
 };
 
@@ -50,6 +52,7 @@ class ExperimentLoader {
   /// up in it is its own.
   LoadedExperiment& load(Experiment& experiment);
   [[nodiscard]] const Catalog& catalog() const { return catalog_; }
+  [[nodiscard]] FileHashes& hashes() { return hashes_; }
 
  private:
   const Catalog& catalog_;
@@ -58,6 +61,7 @@ class ExperimentLoader {
   std::string sources_;                            ///< What is loaded, as YAML.
   std::set<std::filesystem::path> source_inputs_;  ///< Without those of the stages.
   LoadedExperiment loaded_;
+  FileHashes hashes_;
 };
 
 /// The localizer of an experiment on its map; files that its stages read are added to the inputs. Throws
@@ -77,7 +81,7 @@ class ExperimentLoader {
                                                      const Catalog& catalog);
 
 /// Loads one variant after the other, in loading_order(), and hands them over by their places. Throws
-/// ConfigError with the faults of all, those of `work` too, each once.
+/// ConfigError with the faults of all, those of check_pins() and `work` too, each once.
 void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
                      const std::function<void(std::size_t variant, LoadedExperiment&)>& work);
 

@@ -18,8 +18,7 @@ StepRecord make_record(StepResult result, const Sample& sample, const GlobalMap&
   record.result.hypotheses = {};
   record.reference = sample.map_from_robot;
   if (record.reference) {
-    record.on_map =
-        map.grid().cells.empty() || map.grid().at(record.reference->x, record.reference->y) != Cell::unknown;
+    record.on_map = is_on_map(*record.reference, map);
     if (const auto estimate = record.result.estimate())
       record.error = pose_error(*estimate, *record.reference);
     const auto& estimate = record.result.verdict.estimate;
@@ -28,13 +27,6 @@ StepRecord make_record(StepResult result, const Sample& sample, const GlobalMap&
                                              seen_from_above(*record.reference), *estimate->covariance);
   }
   return record;
-}
-
-Outcome judge(const std::optional<PoseError>& error, const EvaluationConfig& limits) {
-  if (!error) return Outcome::declared;
-  const bool right = error->translation_m <= limits.max_translation_error &&
-                     degrees(error->rotation_rad) <= limits.max_rotation_error_deg;
-  return right ? Outcome::right : Outcome::wrong;
 }
 
 /// Notes the trial's first declaration.
@@ -84,6 +76,17 @@ PoseError pose_error(const Pose3& estimate, const Pose3& reference) {
   return {distance(estimate, reference), rotation_between(estimate, reference)};
 }
 
+bool is_on_map(const Pose3& reference, const GlobalMap& map) {
+  return map.grid().cells.empty() || map.grid().at(reference.x, reference.y) != Cell::unknown;
+}
+
+Outcome judge(const std::optional<PoseError>& error, const EvaluationConfig& limits) {
+  if (!error) return Outcome::declared;
+  const bool right = error->translation_m <= limits.max_translation_error &&
+                     degrees(error->rotation_rad) <= limits.max_rotation_error_deg;
+  return right ? Outcome::right : Outcome::wrong;
+}
+
 const char* to_string(Outcome outcome) {
   switch (outcome) {
     case Outcome::right:
@@ -126,7 +129,7 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
                                      std::size_t start_sample, const TrialCallbacks& callbacks) {
   const Sample& start = drive.samples[start_sample];
   TrialRecord record = begun_trial(drive, experiment.localizer.motion, trial, start_sample);
-  bool going_on = done_or_failed(record, [&] { localizer.reset(trial); });
+  bool going_on = done_or_failed(record, [&] { localizer.reset(start_number(experiment.trials, trial)); });
   for (std::size_t i = start_sample; going_on && i < drive.samples.size(); ++i) {
     const Sample& sample = drive.samples[i];
     const bool over = sample.segment != start.segment || i - start_sample >= step_limit(experiment.trials);

@@ -21,6 +21,12 @@ struct PoseError {
 };
 [[nodiscard]] PoseError pose_error(const Pose3& estimate, const Pose3& reference);
 
+/// Whether a pose lies where the map's grid is not unknown; always so on a map of points alone.
+[[nodiscard]] bool is_on_map(const Pose3& reference, const GlobalMap& map);
+
+/// What a declared pose of this error is; one without reference is `declared`.
+[[nodiscard]] Outcome judge(const std::optional<PoseError>& error, const EvaluationConfig& limits);
+
 /// A step with what the evaluation knows about it.
 struct StepRecord {
   StepResult result;  ///< Without its hypotheses, which can be tens of thousands.
@@ -28,8 +34,7 @@ struct StepRecord {
   std::optional<Pose3> reference;
   std::optional<PoseError> error;  ///< Of the estimate, declared or not.
   std::optional<double> nees;      ///< Normalised error squared of what the verdict rule believes.
-  /// The reference lies where the map's grid is not unknown; always so on a map of points alone.
-  bool on_map = false;
+  bool on_map = false;             ///< The reference is_on_map().
 };
 
 struct TrialRecord {

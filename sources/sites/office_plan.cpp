@@ -64,9 +64,9 @@ std::vector<int> drawn_wings(int modules, Rng& rng) {
   // From one wing to another, so that the sum stays.
   for (std::size_t i = 2; i < lengths.size(); i += 2) {
     const int most = std::min(lengths[i - 2], lengths[i]) - least_wing;
-    const int moved = drawn_between(-most / 2, most / 2, rng);
-    lengths[i - 2] -= moved;
-    lengths[i] += moved;
+    const int modules_moved = drawn_between(-most / 2, most / 2, rng);
+    lengths[i - 2] -= modules_moved;
+    lengths[i] += modules_moved;
   }
   return lengths;
 }

@@ -179,9 +179,9 @@ test("runs are found by words of their names and of what they set otherwise", ()
 });
 
 test("a comparison is read as far as it goes, with p only where something differs", () => {
-  const outcome = { outcome: "right", both: 3, only_baseline: 2, only_variant: 0, neither: 1, difference_points: { value: -33, low: -60, high: 0 }, p: 0.5, p_holm: 1, significant: false };
-  const same = { ...outcome, outcome: "wrong", only_baseline: 0 };
-  const steps = { measure: "steps", nonzero: 0, baseline_median: 4, variant_median: 4, median_difference: { value: 0, low: 0, high: 0 }, p: 1, p_holm: 1 };
+  const outcome = { outcome: "right", both: 3, only_baseline: 2, only_variant: 0, neither: 1, differing_places: 2, difference_points: { value: -33, low: -60, high: 0 }, p: 0.5, p_holm: 1, significant: false };
+  const same = { ...outcome, outcome: "wrong", only_baseline: 0, differing_places: 0 };
+  const steps = { measure: "steps", differing_places: 0, baseline_median: 4, variant_median: 4, mean_difference: { value: 0, low: 0, high: 0 }, p: 1, p_holm: 1 };
   const found = comparison.read({ baseline: "a", warnings: ["w"], pairs: [{ variant: "b", conclusion: "c", warnings: ["v"], outcomes: [outcome, same], measures: [steps] }] });
   assert.deepEqual([found.conclusions, found.warnings], [["c"], ["w", "b: v"]]);
   assert.deepEqual(found.rows.map(({ variant, measure, baseline, own, p }) => [variant, measure, baseline, own, p]), [["b", "right", 5, 3, 1]]);

@@ -110,6 +110,19 @@ TEST_P(Cases, PassTheCheckWithAMethod) {
 
 INSTANTIATE_TEST_SUITE_P(Configs, Cases, testing::ValuesIn(names_in("cases")), name_of);
 
+class Suites : public ConfigsTest, public testing::WithParamInterface<std::string> {};
+
+/// Files of data sets are looked at when they are loaded: the tests of the leaderboard do.
+TEST_P(Suites, HaveTheCasesThatTheyPin) {
+  EXPECT_THAT(content(path_of("suites", GetParam())), testing::StartsWith("# "));
+  const Answer answer =
+      run("run --method paper --suite " + GetParam() + " --share 1e-12 --out " + file("nothing"));
+  EXPECT_THAT(answer.err, testing::HasSubstr("has no start"));
+  EXPECT_THAT(answer.err, testing::EndsWith("1 error\n"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, Suites, testing::ValuesIn(names_in("suites")), name_of);
+
 class Worlds : public CommandLine, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Worlds, OpenWithWhatTheyAre) {

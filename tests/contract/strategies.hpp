@@ -26,6 +26,7 @@
 #include "sources/random_scans.hpp"
 #include "sources/ros_map.hpp"
 #include "sources/simulation.hpp"
+#include "sources/sites/office.hpp"
 #include "test_world.hpp"
 
 namespace glocal::test {
@@ -52,6 +53,12 @@ class Contract : public ::testing::Test {
                                        "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
                                        "occupied_thresh: 0.65\nfree_thresh: 0.196\n"));
     fill<Simulation::Params>("observation_source/simulation", [&](auto& p) { p.world = world_; });
+    const auto make_small = [](sites::OfficeParams& p) {
+      p.side = 20.0;
+      p.length = 10.0;
+    };
+    fill<sites::OfficeDrive::Params>("observation_source/office", make_small);
+    fill<sites::OfficeMap::Params>("map_source/office", make_small);
     fill<LogParams>("observation_source/carmen_log", [&](auto& p) { p.path = log_; });
     fill<RandomScans::Params>("observation_source/random_scans", [&](auto& p) {
       p.map.path = ros_map_;
@@ -173,12 +180,6 @@ class Contract : public ::testing::Test {
       SCOPED_TRACE(registry.kind() + " " + info->name);
       test(choice(registry, *info));
     }
-  }
-
-  /// What a matcher takes for contact, m, with the parameters that it is given above.
-  static double contact_epsilon(const std::string& matcher) {
-    if (matcher == "exhaustive") return 0.2;
-    return matcher == "mcl" || matcher == "mrpt_mcl" ? 0.3 : 0.1;
   }
 
   TemporaryFolder folder_;

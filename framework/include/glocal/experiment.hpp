@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ struct TrialsConfig {
   int max_steps = 60;
   int min_steps = 1;
   double within_map_m = 0.0;
+  std::vector<double> only = {};  ///< Whole numbers; empty: all.
 };
 void describe(ParamVisitor& v, TrialsConfig& p);
 
@@ -82,6 +84,8 @@ using Override = std::pair<std::string, std::string>;
 /// Throws ConfigError with every fault found in them.
 [[nodiscard]] LocalizerConfig read_localizer(const std::vector<Override>& overrides, const Catalog& catalog);
 
+struct Suite;
+
 /// What the results of a case are for.
 enum class CaseRole {
   none,    ///< There are no cases.
@@ -105,6 +109,8 @@ struct Variant {
   /// What the setting changes, as written; not the case, nor the seed. The method counts as a value of the
   /// path `method`.
   std::vector<Override> values = {};
+  std::shared_ptr<const Suite> suite = nullptr;  ///< That case and seed are of; null if of none.
+  double share = 1.0;                            ///< Of the suite's starts, which are in trials.only.
 };
 
 /// Reads the variants of an experiment file: each method, in the order of list, grid and zip, with every case

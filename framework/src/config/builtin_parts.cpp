@@ -13,7 +13,15 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* folder_of(PartKind kind) {
-  return kind == PartKind::method ? "methods" : "cases";
+  switch (kind) {
+    case PartKind::method:
+      return "methods";
+    case PartKind::the_case:
+      return "cases";
+    case PartKind::suite:
+      return "suites";
+  }
+  return "";
 }
 
 /// What stands behind '#' in the lines that a file begins with, up to the first full stop.
@@ -30,7 +38,15 @@ std::string first_comment(const fs::path& file) {
 }  // namespace
 
 const char* to_string(PartKind kind) {
-  return kind == PartKind::method ? "method" : "case";
+  switch (kind) {
+    case PartKind::method:
+      return "method";
+    case PartKind::the_case:
+      return "case";
+    case PartKind::suite:
+      return "suite";
+  }
+  return "";
 }
 
 fs::path library_folder() {

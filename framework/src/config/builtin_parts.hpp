@@ -1,4 +1,4 @@
-// The methods and cases that glocal comes with, each a file of its own.
+// The methods, cases and suites that glocal comes with, each a file of its own.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace glocal {
 
-/// What an experiment is made of besides values of its own: a localizer, or a place to try it.
-enum class PartKind { method, the_case };
-/// "method", "case".
+/// What an experiment is made of besides values of its own: a localizer, a place to try it, or many of these.
+enum class PartKind { method, the_case, suite };
+/// "method", "case", "suite".
 [[nodiscard]] const char* to_string(PartKind kind);
 
 struct BuiltinPart {
@@ -28,7 +28,8 @@ struct BuiltinPart {
 /// The folder of all that is built in: $GLOCAL_CONFIGS, or else share/glocal/configs beside the library.
 [[nodiscard]] std::filesystem::path configs_folder();
 
-/// Those of a kind, by name: NAME.yaml in configs/methods or configs/cases.
+/// Those of a kind, by name: NAME.yaml in configs/methods, configs/cases or
+/// configs/suites.
 [[nodiscard]] std::vector<BuiltinPart> builtin_parts(PartKind kind);
 [[nodiscard]] std::optional<BuiltinPart> find_builtin_part(PartKind kind, const std::string& name);
 

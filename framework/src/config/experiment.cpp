@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -11,6 +13,7 @@
 #include <tuple>
 
 #include "config/experiment_params.hpp"
+#include "config/other_files.hpp"
 #include "config/overrides.hpp"
 #include "config/products.hpp"
 #include "config/reader.hpp"
@@ -119,6 +122,11 @@ ExperimentSources sources_of(const std::filesystem::path& file, const std::vecto
           ? parse_yaml("schema: 1", std::make_shared<const Origin>(Origin{"the command line", "."}), faults)
           : parse_yaml(read_text_file(file), origin_of(file), faults);
   if (!sources.tree) return sources;
+  if (const auto why = why_no_experiment(*sources.tree)) {
+    faults.push_back({file.string(), 0, 0, *why});
+    sources.tree.reset();
+    return sources;
+  }
   apply_overrides(*sources.tree, of_parts, params, faults);
   sources.products = take_products(*sources.tree, params, faults);
   return sources;
@@ -317,6 +325,46 @@ void add_variants(const YamlNode& experiment, const Product& product, const std:
     variants[i].values.insert(variants[i].values.begin(), {"method", product.method->name});
 }
 
+/// What a suite says cannot be said again; of a file this is found as it is read.
+void check_own_values(const std::vector<Override>& overrides, const Suite& suite, std::set<Fault>& faults) {
+  for (const auto& [path, value] : overrides) {
+    const std::string key = path.substr(0, path.find('.'));
+    if (is_key_of_suite(key) || key == "seed")
+      faults.insert({fmt::format("--set {}={}", path, value), 0, 0,
+                     fmt::format("{}: {} has its own; leave it out", key, suite.id())});
+  }
+}
+
+/// The numbers of a case's starts that are in a share.
+std::vector<double> starts_in_share(const Variant& variant, double share) {
+  std::vector<double> starts;
+  const SuiteCase& one_case = *variant.suite->find_case(variant.case_name);
+  for (std::size_t i = 0; i < one_case.starts; ++i) {
+    if (is_in_share(one_case.name, variant.experiment.seed, i, share))
+      starts.push_back(static_cast<double>(i));
+  }
+  return starts;
+}
+
+/// Says of variants that they are of a suite, and leaves out those of which nothing is in the share.
+void join_suite(const YamlNode& experiment, const Products& products, std::vector<Variant>& variants,
+                std::set<Fault>& faults) {
+  for (Variant& variant : variants) {
+    variant.suite = products.suite;
+    variant.share = products.share;
+    if (variant.changes_trials)
+      faults.insert(
+          fault_at(experiment.place, fmt::format("variant '{}': changes the trials of {}; leave that out",
+                                                 variant.name, products.suite->id())));
+    if (products.share < 1.0) variant.experiment.trials.only = starts_in_share(variant, products.share);
+  }
+  if (products.share >= 1.0) return;
+  std::erase_if(variants, [](const Variant& variant) { return variant.experiment.trials.only.empty(); });
+  if (variants.empty())
+    faults.insert(fault_at(experiment.place, fmt::format("share: {:g} of {} has no start; take more of it",
+                                                         products.share, products.suite->id())));
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, TrialsConfig& p) {
@@ -343,6 +391,14 @@ void describe(ParamVisitor& v, TrialsConfig& p) {
            "was recorded at its free cells, one without cells at its points.",
        .unit = "m",
        .min = 0.0});
+  v.field(
+      "only", p.only,
+      {.doc = "Numbers of starts, from 0 on in the order of the drive: of all that there are, only these are "
+              "run, with the random numbers that they have among all. Empty: all.",
+       .min = 0.0});
+  v.require(std::all_of(p.only.begin(), p.only.end(), [](double n) { return std::trunc(n) == n; }) &&
+                std::is_sorted(p.only.begin(), p.only.end(), std::less_equal<>()),
+            "only", "must be whole numbers, each greater than the one before");
   const int given = (p.every_m > 0.0 ? 1 : 0) + (p.starts_m.empty() ? 0 : 1) + (p.every_scan > 0 ? 1 : 0) +
                     (p.whole ? 1 : 0);
   v.require(given == 1, "", "exactly one of every_m, starts_m, every_scan and whole must be given");
@@ -470,7 +526,9 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
       for (const ExperimentPart* one_case : each(products.cases))
         add_variants(*tree, {method, one_case}, own_overrides, catalog, variants, faults);
     }
+    if (products.suite) check_own_values(own_overrides, *products.suite, faults);
     if (faults.empty()) check_names_of_all(*tree, variants, faults);
+    if (products.suite && faults.empty()) join_suite(*tree, products, variants, faults);
   }
   if (!faults.empty()) throw ConfigError({faults.begin(), faults.end()});
   return variants;

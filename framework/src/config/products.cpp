@@ -13,8 +13,10 @@
 #include "config/nearest.hpp"
 #include "config/overrides.hpp"
 #include "config/reader.hpp"
+#include "config/scalars.hpp"
 #include "config/text_file.hpp"
 #include "config/variants.hpp"
+#include "config/writer.hpp"
 #include "config/yaml_parser.hpp"
 #include "glocal/words.hpp"
 
@@ -70,32 +72,6 @@ void check_keys(PartKind kind, const std::string& name, const YamlNode& part, co
   };
   if (kind == PartKind::method) return require("localizer");
   for (const char* key : {"map", "observations", "trials"}) require(key);
-}
-
-std::optional<fs::path> file_of(PartKind kind, const YamlNode& value, std::vector<Fault>& faults) {
-  const std::string& text = value.text;
-  const fs::path beside = value.place.origin->folder / text;
-  if (is_file_name(text)) {
-    if (const auto why = why_unreadable(beside)) {
-      faults.push_back(fault_at(value.place, fmt::format("{}: {}", to_string(kind), *why)));
-      return std::nullopt;
-    }
-    return beside;
-  }
-  const auto builtin = find_builtin_part(kind, text);
-  std::error_code ignored;
-  if (builtin && fs::is_regular_file(beside, ignored)) {
-    faults.push_back(
-        fault_at(value.place, fmt::format("'{0}' is a {1} that is built in and a file, too; write "
-                                          "./{0} for the file, or rename it",
-                                          text, to_string(kind))));
-    return std::nullopt;
-  }
-  if (builtin) return builtin->file;
-  faults.push_back(
-      fault_at(value.place, fmt::format("unknown {} '{}'{}; files are named with .yaml", to_string(kind),
-                                        shown(text), suggestion(text, names_of(kind), "built in are"))));
-  return std::nullopt;
 }
 
 /// The name of what is given without one: that of the file, without its ending.
@@ -219,7 +195,7 @@ class PartReader {
   }
 
   [[nodiscard]] YamlNode from_file(PartKind kind, const YamlNode& text) {
-    const auto file = file_of(kind, text, faults_);
+    const auto file = part_file(kind, text, faults_);
     if (!file) return make_node(NodeKind::invalid, text.place);
     const std::size_t before = faults_.size();
     auto tree = parse_yaml(read_text_file(*file), origin_of(*file), faults_);
@@ -236,16 +212,135 @@ class PartReader {
   std::vector<Fault>& faults_;
 };
 
+/// Takes what names a suite out of the experiment, and puts the suite's seeds in; returns its cases, as
+/// written.
+std::optional<YamlNode> take_suite(YamlNode& experiment, Products& products, std::vector<Fault>& faults) {
+  const auto named = take(experiment, "suite");
+  const auto share = take(experiment, "share");
+  if (!named) {
+    if (share)
+      faults.push_back(fault_at(share->place, "share: is one of a suite's starts; name the suite, too"));
+    return std::nullopt;
+  }
+  products.given = true;
+  auto read = read_suite_file(*named, faults);
+  if (!read) return std::nullopt;
+  const Suite& suite = read->suite;
+  for (const YamlEntry& own : experiment.entries) {
+    if (is_key_of_suite(own.key))
+      faults.push_back(
+          fault_at(own.place, fmt::format("{}: {} has its own; leave it out", own.key, suite.id())));
+  }
+  if (share) {
+    const Refusal why = take_value(*share, {.doc = "", .max = 1.0, .above = 0.0}, products.share);
+    if (why) faults.push_back(fault_at(share->place, "share: " + *why));
+    if (!suite.is_pinned)
+      faults.push_back(
+          fault_at(share->place, fmt::format("share: {} does not say yet how many starts it has; "
+                                             "glocal leaderboard pin tells what to add",
+                                             suite.id())));
+  }
+  if (find_entry(experiment, "name") == nullptr) {
+    YamlNode name = make_node(NodeKind::scalar, named->place);
+    name.text = fmt::format("{}-{}", suite.name, suite.version);
+    experiment.entries.push_back({"name", named->place, std::move(name)});
+  }
+  experiment.entries.push_back({"seeds", named->place, std::move(read->seeds)});
+  products.suite = std::make_shared<const Suite>(std::move(read->suite));
+  return std::move(read->cases);
+}
+
+/// What a tree says, whatever the order of its keys.
+std::string sorted_text(YamlNode tree) {
+  const auto sort = [](YamlNode& node, const auto& again) -> void {
+    std::sort(node.entries.begin(), node.entries.end(),
+              [](const YamlEntry& a, const YamlEntry& b) { return a.key < b.key; });
+    for (YamlEntry& entry : node.entries) again(entry.value, again);
+    for (YamlNode& item : node.items) again(item, again);
+  };
+  sort(tree, sort);
+  return flow_yaml(tree);
+}
+
+/// The suite with what its cases say, which must be what it pins.
+std::shared_ptr<const Suite> with_values(const Suite& suite, const std::vector<ExperimentPart>& cases,
+                                         std::vector<Fault>& faults) {
+  Suite result = suite;
+  result.cases.clear();
+  for (const ExperimentPart& part : cases) {
+    result.cases.push_back({part.name, hash_of(sorted_text(part.tree)), 0});
+    if (!suite.is_pinned) continue;
+    const SuiteCase* pinned = suite.find_case(part.name);
+    const std::string& now = result.cases.back().values;
+    if (pinned != nullptr) result.cases.back().starts = pinned->starts;
+    if (pinned != nullptr && pinned->values == now) continue;
+    faults.push_back(
+        fault_at(part.place,
+                 fmt::format("the case {} is not that of {}: its values have the hash {}, and {} is pinned; "
+                             "bring them back, or make another version of the suite",
+                             part.name, suite.id(), now, pinned == nullptr ? "none" : pinned->values)));
+  }
+  return std::make_shared<const Suite>(std::move(result));
+}
+
+/// Leaves the cases that an experiment names of a suite's.
+void choose_cases(const YamlNode& names, const Suite& suite, std::vector<ExperimentPart>& cases,
+                  std::vector<Fault>& faults) {
+  std::vector<std::string> all;
+  for (const ExperimentPart& part : cases) all.push_back(part.name);
+  std::vector<std::string> chosen;
+  for (const YamlNode& name : names.kind == NodeKind::list ? names.items : std::vector{names}) {
+    chosen.push_back(name.text);
+    if (!has(all, name.text))
+      faults.push_back(fault_at(name.place, fmt::format("{} has no case '{}'{}", suite.id(), shown(name.text),
+                                                        suggestion(name.text, all, "there are"))));
+  }
+  std::erase_if(cases, [&](const ExperimentPart& part) { return !has(chosen, part.name); });
+}
+
 }  // namespace
 
+std::optional<fs::path> part_file(PartKind kind, const YamlNode& value, std::vector<Fault>& faults) {
+  const std::string& text = value.text;
+  const fs::path beside = value.place.origin->folder / text;
+  if (is_file_name(text)) {
+    if (const auto why = why_unreadable(beside)) {
+      faults.push_back(fault_at(value.place, fmt::format("{}: {}", to_string(kind), *why)));
+      return std::nullopt;
+    }
+    return beside;
+  }
+  const auto builtin = find_builtin_part(kind, text);
+  std::error_code ignored;
+  if (builtin && fs::is_regular_file(beside, ignored)) {
+    faults.push_back(
+        fault_at(value.place, fmt::format("'{0}' is a {1} that is built in and a file, too; write "
+                                          "./{0} for the file, or rename it",
+                                          text, to_string(kind))));
+    return std::nullopt;
+  }
+  if (builtin) return builtin->file;
+  faults.push_back(
+      fault_at(value.place, fmt::format("unknown {} '{}'{}; files are named with .yaml", to_string(kind),
+                                        shown(text), suggestion(text, names_of(kind), "built in are"))));
+  return std::nullopt;
+}
+
+bool is_key_of_suite(std::string_view key) {
+  constexpr std::array<std::string_view, 3> others = {"seeds", "choose_on", "judge_on"};
+  return has(of_cases, key) || has(others, key);
+}
+
 bool names_parts(std::string_view path) {
-  constexpr std::array<std::string_view, 4> keys = {"methods", "cases", "choose_on", "judge_on"};
+  constexpr std::array<std::string_view, 6> keys = {"methods",  "cases", "choose_on",
+                                                    "judge_on", "suite", "share"};
   return has(keys, path.substr(0, path.find('.')));
 }
 
 Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults) {
   Products products;
   if (experiment.kind != NodeKind::map) return products;
+  const auto of_suite = take_suite(experiment, products, faults);
   PartReader reader(experiment, params, faults);
   const auto add = [&](PartKind kind, const char* key, const YamlNode& written, CaseRole role) {
     products.given = true;
@@ -253,7 +348,15 @@ Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Faul
   };
   if (const auto methods = take(experiment, "methods"))
     add(PartKind::method, "methods", *methods, CaseRole::none);
-  if (const auto cases = take(experiment, "cases")) add(PartKind::the_case, "cases", *cases, CaseRole::none);
+  const auto cases = take(experiment, "cases");
+  if (of_suite) {
+    const std::size_t before = faults.size();
+    add(PartKind::the_case, "cases", *of_suite, CaseRole::none);
+    if (faults.size() == before) products.suite = with_values(*products.suite, products.cases, faults);
+    if (cases) choose_cases(*cases, *products.suite, products.cases, faults);
+  } else if (cases) {
+    add(PartKind::the_case, "cases", *cases, CaseRole::none);
+  }
   for (const auto& [key, role] :
        {std::pair("choose_on", CaseRole::choose), std::pair("judge_on", CaseRole::judge)}) {
     const auto named = take(experiment, key);

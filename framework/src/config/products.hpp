@@ -1,12 +1,16 @@
 // Experiments as products: methods × cases, each from a file of its own.
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "config/builtin_parts.hpp"
 #include "config/node.hpp"
+#include "config/suites.hpp"
 #include "glocal/experiment.hpp"
 
 namespace glocal {
@@ -23,8 +27,17 @@ struct ExperimentPart {
 /// What an experiment file names as `methods`, `cases`, and lists in `choose_on` and `judge_on`.
 struct Products {
   std::vector<ExperimentPart> methods, cases;
-  bool given = false;  ///< Whether the file names any, be it wrongly.
+  bool given = false;                            ///< Whether the file names any, be it wrongly.
+  std::shared_ptr<const Suite> suite = nullptr;  ///< That cases and seeds are of; null if they are of none.
+  double share = 1.0;                            ///< Of the suite's starts.
 };
+
+/// The file of what `value` names: one that is built in, or a file. Appends to `faults` where there is none.
+[[nodiscard]] std::optional<std::filesystem::path> part_file(PartKind kind, const YamlNode& value,
+                                                             std::vector<Fault>& faults);
+
+/// Whether an experiment must leave a key to its suite.
+[[nodiscard]] bool is_key_of_suite(std::string_view key);
 
 /// Whether a path leads to one of these keys.
 [[nodiscard]] bool names_parts(std::string_view path);
@@ -32,8 +45,9 @@ struct Products {
 /// Takes these keys out of the tree of an experiment file, and reads the files that they name. A method is a
 /// map with `localizer` and perhaps `plugins`; a case has `map`, `observations`, `trials` and perhaps
 /// `evaluation`. What the experiment says itself, a part may leave out. Either may extend another one, of
-/// which it gives other values. What is wrong goes to
-/// `faults`, at the file where it stands; `params` are an experiment's.
+/// which it gives other values. A `suite` has cases, of which the experiment may name some, and seeds, which
+/// stay in the tree. What is wrong goes to `faults`, at the file where it stands; `params` are an
+/// experiment's.
 [[nodiscard]] Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults);
 
 /// The keys of a method, by its name or file. Throws ConfigError.

@@ -37,6 +37,8 @@ struct Variations {
   PartList cases;
   PartList choose_on;
   PartList judge_on;
+  std::string suite;
+  double share = 1.0;
   VariantsSection variants;
   SeedList seeds;
 };
@@ -99,6 +101,9 @@ struct Expansion {
 /// none.
 [[nodiscard]] Expansion expand(const Variations& variations, AnyParams& experiment,
                                std::vector<Fault>& faults);
+
+/// The seeds that are written, in their order.
+[[nodiscard]] std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& faults);
 
 /// Adds a fault for each name that fits no folder, with the longest seed behind it.
 void check_full_names(const Expansion& all, std::vector<Fault>& faults);

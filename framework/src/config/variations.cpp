@@ -16,8 +16,8 @@
 namespace glocal {
 namespace {
 
-constexpr std::array<std::string_view, 6> variation_keys = {"methods",  "cases",    "choose_on",
-                                                            "judge_on", "variants", "seeds"};
+constexpr std::array<std::string_view, 8> variation_keys = {"methods", "cases", "choose_on", "judge_on",
+                                                            "suite",   "share", "variants",  "seeds"};
 
 /// One end of a range of seeds.
 std::optional<std::uint64_t> end_of_range(const YamlNode& range, const std::string& text,
@@ -54,6 +54,18 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> range_of(const YamlNode& 
   return std::nullopt;
 }
 
+void check_seed_changes(const std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
+  for (const VariantChanges& variant : variants) {
+    for (const Change& change : variant.changes) {
+      if (change.path != "seed") continue;
+      faults.push_back(fault_at(change.place, "seed: is changed here, and `seeds` is given; leave one out"));
+      return;
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& faults) {
   std::vector<std::uint64_t> seeds;
   if (!list.written || list.written->kind == NodeKind::null || list.written->kind == NodeKind::invalid)
@@ -83,18 +95,6 @@ std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& fa
   return seeds;
 }
 
-void check_seed_changes(const std::vector<VariantChanges>& variants, std::vector<Fault>& faults) {
-  for (const VariantChanges& variant : variants) {
-    for (const Change& change : variant.changes) {
-      if (change.path != "seed") continue;
-      faults.push_back(fault_at(change.place, "seed: is changed here, and `seeds` is given; leave one out"));
-      return;
-    }
-  }
-}
-
-}  // namespace
-
 void describe(ParamVisitor& v, Variations& s) {
   v.field(
       "methods", s.methods,
@@ -107,6 +107,15 @@ void describe(ParamVisitor& v, Variations& s) {
   v.field("choose_on", s.choose_on, {.doc = "Cases in place of `cases`, by which the best is chosen."});
   v.field("judge_on", s.judge_on,
           {.doc = "Further cases, by which what was chosen is judged; nothing is chosen by them."});
+  v.field(
+      "suite", s.suite,
+      {.doc =
+           "A suite in place of cases and seeds: its name and version (`glocal list suites`), as planar@1, "
+           "or its file. `cases` then chooses some of its cases."});
+  v.field("share", s.share,
+          {.doc = "Which share of the suite's starts is run: the same ones for all methods.",
+           .max = 1.0,
+           .above = 0.0});
   v.field("variants", s.variants,
           {.doc = "Experiments that differ in some values, for `glocal run` to compare."});
   v.field("seeds", s.seeds,

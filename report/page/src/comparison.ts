@@ -62,7 +62,7 @@ function sum(json: Json, ...keys: string[]): number | undefined {
 /** An outcome has counts of starts by how both ended there, a measure has medians. */
 function rowOf(variant: string, json: Json): Row {
   const points = interval(json.difference_points);
-  const difference = points ?? interval(json.mean_difference) ?? interval(json.median_difference);
+  const difference = points ?? interval(json.mean_difference);
   return {
     variant,
     measure: nameOf(text(json.outcome) ?? text(json.measure) ?? ""),
@@ -74,9 +74,9 @@ function rowOf(variant: string, json: Json): Row {
   };
 }
 
-/** False where no start differs: there is nothing to test. */
+/** False where no place differs: there is nothing to test. */
 function differs(json: Json): boolean {
-  return (number(json.differing_places) ?? number(json.nonzero) ?? sum(json, "only_baseline", "only_variant")) !== 0;
+  return number(json.differing_places) !== 0;
 }
 
 export function read(comparison: unknown): Read | null {

@@ -159,5 +159,22 @@ TEST(TrialStarts, AreFoundQuicklyInALongDrive) {
   EXPECT_EQ(starts({.starts_m = {}, .every_scan = 1}, straight(200000)).size(), 200000U);
 }
 
+TEST(ChosenStarts, AreThoseThatAreNamedAndKeepTheirNumbers) {
+  const std::vector<std::size_t> all = {0, 4, 9, 15};
+  TrialsConfig config;
+  EXPECT_EQ(chosen_starts(config, all), all);
+  EXPECT_EQ(start_number(config, 2), 2U);
+  config.only = {1.0, 3.0};
+  EXPECT_THAT(chosen_starts(config, all), ElementsAre(4, 15));
+  EXPECT_EQ(start_number(config, 1), 3U);
+  config.only = {4.0};
+  try {
+    static_cast<void>(chosen_starts(config, all));
+    ADD_FAILURE() << "there is no start 4";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "error: trials.only: there is no start 4; the starts are 0 to 3");
+  }
+}
+
 }  // namespace
 }  // namespace glocal::test::drive_test

@@ -1,0 +1,235 @@
+#include "evaluation/leaderboard/entries_of_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "evaluation/results/provenance.hpp"
+#include "evaluation/results/summary.hpp"
+#include "evaluation/statistics/hypothesis_tests.hpp"
+#include "evaluation/statistics/statistics.hpp"
+#include "glocal/error.hpp"
+
+namespace glocal {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void refuse_results(const fs::path& folder, const std::string& what) {
+  throw ConfigError({{folder.string(), 0, 0, what}});
+}
+
+/// Two digits say all that a time on a machine that does other things is worth.
+double two_digits(double value) {
+  return std::stod(fmt::format("{:.2g}", value));
+}
+
+/// All that the answer of a method follows from, besides the program.
+std::string hash_of_method(const StoredRun& run) {
+  std::string text;
+  for (const auto& [path, setting] : run.settings) {
+    if (path.starts_with("localizer.")) text += path + "=" + setting.identity + "\n";
+  }
+  return sha256_of_text(text);
+}
+
+Json provenance_of_entry(const StoredRun& run, const std::string& suite, const std::string& method) {
+  const Json& from = run.provenance;
+  const std::string began = from.value("began", std::string());
+  return {{"version", from.value("version", "")},
+          {"revision", from.value("revision", "")},
+          {"date", began.substr(0, began.find('T'))},
+          {"command", fmt::format("glocal run --suite {} --method {}", suite, method)},
+          {"cpu", run.machine.cpu},
+          {"method_sha256", hash_of_method(run)}};
+}
+
+/// A folder of results as part of an entry.
+class RunReader {
+ public:
+  explicit RunReader(const fs::path& folder)
+      : run_(read_results(
+            folder, {.trial = [](const Json&) {}, .step = [this](const Json& step) { add_step(step); }})) {
+    if (!run_.complete) refuse_results(folder, "is not complete; run it again, and it goes on");
+    const Json variant = run_.provenance.value("variant", Json::object());
+    if (!variant.is_object() || !variant.contains("suite"))
+      refuse_results(folder, "was not run with --suite; run a suite");
+    suite_ = variant.at("suite");
+    method_ = variant.at("setting");
+    if (variant.value("share", 1.0) < 1.0)
+      refuse_results(folder, fmt::format("has a share of {} only; run all of it", suite_));
+    result_ = {.case_name = variant.at("case"), .seed = run_.seed, .starts = {}};
+    for (const auto& [start, trial] : run_.trials) {
+      std::optional<PoseError> error;
+      if (trial.translation_error_m)
+        error = {*trial.translation_error_m, radians(trial.rotation_error_deg.value_or(0.0))};
+      result_.starts.push_back(
+          start_result(trial.outcome, static_cast<std::size_t>(trial.steps), trial.distance_m, error));
+    }
+    if (const auto ms = median_if_any(std::move(step_ms_))) result_.step_ms = two_digits(*ms);
+    if (run_.settings.at("trials.whole").text == "true") add_drive();
+  }
+
+  /// Adds it to the entry of its method.
+  void add_to(std::vector<BoardEntry>& entries) {
+    const auto same = [&](const BoardEntry& e) { return e.suite == suite_ && e.method == method_; };
+    auto entry = std::find_if(entries.begin(), entries.end(), same);
+    if (entry == entries.end()) {
+      entries.push_back({suite_, method_, provenance_of_entry(run_, suite_, method_), {}});
+      entry = std::prev(entries.end());
+    } else if (entry->provenance.at("revision") != run_.provenance.value("revision", "")) {
+      refuse_results(run_.folder,
+                     fmt::format("is by another version of the program than the results beside it "
+                                 "({} and {}); run all with one",
+                                 run_.provenance.value("revision", ""),
+                                 entry->provenance.at("revision").get<std::string>()));
+    }
+    entry->results.push_back(std::move(result_));
+  }
+
+ private:
+  void add_step(const Json& step) {
+    if (step.contains("stage_cpu_ms")) step_ms_.push_back(stage_times(step, "stage_cpu_ms").total());
+    const std::size_t clusters = step.at("clusters");
+    if (!first_clusters_) first_clusters_ = clusters;
+    last_clusters_ = clusters;
+  }
+
+  void add_drive() {
+    require_steps(run_);
+    const Json& later = run_.summary.at("after_declaration");
+    result_.drive =
+        whole_drive(later.at("steps"), later.at("translation_error_m").at("max"),
+                    later.at("rotation_error_deg").at("max"), first_clusters_.value_or(0), last_clusters_);
+  }
+
+  std::vector<double> step_ms_;
+  std::optional<std::size_t> first_clusters_;
+  std::size_t last_clusters_ = 0;
+  StoredRun run_;
+  std::string suite_, method_;
+  CaseResult result_;
+};
+
+WholeDrive drive_of(const TrialRecord& record) {
+  double translation = 0.0;
+  double rotation = 0.0;
+  const std::vector<PoseError> errors = figures_of(record).later_errors;
+  for (const PoseError& error : errors) {
+    translation = std::max(translation, error.translation_m);
+    rotation = std::max(rotation, degrees(error.rotation_rad));
+  }
+  const auto clusters = [](const StepRecord& step) { return step.result.clusters.size(); };
+  const bool any = !record.records.empty();
+  return whole_drive(errors.size(), translation, rotation, any ? clusters(record.records.front()) : 0,
+                     any ? clusters(record.records.back()) : 0);
+}
+
+std::string text_of_start(const StartResult& start) {
+  std::string text = fmt::format("{} after {} steps", to_string(start.outcome), start.steps);
+  if (start.cm) text += fmt::format(", {} cm, {} deg", *start.cm, start.deg.value_or(0.0));
+  return text;
+}
+
+std::string text_of_drive(const WholeDrive& drive) {
+  return fmt::format("localized in {} steps, at most {} cm, {} deg off, {} clusters at first and {} at last",
+                     drive.localized, drive.cm, drive.deg, drive.first_clusters, drive.last_clusters);
+}
+
+/// How often something holds of one and not of the other, and whether that can be chance.
+std::string changes_text(const char* what, std::size_t before, std::size_t now, std::size_t only_before,
+                         std::size_t only_now) {
+  return fmt::format("  {:<6} {} before, {} now: {} no more, {} newly (p {:.2g})\n", what, before, now,
+                     only_before, only_now, mcnemar_exact(only_before, only_now));
+}
+
+}  // namespace
+
+std::vector<BoardEntry> entries_of_folder(const fs::path& folder) {
+  std::vector<BoardEntry> entries;
+  std::vector<Fault> faults;
+  for (const fs::path& run : results_folders(folder)) {
+    try {
+      RunReader(run).add_to(entries);
+    } catch (const ConfigError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+  }
+  if (!faults.empty()) throw ConfigError(std::move(faults));
+  return entries;
+}
+
+CaseResult run_in_memory(const Variant& variant, LoadedExperiment& loaded, const Catalog& catalog) {
+  CaseResult result{.case_name = variant.case_name, .seed = variant.experiment.seed, .starts = {}};
+  result.starts.resize(loaded.starts.size());
+  std::vector<Localizer> localizers;
+  localizers.push_back(make_localizer(variant.experiment, catalog, loaded));
+  std::vector<std::size_t> trials(loaded.starts.size());
+  for (std::size_t i = 0; i < trials.size(); ++i) trials[i] = i;
+  const auto keep = [&](const TrialRecord& record) {
+    result.starts[record.trial] = start_result(record.outcome, record.steps, record.distance_m, record.error);
+    if (variant.experiment.trials.whole) result.drive = drive_of(record);
+  };
+  run_trials(localizers, variant.experiment, loaded, trials,
+             {[](std::size_t, const StepRecord&, const Localizer&) {}, keep, [] { return false; }});
+  return result;
+}
+
+std::vector<std::string> differences(const CaseResult& stored, const CaseResult& fresh,
+                                     const TrialsConfig& trials) {
+  std::vector<std::string> lines;
+  const std::string of = fmt::format("{}, seed {}", stored.case_name, stored.seed);
+  for (std::size_t i = 0; i < fresh.starts.size(); ++i) {
+    const std::size_t number = start_number(trials, i);
+    const StartResult& was = stored.starts.at(number);
+    if (was == fresh.starts[i]) continue;
+    lines.push_back(fmt::format("{}, start {}: {} is stored, {} it is now", of, number, text_of_start(was),
+                                text_of_start(fresh.starts[i])));
+  }
+  if (lines.empty() && stored.drive && fresh.drive && *stored.drive != *fresh.drive)
+    lines.push_back(fmt::format("{}: {} is stored, {} it is now", of, text_of_drive(*stored.drive),
+                                text_of_drive(*fresh.drive)));
+  return lines;
+}
+
+std::string paired_text(const BoardEntry& before, const BoardEntry& now) {
+  struct Change {
+    std::size_t before = 0, now = 0, only_before = 0, only_now = 0;
+    void add(bool was, bool is) {
+      before += was ? 1 : 0;
+      now += is ? 1 : 0;
+      only_before += was && !is ? 1 : 0;
+      only_now += is && !was ? 1 : 0;
+    }
+  };
+  Change right;
+  Change wrong;
+  std::vector<double> steps;
+  for (const CaseResult& result : now.results) {
+    const CaseResult* old = before.find(result.case_name, result.seed);
+    if (old == nullptr) continue;
+    for (std::size_t i = 0; i < std::min(result.starts.size(), old->starts.size()); ++i) {
+      const StartResult& a = old->starts[i];
+      const StartResult& b = result.starts[i];
+      right.add(a.outcome == Outcome::right, b.outcome == Outcome::right);
+      wrong.add(a.outcome == Outcome::wrong, b.outcome == Outcome::wrong);
+      if (a.outcome == Outcome::right && b.outcome == Outcome::right)
+        steps.push_back(static_cast<double>(b.steps) - static_cast<double>(a.steps));
+    }
+  }
+  const auto fewer = std::count_if(steps.begin(), steps.end(), [](double d) { return d < 0.0; });
+  const auto more = std::count_if(steps.begin(), steps.end(), [](double d) { return d > 0.0; });
+  return fmt::format("{} of {}, start by start:\n", now.method, now.suite) +
+         changes_text("wrong", wrong.before, wrong.now, wrong.only_before, wrong.only_now) +
+         changes_text("right", right.before, right.now, right.only_before, right.only_now) +
+         fmt::format(
+             "  steps  {} of {} starts that are right both times need fewer, {} more, by {:.2g} in the mean "
+             "of all (p {:.2g})\n",
+             fewer, steps.size(), more, mean(steps), wilcoxon_signed_rank(steps).p);
+}
+
+}  // namespace glocal

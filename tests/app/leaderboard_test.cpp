@@ -1,0 +1,282 @@
+// glocal leaderboard, from a suite's file to tables, checks and what others bring.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <functional>
+#include <regex>
+
+#include "app/room.hpp"
+
+namespace glocal::test::leaderboard_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A folder with configs/ of its own: a suite of one case with two seeds, and a method.
+class Leaderboard : public Room {
+ protected:
+  Leaderboard() {
+    for (const char* part : {"configs/methods", "configs/cases", "configs/suites"})
+      fs::create_directories(folder_.path() / part);
+    ::setenv("GLOCAL_CONFIGS", file("configs").c_str(), 1);
+    write_method(20000);
+    folder_.write("configs/cases/small_room.yaml",
+                  "map: {simulation: {world: ../../world.yaml}}\n"
+                  "observations: {simulation: {world: ../../world.yaml}}\n"
+                  "trials: {every_scan: 1, max_steps: 5}\n");
+    folder_.write("configs/suites/tiny.yaml", suite_);
+  }
+  ~Leaderboard() override { ::unsetenv("GLOCAL_CONFIGS"); }
+
+  void write_method(int iterations) const {
+    folder_.write("configs/methods/few.yaml",
+                  "# Few draws.\nlocalizer: {contact_epsilon: 0.05, matcher: {ransam: {iterations: " +
+                      std::to_string(iterations) +
+                      "}}, verdict_rule: {consecutive_rating: {consecutive: 1}}}\n");
+  }
+
+  void pin() const {
+    const Answer answer = run("leaderboard pin tiny");
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    folder_.write("configs/suites/tiny.yaml", suite_ + answer.out);
+  }
+
+  void run_and_add(const std::string& options = "") const {
+    const Answer ran = run("run --quiet --suite tiny@1 --method few --force --out " + file("results"));
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const Answer added = run("leaderboard add " + file("results") + options);
+    ASSERT_EQ(added.exit_code, 0) << added.err;
+  }
+
+  [[nodiscard]] Json entry() const { return json("leaderboard/tiny@1/few.json"); }
+
+  /// Calls `row` with each first step of a trial of the results.
+  void for_each_first_step(const std::function<void(std::uint64_t seed, const Json& step)>& row) const {
+    for (const std::uint64_t seed : {1U, 2U}) {
+      std::ifstream lines(file("results/few_small_room_seed-" + std::to_string(seed) + "/steps.jsonl"));
+      for (std::string line; std::getline(lines, line);) {
+        const Json step = Json::parse(line);
+        if (step.at("step") == 0) row(seed, step);
+      }
+    }
+  }
+
+  /// The poses of the references, moved along x, as declared ones.
+  [[nodiscard]] std::string moved_references(double metres) const {
+    std::string csv = "case,seed,start,step,x,y,yaw_deg,declared\n";
+    for_each_first_step([&](std::uint64_t seed, const Json& step) {
+      const Json& reference = step.at("reference");
+      csv += fmt::format("small_room,{},{},0,{},{},{},1\n", seed, step.at("trial").get<int>(),
+                         reference.at("x").get<double>() + metres, reference.at("y").get<double>(),
+                         reference.at("theta").get<double>() * 180.0 / 3.14159265358979);
+    });
+    return csv;
+  }
+
+  [[nodiscard]] Answer import(const std::string& csv) const {
+    return run("leaderboard import " + folder_.write("poses.csv", csv).string() +
+               " --suite tiny --method theirs");
+  }
+
+  const std::string suite_ = "# A room.\nversion: 1\nseeds: 1..2\ncases: [small_room]\n";
+};
+
+TEST_F(Leaderboard, KeepsShowsAndChecksResults) {
+  pin();
+  run_and_add();
+  const Json stored = entry();
+  ASSERT_EQ(stored.at("results").size(), 2U);
+  // What the run itself has counted.
+  for (const Json& result : stored.at("results")) {
+    const Json summary =
+        json(fmt::format("results/few_small_room_seed-{}/summary.json", result.at("seed").get<int>()));
+    const std::string outcome = result.at("outcome");
+    EXPECT_EQ(outcome.size(), summary["trials"]["count"].get<std::size_t>());
+    EXPECT_EQ(std::count(outcome.begin(), outcome.end(), 'r'), summary["trials"]["right"].get<int>());
+    EXPECT_GT(std::count(outcome.begin(), outcome.end(), 'r'), 0);
+  }
+  EXPECT_EQ(stored["provenance"]["command"], "glocal run --suite tiny@1 --method few");
+  EXPECT_THAT(stored.dump(), Not(HasSubstr(folder_.path().string())));
+  EXPECT_THAT(run("leaderboard tiny@1").out, HasSubstr("\n  few "));
+  EXPECT_THAT(run("leaderboard").out, HasSubstr("tiny@1"));
+  EXPECT_THAT(run("leaderboard tiny --cases --markdown").out, HasSubstr("\n| small\\_room | "));
+  EXPECT_THAT(run("list suites").out, HasSubstr("tiny@1  A room."));
+
+  const Answer same = run("leaderboard check --share 0.3");
+  EXPECT_EQ(same.exit_code, 0) << same.out;
+  EXPECT_TRUE(
+      std::regex_search(same.out, std::regex("tiny@1, few: [1-9]\\d* starts run anew, as they are stored")))
+      << same.out;
+}
+
+TEST_F(Leaderboard, ACheckSaysWhichStartsEndOtherwise) {
+  pin();
+  run_and_add();
+  write_method(2000);
+  const Answer other = run("leaderboard check tiny@1 --method few --share 1");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.out, HasSubstr("  small_room, seed 1, start "));
+  EXPECT_THAT(
+      other.out,
+      HasSubstr("renew leaderboard/tiny@1/few.json with:\n  glocal run --suite tiny@1 --method few "));
+}
+
+TEST_F(Leaderboard, RenewingNeedsForceAndComparesOldAndNew) {
+  pin();
+  run_and_add();
+  const Answer refused = run("leaderboard add " + file("results"));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("few.json: error: is there already; --force replaces it"));
+  write_method(2000);
+  run_and_add(" --force");
+  EXPECT_THAT(content(folder_.path() / "out"), HasSubstr("few of tiny@1, start by start:\n  wrong "));
+  std::ifstream history(file("leaderboard/history.jsonl"));
+  std::vector<Json> lines;
+  for (std::string line; std::getline(history, line);) lines.push_back(Json::parse(line));
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[1]["suite"], "tiny@1");
+  EXPECT_EQ(lines[1]["starts"], lines[0]["starts"]);
+}
+
+TEST_F(Leaderboard, AShareIsNoEntry) {
+  pin();
+  const Answer ran = run("run --quiet --suite tiny@1 --share 0.3 --method few --out " + file("results"));
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Answer added = run("leaderboard add " + file("results"));
+  EXPECT_EQ(added.exit_code, 2);
+  EXPECT_THAT(added.err, HasSubstr("has a share of tiny@1 only; run all of it"));
+}
+
+TEST_F(Leaderboard, AnInputThatHasChangedIsNamedWithBothHashes) {
+  pin();
+  const std::string pinned = content(file("configs/suites/tiny.yaml"));
+  std::smatch hash;
+  ASSERT_TRUE(std::regex_search(pinned, hash, std::regex("\"../../world.yaml\": ([0-9a-f]{64})")));
+  std::ofstream(file("world.yaml"), std::ios::app) << "# wider\n";
+  const Answer ran = run("run --quiet --suite tiny@1 --method few --out " + file("results"));
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("../../world.yaml: error: "));
+  EXPECT_THAT(ran.err, HasSubstr("is not the input of tiny@1: its SHA-256 is "));
+  EXPECT_THAT(ran.err, HasSubstr("and " + hash[1].str() + " is pinned in "));
+  EXPECT_FALSE(fs::exists(file("results")));
+}
+
+TEST_F(Leaderboard, StartsThatAreNotAsManyAsPinnedAreRefused) {
+  pin();
+  const std::string pinned = content(file("configs/suites/tiny.yaml"));
+  folder_.write("configs/suites/tiny.yaml",
+                std::regex_replace(pinned, std::regex("starts: \\d+"), "starts: 4"));
+  const Answer ran = run("run --quiet --suite tiny@1 --method few --out " + file("results"));
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("starts with seed 1, and 4 are pinned"));
+}
+
+TEST_F(Leaderboard, ImportedPosesAreJudgedLikeOnesOwn) {
+  pin();
+  run_and_add();
+  // The declared poses of the run itself, in the form of others.
+  std::string csv = "case,start,step,x,y,yaw_deg,declared,seed\n";
+  for (const int seed : {1, 2}) {
+    std::ifstream lines(file(fmt::format("results/few_small_room_seed-{}/trials.jsonl", seed)));
+    for (std::string line; std::getline(lines, line);) {
+      const Json trial = Json::parse(line);
+      if (!trial.contains("pose")) continue;
+      const Json& pose = trial.at("pose");
+      csv += fmt::format("small_room,{},{},{},{},{},1,{}\n", trial.at("trial").get<int>(),
+                         trial.at("steps").get<int>() - 1, pose.at("x").get<double>(),
+                         pose.at("y").get<double>(),
+                         pose.at("theta").get<double>() * 180.0 / 3.141592653589793, seed);
+    }
+  }
+  const Answer imported = import(csv);
+  ASSERT_EQ(imported.exit_code, 0) << imported.err;
+  const Json theirs = json("leaderboard/tiny@1/theirs.json").at("results");
+  Json ours = entry().at("results");
+  for (Json& result : ours) result.erase("ms");
+  EXPECT_EQ(theirs, ours);
+}
+
+TEST_F(Leaderboard, WhatIsWrongWithImportedRowsIsSaidOfEach) {
+  pin();
+  const std::string head = "case,seed,start,step,x,y,yaw_deg,declared\n";
+  const std::string good = "small_room,1,0,0,1,3,0,1\n";
+  EXPECT_THAT(import(head + good + "small_room,1,999,0,1,3,0,1\n").err,
+              HasSubstr("poses.csv:3: error: the case small_room has no start 999: they are 0 to "));
+  EXPECT_THAT(import(head + good + good).err,
+              HasSubstr("poses.csv:3: error: step 0 of start 0 of small_room is there "
+                        "twice (first in line 2)"));
+  EXPECT_THAT(import(head + "small_room,1,0,0,nan,3,0,1\n").err,
+              HasSubstr("poses.csv:2: error: x: 'nan' is no finite number"));
+  EXPECT_THAT(
+      import(head + "small_room,1,0,5,1,3,0,1\n").err,
+      HasSubstr("poses.csv:2: error: start 0 of small_room has 5 steps, from 0 on; there is no step 5"));
+  EXPECT_THAT(import(head + "large_room,1,0,0,1,3,0,1\n").err, HasSubstr("tiny@1 has no case 'large_room'"));
+  EXPECT_THAT(import(head + "small_room,3,0,0,1,3,0,1\n").err, HasSubstr("tiny@1 has no seed 3"));
+  EXPECT_THAT(import("case,start,step,x,y,declared\n").err,
+              HasSubstr("poses.csv:1: error: has no column 'yaw_deg'"));
+  EXPECT_THAT(import(head + "small_room,1,0\n").err,
+              HasSubstr("has 3 values, and the first line names 8 columns"));
+  EXPECT_THAT(import(head).err, HasSubstr("has no rows"));
+  EXPECT_FALSE(fs::exists(file("leaderboard")));
+}
+
+TEST_F(Leaderboard, PosesOfAnotherFrameAreToldByHowTheyFit) {
+  pin();
+  run_and_add();
+  EXPECT_EQ(import(moved_references(0.0)).exit_code, 0);
+  const Answer moved = import(moved_references(7.0));
+  EXPECT_EQ(moved.exit_code, 2);
+  EXPECT_TRUE(
+      std::regex_search(moved.err, std::regex("its poses are of another frame: \\d+ of \\d+ fit if all are "
+                                              "turned by -?0.0 deg and moved by \\(-7.00, -?0.00\\) m")))
+      << moved.err;
+}
+
+TEST_F(Leaderboard, ExportWritesPlainFilesWithoutReferences) {
+  pin();
+  const Answer exported = run("leaderboard export tiny@1 " + file("plain"));
+  ASSERT_EQ(exported.exit_code, 0) << exported.err;
+  for (const char* name : {"map.yaml", "map.pgm", "map.pcd", "drive.mcap", "scans/odometry.tum"})
+    EXPECT_TRUE(fs::exists(file("plain/small_room_seed-2/") + name)) << name;
+  EXPECT_FALSE(fs::exists(file("plain/small_room_seed-2/scans/reference.tum")));
+  EXPECT_THAT(run("bag info " + file("plain/small_room_seed-2/drive.mcap")).out,
+              testing::AllOf(HasSubstr("/points"), Not(HasSubstr("/reference"))));
+  const std::string starts = content(file("plain/starts.csv"));
+  EXPECT_THAT(starts, HasSubstr("case,seed,folder,start,scan,steps\nsmall_room,1,small_room_seed-1,0,0,5\n"));
+  std::ifstream odometry(file("plain/small_room_seed-2/scans/odometry.tum"));
+  std::size_t scans = 0;
+  for (std::string line; std::getline(odometry, line); ++scans)
+    EXPECT_TRUE(fs::exists(file("plain/small_room_seed-2/scans/" + line.substr(0, line.find(' ')) + ".pcd")));
+  EXPECT_GT(scans, 10U);
+  EXPECT_EQ(run("leaderboard export tiny@1 " + file("plain")).exit_code, 2);
+  EXPECT_EQ(run("leaderboard export tiny@1 --force " + file("plain")).exit_code, 0);
+}
+
+/// A Python that has numpy; empty if there is none.
+std::string python_with_numpy() {
+  for (const char* python : {"python3", "/usr/bin/python3"}) {
+    if (std::system((std::string(python) + " -c 'import numpy' 2>/dev/null").c_str()) == 0) return python;
+  }
+  return "";
+}
+
+TEST_F(Leaderboard, TheExampleInPythonFindsMostStartsOfASmallRoom) {
+  const std::string python = python_with_numpy();
+  if (python.empty()) GTEST_SKIP() << "there is no Python with numpy";
+  pin();
+  ASSERT_EQ(run("leaderboard export tiny " + file("plain")).exit_code, 0);
+  const std::string script = GLOCAL_SOURCE_DIR "/examples/python/particle_filter.py";
+  ASSERT_EQ(std::system((python + " " + script + " " + file("plain") + " " + file("poses.csv")).c_str()), 0);
+  const Answer imported =
+      run("leaderboard import " + file("poses.csv") + " --suite tiny --method particle_filter");
+  ASSERT_EQ(imported.exit_code, 0) << imported.err;
+  std::smatch counts;
+  ASSERT_TRUE(std::regex_search(imported.out, counts, std::regex("(\\d+) wrong, (\\d+) right")));
+  EXPECT_LE(std::stoi(counts[1]), 2);
+  EXPECT_GE(std::stoi(counts[2]), 20);
+}
+
+}  // namespace
+}  // namespace glocal::test::leaderboard_test
