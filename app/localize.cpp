@@ -157,7 +157,8 @@ void localize(const LocalizeOptions& options, Context& context) {
                                .run();
   print_figures(result);
   context.exit_code = exit_code_of(result);
-  ReportOptions report{.folders = {result.folder.string()}, .out = out + ".html", .force = options.force};
+  ReportOptions report{
+      .folders = {result.folder.string()}, .out = out + ".html", .files = {.replace = options.force}};
   answer("report      {}\n", write_report(report).string());
 }
 

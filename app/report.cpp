@@ -1,7 +1,10 @@
 // glocal report: runs as one page for a browser, which shows them step by step.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,31 +14,31 @@
 #include "app/results_at_hand.hpp"
 #include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
-#include "evaluation/results/atomic_file.hpp"
-#include "report/page.hpp"
-#include "report/page_text.hpp"
+#include "report/page_files.hpp"
 
 namespace glocal::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string title_of(const std::vector<NamedRun>& runs) {
+  constexpr std::size_t most_names = 4;
   std::string title = runs.front().name;
-  for (std::size_t i = 1; i < runs.size(); ++i) title += ", " + runs[i].name;
+  for (std::size_t i = 1; i < std::min(runs.size(), most_names); ++i) title += ", " + runs[i].name;
+  if (runs.size() > most_names) title += fmt::format(" and {} more", runs.size() - most_names);
   return title;
 }
 
 }  // namespace
 
-std::filesystem::path write_report(const ReportOptions& options) {
-  ReportData data(options.limits);
+fs::path write_report(const ReportOptions& options) {
+  ReportData report(options.limits);
   const ResultsAtHand results(options.folders);
-  const auto runs =
-      read_runs(results.folders(), [&](const std::filesystem::path& folder) { return data.add(folder); });
-  const auto json = data.to_json(runs, find_baseline(runs, options.baseline));
-  AtomicFiles files(options.force);
-  files.add(options.out, page_with(page_text, title_of(runs), json, script_for(json)));
-  files.commit();
-  return std::filesystem::absolute(options.out).lexically_normal();
+  const auto runs = read_runs(results.folders(), [&](const fs::path& folder) { return report.add(folder); });
+  const fs::path file = fs::absolute(options.out).lexically_normal();
+  write_page(file, title_of(runs), report.page_data(runs, find_baseline(runs, options.baseline)),
+             options.files);
+  return file;
 }
 
 void add_report(CLI::App& app, Context& /*context*/) {
@@ -50,7 +53,11 @@ void add_report(CLI::App& app, Context& /*context*/) {
       ->add_option("--clusters", options->limits.clusters,
                    "Best clusters to keep of each step (default: all that the run has listed)")
       ->check(CLI::Range(0, 1'000'000));
-  command->add_flag("--force", options->force, "Replace the file if it exists");
+  command->add_flag_callback(
+      "--one-file", [options] { options->files.most_bytes = std::numeric_limits<std::size_t>::max(); },
+      "Keep the steps in the page, however large; else those of a page of more than 3 MB lie in a folder "
+      "beside it");
+  command->add_flag("--force", options->files.replace, "Replace the file if it exists");
   command->callback([options] { answer("{}\n", write_report(*options).string()); });
 }
 

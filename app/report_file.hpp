@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "report/page_files.hpp"
 #include "report/report_data.hpp"
 
 namespace glocal::app {
@@ -14,11 +15,11 @@ struct ReportOptions {
   std::string out = "report.html";
   std::string baseline = {};  ///< Name of a run; empty: the first.
   ReportLimits limits = {};
-  bool force = false;  ///< Replaces the file.
+  PageFileOptions files = {};
 };
 
-/// Writes the page, and says where it is. Throws ConfigError for folders without results, and a file that is
-/// in the way.
+/// Writes the page as write_page() does, and says where it is. Throws ConfigError for folders without
+/// results, and a file that is in the way.
 std::filesystem::path write_report(const ReportOptions& options);
 
 }  // namespace glocal::app

@@ -43,9 +43,8 @@ int answer(const httplib::Request& request, httplib::Response& response, LiveRun
   const auto news = run.news(is_page ? std::nullopt : version_of(request));
   if (!news) return 204;
   if (is_page) {
-    response.set_content(
-        page_with(page_text, news->data["runs"][0]["name"], news->data, script_for(news->data)),
-        "text/html; charset=utf-8");
+    response.set_content(page_with(page_text, news->data["runs"][0]["name"], {news->data}),
+                         "text/html; charset=utf-8");
   } else {
     response.set_content(json_text(news->data), "application/json");
   }

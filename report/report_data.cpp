@@ -14,6 +14,8 @@
 #include "evaluation/sweeps/analysis.hpp"
 #include "evaluation/sweeps/sweep_report.hpp"
 #include "report/map_points.hpp"
+#include "report/numbers.hpp"
+#include "report/packed.hpp"
 #include "version.hpp"
 
 namespace glocal {
@@ -37,6 +39,22 @@ std::size_t count_recordings(const fs::path& folder, std::string_view kind) {
     n += name.starts_with(kind) && name.ends_with(".pcd") ? 1 : 0;
   }
   return n;
+}
+
+/// Distributions are drawn from so many values of a run.
+constexpr std::size_t most_times = 200;
+constexpr const char* stamp_key = "stamp";
+
+/// All of them in their order, or as many as are drawn, equally far apart in it, with both ends.
+Json drawn_times(std::vector<float> ms) {
+  std::sort(ms.begin(), ms.end());
+  const std::size_t drawn = std::min(ms.size(), most_times);
+  Json json = Json::array();
+  for (std::size_t i = 0; i < drawn; ++i) {
+    const std::size_t rank = drawn < 2 ? 0 : i * (ms.size() - 1) / (drawn - 1);
+    json.push_back(short_number(double{ms[rank]}, 4));
+  }
+  return json;
 }
 
 }  // namespace
@@ -133,7 +151,7 @@ void ReportData::share_limits() {
   }
 }
 
-Json ReportData::to_json(const Run& run, const std::string& name) {
+void ReportData::add_run(PageData& page, const Run& run, const std::string& name) {
   Json json = {{"name", name},
                {"folder", run.folder.string()},
                {"summary", run.summary},
@@ -141,31 +159,45 @@ Json ReportData::to_json(const Run& run, const std::string& name) {
                {"settings", glocal::to_json(run.settings)}};
   if (run.map) json["map"] = *run.map;
   json["trials"] = Json::array();
+  std::vector<float> step_ms;
   for (const auto& [number, trial] : run.trials) {
-    Json entry = trial.line;
-    if (trial.steps) entry["columns"] = trial.steps->to_json();
-    if (trial.local_map) entry["local_map"] = glocal::to_json(*trial.local_map);
-    if (trial.scans) entry["scans"] = trial.scans->to_json();
+    Json entry = with_short_numbers(trial.line, stamp_key);
+    if (const Json chunk = chunk_of(trial); !chunk.empty()) {
+      entry["chunk"] = page.chunks.size();
+      page.chunks.push_back(packed(chunk));
+    }
+    if (trial.steps)
+      step_ms.insert(step_ms.end(), trial.steps->step_ms().begin(), trial.steps->step_ms().end());
     json["trials"].push_back(std::move(entry));
   }
+  json["step_ms"] = drawn_times(std::move(step_ms));
+  page.head["runs"].push_back(std::move(json));
+}
+
+Json ReportData::chunk_of(const Trial& trial) {
+  Json json;
+  if (trial.steps) json["columns"] = trial.steps->to_json();
+  if (trial.local_map) json["local_map"] = glocal::to_json(*trial.local_map);
+  if (trial.scans) json["scans"] = trial.scans->to_json();
   return json;
 }
 
-Json ReportData::to_json(const std::vector<NamedRun>& runs, std::size_t baseline) const {
-  Json json = report_head();
-  json["maps"] = maps_;
-  json["runs"] = Json::array();
-  for (std::size_t i = 0; i < runs_.size(); ++i) json["runs"].push_back(to_json(runs_[i], runs[i].name));
-  if (runs_.size() < 2) return json;
-  if (is_sweep(runs)) json["sweep"] = glocal::to_json(analyse_sweep(runs));
+PageData ReportData::page_data(const std::vector<NamedRun>& runs, std::size_t baseline) const {
+  PageData page{report_head()};
+  Json& head = page.head;
+  head["maps"] = maps_;
+  head["runs"] = Json::array();
+  for (std::size_t i = 0; i < runs_.size(); ++i) add_run(page, runs_[i], runs[i].name);
+  if (runs_.size() < 2) return page;
+  if (is_sweep(runs)) head["sweep"] = glocal::to_json(analyse_sweep(runs));
   try {
     // Cases and seeds of one method alone have nothing to be compared with.
-    if (methods_of(runs).size() > 1) json["comparison"] = glocal::to_json(compare(runs, baseline));
+    if (methods_of(runs).size() > 1) head["comparison"] = glocal::to_json(compare(runs, baseline));
   } catch (const ConfigError& error) {
     const Fault& fault = error.faults().front();
-    json["comparison_refused"] = fmt::format("{}: {}", fault.file, fault.message);
+    head["comparison_refused"] = fmt::format("{}: {}", fault.file, fault.message);
   }
-  return json;
+  return page;
 }
 
 }  // namespace glocal

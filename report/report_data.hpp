@@ -13,6 +13,7 @@
 #include "evaluation/comparison/comparison.hpp"
 #include "evaluation/results/fault_collector.hpp"
 #include "evaluation/results/results_folder.hpp"
+#include "report/page.hpp"
 #include "report/point_lives.hpp"
 #include "report/scan_frames.hpp"
 #include "report/step_columns.hpp"
@@ -40,8 +41,9 @@ class ReportData {
   /// Reads all that a run has left. Throws ConfigError with every fault of the folder.
   StoredRun add(const std::filesystem::path& folder);
 
-  /// `runs` are those that were added, in this order, with their names.
-  [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<NamedRun>& runs, std::size_t baseline) const;
+  /// `runs` are those that were added, in this order, with their names. A trial that has left steps, local
+  /// maps or scans names the chunk that holds them as {"columns", "local_map", "scans"}.
+  [[nodiscard]] PageData page_data(const std::vector<NamedRun>& runs, std::size_t baseline) const;
 
  private:
   struct Trial {
@@ -62,7 +64,8 @@ class ReportData {
   void read_map(Run& run, FaultCollector& faults);
   void read_recordings(Run& run, std::size_t number, FaultCollector& faults);
   void share_limits();
-  [[nodiscard]] static nlohmann::ordered_json to_json(const Run& run, const std::string& name);
+  [[nodiscard]] static nlohmann::ordered_json chunk_of(const Trial& trial);
+  static void add_run(PageData& page, const Run& run, const std::string& name);
 
   ReportLimits limits_;
   std::vector<Run> runs_;

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "report/numbers.hpp"
@@ -15,8 +18,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array stages = {"local_map", "match", "cluster", "rate"};
-constexpr std::array numbers = {"local_map_points", "omega_best",    "score_best", "omega_max",
-                                "proposals",        "points_tested", "hypotheses", "clusters"};
+constexpr std::array numbers = {"local_map_points", "omega_best", "score_best", "omega_max",
+                                "proposals",        "hypotheses", "clusters"};
 constexpr std::array optional_numbers = {"omega_place", "translation_error_m", "rotation_error_deg",
                                          "confidence"};
 constexpr std::array poses = {"estimate", "reference", "local_from_robot"};
@@ -24,15 +27,27 @@ constexpr std::array coordinates = {"x", "y", "theta"};
 constexpr std::array coordinates_in_space = {"z", "qx", "qy", "qz", "qw"};
 constexpr std::array cluster_numbers = {"size", "r", "r_normalised"};
 
+constexpr int digits = 5;
+
 /// A writer has only null for infinity and for what is no number.
 Json number(const Json& value) {
   if (value.is_null()) return nullptr;
   if (value.is_number_integer()) return value;
-  return short_number(value.get<double>());
+  return short_number(value.get<double>(), digits);
 }
 
 Json number_or_null(const Json& line, const char* key) {
   return line.contains(key) ? number(line.at(key)) : Json(nullptr);
+}
+
+float number_of_cluster(const Json& value) {
+  return value.is_null() ? std::numeric_limits<float>::quiet_NaN() : value.get<float>();
+}
+
+/// One number of a pose: m, rad, or of a unit quaternion.
+Json pose_number(std::string_view name, double value) {
+  if (name == "x" || name == "y" || name == "z") return rounded(value, 1e3);
+  return rounded(value, name == "theta" ? 1e4 : 1e5);
 }
 
 bool is_in_space(const Json& line) {
@@ -44,11 +59,10 @@ Json empty_columns() {
   const auto add = [&](const auto& keys) {
     for (const char* key : keys) columns[key] = Json::array();
   };
-  add(std::array{"step", "stamp"});
-  for (const char* stage : stages) columns[fmt::format("{}_ms", stage)] = Json::array();
+  add(std::array{"step", "step_ms", "match_ms"});
   add(numbers);
   add(optional_numbers);
-  add(std::array{"verdict", "why", "on_map"});
+  add(std::array{"verdict", "why"});
   for (const char* pose : poses) {
     for (const char* coordinate : coordinates) columns[pose][coordinate] = Json::array();
   }
@@ -56,17 +70,9 @@ Json empty_columns() {
   return columns;
 }
 
-Json empty_best() {
-  Json best = {{"first", {0}}};
-  for (const char* coordinate : coordinates) best[coordinate] = Json::array();
-  for (const char* key : cluster_numbers) best[key] = Json::array();
-  return best;
-}
-
 }  // namespace
 
-StepColumns::StepColumns(std::size_t clusters)
-    : clusters_(clusters), columns_(empty_columns()), best_(empty_best()) {}
+StepColumns::StepColumns(std::size_t clusters) : clusters_(clusters), columns_(empty_columns()) {}
 
 void StepColumns::add(const Json& line) {
   const auto step = line.at("step").get<std::size_t>();
@@ -74,10 +80,8 @@ void StepColumns::add(const Json& line) {
     throw std::invalid_argument(fmt::format("step {} of trial {} is here, where step {} belongs", step,
                                             line.at("trial").get<std::size_t>(), steps_));
   columns_["step"].push_back(step);
-  columns_["stamp"].push_back(line.at("stamp").get<double>());
   add_numbers(line);
   columns_["verdict"].push_back(line.at("verdict").get<std::string>());
-  columns_["on_map"].push_back(line.contains("on_map") ? Json(line.at("on_map").get<bool>()) : Json(nullptr));
   add_sentence(line.at("why"));
   if (steps_ == 0 && is_in_space(line)) go_to_space();
   add_poses(line);
@@ -88,8 +92,12 @@ void StepColumns::add(const Json& line) {
 }
 
 void StepColumns::add_numbers(const Json& line) {
-  for (const char* stage : stages)
-    columns_[fmt::format("{}_ms", stage)].push_back(number(line.at("stage_ms").at(stage)));
+  const Json& times = line.at("stage_ms");
+  double all = 0.0;
+  for (const char* stage : stages) all += times.at(stage).get<double>();
+  step_ms_.push_back(static_cast<float>(all));
+  columns_["step_ms"].push_back(short_number(all, digits));
+  columns_["match_ms"].push_back(number(times.at("match")));
   for (const char* key : numbers) columns_[key].push_back(number(line.at(key)));
   for (const char* key : optional_numbers) columns_[key].push_back(number_or_null(line, key));
 }
@@ -105,20 +113,20 @@ void StepColumns::go_to_space() {
   is_in_space_ = true;
   for (const char* coordinate : coordinates_in_space) {
     for (const char* pose : poses) columns_[pose][coordinate] = Json::array();
-    best_[coordinate] = Json::array();
   }
   columns_["candidates_in_space"] = Json::array();
 }
 
 void StepColumns::add_poses(const Json& line) {
   for (const char* pose : poses) {
-    for (auto& [coordinate, column] : columns_[pose].items())
-      column.push_back(line.contains(pose) ? number(line.at(pose).at(coordinate)) : Json(nullptr));
+    for (auto& [name, column] : columns_[pose].items())
+      column.push_back(line.contains(pose) ? pose_number(name, line.at(pose).at(name).get<double>())
+                                           : Json(nullptr));
   }
   const auto add_candidates = [&](const char* key, const auto& keys) {
     Json candidates = Json::array();
     for (const Json& pose : line.value("candidates", Json::array())) {
-      for (const char* coordinate : keys) candidates.push_back(number(pose.at(coordinate)));
+      for (const char* name : keys) candidates.push_back(pose_number(name, pose.at(name).get<double>()));
     }
     columns_[key].push_back(std::move(candidates));
   };
@@ -150,20 +158,38 @@ void StepColumns::add_clusters(const Json& line) {
   const std::size_t n = std::min(best.size(), clusters_);
   for (std::size_t i = 0; i < n; ++i) {
     const Json& cluster = best.at(i);
-    const auto add_pose = [&](const auto& keys) {
-      for (const char* key : keys) best_[key].push_back(number(cluster.at("pose").at(key)));
+    const auto add = [&](const Json& from, const auto& keys) {
+      for (const char* key : keys) best_[key].push_back(number_of_cluster(from.at(key)));
     };
-    add_pose(coordinates);
-    if (is_in_space_) add_pose(coordinates_in_space);
-    for (const char* key : cluster_numbers) best_[key].push_back(number(cluster.at(key)));
+    add(cluster.at("pose"), coordinates);
+    if (is_in_space_) add(cluster.at("pose"), coordinates_in_space);
+    add(cluster, cluster_numbers);
   }
-  best_["first"].push_back(best_["x"].size());
+  first_best_.push_back(first_best_.back() + n);
+}
+
+Json StepColumns::best_to_json() const {
+  Json json = {{"first", first_best_}};
+  const auto add = [&](const auto& keys, const auto& shown) {
+    for (const char* key : keys) {
+      json[key] = Json::array();
+      const auto column = best_.find(key);
+      if (column == best_.end()) continue;
+      for (const float value : column->second) json[key].push_back(shown(key, double{value}));
+    }
+  };
+  add(coordinates, pose_number);
+  add(cluster_numbers, [](const char* /*key*/, double value) {
+    return std::isnan(value) ? Json(nullptr) : short_number(value, digits);
+  });
+  if (is_in_space_) add(coordinates_in_space, pose_number);
+  return json;
 }
 
 Json StepColumns::to_json() const {
   Json json = columns_;
   json["evidence"] = evidence_;
-  json["best"] = best_;
+  json["best"] = best_to_json();
   json["sentences"] = sentences_;
   return json;
 }

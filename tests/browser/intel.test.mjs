@@ -57,8 +57,32 @@ test("the list of trials tells what trials.jsonl does, and leads to a trial", { 
   const trial = trials[3];
   const text = await rows.nth(3).innerText();
   for (const part of [trial.outcome, String(trial.steps), trial.translation_error_m.toFixed(3)]) assert.ok(text.includes(part), text);
-  await rows.nth(3).locator("button").click();
+  await rows.nth(3).locator("[data-trial]").click();
+  await drawn(page);
   assert.equal(await page.locator("#trial").inputValue(), "3");
+});
+
+test("trials are chosen by their outcome, and sorted by what they needed", { skip }, async () => {
+  const rows = page.locator("#trials tbody tr");
+  const outcomes = [...new Set(trials.map(({ outcome }) => outcome))];
+  for (const outcome of outcomes.length > 1 ? outcomes : []) {
+    await page.locator(`#trials [data-outcome=${outcome}]`).click();
+    assert.equal(await rows.count(), trials.filter((trial) => trial.outcome === outcome).length);
+  }
+  if (outcomes.length > 1) await page.locator('#trials [data-outcome=""]').click();
+  await page.locator("#trials [data-sort=steps]").click();
+  const numbers = (await rows.locator("th button[data-trial]").allInnerTexts()).map(Number);
+  const steps = numbers.map((number) => trials[number].steps);
+  assert.deepEqual(steps, [...steps].sort((a, b) => a - b));
+  await page.locator("#trials [data-sort=trial]").click();
+});
+
+test("the verdict of the trial and of the step are above the map", { skip }, async () => {
+  await page.locator("#trial").selectOption("3");
+  await drawn(page);
+  const told = page.locator(".trial-outcome");
+  assert.match(await told.innerText(), new RegExp(`^Trial 3: ${trials[3].outcome} – `));
+  assert.ok((await told.boundingBox()).y < (await page.locator("figure.map").boundingBox()).y);
 });
 
 test("the summary counts the trials", { skip }, async () => {

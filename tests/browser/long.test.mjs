@@ -1,6 +1,6 @@
 // A drive of 5,000 steps: the steps of a real run, over and over. How long it takes is told, not tested: machines differ.
 import assert from "node:assert/strict";
-import { copyFileSync, linkSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { copyFileSync, linkSync, mkdirSync, readdirSync, readFileSync, renameSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { assertQuiet, closeBrowser, moveSlider, open, skip } from "./open.mjs";
@@ -35,7 +35,10 @@ function lengthened(folder, out) {
 test("a run of 5,000 steps opens, and every step can be reached", { skip }, async (t) => {
   const folder = lengthened(runExperiment("paper_simulation", join(work, "short")), join(work, "long"));
   const file = report(join(work, "report.html"), folder);
-  t.diagnostic(`${(readFileSync(file).length / 1e6).toFixed(1)} MB`);
+  const beside = file.replace(".html", "_steps");
+  const size = (name) => (statSync(name).size / 1e6).toFixed(1);
+  t.diagnostic(`${size(file)} MB, and ${readdirSync(beside).map((name) => size(join(beside, name)))} MB beside it`);
+  assert.ok(statSync(file).size < 3e6);
   const begin = performance.now();
   const opened = await open(file);
   t.diagnostic(`opened after ${Math.round(performance.now() - begin)} ms, with the browser's own start`);
@@ -46,4 +49,9 @@ test("a run of 5,000 steps opens, and every step can be reached", { skip }, asyn
   t.diagnostic(`${Math.round((performance.now() - moves) / 20)} ms from one step to another, drawn`);
   assert.equal(await opened.page.locator("input[type=range]").getAttribute("max"), "4999");
   assertQuiet(opened);
+  // Without its folder the page says what is missing.
+  renameSync(beside, `${beside}_elsewhere`);
+  const alone = await open(file);
+  assert.match(await alone.page.locator(".map .note").innerText(), /steps lie in the folder report_steps beside this page, where \w+_0\.js is missing/);
+  assert.equal(await alone.page.locator("#figures .answer strong").innerText(), "right");
 });

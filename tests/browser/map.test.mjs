@@ -129,12 +129,15 @@ test("a click lists the candidates near the place", { skip }, async () => {
   const clicked = { x: view.x + (at.x - view.box.left - view.box.width / 2) / view.scale, y: view.y - (at.y - view.box.top - view.box.height / 2) / view.scale };
   await page.mouse.click(at.x, at.y);
   const distances = best.map(({ pose }) => Math.hypot(pose.x - clicked.x, pose.y - clicked.y));
-  const expected = distances.map((d, rank) => ({ d, rank })).filter(({ d }) => d <= 1).sort((a, b) => a.d - b.d);
-  assert.match(await page.locator(".near strong").innerText(), new RegExp(`^${expected.length} candidates? within 1.0 m`));
+  const expected = distances.map((d, rank) => ({ d, rank })).sort((a, b) => a.d - b.d);
+  // The page's own place may be a part of a pixel away.
+  const within = (radius) => distances.filter((d) => d <= radius).length;
+  const [, found] = /^(\d+) candidates? within 1.0 m/.exec(await page.locator(".near strong").innerText());
+  assert.ok(found >= within(1 - 1.5 / view.scale) && found <= within(1 + 1.5 / view.scale), `${found} for ${within(1)}`);
   const listed = await page.locator(".near li button").allInnerTexts();
-  // The page's own place may be a part of a pixel away, so that neighbours change places.
+  // Neighbours may change places.
   const far = listed.map((text) => distances[Number(text.replace("cluster ", "")) - 1]);
-  assert.equal(new Set(listed).size, Math.min(8, expected.length));
+  assert.equal(new Set(listed).size, Math.min(8, Number(found)));
   far.forEach((d, i) => assert.ok(Math.abs(d - expected[i].d) < 1.5 / view.scale, `${d} for ${expected[i].d}`));
   await page.locator(".near li button").last().click();
   const chosen = page.locator(".hypotheses table [aria-pressed=true]");

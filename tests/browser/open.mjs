@@ -45,10 +45,11 @@ export async function open(address, options = {}) {
   return { page, noted, url: page.url().replace(/#.*/, "") };
 }
 
-/** Nothing was fetched besides the page itself, no error was told, and nothing asked the reader. */
+/** Nothing was fetched besides the page itself, and perhaps its steps beside it; no error was told, and nothing asked the reader. */
 export function assertQuiet({ noted, url }) {
   // The empty icon is part of the page, and so are the files that it saves.
-  const fetched = noted.requests.filter((address) => !/^(data|blob):/.test(address)).map((address) => address.replace(/#.*/, ""));
+  const isOther = (address) => !/^(data|blob):/.test(address) && !address.startsWith(url.replace(/\.html$/, "_steps/"));
+  const fetched = noted.requests.filter(isOther).map((address) => address.replace(/#.*/, ""));
   assert.deepEqual(fetched, [url]);
   assert.deepEqual(noted.errors, []);
   assert.equal(noted.dialogs, 0);
@@ -62,8 +63,9 @@ export async function moveSlider(page, step) {
   await drawn(page);
 }
 
-/** Waits until what was asked for has been drawn. */
+/** Waits until what was asked for has been loaded and drawn. */
 export async function drawn(page) {
+  await page.waitForFunction(() => document.body.dataset.loading === undefined);
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
 

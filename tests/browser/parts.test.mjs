@@ -7,7 +7,7 @@ import { pathToFileURL } from "node:url";
 import { workFolder } from "./runs.mjs";
 
 const page = process.env.GLOCAL_PAGE_FOLDER; // as it was built
-let geometry, numbers, shares, shown, view, files, background, boxes, certificate, groups, svg, spacePoses;
+let geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison;
 
 before(async () => {
   const { build } = createRequire(join(page, "package.json"))("esbuild");
@@ -19,9 +19,9 @@ before(async () => {
   };
   const names = [
     "geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export", "map_background",
-    "boxes", "certificate", "groups", "svg", "space_poses",
+    "boxes", "certificate", "answers", "svg", "space_poses", "comparison",
   ];
-  [geometry, numbers, shares, shown, view, files, background, boxes, certificate, groups, svg, spacePoses] =
+  [geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison] =
     await Promise.all(names.map(load));
 });
 
@@ -138,14 +138,62 @@ test("certificates are told with what they prove, and what they do not", () => {
   assert.match(refuted, /One rival was found; the best, at 3\.0 m, -1\.5 m, has score 0\.780, and 0\.750 is enough to refute/);
 });
 
-test("runs of a sweep over cases are looked at by setting, others by themselves", () => {
-  const run = (name, ...trials) => ({ name, trials });
-  const runs = [run("a_lab", 1), run("a_hall", 2), run("a_b_lab", 3), run("a_b_hall", 4)];
-  const sweep = { settings: [{ setting: "a_b" }, { setting: "a" }] };
-  assert.deepEqual(groups.groupsOf({ runs, sweep }), [run("a_b", 3, 4), run("a", 1, 2)]);
-  assert.equal(groups.groupsOf({ runs }), runs);
-  const plain = [run("a", 1), run("b", 2)];
-  assert.equal(groups.groupsOf({ runs: plain, sweep: { settings: [{ setting: "b" }, { setting: "a" }] } }), plain);
+const trial = (outcome, steps = 1) => ({ outcome, steps, start: {} });
+const run = (name, variant, trials, settings = {}) => ({ name, trials, settings: { name: { text: "lab" }, ...settings }, provenance: variant && { variant: { role: "none", values: {}, ...variant } } });
+
+test("runs are told by setting, by case or alone", () => {
+  const runs = ["a", "b"].flatMap((setting) => ["lab", "hall"].flatMap((its) => [1, 2].map((seed) => run(`${setting}_${its}_seed-${seed}`, { setting, case: its, seed }, [trial("right")]))));
+  const names = (level) => answers.groupsOf(runs, level).map(({ name, trials }) => [name, trials.length]);
+  assert.deepEqual(names("setting"), [["a", 4], ["b", 4]]);
+  assert.deepEqual(names("case"), [["a, lab", 2], ["a, hall", 2], ["b, lab", 2], ["b, hall", 2]]);
+  assert.equal(names("run").length, 8);
+  assert.deepEqual(answers.levelsOf(runs), ["setting", "case", "run"]);
+  // Of other folders nothing is known but their names, and the same part twice is none of a whole.
+  assert.deepEqual(answers.levelsOf([run("x", null, []), run("y", null, [])]), ["setting"]);
+  assert.equal(answers.groupsOf([...runs, runs[0]], "setting").length, 8);
+  // Settings of one name in two experiments are two.
+  const other = run("other", { setting: "a", case: "lab", seed: 1 }, [trial("wrong")], { name: { text: "second" } });
+  assert.deepEqual(answers.groupsOf([runs[0], other], "setting").map(({ name }) => name), ["lab, a", "second, a"]);
+});
+
+test("the best come first: right less wrong, then fewer steps, and by nothing that judges", () => {
+  const variant = (setting, more = {}) => ({ setting, case: "", seed: 1, ...more });
+  const runs = [
+    run("wrong", variant("wrong"), [trial("right"), trial("right"), trial("wrong")]),
+    run("slow", variant("slow"), [trial("right", 9), trial("right", 5), trial("undecided")]),
+    run("quick", variant("quick"), [trial("right", 4), trial("right", 6), trial("undecided")]),
+    run("none", variant("none"), []),
+  ];
+  const order = (all) => answers.bestFirst(all, "setting").map(({ name }) => name);
+  assert.deepEqual(order(runs), ["quick", "slow", "wrong", "none"]);
+  const judged = run("slow_judged", variant("slow", { case: "other", role: "judge" }), [trial("right"), trial("right"), trial("right"), trial("right"), trial("right")]);
+  assert.deepEqual(order([...runs, judged]), ["quick", "slow", "wrong", "none"]);
+  const { steps, right, undecided } = answers.answerOf(answers.groupOf("slow", [runs[1]]));
+  assert.deepEqual([steps, right, undecided], [7, 2, 1]);
+});
+
+test("runs are found by words of their names and of what they set otherwise", () => {
+  const runs = [run("a", null, [], { "x.size": { text: "20" }, same: { text: "word" } }), run("b", null, [], { "x.size": { text: "30" }, same: { text: "word" } })];
+  const found = (words) => answers.searched(runs, words).map(({ name }) => name);
+  assert.deepEqual([found(""), found("size=30"), found("A size"), found("word"), found("a 30")], [["a", "b"], ["b"], ["a"], [], []]);
+});
+
+test("a comparison is read as far as it goes, with p only where something differs", () => {
+  const outcome = { outcome: "right", both: 3, only_baseline: 2, only_variant: 0, neither: 1, difference_points: { value: -33, low: -60, high: 0 }, p: 0.5, p_holm: 1, significant: false };
+  const same = { ...outcome, outcome: "wrong", only_baseline: 0 };
+  const steps = { measure: "steps", nonzero: 0, baseline_median: 4, variant_median: 4, median_difference: { value: 0, low: 0, high: 0 }, p: 1, p_holm: 1 };
+  const found = comparison.read({ baseline: "a", warnings: ["w"], pairs: [{ variant: "b", conclusion: "c", warnings: ["v"], outcomes: [outcome, same], measures: [steps] }] });
+  assert.deepEqual([found.conclusions, found.warnings], [["c"], ["w", "b: v"]]);
+  assert.deepEqual(found.rows.map(({ variant, measure, baseline, own, p }) => [variant, measure, baseline, own, p]), [["b", "right", 5, 3, 1]]);
+  assert.deepEqual(found.alike, [{ variant: "b", measures: ["wrong", "steps"] }]);
+  // Over cases and seeds: places differ, and no test of one place can reject.
+  const pooled = { measure: "steps", differing_places: 1, has_chance: false, baseline_median: 4, variant_median: 5, mean_difference: { value: 0.5, low: 0, high: 1 }, median_difference: 0, p_holm: 1 };
+  const methods = [{ name: "a", success_rate: { value: 0.5, low: 0.25, high: 0.75 } }];
+  const other = comparison.read({ starts: 8, places: 4, methods, pairs: [{ variant: "b", measures: [pooled] }] });
+  assert.deepEqual(other.methods, [{ name: "a", right: methods[0].success_rate, wrong: undefined, undecided: undefined }]);
+  assert.deepEqual([other.rows[0].p, other.rows[0].difference.value, other.places], [undefined, 0.5, 4]);
+  for (const odd of [undefined, null, "text", [], 3]) assert.equal(comparison.read(odd), null);
+  for (const odd of [{}, { pairs: 3 }, { pairs: [null, { outcomes: ["x"] }] }]) assert.deepEqual(comparison.read(odd).rows, []);
 });
 
 test("poses in space are read from their columns", () => {

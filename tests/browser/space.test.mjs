@@ -265,6 +265,9 @@ test("the certificate is told in a sentence with its numbers", { skip }, async (
   assert.ok(certified >= 0);
   const { contact, at_most, distance_m, rotation_deg } = steps[certified].verification.certificate;
   await moveSlider(page, certified);
+  // Folded, the number is told; its meaning when asked for.
+  assert.match(await page.locator(".certificate").innerText(), /[+−]\d+\.\d points$/);
+  await page.locator(".certificate summary").click();
   const text = await page.locator(".certificate").innerText();
   const percent = (part) => `${(100 * part).toFixed(1)} %`;
   assert.ok(text.includes(`${percent(contact)} of the local map's points are in contact`), text);

@@ -26,17 +26,42 @@ after(async () => {
 const percent = (share) => `${(100 * share).toFixed(1)} %`;
 
 test("settings are listed best first, with what they were judged by", { skip }, async () => {
-  const rows = page.locator("#sweep table").first().locator("tbody tr");
-  assert.deepEqual(await rows.locator("th").allInnerTexts(), sweep.settings.map((s) => s.setting));
-  const best = await rows.first().locator("td").allInnerTexts();
-  assert.ok(best[2].startsWith(percent(sweep.settings[0].chosen.success_rate.value)), best[2]);
-  // What the setting changes comes last, a column for each parameter.
-  const values = sweep.effects.map((effect) => sweep.settings[0].values[effect.path]);
-  assert.deepEqual(best.slice(-values.length), values);
-  const judged = best.at(-values.length - 1);
-  assert.ok(judged.startsWith(percent(sweep.settings[0].judged.success_rate.value)), judged);
+  const table = page.locator("#sweep table").first();
+  const rows = table.locator("tbody tr");
+  assert.deepEqual((await rows.locator("th").allInnerTexts()).map((text) => text.trim()), sweep.settings.map((s) => s.setting));
+  const heads = await table.locator("thead th").evaluateAll((all) => all.map((head) => head.textContent));
+  const best = await rows.first().locator("td").evaluateAll((all) => all.map((cell) => cell.textContent));
+  const told = (head) => best[heads.findIndex((text) => text.startsWith(head)) - 1];
+  const [{ chosen, judged, values }] = sweep.settings;
+  assert.deepEqual(["right", "wrong", "trials"].map(told), [chosen.right, chosen.wrong, chosen.trials].map(String));
+  assert.ok(told("success by").startsWith(percent(chosen.success_rate.value)), told("success by"));
+  assert.ok(told("success judged").startsWith(percent(judged.success_rate.value)), told("success judged"));
+  // What the setting changes has a column for each parameter.
+  for (const { label, path } of sweep.effects) assert.equal(told(label), values[path]);
   const text = await page.locator("#sweep").innerText();
   for (const warning of sweep.warnings) assert.ok(text.includes(warning), warning);
+});
+
+test("what came out is told of the settings over the cases that they are chosen by, in the same order", { skip }, async () => {
+  const rows = page.locator("#figures tbody tr");
+  assert.deepEqual(await rows.locator("[data-run]").allInnerTexts(), sweep.settings.map((s) => s.setting));
+  const right = async () => (await rows.first().locator("td").allInnerTexts())[0];
+  assert.equal(await right(), String(sweep.settings[0].chosen.right));
+  await page.locator("#figures [data-axis=cases]").selectOption({ label: "to judge by" });
+  const names = await rows.locator("[data-run]").allInnerTexts();
+  assert.equal(await right(), String(sweep.settings.find(({ setting }) => setting === names[0]).judged.right));
+  await page.locator("#figures [data-axis=cases]").selectOption({ label: "to choose by" });
+  // Other rows: each case by itself, and single runs.
+  await page.locator("#level").selectOption("run");
+  assert.equal(await rows.count(), Math.min(30, sweep.settings.length * sweep.choose_on.length * 2));
+  await page.locator("#level").selectOption("setting");
+});
+
+test("runs without steps can be chosen, too", { skip }, async () => {
+  assert.equal(await page.locator("#view").count(), 0);
+  await page.locator("#run").selectOption("1");
+  assert.equal(await page.evaluate(() => document.body.dataset.run), await page.locator("#run option:checked").innerText());
+  await page.locator("#run").selectOption("0");
 });
 
 test("each parameter has its levels where they belong on the axis", { skip }, async () => {
@@ -164,6 +189,6 @@ test("cells of the map can be read on their colours", { skip }, async () => {
     assert.ok((await page.locator("#sweep .heat thead").innerText()).includes(axis.label));
 });
 
-test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 50));
+test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 40));
 
 test("axe finds nothing serious", { skip }, () => assertAccessibleInBoth(page, "sweep"));

@@ -35,7 +35,7 @@ test("words mean what the glossary says", async () => {
 });
 
 test("every number of the step, of the clusters and of the header tells what it is", { skip }, async () => {
-  for (const part of [".details dt", ".hypotheses thead th span", "#figures dt", ".panel[data-curve] h3 > span"]) {
+  for (const part of [".details dt", ".hypotheses thead th span", "#figures strong", ".panel[data-curve] h3 > span"]) {
     const bare = await page.locator(part).evaluateAll((all) => all.filter((e) => !e.dataset.meaning).map((e) => e.textContent));
     assert.ok((await page.locator(part).count()) > 0, part);
     assert.deepEqual(bare, [], part);
@@ -68,11 +68,12 @@ test("the legend has the strip of verdicts and the circles of candidates", { ski
   const steps = stepsOf(folder, 0);
   const ambiguous = steps.findIndex(({ candidates }) => candidates?.length > 1);
   await moveSlider(page, ambiguous);
+  await showOnly(page, "candidates");
   const view = await mapView(page);
   const circle = steps[ambiguous].candidates.map((pose) => view.toScreen(pose)).map(({ x, y }) => ({ x: x + 15, y }));
-  await showOnly(page, "candidates");
   assert.deepEqual(await painted(page, circle), circle.map(() => true));
   await showOnly(page);
+  await page.evaluate(() => window.scrollTo(0, 0));
   assert.deepEqual(await painted(page, circle), circle.map(() => false));
 });
 

@@ -29,7 +29,7 @@ void read_all(const std::filesystem::path& folder) {
   ReportData report({});
   const StoredRun run = report.add(folder);
   const std::vector<NamedRun> runs = {{"a", run}, {"b", run}};
-  static_cast<void>(report.to_json({{"a", run}}, 0).dump());
+  static_cast<void>(report.page_data({{"a", run}}, 0).head.dump());
   static_cast<void>(compare(runs, 0));
 }
 

@@ -9,6 +9,7 @@
 #include "evaluation/results/writers.hpp"
 #include "files.hpp"
 #include "report/point_sets.hpp"
+#include "report/unpacked.hpp"
 
 namespace glocal::test::report_data_test {
 namespace {
@@ -73,7 +74,7 @@ class ReportDataTest : public testing::Test {
       data.add(folder_ / name);
       runs.push_back({name, read_results(folder_ / name)});
     }
-    return data.to_json(runs, 0);
+    return whole(data.page_data(runs, 0));
   }
 
   /// All that is said of a folder.
@@ -109,6 +110,7 @@ TEST_F(ReportDataTest, IsAllThatTheRunLeft) {
                                              "output.maps": {"text": "all"},
                                              "output.steps": {"text": "true"}, "seed": {"text": "7"}})"));
   EXPECT_EQ(run["map"], 0);
+  EXPECT_EQ(run["step_ms"], Json::parse("[10, 10, 10, 10]"));  // four stages of 1 to 4 ms
   ASSERT_EQ(run["trials"].size(), 2U);
   const Json& first = run["trials"][0];
   EXPECT_EQ(first["steps"], 3);
@@ -123,6 +125,31 @@ TEST_F(ReportDataTest, IsAllThatTheRunLeft) {
   EXPECT_EQ(second["columns"]["step"], Json::parse("[0]"));
   EXPECT_FALSE(second.contains("local_map"));
   EXPECT_FALSE(second.contains("scans"));
+}
+
+TEST_F(ReportDataTest, HasNoMoreDigitsOfTrialsThanAreRead) {
+  write("a/trials.jsonl", trial(0, 3, 1.0 / 3.0) + trial(1, 1, 5.0));
+  const Json start = data({"a"})["runs"][0]["trials"][0]["start"];
+  EXPECT_EQ(start["distance_m"].dump(), "0.3333333");
+}
+
+TEST_F(ReportDataTest, HasTimesOfStepsInTheirOrderButNoMoreThanAreDrawn) {
+  std::string steps;
+  for (std::size_t i = 0; i < 1000; ++i) {
+    StepRecord record = step_record(i, {1.0, 2.0, 0.5});
+    record.result.stage_ms = {.local_map = static_cast<double>((7 * i) % 1000)};
+    steps += step_line(0, record);
+  }
+  write("a/trials.jsonl", trial(0, 1000, 0.0));
+  write("a/steps.jsonl", steps);
+  write_summary("a", true, 1, 1000);
+  fs::remove_all(folder_ / "a/maps");
+  const Json times = data({"a"})["runs"][0]["step_ms"];
+  ASSERT_EQ(times.size(), 200U);
+  EXPECT_EQ(times.front(), 0);
+  EXPECT_EQ(times.back(), 999);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    EXPECT_NEAR(times[i].get<double>() - times[i - 1].get<double>(), 5.0, 1.0);
 }
 
 TEST_F(ReportDataTest, DoesWithoutWhatWasNotRecorded) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "evaluation/results/records.hpp"
@@ -36,6 +37,21 @@ std::string fault(const Json& line) {
   return "";
 }
 
+TEST(Rounded, IsTheNearestMultipleAndNullForWhatIsNone) {
+  EXPECT_EQ(rounded(12.34567, 1e3).dump(), "12.346");
+  EXPECT_EQ(rounded(-0.30000000000000004, 1e4).dump(), "-0.3");
+  EXPECT_EQ(rounded(7.0001, 1e3).dump(), "7");
+  EXPECT_TRUE(rounded(std::numeric_limits<double>::infinity(), 1e3).is_null());
+}
+
+TEST(ShortNumbers, AreAllButThoseOfAKey) {
+  const Json json = {{"stamp", 1.23456789123},
+                     {"at", {{"x", 1.23456789123}, {"stamp", 2.3456789123}}},
+                     {"n", {1, 0.1234567891, "0.1234567891"}}};
+  EXPECT_EQ(with_short_numbers(json, "stamp"), Json::parse(R"({"stamp": 1.23456789123,
+    "at": {"x": 1.234568, "stamp": 2.3456789123}, "n": [1, 0.1234568, "0.1234567891"]})"));
+}
+
 TEST(ShortNumber, HasSevenDigitsAndNoPointWhereItIsWhole) {
   EXPECT_EQ(short_number(0.30000000000000004).dump(), "0.3");
   EXPECT_EQ(short_number(-17.956381234).dump(), "-17.95638");
@@ -44,6 +60,7 @@ TEST(ShortNumber, HasSevenDigitsAndNoPointWhereItIsWhole) {
   EXPECT_EQ(short_number(88.0).dump(), "88");
   EXPECT_EQ(short_number(-0.0).dump(), "0");
   EXPECT_EQ(short_number(1e300).dump(), "1e+300");
+  EXPECT_EQ(short_number(-17.956381234, 3).dump(), "-18.0");
 }
 
 TEST(StepColumns, HaveAValueForEachStep) {
@@ -58,20 +75,19 @@ TEST(StepColumns, HaveAValueForEachStep) {
   StepRecord third = step_record(2, {1, 2, 3});
   third.result.verdict.estimate = PoseEstimate{Pose2{7, 8, 0.5}, 0.75};
   EXPECT_EQ(columns_of({first, second, third}), Json::parse(R"({
-    "step": [0, 1, 2], "stamp": [100.0, 100.5, 101.0],
-    "local_map_ms": [1, 1, 1], "match_ms": [2, 2, 2], "cluster_ms": [3, 3, 3], "rate_ms": [4, 4, 4],
+    "step": [0, 1, 2], "step_ms": [10, 10, 10], "match_ms": [2, 2, 2],
     "local_map_points": [40, 40, 40], "omega_best": [0.75, 0.75, 0.75], "score_best": [0.625, 0.625, 0.625],
     "omega_max": [0.5, 0.5, 0.5],
-    "proposals": [60, 60, 60], "points_tested": [700, 700, 700], "hypotheses": [4, 4, 4], "clusters": [2, 0, 2],
+    "proposals": [60, 60, 60], "hypotheses": [4, 4, 4], "clusters": [2, 0, 2],
     "omega_place": [0.875, null, 0.875],
     "translation_error_m": [0.5, null, null], "rotation_error_deg": [2, null, null], "confidence": [null, null, 0.75],
-    "verdict": ["searching", "ambiguous", "searching"], "why": [0, 1, 0], "on_map": [true, null, null],
-    "estimate": {"x": [1.5, null, 7], "y": [-2, null, 8], "theta": [0.3333333, null, 0.5]},
+    "verdict": ["searching", "ambiguous", "searching"], "why": [0, 1, 0],
+    "estimate": {"x": [1.5, null, 7], "y": [-2, null, 8], "theta": [0.3333, null, 0.5]},
     "reference": {"x": [1, null, null], "y": [-2, null, null], "theta": [0.25, null, null]},
     "local_from_robot": {"x": [1, 1, 1], "y": [2, 2, 2], "theta": [0.5, 0.5, 0.5]},
     "candidates": [[], [1, 2, 3, 4, 5, 0.5], []],
     "evidence": {},
-    "best": {"first": [0, 2, 2, 4], "x": [1.5, 9, 1, 9], "y": [-2, 9, 2, 9], "theta": [0.3333333, 0, 3, 0],
+    "best": {"first": [0, 2, 2, 4], "x": [1.5, 9, 1, 9], "y": [-2, 9, 2, 9], "theta": [0.3333, 0, 3, 0],
              "size": [3, 1, 3, 1], "r": [0.6, 0.2, 0.6, 0.2], "r_normalised": [0.75, 0.25, 0.75, 0.25]},
     "sentences": ["not yet", "two"]})"));
 }
@@ -153,14 +169,15 @@ TEST(StepColumns, WantOneStepAfterTheOther) {
     }
   }
   EXPECT_EQ(columns.size(), 1U);
+  EXPECT_THAT(columns.step_ms(), testing::ElementsAre(10.0F));
 }
 
 TEST(StepColumns, WantWhatEachLineHas) {
   const Json whole = line_of(step_record(0, {}));
   EXPECT_EQ(fault(whole), "");
   for (const char* key :
-       {"step", "stamp", "stage_ms", "local_map_points", "omega_best", "score_best", "omega_max", "proposals",
-        "points_tested", "hypotheses", "clusters", "best", "verdict", "why", "local_from_robot"}) {
+       {"step", "stage_ms", "local_map_points", "omega_best", "score_best", "omega_max", "proposals",
+        "hypotheses", "clusters", "best", "verdict", "why", "local_from_robot"}) {
     Json line = whole;
     line[key] = "text";
     const bool may_be_text = key == std::string("verdict") || key == std::string("why");

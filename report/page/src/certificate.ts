@@ -36,7 +36,7 @@ export function verificationSentence(verification: Verification): string {
 }
 
 /** What the step's verification says; else the certificate that the trial's declaration has; null without either. */
-export function certificateNote(trial: Trial, step: number): HTMLElement | null {
+export function certificateNote(trial: Trial, step: number, isOpen: boolean): HTMLElement | null {
   const verification = trial.columns?.verifications?.find((v) => v.step === step);
   const certificate = verification ? verification.certificate : trial.certificate;
   if (!verification && !certificate) return null;
@@ -44,12 +44,14 @@ export function certificateNote(trial: Trial, step: number): HTMLElement | null 
   const name = verification ? (verification.refuted ? "verification" : "certificate") : `certificate of the trial${declared}`;
   const text = verification ? verificationSentence(verification) : certificate ? certificateSentence(certificate) : "";
   return el(
-    "div",
-    { class: `certificate${verification?.refuted ? " refuted" : ""}` },
-    certificate && leadOf(certificate),
-    el("p", {}, el("strong", {}, `${name}: `), text),
+    "details",
+    { class: `certificate${verification?.refuted ? " refuted" : ""}`, open: isOpen },
+    el("summary", {}, el("strong", {}, name), certificate && `: ${leadText(certificate)}`),
+    el("div", { class: "proof" }, certificate && leadOf(certificate), el("p", {}, text)),
   );
 }
+
+const leadText = (certificate: Certificate): string => `${lead(certificate) < 0 ? "−" : "+"}${fixed(Math.abs(lead(certificate)), 1)} points`;
 
 /** The number, over a bar of the two contacts. */
 function leadOf(certificate: Certificate): HTMLElement {
@@ -58,7 +60,7 @@ function leadOf(certificate: Certificate): HTMLElement {
   return el(
     "figure",
     { title: "Contact of the declared pose less the most that any pose elsewhere has, in points of 100" },
-    el("figcaption", {}, `${lead(certificate) < 0 ? "−" : "+"}${fixed(Math.abs(lead(certificate)), 1)} points`),
+    el("figcaption", {}, leadText(certificate)),
     el("span", { class: "contact", title: `here ${percent(contact)}` }, el("i", { style: wide(contact) })),
     el("span", { class: "contact elsewhere", title: `elsewhere at most ${percent(at_most)}` }, el("i", { style: wide(at_most) })),
   );

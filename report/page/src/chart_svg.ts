@@ -7,7 +7,6 @@ import { SvgPen, type Pen } from "./pen";
 /** What uPlot knows of an axis that it has drawn, but does not say in its types. */
 interface DrawnAxis {
   side?: number;
-  scale?: string;
   label?: string;
   _splits?: (number | null)[] | null;
   _values?: (string | null)[] | null;
@@ -63,15 +62,14 @@ function drawPlot(pen: SvgPen, plot: uPlot, options: ChartOptions): void {
 }
 
 function drawAxis(pen: Pen, plot: uPlot, axis: DrawnAxis, box: { left: number; top: number; width: number; height: number }): void {
-  const isRight = axis.side === 1;
   const isAcross = axis.side === 2 || axis.side === 0;
-  const scale = axis.scale ?? (isAcross ? "x" : "y");
+  const scale = isAcross ? "x" : "y";
   const bottom = box.top + box.height;
-  const edge = isRight ? box.left + box.width + 6 : box.left - 6;
+  const edge = box.left - 6;
   pen.lineWidth = 1;
   pen.strokeStyle = themeColour("grid");
   pen.fillStyle = themeColour("ink");
-  pen.textAlign = isAcross ? "center" : isRight ? "start" : "end";
+  pen.textAlign = isAcross ? "center" : "end";
   pen.textBaseline = isAcross ? "top" : "middle";
   (axis._splits ?? []).forEach((value, i) => {
     if (value === null) return;
@@ -79,19 +77,18 @@ function drawAxis(pen: Pen, plot: uPlot, axis: DrawnAxis, box: { left: number; t
     pen.beginPath();
     pen.moveTo(isAcross ? at : box.left, isAcross ? box.top : at);
     pen.lineTo(isAcross ? at : box.left + box.width, isAcross ? bottom : at);
-    if (!isRight) pen.stroke();
+    pen.stroke();
     const text = axis._values?.[i];
     if (text) pen.fillText(text, isAcross ? at : edge, isAcross ? bottom + 6 : at);
   });
   if (!axis.label) return;
-  pen.textAlign = isAcross ? "center" : isRight ? "end" : "start";
+  pen.textAlign = isAcross ? "center" : "start";
   pen.textBaseline = "alphabetic";
-  pen.fillText(axis.label, isAcross ? box.left + box.width / 2 : isRight ? plot.width - 2 : 2, isAcross ? plot.height - 2 : box.top - 4);
+  pen.fillText(axis.label, isAcross ? box.left + box.width / 2 : 2, isAcross ? plot.height - 2 : box.top - 4);
 }
 
 /** As uPlot does: what is missing leaves a gap, except in steps, which go on. */
 function drawLine(pen: Pen, plot: uPlot, options: ChartOptions, line: Line, box: { left: number; top: number }): void {
-  const scale = line.side === "right" ? "right" : "y";
   const isLog = options.logY === true;
   pen.strokeStyle = pen.fillStyle = line.colour;
   pen.lineWidth = line.width ?? 1.5;
@@ -106,7 +103,7 @@ function drawLine(pen: Pen, plot: uPlot, options: ChartOptions, line: Line, box:
       return;
     }
     const u = plot.valToPos(x, "x") + box.left;
-    const v = plot.valToPos(value, scale) + box.top;
+    const v = plot.valToPos(value, "y") + box.top;
     if (before === null) pen.moveTo(u, v);
     else {
       if (line.stepped) pen.lineTo(u, before);

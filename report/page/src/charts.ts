@@ -10,8 +10,6 @@ export interface Line {
   colour: string;
   dash: number[];
   values: (number | null)[];
-  /** "right" has an axis of its own on that side. */
-  side?: "left" | "right";
   width?: number;
   stepped?: boolean;
 }
@@ -19,12 +17,12 @@ export interface Line {
 export interface ChartOptions {
   x: number[];
   lines: Line[];
+  /** Of the axes: below, and on the left. */
   xLabel: string;
-  /** Of the axis on the left, and of that on the right. */
-  labels: string[];
+  label: string;
   logX?: boolean;
   logY?: boolean;
-  /** Fixed ranges of the x axis, and of the axis on the left. */
+  /** Fixed ranges of both. */
   xRange?: [number, number];
   range?: [number, number];
   /** The x axis has ticks at whole numbers only. */
@@ -67,7 +65,6 @@ const labelled = (_: uPlot, splits: (number | null)[]): string[] =>
 /** Draws a chart into `target`, as wide as it is, until the returned function is called. */
 export function chart(target: HTMLElement, options: ChartOptions): { plot: uPlot; destroy: () => void } {
   const { lines, logX, logY } = options;
-  const hasRight = lines.some((line) => line.side === "right");
   const distr = (isLog?: boolean): 1 | 3 => (isLog ? 3 : 1);
   const scales: uPlot.Scales = {
     x: { time: false, distr: distr(logX), ...(options.xRange ? { range: options.xRange } : {}) },
@@ -75,18 +72,14 @@ export function chart(target: HTMLElement, options: ChartOptions): { plot: uPlot
   };
   const axes = [
     axis(options.xLabel, { values: labelled, size: 26, space: 45, ...(options.whole ? { incrs: wholeSteps } : {}) }),
-    axis(options.labels[0], { values: labelled, size: 44, space: 24 }),
+    axis(options.label, { values: labelled, size: 44, space: 24 }),
   ];
-  if (hasRight) {
-    scales.right = { distr: distr(logY) };
-    axes.push(axis(options.labels[1], { scale: "right", side: 1, values: labelled, size: 44, space: 24, grid: { show: false } }));
-  }
   const series: uPlot.Series[] = lines.map((line) => ({
     label: line.label,
     stroke: line.colour,
     dash: line.dash,
     width: line.width ?? 1.5,
-    scale: line.side === "right" ? "right" : "y",
+    scale: "y",
     points: { show: options.x.length === 1 },
     ...(line.stepped ? { paths: uPlot.paths.stepped?.({ align: 1 }), spanGaps: true } : {}),
   }));

@@ -2,7 +2,7 @@
 import type uPlot from "uplot";
 import { chart, type Line } from "./charts";
 import { runColour, runLine, themeColour } from "./colours";
-import { firstLocalized, type Column, type Run, type Steps } from "./data";
+import { firstLocalized, type Column, type Run, type Steps, type Trial } from "./data";
 import { el, replace } from "./elements";
 import { count, significant } from "./numbers";
 import { matchingTrial, type Change, type Store } from "./store";
@@ -12,9 +12,11 @@ interface Curve {
   id: string;
   title: string;
   unit: string;
+  /** What the axis says. */
+  axis: string;
   values: (steps: Steps) => Column;
-  /** Drawn dashed; on an axis to the right, unless it shares that on the left. */
-  second?: { name?: string; unit: string; side: "left" | "right"; values: (steps: Steps) => Column };
+  /** Drawn dashed. */
+  second?: { name: string; values: (steps: Steps) => Column };
   range?: [number, number];
   whole?: boolean;
   log: boolean;
@@ -25,31 +27,38 @@ function scoreWhereOther(steps: Steps): Column {
   return steps.score_best.map((score, i) => (score === steps.omega_best[i] ? null : score));
 }
 
+const share: [number, number] = [0, 1];
+
 const curves: Curve[] = [
-  { id: "match_ms", title: "Time per match", unit: "ms", values: (s) => s.match_ms, log: false },
+  { id: "match_ms", title: "Time per match", unit: "ms", axis: "time, ms", values: (s) => s.match_ms, log: false },
   {
     id: "omega_best",
     title: "Best quality Ω",
     unit: "",
+    axis: "share of points",
     values: (s) => s.omega_best,
-    second: { name: "score", unit: "", side: "left", values: scoreWhereOther },
-    range: [0, 1],
+    second: { name: "score", values: scoreWhereOther },
+    range: share,
     log: false,
   },
-  { id: "omega_max", title: "Threshold Ω max", unit: "", values: (s) => s.omega_max, range: [0, 1], log: false },
-  { id: "omega_place", title: "Known place Ω′", unit: "", values: (s) => s.omega_place, range: [0, 1], log: false },
-  {
-    id: "error",
-    title: "Error",
-    unit: "m",
-    values: (s) => s.translation_error_m,
-    second: { unit: "°", side: "right", values: (s) => s.rotation_error_deg },
-    log: true,
-  },
-  { id: "clusters", title: "Clusters", unit: "", whole: true, values: (s) => s.clusters, log: true },
+  { id: "omega_max", title: "Threshold Ω max", unit: "", axis: "share of points", values: (s) => s.omega_max, range: share, log: false },
+  { id: "omega_place", title: "Known place Ω′", unit: "", axis: "share of points", values: (s) => s.omega_place, range: share, log: false },
+  { id: "translation", title: "Error of translation", unit: "m", axis: "error, m", values: (s) => s.translation_error_m, log: true },
+  { id: "rotation", title: "Error of rotation", unit: "°", axis: "error, °", values: (s) => s.rotation_error_deg, log: true },
+  { id: "clusters", title: "Clusters", unit: "", axis: "clusters", whole: true, values: (s) => s.clusters, log: true },
 ];
 
-/** A run's trial that starts where the chosen one does. */
+/** A run's trial that starts where the chosen one does, and whether its curves are drawn. */
+interface Found {
+  run: Run;
+  index: number;
+  trial: Trial;
+  isChosen: boolean;
+  isOn: boolean;
+}
+
+const mostNames = 12;
+
 interface Shown {
   run: Run;
   index: number;
@@ -58,18 +67,24 @@ interface Shown {
 }
 
 const mostAtFirst = 6;
-const tallScreen = 1100; // px
+
+/** Low enough for all of them, two in a row, to be seen at once where the screen is not too small. */
+function chartHeight(): number {
+  const besides = 240; // px, of the page
+  const ofPanel = 32;
+  const rows = Math.ceil(curves.length / 2);
+  return Math.min(Math.max((window.innerHeight - besides) / rows - ofPanel, 118), 200);
+}
 
 export class Curves {
   readonly element: HTMLElement;
   private readonly panels: Panel[];
   private readonly picker = el("fieldset", { class: "runs" });
-  private readonly hidden: Set<number>;
-  private shown: Shown[] = [];
+  /** Those that the reader has switched on or off; of the others the first are on. */
+  private readonly switched = new Map<number, boolean>();
+  private hasAllNames = false;
 
   constructor(private readonly store: Store) {
-    const runs = store.report.runs;
-    this.hidden = new Set(runs.map((_, i) => i).filter((i) => i >= mostAtFirst));
     this.panels = curves.map((curve) => new Panel(curve, store));
     this.element = el(
       "div",
@@ -81,45 +96,61 @@ export class Curves {
   }
 
   rebuild(): void {
-    this.shown = this.find();
-    this.drawPicker();
-    for (const panel of this.panels) panel.rebuild(this.shown);
+    const found = this.find();
+    this.drawPicker(found);
+    const on = found.filter(({ isOn }) => isOn);
+    const missing = on.map(({ trial }) => trial).filter(({ chunk }) => chunk !== undefined);
+    if (missing.length > 0) {
+      const before = this.store.trial;
+      // What cannot be loaded is told on the map.
+      void this.store.load(missing).then(() => before === this.store.trial && missing.every(({ chunk }) => chunk === undefined) && this.rebuild());
+    }
+    const shown = on.flatMap(({ run, index, trial, isChosen }) => (trial.columns ? { run, index, steps: trial.columns, isChosen } : []));
+    for (const panel of this.panels) panel.rebuild(shown);
   }
 
   private update(change: Change): void {
-    if (change.trial) this.rebuild();
+    if (change.trial || change.shown) this.rebuild();
     else if (change.step) for (const panel of this.panels) panel.showStep();
   }
 
-  private find(): Shown[] {
-    const { report, selected, trial } = this.store;
-    const shown: Shown[] = [];
+  /** The trials of runs that start where the chosen one does. */
+  private find(): Found[] {
+    const { report, selected, trial, shown } = this.store;
+    const found: Found[] = [];
     report.runs.forEach((run, index) => {
       const isChosen = index === selected.run;
-      if (this.hidden.has(index) && !isChosen) return;
-      const steps = run.trials[isChosen ? selected.trial : matchingTrial(trial, run)]?.columns;
-      if (steps) shown.push({ run, index, steps, isChosen });
+      if (!isChosen && !shown.includes(run)) return;
+      const own = run.trials[isChosen ? selected.trial : matchingTrial(trial, run)];
+      if (own?.columns || own?.chunk !== undefined) found.push({ run, index, trial: own, isChosen, isOn: false });
     });
-    return shown;
+    found.forEach((each, i) => (each.isOn = each.isChosen || (this.switched.get(each.index) ?? i < mostAtFirst)));
+    return found;
   }
 
-  private drawPicker(): void {
-    const { runs } = this.store.report;
-    this.picker.hidden = runs.length < 2;
-    const entry = (run: Run, i: number): HTMLElement => {
+  private drawPicker(found: Found[]): void {
+    this.picker.hidden = found.length < 2;
+    const entry = ({ run, index, isChosen, isOn }: Found): HTMLElement => {
       const box = el("input", {
         type: "checkbox",
-        checked: !this.hidden.has(i) || i === this.store.selected.run,
-        disabled: i === this.store.selected.run,
+        checked: isOn,
+        disabled: isChosen,
         change: () => {
-          if (box.checked) this.hidden.delete(i);
-          else this.hidden.add(i);
+          this.switched.set(index, box.checked);
           this.rebuild();
         },
       });
-      return el("label", {}, box, lineSample(i), run.name);
+      return el("label", {}, box, lineSample(index), run.name);
     };
-    replace(this.picker, el("legend", {}, "Curves of"), ...runs.map(entry));
+    const isNamed = (each: Found, i: number): boolean => this.hasAllNames || each.isOn || i < mostNames;
+    const named = found.filter(isNamed);
+    const more = el("button", { type: "button", click: () => this.showAllNames() }, `${found.length - named.length} more`);
+    replace(this.picker, el("legend", {}, "Curves of"), ...named.map(entry), named.length < found.length && more);
+  }
+
+  private showAllNames(): void {
+    this.hasAllNames = true;
+    this.rebuild();
   }
 }
 
@@ -179,16 +210,16 @@ class Panel {
     const { second } = curve;
     if (second) {
       for (const s of shown)
-        lines.push({ ...line(s), dash: [3, 3], width: 1.25, side: second.side, values: padded(second.values(s.steps)) });
+        lines.push({ ...line(s), dash: [3, 3], width: 1.25, values: padded(second.values(s.steps)) });
     }
     this.drawn = chart(this.target, {
       x,
       lines,
-      xLabel: "",
-      labels: [curve.unit, second?.side === "right" ? `${second.unit} (dashed)` : ""],
+      xLabel: "step",
+      label: curve.axis,
       logY: curve.log,
       range: curve.range,
-      height: window.innerHeight < tallScreen ? 150 : 200,
+      height: chartHeight(),
       whole: true,
       sync: "steps",
       hooks: { draw: [(plot) => this.drawLocalized(plot), () => this.placeCursor()] },
@@ -204,11 +235,8 @@ class Panel {
     const told = (values: Column, unit: string): string => `${number(values[step])}${unit && ` ${unit}`}`;
     const texts = steps && steps.step.length > 0 ? [told(this.curve.values(steps), this.curve.unit)] : [];
     const { second } = this.curve;
-    if (steps && texts.length > 0 && second) {
-      const values = second.values(steps);
-      if (!second.name) texts.push(told(values, second.unit));
-      else if (values[step] != null) texts.push(`${second.name} (dashed) ${told(values, second.unit)}`);
-    }
+    const values = steps && second?.values(steps);
+    if (texts.length > 0 && values?.[step] != null) texts.push(`${second?.name} (dashed) ${told(values, "")}`);
     replace(this.value, texts.join(", "));
     this.placeCursor();
   }

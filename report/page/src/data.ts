@@ -51,18 +51,15 @@ export type VerdictKind = "searching" | "ambiguous" | "localized" | "unknown_pla
 /** One value a step in each. */
 export interface Steps {
   step: number[];
-  stamp: number[];
-  local_map_ms: number[];
+  /** Wall-clock time of the whole step, and of the matching in it. */
+  step_ms: number[];
   match_ms: number[];
-  cluster_ms: number[];
-  rate_ms: number[];
   local_map_points: number[];
   omega_best: number[];
   score_best: number[];
   omega_max: number[];
   omega_place: Column;
   proposals: number[];
-  points_tested: number[];
   hypotheses: number[];
   clusters: number[];
   verdict: VerdictKind[];
@@ -72,7 +69,6 @@ export interface Steps {
   translation_error_m: Column;
   rotation_error_deg: Column;
   confidence: Column;
-  on_map: (boolean | null)[];
   estimate: PoseColumns;
   reference: PoseColumns;
   local_from_robot: PoseColumns;
@@ -132,6 +128,8 @@ export interface Trial {
   confidence?: number;
   certificate?: Certificate;
   why?: string;
+  /** Names what holds the three below, until it is loaded; absent where the trial has left none of them. */
+  chunk?: number;
   /** Absent where steps were not written. */
   columns?: Steps;
   local_map?: PointLives;
@@ -174,16 +172,30 @@ export interface Setting {
   identity?: string;
 }
 
+/** Of what experiment's variants, cases and seeds the run is. */
+export interface Part {
+  setting: string;
+  case: string;
+  role: "none" | "choose" | "judge";
+  seed: number;
+  /** What the setting changes, by path. */
+  values: Record<string, string>;
+}
+
+export type Provenance = Record<string, unknown> & { variant?: Part };
+
 export interface Run {
   name: string;
   folder: string;
   /** Absent while the run goes on. */
   summary?: Summary;
-  provenance?: Record<string, unknown>;
+  provenance?: Provenance;
   settings: Record<string, Setting>;
   /** Index into `maps`. */
   map?: number;
   trials: Trial[];
+  /** Wall-clock times of steps, ascending: all, or as many as distributions are drawn from. Absent while the run goes on. */
+  step_ms?: number[];
 }
 
 /** What is known of square cells: row 0 has the lowest y of the grid's frame. */
@@ -204,52 +216,6 @@ export interface GlobalMap {
   spacing_m: number;
   /** Absent where a map has points only. */
   grid?: Grid;
-}
-
-export interface Difference {
-  value: number;
-  low: number;
-  high: number;
-}
-
-export interface OutcomeDifference {
-  outcome: string;
-  both: number;
-  only_baseline: number;
-  only_variant: number;
-  neither: number;
-  difference_points: Difference;
-  test: string;
-  p: number;
-  p_holm: number;
-  significant: boolean;
-}
-
-export interface MeasureDifference {
-  measure: string;
-  starts: number;
-  baseline_median: number;
-  variant_median: number;
-  mean_difference: Difference;
-  test: string;
-  p: number;
-  p_holm: number;
-  significant: boolean;
-}
-
-export interface Comparison {
-  baseline: string;
-  starts: number;
-  places: number;
-  significance: number;
-  warnings: string[];
-  pairs: {
-    variant: string;
-    conclusion: string;
-    warnings: string[];
-    outcomes: OutcomeDifference[];
-    measures: MeasureDifference[];
-  }[];
 }
 
 /** How the trials of a setting ended; rates are shares of 1. */
@@ -321,22 +287,25 @@ export interface Live {
   version: number;
 }
 
+/** Where the steps of trials are, if not in the page: scripts FOLDER/HASH_0.js and so on. */
+export interface Beside {
+  folder: string;
+  hash: string;
+  /** The first chunk of each script. */
+  first: number[];
+}
+
 export interface Report {
   format: number;
   generator: string;
+  beside?: Beside;
   live?: Live;
   maps: GlobalMap[];
   runs: Run[];
-  comparison?: Comparison;
+  /** As comparison.ts reads it. */
+  comparison?: unknown;
   comparison_refused?: string;
   sweep?: Sweep;
-}
-
-/** The data in the page. */
-export function embeddedReport(): Report {
-  const element = document.getElementById("glocal-data");
-  if (!element) throw new Error("the page holds no data");
-  return JSON.parse(element.textContent ?? "") as Report;
 }
 
 export function poseAt(poses: PoseColumns, i: number): Pose | null {
@@ -351,11 +320,6 @@ export function frameAt(lives: PointLives | Scans, step: number): number {
   let frame = -1;
   while (frame + 1 < lives.steps.length && lives.steps[frame + 1] <= step) ++frame;
   return frame;
-}
-
-/** Wall-clock time of the whole step, ms. */
-export function stepTime(steps: Steps, i: number): number {
-  return steps.local_map_ms[i] + steps.match_ms[i] + steps.cluster_ms[i] + steps.rate_ms[i];
 }
 
 /** Number of the first step whose verdict is `localized`; -1 if there is none. */

@@ -1,10 +1,10 @@
 // What trials of several runs or settings needed and how well they did, as box plots side by side.
+import type { Group } from "./answers";
 import { boxOf, type Box, type Dots } from "./boxes";
 import { runColour } from "./colours";
-import { stepTime, type Trial } from "./data";
+import type { Trial } from "./data";
 import { el, replace } from "./elements";
 import { saveMenu } from "./export";
-import type { Group } from "./groups";
 import { count, significant } from "./numbers";
 import { isLogarithmic, logTicks, svg, ticks } from "./svg";
 import { svgFile } from "./svg_file";
@@ -21,8 +21,7 @@ interface Measure {
 const ofRight = (value: (trial: Trial) => number | undefined) => (group: Group): number[] =>
   group.trials.flatMap((trial) => (trial.outcome === "right" ? (value(trial) ?? []) : []));
 
-const stepTimes = (group: Group): number[] =>
-  group.trials.flatMap(({ columns }) => (columns ? columns.step.map((_, i) => stepTime(columns, i)) : []));
+export const stepTimes = (group: Group): number[] => group.runs.flatMap((run) => run.step_ms ?? []);
 
 const measures: Measure[] = [
   { id: "steps", title: "Steps to localize", unit: "steps", of: "right trials", values: ofRight((t) => t.steps) },

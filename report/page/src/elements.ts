@@ -1,8 +1,5 @@
 // Making parts of the page. Text of results only ever becomes text, never markup.
-import { csvButton } from "./export";
-import { explained } from "./words";
-
-type Child = Node | string | number | null | undefined | false;
+export type Child = Node | string | number | null | undefined | false;
 type Attributes = Record<string, string | number | boolean | EventListener | undefined>;
 
 /** An element; attributes that are functions listen to the event of that name. */
@@ -47,24 +44,4 @@ export function list(sentences: string[], className = ""): HTMLElement | null {
   const rest = sentences.slice(mostSentences);
   if (rest.length < 2) return points(sentences);
   return el("div", {}, points(sentences.slice(0, mostSentences)), el("details", { class: "rest" }, el("summary", {}, `and ${rest.length} more`), points(rest)));
-}
-
-/** A word in a table tells what it means. */
-function told(cell: Child): Child {
-  return typeof cell === "string" ? explained(el("span", {}, cell)) : cell;
-}
-
-/** A table whose first column names the rows, and which can be saved. Cells may be elements. */
-export function table(head: Child[], rows: Child[][], className = ""): HTMLElement {
-  const headRow = el("tr", {}, ...head.map((cell) => (cell === "" ? el("td") : el("th", { scope: "col" }, told(cell)))));
-  const body = el(
-    "tbody",
-    {},
-    ...rows.map(([name, ...cells]) =>
-      el("tr", {}, el("th", { scope: "row" }, name), ...cells.map((cell) => el("td", {}, cell))),
-    ),
-  );
-  // Tab-able, so that wide tables scroll by keyboard, too.
-  const all = el("table", { class: className }, el("thead", {}, headRow), body);
-  return el("div", { class: "table" }, el("div", { class: "scroll", tabindex: 0 }, all), csvButton(all));
 }

@@ -83,10 +83,3 @@ export function csvButtonOf(what: () => string, rows: () => string[][]): HTMLEle
   );
   return button;
 }
-
-/** Saves the table that is shown. */
-export function csvButton(table: HTMLTableElement): HTMLElement {
-  const rows = (): string[][] => [...table.rows].map((row) => [...row.cells].map((cell) => (cell.textContent ?? "").trim()));
-  const what = (): string => table.closest("[data-table], section")?.getAttribute("data-table") ?? table.closest("section")?.id ?? "table";
-  return csvButtonOf(what, rows);
-}

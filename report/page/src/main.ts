@@ -1,7 +1,10 @@
 // The page of glocal report and of glocal run --watch.
+import { rankRuns } from "./answers";
+import { Chunks, embeddedReport } from "./chunks";
 import { verdictNames } from "./colours";
+import { comparisonSection } from "./comparison";
 import { Curves } from "./curves";
-import { embeddedReport, type Report, type Run } from "./data";
+import type { Report, Run } from "./data";
 import { Details } from "./details";
 import { append, el, replace } from "./elements";
 import { LiveNews } from "./live";
@@ -9,10 +12,11 @@ import { MapView } from "./map_view";
 import { PageState } from "./page_state";
 import { Borders, followLength, FullScreen } from "./panes";
 import { listenToKeys, Player } from "./player";
+import { Ranking } from "./ranking";
 import { Store } from "./store";
 import { experimentsOf, summaryHeader } from "./summary_header";
 import { sweepSection } from "./sweep_section";
-import { comparisonSection, configurationSection, provenanceSection, summarySection } from "./tables";
+import { configurationSection, provenanceSection, summarySection } from "./tables";
 import { Distributions, TrialList } from "./trials_section";
 import { Views } from "./views";
 import { showMeanings } from "./words";
@@ -115,10 +119,13 @@ function hasMoreThanTrials(run: Run): boolean {
   return run.map !== undefined || run.settings["output.steps"]?.text !== "false";
 }
 
-function show(report: Report, page: HTMLElement): void {
+async function show(report: Report, page: HTMLElement): Promise<void> {
   if (report.format !== format) throw new Error(`the data has format ${report.format}, and this page reads ${format}`);
   if (report.runs.length === 0) throw new Error("the data has no run");
-  const store = new Store(report);
+  const isOfMany = report.runs.length > 1;
+  if (isOfMany) rankRuns(report);
+  const store = new Store(report, new Chunks(report.beside));
+  await store.open();
   const map = new MapView(store);
   const views = new Views(store, map);
   const curves = new Curves(store);
@@ -133,43 +140,43 @@ function show(report: Report, page: HTMLElement): void {
     distributions.rebuild();
     player.drawStrip();
   };
-  const sections = news
-    ? [trials.element, configurationSection(report.runs)]
-    : [
-        summarySection(report.runs),
-        comparisonSection(report),
-        // One trial has no distribution.
-        report.runs.some((run) => run.trials.length > 1) ? distributions.element : null,
-        trials.element,
-        configurationSection(report.runs),
-        provenanceSection(report),
-      ];
+  // One trial has no distribution.
+  const ofTrials = !news && report.runs.some((run) => run.trials.length > 1) ? distributions.element : null;
   // Of many runs this is what is asked for; single steps come after it.
-  const sweep = sweepSection(report);
+  const before = isOfMany ? [comparisonSection(report), sweepSection(report), ofTrials] : [];
+  const after = [
+    isOfMany ? null : ofTrials,
+    report.runs[0].trials.length > 1 || isOfMany || news ? trials.element : null,
+    isOfMany || news ? null : summarySection(report.runs[0]),
+    configurationSection(report.runs),
+    news ? null : provenanceSection(report),
+  ];
+  const hasView = !isOfMany || report.runs.some(hasMoreThanTrials);
+  const pickers = el("div", { class: "controls" }, runPicker(store), trialPicker(store));
+  const view: HTMLElement = el("main", { id: "view" }, el("h2", { class: isOfMany ? "" : "unseen" }, "Step by step"));
   const header = el(
     "header",
     {},
     headline(report),
-    runPicker(store),
-    trialPicker(store),
+    // Large sweeps keep neither steps nor maps: there is nothing to step through.
+    !hasView && pickers,
     themeButton(redraw),
-    links([sweep, ...sections]),
+    links([...before, isOfMany && hasView ? view : null, ...after]),
   );
-  const view: HTMLElement = el("main", { id: "view" }, el("h2", { class: "unseen" }, "Step by step"));
   const borders = new Borders(() => view);
   const [right, below] = borders.handles;
-  append(view, views.element, right, curves.element, below, player.element, details.element);
+  append(view, el("div", { class: "view-head" }, hasView && pickers, details.verdict), views.element, right, curves.element, below, player.element, details.element);
   followLength(view, store);
   const fullScreen = new FullScreen(view);
   map.addButton("Full screen (f)", "▢", () => fullScreen.toggle());
-  replace(page, header, summaryHeader(store), news?.element, sweep);
-  // Large sweeps keep neither steps nor maps: there is nothing to step through.
-  if (!sweep || report.runs.some(hasMoreThanTrials)) append(page, view, keysHelp());
-  append(page, ...sections);
+  replace(page, header, isOfMany ? new Ranking(store).element : summaryHeader(report.runs[0]), news?.element, ...before);
+  if (hasView) append(page, view, keysHelp());
+  append(page, ...after);
   showMeanings(page);
   listenToKeys(store, player, views, fullScreen);
   new PageState(store, view, [views, borders]);
   trials.fill();
+  if (ofTrials) distributions.fill();
   details.update();
   player.newTrial();
   redraw();
@@ -189,10 +196,10 @@ function noteStep(store: Store): void {
 
 const page = document.getElementById("page");
 if (page) {
-  try {
-    show(embeddedReport(), page);
-  } catch (error) {
-    replace(page, el("p", { class: "warning", role: "alert" }, `The report cannot be shown: ${String(error)}`));
-    throw error;
-  }
+  void embeddedReport()
+    .then((report) => show(report, page))
+    .catch((error) => {
+      replace(page, el("p", { class: "warning", role: "alert" }, `The report cannot be shown: ${String(error)}`));
+      throw error;
+    });
 }

@@ -310,6 +310,7 @@ export class MapView implements Linked {
     const missing: string[] = [];
     if (!this.globalMap()) missing.push("The results hold no global map (output.maps: none).");
     if (!trial) missing.push("No trial was finished.");
+    else if (trial.chunk !== undefined && this.store.fault) missing.push(`${this.store.fault}.`);
     else if (!steps) missing.push("The results hold no steps (output.steps: false).");
     if (steps && steps.step.length > 0) {
       const listed = steps.best.first[step + 1] - steps.best.first[step];

@@ -128,8 +128,8 @@ export function listenToKeys(
     "-": () => map.zoom(1 / 1.5),
     "0": () => map.fit(),
     f: () => fullScreen.toggle(),
-    "[": () => store.chooseTrial(store.selected.trial - 1),
-    "]": () => store.chooseTrial(store.selected.trial + 1),
+    "[": () => store.moveTrial(-1),
+    "]": () => store.moveTrial(1),
   };
   document.addEventListener("keydown", (event) => {
     const { target } = event;

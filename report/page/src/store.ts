@@ -1,4 +1,5 @@
 // What is shown at the moment. Whoever shows something of it listens for changes.
+import type { Chunks } from "./chunks";
 import { firstLocalized, type Report, type Run, type Steps, type Trial } from "./data";
 
 /** Which pose the local map is laid under: a cluster by its rank, what the verdict rule believes, or the truth. */
@@ -19,17 +20,41 @@ export interface Change {
   trial: boolean;
   step: boolean;
   hypothesis: boolean;
+  /** Other runs are looked at together. */
+  shown: boolean;
 }
 
 type Listener = (change: Change) => void;
 
+/** What is to be shown; without a step that which the trial opens at. */
+export type Wanted = Omit<Selection, "step"> & { step: number | undefined };
+
+const nothing: Change = { run: false, trial: false, step: false, hypothesis: false, shown: false };
+const everything: Change = { run: true, trial: true, step: true, hypothesis: true, shown: true };
+
 export class Store {
   private selection: Selection = { run: 0, trial: 0, step: 0, hypothesis: "estimate" };
+  /** The same, but while the steps of a trial are loaded. */
+  private wanted: Wanted = this.selection;
   private listeners: Listener[] = [];
+  private runsShown: readonly Run[];
+  private loads = 0;
+  private lastFault: string | null = null;
 
-  constructor(private current: Report) {
+  constructor(
+    private current: Report,
+    private readonly chunks: Chunks,
+  ) {
+    this.runsShown = current.runs;
     if (current.live) this.selection = { ...this.selection, ...this.newest() };
-    else this.selection.step = openingStep(this.steps);
+    this.wanted = { ...this.selection, step: current.live ? this.selection.step : undefined };
+  }
+
+  /** Loads what the page opens at. */
+  async open(): Promise<void> {
+    const { trial } = this;
+    if (trial) await this.load([trial]);
+    this.select(this.wanted);
   }
 
   get report(): Report {
@@ -47,6 +72,14 @@ export class Store {
   get steps(): Steps | undefined {
     return this.trial?.columns;
   }
+  /** Those that are looked at together. */
+  get shown(): readonly Run[] {
+    return this.runsShown;
+  }
+  /** Why steps are not there that should be. */
+  get fault(): string | null {
+    return this.lastFault;
+  }
   get lastStep(): number {
     return Math.max(0, (this.steps?.step.length ?? 0) - 1);
   }
@@ -55,30 +88,52 @@ export class Store {
     this.listeners.push(listener);
   }
 
-  /** Shows all of this; without a step that which the trial opens at. */
-  show({ step, ...rest }: Omit<Selection, "step"> & { step: number | undefined }): void {
-    const steps = this.current.runs[rest.run].trials[rest.trial]?.columns;
-    const isStep = step !== undefined && Number.isInteger(step);
-    this.select({ ...rest, step: isStep ? step : openingStep(steps) });
+  showRuns(runs: readonly Run[]): void {
+    this.runsShown = runs;
+    this.tell({ ...nothing, shown: true });
+  }
+
+  show(wanted: Wanted): void {
+    this.wanted = wanted;
+    const trial = this.current.runs[wanted.run].trials[wanted.trial];
+    if (trial?.chunk === undefined) this.select(wanted);
+    else void this.load([trial]).then(() => wanted === this.wanted && this.select(wanted));
+  }
+
+  /** Has the steps of these trials loaded; tells of those that cannot be. */
+  async load(trials: Trial[]): Promise<void> {
+    const missing = trials.filter(({ chunk }) => chunk !== undefined);
+    if (missing.length === 0) return;
+    document.body.dataset.loading = String(++this.loads);
+    try {
+      await Promise.all(missing.map((trial) => this.chunks.load(trial)));
+    } catch (error) {
+      this.lastFault = error instanceof Error ? error.message : String(error);
+    }
+    if (--this.loads === 0) delete document.body.dataset.loading;
   }
 
   /** Shows another run: the trial with the same start, and the same step, where it has them. */
   chooseRun(run: number): void {
     const trial = matchingTrial(this.trial, this.current.runs[run]);
-    this.select({ ...this.selection, run, trial: trial < 0 ? 0 : trial });
+    this.show({ ...this.wanted, run, trial: Math.max(0, trial), step: trial < 0 ? undefined : this.selection.step });
   }
 
   chooseTrial(trial: number): void {
-    const chosen = this.run.trials[trial];
-    if (chosen) this.select({ ...this.selection, trial, step: openingStep(chosen.columns), hypothesis: "estimate" });
+    if (this.current.runs[this.wanted.run].trials[trial]) this.show({ ...this.wanted, trial, step: undefined, hypothesis: "estimate" });
+  }
+
+  /** The trial so many after the one that is shown, or will be. */
+  moveTrial(by: number): void {
+    this.chooseTrial(this.wanted.trial + by);
   }
 
   chooseStep(step: number): void {
-    this.select({ ...this.selection, step });
+    this.show({ ...this.selection, step });
   }
 
   chooseHypothesis(hypothesis: Hypothesis): void {
-    this.select({ ...this.selection, hypothesis });
+    this.show({ ...this.selection, hypothesis });
   }
 
   /** Takes newer data of a run that goes on; who looks at the last step stays at the last step. */
@@ -95,7 +150,9 @@ export class Store {
       this.selection = { ...this.selection, trial: same };
       this.selection.step = wasLast ? this.lastStep : Math.min(this.selection.step, this.lastStep);
     }
-    this.tell({ run: true, trial: true, step: true, hypothesis: true });
+    this.wanted = this.selection;
+    this.runsShown = report.runs;
+    this.tell(everything);
   }
 
   /** The last step of the last trial. */
@@ -105,20 +162,19 @@ export class Store {
     return { trial, step: Math.max(0, (trials[trial]?.columns?.step.length ?? 0) - 1) };
   }
 
-  private select(next: Selection): void {
+  private select(next: Wanted): void {
     const before = this.selection;
-    this.selection = next;
-    const step = Math.min(Math.max(0, next.step), this.lastStep);
+    const steps = this.current.runs[next.run].trials[next.trial]?.columns;
+    const last = Math.max(0, (steps?.step.length ?? 0) - 1);
+    const isStep = next.step !== undefined && Number.isInteger(next.step);
+    const step = isStep ? Math.min(Math.max(0, next.step ?? 0), last) : openingStep(steps);
     this.selection = { ...next, step };
+    this.wanted = this.selection;
     const run = next.run !== before.run;
     const trial = run || next.trial !== before.trial;
-    const change = {
-      run,
-      trial,
-      step: trial || step !== before.step,
-      hypothesis: trial || step !== before.step || next.hypothesis !== before.hypothesis,
-    };
-    if (change.hypothesis) this.tell(change);
+    const isOtherStep = trial || step !== before.step;
+    const hypothesis = isOtherStep || next.hypothesis !== before.hypothesis;
+    if (hypothesis) this.tell({ ...nothing, run, trial, step: isOtherStep, hypothesis });
   }
 
   private tell(change: Change): void {

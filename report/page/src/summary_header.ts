@@ -1,12 +1,8 @@
-// What came out, on top of the page: large for one run, side by side for several.
-import type { Report, Run, Summary } from "./data";
-import { el, replace } from "./elements";
+// What came out of a run, on top of the page: the verdict of its only trial, or how many were right.
+import type { Report, Run, Summary, Trial } from "./data";
+import { el } from "./elements";
 import { count, fixed, significant } from "./numbers";
-import type { Store } from "./store";
 import { explained } from "./words";
-
-/** More than these are in the summary further down. */
-const mostRuns = 12;
 
 interface Figure {
   label: string;
@@ -42,97 +38,67 @@ const medians: Figure[] = [
   { label: "wall time of a step", kind: () => "", tell: (s) => `${significant(s.step_ms.median, 2)} ms` },
 ];
 
-/** Those that every run has, and of the others those that some run has. */
-function figuresOf(summaries: Summary[]): { outcomes: typeof outcomes; medians: Figure[] } {
-  const always = ["right", "wrong", "undecided"];
-  return { outcomes: outcomes.filter((o) => always.includes(o.label) || summaries.some((s) => o.number(s) > 0)), medians };
-}
-
 /** Names of the experiments; what runs are called besides is theirs. */
 export function experimentsOf({ runs }: Report): string {
   return [...new Set(runs.map((run) => run.settings.name?.text ?? run.name))].join(", ");
 }
 
-export function summaryHeader(store: Store): HTMLElement | null {
-  const { runs } = store.report;
-  const finished = runs.filter((run) => run.summary);
-  if (finished.length === 0) return null;
-  return runs.length === 1 ? tiles(finished[0].summary as Summary) : overview(store, finished);
+export function summaryHeader({ summary, trials }: Run): HTMLElement | null {
+  if (!summary) return null;
+  return trials.length === 1 ? verdictOf(trials[0], summary) : tiles(summary);
 }
 
-function tiles(summary: Summary): HTMLElement {
-  const { outcomes: shown, medians } = figuresOf([summary]);
-  const tile = ({ label, kind, tell }: Figure): HTMLElement =>
-    el("div", { class: `tile ${kind(summary)}`, "data-figure": label }, word(label, "dt"), el("dd", {}, tell(summary)));
-  const seeds = `${count(summary.trials.count)} ${summary.trials.count === 1 ? "trial" : "trials"}, seed ${summary.seed}`;
-  return el(
-    "section",
-    { id: "figures", class: "figures", "aria-label": "What came out" },
-    el("dl", { class: "tiles" }, ...shown.map(tile), el("div", { class: "gap", "aria-hidden": "true" }), ...medians.map(tile)),
-    el("p", { class: "note" }, `${seeds}. Steps, way and errors: medians of right trials. Time: median of all steps.`),
-  );
+/** What a trial came to, in a sentence. */
+export function outcomeSentence(trial: Trial): string {
+  const { outcome, steps, distance_m: way, translation_error_m: error, rotation_error_deg: angle } = trial;
+  const counted = `${count(steps)} ${steps === 1 ? "step" : "steps"}${way === undefined ? "" : ` and ${fixed(way, 2)} m`}`;
+  const off = error === undefined ? "" : `, ${fixed(error, 3)} m and ${fixed(angle, 2)}° from the reference`;
+  switch (outcome) {
+    case "right":
+    case "wrong":
+      return `localized after ${counted}${off}`;
+    case "declared":
+      return `localized after ${counted}; there is no reference to judge it by`;
+    case "failed":
+      return `a strategy failed after ${counted}: ${trial.why ?? ""}`;
+    case "undecided":
+      return `not localized in ${counted}: ${trial.why ?? ""}`;
+    default:
+      return "running";
+  }
 }
 
-/** The name of a figure, with what it means. */
-function word(label: string, tag: "dt" | "span"): HTMLElement {
-  return explained(el(tag, {}, label), label === "error" ? "error at declaration" : label);
-}
+const note = "Steps, way and errors: medians of right trials. Time: median of all steps.";
 
-/** Right, wrong and all others of a run's trials, as a bar of that length. */
-function bar(summary: Summary): HTMLElement {
-  const part = (outcome: (typeof outcomes)[number]): HTMLElement =>
-    el("i", { class: outcome.label, style: `width: ${(100 * outcome.number(summary)) / Math.max(1, summary.trials.count)}%` });
-  return el("span", { class: "outcomes", "aria-hidden": "true" }, ...outcomes.map(part));
-}
-
-function overview(store: Store, finished: Run[]): HTMLElement {
-  const { runs } = store.report;
-  const shown = finished.slice(0, mostRuns);
-  const figures = figuresOf(shown.map((run) => run.summary as Summary));
-  const columns = [...figures.outcomes, ...figures.medians];
-  const rows = shown.map((run) => {
-    const i = runs.indexOf(run);
-    const summary = run.summary as Summary;
-    return el(
-      "tr",
-      { "data-run": i },
-      el("th", { scope: "row" }, el("button", { type: "button", click: () => store.chooseRun(i) }, run.name)),
-      el("td", { class: "share" }, bar(summary)),
-      ...columns.map((figure) => el("td", { class: `number ${figure.kind(summary)}`, "data-figure": figure.label }, figure.tell(summary))),
-    );
-  });
-  const mark = (): void => {
-    for (const row of rows) {
-      const isChosen = Number(row.dataset.run) === store.selected.run;
-      row.querySelector("button")?.setAttribute("aria-pressed", String(isChosen));
-    }
-  };
-  store.subscribe((change) => change.run && mark());
-  mark();
-  const rest = finished.length - shown.length;
-  const note = el("p", { class: "note" });
-  replace(
-    note,
-    "Steps, way and errors: medians of right trials. Time: median of all steps.",
-    rest > 0 && ` The other ${rest} runs are in the summary below.`,
-  );
+function verdictOf(trial: Trial, summary: Summary): HTMLElement {
+  const outcome = trial.outcome ?? "running";
   return el(
     "section",
     { id: "figures", class: "figures", "aria-label": "What came out" },
     el(
-      "div",
-      { class: "scroll", tabindex: 0 },
-      el(
-        "table",
-        { class: "overview" },
-        el(
-          "thead",
-          {},
-          el("tr", {}, ...["run", "trials"].map((text) => el("th", { scope: "col" }, word(text, "span"))), ...columns.map((c) => el("th", { scope: "col" }, word(c.label, "span")))),
-        ),
-        el("tbody", {}, ...rows),
-      ),
+      "p",
+      { class: `answer ${outcome}` },
+      explained(el("strong", { "data-figure": "outcome" }, outcome)),
+      el("span", {}, outcomeSentence(trial)),
+      el("small", {}, `one trial, seed ${summary.seed}; a step takes ${significant(summary.step_ms.median, 2)} ms`),
     ),
-    note,
   );
+}
+
+function tiles(summary: Summary): HTMLElement {
+  const always = ["right", "wrong", "undecided"];
+  const shown = outcomes.filter((o) => always.includes(o.label) || o.number(summary) > 0);
+  const tile = ({ label, kind, tell }: Figure): HTMLElement =>
+    el("div", { class: `tile ${kind(summary)}`, "data-figure": label }, word(label), el("dd", {}, tell(summary)));
+  return el(
+    "section",
+    { id: "figures", class: "figures", "aria-label": "What came out" },
+    el("dl", { class: "tiles" }, ...shown.map(tile), el("div", { class: "gap", "aria-hidden": "true" }), ...medians.map(tile)),
+    el("p", { class: "note" }, `${count(summary.trials.count)} trials, seed ${summary.seed}. ${note}`),
+  );
+}
+
+/** The name of a figure, with what it means. */
+function word(label: string): HTMLElement {
+  return explained(el("dt", {}, label), label === "error" ? "error at declaration" : label);
 }

@@ -1,12 +1,12 @@
 // What a sweep has taught: its best settings, what each parameter does, and two of them in a map.
 import { ratingColour } from "./colours";
-import type { ParameterEffect, Proportion, Report, SettingOutcome, Sweep, SweepMap } from "./data";
-import { el, list, section, table } from "./elements";
+import type { ParameterEffect, Proportion, Report, Sweep, SweepMap } from "./data";
+import { DataTable, type Column } from "./data_table";
+import { el, list, section } from "./elements";
 import { csvButtonOf, saveMenu } from "./export";
 import { count, fixed, percent, proportion } from "./numbers";
 import { parallelCoordinates } from "./parallel";
 import { effectSvg, heatSvg } from "./sweep_svg";
-import { explained, withMeaning } from "./words";
 
 const mostSettings = 20;
 
@@ -16,7 +16,7 @@ export function sweepSection({ sweep }: Report): HTMLElement | null {
     "sweep",
     "Sweep",
     list(sweep.warnings, "warning"),
-    settingsTable(sweep),
+    saysMore(sweep) && settingsTable(sweep),
     sweep.effects.length > 0 && el("div", { class: "effects" }, ...sweep.effects.map(effectChart)),
     el("div", { class: "maps" }, sweep.map && heatMap(sweep.map), parallelCoordinates(sweep)),
     el(
@@ -28,41 +28,51 @@ export function sweepSection({ sweep }: Report): HTMLElement | null {
   );
 }
 
+type Setting = Sweep["settings"][0];
+
+/** Than the page's first table: parameters, or what judges a setting. */
+function saysMore({ effects, judge_on: judged }: Sweep): boolean {
+  return judged.length > 0 || effects.length > 1 || effects.some(({ path }) => path !== "method");
+}
+
 function settingsTable(sweep: Sweep): HTMLElement {
-  const isJudged = sweep.judge_on.length > 0;
-  const cells = (o: SettingOutcome): string[] => [
-    count(o.trials),
-    `${o.right}, ${o.wrong}, ${o.undecided}`,
-    proportion(o.success_rate),
-    fixed(100 * o.score, 1),
-    fixed(o.median_steps, 1),
-  ];
   const by = (cases: string[]): string => (cases.length > 0 ? ` by ${cases.join(", ")}` : "");
-  const shown = sweep.settings.slice(0, mostSettings);
-  return el(
-    "div",
-    {},
-    table(
-      [
-        "setting",
-        "trials",
-        "right, wrong, undecided",
-        explained(el("span", {}, `success${by(sweep.choose_on)}`), "success"),
-        explained(el("span", {}, "score"), "score of a setting"),
-        "steps, median",
-        ...(isJudged ? [explained(el("span", {}, `success judged${by(sweep.judge_on)}`), "success judged")] : []),
-        ...sweep.effects.map(({ label, path }) => withMeaning(el("span", {}, label), `The setting's value of ${path}.`)),
-      ],
-      shown.map((setting) => [
-        `${setting.setting || "the experiment"}${setting.complete ? "" : " (incomplete)"}`,
-        ...cells(setting.chosen),
-        ...(isJudged ? [setting.judged ? proportion(setting.judged.success_rate) : "–"] : []),
-        ...sweep.effects.map((effect) => setting.values[effect.path] ?? "–"),
-      ]),
-    ),
-    sweep.settings.length > shown.length &&
-      el("p", { class: "note" }, `The best ${shown.length} of ${sweep.settings.length} settings.`),
-  );
+  const counted = (outcome: "right" | "wrong" | "undecided" | "trials", best: "least" | "most"): Column<Setting> => ({
+    name: outcome,
+    cell: ({ chosen }) => count(chosen[outcome]),
+    order: { by: ({ chosen }) => chosen[outcome], best },
+  });
+  const columns: Column<Setting>[] = [
+    { name: "setting", cell: ({ setting, complete }) => `${setting || "the experiment"}${complete ? "" : " (incomplete)"}`, order: { by: ({ setting }) => setting, best: "least" } },
+    counted("right", "most"),
+    counted("wrong", "least"),
+    { name: "steps", cell: ({ chosen }) => fixed(chosen.median_steps, 1), order: { by: ({ chosen }) => chosen.median_steps, best: "least" } },
+    { name: "score", word: "score of a setting", cell: ({ chosen }) => fixed(100 * chosen.score, 1), order: { by: ({ chosen }) => chosen.score, best: "most" } },
+    ...sweep.effects.map(({ label, path }): Column<Setting> => ({
+      name: label,
+      meaning: `The setting's value of ${path}.`,
+      cell: ({ values }) => values[path] ?? "–",
+      order: { by: ({ values }) => numberOr(values[path]), best: "least" },
+    })),
+    { name: `success${by(sweep.choose_on)}`, word: "success", cell: ({ chosen }) => proportion(chosen.success_rate), order: { by: ({ chosen }) => chosen.success_rate.value, best: "most" } },
+    counted("undecided", "least"),
+    counted("trials", "most"),
+  ];
+  const judged: Column<Setting> = {
+    name: `success judged${by(sweep.judge_on)}`,
+    word: "success judged",
+    cell: ({ judged: its }) => (its ? proportion(its.success_rate) : "–"),
+    order: { by: ({ judged: its }) => its?.success_rate.value, best: "most" },
+  };
+  if (sweep.judge_on.length > 0) columns.splice(4, 0, judged);
+  const table = new DataTable(columns, { keys: 4, most: mostSettings, what: "settings" });
+  table.setRows(sweep.settings);
+  return table.element;
+}
+
+/** Numbers are sorted as such. */
+function numberOr(text: string | undefined): number | string | undefined {
+  return text !== undefined && text !== "" && Number.isFinite(Number(text)) ? Number(text) : text;
 }
 
 /** Where a share lies on an axis from 0 to 100 %. */

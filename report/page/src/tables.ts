@@ -1,14 +1,13 @@
-// What is told in tables: summaries, the comparison, configurations and where the results are from.
-import { type Comparison, type Difference, type Report, type Run, type Setting, type Summary } from "./data";
-import { el, list, replace, section, table } from "./elements";
-import { count, fixed, nameOf, proportion, significant } from "./numbers";
+// What is told in tables: the summary of a run, configurations and where the results are from.
+import { axesOf, differingPaths, groupOf, groupsOf, identityOf, type Group } from "./answers";
+import type { Report, Run, Summary } from "./data";
+import { table } from "./data_table";
+import { el, replace, section } from "./elements";
+import { count, fixed, proportion } from "./numbers";
 import { explained } from "./words";
 
-const name = (run: Run): string => run.name;
-
-export function summarySection(runs: Run[]): HTMLElement {
-  const cells = (tell: (summary: Summary) => string): string[] =>
-    runs.map((run) => (run.summary ? tell(run.summary) : "–"));
+export function summarySection({ summary }: Run): HTMLElement | null {
+  if (!summary) return null;
   const rows: [string, (summary: Summary) => string][] = [
     ["experiment, seed", (s) => `${s.name}, ${s.seed}`],
     ["trials", (s) => count(s.trials.count)],
@@ -30,92 +29,72 @@ export function summarySection(runs: Run[]): HTMLElement {
     ["points of the map", (s) => count(s.map.points)],
     ["memory, largest", (s) => `${fixed(s.peak_rss_mb, 0)} MiB`],
   ];
-  const interrupted = runs.filter((run) => run.summary && !run.summary.complete).map(name);
   return section(
     "summary",
     "Summary",
-    interrupted.length > 0 &&
-      el("p", { class: "warning" }, `Interrupted, so that trials are missing: ${interrupted.join(", ")}`),
-    table(["", ...runs.map(name)], rows.map(([title, tell]) => [explained(el("span", {}, title)), ...cells(tell)])),
+    !summary.complete && el("p", { class: "warning" }, "Interrupted, so that trials are missing."),
+    table(["", ""], rows.map(([title, tell]) => [explained(el("span", {}, title)), tell(summary)]), 2, "facts"),
     el("p", { class: "note" }, "Intervals are those after Wilson, 95 %."),
   );
 }
 
-export function comparisonSection(report: Report): HTMLElement | null {
-  const { comparison, comparison_refused: refused } = report;
-  if (refused !== undefined) return section("comparison", "Comparison", el("p", { class: "warning" }, refused));
-  if (!comparison) return null;
-  const ofPairs = comparison.pairs.flatMap(({ variant, warnings: own }) => own.map((text) => `${variant}: ${text}`));
-  const warnings = [...comparison.warnings, ...ofPairs];
-  return section(
-    "comparison",
-    `Comparison with ${comparison.baseline}`,
-    list(comparison.pairs.map((pair) => pair.conclusion)),
-    list(warnings, "warning"),
-    table(
-      ["variant", "measure", explained(el("span", {}, comparison.baseline), "of the baseline"), "variant's", "difference (95 %)", "test", "p", "p after Holm"],
-      comparisonRows(comparison),
-    ),
-    el(
-      "p",
-      { class: "note" },
-      `Over the ${comparison.starts} starts that all methods share, at ${comparison.places} places; differences are variant less baseline. ` +
-        `Bold: significant, p after Holm below ${comparison.significance}.`,
-    ),
-  );
+/** What runs say, each thing once: alone where all say the same, else with the names of those that say it. */
+function saidBy(runs: Run[], tell: (run: Run) => Node | string | null, keyOf: (run: Run) => string | undefined): Node | string {
+  const groups = new Map<string | undefined, Run[]>();
+  for (const run of runs) {
+    const key = keyOf(run);
+    groups.set(key, [...(groups.get(key) ?? []), run]);
+  }
+  if (groups.size === 1) return tell(runs[0]) ?? "–";
+  const said = [...groups.values()].flatMap((its) => {
+    const value = tell(its[0]);
+    return value === null ? [] : [el("li", {}, el("mark", {}, value), " ", el("small", {}, namesOf(its, runs)))];
+  });
+  return el("ul", { class: "said" }, ...said);
 }
 
-function comparisonRows({ pairs }: Comparison): (Node | string)[][] {
-  const difference = (d: Difference, unit = ""): string =>
-    `${significant(d.value)}${unit} (${significant(d.low)} to ${significant(d.high)})`;
-  const p = (value: number, isSignificant: boolean): Node | string => {
-    const text = value < 0.001 ? "< 0.001" : fixed(value, 3);
-    return isSignificant ? el("strong", {}, text) : text;
+const mostNames = 3;
+/** Settings beyond these are shown when they are asked for. */
+const mostSettings = 40;
+
+/** All runs of a method, a case and so on go by that. */
+function namesOf(some: Run[], all: Run[]): string {
+  const names = (groups: Group[]): string[] | null => {
+    const whole = groups.filter((group) => group.runs.every((run) => some.includes(run)));
+    return whole.reduce((n, group) => n + group.runs.length, 0) === some.length ? whole.map(({ name }) => name) : null;
   };
-  return pairs.flatMap((pair) => [
-    ...pair.outcomes.map((o) => [
-      pair.variant,
-      o.outcome,
-      count(o.both + o.only_baseline),
-      count(o.both + o.only_variant),
-      difference(o.difference_points, " points"),
-      o.test.replaceAll("_", " "),
-      p(o.p, false),
-      p(o.p_holm, o.significant),
-    ]),
-    ...pair.measures.map((m) => [
-      pair.variant,
-      nameOf(m.measure),
-      significant(m.baseline_median),
-      significant(m.variant_median),
-      difference(m.mean_difference),
-      m.test.replaceAll("_", " "),
-      p(m.p, false),
-      p(m.p_holm, m.significant),
-    ]),
-  ]);
+  const byAxis = axesOf(all).map(({ valueOf, values }) => values.map((value) => groupOf(value, all.filter((run) => valueOf(run) === value))));
+  const [shortest] = [groupsOf(all, "setting"), ...byAxis, groupsOf(all, "run")].flatMap((groups) => {
+    const told = names(groups);
+    return told ? [told] : [];
+  }).sort((a, b) => a.length - b.length);
+  const told = shortest.slice(0, mostNames).join(", ");
+  return shortest.length <= mostNames ? told : `${told} and ${shortest.length - mostNames} more`;
 }
 
-/** Values by path, a column for each run; what differs between runs comes first and is marked. */
+/** Values by path; what differs between runs comes first and is marked. */
 export function configurationSection(runs: Run[]): HTMLElement {
   const paths = [...new Set(runs.flatMap((run) => Object.keys(run.settings)))].sort();
-  const identity = (setting: Setting | undefined): string | undefined => setting && (setting.identity ?? setting.text);
-  const differs = (path: string): boolean =>
-    runs.some((run) => identity(run.settings[path]) !== identity(runs[0].settings[path]));
-  const different = paths.filter(differs);
-  const same = paths.filter((path) => !differs(path));
+  const different = differingPaths(runs);
+  const same = paths.filter((path) => !different.includes(path));
   const filter = el("input", { type: "search", placeholder: "part of a name", "aria-label": "Show settings with this in their name" });
   const onlyDifferent = el("input", { type: "checkbox", checked: different.length > 0 });
   const target = el("div", {});
+  let most = mostSettings;
   const fill = (): void => {
     const chosen = (onlyDifferent.checked ? different : [...different, ...same]).filter((path) =>
       path.toLowerCase().includes(filter.value.toLowerCase()),
     );
-    const cell = (run: Run, path: string): Node | string => {
-      const text = run.settings[path]?.text ?? "–";
-      return differs(path) ? el("mark", {}, text) : text;
+    const told = (path: string): Node | string => saidBy(runs, (run) => run.settings[path]?.text ?? null, (run) => identityOf(run, path));
+    const showAll = (): void => {
+      most = Infinity;
+      fill();
     };
-    replace(target, table(["", ...runs.map(name)], chosen.map((path) => [path, ...runs.map((run) => cell(run, path))])));
+    replace(
+      target,
+      table(["", ""], chosen.slice(0, most).map((path) => [path, told(path)]), 2, "facts"),
+      chosen.length > most && el("button", { type: "button", class: "all", click: showAll }, `all ${count(chosen.length)} settings`),
+    );
   };
   filter.addEventListener("input", fill);
   onlyDifferent.addEventListener("change", fill);
@@ -137,22 +116,20 @@ export function configurationSection(runs: Run[]): HTMLElement {
 export function provenanceSection(report: Report): HTMLElement {
   const runs = report.runs.filter((run) => run.provenance);
   const keys = [...new Set(runs.flatMap((run) => Object.keys(run.provenance ?? {})))];
-  const told = (value: unknown): Node | string => {
-    if (value === undefined) return "–";
+  const told = (value: unknown): Node | string | null => {
+    if (value === undefined) return null;
     if (typeof value !== "object" || value === null) return String(value);
     const entries = Array.isArray(value) ? value.map(String) : Object.entries(value).map(([k, v]) => `${k}: ${typeof v === "object" ? JSON.stringify(v) : String(v)}`);
     return entries.length === 0 ? "none" : el("ul", { class: "files" }, ...entries.map((entry) => el("li", {}, entry)));
   };
+  const row = (name: string, value: (run: Run) => unknown): (Node | string)[] => [
+    name,
+    saidBy(runs, (run) => told(value(run)), (run) => JSON.stringify(value(run))),
+  ];
   return section(
     "provenance",
     "Provenance",
-    table(
-      ["", ...runs.map(name)],
-      [
-        ["folder", ...runs.map((run) => run.folder)],
-        ...keys.map((key) => [key.replaceAll("_", " "), ...runs.map((run) => told(run.provenance?.[key]))]),
-      ],
-    ),
+    table(["", ""], [row("folder", ({ folder }) => folder), ...keys.map((key) => row(key.replaceAll("_", " "), ({ provenance }) => provenance?.[key]))], 2, "facts"),
     el("p", { class: "note" }, `Made by ${report.generator}.`),
   );
 }

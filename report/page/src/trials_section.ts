@@ -1,17 +1,17 @@
 // All trials: one run's as a list to choose from, and what all runs make of them.
 import type uPlot from "uplot";
+import { bestFirst, type Group } from "./answers";
 import { chart, type ChartOptions, type Line } from "./charts";
 import { runLine, themeColour } from "./colours";
 import { lineSample } from "./curves";
-import { stepTime, type Run, type Trial } from "./data";
-import { BoxPlots } from "./distributions";
-import { el, replace, section, table } from "./elements";
-import { groupsOf, type Group } from "./groups";
+import type { Run, Trial } from "./data";
+import { DataTable, type Column } from "./data_table";
+import { BoxPlots, stepTimes } from "./distributions";
+import { el, replace, section } from "./elements";
 import { count, fixed, percent } from "./numbers";
 import { cumulativeShare } from "./shares";
 import { hasStarts, StartsMap } from "./starts_map";
 import type { Store } from "./store";
-import { explained } from "./words";
 
 /** Chooses the trial, and shows it: in the list where nothing else is known of it. */
 function openTrial(store: Store, trial: number): void {
@@ -21,17 +21,55 @@ function openTrial(store: Store, trial: number): void {
   view?.scrollIntoView({ behavior: "auto" });
 }
 
-/** Laying out thousands of rows takes longer than all the rest of the page. */
-const mostRows = 500;
+const mostRows = 50;
+
+const outcomeOrder = ["wrong", "failed", "undecided", "declared", "right"];
+
+/** A row of the list: a trial with its index in the run. */
+interface Listed {
+  trial: Trial;
+  index: number;
+}
+
+function trialColumns(store: Store, hasCertificates: boolean): Column<Listed>[] {
+  const least = (by: (trial: Trial) => number | string | undefined): Column<Listed>["order"] => ({ by: ({ trial }) => by(trial), best: "least" });
+  const certificate: Column<Listed> = {
+    name: "contact certified",
+    cell: ({ trial: { certificate: c } }) => (c ? `${percent(c.contact)}, elsewhere ≤ ${percent(c.at_most)}` : "–"),
+    order: { by: ({ trial: { certificate: c } }) => c && c.contact - c.at_most, best: "most" },
+  };
+  return [
+    {
+      name: "trial",
+      cell: ({ trial, index }) => el("button", { type: "button", "data-trial": index, click: () => openTrial(store, index) }, String(trial.trial)),
+      order: least(({ trial }) => trial),
+    },
+    {
+      name: "outcome",
+      cell: ({ trial: { outcome } }) => el("span", { class: `outcome ${outcome ?? "running"}` }, outcome ?? "running"),
+      order: least(({ outcome }) => outcomeOrder.indexOf(outcome ?? "")),
+    },
+    { name: "steps", word: "steps of a trial", cell: ({ trial }) => count(trial.steps), order: least(({ steps }) => steps) },
+    { name: "error, m", cell: ({ trial }) => fixed(trial.translation_error_m, 3), order: least(({ translation_error_m: m }) => m) },
+    { name: "error, °", cell: ({ trial }) => fixed(trial.rotation_error_deg, 2), order: least(({ rotation_error_deg: deg }) => deg) },
+    { name: "distance, m", word: "way of a trial", cell: ({ trial }) => fixed(trial.distance_m, 2), order: least(({ distance_m: m }) => m) },
+    { name: "start, m", word: "start of a trial", cell: ({ trial }) => fixed(trial.start.distance_m, 1), order: least(({ start }) => start.distance_m) },
+    ...(hasCertificates ? [certificate] : []),
+    { name: "why", cell: ({ trial }) => trial.why ?? "", kind: () => "long" },
+  ];
+}
 
 /** The list of the chosen run's trials. */
 export class TrialList {
   readonly element: HTMLElement;
-  private readonly list = el("div", {});
-  private hasAll = false;
+  private readonly target = el("div", {});
+  private readonly controls = el("p", { class: "controls" });
+  private table: DataTable<Listed> | null = null;
+  /** Empty for all. */
+  private outcome: string = "";
 
   constructor(private readonly store: Store) {
-    this.element = section("trials", "Trials", this.list);
+    this.element = section("trials", "Trials", this.controls, this.target);
     store.subscribe((change) => {
       if (change.run) this.fill();
       else if (change.trial) this.mark();
@@ -40,52 +78,33 @@ export class TrialList {
 
   fill(): void {
     const { trials } = this.store.run;
-    const hasCertificates = trials.some((trial) => trial.certificate);
-    const certificate = ({ certificate: c }: Trial): string[] =>
-      hasCertificates ? [c ? `${percent(c.contact)}, elsewhere ≤ ${percent(c.at_most)}` : "–"] : [];
-    const word = (text: string, meant: string): HTMLElement => explained(el("span", {}, text), meant);
-    const shown = this.hasAll ? trials : trials.slice(0, mostRows);
-    const rows = shown.map((trial, i) => [
-      el("button", { type: "button", "data-trial": i, click: () => openTrial(this.store, i) }, String(trial.trial)),
-      `${fixed(trial.start.distance_m, 1)} m`,
-      el("span", { class: `outcome ${trial.outcome ?? "running"}` }, trial.outcome ?? "running"),
-      count(trial.steps),
-      fixed(trial.distance_m, 2),
-      fixed(trial.translation_error_m, 3),
-      fixed(trial.rotation_error_deg, 2),
-      ...certificate(trial),
-      trial.why ?? "",
-    ]);
-    replace(
-      this.list,
-      table(
-        [
-          "trial",
-          word("start", "start of a trial"),
-          "outcome",
-          word("steps", "steps of a trial"),
-          word("distance, m", "way of a trial"),
-          "error, m",
-          "error, °",
-          ...(hasCertificates ? ["contact certified"] : []),
-          "why",
-        ],
-        rows,
-        "trials",
-      ),
-      shown.length < trials.length &&
-        el("p", { class: "note" }, `The first ${count(shown.length)}. `, el("button", { type: "button", click: () => this.fillAll() }, `all ${count(trials.length)} trials`)),
-    );
+    this.table = new DataTable(trialColumns(this.store, trials.some((trial) => trial.certificate)), { keys: 3, most: mostRows, what: "trials", className: "trials" });
+    replace(this.target, this.table.element);
+    this.showOutcome(this.outcome);
+  }
+
+  /** What is asked for most is which were wrong. */
+  private drawControls(): void {
+    const { trials } = this.store.run;
+    const kinds = [...new Set(trials.map(({ outcome }) => outcome ?? "running"))].sort((a, b) => outcomeOrder.indexOf(a) - outcomeOrder.indexOf(b));
+    const choice = (outcome: string, text: string): HTMLElement =>
+      el("button", { type: "button", "data-outcome": outcome, "aria-pressed": String(outcome === this.outcome), click: () => this.showOutcome(outcome) }, text);
+    const of = (kind: string): number => trials.filter(({ outcome }) => (outcome ?? "running") === kind).length;
+    this.controls.hidden = kinds.length < 2;
+    replace(this.controls, choice("", `all ${count(trials.length)}`), ...kinds.map((kind) => choice(kind, `${kind} ${count(of(kind))}`)));
+  }
+
+  private showOutcome(outcome: string): void {
+    const listed = this.store.run.trials.map((trial, index) => ({ trial, index }));
+    const some = listed.filter(({ trial }) => (trial.outcome ?? "running") === outcome);
+    this.outcome = some.length > 0 ? outcome : "";
+    this.table?.setRows(some.length > 0 ? some : listed);
+    this.drawControls();
     this.mark();
   }
 
-  private fillAll(): void {
-    this.hasAll = true;
-    this.fill();
-  }
-
   private mark(): void {
-    this.list.querySelectorAll<HTMLElement>("[data-trial]").forEach((button) => {
+    this.target.querySelectorAll<HTMLElement>("[data-trial]").forEach((button) => {
       const isChosen = Number(button.dataset.trial) === this.store.selected.trial;
       button.setAttribute("aria-pressed", String(isChosen));
     });
@@ -103,14 +122,22 @@ interface Sample {
   of: number;
 }
 
-/** How the trials of each run went: shares, intervals and distributions. */
+/** How the trials of each run went: shares, intervals and distributions; of the runs that are looked at together. */
 export class Distributions {
   readonly element: HTMLElement;
-  private readonly charts: { rebuild: () => void }[];
+  private readonly target = el("div", {});
+  private readonly starts: StartsMap | null;
+  private charts: { rebuild: () => void }[] = [];
 
-  constructor(store: Store) {
-    const { runs } = store.report;
-    const groups = groupsOf(store.report);
+  constructor(private readonly store: Store) {
+    this.starts = store.report.runs.some(hasStarts) ? new StartsMap(store, (trial) => openTrial(store, trial)) : null;
+    this.element = section("distributions", "Over all trials", this.target);
+    store.subscribe((change) => change.shown && this.fill());
+  }
+
+  fill(): void {
+    const runs = [...this.store.shown];
+    const groups = bestFirst(runs, "setting");
     const curved = groups.slice(0, mostCurves);
     const rights = (value: (trial: Trial) => number | undefined) => (group: Group): Pick<Sample, "values" | "of"> => {
       const right = group.trials.filter((trial) => trial.outcome === "right").map(value);
@@ -121,9 +148,7 @@ export class Distributions {
       return { values, of: values.length };
     };
     const times = (group: Group): Pick<Sample, "values" | "of"> => {
-      const values = group.trials.flatMap(({ columns }) =>
-        columns ? columns.step.map((_, i) => stepTime(columns, i)) : [],
-      );
+      const values = stepTimes(group);
       return { values, of: values.length };
     };
     const share = (
@@ -135,9 +160,9 @@ export class Distributions {
     ): ShareChart =>
       new ShareChart(id, title, xLabel, curved.map((group, index) => ({ label: group.name, index, ...sample(group) })), options);
     const errors = [
-      share("translation", "Translation error when localized", "m", ofRight((trial) => trial.translation_error_m)),
-      share("rotation", "Rotation error when localized", "°", ofRight((trial) => trial.rotation_error_deg)),
-      share("time", "Wall time of a step", "ms", times, { logX: true }),
+      share("translation", "Translation error when localized", "error, m", ofRight((trial) => trial.translation_error_m)),
+      share("rotation", "Rotation error when localized", "error, °", ofRight((trial) => trial.rotation_error_deg)),
+      share("time", "Wall time of a step", "time, ms", times, { logX: true }),
     ];
     const curves = [
       share("over_steps", "Localized, by steps", "steps", rights((trial) => trial.steps)),
@@ -145,15 +170,15 @@ export class Distributions {
       // Of several, box plots say the same side by side.
       ...(groups.length > 1 ? [] : errors),
     ].filter((each) => !each.isEmpty);
-    const success = groups === runs && runs.length > 1 && runs.every((run) => run.summary) ? [new SuccessChart(runs)] : [];
-    const starts = runs.some(hasStarts) ? [new StartsMap(store, (trial) => openTrial(store, trial))] : [];
+    const isOfRuns = groups.every((group) => group.runs.length === 1 && group.runs[0].summary);
+    const success = isOfRuns && groups.length > 1 ? [new SuccessChart(groups.map((group) => group.runs[0]))] : [];
+    const starts = this.starts ? [this.starts] : [];
     this.charts = [...starts, ...success, ...curves];
     const boxes = new BoxPlots(groups);
     const names = curved.length > 1 ? curved.map((group, i) => el("span", {}, lineSample(i), group.name)) : [];
     const left = groups.length - curved.length;
-    this.element = section(
-      "distributions",
-      "Over all trials",
+    replace(
+      this.target,
       names.length > 0 && el("p", { class: "names" }, ...names, left > 0 && el("span", {}, `and ${left} more, in the boxes below`)),
       el(
         "div",
@@ -170,6 +195,7 @@ export class Distributions {
             (groups.length > 1 ? "." : ", of right declarations had an error no larger, or of steps took no longer."),
         ),
     );
+    this.rebuild();
   }
 
   rebuild(): void {
@@ -211,7 +237,7 @@ class ShareChart {
       x,
       lines,
       xLabel: this.xLabel,
-      labels: ["share"],
+      label: "share",
       range: [0, 1],
       height: 190,
       ...this.options,
@@ -241,7 +267,7 @@ class SuccessChart {
       x: this.runs.map((_, i) => i + 1),
       lines: [{ label: "success", colour: themeColour("ink"), dash: [], values: none }],
       xLabel: "run, in the order of the table",
-      labels: ["share"],
+      label: "share",
       range: [0, 1],
       height: 190,
       xRange: [0.5, this.runs.length + 0.5],
