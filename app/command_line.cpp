@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <new>
 #include <string>
@@ -43,13 +44,40 @@ int report(const ConfigError& error) {
   return wrong_input;
 }
 
+/// What was another option in earlier versions.
+struct RenamedOption {
+  std::string_view command, before, now;
+};
+constexpr std::array<RenamedOption, 2> renamed_options = {
+    {{"compare", "--csv", "-o FILE.csv"}, {"compare", "--markdown", "-o FILE.md"}}};
+
+/// The command that was chosen, below all others.
+const CLI::App& chosen_command(const CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  return chosen.empty() ? app : chosen_command(*chosen.front());
+}
+
+/// What to write for an argument that the command does not take; empty if nobody knows.
+std::string advice_on(const std::string& argument, const CLI::App& command) {
+  for (const RenamedOption& option : renamed_options) {
+    const bool is_this = argument == option.before || argument.starts_with(std::string(option.before) + "=");
+    if (command.get_name() == option.command && is_this)
+      return fmt::format("; {} is called {} now", option.before, option.now);
+  }
+  const bool writes = command.get_option_no_throw("--out") != nullptr;
+  return writes && !argument.starts_with("-") ? "; -o says what to write" : "";
+}
+
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {  // --help, --version
     app.exit(error);
     flush_answers();
     return 0;
   }
-  say("error: {}\nRun with --help for more information.\n", error.what());
+  const CLI::App& command = chosen_command(app);
+  const std::vector<std::string> extras = app.remaining(true);
+  say("error: {}{}\nRun with --help for more information.\n", error.what(),
+      extras.empty() ? "" : advice_on(extras.front(), command));
   return wrong_input;
 }
 
@@ -81,6 +109,7 @@ void add_all(CLI::App& app, Context& context) {
   add_prepare(app, context);
   add_mapping(app, context);
   add_new_plugin(app, context);
+  add_contract(app, context);
   add_completion(app, context);
   add_manual(app, context);
 }

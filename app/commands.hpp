@@ -31,6 +31,7 @@ void add_bag(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_compare(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
+void add_contract(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);

@@ -1,4 +1,4 @@
-// glocal compare: which of several runs on the same starts is better, and whether that can be told.
+// glocal compare: which of several methods on the same starts is better, and whether that can be told.
 #include <fmt/format.h>
 
 #include <memory>
@@ -20,12 +20,31 @@ namespace {
 struct CompareOptions {
   std::vector<std::string> folders;
   std::string baseline;
-  std::string csv, json, markdown;
+  std::vector<std::string> out;  ///< *.json, *.csv or *.md.
+  bool full = false;
+  bool json = false;
   bool no_times = false;
   bool time_anew = false;
   bool trust_plugins = false;
   bool force = false;
 };
+
+/// The comparison as the ending of a file's name asks for it.
+std::string content_of(const ComparisonOutput& output, const std::string& file) {
+  if (file.ends_with(".csv")) return output.csv;
+  return file.ends_with(".md") ? as_markdown(output.full) : output.json_text(2) + "\n";
+}
+
+/// What is wrong with a file's name; empty if nothing is.
+std::string why_no_output(const std::string& file) {
+  const bool is_known = file.ends_with(".json") || file.ends_with(".csv") || file.ends_with(".md");
+  return is_known ? "" : file + ": the name says no format; end it with .json, .csv or .md";
+}
+
+/// For who writes --json FILE, as it was before; empty for a folder.
+std::string why_no_folder(const std::string& folder) {
+  return folder.ends_with(".json") ? "--json prints; -o " + folder + " writes this file" : "";
+}
 
 void compare_runs(const CompareOptions& options, Context& context) {
   std::vector<NamedRun> runs = read_runs(options.folders);
@@ -38,11 +57,15 @@ void compare_runs(const CompareOptions& options, Context& context) {
   const ComparisonOutput output =
       comparison_output(runs, baseline, options.no_times ? measures_but_time() : measures());
   AtomicFiles files(options.force);
-  if (!options.csv.empty()) files.add(options.csv, output.csv);
-  if (!options.json.empty()) files.add(options.json, output.json_text(2) + "\n");
-  if (!options.markdown.empty()) files.add(options.markdown, as_markdown(output.report));
+  for (const std::string& file : options.out) files.add(file, content_of(output, file));
   files.commit();
-  answer(as_text(output.report));
+  if (options.json) {
+    answer(output.json_text(2) + "\n");
+  } else if (options.full) {
+    answer(as_text(output.full));
+  } else {
+    answer("{}\n  Tests, medians and means: --full.\n", as_text(output.brief));
+  }
 }
 
 }  // namespace
@@ -50,13 +73,22 @@ void compare_runs(const CompareOptions& options, Context& context) {
 void add_compare(CLI::App& app, Context& context) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command =
-      app.add_subcommand("compare", "Compare runs on the same starts, with tests of what differs.");
-  command->add_option("DIR", options->folders, "Folders of results, or folders that hold some")->required();
-  command->add_option("--baseline", options->baseline,
-                      "Run to compare with, by the name of its folder or experiment (default: the first)");
-  command->add_option("--csv", options->csv, "Write a row for each variant and test");
-  command->add_option("--json", options->json, "Write everything");
-  command->add_option("--markdown", options->markdown, "Write the report as Markdown");
+      app.add_subcommand("compare", "Compare methods on the same starts, with tests of what differs.");
+  command->add_option("DIR", options->folders, "Folders of results, or folders that hold some")
+      ->required()
+      ->check(why_no_folder);
+  command->add_option(
+      "--baseline", options->baseline,
+      "Method to compare with, by its name, or by its run's folder or experiment (default: the "
+      "first)");
+  command->add_flag("--full", options->full, "Show all tests, and how to read them");
+  command->add_flag("--json", options->json, "Print everything as JSON");
+  command
+      ->add_option("-o,--out", options->out,
+                   "File to write, too: all as *.json, a row for each variant and test as *.csv, all tests "
+                   "as *.md (repeatable)")
+      ->allow_extra_args(false)
+      ->check(why_no_output);
   CLI::Option* no_times =
       command->add_flag("--no-times", options->no_times, "Leave times out, which no two runs have in common");
   CLI::Option* time_anew =

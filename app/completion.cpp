@@ -12,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/embedded_files.hpp"
 #include "app/standard_streams.hpp"
+#include "config/builtin_parts.hpp"
 #include "config/experiment_params.hpp"
 #include "config/field_docs.hpp"
 
@@ -77,6 +78,12 @@ std::vector<Candidate> strategies(const Catalog& catalog) {
 std::vector<Candidate> kinds(const Catalog& catalog) {
   std::vector<Candidate> found;
   for (const RegistryBase* registry : catalog.registries()) found.push_back({registry->kind()});
+  return found;
+}
+
+std::vector<Candidate> parts_built_in(PartKind kind) {
+  std::vector<Candidate> found;
+  for (const BuiltinPart& part : builtin_parts(kind)) found.push_back({part.name, part.about});
   return found;
 }
 
@@ -167,7 +174,10 @@ Completion values_of(const CLI::Option& option, const std::string& typed, const 
   if (name == "--set") return {changes(typed, catalog)};
   if (name == "TOPIC")
     return {together(subcommands(app), parts_of_experiments(typed, catalog), strategies(catalog))};
+  if (name == "--case") return {parts_built_in(PartKind::the_case), true};
+  if (name == "--method" && command.get_name() != "register") return {parts_built_in(PartKind::method), true};
   if (name == "KIND") return {kinds(catalog)};
+  if (name == "NAME" && command.get_name() == "contract") return {strategies(catalog)};
   if (name == "NAME" && command.get_name() == "describe")
     return {together(parts_of_experiments(typed, catalog), strategies(catalog))};
   if (auto choices = choices_of(option); !choices.empty()) return {std::move(choices)};

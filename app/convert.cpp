@@ -104,10 +104,11 @@ void to_mcap(const ConvertOptions& options) {
 
 void to_carmen(const ConvertOptions& options) {
   const LogKind kind = kind_of_log(options.in.file);
-  if (kind == LogKind::carmen) refuse(options.in.file, "is a CARMEN log already; name OUT *.mcap");
+  if (kind == LogKind::carmen) refuse(options.in.file, "is a CARMEN log already; name --out *.mcap");
   if (kind == LogKind::clouds)
-    refuse(options.in.file,
-           "has clouds, which cannot be written as a CARMEN log: it has planar scans only; name OUT *.mcap");
+    refuse(
+        options.in.file,
+        "has clouds, which cannot be written as a CARMEN log: it has planar scans only; name --out *.mcap");
   ReadingBar bar;
   const auto reader = options.in.open(warn, bar.call());
   GrowingFile file(options.out, options.force);
@@ -125,9 +126,9 @@ void tell_mount(const Pose3& robot_from_sensor) {
 
 void to_folder(const ConvertOptions& options, const Context& context) {
   const LogKind kind = kind_of_log(options.in.file);
-  if (kind == LogKind::clouds) refuse(options.in.file, "is a folder of clouds already; name OUT *.mcap");
+  if (kind == LogKind::clouds) refuse(options.in.file, "is a folder of clouds already; name --out *.mcap");
   if (kind == LogKind::carmen)
-    refuse(options.in.file, "has planar scans, which are no clouds in space; name OUT *.mcap");
+    refuse(options.in.file, "has planar scans, which are no clouds in space; name --out *.mcap");
   ReadingBar bar;
   const auto reader = options.in.open(warn, bar.call());
   OutputFolder folder(options.out, options.force);
@@ -157,7 +158,7 @@ void add_convert(CLI::App& app, Context& context) {
   CLI::App* command =
       app.add_subcommand("convert", "Write a recorded drive in another format: MCAP, CARMEN or clouds.");
   options->in.add_to(*command, "IN");
-  command->add_option("OUT", options->out, "*.mcap, *.log (CARMEN), or a folder for clouds (NAME/)")
+  command->add_option("-o,--out", options->out, "*.mcap, *.log (CARMEN), or a folder for clouds (NAME/)")
       ->required();
   command->add_flag("--force", options->force, "Replace what is there");
   command->callback([options, &context] { convert(*options, context); });

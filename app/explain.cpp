@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,21 +25,34 @@ namespace {
 struct ExplainOptions {
   std::string folder;
   std::size_t trial = 0;
-  std::size_t step = 0;
+  std::optional<std::size_t> step;  ///< The trial's last one without it.
   bool trust_plugins = false;
+};
+
+/// A run of which a step is to be explained.
+struct ExplainedRun {
+  Experiment experiment;
+  std::size_t trial = 0, step = 0;
 };
 
 [[noreturn]] void refuse_run(const std::string& file, const std::string& message) {
   throw ConfigError({{file, 0, 0, message}});
 }
 
+/// How far the local map's robot pose is off the reference, both counted from where the trial began.
+struct Drift {
+  double translation_m = 0.0, rotation_rad = 0.0;
+};
+
 /// One step of a trial, made again.
 struct Replayed {
   StepResult result;
   LocalMap local;
+  Points scan;           ///< The latest one's hits, in the robot's frame.
   Pose3 map_from_robot;  ///< Reference.
   PoseGate gate;
   double driven_m = 0.0;
+  std::optional<Drift> drift;  ///< None without a reference where the trial began.
 };
 
 /// Asks for nothing: every pose that is drawn passes.
@@ -52,43 +67,61 @@ class NoThreshold final : public ThresholdPolicy {
 /// depend on it draws the same; and no declaration ends the trial.
 enum class Threshold { configured, none };
 
-Replayed replay(const ExplainOptions& options, const Experiment& experiment, const Catalog& catalog,
-                LoadedExperiment& loaded, Threshold threshold) {
-  if (options.trial >= loaded.starts.size()) {
-    refuse_run(options.folder, fmt::format("there is no trial {}: the last one is {}", options.trial,
-                                           loaded.starts.size() - 1));
-  }
-  const std::size_t start = loaded.starts[options.trial];
-  const std::size_t index = start + options.step;
-  const auto& samples = loaded.drive.samples;
-  const bool runs_so_far = options.step < step_limit(experiment.trials) && index < samples.size() &&
-                           samples[index].segment == samples[start].segment;
-  if (!runs_so_far)
-    refuse_run(options.folder, fmt::format("trial {} has no step {}", options.trial, options.step));
-  if (!samples[index].map_from_robot)
-    refuse_run(options.folder, "the observations have no reference pose to compare with");
+/// Of the mapper's motion since it was at `local_from_start` against that of the reference.
+std::optional<Drift> drift_of(const std::optional<Pose3>& map_from_start, const Pose3& map_from_robot,
+                              const Pose3& local_from_start, const LocalMap& local) {
+  if (!map_from_start) return std::nullopt;
+  const Pose3 wanted = inverse(*map_from_start) * map_from_robot;
+  const Pose3 found = inverse(local_from_start) * local.local_from_robot;
+  return Drift{distance(found, wanted), rotation_between(found, wanted)};
+}
 
-  const bool is_whole = experiment.trials.whole || threshold == Threshold::none;
-  Localizer localizer = make_localizer(experiment, catalog, loaded);
+Replayed replay(const std::string& folder, const ExplainedRun& run, const Catalog& catalog,
+                LoadedExperiment& loaded, Threshold threshold) {
+  if (run.trial >= loaded.starts.size())
+    refuse_run(folder,
+               fmt::format("there is no trial {}: the last one is {}", run.trial, loaded.starts.size() - 1));
+  const std::size_t start = loaded.starts[run.trial];
+  const std::size_t index = start + run.step;
+  const auto& samples = loaded.drive.samples;
+  const bool runs_so_far = run.step < step_limit(run.experiment.trials) && index < samples.size() &&
+                           samples[index].segment == samples[start].segment;
+  if (!runs_so_far) refuse_run(folder, fmt::format("trial {} has no step {}", run.trial, run.step));
+  if (!samples[index].map_from_robot)
+    refuse_run(folder, "the observations have no reference pose to compare with");
+
+  const bool is_whole = run.experiment.trials.whole || threshold == Threshold::none;
+  Localizer localizer = make_localizer(run.experiment, catalog, loaded);
   if (threshold == Threshold::none) localizer.use(std::make_unique<NoThreshold>());
-  localizer.reset(start_number(experiment.trials, options.trial));
+  localizer.reset(start_number(run.experiment.trials, run.trial));
   StepResult result;
+  StartInLocalMap begin;
   for (std::size_t i = start; i <= index; ++i) {
     if (result.verdict.kind == VerdictKind::localized && !is_whole) {
-      refuse_run(options.folder,
-                 fmt::format("trial {} has no step {}: it ended with a declaration in step {}", options.trial,
-                             options.step, result.step));
+      refuse_run(folder, fmt::format("trial {} has no step {}: it ended with a declaration in step {}",
+                                     run.trial, run.step, result.step));
     }
     result = localizer.step(samples[i].observation);
+    begin.follow(localizer.local_map(), samples[i].observation.odom_from_robot);
   }
-  return {std::move(result), localizer.local_map(), *samples[index].map_from_robot, localizer.gate(),
-          loaded.drive.path_m[index] - loaded.drive.path_m[start]};
+  const Pose3& truth = *samples[index].map_from_robot;
+  return {.result = std::move(result),
+          .local = localizer.local_map(),
+          .scan = samples[index].observation.scan.hits,
+          .map_from_robot = truth,
+          .gate = localizer.gate(),
+          .driven_m = loaded.drive.path_m[index] - loaded.drive.path_m[start],
+          .drift = drift_of(samples[start].map_from_robot, truth, begin.local_from_start(),
+                            localizer.local_map())};
 }
 
-/// Contact of the local map at a robot pose, in [0, 1].
-double contact_at(const Replayed& step, const ContactIndex& contact, const Pose3& map_from_robot) {
-  return contact.share(step.local.points, map_from_robot * inverse(step.local.local_from_robot));
-}
+/// Shares of points in contact with the map where the robot is, in [0, 1].
+struct Fit {
+  double at_truth = 0.0;  ///< Of the local map.
+  Pose3 best;             ///< Robot pose near the truth at which the local map fits best.
+  double at_best = 0.0;
+  double of_scan = 0.0;  ///< Of the latest scan alone, at the truth.
+};
 
 bool agree(const Pose3& a, const Pose3& b, const EvaluationConfig& limits) {
   return distance(a, b) <= limits.max_translation_error &&
@@ -133,6 +166,36 @@ std::ptrdiff_t first_right(const Items& items, const Pose3& truth, const Evaluat
     return agree(item.map_from_robot, truth, limits);
   });
   return found - items.begin();
+}
+
+Fit fit_of(const Replayed& step, const LoadedExperiment& loaded, const Experiment& experiment) {
+  const GlobalMap& map = *loaded.map;
+  const auto contact = contact_index(map, "bitset", contact_epsilon_on(map, experiment.localizer));
+  const auto at = [&](const Pose3& map_from_robot) {
+    return contact->share(step.local.points, map_from_robot * inverse(step.local.local_from_robot));
+  };
+  Fit fit{.at_truth = at(step.map_from_robot),
+          .best = best_fit(step, map),
+          .of_scan = contact->share(step.scan, step.map_from_robot)};
+  fit.at_best = at(fit.best);
+  return fit;
+}
+
+/// Why no pose near the truth can be found, whatever is drawn; none if the local map fits there well enough.
+std::optional<std::string> why_unfit(const Replayed& step, const Fit& fit, const EvaluationConfig& limits) {
+  constexpr double well_enough = 0.5;
+  const double near =
+      agree(fit.best, step.map_from_robot, limits) ? std::max(fit.at_truth, fit.at_best) : fit.at_truth;
+  if (near >= well_enough) return std::nullopt;
+  if (fit.of_scan >= well_enough)
+    return fmt::format(
+        "drifted: of the local map {:.0f} % fit near the reference, of the latest scan alone {:.0f} %; the "
+        "local map is bent, or has lost its way",
+        100.0 * near, 100.0 * fit.of_scan);
+  return fmt::format(
+      "not on the map: of the local map {:.0f} % fit near the reference, of the latest scan alone {:.0f} %; "
+      "the map does not show what the robot sees there, or the reference is wrong",
+      100.0 * near, 100.0 * fit.of_scan);
 }
 
 /// Why no hypothesis is near the truth, told by the best of all poses drawn near it.
@@ -187,29 +250,37 @@ std::string rivals_elsewhere(const Replayed& step, const LoadedExperiment& loade
                      text_of(missing->map_from_local * step.local.local_from_robot), bound);
 }
 
-/// The experiment of a run, all of whose files must be in order.
-Experiment experiment_of(const ExplainOptions& options, Context& context) {
+/// What is asked for of a run, all of whose files must be in order.
+ExplainedRun explained_run(const ExplainOptions& options, Context& context) {
   const std::vector<std::filesystem::path> folders = results_folders(options.folder);
   if (folders.size() > 1)
     refuse_run(options.folder, fmt::format("holds {} folders of results; name one of them", folders.size()));
-  static_cast<void>(read_results(folders.front()));
-  return read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context);
+  std::size_t last_trial = 0;
+  std::optional<std::size_t> steps;  // Of the trial.
+  LineReaders lines;
+  lines.trial = [&](const nlohmann::ordered_json& trial) {
+    last_trial = trial.at("trial").get<std::size_t>();
+    if (last_trial == options.trial) steps = trial.at("steps").get<std::size_t>();
+  };
+  static_cast<void>(read_results(folders.front(), lines));
+  if (!options.step && !steps)
+    refuse_run(options.folder,
+               fmt::format("there is no trial {}: the last one is {}", options.trial, last_trial));
+  const std::size_t last = steps.value_or(0) > 0 ? *steps - 1 : 0;
+  return {read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context),
+          options.trial, options.step.value_or(last)};
 }
 
 void explain(const ExplainOptions& options, Context& context) {
-  const Experiment experiment = experiment_of(options, context);
+  const ExplainedRun run = explained_run(options, context);
+  const Experiment& experiment = run.experiment;
   const EvaluationConfig& limits = experiment.evaluation;
   LoadedExperiment loaded =
       load_experiment(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
-  const Replayed step = replay(options, experiment, context.catalog, loaded, Threshold::configured);
+  const Replayed step = replay(options.folder, run, context.catalog, loaded, Threshold::configured);
   const StepResult& result = step.result;
   const Pose3& truth = step.map_from_robot;
-
-  const auto contact =
-      contact_index(*loaded.map, "bitset", contact_epsilon_on(*loaded.map, experiment.localizer));
-  const Pose3 fitted = best_fit(step, *loaded.map);
-  const double at_truth = contact_at(step, *contact, truth);
-  const double near_truth = std::max(at_truth, contact_at(step, *contact, fitted));
+  const Fit fit = fit_of(step, loaded, experiment);
 
   const std::ptrdiff_t hypothesis = first_right(result.hypotheses, truth, limits);
   const std::ptrdiff_t cluster = first_right(result.clusters, truth, limits);
@@ -221,20 +292,21 @@ void explain(const ExplainOptions& options, Context& context) {
     if (!step.gate.allows(truth * inverse(step.local.local_from_robot)))
       return fmt::format("excluded: localizer.prior leaves only {}, and the reference is none of these",
                          to_string(step.gate.prior()));
-    if (!agree(fitted, truth, limits))
-      return "unclear: the local map does not fit where the reference says it was";
-    const Replayed open = replay(options, experiment, context.catalog, loaded, Threshold::none);
+    if (const auto why = why_unfit(step, fit, limits)) return *why;
+    const Replayed open = replay(options.folder, run, context.catalog, loaded, Threshold::none);
     return lost_by_matcher(open.result.hypotheses, step, limits);
   };
 
-  answer("{}, trial {}, step {}, after {:.1f} m\n", experiment.name, options.trial, options.step,
-         step.driven_m);
+  answer("{}, trial {}, step {}, after {:.1f} m\n", experiment.name, run.trial, run.step, step.driven_m);
   answer("  reference   {}\n", text_of(truth));
   answer(
-      "  contact     {:.0f} % at the reference, {:.0f} % at the best fit near by ({:.2f} m, {:.1f} deg "
-      "off)\n",
-      100.0 * at_truth, 100.0 * near_truth, distance(fitted, truth),
-      degrees(rotation_between(fitted, truth)));
+      "  contact     {:.0f} % at the reference, {:.0f} % at the best fit near by ({:.2f} m, {:.1f} deg off), "
+      "{:.0f} % of the latest scan alone\n",
+      100.0 * fit.at_truth, 100.0 * std::max(fit.at_truth, fit.at_best), distance(fit.best, truth),
+      degrees(rotation_between(fit.best, truth)), 100.0 * fit.of_scan);
+  if (step.drift)
+    answer("  local map   {:.2f} m and {:.1f} deg off the reference since the trial began\n",
+           step.drift->translation_m, degrees(step.drift->rotation_rad));
   answer("  threshold   {:.2f}; best {}\n", result.omega_max, worth(result.score_best, result.omega_best));
   answer("  hypothesis  {}\n", rank_text(result.hypotheses, hypothesis, truth));
   answer("  cluster     {}\n", rank_text(result.clusters, cluster, truth));
@@ -251,7 +323,7 @@ void add_explain(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("explain", "Say at which stage of a step the true pose was lost.");
   command->add_option("DIR", options->folder, "Folder of results, as glocal run leaves it")->required();
   command->add_option("--trial", options->trial, "Number of the trial, from 0")->required();
-  command->add_option("--step", options->step, "Number of the step, from 0")->required();
+  command->add_option("--step", options->step, "Number of the step, from 0 (default: the last one)");
   command->add_flag("--trust-plugins", options->trust_plugins,
                     "Load the plugins that the folder names: they are native code");
   command->callback([options, &context] { explain(*options, context); });

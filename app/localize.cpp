@@ -78,7 +78,7 @@ class Narrator {
     const auto pose = result.estimate();
     const auto& estimate = result.verdict.estimate;
     const double way = drive_->path_m[first_sample_ + result.step] - drive_->path_m[first_sample_];
-    answer("step {:3}  {:6.2f} m  {:13}  {}{}\n", result.step + 1, way, to_string(result.verdict.kind),
+    answer("step {:3}  {:6.2f} m  {:13}  {}{}\n", result.step, way, to_string(result.verdict.kind),
            pose ? text_of(*pose, motion_) : "no pose",
            estimate ? fmt::format(", {:.0f} %", 100.0 * estimate->confidence) : "");
     if (result.verdict.why != last_why_) answer("          {}\n", result.verdict.why);
@@ -208,7 +208,7 @@ void add_localize(CLI::App& app, Context& context) {
       "lidar_upright)");
   add_strict(*command, request.strict);
   options->changes.add_overrides_to(*command);
-  command->add_option("--out", options->out, "Folder for the results (default: results/localize_LOG)");
+  command->add_option("-o,--out", options->out, "Folder for the results (default: results/localize_LOG)");
   command->add_flag("--force", options->force, "Replace earlier results");
   command->callback([options, &context] { localize(*options, context); });
 }

@@ -69,7 +69,7 @@ void add_merge(CLI::App& app, Context& context) {
   CLI::App* command =
       app.add_subcommand("merge", "Put together what shards have left, as one run would have left it.");
   command->add_option("DIR", options->folder, "Folder that the shards share")->required();
-  command->add_option("--out", options->out, "Folder for the results (default: the same)");
+  command->add_option("-o,--out", options->out, "Folder for the results (default: the same)");
   command->add_flag("--force", options->force, "Replace results of other runs that are in the way");
   command->add_flag("--quiet", options->quiet, "No table of results");
   command->callback([options, &context] { merge(*options, context); });

@@ -21,7 +21,10 @@ namespace {
 struct NewPluginOptions {
   std::string kind;
   std::string name;
-  std::string folder;
+  std::string out;
+  bool python = false;
+
+  [[nodiscard]] const std::string& folder() const { return out.empty() ? name : out; }
 };
 
 /// Fit for a file, a CMake target and, in CamelCase, a class.
@@ -56,6 +59,12 @@ void check(const NewPluginOptions& options, const Catalog& catalog) {
   std::vector<Fault> faults;
   const RegistryBase* registry = registry_of(options.kind, catalog);
   if (registry == nullptr) faults.push_back(unknown_kind(options.kind, catalog));
+  if (registry != nullptr && options.python && !has_embedded_file(options.kind + ".py")) {
+    faults.push_back({"--python", 0, 0,
+                      fmt::format("there are no strategies of the kind {} in Python; leave it out for one in "
+                                  "C++",
+                                  options.kind)});
+  }
   if (!is_snake_case(options.name)) {
     faults.push_back(
         {"", 0, 0,
@@ -89,23 +98,33 @@ void new_plugin(const NewPluginOptions& options, const Catalog& catalog) {
       {"NAME", options.name},
       {"CLASS", camel_case(options.name)},
       {"KIND", options.kind},
+      {"PLUGIN", options.python ? options.name + ".py" : "build/" + options.name + ".so"},
       {"MAP", options.kind == "map_source" ? options.name : simulation},
       {"OBSERVATIONS", options.kind == "observation_source" ? options.name : simulation},
       {"LOCALIZER", localizer_with(options.kind, options.name)}};
 
-  OutputFolder folder(options.folder, false);
-  folder.append("CMakeLists.txt", filled(embedded_file("CMakeLists.txt"), values));
-  folder.append(options.name + ".cpp", filled(embedded_file(options.kind + ".cpp"), values));
-  folder.append("experiment.yaml", filled(embedded_file("experiment.yaml"), values));
-  folder.append("world.yaml", filled(embedded_file("world.yaml"), values));
+  const std::string& out = options.folder();
+  OutputFolder folder(out, false);
+  const auto write = [&](const std::string& name, const std::string& of_template) {
+    folder.append(name, filled(embedded_file(of_template), values));
+  };
+  if (options.python) {
+    write(options.name + ".py", options.kind + ".py");
+    write("test_" + options.name + ".py", "test_strategy.py");
+  } else {
+    write("CMakeLists.txt", "CMakeLists.txt");
+    write(options.name + ".cpp", options.kind + ".cpp");
+  }
+  write("experiment.yaml", "experiment.yaml");
+  write("world.yaml", "world.yaml");
   folder.commit();
-  answer(
-      "A {} called {} in {}. Build it, test it, run it:\n"
-      "  cmake -S {} -B {}/build && cmake --build {}/build\n"
-      "  ctest --test-dir {}/build\n"
-      "  glocal run {}/experiment.yaml\n",
-      options.kind, options.name, options.folder, options.folder, options.folder, options.folder,
-      options.folder, options.folder);
+  const std::string test = options.python ? fmt::format("  python3 -m pytest {}\n", out)
+                                          : fmt::format(
+                                                "  cmake -S {0} -B {0}/build && cmake --build {0}/build\n"
+                                                "  ctest --test-dir {0}/build\n",
+                                                out);
+  answer("A {} called {} in {}. {} it, run it:\n{}  glocal run {}/experiment.yaml\n", options.kind,
+         options.name, out, options.python ? "Test" : "Build it, test", test, out);
 }
 
 }  // namespace
@@ -114,10 +133,11 @@ void add_new_plugin(CLI::App& app, Context& context) {
   auto options = std::make_shared<NewPluginOptions>();
   CLI::App* command = app.add_subcommand(
       "new-plugin",
-      "Write a plugin to begin with: a strategy, how to build it, an experiment that tests it.");
+      "Write a plugin to begin with: a strategy, how to build it, tests, and an experiment that uses it.");
   command->add_option("KIND", options->kind, "matcher, local_mapper, ... (see glocal list)")->required();
   command->add_option("NAME", options->name, "Name of the strategy, in snake_case")->required();
-  command->add_option("DIR", options->folder, "Folder for the files")->required();
+  command->add_flag("--python", options->python, "A plugin in Python, which needs no building");
+  command->add_option("-o,--out", options->out, "Folder for the files (default: NAME)");
   command->callback([options, &context] { new_plugin(*options, context.catalog); });
 }
 

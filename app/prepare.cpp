@@ -303,7 +303,7 @@ void add_prepare(CLI::App& app, Context& context) {
                    "Map and run take turns so many times (default: once, or five times for a drive that does "
                    "not come back)")
       ->check(CLI::Range(1, 100));
-  command->add_option("--out", options->out, "Folder for the case")->required();
+  command->add_option("-o,--out", options->out, "Folder for the case")->required();
   command->add_flag("--force", options->force, "Replace an earlier case");
   command->callback([options, &context] { prepare(*options, context); });
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
@@ -13,6 +15,9 @@
 #include "app/run_report.hpp"
 #include "app/run_shard.hpp"
 #include "app/watch_server.hpp"
+#include "config/reader.hpp"
+#include "config/text_file.hpp"
+#include "config/yaml_parser.hpp"
 #include "evaluation/running/experiment_runner.hpp"
 #include "report/live_run.hpp"
 
@@ -84,10 +89,26 @@ class Waiting {
   std::size_t longest_trial_ = 1;  ///< Steps.
 };
 
+/// Whether nothing says which localizer is to be run.
+bool names_no_localizer(const ExperimentOptions& options) {
+  const auto is_of_localizer = [](const std::string& change) { return change.starts_with("localizer"); };
+  if (options.file.empty() || !options.methods.empty() ||
+      std::any_of(options.set.begin(), options.set.end(), is_of_localizer))
+    return false;
+  std::vector<Fault> faults;
+  const auto tree = parse_yaml(read_text_file(options.file), origin_of(options.file), faults);
+  return tree && find_entry(*tree, "localizer") == nullptr && find_entry(*tree, "methods") == nullptr;
+}
+
 void run(const RunCommand& command, Context& context) {
   std::optional<Shard> shard;
   if (!command.shard.empty()) shard = shard_of(command.shard);
   std::vector<Variant> variants = command.experiment.read_variants(command.experiment.file, context);
+  if (!command.quiet && names_no_localizer(command.experiment))
+    spdlog::info(
+        "{} names no localizer: it is run with the paper's method; --method indexed takes that of glocal "
+        "localize",
+        command.experiment.file);
   RunOptions options = command.run;
   options.plugins = context.plugins.loaded();
   options.command = context.command_line;
@@ -117,13 +138,15 @@ void run(const RunCommand& command, Context& context) {
 
 void add_run(CLI::App& app, Context& context) {
   auto options = std::make_shared<RunCommand>();
-  CLI::App* command =
-      app.add_subcommand("run", "Run an experiment, or all its variants, and leave the results in a folder.");
+  CLI::App* command = app.add_subcommand(
+      "run",
+      "Run an experiment, or all its variants, and leave the results in a folder. Without a "
+      "localizer it is the paper's method.");
   options->experiment.add_to(*command);
   CLI::Option* only = command->add_option("--only", options->run.only, "Run only this variant (repeatable)")
                           ->allow_extra_args(false);
   CLI::Option* out =
-      command->add_option("--out", options->run.out, "Folder for the results (default: results/NAME)");
+      command->add_option("-o,--out", options->run.out, "Folder for the results (default: results/NAME)");
   command
       ->add_option("--jobs", options->run.jobs,
                    "Trials that run side by side, each with --threads of its own")

@@ -103,7 +103,7 @@ void add_simulate(CLI::App& app, Context& context) {
   command->add_option("FILE", options->experiment.file, "Experiment file (YAML)");
   options->experiment.add_overrides_to(*command);
   options->site.add_to(*command);
-  command->add_option("--out", options->out, "Folder for the files")->required();
+  command->add_option("-o,--out", options->out, "Folder for the files")->required();
   command->add_flag("--force", options->force, "Replace earlier files in that folder");
   command->callback([options, &context] { simulate(*options, context); });
 }

@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <mutex>
+#include <set>
 
 #include "glocal/error.hpp"
 #include "glocal/words.hpp"
@@ -32,6 +34,34 @@ class FitWords final : public spdlog::custom_flag_formatter {
   [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
     return std::make_unique<FitWords>();
   }
+};
+
+/// Passes on each warning once: what the next variant or case says again of the same file tells nobody
+/// anything.
+class WarningsOnce final : public spdlog::sinks::sink {
+ public:
+  explicit WarningsOnce(spdlog::sink_ptr to) : to_(std::move(to)) {}
+
+  void log(const spdlog::details::log_msg& message) override {
+    if (message.level == spdlog::level::warn && !is_new({message.payload.data(), message.payload.size()}))
+      return;
+    to_->log(message);
+  }
+  void flush() override { to_->flush(); }
+  void set_pattern(const std::string& pattern) override { to_->set_pattern(pattern); }
+  void set_formatter(std::unique_ptr<spdlog::formatter> formatter) override {
+    to_->set_formatter(std::move(formatter));
+  }
+
+ private:
+  [[nodiscard]] bool is_new(std::string warning) {
+    const std::lock_guard lock(mutex_);
+    return said_.insert(std::move(warning)).second;
+  }
+
+  spdlog::sink_ptr to_;
+  std::mutex mutex_;
+  std::set<std::string> said_;
 };
 
 }  // namespace
@@ -63,7 +93,8 @@ void say_over(const std::string& text) {
 void log_to_stderr() {
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
   formatter->add_flag<FitWords>('*').set_pattern("%^%l%$: %*");
-  spdlog::set_default_logger(spdlog::stderr_color_mt("glocal"));
+  auto sink = std::make_shared<WarningsOnce>(std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("glocal", std::move(sink)));
   spdlog::set_formatter(std::move(formatter));
 }
 

@@ -32,7 +32,7 @@ void say(fmt::format_string<Values...> text, Values&&... values) {
 /// The same, in the place of the terminal's last line; nothing clears it.
 void say_over(const std::string& text);
 
-/// Has spdlog write to stderr in the same way: "warning: …".
+/// Has spdlog write to stderr in the same way: "warning: …". A warning that has been said is not said again.
 void log_to_stderr();
 
 /// "[####......]", for lines that show how much is done, in [0, 1].

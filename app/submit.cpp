@@ -280,7 +280,7 @@ void add_submit(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand(
       "submit", "Run an experiment in shards, with Slurm or GNU parallel, and put the results together.");
   options->experiment.add_to(*command);
-  command->add_option("--out", options->out, "Folder for the results (default: results/NAME)");
+  command->add_option("-o,--out", options->out, "Folder for the results (default: results/NAME)");
   command->add_option("--shards", options->shards, "In how many parts to run, at most one for each trial")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

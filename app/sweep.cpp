@@ -18,7 +18,7 @@ namespace glocal::app {
 namespace {
 
 struct SweepOptions {
-  std::string folder;
+  std::string folder, baseline;
   std::vector<std::string> map;  ///< Two parameters, or none.
   std::size_t top = 20;
   bool json = false;
@@ -28,7 +28,7 @@ void analyse(const SweepOptions& options) {
   const std::vector<NamedRun> runs = read_sweep(options.folder);
   MapChoice map;
   if (!options.map.empty()) map = {options.map.at(0), options.map.at(1)};
-  const SweepAnalysis analysis = analyse_sweep(runs, map);
+  const SweepAnalysis analysis = analyse_sweep(runs, map, options.baseline);
   if (options.json) {
     answer(json_text(analysis));
   } else {
@@ -43,6 +43,8 @@ void add_sweep(CLI::App& app, Context& /*context*/) {
   CLI::App* command = app.add_subcommand(
       "sweep", "Show which settings of an experiment are best, which parameters matter, and what is chance.");
   command->add_option("DIR", options->folder, "Folder that holds the results of all variants")->required();
+  command->add_option("--baseline", options->baseline,
+                      "Setting to compare all others with (default: the first)");
   command->add_option("--map", options->map, "The two parameters of the map (default: of the largest effect)")
       ->expected(2)
       ->type_name("A B");

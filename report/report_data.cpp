@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "evaluation/comparison/comparison_writers.hpp"
+#include "evaluation/comparison/methods.hpp"
 #include "evaluation/results/map_files.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/sweeps/analysis.hpp"
@@ -158,7 +159,8 @@ Json ReportData::to_json(const std::vector<NamedRun>& runs, std::size_t baseline
   if (runs_.size() < 2) return json;
   if (is_sweep(runs)) json["sweep"] = glocal::to_json(analyse_sweep(runs));
   try {
-    json["comparison"] = glocal::to_json(compare(runs, baseline));
+    // Cases and seeds of one method alone have nothing to be compared with.
+    if (methods_of(runs).size() > 1) json["comparison"] = glocal::to_json(compare(runs, baseline));
   } catch (const ConfigError& error) {
     const Fault& fault = error.faults().front();
     json["comparison_refused"] = fmt::format("{}: {}", fault.file, fault.message);

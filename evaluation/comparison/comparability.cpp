@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 
 namespace glocal {
@@ -12,9 +13,9 @@ namespace {
 
 using Sentences = std::vector<std::string>;
 
-/// With fewer starts even a run that is right every time may miss one in six: Wilson's bound of 20 of 20 is
-/// 84 %.
-constexpr std::size_t few_starts = 20;
+/// With fewer places even a method that is right every time may miss one in six: Wilson's bound of 20 of 20
+/// is 84 %.
+constexpr std::size_t few_places = 20;
 
 /// More of them than this share overlapping spoils the tests.
 constexpr double many_overlaps = 0.1;
@@ -22,40 +23,69 @@ constexpr double many_overlaps = 0.1;
 /// Reference poses of one start that differ by more than rounding: another drive, or another frame.
 constexpr double same_reference_m = 1e-3;
 
-std::string joined(const Sentences& items) {
-  std::string text;
-  for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
-  return text;
-}
+constexpr std::size_t most_listed = 3;
 
-void add_missing_trials(const std::vector<NamedRun>& runs, std::size_t starts, Sentences& warnings) {
-  Sentences left_out;
-  for (const NamedRun& run : runs) {
-    if (!run.results.complete)
-      warnings.push_back(fmt::format("{} was interrupted: its later trials are missing.", run.name));
-    const std::size_t others = run.results.trials.size() - starts;
-    if (others > 0) left_out.push_back(fmt::format("{} of {}", others, run.name));
+std::string joined(Sentences items, std::size_t most = SIZE_MAX) {
+  if (items.size() > most) {
+    const std::size_t more = items.size() - most;
+    items.resize(most);
+    items.push_back(fmt::format("{} more", more));
   }
-  if (left_out.empty()) return;
-  warnings.push_back(fmt::format("Only the {} starts that all runs have are compared. Left out: {}.", starts,
-                                 joined(left_out)));
+  return fmt::format("{}", fmt::join(items, ", "));
 }
 
-void add_unjudged(const std::vector<NamedRun>& runs, const std::vector<TrialsByStart>& trials,
-                  Sentences& warnings) {
-  for (std::size_t i = 0; i < runs.size(); ++i) {
+/// What methods are compared by.
+struct Compared {
+  const std::vector<NamedRun>& runs;
+  const std::vector<Method>& methods;
+  const PairedTrials& paired;
+
+  [[nodiscard]] const std::string& name(std::size_t method) const { return methods[method].name; }
+  [[nodiscard]] const NamedRun& run(const PairedTrials::Cell& cell, std::size_t method) const {
+    return runs[cell.runs[method]];
+  }
+};
+
+void add_missing_trials(const Compared& compared, Sentences& warnings) {
+  const PairedTrials& paired = compared.paired;
+  if (!paired.left_out.empty())
+    warnings.push_back(
+        fmt::format("Left out, as not all methods have them: {}.", joined(paired.left_out, most_listed)));
+  Sentences interrupted, others;
+  for (std::size_t m = 0; m < compared.methods.size(); ++m) {
+    std::size_t trials = 0;
+    for (const PairedTrials::Cell& cell : paired.cells) {
+      const NamedRun& run = compared.run(cell, m);
+      if (!run.results.complete) interrupted.push_back(run.name);
+      trials += run.results.trials.size();
+    }
+    if (trials > paired.trials.size())
+      others.push_back(fmt::format("{} of {}", trials - paired.trials.size(), compared.name(m)));
+  }
+  if (!interrupted.empty())
+    warnings.push_back(fmt::format("{} {} interrupted: later trials are missing.",
+                                   joined(interrupted, most_listed),
+                                   interrupted.size() == 1 ? "was" : "were"));
+  if (!others.empty())
+    warnings.push_back(fmt::format("Only the {} starts that all methods have are compared. Left out: {}.",
+                                   paired.trials.size(), joined(others)));
+}
+
+void add_unjudged(const Compared& compared, Sentences& warnings) {
+  for (std::size_t m = 0; m < compared.methods.size(); ++m) {
+    const auto& trials = compared.paired.results[m];
     const auto count = [&](Outcome outcome) {
-      return std::count_if(trials[i].begin(), trials[i].end(),
+      return std::count_if(trials.begin(), trials.end(),
                            [&](const TrialResult* trial) { return trial->outcome == outcome; });
     };
     if (const auto failed = count(Outcome::failed); failed > 0) {
       warnings.push_back(fmt::format("{} trials of {} failed with an exception; they count as undecided.",
-                                     failed, runs[i].name));
+                                     failed, compared.name(m)));
     }
     if (const auto declared = count(Outcome::declared); declared > 0) {
       warnings.push_back(
           fmt::format("{} declarations of {} have no reference to judge them by; they count as undecided.",
-                      declared, runs[i].name));
+                      declared, compared.name(m)));
     }
   }
 }
@@ -85,20 +115,21 @@ Sentences differences(const StoredRun& run, const StoredRun& baseline, const std
                         ? fmt::format("{}: {} has changed", path, mine.text)
                         : fmt::format("{}: {} instead of {}", path, mine.text, other.text));
   }
-  constexpr std::size_t most_listed = 3;
-  if (found.size() > most_listed) {
-    const std::size_t more = found.size() - most_listed;
-    found.resize(most_listed);
-    found.push_back(fmt::format("{} more", more));
-  }
   return found;
 }
 
-void add_settings(const NamedRun& run, const NamedRun& baseline, Sentences& warnings) {
+/// The same is said once, of however many cases and seeds.
+void add_once(const std::string& sentence, Sentences& warnings) {
+  if (std::find(warnings.begin(), warnings.end(), sentence) == warnings.end()) warnings.push_back(sentence);
+}
+
+void add_settings(const Compared& compared, std::size_t method, std::size_t baseline, Sentences& warnings) {
   struct Section {
     const char* path;
     const char* message;
   };
+  const std::string& name = compared.name(method);
+  const std::string& other = compared.name(baseline);
   for (const Section& section : {
            Section{"evaluation",
                    "{0} and {1} were judged by other limits, so right and wrong do not mean the "
@@ -108,59 +139,86 @@ void add_settings(const NamedRun& run, const NamedRun& baseline, Sentences& warn
            Section{"trials.max_steps", "Trials of {0} and {1} may go on for other numbers of steps ({2})."},
            Section{"trials.whole", "Trials of {0} and {1} end otherwise ({2})."},
        }) {
-    const Sentences found = differences(run.results, baseline.results, section.path);
-    if (!found.empty()) {
-      warnings.push_back(fmt::format(fmt::runtime(section.message), run.name, baseline.name, joined(found)));
+    for (const PairedTrials::Cell& cell : compared.paired.cells) {
+      const Sentences found =
+          differences(compared.run(cell, method).results, compared.run(cell, baseline).results, section.path);
+      if (!found.empty())
+        add_once(fmt::format(fmt::runtime(section.message), name, other, joined(found, most_listed)),
+                 warnings);
     }
   }
-  if (run.results.seed != baseline.results.seed) {
-    warnings.push_back(fmt::format(
-        "{} has seed {} and {} seed {}: draws differ, and in simulations the noise of the observations.",
-        run.name, run.results.seed, baseline.name, baseline.results.seed));
+  for (const PairedTrials::Cell& cell : compared.paired.cells) {
+    const std::uint64_t seed = compared.run(cell, method).results.seed;
+    const std::uint64_t seed_of_other = compared.run(cell, baseline).results.seed;
+    if (seed != seed_of_other)
+      add_once(fmt::format("{} has seed {} and {} seed {}: draws differ, and in simulations the noise of the "
+                           "observations.",
+                           name, seed, other, seed_of_other),
+               warnings);
   }
 }
 
-void add_references(const NamedRun& run, const NamedRun& baseline, const TrialsByStart& mine,
-                    const TrialsByStart& others, Sentences& warnings) {
+void add_references(const Compared& compared, std::size_t method, std::size_t baseline, Sentences& warnings) {
   std::size_t moved = 0;
-  for (std::size_t i = 0; i < mine.size(); ++i) {
-    const auto& a = mine[i]->start_reference;
-    const auto& b = others[i]->start_reference;
+  const std::size_t trials = compared.paired.trials.size();
+  for (std::size_t i = 0; i < trials; ++i) {
+    const auto& a = compared.paired.results[method][i]->start_reference;
+    const auto& b = compared.paired.results[baseline][i]->start_reference;
     moved += a && b && distance(*a, *b) > same_reference_m ? 1 : 0;
   }
   if (moved == 0) return;
   warnings.push_back(fmt::format(
       "At {} of {} starts {} and {} have different reference poses: another drive, or another frame "
       "of the map.",
-      moved, mine.size(), run.name, baseline.name));
+      moved, trials, compared.name(method), compared.name(baseline)));
+}
+
+void add_times(const Compared& compared, std::size_t method, std::size_t baseline, Sentences& warnings) {
+  Sentences reasons;
+  for (const PairedTrials::Cell& cell : compared.paired.cells) {
+    if (auto why = why_times_differ(compared.run(cell, method), compared.run(cell, baseline)))
+      reasons.push_back(*std::move(why));
+  }
+  if (reasons.empty()) return;
+  const std::size_t cells = compared.paired.cells.size();
+  warnings.push_back(fmt::format(
+      "Times of {} and {} are not compared{}: {}.", compared.name(method), compared.name(baseline),
+      cells == 1 ? "" : fmt::format(" in {} of {} runs", reasons.size(), cells), reasons.front()));
 }
 
 /// Trials that reach the next start see some of the same scans: their outcomes are not independent, as all
 /// tests take them to be.
-void add_overlaps(const std::vector<NamedRun>& runs, const std::vector<TrialStart>& starts,
-                  const std::vector<TrialsByStart>& trials, Sentences& warnings) {
+void add_overlaps(const Compared& compared, Sentences& warnings) {
+  const PairedTrials& paired = compared.paired;
+  // Of each trial the way to the next start of its case; none behind the last one.
+  std::vector<std::optional<double>> gaps(paired.trials.size());
+  for (std::size_t p = 0; p + 1 < paired.places.size(); ++p) {
+    const PairedTrials::Place& place = paired.places[p];
+    const PairedTrials::Place& next = paired.places[p + 1];
+    if (next.case_number != place.case_number) continue;
+    for (std::size_t t = place.begin; t < place.end; ++t)
+      gaps[t] = paired.trials[next.begin].start.distance_m - paired.trials[t].start.distance_m;
+  }
   Sentences overlapping;
-  for (std::size_t run = 0; run < runs.size(); ++run) {
+  for (std::size_t m = 0; m < compared.methods.size(); ++m) {
     std::size_t overlaps = 0;
-    for (std::size_t i = 0; i + 1 < starts.size(); ++i) {
-      const double gap = starts[i + 1].distance_m - starts[i].distance_m;
-      overlaps += trials[run][i]->distance_m > gap ? 1 : 0;
-    }
-    if (static_cast<double>(overlaps) > many_overlaps * static_cast<double>(starts.size()))
-      overlapping.push_back(fmt::format("{} of {}", overlaps, runs[run].name));
+    for (std::size_t t = 0; t < gaps.size(); ++t)
+      overlaps += gaps[t] && paired.results[m][t]->distance_m > *gaps[t] ? 1 : 0;
+    if (static_cast<double>(overlaps) > many_overlaps * static_cast<double>(gaps.size()))
+      overlapping.push_back(fmt::format("{} of {}", overlaps, compared.name(m)));
   }
   if (overlapping.empty()) return;
   warnings.push_back(
       fmt::format("Of {} trials, these go on beyond the next start: {}. Neighbours are not independent, and "
                   "p-values and intervals are too optimistic. Starts further apart would mend that.",
-                  starts.size(), joined(overlapping)));
+                  gaps.size(), joined(overlapping)));
 }
 
-void add_few_starts(std::size_t starts, Sentences& warnings) {
-  if (starts >= few_starts) return;
+void add_few_places(std::size_t places, Sentences& warnings) {
+  if (places >= few_places) return;
   warnings.push_back(
-      fmt::format("Few starts: {} right of {} would still leave a success rate of {:.0f} % possible.", starts,
-                  starts, 100.0 * wilson(starts, starts).low));
+      fmt::format("Few places: {} right of {} would still leave a success rate of {:.0f} % possible.", places,
+                  places, 100.0 * wilson(places, places).low));
 }
 
 }  // namespace
@@ -169,8 +227,7 @@ std::optional<std::string> why_times_differ(const NamedRun& run, const NamedRun&
   const Machine& a = run.results.machine;
   const Machine& b = baseline.results.machine;
   const auto refuse = [&](const std::string& mine, const std::string& other) {
-    return fmt::format("Times of {} and {} are not compared: {}, and {}.", run.name, baseline.name, mine,
-                       other);
+    return mine + ", and " + other;
   };
   if (a.host != b.host || a.cpu != b.cpu || a.threads != b.threads) {
     const auto text = [](const Machine& m) {
@@ -193,20 +250,21 @@ std::optional<std::string> why_times_differ(const NamedRun& run, const NamedRun&
   return std::nullopt;
 }
 
-std::vector<std::string> comparability_warnings(const std::vector<NamedRun>& runs, std::size_t baseline,
-                                                const std::vector<TrialStart>& starts,
-                                                const std::vector<TrialsByStart>& trials) {
+std::vector<std::string> comparability_warnings(const std::vector<NamedRun>& runs,
+                                                const std::vector<Method>& methods, std::size_t baseline,
+                                                const PairedTrials& paired) {
+  const Compared compared{runs, methods, paired};
   Sentences warnings;
-  add_missing_trials(runs, starts.size(), warnings);
-  add_unjudged(runs, trials, warnings);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (i == baseline) continue;
-    add_settings(runs[i], runs[baseline], warnings);
-    add_references(runs[i], runs[baseline], trials[i], trials[baseline], warnings);
-    if (auto why = why_times_differ(runs[i], runs[baseline])) warnings.push_back(*std::move(why));
+  add_missing_trials(compared, warnings);
+  add_unjudged(compared, warnings);
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    if (m == baseline) continue;
+    add_settings(compared, m, baseline, warnings);
+    add_references(compared, m, baseline, warnings);
+    add_times(compared, m, baseline, warnings);
   }
-  add_overlaps(runs, starts, trials, warnings);
-  add_few_starts(starts.size(), warnings);
+  add_overlaps(compared, warnings);
+  add_few_places(paired.places.size(), warnings);
   return warnings;
 }
 

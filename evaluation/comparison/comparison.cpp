@@ -5,21 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <set>
 
 #include "evaluation/comparison/comparability.hpp"
 #include "evaluation/comparison/conclusion.hpp"
+#include "evaluation/comparison/methods.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
 
-/// The same random numbers in every comparison; each interval has a stream of its own.
+/// The same random numbers in every comparison; the interval of each measure has a stream of its own.
 constexpr std::uint64_t bootstrap_seed = 1;
-enum class Stream : std::uint8_t { outcome, median, mean };
 
-Rng stream(Stream kind, std::size_t index) {
-  return Rng(bootstrap_seed).stream({static_cast<std::uint64_t>(kind), index});
-}
+using Trials = std::vector<const TrialResult*>;
 
 bool is_right(const TrialResult& trial) {
   return trial.outcome == Outcome::right;
@@ -29,52 +28,113 @@ bool is_wrong(const TrialResult& trial) {
   return trial.outcome == Outcome::wrong;
 }
 
+bool is_undecided(const TrialResult& trial) {
+  return !is_right(trial) && !is_wrong(trial);
+}
+
 /// A value that counts only if the answer was right: how soon a wrong one was given says nothing.
 template <class Value>
 std::optional<double> if_right(const TrialResult& trial, Value value) {
   return is_right(trial) ? std::optional<double>(value) : std::nullopt;
 }
 
-TrialsByStart trials_at(const std::vector<TrialStart>& starts, const StoredRun& results) {
-  TrialsByStart trials;
-  for (const TrialStart& start : starts) trials.push_back(&results.trials.at(start));
-  return trials;
+using HasProperty = bool (*)(const TrialResult&);
+
+/// Of a method, over all places.
+Proportion share_of(HasProperty has, const PairedTrials& paired, const Trials& trials) {
+  std::vector<TrialCluster> clusters;
+  for (const PairedTrials::Place& place : paired.places) {
+    TrialCluster& cluster = clusters.emplace_back();
+    cluster.trials = place.end - place.begin;
+    for (std::size_t t = place.begin; t < place.end; ++t) cluster.successes += has(*trials[t]) ? 1 : 0;
+  }
+  return wilson_of_clusters(clusters);
 }
 
-RunFigures figures(const NamedRun& run, const TrialsByStart& trials, std::span<const Measure> measured) {
-  RunFigures figures{run.name, run.results.folder.string(), run.results.experiment, run.results.seed};
+void count(const TrialResult& trial, OutcomeCounts& counts) {
+  ++(is_right(trial) ? counts.right : is_wrong(trial) ? counts.wrong : counts.undecided);
+}
+
+std::optional<double> median_of(const Measure& measure, std::span<const TrialResult* const> trials) {
+  std::vector<double> values;
   for (const TrialResult* trial : trials) {
-    figures.right += is_right(*trial) ? 1 : 0;
-    figures.wrong += is_wrong(*trial) ? 1 : 0;
+    if (const auto value = measure.of(*trial)) values.push_back(*value);
   }
-  figures.undecided = trials.size() - figures.right - figures.wrong;
-  figures.success = wilson(figures.right, trials.size());
-  figures.false_rate = wilson(figures.wrong, trials.size());
-  for (const Measure& measure : measured) {
-    std::vector<double> values;
-    for (const TrialResult* trial : trials) {
-      if (const auto value = measure.of(*trial)) values.push_back(*value);
-    }
-    figures.medians.push_back(median_if_any(std::move(values)));
+  return median_if_any(std::move(values));
+}
+
+MethodFigures method_figures(const std::vector<NamedRun>& runs, const Method& method, std::size_t number,
+                             const PairedTrials& paired, std::span<const Measure> measured) {
+  const Trials& trials = paired.results[number];
+  MethodFigures figures{.name = method.name, .experiment = {}, .folders = {}, .outcomes = {}};
+  for (const PairedTrials::Cell& cell : paired.cells) {
+    const StoredRun& run = runs[cell.runs[number]].results;
+    figures.experiment = run.experiment;
+    figures.folders.push_back(run.folder.string());
   }
+  for (const TrialResult* trial : trials) count(*trial, figures.outcomes);
+  figures.success = share_of(is_right, paired, trials);
+  figures.false_rate = share_of(is_wrong, paired, trials);
+  figures.undecided_rate = share_of(is_undecided, paired, trials);
+  for (const Measure& measure : measured) figures.medians.push_back(median_of(measure, trials));
   return figures;
 }
 
-OutcomeDifference compare_outcome(OutcomeDifference result, bool (*has)(const TrialResult&),
-                                  std::size_t index, const TrialsByStart& baseline,
-                                  const TrialsByStart& variant) {
-  std::vector<double> differences;
-  PairedCounts& counts = result.counts;
-  for (std::size_t i = 0; i < baseline.size(); ++i) {
-    const bool first = has(*baseline[i]);
-    const bool second = has(*variant[i]);
-    ++(first ? (second ? counts.both : counts.only_first) : (second ? counts.only_second : counts.neither));
-    differences.push_back(100.0 * (static_cast<double>(second) - static_cast<double>(first)));
+/// What is compared: two methods at some of the places.
+struct Pair {
+  const PairedTrials& paired;
+  std::span<const PairedTrials::Place> places;
+  const Trials &baseline, &variant;
+  const std::vector<bool>& has_times;  ///< Of each cell: whether its times can be compared.
+};
+
+PlaceOutcomes outcomes_at(const PairedTrials::Place& place, const Pair& pair, HasProperty has) {
+  PlaceOutcomes outcomes{place.case_number, place.end - place.begin, 0, 0};
+  for (std::size_t t = place.begin; t < place.end; ++t) {
+    const bool first = has(*pair.baseline[t]);
+    const bool second = has(*pair.variant[t]);
+    outcomes.only_first += first && !second ? 1 : 0;
+    outcomes.only_second += second && !first ? 1 : 0;
   }
-  result.points = {mean(differences), bootstrap(differences, mean, stream(Stream::outcome, index))};
-  const Interval newcombe = newcombe_paired(counts);
-  result.newcombe_points = {100.0 * newcombe.low, 100.0 * newcombe.high};
-  result.p = mcnemar_exact(counts.only_first, counts.only_second);
+  return outcomes;
+}
+
+Difference points_of(const std::vector<PlaceOutcomes>& places) {
+  double difference = 0.0, trials = 0.0;
+  for (const PlaceOutcomes& place : places) {
+    difference += static_cast<double>(place.only_second) - static_cast<double>(place.only_first);
+    trials += static_cast<double>(place.trials);
+  }
+  const Interval interval = interval_of_shares(places);
+  return {100.0 * difference / trials, {100.0 * interval.low, 100.0 * interval.high}};
+}
+
+Difference points_of(const Pair& pair, HasProperty has) {
+  std::vector<PlaceOutcomes> places;
+  for (const PairedTrials::Place& place : pair.places) places.push_back(outcomes_at(place, pair, has));
+  return points_of(places);
+}
+
+OutcomeDifference compare_outcome(OutcomeDifference result, HasProperty has, const Pair& pair) {
+  std::vector<PlaceOutcomes> places;
+  std::vector<long> sums;
+  for (const PairedTrials::Place& place : pair.places) {
+    const PlaceOutcomes& outcomes = places.emplace_back(outcomes_at(place, pair, has));
+    sums.push_back(static_cast<long>(outcomes.only_second) - static_cast<long>(outcomes.only_first));
+    result.places_more += sums.back() > 0 ? 1 : 0;
+    result.places_less += sums.back() < 0 ? 1 : 0;
+    result.counts.only_baseline += outcomes.only_first;
+    result.counts.only_variant += outcomes.only_second;
+    for (std::size_t t = place.begin; t < place.end; ++t) {
+      if (has(*pair.baseline[t]) == has(*pair.variant[t]))
+        ++(has(*pair.baseline[t]) ? result.counts.both : result.counts.neither);
+    }
+  }
+  result.places = places.size();
+  result.points = points_of(places);
+  const SignFlips flips = sign_flip_test(sums);
+  result.test = {flips.differing, flips.p, 1.0};
+  result.places_needed = places_to_find(result.smallest, places.size(), result.points.interval);
   return result;
 }
 
@@ -82,93 +142,154 @@ double median(const std::vector<double>& values) {
   return quantile(values, 0.5);
 }
 
-MeasureDifference compare_measure(const Measure& measure, std::size_t index, const TrialsByStart& baseline,
-                                  const TrialsByStart& variant) {
-  std::vector<double> first, second, differences;
-  for (std::size_t i = 0; i < baseline.size(); ++i) {
-    const auto a = measure.of(*baseline[i]);
-    const auto b = measure.of(*variant[i]);
-    if (!a || !b) continue;
-    first.push_back(*a);
-    second.push_back(*b);
-    const double difference = *b - *a;
-    const bool is_rounding = std::abs(difference) <= rounding * std::max(std::abs(*a), std::abs(*b));
-    differences.push_back(is_rounding ? 0.0 : difference);
+/// 0 where a difference is nothing but rounding.
+double difference_of(double first, double second) {
+  const double difference = second - first;
+  return std::abs(difference) <= rounding * std::max(std::abs(first), std::abs(second)) ? 0.0 : difference;
+}
+
+MeasureDifference compare_measure(const Measure& measure, std::size_t index, const Pair& pair) {
+  const bool is_time = index >= measures_but_time().size();
+  std::vector<double> first, second, differences, of_places;
+  std::vector<PlaceSum> sums;
+  for (const PairedTrials::Place& place : pair.places) {
+    PlaceSum sum{place.case_number, 0, 0.0};
+    for (std::size_t t = place.begin; t < place.end; ++t) {
+      const auto a = measure.of(*pair.baseline[t]);
+      const auto b = measure.of(*pair.variant[t]);
+      if (!a || !b || (is_time && !pair.has_times[pair.paired.trials[t].cell])) continue;
+      first.push_back(*a);
+      second.push_back(*b);
+      differences.push_back(difference_of(*a, *b));
+      ++sum.trials;
+      sum.sum += differences.back();
+    }
+    if (sum.trials == 0) continue;
+    sums.push_back(sum);
+    of_places.push_back(sum.sum / static_cast<double>(sum.trials));
   }
   MeasureDifference result;
   result.measure = measure;
-  result.starts = differences.size();
-  if (differences.empty()) return result;
+  result.places = sums.size();
+  result.trials = differences.size();
+  if (sums.size() < 2) return result;
   result.baseline_median = median(first);
   result.variant_median = median(second);
-  result.median = {median(differences), bootstrap(differences, median, stream(Stream::median, index))};
-  result.mean = {mean(differences), bootstrap(differences, mean, stream(Stream::mean, index))};
-  result.test = wilcoxon_signed_rank(differences);
-  result.shift = hodges_lehmann(differences);
+  result.mean = {mean(differences), interval_of_mean(sums, Rng(bootstrap_seed).stream({index}))};
+  result.median = median(differences);
+  std::vector<double> differing;
+  std::copy_if(differences.begin(), differences.end(), std::back_inserter(differing),
+               [](double difference) { return difference != 0.0; });
+  result.trials_that_differ = differing.size();
+  result.mean_of_those = mean(differing);
+  result.ranks = wilcoxon_signed_rank(of_places);
+  result.test = {result.ranks.nonzero, result.ranks.p, 1.0};
   result.smallest = measure.smallest * (measure.is_share ? std::abs(result.baseline_median) : 1.0);
+  if (result.smallest > 0.0)
+    result.places_needed = places_to_find(result.smallest, sums.size(), result.mean.interval);
   return result;
 }
 
-/// Of these measures those that can be compared between two runs. Times come last.
-std::span<const Measure> comparable(std::span<const Measure> measured, const NamedRun& run,
-                                    const NamedRun& baseline) {
-  if (!why_times_differ(run, baseline)) return measured;
-  return measured.first(std::min(measured.size(), measures_but_time().size()));
-}
-
-PairComparison compare_pair(const std::string& name, const TrialsByStart& baseline,
-                            const TrialsByStart& variant, std::span<const Measure> measured) {
-  PairComparison pair;
-  pair.variant = name;
-  pair.measured = measured;
-  pair.outcomes = {
-      compare_outcome({.name = "right", .more_is_better = true}, is_right, 0, baseline, variant),
-      compare_outcome({.name = "wrong", .more_is_better = false}, is_wrong, 1, baseline, variant)};
+PairComparison compare_pair(const std::string& name, std::span<const Measure> measured, const Pair& pair) {
+  PairComparison result;
+  result.variant = name;
+  result.measured = measured;
+  result.outcomes = {
+      compare_outcome({.name = "wrong", .more_is_better = false, .smallest = smallest_wrong_points}, is_wrong,
+                      pair),
+      compare_outcome({.name = "right", .more_is_better = true, .smallest = smallest_right_points}, is_right,
+                      pair)};
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    const MeasureDifference difference = compare_measure(measured[i], i, baseline, variant);
-    if (difference.starts > 0) pair.measures.push_back(difference);
+    const MeasureDifference difference = compare_measure(measured[i], i, pair);
+    if (difference.places > 1) result.measures.push_back(difference);
   }
-  return pair;
+  return result;
 }
 
-/// Corrects the tests of a family, which `tests` leads to: each has a p and a place for the corrected one.
-struct TestOfFamily {
-  double p;
-  double* p_holm;
-};
-void correct(const std::vector<TestOfFamily>& family) {
+/// Corrects the tests of a family, but for those that have no chance: whether they have follows from how many
+/// places differ, not from which way, so that it keeps the promise of the correction (Tarone 1990). Tells how
+/// many there are.
+std::size_t correct(const std::vector<TestResult*>& family) {
+  std::vector<TestResult*> tests;
+  std::copy_if(family.begin(), family.end(), std::back_inserter(tests),
+               [](const TestResult* test) { return test->has_chance(); });
   std::vector<double> p;
-  std::transform(family.begin(), family.end(), std::back_inserter(p),
-                 [](const TestOfFamily& t) { return t.p; });
+  std::transform(tests.begin(), tests.end(), std::back_inserter(p), [](const TestResult* t) { return t->p; });
   const std::vector<double> adjusted = holm(p);
-  for (std::size_t i = 0; i < family.size(); ++i) *family[i].p_holm = adjusted[i];
+  for (std::size_t i = 0; i < tests.size(); ++i) tests[i]->p_holm = adjusted[i];
+  return tests.size();
 }
 
 void correct(Comparison& comparison) {
-  std::vector<TestOfFamily> outcomes, measures;
+  std::vector<TestResult*> outcomes, measures;
   for (PairComparison& pair : comparison.pairs) {
-    for (OutcomeDifference& outcome : pair.outcomes) outcomes.push_back({outcome.p, &outcome.p_holm});
-    for (MeasureDifference& measure : pair.measures) measures.push_back({measure.test.p, &measure.p_holm});
+    for (OutcomeDifference& outcome : pair.outcomes) outcomes.push_back(&outcome.test);
+    for (MeasureDifference& measure : pair.measures) measures.push_back(&measure.test);
   }
-  correct(outcomes);
-  correct(measures);
-  comparison.outcome_tests = outcomes.size();
-  comparison.measure_tests = measures.size();
+  comparison.outcome_tests = correct(outcomes);
+  comparison.measure_tests = correct(measures);
+}
+
+/// The method that a run is of.
+std::size_t method_of(std::size_t run, const std::vector<Method>& methods) {
+  const auto has_run = [&](const Method& method) {
+    return std::any_of(method.runs.begin(), method.runs.end(),
+                       [&](const Method::Run& own) { return own.index == run; });
+  };
+  return static_cast<std::size_t>(std::find_if(methods.begin(), methods.end(), has_run) - methods.begin());
+}
+
+/// Of these measures those that can be compared in at least one cell. Times come last.
+std::span<const Measure> comparable(std::span<const Measure> measured, const std::vector<bool>& has_times) {
+  if (std::find(has_times.begin(), has_times.end(), true) != has_times.end()) return measured;
+  return measured.first(std::min(measured.size(), measures_but_time().size()));
+}
+
+std::vector<bool> cells_with_times(const std::vector<NamedRun>& runs, const PairedTrials& paired,
+                                   std::size_t variant, std::size_t baseline) {
+  std::vector<bool> has_times;
+  for (const PairedTrials::Cell& cell : paired.cells)
+    has_times.push_back(!why_times_differ(runs[cell.runs[variant]], runs[cell.runs[baseline]]).has_value());
+  return has_times;
+}
+
+/// Of each case in turn: its places, which lie beside each other.
+std::vector<std::span<const PairedTrials::Place>> places_by_case(const PairedTrials& paired) {
+  std::vector<std::span<const PairedTrials::Place>> result;
+  const auto& places = paired.places;
+  for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
+    while (end < places.size() && places[end].case_number == places[begin].case_number) ++end;
+    result.emplace_back(places.data() + begin, end - begin);
+  }
+  return result;
+}
+
+CaseFigures case_figures(const Pair& pair, bool is_baseline) {
+  CaseFigures figures{};
+  const std::size_t begin = pair.places.front().begin;
+  const std::span<const TrialResult* const> trials(pair.variant.data() + begin,
+                                                   pair.places.back().end - begin);
+  for (const TrialResult* trial : trials) count(*trial, figures.outcomes);
+  figures.median_steps = median_of(measures().front(), trials);
+  if (is_baseline) return figures;
+  figures.right_points = points_of(pair, is_right);
+  figures.wrong_points = points_of(pair, is_wrong);
+  return figures;
 }
 
 }  // namespace
 
 std::span<const Measure> measures() {
   static constexpr std::array<Measure, 5> all = {{
-      {"steps", "", "steps to localize", 0.5, false,
+      {"steps", "", "steps to localize", "steps", 0.5, false,
        [](const TrialResult& t) { return if_right(t, t.steps); }},
-      {"distance_m", "m", "way to localize", 0.1, false,
+      {"distance_m", "m", "way to localize", "way, m", 0.1, false,
        [](const TrialResult& t) { return if_right(t, t.distance_m); }},
-      {"translation_error_m", "m", "translation error", 0.01, false,
+      {"translation_error_m", "m", "translation error", "error, m", 0.01, false,
        [](const TrialResult& t) { return if_right(t, t.translation_error_m); }},
-      {"rotation_error_deg", "deg", "rotation error", 0.1, false,
+      {"rotation_error_deg", "deg", "rotation error", "deg", 0.1, false,
        [](const TrialResult& t) { return if_right(t, t.rotation_error_deg); }},
-      {"step_cpu_ms", "ms", "CPU time of a step", 0.05, true,
+      {"step_cpu_ms", "ms", "CPU time of a step", "CPU, ms", 0.05, true,
        [](const TrialResult& t) { return t.step_cpu_ms; }},
   }};
   return all;
@@ -178,48 +299,42 @@ std::span<const Measure> measures_but_time() {
   return measures().first(measures().size() - 1);
 }
 
-std::vector<TrialStart> shared_starts(const std::vector<NamedRun>& runs) {
-  std::vector<TrialStart> shared;
-  for (const auto& entry : runs.front().results.trials) {
-    const TrialStart& start = entry.first;
-    const bool all = std::all_of(runs.begin(), runs.end(),
-                                 [&](const NamedRun& run) { return run.results.trials.contains(start); });
-    if (all) shared.push_back(start);
-  }
-  if (shared.empty()) {
-    std::vector<Fault> faults;
-    for (const NamedRun& run : runs) {
-      faults.push_back(
-          {run.results.folder.string(), 0, 0,
-           fmt::format("none of its {} starts is one of all runs to compare; run all experiments "
-                       "with the same observations and trials",
-                       run.results.trials.size())});
-    }
-    throw ConfigError(std::move(faults));
-  }
-  return shared;
-}
-
-Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline,
+Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline_run,
                    std::span<const Measure> measured) {
-  const std::vector<TrialStart> starts = shared_starts(runs);
-  std::vector<TrialsByStart> trials;
-  for (const NamedRun& run : runs) trials.push_back(trials_at(starts, run.results));
+  const std::vector<Method> methods = methods_of(runs);
+  if (methods.size() < 2)
+    throw ConfigError({{runs.front().results.folder.string(), 0, 0,
+                        fmt::format("all runs are of one method, {}; name those of another one, too",
+                                    methods.front().name)}});
+  const PairedTrials paired = pair_trials(runs, methods);
+  if (paired.trials.empty()) refuse_unpaired(runs, methods, paired);
+  const std::size_t baseline = method_of(baseline_run, methods);
 
   Comparison comparison;
-  comparison.baseline = runs[baseline].name;
-  comparison.starts = starts.size();
+  comparison.baseline = methods[baseline].name;
+  comparison.starts = paired.trials.size();
+  comparison.places = paired.places.size();
   comparison.measured = measured;
-  comparison.warnings = comparability_warnings(runs, baseline, starts, trials);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    comparison.runs.push_back(figures(runs[i], trials[i], measured));
-    if (i == baseline) continue;
-    comparison.pairs.push_back(compare_pair(runs[i].name, trials[baseline], trials[i],
-                                            comparable(measured, runs[i], runs[baseline])));
+  std::set<std::uint64_t> seeds;
+  for (const PairedTrials::Cell& cell : paired.cells) seeds.insert(cell.seed);
+  comparison.seeds.assign(seeds.begin(), seeds.end());
+  const auto cases = places_by_case(paired);
+  for (const auto& places : cases) comparison.cases.push_back(paired.cases[places.front().case_number]);
+  comparison.warnings = comparability_warnings(runs, methods, baseline, paired);
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    comparison.methods.push_back(method_figures(runs, methods[m], m, paired, measured));
+    const std::vector<bool> has_times = cells_with_times(runs, paired, m, baseline);
+    for (const auto& places : cases)
+      comparison.methods.back().cases.push_back(case_figures(
+          {paired, places, paired.results[baseline], paired.results[m], has_times}, m == baseline));
+    if (m == baseline) continue;
+    comparison.pairs.push_back(
+        compare_pair(methods[m].name, comparable(measured, has_times),
+                     {paired, paired.places, paired.results[baseline], paired.results[m], has_times}));
   }
   correct(comparison);
   for (PairComparison& pair : comparison.pairs) {
-    pair.conclusion = conclude(pair, comparison.baseline, comparison.starts);
+    pair.conclusion = conclude(pair, comparison.baseline);
     pair.warnings = pair_warnings(pair);
   }
   return comparison;

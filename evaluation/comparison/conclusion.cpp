@@ -3,16 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 namespace glocal {
 namespace {
+
+using Phrases = std::vector<std::string>;
 
 std::string p_text(double p) {
   return p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);
 }
 
 /// "a", "a and b", "a, b and c".
-std::string enumerated(const std::vector<std::string>& items) {
+std::string enumerated(const Phrases& items) {
   std::string text;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (i > 0) text += i + 1 == items.size() ? " and " : ", ";
@@ -21,69 +25,138 @@ std::string enumerated(const std::vector<std::string>& items) {
   return text;
 }
 
-/// What a measure differs by.
-std::string effect(const MeasureDifference& difference) {
-  const char* unit = difference.measure.unit;
-  return fmt::format("{:+.3g}{}{}", difference.shift.value, *unit == '\0' ? "" : " ", unit);
+std::string count_text(double n, const char* what) {
+  return fmt::format("{:g} {}{}", n, what, n == 1.0 ? "" : "s");
 }
 
-/// "a run is significantly better than b in …, and worse in …".
-std::string told(const PairComparison& pair, const std::string& baseline,
-                 const std::vector<std::string>& better, const std::vector<std::string>& worse) {
-  std::string text = pair.variant + " is significantly ";
-  if (!better.empty()) text += "better than " + baseline + " in " + enumerated(better);
-  if (!better.empty() && !worse.empty()) text += ", and worse in " + enumerated(worse);
-  if (better.empty()) text += "worse than " + baseline + " in " + enumerated(worse);
-  return text + (worse.empty() || better.empty() ? "; nothing else differs significantly." : ".");
+/// What can be told of right, or of wrong.
+enum class Told : std::uint8_t { better, worse, alike, nothing };
+
+Told told_of(const OutcomeDifference& outcome) {
+  const Interval& interval = outcome.points.interval;
+  if (outcome.test.is_significant() && outcome.matters())
+    return (outcome.points.value > 0.0) == outcome.more_is_better ? Told::better : Told::worse;
+  const bool is_small = -outcome.smallest < interval.low && interval.high < outcome.smallest;
+  return is_small || (outcome.test.is_significant() && !outcome.matters()) ? Told::alike : Told::nothing;
+}
+
+std::string points_text(const OutcomeDifference& outcome) {
+  const Difference& points = outcome.points;
+  return fmt::format("{:+.1f} points, {:+.1f} to {:+.1f}", points.value + 0.0, points.interval.low + 0.0,
+                     points.interval.high + 0.0);
+}
+
+/// "wrong less often (-3.0 points, -5.1 to -0.9, p = 0.004)".
+std::string significant_phrase(const OutcomeDifference& outcome) {
+  return fmt::format("{} {} often ({}, {})", outcome.name, outcome.points.value > 0.0 ? "more" : "less",
+                     points_text(outcome), p_text(outcome.test.p_holm));
+}
+
+/// How many more places would tell.
+std::string wanted(double needed, std::size_t places, const std::string& size) {
+  const double more = needed - static_cast<double>(places);
+  constexpr double most_told = 1e5;
+  if (!(more >= 1.0)) return "";
+  if (more > most_told) return "; no number of places that anybody has would tell " + size;
+  // Two digits are more than is known of the variance.
+  const double digits = std::pow(10.0, std::max(0.0, std::floor(std::log10(more)) - 1.0));
+  return fmt::format("; about {:.0f} more {} would tell {}", digits * std::round(more / digits),
+                     more < 1.5 ? "place" : "places", size);
+}
+
+std::string nothing_told(const OutcomeDifference& outcome) {
+  if (outcome.test.differing == 0)
+    return fmt::format("No place differs in {}: {:.1f} points could have been missed.", outcome.name,
+                       outcome.points.interval.high);
+  return fmt::format("Nothing can be told of {} ({}{}).", outcome.name, points_text(outcome),
+                     wanted(outcome.places_needed, outcome.places, count_text(outcome.smallest, "point")));
+}
+
+/// Of wrong and right.
+std::string outcomes_text(const PairComparison& pair, const std::string& baseline) {
+  Phrases better, worse, alike, rest;
+  for (const OutcomeDifference& outcome : pair.outcomes) {
+    switch (told_of(outcome)) {
+      case Told::better:
+        better.push_back(significant_phrase(outcome));
+        break;
+      case Told::worse:
+        worse.push_back(significant_phrase(outcome));
+        break;
+      case Told::alike:
+        alike.push_back(fmt::format("{} ({})", outcome.name, points_text(outcome)));
+        break;
+      case Told::nothing:
+        rest.push_back(nothing_told(outcome));
+        break;
+    }
+  }
+  std::string text;
+  if (!better.empty() && !worse.empty()) {
+    text = fmt::format("{} is better and worse than {}: {}, but {}.", pair.variant, baseline,
+                       enumerated(better), enumerated(worse));
+  } else if (!better.empty() || !worse.empty()) {
+    text = fmt::format("{} is {} than {}: {}.", pair.variant, better.empty() ? "worse" : "better", baseline,
+                       enumerated(better.empty() ? worse : better));
+  } else {
+    text = alike.empty() ? fmt::format("{} against {}:", pair.variant, baseline)
+                         : fmt::format("{} against {}: no difference that matters in {}.", pair.variant,
+                                       baseline, enumerated(alike));
+  }
+  for (const std::string& sentence : rest) text += " " + sentence;
+  return text;
+}
+
+std::string with_unit(double value, const Measure& measure) {
+  return fmt::format("{:+.3g}{}{}", value + 0.0, *measure.unit == '\0' ? "" : " ", measure.unit);
+}
+
+/// "steps to localize (-1.1 in the mean of 42 starts, of which 23 differ, p = 0.002)".
+std::string effect(const MeasureDifference& difference) {
+  return fmt::format("{} ({} in the mean of {} starts, {}, {})", difference.measure.label,
+                     with_unit(difference.mean.value, difference.measure), difference.trials,
+                     difference.trials_that_differ == difference.trials
+                         ? "which all differ"
+                         : fmt::format("of which {} differ", difference.trials_that_differ),
+                     p_text(difference.test.p_holm));
+}
+
+/// Of steps, errors and times.
+std::string measures_text(const PairComparison& pair) {
+  Phrases less, more, too_small;
+  for (const MeasureDifference& difference : pair.measures) {
+    if (!difference.test.is_significant()) continue;
+    Phrases& side = !difference.matters() ? too_small : difference.mean.value < 0.0 ? less : more;
+    side.push_back(effect(difference));
+  }
+  std::string text;
+  if (!less.empty()) text += " Lower: " + enumerated(less) + ".";
+  if (!more.empty()) text += " Higher: " + enumerated(more) + ".";
+  if (!too_small.empty()) text += " No difference that matters: " + enumerated(too_small) + ".";
+  return text;
 }
 
 }  // namespace
 
-std::string conclude(const PairComparison& pair, const std::string& baseline, std::size_t starts) {
-  std::vector<std::string> better, worse;
-  for (const OutcomeDifference& outcome : pair.outcomes) {
-    if (outcome.p_holm >= significance) continue;
-    const bool is_better = (outcome.points.value > 0.0) == outcome.more_is_better;
-    (is_better ? better : worse)
-        .push_back(fmt::format("{} ({:+.1f} points, {})", outcome.name, outcome.points.value,
-                               p_text(outcome.p_holm)));
-  }
-  std::vector<std::string> too_small;
-  for (const MeasureDifference& difference : pair.measures) {
-    if (difference.p_holm >= significance) continue;
-    const bool is_less = difference.shift.value < 0.0;
-    std::vector<std::string>& side = !difference.matters() ? too_small : is_less ? better : worse;
-    side.push_back(
-        fmt::format("{} ({}, {})", difference.measure.label, effect(difference), p_text(difference.p_holm)));
-  }
-  const std::string rest =
-      too_small.empty() ? "" : fmt::format(" No difference that matters: {}.", enumerated(too_small));
-  if (!better.empty() || !worse.empty()) return told(pair, baseline, better, worse) + rest;
-  if (!too_small.empty())
-    return fmt::format("Nothing that matters differs between {} and {} over {} starts.{}", pair.variant,
-                       baseline, starts, rest);
-  return fmt::format("Nothing can be told between {} and {}: no difference over {} starts is significant.",
-                     pair.variant, baseline, starts);
+std::string conclude(const PairComparison& pair, const std::string& baseline) {
+  return outcomes_text(pair, baseline) + measures_text(pair);
 }
 
 std::vector<std::string> pair_warnings(const PairComparison& pair) {
-  std::vector<std::string> few;
-  for (const OutcomeDifference& outcome : pair.outcomes) {
-    const std::size_t differing = outcome.counts.only_first + outcome.counts.only_second;
-    if (least_p(differing) >= significance) few.push_back(fmt::format("{} ({})", outcome.name, differing));
-  }
-  for (const MeasureDifference& difference : pair.measures) {
-    if (least_p(difference.test.nonzero) >= significance)
-      few.push_back(fmt::format("{} ({})", difference.measure.label, difference.test.nonzero));
-  }
-  std::vector<std::string> warnings;
+  Phrases few;
+  const auto note = [&](const std::string& name, const TestResult& test) {
+    if (test.differing > 0 && !test.has_chance()) few.push_back(fmt::format("{} ({})", name, test.differing));
+  };
+  for (const OutcomeDifference& outcome : pair.outcomes) note(outcome.name, outcome.test);
+  for (const MeasureDifference& difference : pair.measures) note(difference.measure.label, difference.test);
+  Phrases warnings;
   if (!few.empty()) {
     warnings.push_back(fmt::format(
-        "Too few starts at which the two differ: with fewer than 6, no test can find anything; this "
+        "Too few places at which the two differ: with fewer than 6, no test can find anything; this "
         "is so for {}.",
         enumerated(few)));
   }
-  std::vector<std::string> missing;
+  Phrases missing;
   for (const Measure& measure : pair.measured) {
     const bool is_there =
         std::any_of(pair.measures.begin(), pair.measures.end(),
@@ -91,7 +164,7 @@ std::vector<std::string> pair_warnings(const PairComparison& pair) {
     if (!is_there) missing.emplace_back(measure.label);
   }
   if (!missing.empty())
-    warnings.push_back("There is no start at which both have a value for " + enumerated(missing) + ".");
+    warnings.push_back("There are no two places at which both have a value for " + enumerated(missing) + ".");
   return warnings;
 }
 

@@ -8,11 +8,11 @@
 
 namespace glocal {
 
-/// One sentence: in what the variant is significantly better or worse, or that nothing can be told.
-[[nodiscard]] std::string conclude(const PairComparison& pair, const std::string& baseline,
-                                   std::size_t starts);
+/// In what the variant is significantly better or worse, in the order of what matters: wrong, right, steps
+/// and errors, time. Where nothing can be told of wrong or right, how many more places it would take.
+[[nodiscard]] std::string conclude(const PairComparison& pair, const std::string& baseline);
 
-/// What the pair has too few starts for, a sentence each.
+/// What the pair has too few places for, a sentence each.
 [[nodiscard]] std::vector<std::string> pair_warnings(const PairComparison& pair);
 
 }  // namespace glocal

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "config/nearest.hpp"
+#include "evaluation/comparison/methods.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "glocal/error.hpp"
 
@@ -57,6 +58,10 @@ std::vector<NamedRun> read_runs(const std::vector<std::string>& folders,
 
 std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& name) {
   if (name.empty()) return 0;
+  const std::vector<Method> methods = methods_of(runs);
+  for (const Method& method : methods) {
+    if (method.name == name) return method.runs.front().index;
+  }
   const auto only_index = [&](const auto& has_name) -> std::ptrdiff_t {
     const auto first = std::find_if(runs.begin(), runs.end(), has_name);
     if (first == runs.end() || std::find_if(first + 1, runs.end(), has_name) != runs.end()) return -1;
@@ -66,9 +71,10 @@ std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& 
   if (index < 0) index = only_index([&](const NamedRun& run) { return run.results.experiment == name; });
   if (index >= 0) return static_cast<std::size_t>(index);
   std::vector<std::string> names;
-  for (const NamedRun& run : runs) names.push_back(run.name);
-  throw ConfigError({{"--baseline " + name, 0, 0,
-                      "names none, or more than one, of the runs" + suggestion(name, names, "there are")}});
+  for (const Method& method : methods) names.push_back(method.name);
+  throw ConfigError(
+      {{"--baseline " + name, 0, 0,
+        "names none, or more than one, of the methods" + suggestion(name, names, "there are")}});
 }
 
 }  // namespace glocal

@@ -20,15 +20,15 @@ namespace glocal {
 void for_each_results_folder(const std::vector<std::string>& paths, FaultCollector& faults,
                              const std::function<void(const std::filesystem::path&)>& work);
 
-/// The results in folders that are results, or hold some, as `read` reads each, in the same order. Throws
-/// ConfigError with every fault of all of them.
+/// The results in folders that are results, or hold some, as `read` reads each, in the same order: without it
+/// what a comparison needs. Throws ConfigError with every fault of all of them.
 [[nodiscard]] std::vector<NamedRun> read_runs(
     const std::vector<std::string>& folders,
     const std::function<StoredRun(const std::filesystem::path&)>& read =
-        [](const std::filesystem::path& folder) { return read_results(folder); });
+        [](const std::filesystem::path& folder) { return read_results(folder, {}, ResultParts::times); });
 
-/// Of the options of what is compared: the run with that name, or the only one of the experiment with that
-/// name; the first without a name. Throws ConfigError.
+/// Of the options of what is compared: a run of the method with that name, the run with that name, or the
+/// only one of the experiment with that name; the first without a name. Throws ConfigError.
 [[nodiscard]] std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& name);
 
 }  // namespace glocal

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -71,15 +72,29 @@ void with_json(const fs::path& file, const Work& work) {
   }
 }
 
-/// Hands over each line of a file of JSON lines, and tells their number. A std::exception of `work` is a
-/// fault of the line.
+void whole_line(std::string& /*line*/) {}
+
+/// Leaves of a line of steps.jsonl what it begins with, up to its times; all of a line that is not so.
+void head_of_step(std::string& line) {
+  constexpr std::string_view key = "\"stage_cpu_ms\":{";
+  constexpr std::size_t longest = 1000;
+  const std::size_t begin = std::string_view(line).substr(0, longest).find(key);
+  const std::size_t end = begin == std::string::npos ? begin : line.find('}', begin);
+  if (end == std::string::npos || line.back() != '}') return;
+  line.resize(end + 1);
+  line += '}';
+}
+
+/// Hands over each line of a file of JSON lines, as `shorten` leaves it, and tells their number. A
+/// std::exception of `work` is a fault of the line.
 template <class Work>
-std::size_t for_each_line(const fs::path& file, const Work& work) {
+std::size_t for_each_line(const fs::path& file, void (*shorten)(std::string&), const Work& work) {
   check_readable(file);
   std::ifstream stream(file);
   std::size_t number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
+    shorten(line);
     try {
       work(parse_json(line));
     } catch (const std::exception& error) {
@@ -161,8 +176,9 @@ class ResultsReader {
 
   StoredRun read(ResultParts parts) {
     read_head();
-    const bool wants_steps = run_.has_steps && parts == ResultParts::all;
-    if (faults_.collect([&] { read_trials(); }) && wants_steps) faults_.collect([&] { read_steps(); });
+    const bool wants_steps = run_.has_steps && parts != ResultParts::all_but_steps;
+    if (faults_.collect([&] { read_trials(); }) && wants_steps)
+      faults_.collect([&] { read_steps(parts == ResultParts::times ? head_of_step : whole_line); });
     faults_.report();
     return std::move(run_);
   }
@@ -177,7 +193,7 @@ class ResultsReader {
 
   void read_head();
   void read_trials();
-  void read_steps();
+  void read_steps(void (*shorten)(std::string&));
   void check_all_steps(const fs::path& file, std::size_t lines) const;
 
   const LineReaders& also_;
@@ -222,7 +238,7 @@ void ResultsReader::read_head() {
 
 void ResultsReader::read_trials() {
   const fs::path file = run_.folder / "trials.jsonl";
-  const std::size_t lines = for_each_line(file, [&](const Json& line) {
+  const std::size_t lines = for_each_line(file, whole_line, [&](const Json& line) {
     const std::size_t number = whole_number(line, "trial");
     const Json& start = line.at("start");
     const TrialStart at{static_cast<std::int64_t>(whole_number(start, "sample")), start.at("distance_m"),
@@ -239,9 +255,9 @@ void ResultsReader::read_trials() {
                        way_out));
 }
 
-void ResultsReader::read_steps() {
+void ResultsReader::read_steps(void (*shorten)(std::string&)) {
   const fs::path file = run_.folder / "steps.jsonl";
-  const std::size_t lines = for_each_line(file, [&](const Json& line) {
+  const std::size_t lines = for_each_line(file, shorten, [&](const Json& line) {
     const std::size_t number = whole_number(line, "trial");
     const auto trial = steps_.find(number);
     if (trial == steps_.end())

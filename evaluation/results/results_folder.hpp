@@ -75,8 +75,8 @@ struct StoredRun {
 };
 
 /// Who wants more of the lines of trials.jsonl and steps.jsonl than a StoredRun holds: is handed each of
-/// them, in their order, all trials before the first step. What is wrong with a line they say with a
-/// std::exception.
+/// them, in their order, all trials before the first step; of a step as much as is read. What is wrong with a
+/// line they say with a std::exception.
 struct LineReaders {
   std::function<void(const nlohmann::ordered_json&)> trial = [](const nlohmann::ordered_json&) {};
   std::function<void(const nlohmann::ordered_json&)> step = [](const nlohmann::ordered_json&) {};
@@ -97,7 +97,11 @@ struct LineReaders {
                                                            const std::map<std::string, std::string>& hashes);
 
 /// What of a folder is read: steps are most of it.
-enum class ResultParts { all, all_but_steps };
+enum class ResultParts {
+  all,
+  times,  ///< Of steps only the beginnings of their lines, which hold their times and are a tenth of them.
+  all_but_steps,
+};
 
 /// Reads a results folder. Throws ConfigError with every fault of it: files that are missing, cut off or
 /// damaged, trials and steps that are not all there, keys of earlier versions.

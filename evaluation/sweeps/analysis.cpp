@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -11,13 +10,11 @@
 
 #include "config/nearest.hpp"
 #include "evaluation/comparison/comparability.hpp"
+#include "evaluation/comparison/methods.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
-
-/// A trial that other settings have, too: case, seed and start.
-using SharedStart = std::tuple<std::string, std::uint64_t, TrialStart>;
 
 /// The trials of a setting in the runs of one purpose.
 class Tally {
@@ -26,22 +23,22 @@ class Tally {
     for (const auto& [start, trial] : *run.trials) {
       const bool is_right = trial.outcome == Outcome::right;
       const bool is_wrong = trial.outcome == Outcome::wrong;
-      const TrialPlace place{run.case_name, start.sample};
-      add_trials({{place, {is_right ? 1U : 0U, 1}}}, right_);
-      add_trials({{place, {is_wrong ? 1U : 0U, 1}}}, wrong_);
+      const TrialPlace place{run.part.case_name, start.sample};
+      for (const auto& [clusters, counts] : {std::pair{&right_, is_right}, std::pair{&wrong_, is_wrong}}) {
+        TrialCluster& cluster = (*clusters)[place];
+        cluster.successes += counts ? 1 : 0;
+        ++cluster.trials;
+      }
+      outcome_.right += is_right ? 1 : 0;
+      outcome_.wrong += is_wrong ? 1 : 0;
+      ++outcome_.trials;
       if (is_right) steps_.push_back(trial.steps);
       if (trial.step_cpu_ms) step_cpu_ms_.push_back(*trial.step_cpu_ms);
-      scores_[{run.case_name, run.seed, start}] = is_right ? 1 : is_wrong ? -1 : 0;
     }
   }
 
   [[nodiscard]] SettingOutcome outcome() const {
-    SettingOutcome outcome;
-    outcome.trials = scores_.size();
-    for (const auto& [start, score] : scores_) {
-      outcome.right += score > 0 ? 1 : 0;
-      outcome.wrong += score < 0 ? 1 : 0;
-    }
+    SettingOutcome outcome = outcome_;
     outcome.success = success_of(right_);
     outcome.false_rate = success_of(wrong_);
     outcome.median_steps = median_if_any(steps_);
@@ -56,43 +53,56 @@ class Tally {
             .steps = steps_,
             .step_cpu_ms = with_times ? step_cpu_ms_ : std::vector<double>()};
   }
-  [[nodiscard]] const std::map<SharedStart, int>& scores() const { return scores_; }
 
  private:
+  SettingOutcome outcome_;
   TrialsByPlace right_, wrong_;  ///< Successes are right trials, and wrong ones.
   std::vector<double> steps_, step_cpu_ms_;
-  std::map<SharedStart, int> scores_;
 };
 
 struct TalliedSetting {
   SettingResult result;
   Tally chosen, judged;
-  std::set<std::pair<std::string, std::uint64_t>> runs;  ///< Cases and seeds.
+  std::vector<const SweepRun*> runs;
 };
+
+using CaseAndSeed = std::pair<std::string, std::uint64_t>;
+
+std::set<CaseAndSeed> cells_of(const std::vector<const SweepRun*>& runs) {
+  std::set<CaseAndSeed> cells;
+  for (const SweepRun* run : runs) cells.emplace(run->part.case_name, run->part.seed);
+  return cells;
+}
 
 /// In the order of their first run.
 std::vector<TalliedSetting> settings_of(const std::vector<SweepRun>& runs) {
   std::vector<TalliedSetting> settings;
   std::map<std::string, std::size_t> numbers;
-  std::set<std::pair<std::string, std::uint64_t>> all;
+  std::vector<const SweepRun*> all;
   for (const SweepRun& run : runs) {
-    const auto [number, is_new] = numbers.try_emplace(run.setting, settings.size());
+    const auto [number, is_new] = numbers.try_emplace(run.part.setting, settings.size());
     if (is_new) {
       settings.emplace_back();
-      settings.back().result.name = run.setting;
-      settings.back().result.values = run.values;
+      settings.back().result.name = run.part.setting;
     }
-    TalliedSetting& setting = settings[number->second];
-    (run.role == CaseRole::judge ? setting.judged : setting.chosen).add(run);
-    setting.runs.emplace(run.case_name, run.seed);
-    all.emplace(run.case_name, run.seed);
-    setting.result.complete = setting.result.complete && run.complete;
+    settings[number->second].runs.push_back(&run);
+    all.push_back(&run);
   }
+  const std::set<CaseAndSeed> cells = cells_of(all);
+  std::vector<SettingAsRun> written;
   for (TalliedSetting& setting : settings) {
-    setting.result.complete = setting.result.complete && setting.runs == all;
+    written.push_back({setting.runs.front()->part.values, setting.runs.front()->effective});
+    for (const SweepRun* run : setting.runs)
+      (run->part.role == CaseRole::judge ? setting.judged : setting.chosen).add(*run);
+    setting.result.complete =
+        cells_of(setting.runs) == cells && std::all_of(setting.runs.begin(), setting.runs.end(),
+                                                       [](const SweepRun* run) { return run->complete; });
     setting.result.chosen = setting.chosen.outcome();
-    if (!setting.judged.scores().empty()) setting.result.judged = setting.judged.outcome();
+    const SettingOutcome judged = setting.judged.outcome();
+    if (judged.trials > 0) setting.result.judged = judged;
   }
+  std::vector<SettingValues> values = comparable_values(written);
+  for (std::size_t i = 0; i < settings.size(); ++i) settings[i].result.values = std::move(values[i]);
   return settings;
 }
 
@@ -105,31 +115,69 @@ bool is_better(const SettingResult& a, const SettingResult& b) {
   return key(a) < key(b);
 }
 
-/// Of all complete settings, over the trials that all of them have.
-std::optional<ChanceOfBest> chance_among(const std::vector<TalliedSetting>& settings) {
-  std::vector<const TalliedSetting*> complete;
-  for (const TalliedSetting& setting : settings) {
-    if (setting.result.complete) complete.push_back(&setting);
+/// A complete setting and what it was chosen by.
+Method as_method(const TalliedSetting& setting) {
+  Method method{setting.result.name, {}};
+  for (const SweepRun* run : setting.runs) {
+    if (run->part.role != CaseRole::judge)
+      method.runs.push_back({run->part.case_name, run->part.seed, run->index});
   }
-  if (complete.empty()) return std::nullopt;
-  std::map<TrialPlace, ScoresAtPlace> places;
-  std::size_t trials = 0;
-  for (const auto& [start, first] : complete.front()->chosen.scores()) {
-    ScoresAtPlace scores;
-    for (const TalliedSetting* setting : complete) {
-      const auto score = setting->chosen.scores().find(start);
-      if (score != setting->chosen.scores().end()) scores.push_back(score->second);
+  return method;
+}
+
+std::vector<ScoresAtPlace> scores_at_places(const PairedTrials& paired) {
+  std::vector<ScoresAtPlace> places;
+  for (const PairedTrials::Place& place : paired.places) {
+    ScoresAtPlace& scores = places.emplace_back(paired.results.size());
+    for (std::size_t m = 0; m < scores.size(); ++m) {
+      for (std::size_t t = place.begin; t < place.end; ++t) {
+        const Outcome outcome = paired.results[m][t]->outcome;
+        scores[m] += outcome == Outcome::right ? 1 : outcome == Outcome::wrong ? -1 : 0;
+      }
     }
-    if (scores.size() < complete.size()) continue;
-    ++trials;
-    const auto& [case_name, seed, at] = start;
-    ScoresAtPlace& sum = places[{case_name, at.sample}];
-    sum.resize(scores.size());
-    std::transform(sum.begin(), sum.end(), scores.begin(), sum.begin(), std::plus<>());
   }
-  std::vector<ScoresAtPlace> all;
-  for (auto& [place, scores] : places) all.push_back(std::move(scores));
-  return chance_of_best(all, trials);
+  return places;
+}
+
+/// Compares all complete settings with the baseline, and the best with the second best.
+void compare_settings(const std::vector<NamedRun>& runs, const std::vector<TalliedSetting>& settings,
+                      const std::string& baseline, SweepAnalysis& analysis) {
+  std::vector<Method> methods;
+  for (const TalliedSetting& setting : settings) {
+    if (setting.result.complete) methods.push_back(as_method(setting));
+  }
+  const auto number_of = [&](const std::string& name) {
+    return static_cast<std::size_t>(
+        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; }) -
+        methods.begin());
+  };
+  if (methods.size() < 2) return;
+  const std::size_t base = baseline.empty() ? 0 : number_of(baseline);
+  if (base == methods.size()) return;
+  const PairedTrials paired = pair_trials(runs, methods);
+  if (paired.trials.empty()) return;
+  const std::vector<ScoresAtPlace> places = scores_at_places(paired);
+  const std::vector<Lead> leads = leads_over(base, places);
+  for (SettingResult& setting : analysis.settings) {
+    if (setting.complete && setting.name != methods[base].name)
+      setting.over_baseline = leads[number_of(setting.name)];
+  }
+  const SettingResult& second = analysis.settings[1];
+  analysis.chance = ChanceOfBest{
+      .places = places.size(),
+      .trials = paired.trials.size(),
+      .baseline = methods[base].name,
+      .second = second.name,
+      .over_second = lead_of(number_of(analysis.settings.front().name), number_of(second.name), places),
+      .score_of_second = second.chosen.score()};
+}
+
+void check_setting(const std::string& name, const std::vector<TalliedSetting>& settings) {
+  std::vector<std::string> names;
+  for (const TalliedSetting& setting : settings) names.push_back(setting.result.name);
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw ConfigError(
+        {{"--baseline " + name, 0, 0, "there is no such setting" + suggestion(name, names, "there are")}});
 }
 
 /// The parameter of this path or end of a path. Throws ConfigError.
@@ -181,9 +229,9 @@ void note_parts(const std::vector<SweepRun>& runs, SweepAnalysis& analysis) {
     if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
   };
   for (const SweepRun& run : runs) {
-    if (run.role == CaseRole::choose) note(run.case_name, analysis.choose_on);
-    if (run.role == CaseRole::judge) note(run.case_name, analysis.judge_on);
-    note(run.seed, analysis.seeds);
+    if (run.part.role == CaseRole::choose) note(run.part.case_name, analysis.choose_on);
+    if (run.part.role == CaseRole::judge) note(run.part.case_name, analysis.judge_on);
+    note(run.part.seed, analysis.seeds);
     if (!run.complete) analysis.incomplete.push_back(run.name);
   }
   for (auto* list : {&analysis.choose_on, &analysis.judge_on}) std::sort(list->begin(), list->end());
@@ -192,28 +240,37 @@ void note_parts(const std::vector<SweepRun>& runs, SweepAnalysis& analysis) {
 
 }  // namespace
 
-SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& map) {
+SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& map,
+                            const std::string& baseline) {
   const std::vector<SweepRun> parts = sweep_of(runs);
   SweepAnalysis analysis;
   analysis.experiment = runs.front().results.experiment;
   analysis.runs = runs.size();
   note_parts(parts, analysis);
   const std::vector<TalliedSetting> settings = settings_of(parts);
+  if (!baseline.empty()) check_setting(baseline, settings);
   for (const TalliedSetting& setting : settings) analysis.settings.push_back(setting.result);
   std::stable_sort(analysis.settings.begin(), analysis.settings.end(), is_better);
   analysis.parameters = figures_of(settings, map, false);
-  analysis.chance = chance_among(settings);
+  compare_settings(runs, settings, baseline, analysis);
   return analysis;
 }
 
 std::optional<ParameterFigures> compare_parameters(const std::vector<NamedRun>& runs, bool with_times) {
   if (!is_sweep(runs)) return std::nullopt;
-  std::vector<SweepRun> parts = sweep_of(runs);
-  std::vector<std::map<TrialStart, TrialResult>> shared(parts.size());
-  for (const TrialStart& start : shared_starts(runs)) {
-    for (std::size_t i = 0; i < parts.size(); ++i) shared[i].emplace(start, parts[i].trials->at(start));
+  const std::vector<Method> methods = methods_of(runs);
+  const PairedTrials paired = pair_trials(runs, methods);
+  std::vector<std::map<TrialStart, TrialResult>> shared(runs.size());
+  for (std::size_t t = 0; t < paired.trials.size(); ++t) {
+    const auto& [cell, start] = paired.trials[t];
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      shared[paired.cells[cell].runs[m]].emplace(start, *paired.results[m][t]);
   }
-  for (std::size_t i = 0; i < parts.size(); ++i) parts[i].trials = &shared[i];
+  std::vector<SweepRun> parts = sweep_of(runs);
+  for (SweepRun& part : parts) {
+    part.trials = &shared[part.index];
+    std::erase_if(part.part.values, [](const auto& value) { return value.first == "method"; });
+  }
   ParameterFigures figures = figures_of(settings_of(parts), {}, with_times && are_times_comparable(runs));
   if (figures.effects.empty() || figures.effects.size() > most_compared_parameters) return std::nullopt;
   return figures;

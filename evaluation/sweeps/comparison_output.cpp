@@ -14,14 +14,14 @@ std::string ComparisonOutput::json_text(int indent) const {
 ComparisonOutput comparison_output(const std::vector<NamedRun>& runs, std::size_t baseline,
                                    std::span<const Measure> measured) {
   const Comparison comparison = compare(runs, baseline, measured);
-  ComparisonOutput output{{}, to_json(comparison), to_csv(comparison)};
+  ComparisonOutput output{first_screen(comparison), {}, to_json(comparison), to_csv(comparison)};
   Report parameters;
   const bool with_times = measured.size() > measures_but_time().size();
   if (const auto figures = compare_parameters(runs, with_times)) {
     parameters = parameter_report(*figures);
     output.json["parameters"] = to_json(*figures);
   }
-  output.report = comparison_report(comparison, parameters);
+  output.full = comparison_report(comparison, parameters);
   return output;
 }
 

@@ -13,7 +13,8 @@
 namespace glocal {
 
 struct ComparisonOutput {
-  Report report;                ///< For people.
+  Report brief;                 ///< For people: a line and a sentence for each method.
+  Report full;                  ///< The same with all tests.
   nlohmann::ordered_json json;  ///< All numbers.
   std::string csv;              ///< A row for each variant and test.
 

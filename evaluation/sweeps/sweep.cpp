@@ -2,64 +2,35 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <stdexcept>
+#include <cstdint>
 #include <tuple>
+#include <utility>
 
 #include "evaluation/results/fault_collector.hpp"
-#include "evaluation/results/json_text.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr const char* part_key = "variant";
-
-CaseRole role_of(const std::string& name) {
-  constexpr std::array<CaseRole, 3> all = {CaseRole::none, CaseRole::choose, CaseRole::judge};
-  const auto* const role =
-      std::find_if(all.begin(), all.end(), [&](CaseRole r) { return name == to_string(r); });
-  if (role == all.end()) throw std::invalid_argument("there is no role '" + name + "'");
-  return *role;
-}
-
-SweepRun part_of(const NamedRun& run) {
-  const Json& part = run.results.provenance.at(part_key);
-  SweepRun result{.name = run.name,
-                  .setting = part.at("setting"),
-                  .case_name = part.at("case"),
-                  .role = role_of(part.at("role")),
-                  .seed = whole_number(part, "seed"),
-                  .complete = run.results.complete,
-                  .values = {},
-                  .trials = &run.results.trials};
-  for (const auto& [path, value] : part.at("values").items()) result.values.emplace_back(path, value);
-  return result;
-}
-
-[[noreturn]] void refuse_run(const NamedRun& run, const std::string& what) {
-  throw ConfigError({{(run.results.folder / "provenance.json").string(), 0, 0, what}});
-}
-
-SweepRun checked_part(const NamedRun& run, const std::string& experiment) {
-  if (!run.results.provenance.contains(part_key))
-    refuse_run(run,
-               "does not say which setting these results are of; name a folder that glocal run has left "
-               "of an experiment with variants, seeds or cases");
+SweepRun sweep_run_of(const std::vector<NamedRun>& runs, std::size_t index) {
+  const NamedRun& run = runs[index];
+  const std::string& experiment = runs.front().results.experiment;
+  auto part = part_of(run);
+  if (!part)
+    refuse_provenance(
+        run,
+        "does not say which setting these results are of; name a folder that glocal run has left "
+        "of an experiment with methods, variants, seeds or cases");
   if (run.results.experiment != experiment)
-    refuse_run(run,
-               fmt::format("is of the experiment {}, others are of {}; name the folder of one experiment",
-                           run.results.experiment, experiment));
-  try {
-    return part_of(run);
-  } catch (const std::exception& error) {
-    refuse_run(run,
-               fmt::format("is not as glocal run leaves it ({}); run the experiment again with this version",
-                           reason(error)));
-  }
+    refuse_provenance(
+        run, fmt::format("is of the experiment {}, others are of {}; name the folder of one experiment",
+                         run.results.experiment, experiment));
+  return {.index = index,
+          .name = run.name,
+          .part = *std::move(part),
+          .complete = run.results.complete,
+          .effective = &run.results.settings,
+          .trials = &run.results.trials};
 }
 
 }  // namespace
@@ -77,14 +48,16 @@ std::vector<SweepRun> sweep_of(const std::vector<NamedRun>& runs) {
   std::vector<SweepRun> parts;
   std::map<std::tuple<std::string, std::string, std::uint64_t>, std::string> seen;
   FaultCollector faults;
-  for (const NamedRun& run : runs) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
     faults.collect([&] {
-      parts.push_back(checked_part(run, runs.front().results.experiment));
-      const SweepRun& part = parts.back();
-      const auto [other, is_new] = seen.try_emplace({part.setting, part.case_name, part.seed}, part.name);
+      parts.push_back(sweep_run_of(runs, i));
+      const RunPart& part = parts.back().part;
+      const auto [other, is_new] =
+          seen.try_emplace({part.setting, part.case_name, part.seed}, parts.back().name);
       if (!is_new)
-        refuse_run(run, fmt::format("is of the same setting, case and seed as {}; leave one of them out",
-                                    other->second));
+        refuse_provenance(
+            runs[i],
+            fmt::format("is of the same setting, case and seed as {}; leave one of them out", other->second));
     });
   }
   faults.report();

@@ -1,28 +1,24 @@
 // The runs of an experiment that many settings were tried in.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "evaluation/comparison/comparison.hpp"
+#include "evaluation/comparison/run_part.hpp"
 #include "evaluation/results/results_folder.hpp"
-#include "glocal/experiment.hpp"
 
 namespace glocal {
 
 /// A run, and which part of the whole it is.
 struct SweepRun {
+  std::size_t index = 0;  ///< Among all runs.
   std::string name;       ///< Of its folder.
-  std::string setting;    ///< Empty if nothing but case and seed vary.
-  std::string case_name;  ///< Empty without cases.
-  CaseRole role = CaseRole::none;
-  std::uint64_t seed = 0;
+  RunPart part;
   bool complete = true;
-  std::vector<std::pair<std::string, std::string>> values;  ///< What the setting changes: paths and values.
-  const std::map<TrialStart, TrialResult>* trials;          ///< Of the run that this was made of.
+  const std::map<std::string, Setting>* effective;    ///< Effective values of the run …
+  const std::map<TrialStart, TrialResult>* trials{};  ///< … and its trials.
 };
 
 /// Whether these runs are the parts of one sweep: whether sweep_of() takes them.

@@ -19,8 +19,17 @@ using Json = nlohmann::ordered_json;
 /// Of the best settings, so many are shown with their values, and where they are judged.
 constexpr std::size_t most_looked_at = 5;
 
+/// A name as it is shown, of a setting without one, too.
+std::string shown_name(const std::string& name) {
+  return name.empty() ? "(the experiment)" : name;
+}
+
 std::string name_of(const SettingResult& setting) {
-  return (setting.name.empty() ? "(the experiment)" : setting.name) + (setting.complete ? "" : " *");
+  return shown_name(setting.name) + (setting.complete ? "" : " *");
+}
+
+double lead_points(const Lead& lead, const ChanceOfBest& chance) {
+  return 100.0 * static_cast<double>(lead.score) / static_cast<double>(chance.trials) + 0.0;
 }
 
 std::vector<std::string> outcome_cells(const SettingOutcome& o) {
@@ -36,13 +45,28 @@ const std::vector<std::string>& outcome_columns() {
   return columns;
 }
 
+std::string p_cell(double p) {
+  return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p);
+}
+
+/// Of the score: ahead of the baseline, at how many places better and worse, and p.
+std::vector<std::string> lead_cells(const std::optional<Lead>& lead, const ChanceOfBest& chance) {
+  if (!lead) return {"", "", "", ""};
+  return {fmt::format("{:+.1f}", lead_points(*lead, chance)), std::to_string(lead->places_better),
+          std::to_string(lead->places_worse), p_cell(lead->p)};
+}
+
 Table settings_table(const SweepAnalysis& analysis, std::size_t most) {
   Table table{{"setting"}, {}};
   table.header.insert(table.header.end(), outcome_columns().begin(), outcome_columns().end());
+  if (analysis.chance) table.header.insert(table.header.end(), {"ahead", "better", "worse", "p"});
   for (std::size_t i = 0; i < std::min(most, analysis.settings.size()); ++i) {
     const SettingResult& setting = analysis.settings[i];
     table.rows.push_back({name_of(setting)});
     for (std::string& cell : outcome_cells(setting.chosen)) table.rows.back().push_back(std::move(cell));
+    if (!analysis.chance) continue;
+    for (std::string& cell : lead_cells(setting.over_baseline, *analysis.chance))
+      table.rows.back().push_back(std::move(cell));
   }
   return table;
 }
@@ -104,19 +128,58 @@ std::string best_of(const SweepAnalysis& a) {
   return fmt::format("{}, the first of {} with the same score and steps,", name_of(best), alike);
 }
 
-std::optional<std::string> chance_warning(const SweepAnalysis& a) {
-  if (!a.chance) return std::nullopt;
+/// "2.5 points ahead of B (better at 3 places, worse at 1; p = 0.625)".
+std::string lead_text(const Lead& lead, const std::string& other, const ChanceOfBest& chance) {
+  return fmt::format("{:.1f} points ahead of {} (better at {} places, worse at {}; p {} {})",
+                     lead_points(lead, chance), other, lead.places_better, lead.places_worse,
+                     lead.p < 0.001 ? "<" : "=", lead.p < 0.001 ? "0.001" : fmt::format("{:.3f}", lead.p));
+}
+
+std::string against_second(const SweepAnalysis& a) {
   const ChanceOfBest& c = *a.chance;
-  const bool is_more = c.lead > c.high;
-  return fmt::format(
-      "{} was chosen among {} settings by the very trials that its numbers are of, so they flatter it. Its "
-      "score "
-      "is {} points over the mean of all settings. The best of {} equal ones would be {} points over it by "
-      "chance, "
-      "and {} in 5 % of all cases. {}",
-      best_of(a), c.settings, points(c.lead), c.settings, points(c.expected), points(c.high),
-      is_more ? "So there is more to it than chance, but part of the lead will not last."
-              : "So all settings may be equally good.");
+  const double ceiling = 1.0 - c.score_of_second;
+  std::string text = "It is " + lead_text(c.over_second, shown_name(c.second) + ", the second best", c);
+  if (ceiling <= 0.0) return text + ", which has no score left to win: nothing can be ahead of it.";
+  if (c.over_second.p < significance) return text + ".";
+  return text +
+         fmt::format(", of which it could be at most {} ahead. Both may be equally good.", points(ceiling));
+}
+
+std::string against_baseline(const SweepAnalysis& a) {
+  const SettingResult& best = a.settings.front();
+  const std::string baseline = shown_name(a.chance->baseline) + ", the baseline";
+  if (!best.over_baseline) return fmt::format("No setting has a better score than {}.", baseline);
+  return fmt::format("It is {}. {}", lead_text(*best.over_baseline, baseline, *a.chance),
+                     best.over_baseline->p < significance
+                         ? "So there is more to it than chance, but part of the lead may not last."
+                         : "So it may be no better than that.");
+}
+
+std::string chance_warning(const SweepAnalysis& a) {
+  std::string text = fmt::format(
+      "{} was chosen among {} settings by the very trials that its numbers are of, so they flatter it. ",
+      best_of(a), a.settings.size());
+  text += against_baseline(a);
+  // Said already where the second best is the baseline.
+  if (a.chance->second != a.chance->baseline || !a.settings.front().over_baseline)
+    text += " " + against_second(a);
+  return text;
+}
+
+/// Settings that are behind the baseline by more than chance.
+std::optional<std::string> worse_than_baseline(const SweepAnalysis& a) {
+  std::vector<std::string> worse;
+  for (const SettingResult& setting : a.settings) {
+    if (setting.over_baseline && setting.over_baseline->score < 0 && setting.over_baseline->p < significance)
+      worse.push_back(fmt::format("{} ({:+.1f} points)", shown_name(setting.name),
+                                  lead_points(*setting.over_baseline, *a.chance)));
+  }
+  if (worse.empty()) return std::nullopt;
+  constexpr std::size_t most_named = 5;
+  const std::size_t more = worse.size() > most_named ? worse.size() - most_named : 0;
+  worse.resize(worse.size() - more);
+  return fmt::format("Worse than {} by more than chance: {}{}.", shown_name(a.chance->baseline), join(worse),
+                     more > 0 ? fmt::format(", {} more", more) : "");
 }
 
 std::string report_advice(const SweepAnalysis& a) {
@@ -142,18 +205,28 @@ Json to_json(const SettingOutcome& o) {
   return json;
 }
 
-Json to_json(const SettingResult& s) {
+Json to_json(const Lead& lead, const ChanceOfBest& chance) {
+  return {{"lead", lead_points(lead, chance) / 100.0},
+          {"places_better", lead.places_better},
+          {"places_worse", lead.places_worse},
+          {"p", lead.p}};
+}
+
+Json to_json(const SettingResult& s, const std::optional<ChanceOfBest>& chance) {
   Json values = Json::object();
   for (const auto& [path, value] : s.values) values[path] = value;
   Json json = {
       {"setting", s.name}, {"values", values}, {"complete", s.complete}, {"chosen", to_json(s.chosen)}};
   if (s.judged) json["judged"] = to_json(*s.judged);
+  if (s.over_baseline) json["over_baseline"] = to_json(*s.over_baseline, *chance);
   return json;
 }
 
 Json to_json(const ChanceOfBest& c) {
-  return {{"settings", c.settings}, {"places", c.places}, {"lead", c.lead},          {"expected", c.expected},
-          {"high", c.high},         {"share", c.share},   {"resamples", c.resamples}};
+  Json second = {{"setting", c.second}};
+  second.update(to_json(c.over_second, c));
+  second["most"] = 1.0 - c.score_of_second;
+  return {{"places", c.places}, {"trials", c.trials}, {"baseline", c.baseline}, {"over_second", second}};
 }
 
 }  // namespace
@@ -172,7 +245,10 @@ std::vector<std::string> warnings_of(const SweepAnalysis& a) {
                     "the best.",
                     counted(static_cast<std::size_t>(missing), "setting")));
   if (a.settings.size() < 2 || !a.settings.front().complete) return warnings;
-  if (const auto chance = chance_warning(a)) warnings.push_back(*chance);
+  if (a.chance) {
+    warnings.push_back(chance_warning(a));
+    if (const auto worse = worse_than_baseline(a)) warnings.push_back(*worse);
+  }
   warnings.push_back(report_advice(a));
   return warnings;
 }
@@ -204,7 +280,9 @@ std::string text_report(const SweepAnalysis& analysis, std::size_t most_settings
       "tell "
       "as much as these, since trials at one place tend to end alike. What a parameter does is the mean over "
       "all "
-      "else that varies."});
+      "else that varies. \"ahead\" is the score less that of the baseline, \"better\" and \"worse\" count "
+      "places; "
+      "p is of the largest of all these differences, by signs of places."});
   return as_text(report);
 }
 
@@ -213,7 +291,7 @@ Json to_json(const SweepAnalysis& a) {
                {"judge_on", a.judge_on},     {"seeds", a.seeds}, {"incomplete", a.incomplete},
                {"warnings", warnings_of(a)}};
   json["settings"] = Json::array();
-  for (const SettingResult& setting : a.settings) json["settings"].push_back(to_json(setting));
+  for (const SettingResult& setting : a.settings) json["settings"].push_back(to_json(setting, a.chance));
   json.update(to_json(a.parameters));
   if (a.chance) json["chance"] = to_json(*a.chance);
   return json;

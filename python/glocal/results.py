@@ -136,12 +136,12 @@ class Results:
         return _as_frame(self.step_table)
 
     def compare(self, *, baseline: str = "", times: bool = True) -> Comparison:
-        """Compares the variants, as compare() does."""
+        """Compares the methods or variants, as compare() does."""
         return compare([self], baseline=baseline, times=times)
 
-    def sweep(self) -> Sweep:
-        """What the variants teach: which settings are good, and which parameters matter."""
-        return Sweep(*_core.sweep(str(self.folder), 20))
+    def sweep(self, *, baseline: str = "") -> Sweep:
+        """What the variants teach: which settings are good, against `baseline` (default: the first), and which parameters matter."""
+        return Sweep(*_core.sweep(str(self.folder), 20, baseline))
 
     def _only(self) -> pathlib.Path:
         if not self._is_one:
@@ -179,11 +179,14 @@ class Results:
 
 
 class Comparison(dict[str, Any]):
-    """Runs on the same starts, compared with one of them: what `glocal compare --json` writes. print() tells it."""
+    """Methods on the same starts, compared with one of them: what `glocal compare --json` prints.
 
-    def __init__(self, text: str, markdown: str, csv: str, numbers: str) -> None:
+    print() tells it in short; `full` has all tests, as --full shows them, and `markdown` the same for notebooks.
+    """
+
+    def __init__(self, text: str, full: str, markdown: str, csv: str, numbers: str) -> None:
         super().__init__(json.loads(numbers))
-        self.text, self.markdown, self.csv = text, markdown, csv
+        self.text, self.full, self.markdown, self.csv = text, full, markdown, csv
 
     def __str__(self) -> str:
         return self.text
@@ -209,9 +212,9 @@ def load_results(folder: PathLike) -> Results:
 
 
 def compare(runs: Sequence[Results | PathLike], *, baseline: str = "", times: bool = True) -> Comparison:
-    """Compares runs on the same starts with one of them, with the statistics of `glocal compare`.
+    """Compares methods on the same starts with one of them, with the statistics of `glocal compare`.
 
-    runs: results, or folders of them. baseline: name of its folder or experiment (default: the first). times: whether to
+    runs: results, or folders of them. baseline: name of a method (default: the first). times: whether to
     compare times, which no two runs have in common.
     """
     folders = [str(run.folder if isinstance(run, Results) else run) for run in runs]

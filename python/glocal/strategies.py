@@ -72,6 +72,7 @@ class MapSource(_Strategy):
     setup: SourceSetup
 
     def load(self) -> GlobalMap:
+        """The map; the same each time."""
         raise NotImplementedError
 
 
@@ -101,6 +102,7 @@ class LocalMapper(_Stage):
     abstract = ("add", "map")
 
     def add(self, observation: Observation) -> None:
+        """Takes in an observation; one without hits only moves the robot."""
         raise NotImplementedError
 
     def map(self) -> LocalMap:
@@ -190,6 +192,7 @@ class Verifier(_Stage):
     abstract = ("verify",)
 
     def verify(self, local: LocalMap, map_from_local: Pose, gate: PoseGate) -> Verification:
+        """What speaks against the pose of a local map with points; poses that the gate does not allow are no rivals."""
         raise NotImplementedError
 
 

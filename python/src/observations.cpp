@@ -79,14 +79,22 @@ void bind_observation(py::module_& module) {
            "sensor. times: when each hit was measured, s after the stamp.")
       .def_property_readonly(
           "stamp", [](const BoundObservation& o) { return o->stamp; }, "s")
-      .def_property_readonly("odom_from_robot", [](const BoundObservation& o) { return o->odom_from_robot; })
-      .def_property_readonly("hits", [](const BoundObservation& o) { return o.part(o->scan.hits); })
-      .def_property_readonly("free_ends", [](const BoundObservation& o) { return o.part(o->scan.free_ends); })
-      .def_property_readonly("origin",
-                             [](const BoundObservation& o) {
-                               const Point& p = o->scan.origin;
-                               return py::make_tuple(p.x, p.y, p.z);
-                             })
+      .def_property_readonly(
+          "odom_from_robot", [](const BoundObservation& o) { return o->odom_from_robot; },
+          "Odometry, from an arbitrary start.")
+      .def_property_readonly(
+          "hits", [](const BoundObservation& o) { return o.part(o->scan.hits); },
+          "Ends of the rays that met something, in the order of the beams.")
+      .def_property_readonly(
+          "free_ends", [](const BoundObservation& o) { return o.part(o->scan.free_ends); },
+          "Ends of the rays that met nothing: up to there the way is free.")
+      .def_property_readonly(
+          "origin",
+          [](const BoundObservation& o) {
+            const Point& p = o->scan.origin;
+            return py::make_tuple(p.x, p.y, p.z);
+          },
+          "The sensor, where all rays begin: (x, y, z), m.")
       .def_property_readonly(
           "times", [](const BoundObservation& o) { return numbers(o->scan.times, o.owner()); },
           "N floats, s after the stamp; empty if all are of one moment.")
@@ -110,7 +118,8 @@ void bind_sample(py::module_& module) {
              return Bound(std::move(sample));
            }),
            py::arg("observation"), py::arg("map_from_robot") = py::none(), py::arg("segment") = 0)
-      .def_property_readonly("observation", [](const Bound& s) { return s.part(s->observation); })
+      .def_property_readonly(
+          "observation", [](const Bound& s) { return s.part(s->observation); }, "What the robot perceives.")
       .def_property_readonly(
           "map_from_robot", [](const Bound& s) { return s->map_from_robot; }, "Reference pose, or None.")
       .def_property_readonly(
@@ -139,7 +148,9 @@ void bind_observations(py::module_& module) {
            py::arg("normals") = py::none(), py::arg("epoch") = 0,
            "ends: how many points there were after each observation. epoch: counts up when the frame is a "
            "new one.")
-      .def_property_readonly("points", [](const BoundLocalMap& m) { return m.part(m->points); })
+      .def_property_readonly(
+          "points", [](const BoundLocalMap& m) { return m.part(m->points); },
+          "All points, in the order in which they came.")
       .def_property_readonly(
           "normals", [](const BoundLocalMap& m) { return m.part(m->normals); },
           "Unit normals of the points, or none at all.")
@@ -149,7 +160,8 @@ void bind_observations(py::module_& module) {
       .def_property_readonly(
           "ends", [](const BoundLocalMap& m) { return numbers(m->ends, m.owner()); },
           "How many points there were after each observation.")
-      .def_property_readonly("epoch", [](const BoundLocalMap& m) { return m->epoch; })
+      .def_property_readonly(
+          "epoch", [](const BoundLocalMap& m) { return m->epoch; }, "Counts up when the frame is a new one.")
       .def("__repr__", [](const BoundLocalMap& m) {
         return fmt::format("<LocalMap: {} points of {} observations>", m->points.size(), m->ends.size());
       });

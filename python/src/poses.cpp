@@ -98,7 +98,7 @@ void bind_poses(py::module_& module) {
             return py::make_tuple(p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z);
           },
           "The rotation as (w, x, y, z).")
-      .def_property_readonly("is_planar", &Pose3::is_planar)
+      .def_property_readonly("is_planar", &Pose3::is_planar, "Whether z is 0 and nothing tilts.")
       .def("matrix", &matrix, "4 x 4, homogeneous.")
       .def(
           "inverse", [](const Pose3& p) { return inverse(p); }, "`source_from_target`.")

@@ -337,27 +337,27 @@ void bind_setups(py::module_& module) {
           [](const PoseGate& gate, const py::object& map_from_local) {
             return gate.allows(pose_of(map_from_local));
           },
-          py::arg("map_from_local"));
+          py::arg("map_from_local"), "Whether the prior leaves this pose of the local map.");
   py::class_<StageSetup>(module, "StageSetup", "What a stage of the localizer may use when it is made.")
       .def_property_readonly(
           "map", [](const StageSetup& s) { return std::const_pointer_cast<GlobalMap>(s.map); },
           "The known map.")
-      .def_readonly("threads", &StageSetup::threads)
+      .def_readonly("threads", &StageSetup::threads, "How many may work at once.")
       .def_readonly("contact_epsilon", &StageSetup::contact_epsilon,
                     "m; said once for all stages (epsilon of eq. 4).")
       .def_property_readonly(
           "motion", [](const StageSetup& s) { return to_string(s.motion); }, "planar, upright or free")
-      .def_readonly("has_verifier", &StageSetup::has_verifier)
+      .def_readonly("has_verifier", &StageSetup::has_verifier, "Whether what is declared is verified.")
       .def(
           "note_input", [](const StageSetup& s, const std::string& file) { s.note_input(file); },
           py::arg("file"), "To be called with every file that is read, for the record of a run.");
   py::class_<SourceSetup>(module, "SourceSetup", "What a source may use when it is made.")
-      .def_readonly("seed", &SourceSetup::seed)
+      .def_readonly("seed", &SourceSetup::seed, "The experiment's, for simulated noise.")
       .def_property_readonly(
           "motion", [](const SourceSetup& s) { return to_string(s.motion); }, "planar, upright or free")
       .def(
           "warn", [](const SourceSetup& s, const std::string& sentence) { s.warn(sentence); },
-          py::arg("sentence"))
+          py::arg("sentence"), "Takes a sentence that the user should read once.")
       .def(
           "note_input", [](const SourceSetup& s, const std::string& file) { s.note_input(file); },
           py::arg("file"), "To be called with every file that is read, for the record of a run.");

@@ -129,9 +129,9 @@ std::vector<std::string> folders_in(const fs::path& folder) {
   return folders;
 }
 
-/// As text, as Markdown, as CSV and as JSON.
+/// In short, in full, as Markdown, as CSV and as JSON.
 py::tuple compared(const std::vector<std::string>& folders, const std::string& baseline, bool times) {
-  std::string text, markdown, csv, json;
+  std::string text, full, markdown, csv, json;
   {
     const py::gil_scoped_release others_may;
     const std::vector<NamedRun> runs = read_runs(folders);
@@ -140,21 +140,23 @@ py::tuple compared(const std::vector<std::string>& folders, const std::string& b
                           "there is nothing to compare it with; name two folders of results or more"}});
     const ComparisonOutput output =
         comparison_output(runs, find_baseline(runs, baseline), times ? measures() : measures_but_time());
-    text = as_text(output.report);
-    markdown = as_markdown(output.report);
+    text = as_text(output.brief);
+    full = as_text(output.full);
+    markdown = as_markdown(output.full);
     csv = output.csv;
     json = output.json_text(-1);
   }
-  return py::make_tuple(text, markdown, csv, json);
+  return py::make_tuple(text, full, markdown, csv, json);
 }
 
 /// As text and as JSON.
-py::tuple swept(const std::string& folder, std::size_t most_settings) {
+py::tuple swept(const std::string& folder, std::size_t most_settings, const std::string& baseline) {
   std::string text, json;
   {
     const py::gil_scoped_release others_may;
-    const SweepAnalysis analysis = analyse_sweep(read_runs(
-        {folder}, [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); }));
+    const std::vector<NamedRun> runs = read_runs(
+        {folder}, [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); });
+    const SweepAnalysis analysis = analyse_sweep(runs, {}, baseline);
     text = text_report(analysis, most_settings);
     json = json_text(analysis);
   }
@@ -177,7 +179,7 @@ void bind_results(py::module_& module) {
   module.def("variants_text", &text_of_variants, py::arg("variants"));
   module.def("results_folders", &folders_in, py::arg("folder"));
   module.def("compare", &compared, py::arg("folders"), py::arg("baseline"), py::arg("times"));
-  module.def("sweep", &swept, py::arg("folder"), py::arg("most_settings"));
+  module.def("sweep", &swept, py::arg("folder"), py::arg("most_settings"), py::arg("baseline"));
 }
 
 }  // namespace glocal::python

@@ -1,13 +1,16 @@
 #include "python/src/session.hpp"
 
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 
 #include "config/help.hpp"
 #include "config/nearest.hpp"
 #include "glocal/builtin.hpp"
+#include "glocal/contract.hpp"
 #include "glocal/error.hpp"
 #include "glocal/plugin.hpp"
 #include "python/src/errors.hpp"
@@ -82,6 +85,20 @@ void bind_session(py::module_& module) {
   module.def(
       "describe", [](const std::string& name) { return described(name, current_session()->catalog); },
       py::arg("name"), "What a strategy does, and its parameters with types, bounds and defaults.");
+  module.def(
+      "broken_promises",
+      [](const std::string& kind, const std::string& name) {
+        const auto session = current_session();
+        const py::gil_scoped_release others_may;
+        try {
+          return broken_promises(kind, {name}, session->catalog);
+        } catch (const std::out_of_range& error) {
+          throw py::value_error(error.what());
+        }
+      },
+      py::arg("kind"), py::arg("name"),
+      "Has a strategy work in a small room, and returns what of its kind's contract it does not keep, a "
+      "sentence each.");
   // For the program, which has a catalog of its own: what it must have in common with this module, and what
   // loads plugins into it.
   module.attr("_build_tag") = build_tag();

@@ -100,8 +100,9 @@ void bind_verification(py::module_& module) {
       .def_readonly("contact", &Certificate::contact,
                     "Share of points in contact at the declared pose, in [0, 1].")
       .def_readonly("at_most", &Certificate::at_most, "No pose elsewhere has a larger share.")
-      .def_readonly("epsilon", &Certificate::epsilon, "m")
-      .def_readonly("delta", &Certificate::delta, "m");
+      .def_readonly("epsilon", &Certificate::epsilon, "Distance that counts as contact, m.")
+      .def_readonly("delta", &Certificate::delta,
+                    "m; a box of poses counts what is within epsilon + delta at its middle.");
   py::class_<Verification>(module, "Verification",
                            "What a verifier says of a pose that is about to be declared.")
       .def(py::init(&make_verification), py::arg("rivals") = py::none(), py::arg("certificate") = py::none(),
@@ -115,12 +116,13 @@ void bind_verification(py::module_& module) {
       .def_property_readonly(
           "rivals", [](const Verification& v) { return SeenHypotheses(std::vector<Hypothesis>(v.rivals)); },
           "Hypotheses, best score first.")
-      .def_readonly("certificate", &Verification::certificate)
-      .def_readonly("is_refuted", &Verification::is_refuted)
+      .def_readonly("certificate", &Verification::certificate, "None where the search was given up.")
+      .def_readonly("is_refuted", &Verification::is_refuted, "Whether the pose is not declared after all.")
       .def_readonly("score", &Verification::score, "Of the declared pose.")
-      .def_readonly("margin", &Verification::margin)
-      .def_readonly("distance", &Verification::distance, "m")
-      .def_readonly("rotation", &Verification::rotation, "rad");
+      .def_readonly("margin", &Verification::margin,
+                    "A rival is about as good if its score is lower by no more.")
+      .def_readonly("distance", &Verification::distance, "A pose farther away than this is a rival, m.")
+      .def_readonly("rotation", &Verification::rotation, "A pose turned by more than this is a rival, rad.");
 }
 
 py::dict times_of(const StepResult& step) {

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "app/program.hpp"
 
@@ -39,6 +42,45 @@ TEST_F(CommandLine, WrongUsageEndsWith2AndSuggests) {
   EXPECT_EQ(run("describe").exit_code, 2);
   EXPECT_EQ(run("list --frobnicate").exit_code, 2);
   EXPECT_EQ(run("--frobnicate").exit_code, 2);
+}
+
+TEST_F(CommandLine, OptionsThatWereRenamedSayWhatTheyAreNow) {
+  EXPECT_THAT(run("compare a b --csv c.csv").err, HasSubstr("; --csv is called -o FILE.csv now\n"));
+  EXPECT_THAT(run("compare a b --markdown=c.md").err, HasSubstr("; --markdown is called -o FILE.md now\n"));
+  EXPECT_THAT(run("compare a b --json c.json").err, HasSubstr("--json prints; -o c.json writes this file\n"));
+  EXPECT_THAT(run("new-plugin matcher mine folder").err, HasSubstr("; -o says what to write\n"));
+  EXPECT_THAT(run("convert a.log b.mcap").err, HasSubstr("--out is required"));
+}
+
+/// "run", "map build", … of what the program says of itself.
+std::vector<std::string> commands_in(const std::string& help) {
+  std::vector<std::string> commands;
+  std::istringstream lines(help.substr(std::min(help.find("Subcommands:\n"), help.size())));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  ") && line[2] != ' ') commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+  }
+  return commands;
+}
+
+TEST_F(CommandLine, JsonIsPrintedAndOutSaysWhereToWriteInEveryCommand) {
+  std::vector<std::string> commands = commands_in(run("--help").out);
+  for (const char* above : {"map", "bag"}) {
+    for (const std::string& below : commands_in(run(std::string(above) + " --help").out))
+      commands.push_back(above + (" " + below));
+  }
+  ASSERT_GT(commands.size(), 30U);
+  std::size_t that_print = 0, that_write = 0;
+  for (const std::string& command : commands) {
+    const std::string help = run(command + " --help").out;
+    that_print += help.find("--json") != std::string::npos ? 1 : 0;
+    that_write += help.find("--out") != std::string::npos ? 1 : 0;
+    EXPECT_THAT(help, testing::Not(HasSubstr("--json TEXT"))) << command;
+    if (help.find("--out") != std::string::npos) {
+      EXPECT_THAT(help, HasSubstr("-o,--out")) << command;
+    }
+  }
+  EXPECT_GT(that_print, 6U);
+  EXPECT_GT(that_write, 12U);
 }
 
 TEST_F(CommandLine, ListsAndDescribesStrategies) {

@@ -40,8 +40,8 @@ TEST_F(Completion, OffersCommandsWithWhatTheyDo) {
 }
 
 TEST_F(Completion, OffersTheOptionsOfTheCommand) {
-  EXPECT_THAT(candidates("run --see"), ElementsAre("--seed"));
-  EXPECT_THAT(candidates("run a.yaml --out b --se"), ElementsAre("--set", "--seed"));
+  EXPECT_THAT(candidates("run --see"), ElementsAre("--seeds", "--seed"));
+  EXPECT_THAT(candidates("run a.yaml --out b --se"), ElementsAre("--seeds", "--set", "--seed"));
   EXPECT_THAT(candidates("describe --plu"), ElementsAre("--plugin"));
   EXPECT_THAT(candidates("map build --fo"), Not(IsEmpty()));
 }
@@ -50,6 +50,9 @@ TEST_F(Completion, OffersValuesWhereTheyAreKnown) {
   EXPECT_THAT(candidates("completion ''"), ElementsAre("bash", "zsh", "fish"));
   EXPECT_THAT(candidates("list mat"), ElementsAre("matcher"));
   EXPECT_THAT(candidates("new-plugin local"), ElementsAre("local_mapper"));
+  EXPECT_THAT(candidates("contract matcher rans"), ElementsAre("ransac", "ransam"));
+  EXPECT_THAT(candidates("run --method indexed_"), ElementsAre("indexed_single", ":files"));
+  EXPECT_THAT(candidates("run --case paper_l"), ElementsAre("paper_lab", ":files"));
   EXPECT_THAT(candidates("describe rans"), ElementsAre("ransac", "ransam"));
   EXPECT_THAT(candidates("describe tri"), ElementsAre("trials"));
   EXPECT_THAT(candidates("help summ"), ElementsAre("summarize"));

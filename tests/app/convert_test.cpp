@@ -19,7 +19,7 @@ class ConvertCommand : public CommandLine {
                                         "FLASER 3 1 2 3 1.1 0 0 1 0 0 2.5 host 2.5\n";
   }
   [[nodiscard]] Answer convert(const std::string& in, const std::string& out, const std::string& more = "") {
-    return run("convert " + file(in) + " " + file(out) + " " + more);
+    return run("convert " + file(in) + " -o " + file(out) + " " + more);
   }
   void expect_fault(const Answer& answer, const std::string& text) {
     EXPECT_EQ(answer.exit_code, 2);
@@ -98,14 +98,14 @@ TEST_F(ConvertCommand, AFolderOfCloudsBecomesMcapAndAFolderAgain) {
 
   expect_fault(convert("drive.mcap", "a.log"), "has clouds, which cannot be written as a CARMEN log");
   expect_fault(convert("clouds", "a.log"), "has clouds, which cannot be written as a CARMEN log");
-  expect_fault(convert("clouds", "other/"), "is a folder of clouds already; name OUT *.mcap");
+  expect_fault(convert("clouds", "other/"), "is a folder of clouds already; name --out *.mcap");
   expect_fault(convert("drive.log", "other/"), "has planar scans, which are no clouds in space");
   expect_fault(convert("drive.mcap", "back/"), "the folder exists and is not empty");
 }
 
 TEST_F(ConvertCommand, WhatCannotBeIsSaidAndLeavesNothing) {
   ASSERT_EQ(convert("drive.log", "drive.mcap").exit_code, 0);
-  expect_fault(convert("drive.log", "other.log"), "is a CARMEN log already; name OUT *.mcap");
+  expect_fault(convert("drive.log", "other.log"), "is a CARMEN log already; name --out *.mcap");
   expect_fault(convert("drive.log", "a.bag"), "a.bag: error: the name says no format");
   expect_fault(convert("none.log", "a.mcap"), "none.log: error: there is no such file or folder");
   expect_fault(convert("drive.log", "drive.mcap"), "drive.mcap: error: the file exists");

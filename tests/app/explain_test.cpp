@@ -87,6 +87,51 @@ TEST_F(ExplainCommand, NeverDrawn) {
   EXPECT_THAT(lost(0), HasSubstr("never drawn"));
 }
 
+/// The number in front of some words.
+double number_before(const std::string& text, const std::string& words) {
+  const std::size_t end = text.find(words);
+  EXPECT_NE(end, std::string::npos) << words << " in " << text;
+  return std::stod(text.substr(text.rfind(' ', end - 2) + 1));
+}
+
+// Odometry that turns 15 degrees too far in each metre, and a local map that believes it.
+TEST_F(ExplainCommand, Drifted) {
+  run_lab(
+      "--set localizer.matcher.ransam.iterations=2000 --set localizer.local_mapper=odometry --set "
+      "observations.simulation.odometry.yaw_bias_deg_per_m=15");
+  const json first = recorded(0)["reference"], last = recorded(5)["reference"],
+             local = recorded(5)["local_from_robot"];
+  const std::string text = explained(5);
+  EXPECT_THAT(text, HasSubstr("lost        drifted: of the local map "));
+  EXPECT_LT(number_before(text, "% at the reference"), 50.0);
+  EXPECT_GT(number_before(text, "% of the latest scan alone"), 50.0);
+  // The mapper's turn against the reference's, computed here.
+  const double wanted = last["theta"].get<double>() - first["theta"].get<double>();
+  const double off = std::abs(std::remainder(local["theta"].get<double>() - wanted, 2.0 * std::numbers::pi));
+  EXPECT_NEAR(number_before(text, "deg off the reference since the trial began"),
+              off * 180.0 / std::numbers::pi, 0.06);
+}
+
+// The drive ends in a room that the map does not show.
+TEST_F(ExplainCommand, NotOnTheMap) {
+  run_lab("--set 'trials={starts_m: [50], max_steps: 3, min_steps: 1}'");
+  const std::string text = explained(0);
+  EXPECT_THAT(text, HasSubstr("lost        not on the map: of the local map "));
+  EXPECT_LT(number_before(text, "% of the latest scan alone"), 50.0);
+  EXPECT_THAT(text, HasSubstr("local map   0.00 m and 0.0 deg off the reference")) << "it has just begun";
+}
+
+TEST_F(ExplainCommand, TakesTheLastStepUnlessOneIsNamed) {
+  run_lab();
+  const auto steps = json::parse(content(folder() + "/trials.jsonl"))["steps"].get<int>();
+  const Answer last = run("explain " + folder() + " --trial 0");
+  ASSERT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_EQ(last.out, explained(steps - 1));
+  EXPECT_THAT(last.out, testing::StartsWith(fmt::format("paper_lab, trial 0, step {}, ", steps - 1)));
+  EXPECT_THAT(run("explain " + folder() + " --trial 3").err,
+              HasSubstr("there is no trial 3: the last one is 0"));
+}
+
 TEST_F(ExplainCommand, NamesARivalThatTheMatcherDoesNotHave) {
   const std::string symmetry = "run " + std::string(GLOCAL_SOURCE_DIR) +
                                "/configs/experiments/paper_symmetry.yaml --quiet --force --out " + folder() +

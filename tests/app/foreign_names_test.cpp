@@ -75,16 +75,16 @@ TEST_F(ForeignNames, OfRecordingsAreFitForATerminal) {
           "localize " + recording + " " + recording + " --out " + file("b"),
           "localize " + file("map.yaml") + " " + recording + " --scans /no --out " + file("c"),
           "localize " + file("map.yaml") + " " + recording + " --odom-frame no --out " + file("d"),
-          "convert " + recording + " " + file(name + ".out.mcap"),
-          "convert " + recording + " " + file(name + ".out.log"),
-          "convert " + recording + " " + file("clouds_" + name) + "/",
+          "convert " + recording + " -o " + file(name + ".out.mcap"),
+          "convert " + recording + " -o " + file(name + ".out.log"),
+          "convert " + recording + " -o " + file("clouds_" + name) + "/",
           "prepare " + recording + " --out " + file("case_" + name), "map info " + file("run.yaml"),
           "check " + file("run.yaml"), "run " + file("run.yaml") + " --out " + file("run_" + name),
           "run " + file("unknown.yaml"), "mapping " + file("run.yaml")})
       expect_fit(arguments);
   }
   EXPECT_THAT(run("bag info " + file("odd.mcap")).out, HasSubstr("/scan0\\u001b]0;PWNED\\u0007\\u001b[31m"));
-  const Answer many = run("convert " + file("many.mcap") + " " + file("a.log"));
+  const Answer many = run("convert " + file("many.mcap") + " -o " + file("a.log"));
   EXPECT_THAT(many.err, HasSubstr("and 481 more like these"));
   // What machines read is whole.
   const Json info = Json::parse(run("bag info --json " + file("odd.mcap")).out);
@@ -115,7 +115,7 @@ TEST_F(ForeignNames, OfOtherFilesAreFitForATerminal) {
           "register " + file("cloud.pcd") + " " + file("cloud.ply"),
           "register " + file("cloud.ply") + " " + file("cloud.pcd"),
           "localize " + file("map.yaml") + " " + file("drive.log") + " --out " + file("l"),
-          "convert " + file("drive.log") + " " + file("drive.mcap"),
+          "convert " + file("drive.log") + " -o " + file("drive.mcap"),
           "prepare " + file("drive.log") + " --corrected " + file("poses.tum") + " --out " + file("p")})
       expect_fit(arguments);
   }

@@ -18,7 +18,7 @@ class NewPluginCommand : public CommandLine {
   [[nodiscard]] fs::path folder() const { return folder_.path() / "new"; }
 
   void expect_refused(const std::string& arguments, const std::string& words) const {
-    const Answer answer = run("new-plugin " + arguments + " " + folder().string());
+    const Answer answer = run("new-plugin " + arguments + " -o " + folder().string());
     EXPECT_EQ(answer.exit_code, 2) << arguments;
     EXPECT_THAT(answer.err, HasSubstr(words));
     EXPECT_FALSE(fs::exists(folder())) << arguments;
@@ -26,7 +26,7 @@ class NewPluginCommand : public CommandLine {
 };
 
 TEST_F(NewPluginCommand, WritesFilesWithoutPlaceholders) {
-  const Answer answer = run("new-plugin verdict_rule very_sure " + folder().string());
+  const Answer answer = run("new-plugin verdict_rule very_sure -o " + folder().string());
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("ctest --test-dir"));
   for (const char* name : {"CMakeLists.txt", "very_sure.cpp", "experiment.yaml", "world.yaml"}) {
@@ -36,7 +36,35 @@ TEST_F(NewPluginCommand, WritesFilesWithoutPlaceholders) {
   EXPECT_THAT(content(folder() / "experiment.yaml"), HasSubstr("  verdict_rule: very_sure\n"));
 }
 
+TEST_F(NewPluginCommand, WritesPythonForEveryKindThatThereIs) {
+  for (const char* kind : {"matcher", "clusterer", "rater", "threshold_policy", "verdict_rule", "verifier",
+                           "local_mapper", "map_source", "observation_source"}) {
+    const std::string out = folder().string() + "/" + kind;
+    fs::create_directories(folder());
+    ASSERT_EQ(run(std::string("new-plugin --python ") + kind + " very_sure -o " + out).exit_code, 0) << kind;
+    const std::string text = content(out + "/very_sure.py");
+    EXPECT_THAT(text, AllOf(Not(HasSubstr("@NAME")), Not(HasSubstr("@CLASS")))) << kind;
+    EXPECT_THAT(text, HasSubstr("@glocal.register(\"very_sure\")\nclass VerySure(glocal.")) << kind;
+    EXPECT_THAT(content(out + "/test_very_sure.py"),
+                HasSubstr(std::string("\"") + kind + "\", \"very_sure\""))
+        << kind;
+    EXPECT_THAT(content(out + "/experiment.yaml"), HasSubstr("plugins: [very_sure.py]\n")) << kind;
+    EXPECT_FALSE(fs::exists(out + "/CMakeLists.txt")) << kind;
+  }
+}
+
+TEST_F(NewPluginCommand, TheFolderIsCalledAsTheStrategyUnlessItIsNamed) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_.path());
+  const Answer answer = run("new-plugin rater my_rater");
+  fs::current_path(before);
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_TRUE(fs::exists(folder_.path() / "my_rater/my_rater.cpp"));
+}
+
 TEST_F(NewPluginCommand, RefusesWhatCannotBeBuilt) {
+  expect_refused("--python contact_index mine",
+                 "there are no strategies of the kind contact_index in Python");
   expect_refused("matchers mine", "unknown kind 'matchers' (did you mean 'matcher'?)");
   expect_refused("matcher MyMatcher", "small letters");
   expect_refused("matcher 2nd", "beginning with a letter");
@@ -47,7 +75,7 @@ TEST_F(NewPluginCommand, RefusesWhatCannotBeBuilt) {
 TEST_F(NewPluginCommand, LeavesAFolderThatIsInUseAlone) {
   fs::create_directory(folder());
   std::ofstream(folder() / "thesis.txt") << "unfinished\n";
-  const Answer answer = run("new-plugin matcher mine " + folder().string());
+  const Answer answer = run("new-plugin matcher mine -o " + folder().string());
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr(folder().string()));
   EXPECT_EQ(content(folder() / "thesis.txt"), "unfinished\n");

@@ -59,6 +59,45 @@ TEST_F(ProductsCommand, HalfAnExperimentIsRefused) {
   EXPECT_THAT(answer.err, HasSubstr("Give an experiment file, or --method and --case"));
 }
 
+TEST_F(ProductsCommand, FilesOfOtherKindsAreNamed) {
+  folder_.write("plan.yaml", "image: plan.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n");
+  const auto refusal = [&](const std::string& arguments) {
+    const Answer answer = run(arguments);
+    EXPECT_EQ(answer.exit_code, 2) << arguments;
+    EXPECT_THAT(answer.err, testing::EndsWith("\n1 error\n")) << arguments;
+    return answer.err;
+  };
+  EXPECT_THAT(refusal("simulate " + file("plan.yaml") + " --out " + file("drive")),
+              HasSubstr("plan.yaml: error: is a map, as a map server reads it, and no experiment"));
+  EXPECT_THAT(refusal("check " + file("world.yaml")), HasSubstr("is a simulated world, and no experiment"));
+  EXPECT_THAT(refusal("run " + file("small_room.yaml")), HasSubstr("no experiment: --case " + file("small")));
+  EXPECT_THAT(refusal("run " + file("few.yaml")), HasSubstr("no experiment: --method " + file("few.yaml")));
+}
+
+TEST_F(ProductsCommand, AMethodInPlaceOfAMatcherIsNamed) {
+  const Answer answer = run("check " + file("room.yaml") + " --set localizer.matcher=indexed");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("unknown matcher 'indexed', did you mean 'indexed_ransam'?"));
+  EXPECT_THAT(answer.err, HasSubstr("; 'indexed' is a method: --method indexed\n"));
+}
+
+TEST_F(ProductsCommand, TheSameWarningComesOnce) {
+  folder_.write("map.pgm", std::string("P5\n3 2\n255\n") + std::string("\x00\xfe\xfe\xfe\xcd\x00", 6));
+  for (const char* name : {"one.yaml", "two.yaml"})
+    folder_.write(name,
+                  "map: {ros_map: {path: map.yaml}}\n"
+                  "observations: {simulation: {world: world.yaml}}\ntrials: {every_scan: 6}\n");
+  folder_.write("map.yaml",
+                "image: map.pgm\nresolution: 0.1\norigin: [0, 0, .nan]\nnegate: 0\n"
+                "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  const Answer answer = run("check --method " + file("few.yaml") + " --case " + file("one.yaml") +
+                            " --case " + file("two.yaml"));
+  const std::string warning = "the origin's yaw is NaN, and is taken as 0";
+  const std::size_t first = answer.err.find(warning);
+  ASSERT_NE(first, std::string::npos) << answer.err;
+  EXPECT_EQ(answer.err.find(warning, first + 1), std::string::npos) << answer.err;
+}
+
 TEST_F(ProductsCommand, ListTellsWhatIsBuiltIn) {
   EXPECT_THAT(run("list methods").out, HasSubstr("\nlidar_free "));
   const Json cases = Json::parse(run("list cases --json").out);

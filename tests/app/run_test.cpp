@@ -84,6 +84,20 @@ TEST_F(RunCommand, TellsOfAnExperimentThatCanNeverDeclare) {
               Not(HasSubstr("no trial can end")));
 }
 
+TEST_F(RunCommand, SaysWhichMethodAnExperimentWithoutOneIsRunWith) {
+  folder_.write("bare.yaml",
+                "schema: 1\nname: bare\nmap: {simulation: {world: world.yaml}}\n"
+                "observations: {simulation: {world: world.yaml}}\ntrials: {starts_m: [0], max_steps: 1}\n");
+  const std::string said = "bare.yaml names no localizer: it is run with the paper's method";
+  EXPECT_THAT(run("run " + file("bare.yaml") + " --out " + file("bare")).err, HasSubstr(said));
+  for (const std::string options :
+       {"a --quiet", "b --method indexed", "c --set localizer.matcher=indexed_ransam"}) {
+    const Answer answer = run("run " + file("bare.yaml") + " --out " + file("") + options);
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_THAT(answer.err, testing::Not(HasSubstr(said))) << options;
+  }
+}
+
 TEST_F(RunCommand, QuietSaysNothing) {
   const Answer answer = run_room("a");
   EXPECT_EQ(answer.exit_code, 0);

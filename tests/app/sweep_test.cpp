@@ -60,9 +60,9 @@ TEST_F(SweepCommand, TellsWhatIsBestAndWhyAndWhatToReport) {
   EXPECT_THAT(answer.out, HasSubstr("room: 16 runs, 4 settings, 2 seeds, 2 cases\n"));
   // Twice 3 of 4 right, twice the same: Wilson's interval of 3 of 4.
   EXPECT_THAT(answer.out, HasSubstr("  setting                      trials  right  wrong  undecided          "
-                                    "    %, 95 %  score  steps\n"
+                                    "    %, 95 %  score  steps  ahead  better  worse      p\n"
                                     "  iterations-200_min_side-0.5       8      6      0          2  75.0 "
-                                    "(30.1 to 95.4)   75.0      3\n"));
+                                    "(30.1 to 95.4)   75.0      3  +50.0       2      0  0.500\n"));
   EXPECT_THAT(
       answer.out,
       HasSubstr("iterations-200_min_side-1         8      6      2          0  75.0 (30.1 to 95.4)   50.0"));
@@ -89,6 +89,8 @@ TEST_F(SweepCommand, HasAllNumbersAsJson) {
   EXPECT_EQ(json["map"]["rows"]["label"], "min_side");
   EXPECT_EQ(json["map"]["cells"][1][0]["success_rate"]["value"], 0.5);
   EXPECT_EQ(json["chance"]["places"], 4);
+  EXPECT_EQ(json["chance"]["baseline"], "iterations-100_min_side-0.5");
+  EXPECT_EQ(json["settings"][0]["over_baseline"]["lead"], 0.5);
   EXPECT_EQ(json["choose_on"].dump(), R"(["near"])");
   EXPECT_EQ(run("sweep " + file("all") + " --json --map min_side iterations").out, answer.out);
 }
@@ -111,8 +113,10 @@ TEST_F(SweepCommand, SaysWhatToDoWithOtherFolders) {
   EXPECT_EQ(alone.err,
             file("alone/provenance.json") +
                 ": error: does not say which setting these results are of; name a folder that glocal run "
-                "has left of an experiment with variants, seeds or cases\n1 error\n");
+                "has left of an experiment with methods, variants, seeds or cases\n1 error\n");
   EXPECT_EQ(run("sweep " + file("nowhere")).exit_code, 2);
+  EXPECT_THAT(run("sweep " + file("all") + " --baseline best").err,
+              HasSubstr("--baseline best: error: there is no such setting"));
   const Answer unknown = run("sweep " + file("all") + " --map iteration min_side");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("--map iteration: error: no such parameter varies"));

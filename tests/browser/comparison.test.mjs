@@ -16,7 +16,7 @@ before(async () => {
   const only = variants.flatMap((name) => ["--only", name]);
   folder = runExperiment("paper_variants", join(work, "variants"), "--set", "output.maps=first_trial", ...only);
   const compared = join(work, "comparison.json");
-  glocal("compare", folder, "--json", compared);
+  glocal("compare", folder, "-o", compared);
   comparison = JSON.parse(readFileSync(compared, "utf8"));
   opened = await open(report(join(work, "report.html"), folder));
   page = opened.page;

@@ -6,7 +6,7 @@ import { after, before, test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
 import { assertQuiet, closeBrowser, coloursAt, drawn, mapView, moveSlider, open, painted, pixelsOf, skip } from "./open.mjs";
-import { readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
+import { glocal, readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { viridis } from "./viridis.mjs";
 
 const canvas = ".space .stage canvas";

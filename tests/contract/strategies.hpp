@@ -182,12 +182,6 @@ class Contract : public ::testing::Test {
     }
   }
 
-  /// What a matcher takes for contact, m, with the parameters that it is given above.
-  static double contact_epsilon(const std::string& matcher) {
-    if (matcher == "exhaustive") return 0.2;
-    return matcher == "mcl" || matcher == "mrpt_mcl" ? 0.3 : 0.1;
-  }
-
   TemporaryFolder folder_;
   Catalog catalog_;
 

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
@@ -89,6 +91,44 @@ TEST(Docs, LinksLeadToFiles) {
     }
   }
   EXPECT_GT(links, 0U);
+}
+
+/// A heading as GitHub names it in links: the second of two alike has "-1" at its end.
+std::set<std::string> anchors_of(const fs::path& document) {
+  std::set<std::string> anchors;
+  std::map<std::string, int> seen;
+  bool in_block = false;
+  for (const std::string& line : lines_of(read(document))) {
+    if (line.starts_with("```")) in_block = !in_block;
+    if (in_block || !line.starts_with("#")) continue;
+    const std::string heading = std::regex_replace(line, std::regex("^#+ |–|…|’"), "");
+    std::string name;
+    for (const char c : heading) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (c == ' ' || c == '-') name += '-';
+      if (std::isalnum(byte) != 0 || c == '_' || byte >= 0x80)
+        name += static_cast<char>(byte < 0x80 ? std::tolower(byte) : byte);
+    }
+    const int before = seen[name]++;
+    anchors.insert(before > 0 ? name + "-" + std::to_string(before) : name);
+  }
+  return anchors;
+}
+
+TEST(Docs, LinksLeadToHeadings) {
+  std::map<fs::path, std::set<std::string>> known;
+  std::size_t links = 0;
+  for (const fs::path& document : documents()) {
+    const std::string text = read(document);
+    for (const std::smatch& match : matches(text, R"(\]\(([^)#:]*)#([^)]+)\))")) {
+      const fs::path target = match[1].length() == 0 ? document : document.parent_path() / match[1].str();
+      if (target.extension() != ".md") continue;
+      if (!known.contains(target)) known[target] = anchors_of(target);
+      ++links;
+      EXPECT_TRUE(known[target].contains(match[2])) << document << " links to " << match[0];
+    }
+  }
+  EXPECT_GT(links, 100U);
 }
 
 TEST(Docs, NamedFunctionsExist) {
@@ -379,7 +419,7 @@ TEST_F(DocsExamples, WhatCompareWritesIsDescribed) {
             folder);
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
   }
-  const Answer answer = run("compare a b --json c.json --csv c.csv");
+  const Answer answer = run("compare a b -o c.json -o c.csv");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   std::set<std::string> names;
   collect_keys(nlohmann::json::parse(read("c.json")), names);
@@ -409,6 +449,56 @@ TEST_F(DocsExamples, WhatSweepWritesIsDescribed) {
   collect_keys(json, names);
   EXPECT_GT(names.size(), 25U);
   expect_described(names, document);
+}
+
+/// Of a key of all steps of a run: the median in the first steps of the trials, in their last ones, and the
+/// most.
+std::vector<double> first_last_and_most(const fs::path& results, const std::string& key) {
+  std::vector<double> first, last;
+  double most = 0.0;
+  for (const std::string& line : lines_of(read(results / "steps.jsonl"))) {
+    const auto step = nlohmann::json::parse(line);
+    const auto value = step.at(key).get<double>();
+    if (step.at("step") == 0) {
+      first.push_back(value);
+      last.push_back(value);
+    }
+    last.back() = value;
+    most = std::max(most, value);
+  }
+  const auto median = [](std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return (values.at((values.size() - 1) / 2) + values.at(values.size() / 2)) / 2.0;
+  };
+  return {median(first), median(last), most};
+}
+
+TEST_F(DocsExamples, NumbersToExpectAreThoseOfRuns) {
+  const std::string page = read(root / "docs/writing-a-strategy.md");
+  const std::vector<std::smatch> rows = matches(page, R"(\n\| `(--method \w+ --case \w+)` \|([^\n]*))");
+  ASSERT_EQ(rows.size(), 3U);
+  for (const std::smatch& row : rows) {
+    const std::string run_options = row[1];
+    if (needs_data_sets(run_options) && !has_data_sets()) continue;
+    fs::remove_all("numbers");
+    const Answer answer = run("run " + run_options + " --quiet --out numbers --set output.maps=none");
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    fs::path results;
+    for (const auto& entry : fs::directory_iterator("numbers")) {
+      if (entry.is_directory()) results = entry.path();
+    }
+    const std::string cells = row[2];
+    const std::vector<std::smatch> shown = matches(cells, R"([0-9]+)");
+    std::vector<double> measured;
+    for (const char* key : {"proposals", "hypotheses", "clusters", "local_map_points"}) {
+      for (const double value : first_last_and_most(results, key)) measured.push_back(value);
+    }
+    ASSERT_EQ(shown.size(), measured.size()) << run_options;
+    // Whoever reads them wants to know how many digits they have.
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      EXPECT_NEAR(std::stod(shown[i].str()), measured[i], 1.0 + 0.3 * measured[i])
+          << run_options << ", number " << i;
+  }
 }
 
 TEST(DocsStrategy, IsShownAsItIsCompiledHere) {

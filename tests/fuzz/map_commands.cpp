@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                             result + ".pcd", "--force"});
       break;
     case 1:
-      fuzz::run_command(app::add_convert, {"convert", log, result + ".mcap"});
+      fuzz::run_command(app::add_convert, {"convert", log, "-o", result + ".mcap"});
       break;
     case 2:
       fuzz::run_command(app::add_prepare, {"prepare", log, "--out", result, "--corrected", log});

@@ -19,13 +19,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::run_command(app::add_bag, {"bag", "info", "--json", recording});
       break;
     case 3:
-      fuzz::run_command(app::add_convert, {"convert", recording, result + ".mcap"});
+      fuzz::run_command(app::add_convert, {"convert", recording, "-o", result + ".mcap"});
       break;
     case 4:
-      fuzz::run_command(app::add_convert, {"convert", recording, result + ".log", "--scans", "/scan"});
+      fuzz::run_command(app::add_convert, {"convert", recording, "-o", result + ".log", "--scans", "/scan"});
       break;
     case 5:
-      fuzz::run_command(app::add_convert, {"convert", recording, result + "/", "--scans", "/points"});
+      fuzz::run_command(app::add_convert, {"convert", recording, "-o", result + "/", "--scans", "/points"});
       break;
     case 6:
       fuzz::run_command(app::add_prepare, {"prepare", recording, "--out", result, "--reference", "/truth"});

@@ -65,7 +65,7 @@ async function messagesOf(mcap) {
 test("what glocal writes is read by others", async () => {
   const experiment = join(process.env.GLOCAL_SOURCE_DIR, "configs/experiments/paper_lab.yaml");
   glocal("simulate", experiment, "--out", file("lab"));
-  glocal("convert", file("lab/drive.log"), file("drive.mcap"));
+  glocal("convert", file("lab/drive.log"), "-o", file("drive.mcap"));
   const scans = scansOf(file("lab/drive.log"));
   assert.ok(scans.length > 100);
 
@@ -96,7 +96,7 @@ test("what glocal writes is read by others", async () => {
 
 test("what others write is read by glocal", async () => {
   glocal("simulate", join(process.env.GLOCAL_SOURCE_DIR, "configs/experiments/paper_lab.yaml"), "--out", file("other"));
-  glocal("convert", file("other/drive.log"), file("definitions.mcap"));
+  glocal("convert", file("other/drive.log"), "-o", file("definitions.mcap"));
   const { reader } = await messagesOf(file("definitions.mcap"));
   const written = [];
   const writer = new McapWriter({
@@ -140,7 +140,7 @@ test("what others write is read by glocal", async () => {
   await writer.end();
   writeFileSync(file("theirs.mcap"), new Uint8Array(written));
 
-  glocal("convert", file("theirs.mcap"), file("theirs.log"));
+  glocal("convert", file("theirs.mcap"), "-o", file("theirs.log"));
   const scans = scansOf(file("theirs.log"));
   assert.equal(scans.length, 20);
   scans.forEach((scan, i) => {

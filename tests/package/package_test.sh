@@ -46,7 +46,7 @@ kinds=$("$prefix/bin/glocal" list | grep -E '^[a-z_]+$')
 [ "$(wc -w <<<"$kinds")" -eq 11 ] || fail "the kinds of strategies are: $kinds"
 try_kind() {
   local kind=$1 folder=$work/outside/$1
-  "$prefix/bin/glocal" new-plugin "$kind" "my_$kind" "$folder" >/dev/null
+  "$prefix/bin/glocal" new-plugin "$kind" "my_$kind" -o "$folder" >/dev/null
   cmake -S "$folder" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
   cmake --build "$folder/build" >/dev/null
   ctest --test-dir "$folder/build" >/dev/null

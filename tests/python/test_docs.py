@@ -71,6 +71,14 @@ def test_blocks_run(tmp_path):
         assert re.search(r"clusterer:\n\s+cells:", effective), effective
 
 
+def test_the_reference_is_that_of_the_package():
+    """docs/python-reference.md is what scripts/python_reference writes."""
+    environment = {**os.environ, "PYTHONPATH": str(pathlib.Path(glocal.__file__).parents[1])}
+    written = subprocess.run([sys.executable, ROOT / "scripts/python_reference"], env=environment, capture_output=True, text=True)
+    assert written.returncode == 0, written.stderr
+    assert (ROOT / "docs/python-reference.md").read_text() == written.stdout
+
+
 def test_kinds_are_those_of_the_package():
     """The table has all base classes, with the methods that a class must have."""
     rows = dict(re.findall(r"^\| (`[A-Z]\w+`(?:, `\w+`)*) \| (.*?) \|", PAGE.read_text(), re.MULTILINE))

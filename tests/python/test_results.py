@@ -87,14 +87,16 @@ def test_damaged_results_are_an_error_with_their_place(results):
 
 
 def test_a_comparison_is_that_of_the_program(results, program, tmp_path):
-    answer = program("compare", results.folder, "--baseline", "many", "--no-times", "--json", tmp_path / "c.json",
-                     "--csv", tmp_path / "c.csv", "--markdown", tmp_path / "c.md")
+    answer = program("compare", results.folder, "--baseline", "many", "--no-times", "-o", tmp_path / "c.json",
+                     "-o", tmp_path / "c.csv", "-o", tmp_path / "c.md")
     assert answer.returncode == 0
     comparison = results.compare(baseline="many", times=False)
     assert comparison == json.loads((tmp_path / "c.json").read_text())
     assert comparison.csv == (tmp_path / "c.csv").read_text()
     assert comparison.markdown == (tmp_path / "c.md").read_text()
-    assert str(comparison) == answer.stdout
+    assert answer.stdout.startswith(str(comparison))
+    full = program("compare", results.folder, "--baseline", "many", "--no-times", "--full")
+    assert comparison.full == full.stdout
     assert len(list(csv.reader(io.StringIO(comparison.csv)))) > 1
     parts = list(results.variants.values())
     assert glocal.compare(parts, baseline="many", times=False) == comparison

@@ -61,7 +61,7 @@ def main(shell, program, script):
         terminal.wait_for("IS READY")
         for typed, completed in [
             ("glocal descr\t", r"glocal describe "),
-            ("glocal run --see\t", r"glocal run --seed "),
+            ("glocal run --thr\t", r"glocal run --threads "),
             ("glocal run --set localizer.matcher.ransam.it\t", r"ransam\.iterations=(?! )"),
             ("glocal run --set localizer.matcher=branch_a\t", r"localizer\.matcher=branch_and_bound "),
             ("glocal run my\t", r"glocal run my\\ room\.yaml "),

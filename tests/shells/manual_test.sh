@@ -20,7 +20,7 @@ check_page() {
   groff -man -Tutf8 -P -cbou -rLL=200n "$page" >"$page.txt"
   while read -r option; do
     grep -q -- "$option" "$page.txt" || fail "$page does not tell of $option"
-  done < <("$program" "$@" --help | sed -n 's/^  \(-h,\)\{0,1\}\(--[a-z-]\{1,\}\).*/\2/p')
+  done < <("$program" "$@" --help | sed -n 's/^  \(-[a-z],\)\{0,1\}\(--[a-z-]\{1,\}\).*/\2/p')
   for below in $(commands_of "$@"); do
     grep -q -- "$name-$below(1)" "$page.txt" || fail "$page does not tell of $below"
     check_page "$@" "$below"

@@ -5,11 +5,27 @@
 //     GLOCAL_PLUGIN("my_matcher", "0.1.0", catalog) {
 //       catalog.matchers.add<MyMatcher>("my_matcher", "Proposes poses in my own way.");
 //     }
+//
+// It brings all that strategies usually need: the values and interfaces, contact with the map, means of
+// clusters, and the parts of the standard library that go with them.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <optional>
 #include <string>
+#include <unordered_set>
+#include <vector>
 
 #include "glocal/catalog.hpp"
+#include "glocal/clusters_of.hpp"
+#include "glocal/contact.hpp"
 
 namespace glocal {
 

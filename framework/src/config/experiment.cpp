@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "config/experiment_params.hpp"
+#include "config/other_files.hpp"
 #include "config/overrides.hpp"
 #include "config/products.hpp"
 #include "config/reader.hpp"
@@ -121,6 +122,11 @@ ExperimentSources sources_of(const std::filesystem::path& file, const std::vecto
           ? parse_yaml("schema: 1", std::make_shared<const Origin>(Origin{"the command line", "."}), faults)
           : parse_yaml(read_text_file(file), origin_of(file), faults);
   if (!sources.tree) return sources;
+  if (const auto why = why_no_experiment(*sources.tree)) {
+    faults.push_back({file.string(), 0, 0, *why});
+    sources.tree.reset();
+    return sources;
+  }
   apply_overrides(*sources.tree, of_parts, params, faults);
   sources.products = take_products(*sources.tree, params, faults);
   return sources;

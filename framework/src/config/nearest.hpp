@@ -12,8 +12,8 @@ namespace glocal {
 /// string alignment distance).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to the word, the first of equals; none if all differ in more than a third of their
-/// letters.
+/// The candidate nearest to the word, the first of equals. If all differ in more than a third of their
+/// letters, the only one that begins with the word; none without it.
 [[nodiscard]] std::optional<std::string> nearest(std::string_view word,
                                                  const std::vector<std::string>& candidates);
 

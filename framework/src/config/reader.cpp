@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "config/builtin_parts.hpp"
 #include "config/nearest.hpp"
 #include "config/scalars.hpp"
 #include "config/text_file.hpp"
@@ -254,9 +255,12 @@ class MapReader final : public UniformVisitor<MapReader> {
     }
     if (registry.find(chosen) == nullptr) {
       const auto near = nearest(chosen, names_of(registry));
+      const std::string method = find_builtin_part(PartKind::method, chosen)
+                                     ? "; '" + chosen + "' is a method: --method " + chosen
+                                     : "";
       refuse(is_map ? node.entries.front().place : node.place, std::string(name),
              "unknown " + registry.kind() + " '" + chosen + "'" +
-                 (near ? ", did you mean '" + *near + "'?" : "") + others(registry));
+                 (near ? ", did you mean '" + *near + "'?" : "") + others(registry) + method);
       return;
     }
     choice = registry.choose(chosen);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <string_view>
+#include <vector>
 
 #include "config/experiment_params.hpp"
 #include "config/field_docs.hpp"
@@ -67,14 +69,37 @@ std::string table(const StructDoc& doc) {
   return text + (rows.rules.empty() ? "" : "\nRules:\n\n" + rows.rules);
 }
 
+/// Links to headings, as GitHub names them: the second of two alike has "-1" at its end.
+class Links {
+ public:
+  std::string to(const std::string& heading) {
+    const std::size_t before = seen_[heading]++;
+    return fmt::format("[{0}](#{0}{1})", heading, before > 0 ? fmt::format("-{}", before) : "");
+  }
+
+ private:
+  std::map<std::string, std::size_t> seen_;
+};
+
+std::string contents(const Catalog& catalog) {
+  std::string text = "- [The experiment file](#the-experiment-file)\n";
+  Links links;
+  for (const RegistryBase* registry : catalog.registries()) {
+    std::vector<std::string> strategies;
+    text += "- " + links.to(registry->kind());
+    for (const StrategyInfo* info : registry->all()) strategies.push_back(links.to(info->name));
+    text += (strategies.empty() ? "" : ": ") + join(strategies) + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string parameter_reference(const Catalog& catalog) {
   ExperimentFileParams params(catalog);
   std::string text =
-      "# Parameters\n\nWritten by `glocal reference` from the descriptions in the code; do not edit.\n\n"
-      "## The experiment file\n\n" +
-      table(document(params));
+      "# Parameters\n\nWritten by `glocal reference` from the descriptions in the code; do not edit.\n\n" +
+      contents(catalog) + "\n## The experiment file\n\n" + table(document(params));
   for (const RegistryBase* registry : catalog.registries()) {
     text += "\n## " + registry->kind() + "\n";
     if (registry->all().empty()) text += "\nNone.\n";

@@ -230,7 +230,7 @@ export interface MeasureDifference {
   starts: number;
   baseline_median: number;
   variant_median: number;
-  median_difference: Difference;
+  mean_difference: Difference;
   test: string;
   p: number;
   p_holm: number;
@@ -240,6 +240,7 @@ export interface MeasureDifference {
 export interface Comparison {
   baseline: string;
   starts: number;
+  places: number;
   significance: number;
   warnings: string[];
   pairs: {

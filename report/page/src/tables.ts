@@ -59,7 +59,7 @@ export function comparisonSection(report: Report): HTMLElement | null {
     el(
       "p",
       { class: "note" },
-      `Over the ${comparison.starts} starts that all runs share; differences are variant less baseline. ` +
+      `Over the ${comparison.starts} starts that all methods share, at ${comparison.places} places; differences are variant less baseline. ` +
         `Bold: significant, p after Holm below ${comparison.significance}.`,
     ),
   );
@@ -88,7 +88,7 @@ function comparisonRows({ pairs }: Comparison): (Node | string)[][] {
       nameOf(m.measure),
       significant(m.baseline_median),
       significant(m.variant_median),
-      difference(m.median_difference),
+      difference(m.mean_difference),
       m.test.replaceAll("_", " "),
       p(m.p, false),
       p(m.p_holm, m.significant),

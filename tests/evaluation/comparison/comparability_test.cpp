@@ -66,7 +66,7 @@ TEST_F(Comparability, TellsOfInterruptedAndUnjudgedTrials) {
   b().complete = false;
   trial(3) = ended(Outcome::failed);
   trial(4) = ended(Outcome::declared);
-  EXPECT_THAT(warnings(), ElementsAre("b was interrupted: its later trials are missing.",
+  EXPECT_THAT(warnings(), ElementsAre("b was interrupted: later trials are missing.",
                                       HasSubstr("1 trials of b failed with an exception"),
                                       HasSubstr("1 declarations of b have no reference")));
 }
@@ -106,12 +106,12 @@ TEST_F(Comparability, TellsOfTrialsThatReachTheNextStart) {
   EXPECT_THAT(warnings(), ElementsAre(HasSubstr("Of 30 trials, these go on beyond the next start: 4 of b.")));
 }
 
-TEST_F(Comparability, TellsOfFewStarts) {
+TEST_F(Comparability, TellsOfFewPlaces) {
   for (NamedRun& run : runs_)
     run.results.trials.erase(std::next(run.results.trials.begin(), 10), run.results.trials.end());
   // Wilson's bound of 10 of 10 is 10 / (10 + 3.84).
   EXPECT_THAT(warnings(),
-              ElementsAre("Few starts: 10 right of 10 would still leave a success rate of 72 % possible."));
+              ElementsAre("Few places: 10 right of 10 would still leave a success rate of 72 % possible."));
 }
 
 }  // namespace

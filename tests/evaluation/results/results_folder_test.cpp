@@ -134,6 +134,23 @@ TEST_F(ResultsFolder, HandsOverEveryLine) {
               HasSubstr("steps.jsonl:1: error: is no line of results (not this one)"));
 }
 
+TEST_F(ResultsFolder, TimesAreReadWithoutTheRestOfTheSteps) {
+  const std::string rest = R"(,"best":[{"pose":{"x":1}}])";
+  temporary_.write("run/steps.jsonl", step(0, 1, rest) + step(1, 5, rest) + step(2, 3, rest));
+  std::size_t keys = 0;
+  const StoredRun run =
+      read_results(folder(), {.step = [&](const auto& line) { keys += line.size(); }}, ResultParts::times);
+  EXPECT_EQ(keys, 3U * 4U);
+  EXPECT_EQ(run.trials.begin()->second.step_cpu_ms, 14.0);
+  EXPECT_EQ(read_results(folder(), {}, ResultParts::all_but_steps).trials.begin()->second.step_cpu_ms,
+            std::nullopt);
+  // A line that is cut off is found all the same.
+  temporary_.write("run/steps.jsonl", step(0, 1, rest) + step(1, 5, rest) + step(2, 3).substr(0, 150) + "\n");
+  EXPECT_THAT(
+      config_error(folder(), [&] { static_cast<void>(read_results(folder(), {}, ResultParts::times)); }),
+      HasSubstr("steps.jsonl:3: error: is no line of results"));
+}
+
 TEST_F(ResultsFolder, MissesItsFilesByName) {
   for (const char* file : {"trials.jsonl", "effective.yaml", "provenance.json", "summary.json"}) {
     fs::remove(folder() / file);

@@ -15,21 +15,65 @@ using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(McNemar, AgreesWithBinomialsByHand) {
-  // 2 (C(8,0) + C(8,1)) / 2^8 = 18 / 256: Bentur et al. (2009), 0.0703 in Fagerland et al. (2017), chapter 8.
-  EXPECT_DOUBLE_EQ(mcnemar_exact(1, 7), 18.0 / 256.0);
-  EXPECT_DOUBLE_EQ(mcnemar_exact(7, 1), 18.0 / 256.0);
-  // 2 / 2^5 and 2 / 2^6: the first number of pairs that can be significant is 6.
-  EXPECT_DOUBLE_EQ(mcnemar_exact(0, 5), 0.0625);
-  EXPECT_DOUBLE_EQ(mcnemar_exact(6, 0), 0.03125);
-  // 2 (1 + 10 + 45) / 2^10
-  EXPECT_DOUBLE_EQ(mcnemar_exact(8, 2), 112.0 / 1024.0);
+/// Pairs that differ by one, in both ways.
+double p_of_pairs(std::size_t less, std::size_t more) {
+  std::vector<long> differences(less, -1);
+  differences.resize(less + more, 1);
+  differences.resize(differences.size() + 5, 0);
+  return sign_flip_test(differences).p;
 }
 
-TEST(McNemar, FindsNothingWhereBothAreAlike) {
-  EXPECT_EQ(mcnemar_exact(0, 0), 1.0);
-  EXPECT_EQ(mcnemar_exact(1, 1), 1.0);
-  EXPECT_EQ(mcnemar_exact(500, 500), 1.0);
+TEST(SignFlips, OfSinglePairsAreMcNemarsTest) {
+  // 2 (C(8,0) + C(8,1)) / 2^8 = 18 / 256: Bentur et al. (2009), 0.0703 in Fagerland et al. (2017), chapter 8.
+  EXPECT_DOUBLE_EQ(p_of_pairs(1, 7), 18.0 / 256.0);
+  EXPECT_DOUBLE_EQ(p_of_pairs(7, 1), 18.0 / 256.0);
+  // 2 / 2^5 and 2 / 2^6: the first number of pairs that can be significant is 6.
+  EXPECT_DOUBLE_EQ(p_of_pairs(0, 5), 0.0625);
+  EXPECT_DOUBLE_EQ(p_of_pairs(6, 0), 0.03125);
+  // 2 (1 + 10 + 45) / 2^10
+  EXPECT_DOUBLE_EQ(p_of_pairs(8, 2), 112.0 / 1024.0);
+}
+
+TEST(SignFlips, FindNothingWhereBothAreAlike) {
+  EXPECT_EQ(p_of_pairs(0, 0), 1.0);
+  EXPECT_EQ(p_of_pairs(1, 1), 1.0);
+  EXPECT_EQ(p_of_pairs(500, 500), 1.0);
+  EXPECT_EQ(sign_flip_test({3, -1, -2}).p, 1.0);
+}
+
+TEST(SignFlips, KeepPlacesTogether) {
+  // 3 seeds at one place are one difference, however large: 2 of 4 ways are as far from 0.
+  const SignFlips test = sign_flip_test({3, 0, 1});
+  EXPECT_EQ(test.differing, 2U);
+  EXPECT_EQ(test.sum, 4);
+  EXPECT_DOUBLE_EQ(test.p, 0.5);
+}
+
+TEST(SignFlips, AgreeWithEveryWayToGiveSigns) {
+  Rng rng(11);
+  for (std::size_t n = 1; n <= 14; ++n) {
+    std::vector<long> differences;
+    long sum = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      differences.push_back(static_cast<long>(rng.below(8)) - 3);
+      sum += differences.back();
+    }
+    std::size_t as_far = 0;
+    for (std::size_t signs = 0; signs < std::size_t{1} << n; ++signs) {
+      long other = 0;
+      for (std::size_t i = 0; i < n; ++i) other += (signs >> i & 1U) != 0 ? differences[i] : -differences[i];
+      as_far += std::abs(other) >= std::abs(sum) ? 1 : 0;
+    }
+    EXPECT_DOUBLE_EQ(sign_flip_test(differences).p,
+                     static_cast<double>(as_far) / std::exp2(static_cast<double>(n)))
+        << n;
+  }
+}
+
+TEST(SignFlips, OfThousandsOfPlacesAreThoseOfANormal) {
+  // 3000 ones, 1600 of them positive: 200 is 3.6515 standard deviations of sqrt(3000); with the continuity of
+  // steps of 2 it is 199.
+  EXPECT_NEAR(p_of_pairs(1400, 1600), std::erfc(199.0 / std::sqrt(3000.0) / std::sqrt(2.0)), 2e-6);
 }
 
 TEST(SignedRankTest, AgreesWithTheDepressionData) {
@@ -141,70 +185,9 @@ TEST(SignedRankTest, ExactAndApproximateMeetAtTheLimit) {
   }
 }
 
-/// All means of two values, each with itself, too.
-std::vector<double> walsh_averages(const std::vector<double>& values) {
-  std::vector<double> means;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    for (std::size_t j = i; j < values.size(); ++j) means.push_back((values[i] + values[j]) / 2.0);
-  }
-  std::sort(means.begin(), means.end());
-  return means;
-}
-
-TEST(HodgesLehmann, AgreesWithTheDepressionData) {
-  // Hollander and Wolfe (1973), page 35: estimate 0.46; of 45 means the interval has the 6th to the 40th,
-  // which are 0.01 and 0.786 (coverage 96.1 %).
-  const ShiftEstimate shift =
-      hodges_lehmann({1.83 - 0.878, 0.50 - 0.647, 1.62 - 0.598, 2.48 - 2.05, 1.68 - 1.06, 1.88 - 1.29,
-                      1.55 - 1.06, 3.06 - 3.14, 1.30 - 1.29});
-  EXPECT_NEAR(shift.value, 0.46, 1e-9);
-  EXPECT_NEAR(shift.low, 0.01, 1e-9);
-  EXPECT_NEAR(shift.high, 0.786, 1e-9);
-}
-
-TEST(HodgesLehmann, IsTheMedianOfAllMeans) {
-  Rng rng(3);
-  for (std::size_t n = 1; n < 120; n += 7) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < n; ++i)
-      values.push_back(std::round(10.0 * rng.uniform(-1.0, 1.5)) / 4.0 + 0.01);
-    const std::vector<double> means = walsh_averages(values);
-    const double median = (means[(means.size() - 1) / 2] + means[means.size() / 2]) / 2.0;
-    std::vector<double> with_zeros = values;
-    with_zeros.insert(with_zeros.begin() + 1, 5, 0.0);
-    const ShiftEstimate shift = hodges_lehmann(with_zeros);
-    EXPECT_DOUBLE_EQ(shift.value, median) << n;
-    EXPECT_LE(shift.low, shift.value);
-    EXPECT_GE(shift.high, shift.value);
-    EXPECT_TRUE(std::binary_search(means.begin(), means.end(), shift.low)) << n;
-    EXPECT_TRUE(std::binary_search(means.begin(), means.end(), shift.high)) << n;
-  }
-}
-
-TEST(HodgesLehmann, HasAnIntervalThatHoldsTheShiftAsOftenAsItSays) {
-  Rng rng(9);
-  for (const std::size_t n : {std::size_t{12}, std::size_t{80}}) {
-    int inside = 0;
-    constexpr int repetitions = 2000;
-    for (int i = 0; i < repetitions; ++i) {
-      std::vector<double> values;
-      for (std::size_t k = 0; k < n; ++k) values.push_back(0.3 + rng.normal(1.0));
-      const ShiftEstimate shift = hodges_lehmann(values);
-      inside += shift.low <= 0.3 && 0.3 <= shift.high ? 1 : 0;
-    }
-    // 95 %, and a little more, as ranks are whole numbers; the mean error is 0.5 %.
-    EXPECT_NEAR(inside / double{repetitions}, 0.955, 0.02) << n;
-  }
-}
-
-TEST(HodgesLehmann, OfNothingIsNothing) {
-  EXPECT_EQ(hodges_lehmann({}).value, 0.0);
-  EXPECT_EQ(hodges_lehmann({0.0, 0.0}).high, 0.0);
-}
-
 TEST(LeastP, IsReachedByPairsThatAllDifferTheSameWay) {
   for (std::size_t n = 0; n < 12; ++n) {
-    EXPECT_DOUBLE_EQ(least_p(n), mcnemar_exact(n, 0));
+    EXPECT_DOUBLE_EQ(least_p(n), sign_flip_test(std::vector<long>(n, 2)).p);
     EXPECT_DOUBLE_EQ(least_p(n), wilcoxon_signed_rank(std::vector<double>(n, 1.0)).p);
   }
 }

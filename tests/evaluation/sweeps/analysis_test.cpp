@@ -44,18 +44,49 @@ TEST(Sweep, SeedsOfAPlaceAreNoTrialsOfTheirOwn) {
   EXPECT_NEAR(outcome.success.high, 0.954413, 1e-6);
 }
 
-TEST(Sweep, ChanceIsThatOfPlacesWithAllTheirSeeds) {
+TEST(Sweep, LeadsAreThoseOfPlacesWithAllTheirSeeds) {
   std::vector<NamedRun> runs;
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    runs.push_back(sweep_run({.setting = "a", .seed = seed}, "rrr"));
-    runs.push_back(sweep_run({.setting = "b", .seed = seed}, "uuu"));
+    runs.push_back(sweep_run({.setting = "a", .seed = seed}, "uur"));
+    runs.push_back(sweep_run({.setting = "b", .seed = seed}, "rrr"));
+    runs.push_back(sweep_run({.setting = "c", .seed = seed}, "rru"));
   }
-  const auto chance = analyse_sweep(runs).chance;
-  ASSERT_TRUE(chance.has_value());
-  EXPECT_EQ(chance->places, 3U);
-  // As with one seed: 3 of 3 in 2 of 8 ways, otherwise 2 of 3; the mean is 1.5 of 3.
-  EXPECT_DOUBLE_EQ(chance->lead, 0.5);
-  EXPECT_NEAR(chance->expected, 0.25, 0.02);
+  const SweepAnalysis analysis = analyse_sweep(runs);
+  EXPECT_THAT(names(analysis), ElementsAre("b", "c", "a"));
+  ASSERT_TRUE(analysis.chance.has_value());
+  EXPECT_EQ(analysis.chance->places, 3U);
+  EXPECT_EQ(analysis.chance->trials, 9U);
+  EXPECT_EQ(analysis.chance->baseline, "a");
+  EXPECT_EQ(analysis.chance->second, "c");
+  ASSERT_TRUE(analysis.settings[0].over_baseline.has_value());
+  EXPECT_EQ(analysis.settings[0].over_baseline->score, 6);
+  EXPECT_EQ(analysis.settings[0].over_baseline->places_better, 2U);
+  EXPECT_DOUBLE_EQ(analysis.settings[0].over_baseline->p, 0.5) << "seeds are no places";
+  EXPECT_EQ(analysis.chance->over_second.score, 3);
+  EXPECT_FALSE(analysis.settings[2].over_baseline.has_value());
+  EXPECT_EQ(analyse_sweep(runs, {}, "c").settings[2].over_baseline->score, -3);
+  EXPECT_THROW(static_cast<void>(analyse_sweep(runs, {}, "d")), ConfigError);
+}
+
+TEST(Sweep, NestedAndPlainPathsAreOneParameter) {
+  const std::vector<NamedRun> runs = {
+      sweep_run({.setting = "k", .values = {{"localizer.clusterer.hierarchical_kmeans.seeds", "9"}}}, "rr"),
+      sweep_run({.setting = "d", .values = {{"localizer.clusterer", "dbscan"}}}, "ru")};
+  const SweepAnalysis analysis = analyse_sweep(runs);
+  ASSERT_EQ(analysis.parameters.effects.size(), 1U);
+  const ParameterEffect& clusterer = analysis.parameters.effects[0];
+  EXPECT_EQ(clusterer.path, "localizer.clusterer");
+  ASSERT_EQ(clusterer.levels.size(), 2U);
+  EXPECT_EQ(clusterer.levels[0].label, "hierarchical_kmeans");
+  EXPECT_EQ(clusterer.levels[1].label, "dbscan");
+}
+
+TEST(Sweep, TheMethodIsAParameter) {
+  const SweepAnalysis analysis =
+      analyse_sweep({sweep_run({.setting = "a", .values = {{"method", "a"}}}, "rr"),
+                     sweep_run({.setting = "b", .values = {{"method", "b"}}}, "ru")});
+  ASSERT_EQ(analysis.parameters.effects.size(), 1U);
+  EXPECT_EQ(analysis.parameters.effects[0].label, "method");
 }
 
 TEST(Sweep, WhatIsChosenAndWhatIsJudgedAreKeptApart) {
@@ -216,6 +247,9 @@ TEST(ComparedParameters, AreAtMostTwoAndOfOneExperiment) {
   EXPECT_FALSE(compare_parameters(runs, true)->map.has_value());
   runs[1].results.experiment = "other";
   EXPECT_FALSE(compare_parameters(runs, true).has_value());
+  runs = {sweep_run({.setting = "a", .values = {{"method", "a"}}}, "r"),
+          sweep_run({.setting = "b", .values = {{"method", "b"}}}, "r")};
+  EXPECT_FALSE(compare_parameters(runs, true).has_value()) << "all is told of methods already";
   runs = {sweep_run({.setting = "a", .values = {{"x.size", "1"}, {"x.side", "1"}, {"y.kind", "plain"}}}, "r"),
           sweep_run({.setting = "b", .values = {{"x.size", "2"}, {"x.side", "2"}, {"y.kind", "fine"}}}, "r")};
   EXPECT_FALSE(compare_parameters(runs, true).has_value());

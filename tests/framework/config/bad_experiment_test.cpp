@@ -294,7 +294,8 @@ TEST_F(ExperimentFile, EachFaultHasItsPlaceAndRule) {
       // Choices and rules.
       {"first_trial",
        "first",
-       {"e.yaml:13:29: error: output: maps: 'first' is not one of none, first_trial, all"}},
+       {"e.yaml:13:29: error: output: maps: 'first' is not one of none, first_trial, all (did you mean "
+        "'first_trial'?)"}},
       {"first_trial",
        "first_trail",
        {"e.yaml:13:29: error: output: maps: 'first_trail' is not one of none, first_trial, all (did you mean "
@@ -327,7 +328,7 @@ TEST_F(ExperimentFile, EachFaultHasItsPlaceAndRule) {
        "    ransac:",
        {"e.yaml:11:5: error: localizer: matcher: unknown matcher 'ransac', did you mean 'ransam'? (there "
         "are: indexed, "
-        "ransam)"}},
+        "ransam); 'ransac' is a method: --method ransac"}},
       {"observations: toy_drive",
        "observations: carmen",
        {"e.yaml:7:15: error: observations: unknown observation_source 'carmen' (there are: toy_drive)"}},

@@ -22,6 +22,12 @@ TEST(Nearest, TakesTheNearestWithinAThird) {
   EXPECT_EQ(nearest("x", {}), std::nullopt);
 }
 
+TEST(Nearest, TakesTheBeginningOfANameWhereThereIsButOne) {
+  EXPECT_EQ(nearest("indexed", {"indexed_ransam", "ransam"}), "indexed_ransam");
+  EXPECT_EQ(nearest("indexed", {"indexed_ransam", "indexed_search"}), std::nullopt);
+  EXPECT_EQ(nearest("in", {"indexed_ransam", "ransam"}), std::nullopt) << "too little of it";
+}
+
 TEST(Suggestion, NamesTheNearestOrAll) {
   EXPECT_EQ(suggestion("stepz", {"maps", "steps"}, "known keys"), " (did you mean 'steps'?)");
   EXPECT_EQ(suggestion("colour", {"maps", "steps"}, "known keys"), " (known keys: maps, steps)");

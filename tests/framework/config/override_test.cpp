@@ -126,7 +126,8 @@ TEST_F(OverrideTest, FaultsNameTheOverride) {
   EXPECT_THAT(
       faults_of({{"localizer.matcher.ransac.iterations", "1"}}),
       ElementsAre("--set localizer.matcher.ransac.iterations=1: error: localizer: matcher: unknown matcher "
-                  "'ransac', did you mean 'ransam'? (there are: indexed, ransam)"));
+                  "'ransac', did you mean 'ransam'? (there are: indexed, ransam); 'ransac' is a method: "
+                  "--method ransac"));
 }
 
 TEST_F(OverrideTest, APathDeeperThanAnyExperimentIsRefused) {

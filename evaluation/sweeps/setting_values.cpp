@@ -1,0 +1,104 @@
+#include "evaluation/sweeps/setting_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "config/yaml_parser.hpp"
+#include "config/writer.hpp"
+
+namespace glocal {
+namespace {
+
+/// Where an experiment chooses a strategy.
+constexpr std::array<std::string_view, 9> choices = {
+    "map",
+    "observations",
+    "localizer.local_mapper",
+    "localizer.matcher",
+    "localizer.clusterer",
+    "localizer.rater",
+    "localizer.threshold_policy",
+    "localizer.verdict_rule",
+    "localizer.verifier",
+};
+
+/// The choice that a path is of, or is below; none for others.
+std::optional<std::string> choice_of(const std::string& path) {
+  for (const std::string_view choice : choices) {
+    if (path == choice || path.starts_with(std::string(choice) + ".")) return std::string(choice);
+  }
+  return std::nullopt;
+}
+
+/// The name behind a choice in a path below it.
+std::string strategy_in(const std::string& path, const std::string& choice) {
+  const std::size_t begin = choice.size() + 1;
+  return path.substr(begin, path.find('.', begin) - begin);
+}
+
+void put(const std::string& path, const std::string& value, SettingValues& values) {
+  const auto there = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == path; });
+  if (there == values.end()) values.emplace_back(path, value);
+}
+
+/// `dbscan`, or `{dbscan: {eps: 1}}`.
+void put_choice(const std::string& choice, const std::string& text, SettingValues& values) {
+  std::vector<Fault> faults;
+  const auto node =
+      parse_yaml_value(text, std::make_shared<const Origin>(Origin{"a value of a setting", "."}), faults);
+  if (!node || !faults.empty() || node->kind != NodeKind::map || node->entries.size() != 1) {
+    put(choice, text, values);
+    return;
+  }
+  const YamlEntry& strategy = node->entries.front();
+  put(choice, strategy.key, values);
+  for (const YamlEntry& parameter : strategy.value.entries)
+    put(choice + "." + strategy.key + "." + parameter.key, flow_yaml(parameter.value), values);
+}
+
+SettingValues unfolded(const SettingValues& written) {
+  SettingValues values;
+  for (const auto& [path, text] : written) {
+    const auto choice = choice_of(path);
+    if (choice == path) {
+      put_choice(path, text, values);
+      continue;
+    }
+    if (choice) put(*choice, strategy_in(path, *choice), values);
+    put(path, text, values);
+  }
+  return values;
+}
+
+std::optional<std::string> strategy_as_run(const std::string& choice,
+                                           const std::map<std::string, Setting>& effective) {
+  const auto below = effective.lower_bound(choice + ".");
+  if (below != effective.end() && below->first.starts_with(choice + "."))
+    return strategy_in(below->first, choice);
+  const auto itself = effective.find(choice);
+  return itself == effective.end() ? std::nullopt : std::optional(itself->second.text);
+}
+
+}  // namespace
+
+std::vector<SettingValues> comparable_values(const std::vector<SettingAsRun>& settings) {
+  std::vector<SettingValues> result;
+  std::set<std::string> chosen;
+  for (const SettingAsRun& setting : settings) {
+    for (const auto& [path, value] : result.emplace_back(unfolded(setting.values))) {
+      if (choice_of(path) == path) chosen.insert(path);
+    }
+  }
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    for (const std::string& choice : chosen) {
+      if (const auto strategy = strategy_as_run(choice, *settings[i].effective)) put(choice, *strategy, result[i]);
+    }
+  }
+  return result;
+}
+
+}  // namespace glocal

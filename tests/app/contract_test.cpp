@@ -1,0 +1,44 @@
+// glocal contract.
+#include <gmock/gmock.h>
+
+#include "app/program.hpp"
+
+namespace glocal::test::contract_command_test {
+namespace {
+
+using testing::HasSubstr;
+
+class ContractCommand : public CommandLine {};
+
+TEST_F(ContractCommand, SaysThatAStrategyKeepsItsContract) {
+  const Answer answer = run("contract clusterer dbscan");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out, "clusterer dbscan: keeps its contract\n");
+}
+
+TEST_F(ContractCommand, TakesParameters) {
+  EXPECT_EQ(run("contract threshold_policy fixed --set omega_max=0.3").exit_code, 0);
+  const Answer refused = run("contract threshold_policy fixed --set omega_max=3");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("out of range"));
+}
+
+TEST_F(ContractCommand, SaysWhatIsBroken) {
+  const Answer answer = run("contract matcher oracle --plugin " GLOCAL_TEST_PLUGINS "/every_kind.so");
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_EQ(answer.out, "");
+  EXPECT_THAT(answer.err,
+              HasSubstr("matcher oracle: breaks its contract: hypotheses: one has the quality 1"));
+}
+
+TEST_F(ContractCommand, RefusesWhatIsNotThere) {
+  const Answer kind = run("contract matchr ransam");
+  EXPECT_EQ(kind.exit_code, 2);
+  EXPECT_THAT(kind.err, HasSubstr("did you mean 'matcher'?"));
+  const Answer name = run("contract matcher ramsam");
+  EXPECT_EQ(name.exit_code, 2);
+  EXPECT_THAT(name.err, HasSubstr("there is no matcher 'ramsam' (did you mean 'ransam'?)"));
+}
+
+}  // namespace
+}  // namespace glocal::test::contract_command_test
