@@ -191,7 +191,7 @@ void check_suite(const BoardOptions& options, const Suite& suite, Context& conte
     methods.push_back(entry.method);
     checks.push_back({std::move(entry)});
   }
-  if (methods.empty()) return;
+  if (methods.empty()) return answer("{}: no results of such a method are stored\n", suite.id());
   std::vector<Variant> variants = variants_of(options, suite, methods, options.share, context);
   ExperimentLoader loader = plain_loader(context);
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {

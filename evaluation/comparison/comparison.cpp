@@ -254,14 +254,27 @@ std::vector<bool> cells_with_times(const std::vector<NamedRun>& runs, const Pair
 }
 
 /// Of each case in turn: its places, which lie beside each other.
-std::vector<std::span<const PairedTrials::Place>> places_by_case(const PairedTrials& paired) {
-  std::vector<std::span<const PairedTrials::Place>> result;
+using PlacesByCase = std::vector<std::span<const PairedTrials::Place>>;
+PlacesByCase places_by_case(const PairedTrials& paired) {
+  PlacesByCase result;
   const auto& places = paired.places;
   for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
     while (end < places.size() && places[end].case_number == places[begin].case_number) ++end;
     result.emplace_back(places.data() + begin, end - begin);
   }
   return result;
+}
+
+/// What is compared, without any method.
+Comparison counted_trials(const PairedTrials& paired, const PlacesByCase& cases) {
+  Comparison comparison;
+  comparison.starts = paired.trials.size();
+  comparison.places = paired.places.size();
+  std::set<std::uint64_t> seeds;
+  for (const PairedTrials::Cell& cell : paired.cells) seeds.insert(cell.seed);
+  comparison.seeds.assign(seeds.begin(), seeds.end());
+  for (const auto& places : cases) comparison.cases.push_back(paired.cases[places.front().case_number]);
+  return comparison;
 }
 
 CaseFigures case_figures(const Pair& pair, bool is_baseline) {
@@ -310,16 +323,10 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline_run,
   if (paired.trials.empty()) refuse_unpaired(runs, methods, paired);
   const std::size_t baseline = method_of(baseline_run, methods);
 
-  Comparison comparison;
-  comparison.baseline = methods[baseline].name;
-  comparison.starts = paired.trials.size();
-  comparison.places = paired.places.size();
-  comparison.measured = measured;
-  std::set<std::uint64_t> seeds;
-  for (const PairedTrials::Cell& cell : paired.cells) seeds.insert(cell.seed);
-  comparison.seeds.assign(seeds.begin(), seeds.end());
   const auto cases = places_by_case(paired);
-  for (const auto& places : cases) comparison.cases.push_back(paired.cases[places.front().case_number]);
+  Comparison comparison = counted_trials(paired, cases);
+  comparison.baseline = methods[baseline].name;
+  comparison.measured = measured;
   comparison.warnings = comparability_warnings(runs, methods, baseline, paired);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     comparison.methods.push_back(method_figures(runs, methods[m], m, paired, measured));

@@ -27,8 +27,8 @@ struct Method {
 /// ConfigError for two runs of the same method, case and seed.
 [[nodiscard]] std::vector<Method> methods_of(const std::vector<NamedRun>& runs);
 
-/// The trials that all methods have, paired within case and seed by their start. Where no method has two seeds
-/// of a case, seeds may differ between methods.
+/// The trials that all methods have, paired within case and seed by their start. Where no method has two
+/// seeds of a case, seeds may differ between methods.
 struct PairedTrials {
   struct Cell {
     std::size_t case_number = 0;

@@ -140,12 +140,27 @@ std::string text_of_drive(const WholeDrive& drive) {
                      drive.localized, drive.cm, drive.deg, drive.first_clusters, drive.last_clusters);
 }
 
-/// How often something holds of one and not of the other, and whether that can be chance.
-std::string changes_text(const char* what, std::size_t before, std::size_t now, std::size_t only_before,
-                         std::size_t only_now) {
-  return fmt::format("  {:<6} {} before, {} now: {} no more, {} newly (p {:.2g})\n", what, before, now,
-                     only_before, only_now, mcnemar_exact(only_before, only_now));
-}
+/// How often something holds before and now, start by start, and whether a change can be chance.
+class Change {
+ public:
+  void add(bool was, bool is) {
+    before_ += was ? 1 : 0;
+    now_ += is ? 1 : 0;
+    differences_.push_back((is ? 1 : 0) - (was ? 1 : 0));
+  }
+
+  [[nodiscard]] std::string text(const char* what) const {
+    const auto count = [&](long difference) {
+      return std::count(differences_.begin(), differences_.end(), difference);
+    };
+    return fmt::format("  {:<6} {} before, {} now: {} no more, {} newly (p {:.2g})\n", what, before_, now_,
+                       count(-1), count(1), sign_flip_test(differences_).p);
+  }
+
+ private:
+  std::size_t before_ = 0, now_ = 0;
+  std::vector<long> differences_;
+};
 
 }  // namespace
 
@@ -197,15 +212,6 @@ std::vector<std::string> differences(const CaseResult& stored, const CaseResult&
 }
 
 std::string paired_text(const BoardEntry& before, const BoardEntry& now) {
-  struct Change {
-    std::size_t before = 0, now = 0, only_before = 0, only_now = 0;
-    void add(bool was, bool is) {
-      before += was ? 1 : 0;
-      now += is ? 1 : 0;
-      only_before += was && !is ? 1 : 0;
-      only_now += is && !was ? 1 : 0;
-    }
-  };
   Change right;
   Change wrong;
   std::vector<double> steps;
@@ -223,9 +229,8 @@ std::string paired_text(const BoardEntry& before, const BoardEntry& now) {
   }
   const auto fewer = std::count_if(steps.begin(), steps.end(), [](double d) { return d < 0.0; });
   const auto more = std::count_if(steps.begin(), steps.end(), [](double d) { return d > 0.0; });
-  return fmt::format("{} of {}, start by start:\n", now.method, now.suite) +
-         changes_text("wrong", wrong.before, wrong.now, wrong.only_before, wrong.only_now) +
-         changes_text("right", right.before, right.now, right.only_before, right.only_now) +
+  return fmt::format("{} of {}, start by start:\n", now.method, now.suite) + wrong.text("wrong") +
+         right.text("right") +
          fmt::format(
              "  steps  {} of {} starts that are right both times need fewer, {} more, by {:.2g} in the mean "
              "of all (p {:.2g})\n",

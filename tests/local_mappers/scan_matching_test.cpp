@@ -88,6 +88,26 @@ TEST(ScanMatching, ABareCorridorKeepsTheOdometryAlongIt) {
   EXPECT_LT(std::abs(mapper.map().local_from_robot.y), 0.05);
 }
 
+TEST(ScanMatching, ASearchOfHeadingsAloneAddsNoShiftAlongABareCorridor) {
+  // The corridor begins behind the robot, askew to the cells of the map; only its walls are in view.
+  std::vector<test::Wall> walls;
+  const Transform turned({0.0, 0.0, 0.3});
+  for (const float side : {-1.0F, 1.0F}) {
+    const Point from = turned({-20.0F, side, 0.0F});
+    const Point to = turned({60.0F, side, 0.0F});
+    walls.push_back({from.x, from.y, to.x, to.y});
+  }
+  std::vector<Pose2> poses;
+  for (int i = 0; i < 40; ++i) poses.push_back(Pose2{0.0, 0.0, 0.3} * Pose2{0.57 * i, 0.0, 0.02 * (i % 3)});
+  const Drive straight = drive(walls, poses, {.max_range = 8.0, .noise = 0.005}, {});
+  ScanMatching::Params params;
+  params.search.translation = 0.0;
+  ScanMatching mapper(params);
+  EXPECT_LT(worst_error(mapper, straight).translation, 0.1);
+  ScanMatching shifting({});
+  EXPECT_GT(worst_error(shifting, straight).translation, 0.2);  // the drive is a test
+}
+
 TEST(ScanMatching, ACellsPointIsTheMeanOfItsFirstThreeHits) {
   ScanMatching mapper({});
   // With so few hits odometry is kept; all of these fall into the cell from (1.00, 0.00) to (1.05, 0.05).
