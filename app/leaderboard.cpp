@@ -124,7 +124,7 @@ void store(const BoardOptions& options, const BoardEntry& entry) {
     if (!options.force) refuse(file.string(), "is there already; --force replaces it, and compares both");
     answer("{}", paired_text(read_entry(file), entry));
   }
-  const OutcomeCounts counts = counts_of(entry);
+  const BoardCounts counts = counts_of(entry);
   const Json line = {{"date", entry.provenance.value("date", "")},
                      {"revision", entry.provenance.value("revision", "")},
                      {"suite", entry.suite},

@@ -126,7 +126,7 @@ const CaseResult* BoardEntry::find(const std::string& case_name, std::uint64_t s
   return found == results.end() ? nullptr : &*found;
 }
 
-void OutcomeCounts::add(const CaseResult& result) {
+void BoardCounts::add(const CaseResult& result) {
   for (const StartResult& start : result.starts) {
     ++starts;
     right += start.outcome == Outcome::right ? 1 : 0;
@@ -134,8 +134,8 @@ void OutcomeCounts::add(const CaseResult& result) {
   }
 }
 
-OutcomeCounts counts_of(const BoardEntry& entry) {
-  OutcomeCounts counts;
+BoardCounts counts_of(const BoardEntry& entry) {
+  BoardCounts counts;
   for (const CaseResult& result : entry.results) counts.add(result);
   return counts;
 }

@@ -54,13 +54,13 @@ struct BoardEntry {
 };
 
 /// How many of an entry's starts have ended how.
-struct OutcomeCounts {
+struct BoardCounts {
   std::size_t starts = 0, right = 0, wrong = 0;
   /// With trials that have failed.
   [[nodiscard]] std::size_t undecided() const { return starts - right - wrong; }
   void add(const CaseResult& result);
 };
-[[nodiscard]] OutcomeCounts counts_of(const BoardEntry& entry);
+[[nodiscard]] BoardCounts counts_of(const BoardEntry& entry);
 
 /// Throws ConfigError, at `file`, unless the results are those of all cases, seeds and starts of the suite;
 /// brings them into the suite's order.

@@ -16,10 +16,10 @@ namespace {
 struct Line {
   std::string name, method;
   std::vector<const CaseResult*> results;
-  OutcomeCounts counts = {};
+  BoardCounts counts = {};
 };
 
-long score(const OutcomeCounts& counts) {
+long score(const BoardCounts& counts) {
   return static_cast<long>(counts.right) - static_cast<long>(counts.wrong);
 }
 
@@ -182,7 +182,7 @@ Report board_overview(const std::vector<std::string>& suites, const std::vector<
         std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == entry.method; });
     if (method == methods.end())
       method = methods.insert(methods.end(), {entry.method, std::vector<std::string>(suites.size(), "–")});
-    const OutcomeCounts counts = counts_of(entry);
+    const BoardCounts counts = counts_of(entry);
     method->cells.at(static_cast<std::size_t>(column)) =
         fmt::format("{} / {} of {}", counts.wrong, counts.right, counts.starts);
     method->score += score(counts);
