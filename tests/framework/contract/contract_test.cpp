@@ -61,9 +61,10 @@ struct ToyClusterer final : Clusterer {
   using Params = Wrong;
   explicit ToyClusterer(const Params& params) : wrong(params.wrong) {}
   std::vector<Cluster> cluster(const std::vector<Hypothesis>& hypotheses, Rng& rng) override {
+    const auto other_each_time = static_cast<std::size_t>(2 + different() % 3);
     std::vector<std::size_t> labels;
     for (std::size_t i = 0; i < hypotheses.size(); ++i)
-      labels.push_back(wrong == "random" ? i % static_cast<std::size_t>(1 + different() % 5) : rng.below(3));
+      labels.push_back(wrong == "random" ? i % other_each_time : rng.below(3));
     std::vector<Cluster> clusters = clusters_of(hypotheses, labels);
     if (wrong == "loses one" && !clusters.empty()) clusters.front().members.pop_back();
     if (wrong == "one more" && hypotheses.empty()) clusters.emplace_back();
