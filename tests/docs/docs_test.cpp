@@ -350,7 +350,8 @@ TEST_F(DocsExamples, TablesAreWhatTheirCommandsPrint) {
   for (const fs::path& document : documents()) {
     const std::string text = read(document);
     constexpr std::string_view begin = "<!-- table: glocal ", mid = " -->\n", end = "<!-- /table -->";
-    for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1), ++tables) {
+    for (std::size_t at = text.find(begin); at != std::string::npos;
+         at = text.find(begin, at + 1), ++tables) {
       const std::size_t command = at + begin.size();
       const std::size_t table = text.find(mid, command) + mid.size();
       const Answer answer = run(text.substr(command, table - mid.size() - command));
