@@ -147,7 +147,7 @@ Json provenance(const Catalog& catalog, int threads, const std::set<std::filesys
 }
 
 Json origin_json(const Variant& variant) {
-  if (variant.name.empty() && variant.setting.empty() && variant.case_name.empty()) return {};
+  if (variant.name.empty()) return {};
   Json values = Json::object();
   for (const auto& [path, value] : variant.values) values[path] = valid_utf8(value);
   Json origin = {{"setting", variant.setting},

@@ -17,8 +17,8 @@ struct Lead {
   double p = 1.0;
 };
 
-/// The lead of one over another, tested by itself: by the signs of places (sign_flip_test()). That the best of
-/// many is better than the second best may be tested so, too (Gutmann and Maymin 1987).
+/// The lead of one over another, tested by itself: by the signs of places (sign_flip_test()). That the best
+/// of many is better than the second best may be tested so, too (Gutmann and Maymin 1987).
 [[nodiscard]] Lead lead_of(std::size_t setting, std::size_t other, const std::vector<ScoresAtPlace>& places);
 
 /// The leads of all settings over one of them. As many are compared, p is that of the largest: how often the

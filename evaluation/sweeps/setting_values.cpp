@@ -7,8 +7,8 @@
 #include <set>
 #include <string_view>
 
-#include "config/yaml_parser.hpp"
 #include "config/writer.hpp"
+#include "config/yaml_parser.hpp"
 
 namespace glocal {
 namespace {
@@ -41,7 +41,8 @@ std::string strategy_in(const std::string& path, const std::string& choice) {
 }
 
 void put(const std::string& path, const std::string& value, SettingValues& values) {
-  const auto there = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == path; });
+  const auto there =
+      std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == path; });
   if (there == values.end()) values.emplace_back(path, value);
 }
 
@@ -95,7 +96,8 @@ std::vector<SettingValues> comparable_values(const std::vector<SettingAsRun>& se
   }
   for (std::size_t i = 0; i < settings.size(); ++i) {
     for (const std::string& choice : chosen) {
-      if (const auto strategy = strategy_as_run(choice, *settings[i].effective)) put(choice, *strategy, result[i]);
+      if (const auto strategy = strategy_as_run(choice, *settings[i].effective))
+        put(choice, *strategy, result[i]);
     }
   }
   return result;

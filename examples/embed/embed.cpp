@@ -12,20 +12,21 @@
 #include <sstream>
 #include <string>
 
+/// With the numbers that glocal's own reader of logs makes, so that answers are the same to the last bit.
 glocal::Observation parse(const std::string& line) {
-  constexpr float max_range = 8.0F;
+  constexpr double max_range = 8.0;
   std::istringstream text(line);
   glocal::Observation observation;
   glocal::Pose2 odom;
   text >> odom.x >> odom.y >> odom.theta;
   observation.odom_from_robot = odom;
   const std::vector<float> ranges{std::istream_iterator<float>(text), {}};
+  const double step = std::numbers::pi / static_cast<double>(ranges.size() - 1);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const double bearing =
-        std::numbers::pi * (static_cast<double>(i) / static_cast<double>(ranges.size() - 1) - 0.5);
-    const float range = std::min(ranges[i], max_range);
-    const glocal::Point end{range * static_cast<float>(std::cos(bearing)),
-                            range * static_cast<float>(std::sin(bearing))};
+    const double bearing = static_cast<double>(i) * step - std::numbers::pi / 2.0;
+    const double range = std::min<double>(ranges[i], max_range);
+    const glocal::Point end{static_cast<float>(range * std::cos(bearing)),
+                            static_cast<float>(range * std::sin(bearing))};
     (ranges[i] < max_range ? observation.scan.hits : observation.scan.free_ends).push_back(end);
   }
   return observation;

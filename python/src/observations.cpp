@@ -87,14 +87,14 @@ void bind_observation(py::module_& module) {
           "Ends of the rays that met something, in the order of the beams.")
       .def_property_readonly(
           "free_ends", [](const BoundObservation& o) { return o.part(o->scan.free_ends); },
-          "Ends of the rays that met nothing: up to there the way is free.")
+          "Ends of the rays that met nothing; up to there the way is free.")
       .def_property_readonly(
           "origin",
           [](const BoundObservation& o) {
             const Point& p = o->scan.origin;
             return py::make_tuple(p.x, p.y, p.z);
           },
-          "The sensor, where all rays begin: (x, y, z), m.")
+          "The sensor, where all rays begin, as (x, y, z), m.")
       .def_property_readonly(
           "times", [](const BoundObservation& o) { return numbers(o->scan.times, o.owner()); },
           "N floats, s after the stamp; empty if all are of one moment.")

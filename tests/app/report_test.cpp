@@ -205,7 +205,8 @@ TEST_F(ReportCommand, RefusesWhatItCannotShowInOneGo) {
   ASSERT_EQ(run_room("b").exit_code, 0);
   expect_refused(file("missing"), "is no folder");
   expect_refused(file("a") + " " + file("a/../a"), "is named twice");
-  expect_refused(file("a") + " " + file("b") + " --baseline c", "names none, or more than one, of the runs");
+  expect_refused(file("a") + " " + file("b") + " --baseline c",
+                 "names none, or more than one, of the methods");
   expect_refused(file("a") + " --clusters=-1", "-1");
   fs::resize_file(file("a/steps.jsonl"), fs::file_size(file("a/steps.jsonl")) - 100);
   fs::remove(file("b/summary.json"));

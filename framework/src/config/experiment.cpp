@@ -271,7 +271,7 @@ void name_product(const Product& product, Expansion& all) {
   };
   for (VariantChanges& variant : all.variants) {
     variant.name = joined_name({name_told(method), variant.setting, name_told(one_case)});
-    if (method != nullptr) variant.setting = joined_name({method->name, variant.setting});
+    variant.setting = joined_name({name_told(method), variant.setting});
     if (one_case == nullptr) continue;
     variant.case_name = one_case->name;
     variant.role = one_case->role;

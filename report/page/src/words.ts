@@ -33,7 +33,7 @@ export const ofGlossary: Record<string, string> = {
   outcome: "right: declared, and near the reference. wrong: declared, and not near it. undecided: never declared.",
   setting: "What a variant changes, apart from case and seed: what a sweep compares.",
   variant: "The same experiment with some values changed: a setting, on a case, with a seed.",
-  baseline: "The run that glocal compare compares all others with.",
+  baseline: "The method that glocal compare compares all others with, and the setting that glocal sweep does.",
   seed: "Fixes all random numbers. The same seed gives the same results.",
 };
 

@@ -19,7 +19,8 @@ SettingValues values_of(const SettingValues& written) {
 }
 
 TEST(SettingValues, AStrategyIsAValueHoweverItIsWritten) {
-  EXPECT_THAT(values_of({{"localizer.clusterer", "dbscan"}}), ElementsAre(Pair("localizer.clusterer", "dbscan")));
+  EXPECT_THAT(values_of({{"localizer.clusterer", "dbscan"}}),
+              ElementsAre(Pair("localizer.clusterer", "dbscan")));
   const auto both =
       ElementsAre(Pair("localizer.clusterer", "dbscan"), Pair("localizer.clusterer.dbscan.radius", "0.5"));
   EXPECT_THAT(values_of({{"localizer.clusterer", "{dbscan: {radius: 0.5}}"}}), both);

@@ -152,7 +152,7 @@ TEST_F(ProductsTest, OneOfEachIsAnExperimentOfItsOwn) {
   const auto all = read("methods: fast\ncases: room\n");
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].name, "");
-  EXPECT_EQ(all[0].setting, "fast");
+  EXPECT_EQ(all[0].setting, "");
   EXPECT_EQ(all[0].case_name, "room");
   EXPECT_EQ(read("methods: fast\ncases: room\nseeds: 4\n").front().name, "seed-4");
   EXPECT_EQ(read("methods: fast\ncases: [room]\nseeds: 4\n").front().name, "room_seed-4");

@@ -130,6 +130,7 @@ trials:
   max_steps: 60
   min_steps: 1
   within_map_m: 0
+  only: []
 localizer:
   motion: planar
   contact_epsilon: auto
