@@ -30,7 +30,7 @@ async function watchedRun(name, out, ...parameters) {
 test("the page shows the run as it goes on, and keeps what it has when the program ends", { skip }, async () => {
   const out = join(work, "watched");
   // Slow enough to be looked at.
-  const { run, ended, address } = await watchedRun("paper_simulation", out, "--set", "localizer.matcher.ransam.iterations=2000000");
+  const { run, ended, address } = await watchedRun("paper_simulation", out, "--set", "localizer.matcher.ransam.iterations=6000000");
   const { page, noted } = await open(address);
   const last = () => page.locator("input[type=range]").getAttribute("max").then(Number);
   const first = await last();
