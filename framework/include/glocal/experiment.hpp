@@ -103,7 +103,7 @@ struct Variant {
   /// Its setting has another map, other observations, trials or another seed.
   bool changes_trials = false;
   std::string setting =
-      {};  ///< What is compared: method and changes; empty if nothing but case and seed vary.
+      {};  ///< What is compared: one of several methods, and changes; empty if only case and seed vary.
   std::string case_name = {};  ///< One of `cases`, choose_on or judge_on; empty without.
   CaseRole role = CaseRole::none;
   /// What the setting changes, as written; not the case, nor the seed. The method counts as a value of the
@@ -113,8 +113,8 @@ struct Variant {
   double share = 1.0;                            ///< Of the suite's starts, which are in trials.only.
 };
 
-/// Reads the variants of an experiment file: each method, in the order of list, grid and zip, with every case
-/// (those of choose_on first) and every seed, seeds changing fastest; of a file without any, the experiment
+/// Reads the variants of an experiment file: of each method with each case (those of choose_on first) the
+/// settings in the order of list, grid and zip, each with every seed; of a file without any, the experiment
 /// itself. Overrides are applied before the variants' changes. Without a file they say all. Throws
 /// ConfigError with every fault of all variants.
 [[nodiscard]] std::vector<Variant> read_variants(const std::filesystem::path& file,

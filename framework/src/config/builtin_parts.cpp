@@ -88,10 +88,10 @@ std::vector<BuiltinPart> builtin_parts(PartKind kind) {
 }
 
 std::optional<BuiltinPart> find_builtin_part(PartKind kind, const std::string& name) {
-  for (BuiltinPart& part : builtin_parts(kind)) {
-    if (part.name == name) return std::move(part);
-  }
-  return std::nullopt;
+  const fs::path file = configs_folder() / folder_of(kind) / (name + ".yaml");
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return std::nullopt;
+  return BuiltinPart{name, file, first_comment(file)};
 }
 
 }  // namespace glocal

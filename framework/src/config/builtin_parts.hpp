@@ -28,8 +28,7 @@ struct BuiltinPart {
 /// The folder of all that is built in: $GLOCAL_CONFIGS, or else share/glocal/configs beside the library.
 [[nodiscard]] std::filesystem::path configs_folder();
 
-/// Those of a kind, by name: NAME.yaml in configs/methods, configs/cases or
-/// configs/suites.
+/// Those of a kind, by name: NAME.yaml in configs/methods, configs/cases or configs/suites.
 [[nodiscard]] std::vector<BuiltinPart> builtin_parts(PartKind kind);
 [[nodiscard]] std::optional<BuiltinPart> find_builtin_part(PartKind kind, const std::string& name);
 
