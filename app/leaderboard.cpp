@@ -110,11 +110,11 @@ void show(const BoardOptions& options) {
 }
 
 /// What makes an entry anew.
-std::string renewal(const std::string& suite, const std::string& method) {
+std::string renewal(const BoardEntry& entry) {
   return fmt::format(
-      "glocal run --suite {0} --method {1} --out results/{0}/{1} && glocal leaderboard add results/{0}/{1} "
-      "--force",
-      suite, method);
+      "glocal run --suite {0} --method {1}{2} --out results/{0}/{1} && glocal leaderboard add "
+      "results/{0}/{1} --force",
+      entry.suite, entry.method, entry.share < 1.0 ? fmt::format(" --share {}", entry.share) : "");
 }
 
 /// Writes an entry and its line of the history.
@@ -198,11 +198,13 @@ void check_suite(const BoardOptions& options, const Suite& suite, Context& conte
     const Variant& variant = variants[i];
     Check& check = *std::find_if(checks.begin(), checks.end(),
                                  [&](const Check& c) { return c.stored.method == variant.setting; });
+    const CaseResult* stored = check.stored.find(variant.case_name, variant.experiment.seed);
+    if (stored == nullptr) return;  // A share that has none of this case's starts.
     const CaseResult fresh = run_in_memory(variant, loaded, context.catalog);
-    check.starts += fresh.starts.size();
-    for (std::string& line : differences(*check.stored.find(variant.case_name, variant.experiment.seed),
-                                         fresh, variant.experiment.trials))
-      check.different.push_back(std::move(line));
+    check.starts += static_cast<std::size_t>(
+        std::count_if(fresh.numbers.begin(), fresh.numbers.end(),
+                      [&](std::size_t number) { return stored->find(number) != nullptr; }));
+    for (std::string& line : differences(*stored, fresh)) check.different.push_back(std::move(line));
   });
   constexpr std::size_t most_lines = 20;
   for (const Check& check : checks) {
@@ -213,7 +215,7 @@ void check_suite(const BoardOptions& options, const Suite& suite, Context& conte
     if (n > most_lines) answer("  and {} more\n", n - most_lines);
     if (n > 0)
       answer("renew {} with:\n  {}\n", entry_file("leaderboard", suite.id(), check.stored.method).string(),
-             renewal(suite.id(), check.stored.method));
+             renewal(check.stored));
     if (n > 0) context.exit_code = 1;
   }
 }
@@ -231,6 +233,7 @@ void import(const BoardOptions& options, Context& context) {
   std::vector<Variant> variants = variants_of(options, suite, {}, "", context);
   BoardEntry entry{suite.id(),
                    options.methods.front(),
+                   1.0,
                    {{"version", version},
                     {"revision", revision()},
                     {"imported_sha256", sha256_of_file(options.poses)},

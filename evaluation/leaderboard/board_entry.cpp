@@ -80,8 +80,9 @@ std::optional<double> number_at(const Json& column, std::size_t i) {
   return value.get<double>();
 }
 
-CaseResult result_of(const Json& json) {
-  CaseResult result{.case_name = json.at("case"), .seed = whole_number(json, "seed"), .starts = {}};
+CaseResult result_of(const Json& json, double share) {
+  CaseResult result{
+      .case_name = json.at("case"), .seed = whole_number(json, "seed"), .numbers = {}, .starts = {}};
   if (json.contains("ms")) result.step_ms = json.at("ms").get<double>();
   if (json.contains("localized")) {
     const Json& clusters = json.at("clusters");
@@ -90,6 +91,7 @@ CaseResult result_of(const Json& json) {
                               whole_number(clusters, std::size_t{1})};
   }
   const std::string outcome = json.at("outcome");
+  result.numbers = numbers_in_share(result.case_name, result.seed, share, outcome.size());
   for (const char* key : {"steps", "m", "cm", "deg"}) {
     if (!json.at(key).is_array() || json.at(key).size() != outcome.size())
       throw std::invalid_argument(fmt::format("'{}' has not as many values as 'outcome'", key));
@@ -117,6 +119,24 @@ WholeDrive whole_drive(std::size_t localized, double translation_m, double rotat
                        std::size_t first_clusters, std::size_t last_clusters) {
   return {localized, rounded(translation_m * 100.0, 100.0), rounded(rotation_deg, 1000.0), first_clusters,
           last_clusters};
+}
+
+const StartResult* CaseResult::find(std::size_t number) const {
+  const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);
+  return found == numbers.end() || *found != number
+             ? nullptr
+             : &starts.at(static_cast<std::size_t>(found - numbers.begin()));
+}
+
+std::vector<std::size_t> numbers_in_share(const std::string& case_name, std::uint64_t seed, double share,
+                                          std::size_t n) {
+  constexpr std::size_t most = 1'000'000;
+  std::vector<std::size_t> numbers;
+  for (std::size_t start = 0; numbers.size() < n; ++start) {
+    if (start == most) throw std::invalid_argument("'share' is too small for so many starts");
+    if (is_in_share(case_name, seed, start, share)) numbers.push_back(start);
+  }
+  return numbers;
 }
 
 const CaseResult* BoardEntry::find(const std::string& case_name, std::uint64_t seed) const {
@@ -150,12 +170,16 @@ void require_whole(BoardEntry& entry, const Suite& suite, const fs::path& file) 
   for (const SuiteCase& one : suite.cases) {
     for (const std::uint64_t seed : suite.seeds) {
       const CaseResult* result = entry.find(one.name, seed);
+      std::size_t starts = 0;
+      for (std::size_t start = 0; start < one.starts; ++start)
+        starts += is_in_share(one.name, seed, start, entry.share) ? 1 : 0;
+      if (result == nullptr && starts == 0) continue;  // None of its starts is in the share.
       if (result == nullptr) {
         lacks(fmt::format("there is no result for the case {} with seed {}; run all of the suite", one.name,
                           seed));
-      } else if (result->starts.size() != one.starts) {
-        lacks(fmt::format("the case {} with seed {} has {} starts here, and the suite pins {}", one.name,
-                          seed, result->starts.size(), one.starts));
+      } else if (result->starts.size() != starts) {
+        lacks(fmt::format("the case {} with seed {} has {} starts here, and should have {}", one.name, seed,
+                          result->starts.size(), starts));
       } else {
         ordered.push_back(*result);
       }
@@ -186,9 +210,12 @@ std::string to_text(const BoardEntry& entry) {
   for (const CaseResult& result : entry.results)
     results += (results.empty() ? "" : ",\n") + text_of_result(result);
   return fmt::format(
-      "{{\n \"format\": {},\n \"suite\": {},\n \"method\": {},\n \"provenance\": {},\n \"results\": [\n{}\n "
+      "{{\n \"format\": {},\n \"suite\": {},\n \"method\": {},\n{} \"provenance\": {},\n \"results\": "
+      "[\n{}\n "
       "]\n}}\n",
-      entry_format, Json(entry.suite).dump(), Json(entry.method).dump(), entry.provenance.dump(), results);
+      entry_format, Json(entry.suite).dump(), Json(entry.method).dump(),
+      entry.share < 1.0 ? fmt::format(" \"share\": {},\n", entry.share) : "", entry.provenance.dump(),
+      results);
 }
 
 BoardEntry read_entry(const fs::path& file) {
@@ -196,8 +223,10 @@ BoardEntry read_entry(const fs::path& file) {
   try {
     const Json json = parse_json(content_of(file));
     if (json.at("format") != entry_format) throw std::invalid_argument("it is of another version");
-    BoardEntry entry{json.at("suite"), json.at("method"), json.at("provenance"), {}};
-    for (const Json& result : json.at("results")) entry.results.push_back(result_of(result));
+    BoardEntry entry{
+        json.at("suite"), json.at("method"), json.value("share", 1.0), json.at("provenance"), {}};
+    if (!(entry.share > 0.0 && entry.share <= 1.0)) throw std::invalid_argument("'share' is not in (0, 1]");
+    for (const Json& result : json.at("results")) entry.results.push_back(result_of(result, entry.share));
     return entry;
   } catch (const std::exception& error) {
     throw ConfigError(

@@ -39,13 +39,22 @@ struct WholeDrive {
 struct CaseResult {
   std::string case_name;
   std::uint64_t seed = 1;
-  std::vector<StartResult> starts;       ///< In the order of the drive.
+  std::vector<std::size_t> numbers;      ///< Which starts of the case, rising: all, or those of a share.
+  std::vector<StartResult> starts;       ///< Of these.
   std::optional<WholeDrive> drive = {};  ///< Where the one trial is a whole drive.
   std::optional<double> step_ms = {};    ///< CPU time of a step, median; none if nobody has measured it.
+
+  /// Of a start, by its number; null if it is not among these.
+  [[nodiscard]] const StartResult* find(std::size_t number) const;
 };
+/// The first `n` starts of a case that belong to a share of the suite. Throws std::invalid_argument where
+/// these are not among a million.
+[[nodiscard]] std::vector<std::size_t> numbers_in_share(const std::string& case_name, std::uint64_t seed,
+                                                        double share, std::size_t n);
 
 struct BoardEntry {
   std::string suite, method;  ///< "planar@1", "indexed".
+  double share = 1.0;         ///< Of the suite's starts: is_in_share().
   /// Where it comes from: version, revision, date, command, and more where it is known.
   nlohmann::ordered_json provenance = nlohmann::ordered_json::object();
   std::vector<CaseResult> results;  ///< In the order of the suite, each with all seeds.
@@ -62,8 +71,8 @@ struct BoardCounts {
 };
 [[nodiscard]] BoardCounts counts_of(const BoardEntry& entry);
 
-/// Throws ConfigError, at `file`, unless the results are those of all cases, seeds and starts of the suite;
-/// brings them into the suite's order.
+/// Throws ConfigError, at `file`, unless the results are those of all cases, seeds and starts of the suite,
+/// or of the entry's share of them; brings them into the suite's order.
 void require_whole(BoardEntry& entry, const Suite& suite, const std::filesystem::path& file);
 
 /// The file of a method's entry in the leaderboard's folder.

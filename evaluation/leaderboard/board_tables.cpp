@@ -14,13 +14,20 @@ namespace {
 
 /// Results of a method that share a line of a table.
 struct Line {
-  std::string name, method;
+  std::string name;
   std::vector<const CaseResult*> results;
   BoardCounts counts = {};
 };
 
-long score(const BoardCounts& counts) {
-  return static_cast<long>(counts.right) - static_cast<long>(counts.wrong);
+/// Right starts less wrong ones, of all: entries may have other shares of a suite.
+double score(const BoardCounts& counts) {
+  return (static_cast<double>(counts.right) - static_cast<double>(counts.wrong)) /
+         static_cast<double>(std::max<std::size_t>(counts.starts, 1));
+}
+
+/// "mcl", or "mcl (share 0.05)" of an entry that has not all starts.
+std::string name_of(const BoardEntry& entry) {
+  return entry.share < 1.0 ? fmt::format("{} (share {})", entry.method, entry.share) : entry.method;
 }
 
 /// "12, 0.2 to 0.5 %": with the 95 % interval of the share.
@@ -109,7 +116,7 @@ std::vector<Line> lines_of(const std::vector<BoardEntry>& entries, const std::ve
                            const std::string& before) {
   std::vector<Line> lines;
   for (const BoardEntry& entry : entries) {
-    Line line{before + entry.method, entry.method, {}};
+    Line line{before + name_of(entry), {}};
     for (const CaseResult& result : entry.results) {
       if (std::find(cases.begin(), cases.end(), result.case_name) == cases.end()) continue;
       line.results.push_back(&result);
@@ -171,7 +178,7 @@ Report board_overview(const std::vector<std::string>& suites, const std::vector<
   struct Method {
     std::string name;
     std::vector<std::string> cells;
-    long score = 0;
+    double score = 0.0;
   };
   Table table{{"method: wrong / right of starts"}, {}};
   table.header.insert(table.header.end(), suites.begin(), suites.end());

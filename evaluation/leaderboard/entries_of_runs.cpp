@@ -37,13 +37,15 @@ std::string hash_of_method(const StoredRun& run) {
   return sha256_of_text(text);
 }
 
-Json provenance_of_entry(const StoredRun& run, const std::string& suite, const std::string& method) {
+Json provenance_of_entry(const StoredRun& run, const std::string& suite, const std::string& method,
+                         double share) {
   const Json& from = run.provenance;
   const std::string began = from.value("began", std::string());
   return {{"version", from.value("version", "")},
           {"revision", from.value("revision", "")},
           {"date", began.substr(0, began.find('T'))},
-          {"command", fmt::format("glocal run --suite {} --method {}", suite, method)},
+          {"command", fmt::format("glocal run --suite {} --method {}{}", suite, method,
+                                  share < 1.0 ? fmt::format(" --share {}", share) : "")},
           {"cpu", run.machine.cpu},
           {"method_sha256", hash_of_method(run)}};
 }
@@ -60,9 +62,9 @@ class RunReader {
       refuse_results(folder, "was not run with --suite; run a suite");
     suite_ = variant.at("suite");
     method_ = variant.at("setting");
-    if (variant.value("share", 1.0) < 1.0)
-      refuse_results(folder, fmt::format("has a share of {} only; run all of it", suite_));
-    result_ = {.case_name = variant.at("case"), .seed = run_.seed, .starts = {}};
+    share_ = variant.value("share", 1.0);
+    result_ = {.case_name = variant.at("case"), .seed = run_.seed, .numbers = {}, .starts = {}};
+    result_.numbers = numbers_in_share(result_.case_name, result_.seed, share_, run_.trials.size());
     for (const auto& [start, trial] : run_.trials) {
       std::optional<PoseError> error;
       if (trial.translation_error_m)
@@ -79,8 +81,11 @@ class RunReader {
     const auto same = [&](const BoardEntry& e) { return e.suite == suite_ && e.method == method_; };
     auto entry = std::find_if(entries.begin(), entries.end(), same);
     if (entry == entries.end()) {
-      entries.push_back({suite_, method_, provenance_of_entry(run_, suite_, method_), {}});
+      entries.push_back({suite_, method_, share_, provenance_of_entry(run_, suite_, method_, share_), {}});
       entry = std::prev(entries.end());
+    } else if (entry->share != share_) {
+      refuse_results(run_.folder, fmt::format("has a share of {} of the starts, and the results beside it {}",
+                                              share_, entry->share));
     } else if (entry->provenance.at("revision") != run_.provenance.value("revision", "")) {
       refuse_results(run_.folder,
                      fmt::format("is by another version of the program than the results beside it "
@@ -112,6 +117,7 @@ class RunReader {
   std::size_t last_clusters_ = 0;
   StoredRun run_;
   std::string suite_, method_;
+  double share_ = 1.0;
   CaseResult result_;
 };
 
@@ -179,7 +185,10 @@ std::vector<BoardEntry> entries_of_folder(const fs::path& folder) {
 }
 
 CaseResult run_in_memory(const Variant& variant, LoadedExperiment& loaded, const Catalog& catalog) {
-  CaseResult result{.case_name = variant.case_name, .seed = variant.experiment.seed, .starts = {}};
+  CaseResult result{
+      .case_name = variant.case_name, .seed = variant.experiment.seed, .numbers = {}, .starts = {}};
+  for (std::size_t i = 0; i < loaded.starts.size(); ++i)
+    result.numbers.push_back(start_number(variant.experiment.trials, i));
   result.starts.resize(loaded.starts.size());
   std::vector<Localizer> localizers;
   localizers.push_back(make_localizer(variant.experiment, catalog, loaded));
@@ -194,16 +203,14 @@ CaseResult run_in_memory(const Variant& variant, LoadedExperiment& loaded, const
   return result;
 }
 
-std::vector<std::string> differences(const CaseResult& stored, const CaseResult& fresh,
-                                     const TrialsConfig& trials) {
+std::vector<std::string> differences(const CaseResult& stored, const CaseResult& fresh) {
   std::vector<std::string> lines;
   const std::string of = fmt::format("{}, seed {}", stored.case_name, stored.seed);
   for (std::size_t i = 0; i < fresh.starts.size(); ++i) {
-    const std::size_t number = start_number(trials, i);
-    const StartResult& was = stored.starts.at(number);
-    if (was == fresh.starts[i]) continue;
-    lines.push_back(fmt::format("{}, start {}: {} is stored, {} it is now", of, number, text_of_start(was),
-                                text_of_start(fresh.starts[i])));
+    const StartResult* was = stored.find(fresh.numbers[i]);
+    if (was == nullptr || *was == fresh.starts[i]) continue;
+    lines.push_back(fmt::format("{}, start {}: {} is stored, {} it is now", of, fresh.numbers[i],
+                                text_of_start(*was), text_of_start(fresh.starts[i])));
   }
   if (lines.empty() && stored.drive && fresh.drive && *stored.drive != *fresh.drive)
     lines.push_back(fmt::format("{}: {} is stored, {} it is now", of, text_of_drive(*stored.drive),
@@ -218,8 +225,10 @@ std::string paired_text(const BoardEntry& before, const BoardEntry& now) {
   for (const CaseResult& result : now.results) {
     const CaseResult* old = before.find(result.case_name, result.seed);
     if (old == nullptr) continue;
-    for (std::size_t i = 0; i < std::min(result.starts.size(), old->starts.size()); ++i) {
-      const StartResult& a = old->starts[i];
+    for (std::size_t i = 0; i < result.starts.size(); ++i) {
+      const StartResult* earlier = old->find(result.numbers[i]);
+      if (earlier == nullptr) continue;
+      const StartResult& a = *earlier;
       const StartResult& b = result.starts[i];
       right.add(a.outcome == Outcome::right, b.outcome == Outcome::right);
       wrong.add(a.outcome == Outcome::wrong, b.outcome == Outcome::wrong);

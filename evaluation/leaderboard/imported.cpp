@@ -232,7 +232,7 @@ CaseResult judged(const ImportedPoses& poses, const Variant& variant, const Load
                   std::vector<Fault>& faults) {
   const Experiment& experiment = variant.experiment;
   const auto of_case = poses.cases.find({variant.case_name, experiment.seed});
-  CaseResult result{.case_name = variant.case_name, .seed = experiment.seed, .starts = {}};
+  CaseResult result{.case_name = variant.case_name, .seed = experiment.seed, .numbers = {}, .starts = {}};
   std::vector<Judgement> judgements;
   std::size_t right = 0;
   for (std::size_t i = 0; i < loaded.starts.size(); ++i) {
@@ -265,6 +265,7 @@ CaseResult judged(const ImportedPoses& poses, const Variant& variant, const Load
       outcome = judge(error, experiment.evaluation);
       right += outcome == Outcome::right ? 1 : 0;
     }
+    result.numbers.push_back(i);
     result.starts.push_back(start_result(outcome, last + 1, way, error));
     if (experiment.trials.whole) result.drive = drive_of(*rows, loaded, first);
   }

@@ -140,13 +140,18 @@ TEST_F(Leaderboard, RenewingNeedsForceAndComparesOldAndNew) {
   EXPECT_EQ(lines[1]["starts"], lines[0]["starts"]);
 }
 
-TEST_F(Leaderboard, AShareIsNoEntry) {
+TEST_F(Leaderboard, AShareIsKeptAndCheckedAsOne) {
   pin();
   const Answer ran = run("run --quiet --suite tiny@1 --share 0.3 --method few --out " + file("results"));
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Answer added = run("leaderboard add " + file("results"));
-  EXPECT_EQ(added.exit_code, 2);
-  EXPECT_THAT(added.err, HasSubstr("has a share of tiny@1 only; run all of it"));
+  ASSERT_EQ(added.exit_code, 0) << added.err;
+  const Json entry = Json::parse(content(file("leaderboard/tiny@1/few.json")));
+  EXPECT_EQ(entry["share"], 0.3);
+  EXPECT_EQ(entry["provenance"]["command"], "glocal run --suite tiny@1 --method few --share 0.3");
+  EXPECT_THAT(run("leaderboard tiny@1").out, HasSubstr("few (share 0.3)"));
+  // A larger share has these starts, too; of the others nothing is stored.
+  EXPECT_THAT(run("leaderboard check tiny@1 --share 0.6").out, HasSubstr("as they are stored"));
 }
 
 TEST_F(Leaderboard, AnInputThatHasChangedIsNamedWithBothHashes) {

@@ -36,10 +36,11 @@ Suite small_suite() {
 }
 
 BoardEntry entry_of(const std::string& method, const std::vector<StartResult>& room) {
-  BoardEntry entry{"small@1", method, {{"revision", "v1"}}, {}};
-  for (const std::uint64_t seed : {1U, 2U}) entry.results.push_back({"room", seed, room, {}, 1.5});
+  BoardEntry entry{"small@1", method, 1.0, {{"revision", "v1"}}, {}};
+  for (const std::uint64_t seed : {1U, 2U}) entry.results.push_back({"room", seed, {0, 1, 2}, room, {}, 1.5});
   for (const std::uint64_t seed : {1U, 2U})
-    entry.results.push_back({"hall", seed, {right_after(40)}, whole_drive(90, 0.0834, 0.18, 800, 1), 2.0});
+    entry.results.push_back(
+        {"hall", seed, {0}, {right_after(40)}, whole_drive(90, 0.0834, 0.18, 800, 1), 2.0});
   return entry;
 }
 
@@ -50,11 +51,13 @@ BoardEntry some_entry() {
 void expect_same(const BoardEntry& a, const BoardEntry& b) {
   EXPECT_EQ(a.suite, b.suite);
   EXPECT_EQ(a.method, b.method);
+  EXPECT_EQ(a.share, b.share);
   EXPECT_EQ(a.provenance, b.provenance);
   ASSERT_EQ(a.results.size(), b.results.size());
   for (std::size_t i = 0; i < a.results.size(); ++i) {
     EXPECT_EQ(a.results[i].case_name, b.results[i].case_name);
     EXPECT_EQ(a.results[i].seed, b.results[i].seed);
+    EXPECT_EQ(a.results[i].numbers, b.results[i].numbers);
     EXPECT_EQ(a.results[i].starts, b.results[i].starts);
     EXPECT_EQ(a.results[i].drive, b.results[i].drive);
     EXPECT_EQ(a.results[i].step_ms, b.results[i].step_ms);
@@ -112,22 +115,73 @@ TEST(BoardEntryTest, AnEntryIsOfTheWholeSuite) {
   entry = some_entry();
   entry.results[1].starts.pop_back();
   EXPECT_THAT(fault_of([&] { require_whole(entry, small_suite(), "mine.json"); }),
-              HasSubstr("the case room with seed 2 has 2 starts here, and the suite pins 3"));
+              HasSubstr("the case room with seed 2 has 2 starts here, and should have 3"));
   entry = some_entry();
-  entry.results.push_back({"attic", 1, {}, {}, {}});
+  entry.results.push_back({"attic", 1, {}, {}, {}, {}});
   EXPECT_THAT(fault_of([&] { require_whole(entry, small_suite(), "mine.json"); }),
               HasSubstr("there are results of other cases or seeds than the suite's"));
+}
+
+// Half of the starts: which, is_in_share() says.
+BoardEntry half_an_entry(const Suite& suite) {
+  BoardEntry entry = some_entry();
+  entry.share = 0.5;
+  std::vector<CaseResult> whole = std::move(entry.results);
+  entry.results.clear();
+  for (CaseResult& result : whole) {
+    CaseResult half = result;
+    half.numbers.clear();
+    half.starts.clear();
+    for (std::size_t i = 0; i < suite.find_case(result.case_name)->starts; ++i) {
+      if (!is_in_share(result.case_name, result.seed, i, 0.5)) continue;
+      half.numbers.push_back(i);
+      half.starts.push_back(result.starts[i]);
+    }
+    if (!half.numbers.empty()) entry.results.push_back(std::move(half));
+  }
+  return entry;
+}
+
+TEST(BoardEntryTest, AShareOfASuiteHasItsStarts) {
+  const Suite suite = small_suite();
+  BoardEntry entry = half_an_entry(suite);
+  const BoardCounts counts = counts_of(entry);
+  ASSERT_GT(counts.starts, 0U);
+  ASSERT_LT(counts.starts, 8U);
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("mine.json", to_text(entry));
+  BoardEntry again = read_entry(file);
+  expect_same(again, entry);
+  require_whole(again, suite, file);
+
+  const CaseResult& first = again.results.front();
+  EXPECT_EQ(first.find(first.numbers.front()), &first.starts.front());
+  EXPECT_EQ(first.find(3), nullptr);
+  EXPECT_THAT(as_text(board_tables(suite, {again}, {})), HasSubstr("mine (share 0.5)"));
+
+  again.share = 1.0;
+  EXPECT_THAT(fault_of([&] { require_whole(again, suite, file); }), HasSubstr("and should have 3"));
+}
+
+TEST(BoardEntryTest, SharesThatCannotBeAreRefused) {
+  const TemporaryFolder folder;
+  const auto fault = [&](double share) {
+    BoardEntry entry = some_entry();
+    entry.share = share;
+    return fault_of([&] { static_cast<void>(read_entry(folder.write("mine.json", to_text(entry)))); });
+  };
+  EXPECT_THAT(fault(-0.5), HasSubstr("'share' is not in (0, 1]"));
+  EXPECT_THAT(fault(1e-9), HasSubstr("'share' is too small for so many starts"));
 }
 
 TEST(DifferencesTest, NameEachStartThatEndsOtherwise) {
   const CaseResult stored = some_entry().results[0];
   CaseResult fresh = stored;
-  EXPECT_TRUE(differences(stored, fresh, {}).empty());
-  fresh.starts = {right_after(2), undecided_after(42)};
-  TrialsConfig trials;
-  trials.only = {0.0, 2.0};
+  EXPECT_TRUE(differences(stored, fresh).empty());
+  fresh.starts = {right_after(2), undecided_after(42), right_after(1)};
+  fresh.numbers = {0, 2, 5};  // 5 is not among those that are stored.
   EXPECT_THAT(
-      differences(stored, fresh, trials),
+      differences(stored, fresh),
       testing::ElementsAre("room, seed 1, start 2: undecided after 41 steps is stored, undecided after 42 "
                            "steps it is now"));
 }
@@ -136,7 +190,7 @@ TEST(DifferencesTest, WholeDrivesDifferInWhatComesAfterTheDeclaration) {
   const CaseResult stored = some_entry().results[2];
   CaseResult fresh = stored;
   fresh.drive->cm = 8.4;
-  EXPECT_THAT(differences(stored, fresh, {}),
+  EXPECT_THAT(differences(stored, fresh),
               testing::ElementsAre(HasSubstr("hall, seed 1: localized in 90 steps")));
 }
 
