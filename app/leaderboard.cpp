@@ -339,7 +339,7 @@ void add_leaderboard(CLI::App& app, Context& context) {
   CLI::App* export_command =
       board->add_subcommand("export", "Write maps, drives and starts of a suite in plain formats.");
   add_suite_to(*export_command, *options);
-  export_command->add_option("DIR", options->out, "Folder for the files")->required();
+  export_command->add_option("-o,--out", options->out, "Folder for the files")->required();
   add_cases_to(*export_command, *options);
   add_force_to(*export_command);
   export_command->callback([options, &context] { export_suite(*options, context); });

@@ -1,6 +1,6 @@
 """A particle filter for suites in the plane: particle_filter.py DIR POSES.csv [EVERY]
 
-DIR is what `glocal leaderboard export SUITE DIR` has written. POSES.csv is for `glocal leaderboard import`. With EVERY only every n-th
+DIR is what `glocal leaderboard export SUITE --out DIR` has written. POSES.csv is for `glocal leaderboard import`. With EVERY only every n-th
 start is tried; the others count as undecided. Nothing of glocal is needed here.
 """
 import csv

@@ -241,7 +241,7 @@ TEST_F(Leaderboard, PosesOfAnotherFrameAreToldByHowTheyFit) {
 
 TEST_F(Leaderboard, ExportWritesPlainFilesWithoutReferences) {
   pin();
-  const Answer exported = run("leaderboard export tiny@1 " + file("plain"));
+  const Answer exported = run("leaderboard export tiny@1 --out " + file("plain"));
   ASSERT_EQ(exported.exit_code, 0) << exported.err;
   for (const char* name : {"map.yaml", "map.pgm", "map.pcd", "drive.mcap", "scans/odometry.tum"})
     EXPECT_TRUE(fs::exists(file("plain/small_room_seed-2/") + name)) << name;
@@ -255,8 +255,9 @@ TEST_F(Leaderboard, ExportWritesPlainFilesWithoutReferences) {
   for (std::string line; std::getline(odometry, line); ++scans)
     EXPECT_TRUE(fs::exists(file("plain/small_room_seed-2/scans/" + line.substr(0, line.find(' ')) + ".pcd")));
   EXPECT_GT(scans, 10U);
-  EXPECT_EQ(run("leaderboard export tiny@1 " + file("plain")).exit_code, 2);
-  EXPECT_EQ(run("leaderboard export tiny@1 --force " + file("plain")).exit_code, 0);
+  EXPECT_EQ(run("leaderboard export tiny@1 --out " + file("plain")).exit_code, 2);
+  EXPECT_THAT(run("leaderboard export tiny@1 " + file("plain")).err, HasSubstr("-o says what to write"));
+  EXPECT_EQ(run("leaderboard export tiny@1 --force -o " + file("plain")).exit_code, 0);
 }
 
 /// A Python that has numpy; empty if there is none.
@@ -271,7 +272,7 @@ TEST_F(Leaderboard, TheExampleInPythonFindsMostStartsOfASmallRoom) {
   const std::string python = python_with_numpy();
   if (python.empty()) GTEST_SKIP() << "there is no Python with numpy";
   pin();
-  ASSERT_EQ(run("leaderboard export tiny " + file("plain")).exit_code, 0);
+  ASSERT_EQ(run("leaderboard export tiny --out " + file("plain")).exit_code, 0);
   const std::string script = GLOCAL_SOURCE_DIR "/examples/python/particle_filter.py";
   ASSERT_EQ(std::system((python + " " + script + " " + file("plain") + " " + file("poses.csv")).c_str()), 0);
   const Answer imported =

@@ -363,6 +363,100 @@ TEST_F(DocsExamples, TablesAreWhatTheirCommandsPrint) {
   EXPECT_GT(tables, 0U);
 }
 
+/// A table of a document.
+struct Table {
+  std::size_t line = 0;  ///< Of its head; from 1 on.
+  std::string above;     ///< The line before it.
+  bool is_made = false;  ///< Whether it stands between `<!-- table: COMMAND -->` and `<!-- /table -->`.
+  std::vector<std::string> rows;
+};
+
+std::string trimmed(const std::string& text, const char* what) {
+  const std::size_t first = text.find_first_not_of(what);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(what) + 1 - first);
+}
+
+std::vector<Table> tables_of(const fs::path& document) {
+  std::vector<Table> tables;
+  const std::vector<std::string> lines = lines_of(read(document));
+  bool in_block = false, is_made = false, in_table = false;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string line = trimmed(lines[i], " ");
+    if (line.starts_with("```")) in_block = !in_block;
+    if (line.starts_with("<!-- table: ")) is_made = true;
+    if (line == "<!-- /table -->") is_made = false;
+    const bool is_row = !in_block && line.starts_with("|");
+    if (is_row && !in_table) tables.push_back({i + 1, i > 0 ? lines[i - 1] : "", is_made, {}});
+    if (is_row && in_table && !line.starts_with("|--") && !line.starts_with("|:-"))
+      tables.back().rows.push_back(line);
+    in_table = is_row;
+  }
+  return tables;
+}
+
+/// Whether a cell of the row, apart from the first, begins with a digit.
+bool has_number(const std::string& row) {
+  std::istringstream cells(std::regex_replace(row, std::regex(R"(\\\|)"), "/"));
+  std::string cell;
+  for (int i = 0; std::getline(cells, cell, '|'); ++i) {
+    const std::string text = trimmed(cell, " *");
+    if (i > 1 && !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0) return true;
+  }
+  return false;
+}
+
+bool has_numbers(const Table& table) {
+  return 2 * std::count_if(table.rows.begin(), table.rows.end(), has_number) >
+         static_cast<std::ptrdiff_t>(table.rows.size());
+}
+
+/// Whether a page says of all its tables that nothing makes them any more.
+bool is_of_the_past(const fs::path& document) {
+  return document.filename() == "tried.md" &&
+         read(document).substr(0, 1000).find("cannot be made again") != std::string::npos;
+}
+
+class DocsTables : public DocsExamples {
+ protected:
+  /// Whether a command begins with something that is there. Variables, and what measures, may come first.
+  [[nodiscard]] bool is_there(const std::string& written) const {
+    const std::regex first(R"(^(\w+=("[^"]*"|\S+) |perf record |strace -f |time (-v )?)+)");
+    const std::string command = std::regex_replace(written, first, "");
+    const auto begins = [&](const char* pattern) {
+      std::smatch match;
+      return std::regex_search(command, match, std::regex(pattern)) ? match[1].str() : "";
+    };
+    if (const std::string script = begins(R"(^(scripts/\w+)( |$|,))"); !script.empty())
+      return fs::exists(root / script);
+    if (const std::string subcommand = begins(R"(^glocal ([a-z-]+)( |$))"); !subcommand.empty())
+      return run(subcommand + " --help").exit_code == 0;
+    if (const std::string tests = begins("^build/release/tests/test_([a-z_]+)"); !tests.empty())
+      return read(root / "tests/CMakeLists.txt").find("glocal_add_tests(" + tests + " ") != std::string::npos;
+    if (const std::string benchmark = begins("^build/release/bench/(bench_[a-z_]+)"); !benchmark.empty())
+      return fs::exists(root / "bench" / (benchmark + ".cpp"));
+    return command.starts_with("ctest ");
+  }
+};
+
+TEST_F(DocsTables, NumbersSayHowTheyAreMade) {
+  const std::regex marker(R"( *<!-- measured: (.+) \(\d{4}-\d\d-\d\d, [0-9a-f]{7}\) -->)");
+  std::size_t measured = 0;
+  for (const fs::path& document : documents()) {
+    if (is_of_the_past(document)) continue;
+    for (const Table& table : tables_of(document)) {
+      std::smatch match;
+      const bool is_marked = std::regex_match(table.above, match, marker);
+      measured += is_marked ? 1 : 0;
+      EXPECT_TRUE(is_marked || table.is_made || !has_numbers(table))
+          << document.string() << ":" << table.line
+          << ": <!-- measured: COMMAND (DATE, REVISION) --> is missing above this table";
+      EXPECT_TRUE(!is_marked || is_there(match[1]))
+          << document.string() << ":" << table.line << ": there is no " << match[1];
+    }
+  }
+  EXPECT_GT(measured, 20U);
+}
+
 /// Every command that reads results is on some page, and is run as it is written there.
 TEST(Docs, CommandsThatReadResultsAreShown) {
   std::string text = "\n";

@@ -346,9 +346,27 @@ std::vector<double> starts_in_share(const Variant& variant, double share) {
   return starts;
 }
 
+/// Whether the starts of all variants can be gone through: one by one, each is in the share or not.
+bool are_countable(const Suite& suite, const std::vector<Variant>& variants) {
+  constexpr std::size_t most_starts = 5'000'000;
+  std::size_t starts = 0;
+  for (const Variant& variant : variants) {
+    starts += suite.find_case(variant.case_name)->starts;
+    if (starts > most_starts) return false;
+  }
+  return true;
+}
+
 /// Says of variants that they are of a suite, and leaves out those of which nothing is in the share.
 void join_suite(const YamlNode& experiment, const Products& products, std::vector<Variant>& variants,
                 std::set<Fault>& faults) {
+  if (products.share < 1.0 && !are_countable(*products.suite, variants)) {
+    faults.insert(fault_at(experiment.place,
+                           fmt::format("share: {} pins more than five million starts for all methods and "
+                                       "seeds; name some of its cases, or fewer methods",
+                                       products.suite->id())));
+    return;
+  }
   for (Variant& variant : variants) {
     variant.suite = products.suite;
     variant.share = products.share;

@@ -115,7 +115,7 @@ class SuiteReader {
         pinned.values = value.value.text;
       } else if (value.key == "starts") {
         int starts = 0;
-        take(value.value, "starts", {.doc = "", .min = 1.0}, starts);
+        take(value.value, "starts", {.doc = "", .min = 1.0, .max = 1'000'000.0}, starts);
         pinned.starts = static_cast<std::size_t>(starts);
       } else {
         refuse(value.place,

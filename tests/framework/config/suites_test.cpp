@@ -158,6 +158,23 @@ TEST_F(SuitesTest, AShareNeedsPinnedStarts) {
   EXPECT_THAT(faults_of("small", {{"share", "0.5"}}), HasSubstr("glocal leaderboard pin tells what to add"));
 }
 
+TEST_F(SuitesTest, MoreStartsThanCanBeCountedAreRefused) {
+  const auto pinned = [&](const std::string& starts, const std::string& seeds) {
+    write_suite(
+        fmt::format("version: 1\nseeds: {}\ncases: [room]\npinned:\n  cases:\n    room: {{starts: {}, "
+                    "values: \"{}\"}}\n",
+                    seeds, starts,
+                    hash_of("{map: {toy_map: {path: map.txt}}, observations: toy_drive, trials: "
+                            "{every_m: 6}}")));
+  };
+  pinned("2000000000", "1");
+  EXPECT_THAT(faults_of("small", {{"share", "0.5"}}), HasSubstr("starts: 2000000000 is out of range"));
+  pinned("1000000", "1..11");
+  EXPECT_THAT(faults_of("small", {{"share", "0.5"}}),
+              HasSubstr("share: small@1 pins more than five million starts"));
+  EXPECT_EQ(faults_of("small"), "");
+}
+
 // Of the FNV's authors.
 TEST(HashOf, IsFnv1a) {
   EXPECT_EQ(hash_of(""), "cbf29ce484222325");
