@@ -22,9 +22,9 @@
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "glocal/error.hpp"
-#include "sources/log_map.hpp"
-#include "sources/ros_map.hpp"
-#include "sources/ros_map_writer.hpp"
+#include "sources/carmen/log_map.hpp"
+#include "sources/ros_map/ros_map.hpp"
+#include "sources/ros_map/ros_map_writer.hpp"
 
 namespace glocal::app {
 namespace {

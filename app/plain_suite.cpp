@@ -15,7 +15,7 @@
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/running/trials.hpp"
 #include "sources/conversion/recording_drive.hpp"
-#include "sources/ros_map_writer.hpp"
+#include "sources/ros_map/ros_map_writer.hpp"
 
 namespace glocal::app {
 namespace {

@@ -26,7 +26,7 @@
 #include "evaluation/running/experiment_loader.hpp"
 #include "evaluation/running/reference_fit.hpp"
 #include "glocal/error.hpp"
-#include "sources/ros_map_writer.hpp"
+#include "sources/ros_map/ros_map_writer.hpp"
 
 namespace glocal::app {
 namespace {

@@ -17,8 +17,8 @@
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "glocal/error.hpp"
-#include "sources/ros_map.hpp"
-#include "sources/ros_map_writer.hpp"
+#include "sources/ros_map/ros_map.hpp"
+#include "sources/ros_map/ros_map_writer.hpp"
 #include "sources/text_lines.hpp"
 
 namespace glocal::app {

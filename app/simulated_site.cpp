@@ -9,10 +9,10 @@
 
 #include "app/localize_plan.hpp"
 #include "glocal/error.hpp"
-#include "sources/simulation.hpp"
+#include "sources/simulation/simulation.hpp"
+#include "sources/simulation/world_grid.hpp"
 #include "sources/sites/office.hpp"
 #include "sources/sites/office_site.hpp"
-#include "sources/world_grid.hpp"
 
 namespace glocal::app {
 namespace {

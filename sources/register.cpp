@@ -2,14 +2,14 @@
 
 #include "sources/bags/bag_drive.hpp"
 #include "sources/bags/bag_map.hpp"
-#include "sources/carmen_log.hpp"
+#include "sources/carmen/carmen_log.hpp"
+#include "sources/carmen/log_map.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/clouds/cloud_drive_map.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
-#include "sources/log_map.hpp"
-#include "sources/random_scans.hpp"
-#include "sources/ros_map.hpp"
-#include "sources/simulation.hpp"
+#include "sources/ros_map/ros_map.hpp"
+#include "sources/simulation/random_scans.hpp"
+#include "sources/simulation/simulation.hpp"
 #include "sources/sites/office.hpp"
 
 namespace glocal {

@@ -10,8 +10,8 @@
 
 #include "glocal/error.hpp"
 #include "glocal/words.hpp"
-#include "sources/carmen_writer.hpp"
-#include "sources/log_drive.hpp"
+#include "sources/carmen/carmen_writer.hpp"
+#include "sources/carmen/log_drive.hpp"
 
 namespace glocal {
 namespace {

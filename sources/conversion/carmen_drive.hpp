@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sources/carmen_parser.hpp"
+#include "sources/carmen/carmen_parser.hpp"
 #include "sources/conversion/drive_stream.hpp"
 
 namespace glocal {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
-#include "sources/carmen_parser.hpp"
+#include "sources/carmen/carmen_parser.hpp"
 #include "sources/clouds/trajectory_file.hpp"
 #include "sources/text_lines.hpp"
 

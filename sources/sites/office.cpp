@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "sources/simulation/world_grid.hpp"
 #include "sources/sites/office_site.hpp"
-#include "sources/world_grid.hpp"
 
 namespace glocal::sites {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
-#include "sources/drive_params.hpp"
-#include "sources/simulation.hpp"
+#include "sources/simulation/drive_params.hpp"
+#include "sources/simulation/simulation.hpp"
 
 namespace glocal::sites {
 

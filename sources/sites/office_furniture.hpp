@@ -2,8 +2,8 @@
 #pragma once
 
 #include "glocal/rng.hpp"
+#include "sources/simulation/world.hpp"
 #include "sources/sites/office_plan.hpp"
-#include "sources/world.hpp"
 
 namespace glocal::sites {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "glocal/rng.hpp"
-#include "sources/world.hpp"
+#include "sources/simulation/world.hpp"
 
 namespace glocal::sites {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "sources/world.hpp"
+#include "sources/simulation/world.hpp"
 
 namespace glocal::sites {
 

@@ -5,7 +5,7 @@
 #include "files.hpp"
 #include "octree_files.hpp"
 #include "sources/bags/message_writer.hpp"
-#include "sources/carmen_parser.hpp"
+#include "sources/carmen/carmen_parser.hpp"
 
 namespace glocal::test::localize_test {
 namespace {

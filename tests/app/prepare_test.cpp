@@ -7,7 +7,7 @@
 
 #include "app/program.hpp"
 #include "sources/bags/pose_track.hpp"
-#include "sources/carmen_parser.hpp"
+#include "sources/carmen/carmen_parser.hpp"
 
 namespace glocal::test::prepare_test {
 namespace {

@@ -1,6 +1,6 @@
 // CARMEN logs, from the file to the scans that are matched.
 #include "fuzz/harness.hpp"
-#include "sources/log_drive.hpp"
+#include "sources/carmen/log_drive.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;

@@ -1,5 +1,5 @@
 // Maps of a map server: the YAML file, a line of dashes, the image (PGM, or anything).
-#include "sources/ros_map.hpp"
+#include "sources/ros_map/ros_map.hpp"
 
 #include "fuzz/harness.hpp"
 

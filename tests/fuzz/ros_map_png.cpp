@@ -3,7 +3,7 @@
 #include <zlib.h>
 
 #include "fuzz/harness.hpp"
-#include "sources/ros_map.hpp"
+#include "sources/ros_map/ros_map.hpp"
 
 namespace {
 

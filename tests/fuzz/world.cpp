@@ -1,8 +1,8 @@
 // Worlds of simulations, with what is made of them: a map and a drive.
-#include "sources/world.hpp"
+#include "sources/simulation/world.hpp"
 
 #include "fuzz/harness.hpp"
-#include "sources/simulation.hpp"
+#include "sources/simulation/simulation.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;

@@ -10,8 +10,8 @@
 
 #include "files.hpp"
 #include "local_mappers/lidar_odometry.hpp"
-#include "sources/scene.hpp"
-#include "sources/simulation.hpp"
+#include "sources/simulation/scene.hpp"
+#include "sources/simulation/simulation.hpp"
 
 namespace glocal::deskew_test {
 namespace {

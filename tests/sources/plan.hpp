@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files.hpp"
-#include "sources/ros_map.hpp"
+#include "sources/ros_map/ros_map.hpp"
 
 namespace glocal::test {
 

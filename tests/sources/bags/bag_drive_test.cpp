@@ -9,7 +9,7 @@
 #include "files.hpp"
 #include "glocal/distance_field.hpp"
 #include "sources/bags/message_writer.hpp"
-#include "sources/ros_map.hpp"
+#include "sources/ros_map/ros_map.hpp"
 
 namespace glocal::test::bags::bag_drive_test {
 namespace {

@@ -10,10 +10,10 @@
 #include "glocal/error.hpp"
 #include "sources/bags/bag_drive.hpp"
 #include "sources/bags/mcap_writer.hpp"
-#include "sources/carmen_log.hpp"
-#include "sources/carmen_writer.hpp"
+#include "sources/carmen/carmen_log.hpp"
+#include "sources/carmen/carmen_writer.hpp"
 #include "sources/conversion/recording_drive.hpp"
-#include "sources/simulation.hpp"
+#include "sources/simulation/simulation.hpp"
 
 namespace glocal::test::carmen_drive_test {
 namespace {

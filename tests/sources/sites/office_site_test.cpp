@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "glocal/pose2.hpp"
-#include "sources/shapes.hpp"
+#include "sources/simulation/shapes.hpp"
+#include "sources/simulation/world_grid.hpp"
 #include "sources/sites/office_plan.hpp"
-#include "sources/world_grid.hpp"
 
 namespace glocal::office_site_test {
 namespace {

@@ -1,0 +1,211 @@
+#include "sources/carmen/log_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "glocal/error.hpp"
+#include "glocal/limits.hpp"
+#include "sources/grid_ray.hpp"
+
+namespace glocal {
+namespace {
+
+/// A scan and the sensor's place on the map.
+struct PlacedScan {
+  Pose2 map_from_robot;
+  Scan scan;
+};
+
+struct Box {
+  double min_x = std::numeric_limits<double>::infinity(), min_y = min_x;
+  double max_x = -min_x, max_y = -min_x;
+
+  void include(const Point& p) {
+    min_x = std::min<double>(min_x, p.x);
+    min_y = std::min<double>(min_y, p.y);
+    max_x = std::max<double>(max_x, p.x);
+    max_y = std::max<double>(max_y, p.y);
+  }
+};
+
+struct Count {
+  std::uint32_t hits = 0;
+  std::uint32_t passes = 0;
+  float sum_x = 0.0F;  ///< Of the hits, from the cell's corner.
+  float sum_y = 0.0F;
+};
+
+std::vector<PlacedScan> placed_scans(const LogDrive& drive, const LogMap::Params& params) {
+  const std::string file = params.log.path.resolved.string();
+  std::vector<PlacedScan> placed;
+  placed.reserve(drive.frames.size());
+  for (const LogFrame& frame : drive.frames) {
+    const CarmenScan& scan = drive.scans[frame.scan];
+    if (!scan.map_from_robot) {
+      throw ConfigError(
+          {{file, scan.line, 0,
+            "this scan has no reference pose; a map needs a TRUEPOS line before each scan it is made "
+            "from"}});
+    }
+    placed.push_back({*scan.map_from_robot, robot_scan(scan, params.log)});
+  }
+  return placed;
+}
+
+Box extent(const std::vector<PlacedScan>& placed) {
+  Box box;
+  for (const PlacedScan& p : placed) {
+    const Transform map_from_robot(p.map_from_robot);
+    box.include(map_from_robot(p.scan.origin));
+    for (std::size_t i = 0; i < p.scan.hits.size(); ++i) box.include(map_from_robot(p.scan.hits[i]));
+    for (std::size_t i = 0; i < p.scan.free_ends.size(); ++i)
+      box.include(map_from_robot(p.scan.free_ends[i]));
+  }
+  return box;
+}
+
+OccupancyGrid make_grid(const Box& box, double resolution, const std::string& file) {
+  const double x = std::floor(box.min_x / resolution) * resolution;
+  const double y = std::floor(box.min_y / resolution) * resolution;
+  const double width = std::floor((box.max_x - x) / resolution) + 1.0;
+  const double height = std::floor((box.max_y - y) / resolution) + 1.0;
+  constexpr double most_counted = 64e6;
+  if (!(width * height <= most_counted)) {
+    throw ConfigError(
+        {{file, 0, 0,
+          "its map would have more than 64 million cells; raise resolution, lower max_range, or look for "
+          "wrong reference poses"}});
+  }
+  OccupancyGrid grid{{x, y, 0.0}, resolution, static_cast<int>(width), static_cast<int>(height), {}};
+  grid.cells.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  return grid;
+}
+
+/// Counts the hits and passes of scans over a grid that holds them all.
+class Counter {
+ public:
+  explicit Counter(const OccupancyGrid& grid) : grid_(grid), counts_(grid.cells.size()) {}
+
+  void add(const PlacedScan& placed) {
+    const Transform map_from_robot(placed.map_from_robot);
+    const Point origin = map_from_robot(placed.scan.origin);
+    for (std::size_t i = 0; i < placed.scan.hits.size(); ++i) {
+      const Point hit = map_from_robot(placed.scan.hits[i]);
+      pass(origin, hit);
+      count_hit(hit);
+    }
+    for (std::size_t i = 0; i < placed.scan.free_ends.size(); ++i) {
+      pass(origin, map_from_robot(placed.scan.free_ends[i]));
+    }
+  }
+
+  [[nodiscard]] const std::vector<Count>& counts() const { return counts_; }
+
+ private:
+  [[nodiscard]] double column(float x) const { return (x - grid_.map_from_grid.x) / grid_.resolution; }
+  [[nodiscard]] double row(float y) const { return (y - grid_.map_from_grid.y) / grid_.resolution; }
+  [[nodiscard]] Count& at(int column, int row) { return counts_[grid_.index(column, row)]; }
+
+  void pass(const Point& from, const Point& to) {
+    visit_cells_before_end(column(from.x), row(from.y), column(to.x), row(to.y),
+                           [this](int c, int r, double /*share*/) {
+                             ++at(c, r).passes;
+                             return true;
+                           });
+  }
+
+  void count_hit(const Point& hit) {
+    const double c = column(hit.x);
+    const double r = row(hit.y);
+    Count& count = at(static_cast<int>(c), static_cast<int>(r));
+    ++count.hits;
+    count.sum_x += static_cast<float>((c - std::floor(c)) * grid_.resolution);
+    count.sum_y += static_cast<float>((r - std::floor(r)) * grid_.resolution);
+  }
+
+  const OccupancyGrid& grid_;
+  std::vector<Count> counts_;
+};
+
+Cell classify(const Count& count, const LogMap::Params& params) {
+  const auto hits = static_cast<double>(count.hits);
+  const double share = hits / std::max(hits + count.passes, 1.0);
+  if (hits >= params.min_hits && share >= params.min_hit_share) return Cell::occupied;
+  return count.passes > 0 ? Cell::free : Cell::unknown;
+}
+
+Point point_of(const OccupancyGrid& grid, int column, int row, const Count& count, bool mean) {
+  const float half = static_cast<float>(grid.resolution) / 2.0F;
+  const auto hits = static_cast<float>(count.hits);
+  const float dx = mean ? count.sum_x / hits : half;
+  const float dy = mean ? count.sum_y / hits : half;
+  return {static_cast<float>(grid.map_from_grid.x + column * grid.resolution) + dx,
+          static_cast<float>(grid.map_from_grid.y + row * grid.resolution) + dy, 0.0F};
+}
+
+std::vector<Pose3> path_of(const std::vector<PlacedScan>& placed) {
+  std::vector<Pose3> path;
+  for (const PlacedScan& p : placed) path.push_back(p.map_from_robot);
+  return sparse_path(path);
+}
+
+}  // namespace
+
+LogMap::Params::Params() {
+  log.keyframes = {0.0, 0.0};
+}
+
+void describe(ParamVisitor& v, LogMap::Params& p) {
+  describe(v, p.log);
+  v.field("resolution", p.resolution,
+          {.doc = "Side of a cell.", .unit = "m", .min = least_resolution, .max = 10.0});
+  v.field("min_hits", p.min_hits,
+          {.doc = "A cell is occupied only if at least so many readings end in it.",
+           .min = 1,
+           .audience = Audience::tuner});
+  v.field("min_hit_share", p.min_hit_share,
+          {.doc = "A cell is occupied only if the readings that end in it are at least this share of the "
+                  "rays that reach it: people leave hits, but more rays pass there later.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.field("points", p.points,
+          {.doc = "Where an occupied cell's point lies: at the mean of its hits, closer to the wall, or at "
+                  "the centre.",
+           .choices = {"mean", "centre"},
+           .audience = Audience::expert});
+}
+
+LogMap::LogMap(const Params& params, const SourceSetup& setup) : params_(params) {
+  setup.note_input(params.log.path.resolved);
+}
+
+MapData LogMap::load() {
+  const std::string file = params_.log.path.resolved.string();
+  const std::vector<PlacedScan> placed = placed_scans(read_log_drive(params_.log), params_);
+  MapData map;
+  map.grid = make_grid(extent(placed), params_.resolution, file);
+  Counter counter(map.grid);
+  for (const PlacedScan& p : placed) counter.add(p);
+  for (int row = 0; row < map.grid.height; ++row) {
+    for (int column = 0; column < map.grid.width; ++column) {
+      const Count& count = counter.counts()[map.grid.index(column, row)];
+      Cell& cell = map.grid.cell(column, row);
+      cell = classify(count, params_);
+      if (cell != Cell::occupied) continue;
+      map.points.push_back(point_of(map.grid, column, row, count, params_.points == "mean"));
+    }
+  }
+  if (map.points.empty()) {
+    throw ConfigError(
+        {{file, 0, 0, "its map has no occupied cell; lower min_hits or min_hit_share, or use more scans"}});
+  }
+  map.path = path_of(placed);
+  return map;
+}
+
+}  // namespace glocal

@@ -1,0 +1,35 @@
+// A global map from the reference poses of a log.
+#pragma once
+
+#include <string>
+
+#include "glocal/catalog.hpp"
+#include "glocal/strategies.hpp"
+#include "sources/carmen/log_drive.hpp"
+
+namespace glocal {
+
+/// Counts, for each cell, the rays that end in it and those that pass it.
+class LogMap final : public MapSource {
+ public:
+  struct Params {
+    Params();
+    LogParams log;
+    double resolution = 0.05;
+    int min_hits = 3;
+    double min_hit_share = 0.1;
+    std::string points = "mean";
+  };
+
+  LogMap(const Params& params, const SourceSetup& setup);
+
+  /// Throws ConfigError for an unusable log, scans without reference pose, a map too large to hold, no
+  /// occupied cell.
+  [[nodiscard]] MapData load() override;
+
+ private:
+  Params params_;
+};
+void describe(ParamVisitor& v, LogMap::Params& p);
+
+}  // namespace glocal

@@ -1,0 +1,61 @@
+#include "sources/ros_map/ros_map_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace glocal {
+namespace {
+
+char grey_of(Cell cell) {
+  switch (cell) {
+    case Cell::occupied:
+      return '\0';
+    case Cell::free:
+      return static_cast<char>(254);
+    case Cell::unknown:
+      break;
+  }
+  return static_cast<char>(205);
+}
+
+/// The rows of a grid from the highest down.
+void append_rows(const OccupancyGrid& grid, int from, int count, std::string& grey) {
+  for (int row = from; row > from - count; --row) {
+    for (int column = 0; column < grid.width; ++column) grey += grey_of(grid.cell(column, row));
+  }
+}
+
+}  // namespace
+
+ByteImage trinary_image(const OccupancyGrid& grid) {
+  ByteImage image{grid.width, grid.height, {}};
+  image.grey.reserve(grid.cells.size());
+  append_rows(grid, grid.height - 1, grid.height, image.grey);
+  return image;
+}
+
+void write_trinary_pgm(const OccupancyGrid& grid, const std::function<void(std::string_view)>& write) {
+  constexpr int rows_a_piece = 256;
+  write(pgm({grid.width, grid.height, {}}));
+  for (int row = grid.height - 1; row >= 0; row -= rows_a_piece) {
+    std::string grey;
+    append_rows(grid, row, std::min(rows_a_piece, row + 1), grey);
+    write(grey);
+  }
+}
+
+std::string ros_map_yaml(const OccupancyGrid& grid, const std::string& image_name) {
+  const Pose2& origin = grid.map_from_grid;
+  return fmt::format(
+      "image: \"{}\"\n"
+      "mode: trinary\n"
+      "resolution: {}\n"
+      "origin: [{}, {}, {}]\n"
+      "negate: 0\n"
+      "occupied_thresh: 0.65\n"
+      "free_thresh: 0.196\n",
+      image_name, grid.resolution, origin.x, origin.y, origin.theta);
+}
+
+}  // namespace glocal

@@ -1,0 +1,51 @@
+// Where a simulated robot drives, what has changed there since the map was made, and how it measures.
+#pragma once
+
+#include <vector>
+
+#include "glocal/params.hpp"
+#include "sources/simulation/laser.hpp"
+#include "sources/simulation/lidar.hpp"
+#include "sources/simulation/shapes.hpp"
+
+namespace glocal {
+
+/// Each step's motion is measured with an error that always is the same and one that is drawn anew.
+struct OdometryParams {
+  double distance_bias = 0.01;
+  double distance_noise = 0.02;
+  double turn_bias = 0.01;
+  double turn_noise = 0.02;
+  double yaw_bias_deg_per_m = 0.2;
+  double yaw_noise_deg_per_m = 0.5;
+};
+void describe(ParamVisitor& v, OdometryParams& p);
+
+/// Somebody carries the robot away, and its wheels do not notice.
+struct Kidnapping {
+  double after_m = 0.0;
+  std::vector<double> to;
+  double heading_deg = 0.0;
+};
+void describe(ParamVisitor& v, Kidnapping& p);
+
+struct DriveParams {
+  FilePath world;
+  FilePath map;
+  std::vector<Position> way_points;
+  int tour_legs = 0;
+  double clearance = 0.3;
+  double max_unknown = 0.2;
+  int boxes = 0;
+  int people = 0;
+  std::vector<Kidnapping> kidnappings;
+  double step_length = 0.6;
+  double step_turn_deg = 45.0;
+  double step_seconds = 1.0;
+  LaserParams laser;
+  LidarParams lidar;
+  OdometryParams odometry;
+};
+void describe(ParamVisitor& v, DriveParams& p);
+
+}  // namespace glocal

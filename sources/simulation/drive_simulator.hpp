@@ -1,0 +1,73 @@
+// A robot's drive through a simulated world, or through a map.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "glocal/catalog.hpp"
+#include "glocal/rng.hpp"
+#include "sources/carmen/carmen_parser.hpp"
+#include "sources/simulation/drive_params.hpp"
+#include "sources/simulation/near_shapes.hpp"
+#include "sources/simulation/planned_drive.hpp"
+
+namespace glocal {
+
+/// Where the robot is when it measures.
+struct DriveStep {
+  std::size_t number = 0;  ///< From 0.
+  double stamp = 0.0;      ///< s
+  Pose2 map_from_robot;
+  std::optional<Pose2> map_from_last;  ///< The robot a step before; none where it did not drive from there.
+  Pose2 odom_from_robot;
+};
+
+/// A robot on its way, in the plane.
+class DrivingRobot {
+ public:
+  DrivingRobot(Route route, const DriveParams& params, std::uint64_t seed);
+
+  /// The next step; none at the end of the drive.
+  [[nodiscard]] std::optional<DriveStep> next();
+  void start_over();
+  [[nodiscard]] const Route& route() const { return route_; }
+  /// What is drawn for a step.
+  [[nodiscard]] Rng stream(DriveStream stream, std::size_t step) const;
+
+ private:
+  [[nodiscard]] Pose2 measured_motion(const Pose2& from, const Pose2& to) const;
+
+  OdometryParams odometry_;
+  double step_seconds_;
+  Rng rng_;
+  Route route_;
+  std::size_t step_ = 0;
+  Pose2 odom_from_robot_;
+};
+
+/// A robot with a planar laser.
+class DriveSimulator {
+ public:
+  /// Throws ConfigError where planned_drive() does.
+  DriveSimulator(const DriveParams& params, const SourceSetup& setup);
+  /// A drive that was planned elsewhere.
+  DriveSimulator(const DriveParams& params, std::uint64_t seed, PlannedDrive drive);
+
+  /// The scan of the next step, with its reference pose; none at the end of the drive. Rays that meet nothing
+  /// within the laser's range read max_range, those that are lost in unknown cells of a map 0.
+  [[nodiscard]] std::optional<CarmenScan> next();
+  void start_over() { robot_.start_over(); }
+
+ private:
+  [[nodiscard]] CarmenScan measure(const DriveStep& step) const;
+
+  LaserParams laser_;
+  double max_unknown_;
+  World world_;
+  std::optional<OccupancyGrid> map_;
+  NearShapes reality_;
+  DrivingRobot robot_;
+};
+
+}  // namespace glocal

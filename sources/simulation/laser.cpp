@@ -1,0 +1,79 @@
+#include "sources/simulation/laser.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace glocal {
+
+void describe(ParamVisitor& v, LaserParams& p) {
+  v.field("fov_deg", p.fov_deg,
+          {.doc = "Angle between the first ray and the last.", .unit = "deg", .max = 360.0, .above = 0.0});
+  v.field("step_deg", p.step_deg,
+          {.doc = "Angle from ray to ray.", .unit = "deg", .min = 0.01, .max = 360.0});
+  v.field("max_range", p.max_range,
+          {.doc = "Range of the laser: what is farther away is not seen.", .unit = "m", .above = 0.0});
+  v.field("noise", p.noise, {.doc = "Standard deviation of a reading.", .unit = "m", .min = 0.0});
+  v.field("outliers", p.outliers,
+          {.doc = "Share of readings that are anything between 0 and max_range.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.field("x", p.x,
+          {.doc = "Where the laser is in the robot's frame, forwards.",
+           .unit = "m",
+           .min = -5.0,
+           .max = 5.0,
+           .audience = Audience::expert});
+  v.field("y", p.y,
+          {.doc = "Where the laser is in the robot's frame, to the left.",
+           .unit = "m",
+           .min = -5.0,
+           .max = 5.0,
+           .audience = Audience::expert});
+  v.field("yaw_deg", p.yaw_deg,
+          {.doc = "Where the laser looks in the robot's frame.",
+           .unit = "deg",
+           .min = -360.0,
+           .max = 360.0,
+           .audience = Audience::expert});
+  v.require(p.step_deg <= p.fov_deg, "step_deg", "must not be above fov_deg");
+}
+
+Pose2 robot_from_laser(const LaserParams& laser) {
+  return {laser.x, laser.y, wrap_angle(radians(laser.yaw_deg))};
+}
+
+CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
+                          const RayDistance& ray_distance, Rng rng) {
+  CarmenScan scan;
+  scan.laser = CarmenLaser::robotlaser1;
+  scan.start_angle = -radians(laser.fov_deg) / 2.0;
+  scan.angle_step = radians(laser.step_deg);
+  scan.max_range = laser.max_range;
+  scan.robot_from_laser = robot_from_laser(laser);
+  scan.map_from_robot = map_from_robot;
+  const Pose2 map_from_laser = map_from_robot * scan.robot_from_laser;
+  scan.ranges.resize(static_cast<std::size_t>(std::floor(laser.fov_deg / laser.step_deg + 1e-9)) + 1);
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const double angle =
+        map_from_laser.theta + radians(static_cast<double>(i) * laser.step_deg - laser.fov_deg / 2.0);
+    double range = ray_distance({map_from_laser.x, map_from_laser.y}, {std::cos(angle), std::sin(angle)});
+    const bool known = !std::isnan(range);
+    range += rng.normal(laser.noise);
+    if (rng.uniform() < laser.outliers) range = rng.uniform(0.0, laser.max_range);
+    scan.ranges[i] = known ? static_cast<float>(std::clamp(range, 0.0, laser.max_range)) : 0.0F;
+  }
+  return scan;
+}
+
+LogParams scan_limits(const LaserParams& laser) {
+  LogParams limits;
+  limits.keyframes = {0.0, 0.0};
+  limits.min_range = 1e-6;  // 0 says nothing
+  limits.max_range = laser.max_range;
+  limits.free_range = laser.max_range;
+  return limits;
+}
+
+}  // namespace glocal

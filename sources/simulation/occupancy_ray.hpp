@@ -1,0 +1,23 @@
+// What a ray meets in a grid of free, occupied and unknown cells.
+#pragma once
+
+#include <limits>
+
+#include "glocal/occupancy_grid.hpp"
+#include "glocal/params.hpp"
+#include "sources/simulation/shapes.hpp"
+
+namespace glocal {
+
+/// Distance (m) from a place on the map along a unit vector to where the ray enters an occupied cell, or to
+/// `thing` (m), where it meets what is not on the map; infinite if there is neither within `reach` (m). Not a
+/// number where it has gone farther than `max_unknown` (m) through unknown cells, or off the grid, before:
+/// nobody knows what is there.
+[[nodiscard]] double ray_distance(const OccupancyGrid& grid, const Position& origin,
+                                  const Position& direction, double reach, double max_unknown,
+                                  double thing = std::numeric_limits<double>::infinity());
+
+/// The field `max_unknown`, for everything that casts such rays.
+void describe_max_unknown(ParamVisitor& v, double& max_unknown);
+
+}  // namespace glocal

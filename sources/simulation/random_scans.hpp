@@ -1,0 +1,46 @@
+// Single scans at random places of a known map.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/occupancy_grid.hpp"
+#include "glocal/strategies.hpp"
+#include "sources/ros_map/ros_map.hpp"
+#include "sources/simulation/laser.hpp"
+
+namespace glocal {
+
+/// Poses drawn uniformly in the free cells of a map, headings too, and a scan cast through the map's cells at
+/// each. Odometry means nothing: every scan is a segment of its own.
+class RandomScans final : public ObservationSource {
+ public:
+  struct Params {
+    RosMap::Params map;
+    int count = 100;
+    double clearance = 0.3;
+    double max_unknown = 0.2;
+    LaserParams laser;
+  };
+
+  /// Throws ConfigError where RosMap does, and for a map without a cell that is free and clear.
+  RandomScans(const Params& params, const SourceSetup& setup);
+
+  [[nodiscard]] std::optional<Sample> next() override;
+
+ private:
+  [[nodiscard]] Pose2 draw_pose() const;
+
+  Params params_;
+  OccupancyGrid grid_;
+  std::vector<std::size_t> clear_cells_;  ///< Indexes of the cells a pose may lie in.
+  LogParams scan_limits_;
+  Rng rng_;
+  std::size_t next_ = 0;
+};
+void describe(ParamVisitor& v, RandomScans::Params& p);
+
+}  // namespace glocal

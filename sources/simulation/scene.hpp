@@ -1,0 +1,33 @@
+// What the rays of a lidar meet in a simulated world.
+#pragma once
+
+#include <optional>
+
+#include "sources/clouds/cloud_voxels.hpp"
+#include "sources/simulation/world.hpp"
+
+namespace glocal {
+
+/// What is there in reality: things, people, floor and ceiling, and the world's cloud.
+class Scene {
+ public:
+  /// `cloud`: the world's, if it has one.
+  explicit Scene(World world, std::optional<CloudVoxels> cloud = {});
+
+  /// What may be within `reach` (m) of a place at a time (s after the start).
+  void look_around(const Position& place, double reach, double time);
+  /// Distance from a place along a unit vector to what a ray meets, m; infinite if there is nothing within
+  /// the reach.
+  [[nodiscard]] double ray_distance(const Vector3& origin, const Vector3& direction) const;
+  /// The same to the cloud alone.
+  [[nodiscard]] double cloud_distance(const Vector3& origin, const Vector3& direction, double reach) const;
+
+ private:
+  World world_;
+  Shapes reality_;
+  std::optional<CloudVoxels> cloud_;
+  Shapes near_;         ///< What look_around() has found.
+  double reach_ = 0.0;  ///< m
+};
+
+}  // namespace glocal

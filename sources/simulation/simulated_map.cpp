@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include "glocal/error.hpp"
+#include "glocal/limits.hpp"
+#include "sources/simulation/simulation.hpp"
+#include "sources/simulation/surface_points.hpp"
+#include "sources/simulation/world_grid.hpp"
+
+namespace glocal {
+void describe(ParamVisitor& v, SimulatedMap::Params& p) {
+  v.field("world", p.world, {.doc = "File that describes the world.", .required = true});
+  v.field("resolution", p.resolution,
+          {.doc = "Side of a cell, and of the cubes that have a point each.",
+           .unit = "m",
+           .min = least_resolution,
+           .max = 10.0});
+  v.field("points", p.points,
+          {.doc = "Points of the map: the plan's occupied cells, or all surfaces in space, for a lidar.",
+           .choices = {"plan", "space"}});
+}
+
+SimulatedMap::SimulatedMap(const Params& params, const SourceSetup& setup) : params_(params) {
+  setup.note_input(params.world.resolved);
+  note_input_ = setup.note_input;
+}
+
+MapData SimulatedMap::load() {
+  const std::string file = params_.world.resolved.string();
+  const World world = read_world(params_.world.resolved);
+  if (!(world.size[0] / params_.resolution * (world.size[1] / params_.resolution) <= max_grid_cells)) {
+    throw ConfigError(
+        {{file, 0, 0,
+          fmt::format("its map would have more than 1000 million cells of {} m; raise resolution",
+                      params_.resolution)}});
+  }
+  MapData map;
+  map.grid = plan_of(world, params_.resolution);
+  map.points = params_.points == "space" ? surface_points(world, map.grid, file) : occupied_centres(map.grid);
+  const bool is_of_cloud = params_.points == "space" && !world.cloud.text.empty();
+  if (is_of_cloud) {
+    note_input_(world.cloud.resolved);
+    // Nothing is known of where it is free within a cloud.
+    map.grid = {};
+    map.resolution = params_.resolution;
+  }
+  if (map.points.empty()) {
+    throw ConfigError({{file, 0, 0, "has nothing on its map; give it walls with on_map: true"}});
+  }
+  return map;
+}
+
+}  // namespace glocal

@@ -1,0 +1,150 @@
+#include "sources/simulation/surface_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "glocal/error.hpp"
+#include "glocal/pose3.hpp"
+#include "glocal/voxel_filter.hpp"
+#include "sources/clouds/cloud_file.hpp"
+
+namespace glocal {
+namespace {
+
+double length_of(const Segment& s) {
+  return std::hypot(s.to[0] - s.from[0], s.to[1] - s.from[1]);
+}
+
+/// Draws surfaces as points on the floor of a world, at most a spacing apart.
+class SurfacePainter {
+ public:
+  SurfacePainter(double floor, double spacing) : floor_(floor), spacing_(spacing) {}
+
+  void draw(const Segment& s) {
+    const int steps = count(length_of(s));
+    for (int i = 0; i <= steps; ++i) {
+      const double share = static_cast<double>(i) / steps;
+      draw_upright({s.from[0] + share * (s.to[0] - s.from[0]), s.from[1] + share * (s.to[1] - s.from[1])},
+                   s.height);
+    }
+  }
+
+  void draw(const Circle& c) {
+    const int steps = count(2.0 * std::numbers::pi * c.radius);
+    const int rings = count(c.radius);
+    for (int i = 0; i < steps; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / steps;
+      const Position towards{std::cos(angle), std::sin(angle)};
+      draw_upright({c.centre[0] + c.radius * towards[0], c.centre[1] + c.radius * towards[1]}, c.height);
+      for (int ring = 0; ring < rings; ++ring) {
+        const double radius = c.radius * ring / rings;
+        add({c.centre[0] + radius * towards[0], c.centre[1] + radius * towards[1]}, c.height);
+      }
+    }
+  }
+
+  void draw(const Top& top) {
+    const auto& [a, b, c, d] = top.corners;
+    const int along = count(std::hypot(b[0] - a[0], b[1] - a[1]));
+    const int across = count(std::hypot(d[0] - a[0], d[1] - a[1]));
+    for (int i = 0; i <= along; ++i) {
+      for (int k = 0; k <= across; ++k) {
+        const double s = static_cast<double>(i) / along;
+        const double t = static_cast<double>(k) / across;
+        add({a[0] + s * (b[0] - a[0]) + t * (d[0] - a[0]), a[1] + s * (b[1] - a[1]) + t * (d[1] - a[1])},
+            top.height);
+      }
+    }
+  }
+
+  void add(const Position& place, double height) {
+    points_.push_back(
+        {static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(floor_ + height)});
+  }
+
+  [[nodiscard]] const Points& points() const { return points_; }
+
+ private:
+  [[nodiscard]] int count(double length) const {
+    return std::max(static_cast<int>(std::ceil(length / spacing_)), 1);
+  }
+  void draw_upright(const Position& place, double height) {
+    const int steps = count(height);
+    for (int i = 0; i <= steps; ++i) add(place, height * i / steps);
+  }
+
+  double floor_;
+  double spacing_;
+  Points points_;
+};
+
+/// m^2
+double area_of(const Shapes& shapes) {
+  double area = 0.0;
+  for (const Segment& s : shapes.segments) area += length_of(s) * s.height;
+  for (const Circle& c : shapes.circles) area += std::numbers::pi * c.radius * (2.0 * c.height + c.radius);
+  for (const Top& t : shapes.tops) {
+    const auto& [a, b, c, d] = t.corners;
+    area += std::hypot(b[0] - a[0], b[1] - a[1]) * std::hypot(d[0] - a[0], d[1] - a[1]);
+  }
+  return area;
+}
+
+void add_floor(const World& world, const OccupancyGrid& plan, SurfacePainter& painter) {
+  for (int row = 0; row < plan.height; ++row) {
+    for (int column = 0; column < plan.width; ++column) {
+      if (plan.cell(column, row) != Cell::free) continue;
+      const Pose2 centre = plan.centre(column, row);
+      painter.add({centre.x, centre.y}, 0.0);
+      if (world.ceiling > 0.0) painter.add({centre.x, centre.y}, world.ceiling);
+    }
+  }
+}
+
+bool is_mapped(const World& world, const Point& p) {
+  return std::none_of(world.unmapped.begin(), world.unmapped.end(), [&](const UnmappedArea& area) {
+    const auto [left, right] = std::minmax(area.corners[0][0], area.corners[1][0]);
+    const auto [low, high] = std::minmax(area.corners[0][1], area.corners[1][1]);
+    return p.x >= left && p.x <= right && p.y >= low && p.y <= high;
+  });
+}
+
+}  // namespace
+
+Points surface_points(const World& world, const OccupancyGrid& plan, const std::string& file) {
+  const double side = plan.resolution;
+  const double spacing = side / 2.0;  // so that no cube on a surface is missed
+  const Shapes shapes = shapes_on_map(world);
+  constexpr double most_points = 16e6;
+  if (!(area_of(shapes) / (spacing * spacing) <= most_points)) {
+    throw ConfigError({{file, 0, 0,
+                        fmt::format("its surfaces would have more than 16 million points {} m apart; raise "
+                                    "resolution",
+                                    spacing)}});
+  }
+  SurfacePainter things(world.floor, spacing);
+  for (const Segment& segment : shapes.segments) things.draw(segment);
+  for (const Circle& circle : shapes.circles) things.draw(circle);
+  for (const Top& top : shapes.tops) things.draw(top);
+  // A cloud has its own floor, which is where its points are.
+  SurfacePainter floor(world.floor, spacing);
+  Points cloud;
+  if (world.cloud.text.empty()) {
+    add_floor(world, plan, floor);
+  } else {
+    cloud = voxel_downsampled(read_cloud(world.cloud.resolved, {}).points, side);
+  }
+  Points points;
+  for (const Points& part : {voxel_downsampled(things.points(), side), floor.points(), cloud}) {
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (is_mapped(world, part[i])) points.push_back(part[i]);
+    }
+  }
+  return points;
+}
+
+}  // namespace glocal

@@ -1,0 +1,32 @@
+// Simulated worlds as grids of cells.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glocal/occupancy_grid.hpp"
+#include "sources/clouds/cloud_voxels.hpp"
+#include "sources/simulation/world.hpp"
+
+namespace glocal {
+
+/// What the map of a world shows, seen from above: outlines, one cell thick, and the free space around the
+/// places of `free_from`. Cells are centred on multiples of the resolution (m).
+[[nodiscard]] OccupancyGrid plan_of(const World& world, double resolution);
+
+/// What is there in reality but for people and a cloud, in the same way; free space is where the drive
+/// begins. Cells have a side of 0.05 m, or more in worlds of over a hectare.
+[[nodiscard]] OccupancyGrid reality_of(const World& world);
+
+/// The voxels of a world's cloud. Throws ConfigError if that is none, or too large.
+[[nodiscard]] CloudVoxels voxels_of(const World& world);
+
+/// Where things can stand and people can walk in a world with a cloud, within 10 m of some places: a cell for
+/// each column of voxels. Free is the cloud's floor as far as it can be reached from the places through
+/// openings of 0.4 m: voxels within 0.2 m of the world's floor, with gaps of up to 0.5 m between them, and no
+/// others from there to 2 m over it, nor things. Throws ConfigError at `file`, the world's, if there is no
+/// such floor, or if there were too many cells.
+[[nodiscard]] OccupancyGrid floor_near(const std::vector<Position>& places, const World& world,
+                                       const CloudVoxels& cloud, const std::string& file);
+
+}  // namespace glocal
