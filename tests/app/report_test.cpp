@@ -125,7 +125,7 @@ TEST_F(ReportCommand, HasEveryLineOfTheRun) {
   const Json data = data_of("report.html");
   EXPECT_EQ(data["maps"].size(), 1U);
   EXPECT_EQ(data["comparison"]["baseline"], "a");
-  for (const std::size_t r : {0, 1}) {
+  for (const std::size_t r : {0U, 1U}) {
     const Json& run = data["runs"][r];
     const std::string name = r == 0 ? "a" : "b";
     EXPECT_EQ(run["name"], name);

@@ -29,7 +29,7 @@ PageData planar(const Json& more = {}) {
 }
 
 TEST(Packed, IsReadByOthers) {
-  for (const std::size_t length : {0, 1, 2, 3, 4, 5000}) {
+  for (const std::size_t length : {0U, 1U, 2U, 3U, 4U, 5000U}) {
     const Json data = {{"text", std::string(length, 'a')}, {"numbers", {1, 2.5, nullptr}}};
     EXPECT_EQ(unpacked(packed(data)), data) << length;
   }

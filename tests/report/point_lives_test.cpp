@@ -85,7 +85,7 @@ TEST(PointLives, GiveTheSetsAgain) {
 
 TEST(PointLives, LeaveOutAsFewStepsAsItTakes) {
   const std::vector<Points> sets = random_sets(41);
-  for (const std::size_t most : {200, 100, 50}) {
+  for (const std::size_t most : {200U, 100U, 50U}) {
     const PointLives lives = lives_of(sets, most);
     EXPECT_LE(lives.lives().size(), most);
     expect_sets(lives, sets);

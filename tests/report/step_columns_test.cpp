@@ -160,7 +160,7 @@ TEST(StepColumns, TakeWhatJsonHasInsteadOfInfinity) {
 TEST(StepColumns, WantOneStepAfterTheOther) {
   StepColumns columns(50);
   columns.add(line_of(step_record(0, {})));
-  for (const std::size_t wrong : {0, 2}) {
+  for (const std::size_t wrong : {0U, 2U}) {
     try {
       columns.add(line_of(step_record(wrong, {})));
       ADD_FAILURE() << wrong;

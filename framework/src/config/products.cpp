@@ -179,18 +179,19 @@ class PartReader {
 
  private:
   void add(PartKind kind, const YamlEntry& entry, CaseRole role, std::vector<ExperimentPart>& parts) {
-    const auto& [name, place, value] = entry;
+    const std::string& name = entry.key;
     const auto is_same = [&](const ExperimentPart& part) { return part.name == name; };
     if (!is_folder_name(name)) {
-      refuse(place, fmt::format("'{}' is no name for a {}: at most 100 letters, digits, '_', '-' and '.', "
-                                "beginning with a letter, a digit or '_'",
-                                shown(name), to_string(kind)));
+      refuse(entry.place,
+             fmt::format("'{}' is no name for a {}: at most 100 letters, digits, '_', '-' and '.', "
+                         "beginning with a letter, a digit or '_'",
+                         shown(name), to_string(kind)));
     } else if (std::any_of(parts.begin(), parts.end(), is_same)) {
-      refuse(place,
+      refuse(entry.place,
              fmt::format("the {} '{}' is there twice; give each once, or names of their own (NAME: file)",
                          to_string(kind), name));
     } else {
-      parts.push_back({name, place, read(kind, name, value), role});
+      parts.push_back({name, entry.place, read(kind, name, entry.value), role});
     }
   }
 

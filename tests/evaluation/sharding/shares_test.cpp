@@ -42,7 +42,7 @@ TEST(Shares, TheLongestTrialGoesToWhoHasTheLeast) {
 }
 
 TEST(Shares, EachTrialIsInOne) {
-  for (const std::size_t shards : {1, 2, 3, 7, 64, 500}) {
+  for (const std::size_t shards : {1U, 2U, 3U, 7U, 64U, 500U}) {
     const Steps steps = uneven_steps(5, 40);
     std::map<std::pair<std::size_t, std::size_t>, int> times;
     for (std::size_t k = 1; k <= shards; ++k) {

@@ -198,7 +198,7 @@ TEST_F(LocalizerTest, ResetReachesAllStagesAndCountsFromZero) {
 TEST_F(LocalizerTest, EveryStageStepTrialAndSeedHasRandomNumbersOfItsOwn) {
   Localizer localizer = make();
   std::vector<std::uint64_t> all;
-  for (const std::uint64_t trial : {0, 1, 2}) {
+  for (const std::uint64_t trial : {0U, 1U, 2U}) {
     localizer.reset(trial);
     const auto some = draws(localizer, 3);
     all.insert(all.end(), some.begin(), some.end());

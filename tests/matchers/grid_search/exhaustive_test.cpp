@@ -56,7 +56,7 @@ double omega(const Points& map, const Points& local, const Pose2& map_from_local
 TEST(Exhaustive, FindsTheBestPoseOfAllOfTheGrid) {
   constexpr double cell = 0.5;
   constexpr double epsilon = 0.5;
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Rng rng(seed);
     const Points map = random_points(rng, 30, 6.0, 4.0);
     LocalMap local;
