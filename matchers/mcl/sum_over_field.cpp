@@ -22,7 +22,9 @@ void sum_over_field_in_vectors(const FieldCells& field, const Points& points, co
   const auto scale = hn::Set(d, field.scale);
   const auto columns = hn::Set(ints, field.columns);
   const auto clamped = [&](auto value, int cells) {
-    return hn::Min(hn::Max(hn::ConvertTo(ints, value), hn::Zero(ints)), hn::Set(ints, cells - 1));
+    // What is no number, too, goes to the first cell.
+    const auto positive = hn::IfThenElseZero(hn::Ge(value, hn::Zero(d)), value);
+    return hn::Min(hn::ConvertTo(ints, positive), hn::Set(ints, cells - 1));
   };
   for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
     const auto c = hn::Mul(hn::Load(d, &motions.cosine[i]), scale);

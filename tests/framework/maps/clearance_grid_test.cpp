@@ -45,7 +45,9 @@ TEST(ClearanceGrid, TheFirstOccupiedCellIsWhereSmallStepsWouldMeetIt) {
   int met = 0;
   int far_off = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Pose2 centre = grid.centre(static_cast<int>(rng.below(70)), static_cast<int>(rng.below(60)));
+    const auto row = static_cast<int>(rng.below(60));
+    const auto column = static_cast<int>(rng.below(70));
+    const Pose2 centre = grid.centre(column, row);
     const double angle = rng.uniform(-3.14, 3.14);
     const Point from{static_cast<float>(centre.x), static_cast<float>(centre.y), 0.0F};
     const Point to{static_cast<float>(centre.x + 20.0 * std::cos(angle)),
