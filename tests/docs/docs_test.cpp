@@ -53,6 +53,19 @@ std::vector<fs::path> documents() {
   return files;
 }
 
+/// With what stands in the folders of the sources.
+std::vector<fs::path> documents_and_readmes() {
+  std::vector<fs::path> files = documents();
+  for (auto at = fs::recursive_directory_iterator(root); at != fs::recursive_directory_iterator(); ++at) {
+    const std::string name = at->path().filename();
+    if (at->is_directory() && (name.starts_with(".") || name == "build" || name == "node_modules"))
+      at.disable_recursion_pending();
+    if (name == "README.md" && at.depth() > 0) files.push_back(at->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 std::vector<Block> blocks_of(const fs::path& document, const std::string& language) {
   std::vector<Block> blocks;
   bool open = false;
@@ -81,7 +94,7 @@ bool has_data_sets() {
 
 TEST(Docs, LinksLeadToFiles) {
   std::size_t links = 0;
-  for (const fs::path& document : documents()) {
+  for (const fs::path& document : documents_and_readmes()) {
     const std::string text = read(document);
     for (const std::smatch& match : matches(text, R"(\]\(([^)#]+)(#[^)]*)?\))")) {
       const std::string target = match[1];
@@ -118,7 +131,7 @@ std::set<std::string> anchors_of(const fs::path& document) {
 TEST(Docs, LinksLeadToHeadings) {
   std::map<fs::path, std::set<std::string>> known;
   std::size_t links = 0;
-  for (const fs::path& document : documents()) {
+  for (const fs::path& document : documents_and_readmes()) {
     const std::string text = read(document);
     for (const std::smatch& match : matches(text, R"(\]\(([^)#:]*)#([^)]+)\))")) {
       const fs::path target = match[1].length() == 0 ? document : document.parent_path() / match[1].str();
