@@ -197,8 +197,7 @@ std::string trials_of(const LocalizeRequest& request) {
 }
 
 /// A line of the localizer's keys; nothing without a prior.
-std::string prior_entry(const Prior& prior) {
-  if (!prior.is_given()) return "";
+std::string prior_yaml(const Prior& prior) {
   std::vector<std::string> keys;
   const StartRegion& region = prior.region;
   if (region.is_given())
@@ -206,7 +205,7 @@ std::string prior_entry(const Prior& prior) {
   const StartHeading& heading = prior.heading;
   if (heading.is_given())
     keys.push_back(fmt::format("heading: {{deg: {}, width_deg: {}}}", *heading.deg, *heading.width_deg));
-  return fmt::format("  prior: {{{}}}\n", fmt::join(keys, ", "));
+  return fmt::format("{{{}}}", fmt::join(keys, ", "));
 }
 
 }  // namespace
@@ -221,13 +220,18 @@ LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& ca
   // Plans and sensors are off by centimetres, however fine a map's cells are.
   constexpr double finest = 0.05, least_epsilon = 0.1;  // m
   const bool is_fine = map.resolution > 0.0 && map.resolution < finest;
-  if (is_fine)
+  std::map<std::string, std::string> changes;
+  if (is_fine) {
     plan.choices.push_back(fmt::format(
         "contact     within {} m: the map's cells are finer than maps and sensors are true", least_epsilon));
+    changes["contact_epsilon"] = fmt::format("{}", least_epsilon);
+  }
   const std::string method = request.method.empty() ? default_method(map.in_space) : request.method;
   plan.choices.push_back(fmt::format("method      {}", shown(method)));
-  if (request.prior.is_given())
+  if (request.prior.is_given()) {
     plan.choices.push_back(fmt::format("prior       only {}", to_string(request.prior)));
+    changes["prior"] = prior_yaml(request.prior);
+  }
   plan.experiment = fmt::format(
       "# Written by glocal localize.\n"
       "schema: 1\n"
@@ -240,14 +244,12 @@ LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& ca
       "trials: {{{}}}\n"
       "{}",
       entry("name", plan.name), map.yaml, log.yaml, trials_of(request),
-      localizer_yaml(
-          method,
-          (is_fine ? fmt::format("  contact_epsilon: {}\n", least_epsilon) : "") + prior_entry(request.prior),
-          catalog));
+      localizer_yaml(method, changes, catalog));
   return plan;
 }
 
-std::string localizer_yaml(const std::string& method, const std::string& more, const Catalog& catalog) {
+std::string localizer_yaml(const std::string& method, const std::map<std::string, std::string>& changes,
+                           const Catalog& catalog) {
   ExperimentFileParams params(catalog);
   const YamlNode keys = read_method(method, params);
   std::string yaml = fmt::format("# The method {}.\n", method);
@@ -262,10 +264,10 @@ std::string localizer_yaml(const std::string& method, const std::string& more, c
   }
   yaml += "localizer:\n";
   for (const YamlEntry& entry : find_entry(keys, "localizer")->value.entries) {
-    if (more.find("  " + entry.key + ":") == std::string::npos)
-      yaml += fmt::format("  {}: {}\n", entry.key, flow_yaml(entry.value));
+    if (!changes.contains(entry.key)) yaml += fmt::format("  {}: {}\n", entry.key, flow_yaml(entry.value));
   }
-  return yaml + more;
+  for (const auto& [key, value] : changes) yaml += fmt::format("  {}: {}\n", key, value);
+  return yaml;
 }
 
 }  // namespace glocal::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,8 +45,9 @@ struct LocalizePlan {
 }
 
 /// The localizer's part of an experiment, and the plugins it needs, as a method (name or file) has it;
-/// `more`: further lines of the localizer, which take the place of the method's. Throws ConfigError.
-[[nodiscard]] std::string localizer_yaml(const std::string& method, const std::string& more,
+/// `changes`: values in YAML, by key, that take the place of the method's. Throws ConfigError.
+[[nodiscard]] std::string localizer_yaml(const std::string& method,
+                                         const std::map<std::string, std::string>& changes,
                                          const Catalog& catalog);
 
 }  // namespace glocal::app

@@ -114,7 +114,7 @@ std::string case_experiment(const CaseFacts& facts, const Catalog& catalog) {
       "trials: {{{}}}\n"
       "{}",
       to_yaml(std::string_view(facts.name)), map, observations, trials_of(facts),
-      localizer_yaml(default_method(facts.has_clouds), "", catalog));
+      localizer_yaml(default_method(facts.has_clouds), {}, catalog));
 }
 
 std::vector<std::pair<std::string, std::string>> fact_lines(const CaseFacts& facts) {

@@ -46,7 +46,7 @@ std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const 
       "{}",
       options.site, options.side, options.side, seed, options.site, options.side, seed, seed, log,
       limits.min_range, limits.max_range, limits.free_range, length_of(options) / starts_of(options),
-      localizer_yaml(default_method(false), "", catalog));
+      localizer_yaml(default_method(false), {}, catalog));
 }
 
 /// CLI::Range takes what is no number.

@@ -13,6 +13,7 @@ struct Fault {
   int line = 0;    ///< From 1; 0 if the fault has no line.
   int column = 0;  ///< From 1; 0 if the fault has no column.
   std::string message;
+  std::string path = {};  ///< Of the keys that it is about, as "localizer.matcher.ransam"; empty if of none.
 
   friend auto operator<=>(const Fault&, const Fault&) = default;  // NOLINT(modernize-use-nullptr)
   friend bool operator==(const Fault&, const Fault&) = default;

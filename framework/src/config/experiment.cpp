@@ -161,10 +161,8 @@ std::set<Spot> spots_of(const std::vector<Change>& changes) {
 /// fields is broken where those are that the variant leaves alone.
 Fault fault_of(const std::vector<Change>& changes, const std::set<Spot>& spots, const Fault& fault) {
   if (changes.empty() || spots.contains({fault.file, fault.line, fault.column})) return fault;
-  // The change that is about what the message begins with.
-  const std::string about = fault.message.substr(0, fault.message.find(':'));
   const auto cause = std::find_if(changes.begin(), changes.end(),
-                                  [&](const Change& c) { return c.path.starts_with(about); });
+                                  [&](const Change& c) { return c.path.starts_with(fault.path); });
   return fault_at(cause == changes.end() ? changes.front().place : cause->place,
                   "with this change, " + fault.message);
 }

@@ -25,6 +25,12 @@ std::string about(const std::string& path, const std::string& message) {
   return path.empty() ? message : path + ": " + message;
 }
 
+Fault fault_about(const std::string& path, const Place& place, const std::string& message) {
+  Fault fault = fault_at(place, about(path, message));
+  fault.path = path;
+  return fault;
+}
+
 /// Whether a list may have this many items.
 bool has_good_count(const YamlNode& list, const FieldInfo& info) {
   return list.items.size() >= info.min_items && list.items.size() <= info.max_items;
@@ -46,7 +52,7 @@ class MapReader final : public UniformVisitor<MapReader> {
     if (node == nullptr) return;
     const std::size_t before = faults_->size();
     read(*node, std::string(name), v, info);
-    if (faults_->size() != before) refused_.emplace_back(name);
+    is_read_ = is_read_ && faults_->size() == before;
   }
 
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
@@ -64,11 +70,8 @@ class MapReader final : public UniformVisitor<MapReader> {
   }
 
   void require(bool holds, std::string_view field, std::string_view rule) override {
-    // What was refused still has its default, about which the rule says nothing.
-    const bool undecided = std::any_of(refused_.begin(), refused_.end(), [&](const std::string& name) {
-      return field == name || rule.find(name) != std::string_view::npos;
-    });
-    if (holds || undecided) return;
+    // What was refused still has its default, about which no rule says anything.
+    if (holds || !is_read_) return;
     const YamlEntry* entry = find_entry(*map_, field);
     refuse(entry == nullptr ? map_->place : entry->value.place, std::string(field), std::string(rule));
   }
@@ -90,11 +93,11 @@ class MapReader final : public UniformVisitor<MapReader> {
                                 : known_.empty()
                                     ? "unknown " + key + " (there are no parameters)"
                                     : "unknown " + key + suggestion(entry.key, known_, "known keys");
-      faults_->push_back(fault_at(entry.place, about(path_, fault)));
+      add_fault(entry.place, fault);
     }
     if (unknown > most) {
       const std::string more = std::to_string(unknown - most) + " more unknown keys follow";
-      faults_->push_back(fault_at(map_->entries.back().place, about(path_, more)));
+      add_fault(map_->entries.back().place, more);
     }
   }
 
@@ -137,11 +140,9 @@ class MapReader final : public UniformVisitor<MapReader> {
     note_former_name(name, info);
     const YamlEntry* entry = find_entry(*map_, name);
     if (entry != nullptr && entry->value.kind != NodeKind::invalid) return &entry->value;
-    if (entry != nullptr || info.required) refused_.emplace_back(name);
-    if (entry == nullptr && info.required) {
-      faults_->push_back(fault_at(map_->place, about(path_, "missing key '" + std::string(name) +
-                                                                "': " + std::string(info.doc.text))));
-    }
+    is_read_ = is_read_ && entry == nullptr && !info.required;
+    if (entry == nullptr && info.required)
+      add_fault(map_->place, "missing key '" + std::string(name) + "': " + std::string(info.doc.text));
     return nullptr;
   }
 
@@ -155,7 +156,11 @@ class MapReader final : public UniformVisitor<MapReader> {
   }
 
   void refuse(const Place& place, const std::string& what, const std::string& message) {
-    faults_->push_back(fault_at(place, about(path_, about(what, message))));
+    add_fault(place, about(what, message));
+  }
+
+  void add_fault(const Place& place, const std::string& message) {
+    faults_->push_back(fault_about(path_, place, message));
   }
 
   template <class T>
@@ -281,7 +286,7 @@ class MapReader final : public UniformVisitor<MapReader> {
   OtherKeys other_keys_;
   std::vector<std::string> known_;
   std::map<std::string, std::string> gone_;  ///< What became of keys of earlier versions.
-  std::vector<std::string> refused_;
+  bool is_read_ = true;                      ///< Whether all values so far are what is written.
 };
 
 /// A null node is a map without keys: everything has its default.
@@ -289,7 +294,7 @@ void read_struct(const YamlNode& node, const std::string& path, AnyParams& param
                  OtherKeys other_keys) {
   if (node.kind == NodeKind::invalid) return;
   if (node.kind != NodeKind::map && node.kind != NodeKind::null) {
-    faults.push_back(fault_at(node.place, about(path, "expected a map (key: value), got " + name_of(node))));
+    faults.push_back(fault_about(path, node.place, "expected a map (key: value), got " + name_of(node)));
     return;
   }
   MapReader reader(node, path, faults, other_keys);
