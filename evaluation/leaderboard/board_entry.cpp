@@ -13,6 +13,7 @@
 #include "config/text_file.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
+#include "evaluation/statistics/statistics.hpp"
 #include "glocal/error.hpp"
 #include "glocal/pose2.hpp"
 
@@ -138,6 +139,14 @@ BoardCounts counts_of(const BoardEntry& entry) {
   BoardCounts counts;
   for (const CaseResult& result : entry.results) counts.add(result);
   return counts;
+}
+
+std::optional<double> median_step_ms(const std::vector<const CaseResult*>& results) {
+  std::vector<double> ms;
+  for (const CaseResult* result : results) {
+    if (result->step_ms) ms.insert(ms.end(), result->starts.size(), *result->step_ms);
+  }
+  return median_if_any(std::move(ms));
 }
 
 void require_whole(BoardEntry& entry, const Suite& suite, const fs::path& file) {

@@ -58,9 +58,15 @@ struct BoardCounts {
   std::size_t starts = 0, right = 0, wrong = 0;
   /// With trials that have failed.
   [[nodiscard]] std::size_t undecided() const { return starts - right - wrong; }
+  /// What methods are ranked by: right starts less wrong ones.
+  [[nodiscard]] long score() const { return static_cast<long>(right) - static_cast<long>(wrong); }
   void add(const CaseResult& result);
 };
 [[nodiscard]] BoardCounts counts_of(const BoardEntry& entry);
+
+/// CPU time of a step: the median over all starts, each with that of its case. None where nobody has
+/// measured.
+[[nodiscard]] std::optional<double> median_step_ms(const std::vector<const CaseResult*>& results);
 
 /// Throws ConfigError, at `file`, unless the results are those of all cases, seeds and starts of the suite;
 /// brings them into the suite's order.
