@@ -22,10 +22,14 @@ const kindOf = (n: number, outcome: string): string => (n > 0 ? outcome : "none"
 
 function counts(all: Counts, link: string): HTMLElement {
   const between = ({ low, high }: Proportion): string => `${(100 * low).toFixed(1)} to ${percent(high)}`;
-  const line = (outcome: (typeof outcomes)[number]): HTMLElement[] => [
+  // Spaces are for files and for screen readers.
+  const line = (outcome: (typeof outcomes)[number]): Child[] => [
     el("b", { class: kindOf(all[outcome], outcome) }, count(all[outcome])),
+    " ",
     el("span", {}, outcome),
+    " ",
     el("small", {}, between(all[`${outcome}_rate`])),
+    " ",
   ];
   return el("a", { class: "counts", href: link }, ...outcomes.flatMap(line));
 }

@@ -43,7 +43,8 @@ export function explainCommands(suite: string, method: string, { own, start }: L
 
 function error(result: Result, start: number): string {
   const [cm, deg] = [result.cm[start], result.deg[start]];
-  return cm === null ? "–" : `${fixed(cm, 1)} cm, ${fixed(deg, 2)}°`;
+  if (cm === null) return "–";
+  return `${cm < 100 ? `${fixed(cm, 1)} cm` : `${fixed(cm / 100, 1)} m`}, ${fixed(deg, 2)}°`;
 }
 
 const outcome = (result: Result, start: number): HTMLElement => {
