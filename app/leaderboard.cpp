@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "config/builtin_parts.hpp"
 #include "config/suites.hpp"
 #include "evaluation/leaderboard/board_entry.hpp"
+#include "evaluation/leaderboard/board_history.hpp"
 #include "evaluation/leaderboard/board_tables.hpp"
 #include "evaluation/leaderboard/entries_of_runs.hpp"
 #include "evaluation/leaderboard/imported.hpp"
@@ -27,13 +27,14 @@
 #include "evaluation/running/experiment_loader.hpp"
 #include "evaluation/running/pins.hpp"
 #include "glocal/error.hpp"
+#include "report/board_page.hpp"
+#include "report/page_files.hpp"
 #include "version.hpp"
 
 namespace glocal::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct BoardOptions {
   std::string board;  ///< Folder; empty: that of glocal.
@@ -42,10 +43,12 @@ struct BoardOptions {
   bool by_case = false, markdown = false, force = false;
   std::string share = "0.01";
   std::string results, poses, out, revision;
+  std::string page;  ///< File; empty: tables are printed.
 
   [[nodiscard]] fs::path folder() const {
     return board.empty() ? configs_folder().parent_path() / "leaderboard" : fs::path(board);
   }
+  [[nodiscard]] fs::path history() const { return folder() / "history.jsonl"; }
   [[nodiscard]] bool wants(const std::string& method) const {
     return methods.empty() || std::find(methods.begin(), methods.end(), method) != methods.end();
   }
@@ -80,6 +83,11 @@ std::vector<BoardEntry> entries_of(const BoardOptions& options, const Suite& sui
   return entries;
 }
 
+[[noreturn]] void refuse_empty(const BoardOptions& options) {
+  refuse(options.folder().string(), fmt::format("has no results{}{} yet; glocal leaderboard add brings some",
+                                                options.suite.empty() ? "" : " of ", options.suite));
+}
+
 void check_case_names(const BoardOptions& options, const Suite& suite) {
   for (const std::string& name : options.cases) {
     if (suite.find_case(name) == nullptr) refuse("--case " + name, suite.id() + " has no such case");
@@ -100,13 +108,23 @@ void show(const BoardOptions& options) {
   } else {
     check_case_names(options, suites.front());
     const std::vector<BoardEntry> entries = entries_of(options, suites.front());
-    if (entries.empty())
-      refuse(
-          options.folder().string(),
-          fmt::format("has no results of {} yet; glocal leaderboard add brings some", suites.front().id()));
+    if (entries.empty()) refuse_empty(options);
     report = board_tables(suites.front(), entries, {options.by_case, options.cases});
   }
   answer(options.markdown ? as_markdown(report) : as_text(report));
+}
+
+void write_board_page(const BoardOptions& options) {
+  std::vector<SuiteBoard> boards;
+  for (Suite& suite : suites_of(options)) {
+    std::vector<BoardEntry> entries = entries_of(options, suite);
+    if (!entries.empty()) boards.push_back({std::move(suite), std::move(entries)});
+  }
+  if (boards.empty()) refuse_empty(options);
+  const fs::path file = fs::absolute(options.page).lexically_normal();
+  write_page(file, options.suite.empty() ? "Leaderboard" : "Leaderboard: " + boards.front().suite.id(),
+             board_page(boards, read_history(options.history())), {.replace = options.force}, board_text);
+  answer("{}\n", file.string());
 }
 
 /// What makes an entry anew.
@@ -124,19 +142,12 @@ void store(const BoardOptions& options, const BoardEntry& entry) {
     if (!options.force) refuse(file.string(), "is there already; --force replaces it, and compares both");
     answer("{}", paired_text(read_entry(file), entry));
   }
-  const BoardCounts counts = counts_of(entry);
-  const Json line = {{"date", entry.provenance.value("date", "")},
-                     {"revision", entry.provenance.value("revision", "")},
-                     {"suite", entry.suite},
-                     {"method", entry.method},
-                     {"starts", counts.starts},
-                     {"right", counts.right},
-                     {"wrong", counts.wrong},
-                     {"undecided", counts.undecided()}};
-  const fs::path history = options.folder() / "history.jsonl";
+  const Renewal now = renewal_of(entry);
+  const BoardCounts& counts = now.counts;
+  const fs::path history = options.history();
   AtomicFiles files(true);
   files.add(file, to_text(entry));
-  files.add(history, content_of(history) + line.dump() + "\n");
+  files.add(history, content_of(history) + to_line(now));
   files.commit();
   answer("{} on {}: {} wrong, {} right, {} undecided of {}, in {}\n", entry.method, entry.suite, counts.wrong,
          counts.right, counts.undecided(), counts.starts, file.string());
@@ -305,8 +316,14 @@ void add_leaderboard(CLI::App& app, Context& context) {
   board->add_option("SUITE", options->suite, "Suite, as planar@1 (glocal list suites); all without it");
   add_methods_to(*board, *options);
   add_cases_to(*board, *options);
-  board->add_flag("--cases", options->by_case, "A line for each case");
-  board->add_flag("--markdown", options->markdown, "Print tables as Markdown");
+  CLI::Option* by_case = board->add_flag("--cases", options->by_case, "A line for each case");
+  CLI::Option* markdown = board->add_flag("--markdown", options->markdown, "Print tables as Markdown");
+  board
+      ->add_option("-o,--out", options->page,
+                   "Write a page for a browser in place of tables, with all starts and how methods changed")
+      ->excludes(by_case)
+      ->excludes(markdown)
+      ->excludes(board->get_option("--case"));
   const auto add_board_to = [&](CLI::App& command) {
     command.add_option("--board", options->board, "Folder of the leaderboard (default: that of glocal)");
   };
@@ -314,8 +331,13 @@ void add_leaderboard(CLI::App& app, Context& context) {
     command.add_flag("--force", options->force, "Replace what is there");
   };
   add_board_to(*board);
+  add_force_to(*board);
   board->callback([options, board] {
-    if (board->get_subcommands().empty()) show(*options);
+    if (!board->get_subcommands().empty()) return;
+    if (options->page.empty())
+      show(*options);
+    else
+      write_board_page(*options);
   });
 
   CLI::App* add_command = board->add_subcommand("add", "Take results over, of all methods in a folder.");

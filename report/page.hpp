@@ -30,8 +30,8 @@ struct PageFile {
 /// Whether a file of that name may be one of put_beside().
 [[nodiscard]] bool is_beside_file(std::string_view name);
 
-/// What the page needs to show these data in space; nothing if their maps are planar. It is larger than all
-/// the rest of the page.
+/// What the page needs to show these data in space; nothing if their maps are planar, or if they have none.
+/// It is larger than all the rest of the page.
 [[nodiscard]] std::string_view script_for(const nlohmann::ordered_json& head);
 
 /// The page with title and data in the places of their marks, script_for() them after them, and leave to load

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "evaluation/results/atomic_file.hpp"
-#include "report/page_text.hpp"
 
 namespace glocal {
 namespace {
@@ -28,17 +27,17 @@ void remove_others(const fs::path& folder, const std::vector<PageFile>& files) {
 
 }  // namespace
 
-void write_page(const fs::path& file, const std::string& title, PageData data,
-                const PageFileOptions& options) {
+void write_page(const fs::path& file, const std::string& title, PageData data, const PageFileOptions& options,
+                std::string_view page) {
   const fs::path folder = file.parent_path() / (file.stem().string() + "_steps");
-  std::string page = page_with(page_text, title, data);
+  std::string text = page_with(page, title, data);
   std::vector<PageFile> beside;
-  if (page.size() > options.most_bytes && !data.chunks.empty()) {
+  if (text.size() > options.most_bytes && !data.chunks.empty()) {
     beside = put_beside(data, folder.filename().string());
-    page = page_with(page_text, title, data);
+    text = page_with(page, title, data);
   }
   AtomicFiles pages(options.replace);
-  pages.add(file, page);
+  pages.add(file, text);
   AtomicFiles scripts(true);
   for (const PageFile& script : beside) scripts.add(folder / script.name, script.content);
   // Scripts come first: whichever page is there finds its own.

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "report/page.hpp"
+#include "report/page_text.hpp"
 
 namespace glocal {
 
@@ -18,6 +20,6 @@ struct PageFileOptions {
 /// which has the file's name with "_steps" in the place of its ending; a page that is replaced finds its own
 /// ones until then, and loses them afterwards. Throws as AtomicFiles does.
 void write_page(const std::filesystem::path& file, const std::string& title, PageData data,
-                const PageFileOptions& options);
+                const PageFileOptions& options, std::string_view page = page_text);
 
 }  // namespace glocal

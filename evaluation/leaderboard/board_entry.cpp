@@ -13,6 +13,7 @@
 #include "config/text_file.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
+#include "evaluation/statistics/statistics.hpp"
 #include "glocal/error.hpp"
 #include "glocal/pose2.hpp"
 
@@ -146,6 +147,15 @@ const CaseResult* BoardEntry::find(const std::string& case_name, std::uint64_t s
   return found == results.end() ? nullptr : &*found;
 }
 
+std::string BoardEntry::label() const {
+  return share < 1.0 ? fmt::format("{} (share {})", method, share) : method;
+}
+
+double BoardCounts::score() const {
+  return (static_cast<double>(right) - static_cast<double>(wrong)) /
+         static_cast<double>(std::max<std::size_t>(starts, 1));
+}
+
 void BoardCounts::add(const CaseResult& result) {
   for (const StartResult& start : result.starts) {
     ++starts;
@@ -158,6 +168,14 @@ BoardCounts counts_of(const BoardEntry& entry) {
   BoardCounts counts;
   for (const CaseResult& result : entry.results) counts.add(result);
   return counts;
+}
+
+std::optional<double> median_step_ms(const std::vector<const CaseResult*>& results) {
+  std::vector<double> ms;
+  for (const CaseResult* result : results) {
+    if (result->step_ms) ms.insert(ms.end(), result->starts.size(), *result->step_ms);
+  }
+  return median_if_any(std::move(ms));
 }
 
 void require_whole(BoardEntry& entry, const Suite& suite, const fs::path& file) {

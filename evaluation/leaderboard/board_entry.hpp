@@ -60,6 +60,8 @@ struct BoardEntry {
   std::vector<CaseResult> results;  ///< In the order of the suite, each with all seeds.
 
   [[nodiscard]] const CaseResult* find(const std::string& case_name, std::uint64_t seed) const;
+  /// "mcl", or "mcl (share 0.05)" where it has not all starts.
+  [[nodiscard]] std::string label() const;
 };
 
 /// How many of an entry's starts have ended how.
@@ -67,9 +69,15 @@ struct BoardCounts {
   std::size_t starts = 0, right = 0, wrong = 0;
   /// With trials that have failed.
   [[nodiscard]] std::size_t undecided() const { return starts - right - wrong; }
+  /// What methods are ranked by: right starts less wrong ones, of all. Entries may have shares of a suite.
+  [[nodiscard]] double score() const;
   void add(const CaseResult& result);
 };
 [[nodiscard]] BoardCounts counts_of(const BoardEntry& entry);
+
+/// CPU time of a step: the median over all starts, each with that of its case. None where nobody has
+/// measured.
+[[nodiscard]] std::optional<double> median_step_ms(const std::vector<const CaseResult*>& results);
 
 /// Throws ConfigError, at `file`, unless the results are those of all cases, seeds and starts of the suite,
 /// or of the entry's share of them; brings them into the suite's order.

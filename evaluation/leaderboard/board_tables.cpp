@@ -19,17 +19,6 @@ struct Line {
   BoardCounts counts = {};
 };
 
-/// Right starts less wrong ones, of all: entries may have other shares of a suite.
-double score(const BoardCounts& counts) {
-  return (static_cast<double>(counts.right) - static_cast<double>(counts.wrong)) /
-         static_cast<double>(std::max<std::size_t>(counts.starts, 1));
-}
-
-/// "mcl", or "mcl (share 0.05)" of an entry that has not all starts.
-std::string name_of(const BoardEntry& entry) {
-  return entry.share < 1.0 ? fmt::format("{} (share {})", entry.method, entry.share) : entry.method;
-}
-
 /// "12, 0.2 to 0.5 %": with the 95 % interval of the share.
 std::string with_interval(std::size_t n, std::size_t starts) {
   const Proportion share = wilson(n, starts);
@@ -52,13 +41,9 @@ std::string or_dash(const std::optional<double>& value, const char* unit, int di
 }
 
 std::vector<std::string> row_of(const Line& line) {
-  std::vector<double> ms;
-  for (const CaseResult* result : line.results) {
-    if (result->step_ms) ms.insert(ms.end(), result->starts.size(), *result->step_ms);
-  }
   const auto cm = median_of_right(line, [](const StartResult& s) { return s.cm.value_or(0.0); });
   const auto deg = median_of_right(line, [](const StartResult& s) { return s.deg.value_or(0.0); });
-  const auto time = median_if_any(std::move(ms));
+  const auto time = median_step_ms(line.results);
   return {line.name,
           std::to_string(line.counts.starts),
           with_interval(line.counts.wrong, line.counts.starts),
@@ -116,7 +101,7 @@ std::vector<Line> lines_of(const std::vector<BoardEntry>& entries, const std::ve
                            const std::string& before) {
   std::vector<Line> lines;
   for (const BoardEntry& entry : entries) {
-    Line line{before + name_of(entry), {}};
+    Line line{before + entry.label(), {}};
     for (const CaseResult& result : entry.results) {
       if (std::find(cases.begin(), cases.end(), result.case_name) == cases.end()) continue;
       line.results.push_back(&result);
@@ -125,7 +110,7 @@ std::vector<Line> lines_of(const std::vector<BoardEntry>& entries, const std::ve
     if (line.counts.starts > 0) lines.push_back(std::move(line));
   }
   std::stable_sort(lines.begin(), lines.end(),
-                   [](const Line& a, const Line& b) { return score(a.counts) > score(b.counts); });
+                   [](const Line& a, const Line& b) { return a.counts.score() > b.counts.score(); });
   return lines;
 }
 
@@ -192,7 +177,7 @@ Report board_overview(const std::vector<std::string>& suites, const std::vector<
     const BoardCounts counts = counts_of(entry);
     method->cells.at(static_cast<std::size_t>(column)) =
         fmt::format("{} / {} of {}", counts.wrong, counts.right, counts.starts);
-    method->score += score(counts);
+    method->score += counts.score();
   }
   std::stable_sort(methods.begin(), methods.end(),
                    [](const Method& a, const Method& b) { return a.score > b.score; });

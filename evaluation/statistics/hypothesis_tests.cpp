@@ -1,6 +1,7 @@
 #include "evaluation/statistics/hypothesis_tests.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/hypergeometric.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <iterator>
@@ -83,6 +84,24 @@ SignedRank wilcoxon_signed_rank(const std::vector<double>& differences) {
   test.exact = test.nonzero <= most_exact_differences;
   test.p = test.exact ? exact_p(ranks.doubled, doubled_sum) : approximate_p(test, ranks.tie_term);
   return test;
+}
+
+double fisher_exact(const TrialCluster& first, const TrialCluster& second) {
+  const std::size_t trials = first.trials + second.trials;
+  const std::size_t successes = first.successes + second.successes;
+  const std::size_t failures = trials - successes;
+  if (trials == 0) return 1.0;
+  const boost::math::hypergeometric_distribution<> chances(
+      static_cast<unsigned>(successes), static_cast<unsigned>(first.trials), static_cast<unsigned>(trials));
+  constexpr double rounding = 1.0 + 1e-7;  // of divisions that are equally likely
+  const double seen = boost::math::pdf(chances, first.successes) * rounding;
+  double p = 0.0;
+  for (std::size_t n = first.trials - std::min(first.trials, failures);
+       n <= std::min(first.trials, successes); ++n) {
+    const double chance = boost::math::pdf(chances, n);
+    if (chance <= seen) p += chance;
+  }
+  return std::min(1.0, p);
 }
 
 double least_p(std::size_t differing) {

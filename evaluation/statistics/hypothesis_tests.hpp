@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "evaluation/statistics/statistics.hpp"
+
 namespace glocal {
 
 /// Whether the sum of differences at several places is more than chance: a permutation test. If two methods
@@ -31,6 +33,11 @@ struct SignedRank {
 
 /// Up to so many differences that are not 0 the signed-rank test is exact (scipy's limit, too).
 inline constexpr std::size_t most_exact_differences = 50;
+
+/// Fisher's exact test (1935), two-sided, of two shares that have nothing to do with each other: the chance
+/// of all divisions of as many successes among as many trials that are no likelier than this one. 1 without
+/// trials.
+[[nodiscard]] double fisher_exact(const TrialCluster& first, const TrialCluster& second);
 
 /// The least p either test can have with so many differences that are not 0. It does not depend on which way
 /// these go.

@@ -1,8 +1,8 @@
-// Makes one HTML file of page.html, the styles and the scripts, and one script that only maps in space need: node build.mjs OUT SPACE_OUT
+// Makes HTML files of page.html, the styles and a script: the page of reports and that of the leaderboard; and one script that only maps in space need: node build.mjs OUT SPACE_OUT BOARD_OUT
 import { build } from "esbuild";
 import { readFileSync, writeFileSync } from "node:fs";
 
-const [out, spaceOut] = process.argv.slice(2);
+const [out, spaceOut, boardOut] = process.argv.slice(2);
 const bundle = async (entry) => {
   const result = await build({
     entryPoints: [entry],
@@ -17,13 +17,17 @@ const bundle = async (entry) => {
   return result.outputFiles[0].text.trim();
 };
 
-const parts = { style: await bundle("src/style.css"), script: await bundle("src/main.ts") };
+const style = await bundle("src/style.css");
+const script = await bundle("src/main.ts");
+const board = await bundle("src/board.ts");
 const space = await bundle("src/space_view.ts");
 // The browser ends the element where it sees its end tag, also within a string.
-for (const [name, text] of [...Object.entries(parts), ["script", space]]) {
+for (const [name, text] of [["style", style], ["script", script], ["script", board], ["script", space]]) {
   if (text.toLowerCase().includes(`</${name}`)) throw new Error(`the ${name} ends its own element`);
 }
 writeFileSync(spaceOut, space);
 const page = readFileSync("src/page.html", "utf8");
 const marked = /<!--page:(style|script)-->/g;
-writeFileSync(out, page.replace(marked, (_, name) => `<${name}>${parts[name]}</${name}>`));
+const write = (file, parts) => writeFileSync(file, page.replace(marked, (_, name) => `<${name}>${parts[name]}</${name}>`));
+write(out, { style, script });
+write(boardOut, { style, script: board });

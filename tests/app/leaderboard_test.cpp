@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "app/room.hpp"
+#include "report/unpacked.hpp"
 
 namespace glocal::test::leaderboard_test {
 namespace {
@@ -138,6 +139,42 @@ TEST_F(Leaderboard, RenewingNeedsForceAndComparesOldAndNew) {
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[1]["suite"], "tiny@1");
   EXPECT_EQ(lines[1]["starts"], lines[0]["starts"]);
+}
+
+TEST_F(Leaderboard, WritesAPageOfWhatIsStored) {
+  pin();
+  run_and_add();
+  const std::string page = file("board.html");
+  const Answer written = run("leaderboard -o " + page);
+  ASSERT_EQ(written.exit_code, 0) << written.err;
+  EXPECT_EQ(written.out, page + "\n");
+  const std::string first = content(page);
+  const Json suite = data_in(first).head["suites"][0];
+  EXPECT_EQ(suite["suite"], "tiny@1");
+  EXPECT_EQ(suite["entries"][0]["results"][1]["outcome"], entry()["results"][1]["outcome"]);
+  EXPECT_EQ(suite["entries"][0]["renewals"].size(), 1U);
+  EXPECT_THAT(run("leaderboard -o " + page).err, HasSubstr("board.html: error: "));
+  ASSERT_EQ(run("leaderboard --force -o " + page).exit_code, 0);
+  EXPECT_EQ(content(page), first);
+}
+
+TEST_F(Leaderboard, WritesNoPageOfWhatCannotBeRead) {
+  pin();
+  const auto refused = [&](const std::string& options = "") {
+    const Answer answer = run("leaderboard -o " + file("board.html") + options);
+    EXPECT_EQ(answer.exit_code, 2) << answer.out;
+    EXPECT_FALSE(fs::exists(file("board.html")));
+    return answer.err;
+  };
+  EXPECT_THAT(refused(), HasSubstr("leaderboard: error: has no results yet; glocal leaderboard add "));
+  run_and_add();
+  EXPECT_THAT(refused(" --method other"), HasSubstr("has no results"));
+  EXPECT_THAT(refused(" --markdown"), HasSubstr("--markdown"));
+  folder_.write("leaderboard/history.jsonl", "{}\n");
+  EXPECT_THAT(refused(), HasSubstr("history.jsonl:1: error: is no line of a leaderboard's history"));
+  folder_.write("leaderboard/history.jsonl", "");
+  folder_.write("leaderboard/tiny@1/other.json", "{");
+  EXPECT_THAT(refused(), HasSubstr("other.json: error: is no entry of a leaderboard"));
 }
 
 TEST_F(Leaderboard, AShareIsKeptAndCheckedAsOne) {

@@ -39,7 +39,7 @@ export async function open(address, options = {}) {
   });
   const url = address.startsWith("http") ? address : `file://${address}`;
   await page.goto(url);
-  await page.waitForSelector("body[data-step]");
+  await page.waitForSelector("body[data-step], body[data-shown]");
   // Without steps and maps there is nothing to draw.
   if ((await page.locator("#view").count()) > 0) await page.waitForSelector("canvas[data-scale]");
   return { page, noted, url: page.url().replace(/#.*/, "") };

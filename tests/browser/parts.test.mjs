@@ -1,5 +1,6 @@
 // The page's arithmetic, by hand.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { before, test } from "node:test";
@@ -7,7 +8,7 @@ import { pathToFileURL } from "node:url";
 import { workFolder } from "./runs.mjs";
 
 const page = process.env.GLOCAL_PAGE_FOLDER; // as it was built
-let geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison;
+let geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison, lost, board;
 
 before(async () => {
   const { build } = createRequire(join(page, "package.json"))("esbuild");
@@ -19,9 +20,9 @@ before(async () => {
   };
   const names = [
     "geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export", "map_background",
-    "boxes", "certificate", "answers", "svg", "space_poses", "comparison",
+    "boxes", "certificate", "answers", "svg", "space_poses", "comparison", "board_lost", "board_data",
   ];
-  [geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison] =
+  [geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison, lost, board] =
     await Promise.all(names.map(load));
 });
 
@@ -194,6 +195,38 @@ test("a comparison is read as far as it goes, with p only where something differ
   assert.deepEqual([other.rows[0].p, other.rows[0].difference.value, other.places], [undefined, 0.5, 4]);
   for (const odd of [undefined, null, "text", [], 3]) assert.equal(comparison.read(odd), null);
   for (const odd of [{}, { pairs: 3 }, { pairs: [null, { outcomes: ["x"] }] }]) assert.deepEqual(comparison.read(odd).rows, []);
+});
+
+test("a start is lost where another method is right, to the best of these", () => {
+  const entry = (method, ...outcomes) => ({ method, results: outcomes.map((outcome, i) => ({ case: ["room", "hall"][i], seed: 1, outcome })) });
+  const [own, best, other] = [entry("own", "ruwdf", "w"), entry("best", "rrruu", "r"), entry("other", "urrrw", "u")];
+  const told = (...parameters) => lost.lostStarts(...parameters).map(({ own: its, start, winner }) => `${its.case} ${start} ${winner}`);
+  assert.deepEqual(told(own, [best, other]), ["room 2 best", "hall 0 best", "room 3 other", "room 1 best"]);
+  assert.deepEqual(told(own, [other], "room"), ["room 2 other", "room 3 other", "room 1 other"]);
+  assert.deepEqual(told(best, [own, other], "hall"), []);
+  // A share has some of the starts: room 1 and 4 here.
+  const share = { method: "share", results: [{ case: "room", seed: 1, numbers: [1, 4], outcome: "ru" }] };
+  assert.deepEqual(told(own, [share]), ["room 1 share"]);
+  assert.deepEqual(told(share, [own, best]), []);
+  assert.deepEqual(told(share, [entry("fifth", "uuuur")]), ["room 4 fifth"]);
+});
+
+test("names in commands are single words, whatever is in them", () => {
+  const start = { own: { case: "room", seed: 2 }, start: 7 };
+  assert.equal(
+    lost.explainCommands("small@1", "mine", start),
+    "glocal run --suite small@1 --method mine --only mine_room_seed-2 --out results/small@1/mine\nglocal explain results/small@1/mine/mine_room_seed-2 --trial 7",
+  );
+  const name = "it's; rm -rf $HOME";
+  const [command] = lost.explainCommands("small@1", name, start).split("\n");
+  const words = JSON.parse(execFileSync("sh", ["-c", `glocal() { node -e 'console.log(JSON.stringify(process.argv.slice(1)))' -- "$@"; }; ${command}`], { encoding: "utf8" }));
+  assert.deepEqual(words.slice(3), ["--method", name, "--only", `${name}_room_seed-2`, "--out", `results/small@1/${name}`]);
+});
+
+test("addresses of lost starts come back, whatever is in their names", () => {
+  const asked = { suite: "small@1", method: "a&by=b #1%", case: "", by: "<i>" };
+  assert.deepEqual(board.askedIn(board.linkTo(asked)), asked);
+  assert.equal(board.askedIn("#suite-0"), null);
 });
 
 test("poses in space are read from their columns", () => {

@@ -1,5 +1,5 @@
 // The data of the page: what came out is in it, and so are steps, unless these lie beside it.
-import type { Beside, Report, Trial } from "./data";
+import type { Beside, Trial } from "./data";
 
 /** What the program has packed: JSON, compressed, in base64. */
 async function unpacked(text: string): Promise<unknown> {
@@ -8,10 +8,15 @@ async function unpacked(text: string): Promise<unknown> {
   return new Response(stream).json();
 }
 
-export async function embeddedReport(): Promise<Report> {
+/** The only format that pages read; the program that wrote the data has the page in it. */
+const readFormat = 1;
+
+export async function embeddedData<Data extends { format: number }>(): Promise<Data> {
   const element = document.getElementById("glocal-data");
   if (!element) throw new Error("the page holds no data");
-  return (await unpacked(element.textContent ?? "")) as Report;
+  const data = (await unpacked(element.textContent ?? "")) as Data;
+  if (data.format !== readFormat) throw new Error(`the data has format ${data.format}, and this page reads ${readFormat}`);
+  return data;
 }
 
 /** Scripts beside the page call this. */

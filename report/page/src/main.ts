@@ -1,6 +1,6 @@
 // The page of glocal report and of glocal run --watch.
 import { rankRuns } from "./answers";
-import { Chunks, embeddedReport } from "./chunks";
+import { Chunks } from "./chunks";
 import { verdictNames } from "./colours";
 import { comparisonSection } from "./comparison";
 import { Curves } from "./curves";
@@ -9,6 +9,7 @@ import { Details } from "./details";
 import { append, el, replace } from "./elements";
 import { LiveNews } from "./live";
 import { MapView } from "./map_view";
+import { startPage, themeButton } from "./page_frame";
 import { PageState } from "./page_state";
 import { Borders, followLength, FullScreen } from "./panes";
 import { listenToKeys, Player } from "./player";
@@ -20,9 +21,6 @@ import { configurationSection, provenanceSection, summarySection } from "./table
 import { Distributions, TrialList } from "./trials_section";
 import { Views } from "./views";
 import { showMeanings } from "./words";
-
-/** The only format this page reads; the program that wrote the data has this page in it. */
-const format = 1;
 
 function runPicker(store: Store): HTMLElement | null {
   if (store.report.runs.length < 2) return null;
@@ -49,36 +47,6 @@ function trialPicker(store: Store): HTMLElement {
     else if (change.trial) select.value = String(store.selected.trial);
   });
   return el("label", {}, "trial ", select);
-}
-
-/** Light, dark, or as the system has it. */
-function themeButton(redraw: () => void): HTMLElement {
-  const themes = ["auto", "light", "dark"] as const;
-  const system = matchMedia("(prefers-color-scheme: dark)");
-  const button = el("button", { type: "button" });
-  let chosen = 0;
-  const show = (): void => {
-    const theme = themes[chosen];
-    document.documentElement.dataset.theme = theme === "auto" ? (system.matches ? "dark" : "light") : theme;
-    replace(button, `theme: ${theme}`);
-  };
-  const change = (): void => {
-    show();
-    redraw();
-  };
-  button.addEventListener("click", () => {
-    chosen = (chosen + 1) % themes.length;
-    change();
-  });
-  system.addEventListener("change", change);
-  // Paper is white, whatever the screen is.
-  window.addEventListener("beforeprint", () => {
-    document.documentElement.dataset.theme = "light";
-    redraw();
-  });
-  window.addEventListener("afterprint", change);
-  show();
-  return button;
 }
 
 function keysHelp(): HTMLElement {
@@ -120,7 +88,6 @@ function hasMoreThanTrials(run: Run): boolean {
 }
 
 async function show(report: Report, page: HTMLElement): Promise<void> {
-  if (report.format !== format) throw new Error(`the data has format ${report.format}, and this page reads ${format}`);
   if (report.runs.length === 0) throw new Error("the data has no run");
   const isOfMany = report.runs.length > 1;
   if (isOfMany) rankRuns(report);
@@ -194,12 +161,4 @@ function noteStep(store: Store): void {
   document.body.dataset.verdict = verdict ? verdictNames[verdict] : "";
 }
 
-const page = document.getElementById("page");
-if (page) {
-  void embeddedReport()
-    .then((report) => show(report, page))
-    .catch((error) => {
-      replace(page, el("p", { class: "warning", role: "alert" }, `The report cannot be shown: ${String(error)}`));
-      throw error;
-    });
-}
+startPage<Report>(show);

@@ -1,15 +1,13 @@
 // All trials: one run's as a list to choose from, and what all runs make of them.
-import type uPlot from "uplot";
 import { bestFirst, type Group } from "./answers";
-import { chart, type ChartOptions, type Line } from "./charts";
-import { runLine, themeColour } from "./colours";
+import type { ChartOptions } from "./charts";
 import { lineSample } from "./curves";
 import type { Run, Trial } from "./data";
 import { DataTable, type Column } from "./data_table";
 import { BoxPlots, stepTimes } from "./distributions";
 import { el, replace, section } from "./elements";
 import { count, fixed, percent } from "./numbers";
-import { cumulativeShare } from "./shares";
+import { IntervalChart, ShareChart, type Mark, type Sample } from "./share_chart";
 import { hasStarts, StartsMap } from "./starts_map";
 import type { Store } from "./store";
 
@@ -114,14 +112,6 @@ export class TrialList {
 /** As many as lines are told apart. */
 const mostCurves = 18;
 
-interface Sample {
-  label: string;
-  index: number;
-  values: number[];
-  /** What the share is of; more than there are values if some never come. */
-  of: number;
-}
-
 /** How the trials of each run went: shares, intervals and distributions; of the runs that are looked at together. */
 export class Distributions {
   readonly element: HTMLElement;
@@ -171,7 +161,7 @@ export class Distributions {
       ...(groups.length > 1 ? [] : errors),
     ].filter((each) => !each.isEmpty);
     const isOfRuns = groups.every((group) => group.runs.length === 1 && group.runs[0].summary);
-    const success = isOfRuns && groups.length > 1 ? [new SuccessChart(groups.map((group) => group.runs[0]))] : [];
+    const success = isOfRuns && groups.length > 1 ? [successChart(groups.map((group) => group.runs[0]))] : [];
     const starts = this.starts ? [this.starts] : [];
     this.charts = [...starts, ...success, ...curves];
     const boxes = new BoxPlots(groups);
@@ -203,99 +193,19 @@ export class Distributions {
   }
 }
 
-class ShareChart {
-  readonly element: HTMLElement;
-  private readonly target = el("div", { class: "plot" });
-  private drawn: ReturnType<typeof chart> | null = null;
-
-  constructor(
-    id: string,
-    title: string,
-    private readonly xLabel: string,
-    private readonly samples: Sample[],
-    private readonly options: Partial<ChartOptions>,
-  ) {
-    this.element = el("div", { class: "panel", "data-share": id }, el("h3", {}, title), this.target);
-  }
-
-  get isEmpty(): boolean {
-    return this.samples.every((sample) => sample.values.length === 0);
-  }
-
-  rebuild(): void {
-    this.drawn?.destroy();
-    this.drawn = null;
-    const all = this.samples.flatMap((sample) => sample.values);
-    const x = [...new Set(this.options.logX ? all.filter((v) => v > 0) : [0, ...all])].sort((a, b) => a - b);
-    const lines = this.samples.map((sample): Line => ({
-      label: sample.label,
-      ...runLine(sample.index),
-      values: cumulativeShare(sample, x),
-      stepped: true,
-    }));
-    this.drawn = chart(this.target, {
-      x,
-      lines,
-      xLabel: this.xLabel,
-      label: "share",
-      range: [0, 1],
-      height: 190,
-      ...this.options,
-    });
-  }
-}
-
 /** Right and wrong of all trials, with their 95 % intervals. */
-class SuccessChart {
-  readonly element: HTMLElement;
-  private readonly target = el("div", { class: "plot" });
-  private drawn: ReturnType<typeof chart> | null = null;
-
-  constructor(private readonly runs: Run[]) {
-    this.element = el(
-      "div",
-      { class: "panel", "data-share": "success" },
-      el("h3", {}, "Right (●) and wrong (■), with 95 % intervals"),
-      this.target,
-    );
-  }
-
-  rebuild(): void {
-    this.drawn?.destroy();
-    const none = this.runs.map(() => null);
-    this.drawn = chart(this.target, {
-      x: this.runs.map((_, i) => i + 1),
-      lines: [{ label: "success", colour: themeColour("ink"), dash: [], values: none }],
-      xLabel: "run, in the order of the table",
-      label: "share",
-      range: [0, 1],
-      height: 190,
-      xRange: [0.5, this.runs.length + 0.5],
-      whole: true,
-      hooks: { draw: [(plot) => this.runs.forEach((run, i) => drawIntervals(plot, run, i))] },
-    });
-  }
-}
-
-function drawIntervals(plot: uPlot, run: Run, i: number): void {
-  if (!run.summary) return;
-  const { ctx } = plot;
-  const { success_rate, false_rate } = run.summary;
-  const ratio = devicePixelRatio;
-  ctx.save();
-  ctx.strokeStyle = ctx.fillStyle = runLine(i).colour;
-  ctx.lineWidth = 2 * ratio;
-  [success_rate, false_rate].forEach((rate, k) => {
-    const x = plot.valToPos(i + 1 + (k === 0 ? -0.12 : 0.12), "x", true);
-    const [low, value, high] = [rate.low, rate.value, rate.high].map((v) => plot.valToPos(v, "y", true));
-    ctx.beginPath();
-    ctx.moveTo(x, low);
-    ctx.lineTo(x, high);
-    ctx.stroke();
-    ctx.beginPath();
-    if (k === 0) ctx.arc(x, value, 4 * ratio, 0, 2 * Math.PI);
-    else ctx.rect(x - 3 * ratio, value - 3 * ratio, 6 * ratio, 6 * ratio);
-    ctx.fill();
+function successChart(runs: Run[]): IntervalChart {
+  const marks = runs.flatMap(({ summary }, index): Mark[] =>
+    summary
+      ? [
+          { x: index + 0.88, rate: summary.success_rate, index, shape: "●" },
+          { x: index + 1.12, rate: summary.false_rate, index, shape: "■" },
+        ]
+      : [],
+  );
+  return new IntervalChart("success", "Right (●) and wrong (■), with 95 % intervals", marks, {
+    xLabel: "run, in the order of the table",
+    xRange: [0.5, runs.length + 0.5],
+    whole: true,
   });
-  ctx.restore();
 }

@@ -185,6 +185,23 @@ TEST(SignedRankTest, ExactAndApproximateMeetAtTheLimit) {
   }
 }
 
+TEST(FisherExact, AgreesWithExamplesByHand) {
+  // Fisher's tea: (16 + 1) of the 70 ways to choose 4 of 8 cups have 3 or more right, and as many 1 or fewer.
+  EXPECT_NEAR(fisher_exact({3, 4}, {1, 4}), 34.0 / 70.0, 1e-12);
+  EXPECT_NEAR(fisher_exact({0, 8}, {8, 8}), 2.0 / 12870.0, 1e-12);
+  EXPECT_NEAR(fisher_exact({1, 12}, {9, 12}), fisher_exact({9, 12}, {1, 12}), 1e-12);
+  // R: fisher.test(matrix(c(1, 9, 11, 3), 2))
+  EXPECT_NEAR(fisher_exact({1, 10}, {11, 14}), 0.002759456, 1e-9);
+}
+
+TEST(FisherExact, FindsNothingWhereBothAreAlikeOrEmpty) {
+  EXPECT_NEAR(fisher_exact({30, 40}, {30, 40}), 1.0, 1e-9);
+  EXPECT_EQ(fisher_exact({0, 40}, {0, 50}), 1.0);
+  EXPECT_EQ(fisher_exact({0, 0}, {0, 0}), 1.0);
+  EXPECT_EQ(fisher_exact({0, 0}, {3, 5}), 1.0);
+  EXPECT_NEAR(fisher_exact({2000, 5000}, {2600, 5000}), 0.0, 1e-9);
+}
+
 TEST(LeastP, IsReachedByPairsThatAllDifferTheSameWay) {
   for (std::size_t n = 0; n < 12; ++n) {
     EXPECT_DOUBLE_EQ(least_p(n), sign_flip_test(std::vector<long>(n, 2)).p);
