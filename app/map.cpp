@@ -13,7 +13,6 @@
 #include "app/experiment_options.hpp"
 #include "app/filled_params.hpp"
 #include "app/map_align.hpp"
-#include "app/map_index.hpp"
 #include "app/standard_streams.hpp"
 #include "config/reader.hpp"
 #include "config/text_file.hpp"
@@ -143,15 +142,6 @@ void align(const AlignOptions& options, Context& context) {
          options.contact_epsilon);
 }
 
-void index(const MapOptions& options, Context& context) {
-  const Experiment experiment = options.input.read(context);
-  MapData map = load_map(experiment, context.catalog, warning_setup());
-  const MapIndexInfo saved =
-      save_index(experiment, context.catalog, std::move(map), options.out, options.force);
-  answer("entries     {}\nbytes       {}\nbuild       {:.1f} ms\n", saved.entries, saved.bytes,
-         saved.build_ms);
-}
-
 void add_output(CLI::App& command, MapOptions& options) {
   command.add_option("-o,--out", options.out, "NAME.yaml: ROS map with its image; NAME.pcd: points")
       ->required();
@@ -188,14 +178,6 @@ void add_map(CLI::App& app, Context& context) {
   align_command->add_option("--epsilon", aligned->contact_epsilon, "Distance that counts as contact, m")
       ->check(CLI::Range(0.01, 1.0));
   align_command->callback([aligned, &context] { align(*aligned, context); });
-
-  CLI::App* index_command =
-      map->add_subcommand("index", "Save the index that an experiment's matcher builds of the map.");
-  options->input.add_to(*index_command);
-  index_command->add_option("-o,--out", options->out, "File for the index: a matcher's index_file")
-      ->required();
-  index_command->add_flag("--force", options->force, "Replace the file if it exists");
-  index_command->callback([options, &context] { index(*options, context); });
 
   CLI::App* info = map->add_subcommand("info", "Show size, cells and points of a map.");
   info->add_option("FILE", options->input.file, file)->required();

@@ -3,8 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -16,7 +14,6 @@
 #include "matchers/indexed_ransam/indexed_ransam.hpp"
 #include "matchers/indexed_ransam/oriented_pair_index.hpp"
 #include "matchers/indexed_ransam/proposals.hpp"
-#include "matchers/indexed_ransam/saved_index.hpp"
 #include "matchers/indexed_ransam/triangle_index.hpp"
 
 namespace glocal::bench {
@@ -55,23 +52,10 @@ void triangles(benchmark::State& state, const Scene& s) {
   state.counters["MB"] = static_cast<double>(bytes) / 1e6;
 }
 
-/// Reading the oriented point pairs from a file instead.
-void saved_pairs(benchmark::State& state, const Scene& s) {
-  const IndexOrigin origin{digest_of(*s.loaded.map), "all defaults"};
-  const auto file = std::filesystem::temp_directory_path() / "glocal_bench_indexed.index";
-  std::ofstream(file, std::ios::binary)
-      << OrientedPairIndex(oriented_points_of(*s.loaded.map, {}), {}).saved(origin);
-  for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(
-        OrientedPairIndex(SavedIndex(file, {digest_of(*s.loaded.map), "all defaults"}), {}));
-  }
-  std::filesystem::remove(file);
-}
-
 /// Full batches of motions that oriented point pairs of a local map propose.
 std::vector<MotionBatch> proposals(const Scene& s, const LocalMap& local, std::size_t batches) {
   const RelationRule rule{.relation = "oriented_pair"};
-  const auto index = relation_index(*s.loaded.map, rule, {}, 1);
+  const auto index = relation_index(*s.loaded.map, rule, 1);
   std::vector<MotionBatch> result;
   Rng rng(1);
   while (result.size() < batches) {
@@ -168,7 +152,6 @@ void register_all() {
   add("build/oriented_points", oriented_points);
   add("build/oriented_pairs", pairs)->Arg(1)->Arg(2);
   add("build/triangles", triangles)->Arg(1)->Arg(2);
-  add("load/oriented_pairs", saved_pairs);
   add("look/none", [](auto& state, const Scene& scene) { looks(state, scene, false, false); })
       ->Arg(0)
       ->Arg(20);

@@ -53,7 +53,7 @@ std::vector<std::string> row_of(const Line& line) {
                   "", 0),
           or_dash(median_of_right(line, [](const StartResult& s) { return s.way_m; }), " m", 1),
           cm ? fmt::format("{:.1f} cm, {:.2f}°", *cm, *deg) : "–",
-          time ? fmt::format("{:.2g} ms", *time) : "–"};
+          time ? fmt::format("{:.{}f} ms", *time, *time < 10.0 ? 1 : 0) : "–"};
 }
 
 /// "88", or "3 to 91" of what differs.

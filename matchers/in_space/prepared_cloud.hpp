@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <utility>
 
 #include "glocal/rng.hpp"
 #include "matchers/in_space/range_view.hpp"
@@ -26,9 +25,6 @@ struct PreparedCloud {
   /// Of a cloud in voxels of a side (m). Where it was seen from: a place in its frame, if it was seen from
   /// one. `one_side` as SurfelContact has it. Throws ConfigError if the cloud reaches too far.
   PreparedCloud(const Points& cloud, float voxel_size, const std::optional<Point>& seen_from, bool one_side);
-  /// Of surfels that are known, without a view.
-  PreparedCloud(Surfels known_surfels, SurfelContact surfel_contact)
-      : surfels(std::move(known_surfels)), contact(std::move(surfel_contact)) {}
 
   Surfels surfels;
   SurfelContact contact;

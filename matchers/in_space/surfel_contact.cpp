@@ -1,11 +1,11 @@
 #include "matchers/in_space/surfel_contact.hpp"
 
-#include <utility>
-
 namespace glocal {
 namespace {
 
-FixedVoxelTable nearest_surfels(const Surfels& surfels, const VoxelRegion& region) {
+VoxelTable nearest_surfels(const Surfels& surfels, float voxel_size) {
+  constexpr int margin = 2;
+  const VoxelRegion region(surfels.points, voxel_size, margin);
   VoxelTable nearest(region);
   for (std::size_t i = 0; i < surfels.size(); ++i) {
     const Point p = surfels.points[i];
@@ -22,24 +22,16 @@ FixedVoxelTable nearest_surfels(const Surfels& surfels, const VoxelRegion& regio
       }
     }
   }
-  return std::move(nearest).fixed();
+  return nearest;
 }
 
 }  // namespace
 
 SurfelContact::SurfelContact(const Surfels& surfels, float voxel_size, bool one_side)
-    : SurfelContact(surfels, nearest_surfels(surfels, region_of(surfels, voxel_size)), one_side) {}
-
-SurfelContact::SurfelContact(const Surfels& surfels, FixedVoxelTable nearest, bool one_side)
-    : nearest_(std::move(nearest)), one_side_(one_side) {
+    : nearest_(nearest_surfels(surfels, voxel_size)), one_side_(one_side) {
   planes_.reserve(surfels.size());
   for (std::size_t i = 0; i < surfels.size(); ++i)
     planes_.push_back({surfels.normals[i], dot(surfels.normals[i], surfels.points[i])});
-}
-
-VoxelRegion SurfelContact::region_of(const Surfels& surfels, float voxel_size) {
-  constexpr int margin = 2;
-  return {surfels.points, voxel_size, margin};
 }
 
 }  // namespace glocal

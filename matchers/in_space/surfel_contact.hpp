@@ -28,11 +28,6 @@ class SurfelContact {
   /// Whether normals on both sides tell which side of a surface was seen: then surfels seen from opposite
   /// sides do not touch. Throws ConfigError if the cloud reaches too far (VoxelRegion).
   SurfelContact(const Surfels& surfels, float voxel_size, bool one_side);
-  /// As that, where the numbers of the nearest surfels are known, in region_of() the surfels.
-  SurfelContact(const Surfels& surfels, FixedVoxelTable nearest, bool one_side);
-
-  [[nodiscard]] static VoxelRegion region_of(const Surfels& surfels, float voxel_size);
-  [[nodiscard]] const FixedVoxelTable& nearest_numbers() const { return nearest_; }
 
   /// The nearest surfel, roughly; VoxelTable::none if none is near.
   [[nodiscard]] std::uint32_t nearest(const Point& p) const { return nearest_.at(p); }
@@ -57,7 +52,7 @@ class SurfelContact {
 
  private:
   std::vector<Plane> planes_;
-  FixedVoxelTable nearest_;
+  VoxelTable nearest_;
   bool one_side_;
 };
 

@@ -136,21 +136,12 @@ PairTable::PairTable(const Surfels& surfels, const PairRule& rule, std::size_t p
         drawn.emplace_back(static_cast<std::uint32_t>(bucket_of(pair->second)), pair->first);
     }
   }
-  std::vector<std::uint32_t> starts(starts_for(pairs), 0);
-  for (const auto& [bucket, pair] : drawn) ++starts[bucket + 1];
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
-  std::vector<SurfelPair> sorted(drawn.size());
-  for (const auto& [bucket, pair] : drawn) sorted[next[bucket]++] = pair;
-  starts_ = SharedArray(std::move(starts));
-  pairs_ = SharedArray(std::move(sorted));
-}
-
-PairTable::PairTable(std::size_t asked, SharedArray<std::uint32_t> starts, SharedArray<SurfelPair> pairs)
-    : bucket_bits_(bucket_bits(asked)), starts_(std::move(starts)), pairs_(std::move(pairs)) {}
-
-std::size_t PairTable::starts_for(std::size_t asked) {
-  return (std::size_t{1} << bucket_bits(asked)) + 1;
+  starts_.assign((std::size_t{1} << bucket_bits_) + 1, 0);
+  for (const auto& [bucket, pair] : drawn) ++starts_[bucket + 1];
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  pairs_.resize(drawn.size());
+  for (const auto& [bucket, pair] : drawn) pairs_[next[bucket]++] = pair;
 }
 
 std::size_t PairTable::bucket_of(const PairRelation& relation) const {
@@ -159,7 +150,7 @@ std::size_t PairTable::bucket_of(const PairRelation& relation) const {
 
 std::span<const SurfelPair> PairTable::find(const PairRelation& relation) const {
   const std::size_t bucket = bucket_of(relation);
-  return pairs_.span().subspan(starts_[bucket], starts_[bucket + 1] - starts_[bucket]);
+  return std::span(pairs_).subspan(starts_[bucket], starts_[bucket + 1] - starts_[bucket]);
 }
 
 RigidMotion motion_between(const Surfels& source, const SurfelPair& a, const Surfels& target,

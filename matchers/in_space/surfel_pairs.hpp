@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "glocal/rng.hpp"
-#include "matchers/common/shared_array.hpp"
 #include "matchers/in_space/rigid_motion.hpp"
 #include "matchers/in_space/surfels.hpp"
 
@@ -60,14 +59,7 @@ class PairSampler {
 class PairTable {
  public:
   PairTable(const Surfels& surfels, const PairRule& rule, std::size_t pairs, Rng rng);
-  /// As starts() and pairs() of a table for which so many pairs were asked have them.
-  PairTable(std::size_t asked, SharedArray<std::uint32_t> starts, SharedArray<SurfelPair> pairs);
 
-  /// How many numbers starts() has.
-  [[nodiscard]] static std::size_t starts_for(std::size_t asked);
-  /// Where each bucket begins in pairs(); one more at the end.
-  [[nodiscard]] std::span<const std::uint32_t> starts() const { return starts_.span(); }
-  [[nodiscard]] std::span<const SurfelPair> pairs() const { return pairs_.span(); }
   /// Pairs whose relation is perhaps the same.
   [[nodiscard]] std::span<const SurfelPair> find(const PairRelation& relation) const;
   [[nodiscard]] std::size_t size() const { return pairs_.size(); }
@@ -79,8 +71,8 @@ class PairTable {
   [[nodiscard]] std::size_t bucket_of(const PairRelation& relation) const;
 
   int bucket_bits_;
-  SharedArray<std::uint32_t> starts_;
-  SharedArray<SurfelPair> pairs_;
+  std::vector<std::uint32_t> starts_;  ///< Of each bucket in pairs_, and the end of the last.
+  std::vector<SurfelPair> pairs_;
 };
 
 /// The motion that brings one pair onto another of the same relation.

@@ -137,8 +137,7 @@ std::size_t direction_bin(const Point& n) {
   return bin(n.z > 0.0F ? 4 : 5, n.x, n.y, az);
 }
 
-}  // namespace
-
+/// Weights of surfels with these normals: 1 / sqrt(how many share the direction), scaled.
 std::vector<float> balanced_weights(const Points& normals) {
   std::array<float, std::size_t{6} * 36> counts{};
   for (std::size_t i = 0; i < normals.size(); ++i) counts[direction_bin(normals[i])] += 1.0F;
@@ -151,6 +150,8 @@ std::vector<float> balanced_weights(const Points& normals) {
   for (float& weight : weights) weight *= static_cast<float>(normals.size()) / sum;
   return weights;
 }
+
+}  // namespace
 
 Surfels surfels_of(const Points& cloud, float voxel_size, const std::optional<Point>& seen_from) {
   constexpr float near = 2.5F;

@@ -20,9 +20,6 @@ struct Surfels {
   [[nodiscard]] std::size_t size() const { return points.size(); }
 };
 
-/// Weights of surfels with these normals: 1 / sqrt(how many share the direction), scaled.
-[[nodiscard]] std::vector<float> balanced_weights(const Points& normals);
-
 /// Surfels of a cloud in voxels of a side (m), turned to where it was seen from; without that to either side.
 /// Normals are the direction in which the voxels' means within 2.5 voxels spread least, where these lie in a
 /// plane; else of those within 5 voxels. Throws ConfigError if the cloud reaches too far (VoxelRegion).

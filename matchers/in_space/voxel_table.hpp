@@ -5,11 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "glocal/points.hpp"
-#include "matchers/common/shared_array.hpp"
 
 namespace glocal {
 
@@ -70,52 +68,32 @@ class VoxelRegion {
 };
 
 /// Numbers of a region's voxels. Only bricks in which a number was set take memory; finding a number takes
-/// two steps, whatever the size of the region. `Numbers` keeps them: an array of std::uint32_t.
-template <class Numbers>
-class NumberedVoxels : public VoxelRegion {
+/// two steps, whatever the size of the region.
+class VoxelTable : public VoxelRegion {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  /// `bricks` has the number of each brick of the region, or `none`, and `voxels` the numbers of the voxels,
-  /// brick by brick.
-  NumberedVoxels(const VoxelRegion& region, Numbers bricks, Numbers voxels)
-      : VoxelRegion(region), bricks_(std::move(bricks)), voxels_(std::move(voxels)) {}
+  explicit VoxelTable(const VoxelRegion& region) : VoxelRegion(region), bricks_(region.bricks(), none) {}
 
+  /// Where to write the number of a voxel that is within the region.
+  [[nodiscard]] std::uint32_t& slot(const Voxel& v);
   /// The number of the voxel that a point is in, or `none`; so for points anywhere, and for NaN.
   [[nodiscard]] std::uint32_t at(const Point& p) const { return contains(p) ? number(voxel_of(p)) : none; }
   /// The voxel's number, or `none`.
   [[nodiscard]] std::uint32_t at(const Voxel& v) const { return contains(v) ? number(v) : none; }
 
-  [[nodiscard]] const Numbers& brick_numbers() const { return bricks_; }
-  [[nodiscard]] const Numbers& voxel_numbers() const { return voxels_; }
   [[nodiscard]] std::size_t memory_bytes() const {
     return (bricks_.size() + voxels_.size()) * sizeof(std::uint32_t);
   }
-
- protected:
-  Numbers bricks_, voxels_;
 
  private:
   [[nodiscard]] std::uint32_t number(const Voxel& v) const {
     const std::uint32_t brick = bricks_[brick_of(v)];
     return brick == none ? none : voxels_[brick * voxels_per_brick + place_in_brick(v)];
   }
-};
 
-/// Numbers that cannot change any more.
-using FixedVoxelTable = NumberedVoxels<SharedArray<std::uint32_t>>;
-
-/// Numbers that are still being set.
-class VoxelTable : public NumberedVoxels<std::vector<std::uint32_t>> {
- public:
-  explicit VoxelTable(const VoxelRegion& region)
-      : NumberedVoxels(region, std::vector<std::uint32_t>(region.bricks(), none), {}) {}
-
-  /// Where to write the number of a voxel that is within the region.
-  [[nodiscard]] std::uint32_t& slot(const Voxel& v);
-  [[nodiscard]] FixedVoxelTable fixed() && {
-    return {*this, SharedArray(std::move(bricks_)), SharedArray(std::move(voxels_))};
-  }
+  std::vector<std::uint32_t> bricks_;  ///< The number of each brick of the region, or `none`.
+  std::vector<std::uint32_t> voxels_;  ///< The numbers of the voxels, brick by brick.
 };
 
 }  // namespace glocal

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 #include "matchers/indexed_ransam/proposals.hpp"
 
@@ -37,11 +36,6 @@ std::size_t draws_on(std::size_t points, const IndexedRansam::Params& p) {
   const double draws = p.iterations * std::max(1.0, static_cast<double>(points) /
                                                         static_cast<double>(p.points_per_iterations));
   return static_cast<std::size_t>(std::min<double>(draws, std::max(p.iterations, p.max_iterations)));
-}
-
-/// Empty if the index is to be built.
-std::filesystem::path file_of_index(const IndexedRansam::Params& p, const StageSetup& setup) {
-  return setup.use_saved && !p.index_file.text.empty() ? p.index_file.resolved : std::filesystem::path{};
 }
 
 }  // namespace
@@ -186,9 +180,6 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .above = 0.0,
            .audience = Audience::expert});
   v.require(p.normal_radius <= 2.0 * p.voxel_size, "normal_radius", "must be at most twice the voxel_size");
-  v.field("index_file", p.index_file,
-          {.doc = "Index of the map as glocal map index saves it, to be read instead of built.",
-           .may_be_missing = true});
   v.field(
       "exact_search", p.exact_search,
       {.doc = "When an exact search of the whole map, on boxes of poses as the verifier whole_map makes it, "
@@ -197,7 +188,7 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field(
       "space", p.space,
       {.doc = "The search where localizer.motion is not planar: of the fields above, only contact_epsilon, "
-              "best, carried and index_file count there.",
+              "best and carried count there.",
        .audience = Audience::tuner});
   v.require(!p.exact_search.cell || !p.contact_epsilon || *p.exact_search.cell <= *p.contact_epsilon,
             "exact_search", "cell must be at most contact_epsilon");
@@ -207,11 +198,8 @@ std::unique_ptr<Matcher> IndexedRansam::make(const Params& params, const StageSe
   if (setup.motion == Motion::planar) return std::make_unique<IndexedRansam>(params, setup);
   const SpaceMatcher::Answer answer{.best = static_cast<std::size_t>(params.best),
                                     .carried = static_cast<std::size_t>(params.carried),
-                                    .contact_epsilon = setup.epsilon(params.contact_epsilon),
-                                    .index_file = file_of_index(params, setup)};
-  auto matcher = std::make_unique<SpaceMatcher>(params.space, answer, setup);
-  if (!answer.index_file.empty()) setup.note_input(answer.index_file);
-  return matcher;
+                                    .contact_epsilon = setup.epsilon(params.contact_epsilon)};
+  return std::make_unique<SpaceMatcher>(params.space, answer, setup);
 }
 
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
@@ -224,9 +212,8 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
              distance_field(*map_, params.field_cell, setup.threads)),
       exact_search_(params.exact_search, *map_, setup.epsilon(params.contact_epsilon), setup.threads) {
-  const std::filesystem::path file = file_of_index(params, setup);
   const auto start = std::chrono::steady_clock::now();
-  index_ = relation_index(*map_, relation_, file, setup.threads);
+  index_ = relation_index(*map_, relation_, setup.threads);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   map_index_ = std::visit(
       [&](const auto& index) {
@@ -234,11 +221,6 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       },
       *index_);
   draws_ = draws_on(points_of(*index_), params_);
-  if (!file.empty()) setup.note_input(file);
-}
-
-std::optional<std::string> IndexedRansam::saved_index() const {
-  return glocal::saved_index(*index_, *map_, relation_);
 }
 
 void IndexedRansam::reset() {

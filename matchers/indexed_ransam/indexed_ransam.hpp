@@ -66,7 +66,6 @@ class IndexedRansam final : public Matcher {
     int max_entries = 1000000;
     double voxel_size = 0.1;
     double normal_radius = 0.2;
-    FilePath index_file = {};
     ExactSearchRule exact_search = {};
     SpaceMatcher::Params space = {};
   };
@@ -74,8 +73,7 @@ class IndexedRansam final : public Matcher {
   /// What suits the setup's motion.
   [[nodiscard]] static std::unique_ptr<Matcher> make(const Params& params, const StageSetup& setup);
 
-  /// Throws ConfigError where the map is too large for a contact grid, a distance field or a pyramid, or
-  /// index_file is not the index of this map and these parameters.
+  /// Throws ConfigError where the map is too large for a contact grid, a distance field or a pyramid.
   IndexedRansam(const Params& params, const StageSetup& setup);
 
   void restrict_to(const PoseGate& gate) override { gate_ = gate; }
@@ -85,7 +83,6 @@ class IndexedRansam final : public Matcher {
                                                 const LocalMap& local) override;
   void reset() override;
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override { return map_index_; }
-  [[nodiscard]] std::optional<std::string> saved_index() const override;
 
  private:
   [[nodiscard]] std::size_t draws_of_step();

@@ -67,42 +67,16 @@ OrientedPairIndex::OrientedPairIndex(OrientedPoints oriented_points, const Orien
       if (const auto b = bin(oriented_points_, pair)) taken[square].emplace_back(*b, pair);
     });
   });
-  std::vector<std::uint32_t> begins(bins() + 1, 0);
+  begins_.assign(bins() + 1, 0);
   for (const auto& chunk : taken) {
-    for (const auto& [b, pair] : chunk) ++begins[b + 1];
+    for (const auto& [b, pair] : chunk) ++begins_[b + 1];
   }
-  std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
-  std::vector<OrientedPair> pairs(begins.back());
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
+  pairs_.resize(begins_.back());
   for (const auto& chunk : taken) {
-    for (const auto& [b, pair] : chunk) pairs[next[b]++] = pair;
+    for (const auto& [b, pair] : chunk) pairs_[next[b]++] = pair;
   }
-  begins_ = SharedArray(std::move(begins));
-  pairs_ = SharedArray(std::move(pairs));
-}
-
-OrientedPairIndex::OrientedPairIndex(const SavedIndex& saved, const OrientedPairRule& rule) : rule_(rule) {
-  saved.expect(kind);
-  oriented_points_ = {saved.section<float>(0).copy(), saved.section<float>(1).copy(),
-                      saved.section<float>(2).copy()};
-  begins_ = saved.section<std::uint32_t>(3);
-  pairs_ = saved.section<OrientedPair>(4);
-
-  const std::size_t points = oriented_points_.size();
-  saved.expect_fit(oriented_points_.y.size() == points && oriented_points_.angle.size() == points &&
-                   begins_.size() == bins() + 1);
-  for (const auto* values : {&oriented_points_.x, &oriented_points_.y, &oriented_points_.angle})
-    saved.expect_finite(*values);
-  saved.expect_bins(begins_.span(), pairs_.size());
-  saved.expect_below(points, pairs_.span());
-}
-
-std::string OrientedPairIndex::saved(const IndexOrigin& origin) const {
-  return saved_index(
-      kind, origin,
-      {std::as_bytes(std::span(oriented_points_.x)), std::as_bytes(std::span(oriented_points_.y)),
-       std::as_bytes(std::span(oriented_points_.angle)), std::as_bytes(begins_.span()),
-       std::as_bytes(pairs_.span())});
 }
 
 std::size_t OrientedPairIndex::bins() const {
@@ -121,7 +95,7 @@ std::span<const OrientedPairIndex::OrientedPair> OrientedPairIndex::find(
     const OrientedPoints& oriented_points, const OrientedPair& pair) const {
   const auto b = bin(oriented_points, pair);
   if (!b) return {};
-  return pairs_.span().subspan(begins_[*b], begins_[*b + 1] - begins_[*b]);
+  return std::span(pairs_).subspan(begins_[*b], begins_[*b + 1] - begins_[*b]);
 }
 
 std::optional<std::uint32_t> OrientedPairIndex::bin(const OrientedPoints& s, const OrientedPair& pair) const {

@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
+#include <vector>
 
 #include "matchers/common/oriented_points.hpp"
-#include "matchers/indexed_ransam/saved_index.hpp"
 
 namespace glocal {
 
@@ -26,8 +25,6 @@ struct OrientedPairRule {
 /// map and read by all; if there are more pairs than max_entries, an even share of them.
 class OrientedPairIndex {
  public:
-  static constexpr const char* kind = "oriented point pairs";
-
   struct OrientedPair {
     std::uint32_t first;
     std::uint32_t second;
@@ -35,11 +32,6 @@ class OrientedPairIndex {
 
   /// The same for any number of threads.
   OrientedPairIndex(OrientedPoints oriented_points, const OrientedPairRule& rule, int threads = 1);
-  /// Reads what saved() left. Throws ConfigError where it is no index for this rule.
-  OrientedPairIndex(const SavedIndex& saved, const OrientedPairRule& rule);
-
-  /// The content of a file that holds the index.
-  [[nodiscard]] std::string saved(const IndexOrigin& origin) const;
 
   [[nodiscard]] const OrientedPoints& oriented_points() const { return oriented_points_; }
   [[nodiscard]] std::size_t size() const { return pairs_.size(); }
@@ -57,8 +49,8 @@ class OrientedPairIndex {
 
   OrientedPoints oriented_points_;
   OrientedPairRule rule_;
-  SharedArray<std::uint32_t> begins_;  ///< Of each bin in pairs_, and the end of the last.
-  SharedArray<OrientedPair> pairs_;
+  std::vector<std::uint32_t> begins_;  ///< Of each bin in pairs_, and the end of the last.
+  std::vector<OrientedPair> pairs_;
 };
 
 }  // namespace glocal

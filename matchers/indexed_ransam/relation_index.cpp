@@ -5,31 +5,16 @@
 #include <algorithm>
 #include <utility>
 
-#include "matchers/indexed_ransam/saved_index.hpp"
-
 namespace glocal {
 namespace {
 
-/// The rule as a saved index keeps it.
+/// Equal for equal rules.
 std::string text_of(const RelationRule& r) {
   return fmt::format(
       "relation {}, min_oriented_share {}, min_length {}, max_length {}, length_cell {}, angle_cells {}, "
       "min_height {}, max_entries {}, voxel_size {}, normal_radius {}",
       r.relation, r.min_oriented_share, r.pairs.min_length, r.pairs.max_length, r.pairs.length_cell,
       r.pairs.angle_cells, r.min_height, r.pairs.max_entries, r.points.voxel_size, r.points.radius);
-}
-
-IndexOrigin origin_of(const GlobalMap& map, const RelationRule& rule) {
-  return {digest_of(map), text_of(rule)};
-}
-
-RelationIndex index_from(const std::filesystem::path& file, const GlobalMap& map, const RelationRule& rule) {
-  const SavedIndex saved(file, origin_of(map, rule));
-  // Which of the two `auto` has chosen for this map.
-  const bool triangles =
-      rule.relation == "triangle" || (rule.relation == "auto" && saved.kind() == TriangleIndex::kind);
-  if (triangles) return TriangleIndex(saved);
-  return OrientedPairIndex(saved, rule.pairs);
 }
 
 RelationIndex index_of(const GlobalMap& map, const RelationRule& rule, int threads) {
@@ -52,10 +37,8 @@ TriangleRule RelationRule::triangles() const {
 }
 
 std::shared_ptr<const RelationIndex> relation_index(const GlobalMap& map, const RelationRule& rule,
-                                                    const std::filesystem::path& file, int threads) {
-  return map.index<RelationIndex>(file.string() + ": " + text_of(rule), [&] {
-    return file.empty() ? index_of(map, rule, threads) : index_from(file, map, rule);
-  });
+                                                    int threads) {
+  return map.index<RelationIndex>(text_of(rule), [&] { return index_of(map, rule, threads); });
 }
 
 std::size_t points_of(const RelationIndex& index) {
@@ -64,10 +47,6 @@ std::size_t points_of(const RelationIndex& index) {
     std::size_t operator()(const TriangleIndex& triangles) const { return triangles.points().size(); }
   };
   return std::visit(Size{}, index);
-}
-
-std::string saved_index(const RelationIndex& index, const GlobalMap& map, const RelationRule& rule) {
-  return std::visit([&](const auto& one) { return one.saved(origin_of(map, rule)); }, index);
 }
 
 }  // namespace glocal

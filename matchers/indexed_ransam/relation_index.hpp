@@ -2,7 +2,6 @@
 // oriented point pairs, or triangles.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <variant>
@@ -28,18 +27,11 @@ struct RelationRule {
   [[nodiscard]] TriangleRule triangles() const;
 };
 
-/// The index of a map, shared by all who ask for it: read from a file, or built where the path is empty.
-/// Throws ConfigError where the file is not the index of this map and this rule.
+/// The index of a map, built for the first who asks for it and shared by all.
 [[nodiscard]] std::shared_ptr<const RelationIndex> relation_index(const GlobalMap& map,
-                                                                  const RelationRule& rule,
-                                                                  const std::filesystem::path& file,
-                                                                  int threads);
+                                                                  const RelationRule& rule, int threads);
 
 /// The points that its pairs or triangles are made of.
 [[nodiscard]] std::size_t points_of(const RelationIndex& index);
-
-/// The content of a file with the index of this map and this rule.
-[[nodiscard]] std::string saved_index(const RelationIndex& index, const GlobalMap& map,
-                                      const RelationRule& rule);
 
 }  // namespace glocal

@@ -100,7 +100,7 @@ SpaceMatcher::SpaceMatcher(const Params& params, const Answer& answer, const Sta
       map_(setup.map),
       rule_(index_rule(params, *setup.map)),
       contact_(contact_index(*setup.map, "bitset", answer.contact_epsilon)),
-      index_(space_index(*setup.map, rule_, answer.index_file)) {
+      index_(space_index(*setup.map, rule_)) {
   if (index_->pairs.size() == 0) {
     throw ConfigError(
         {{"", 0, 0,
@@ -112,10 +112,6 @@ SpaceMatcher::SpaceMatcher(const Params& params, const Answer& answer, const Sta
 
 std::optional<MapIndexInfo> SpaceMatcher::map_index() const {
   return MapIndexInfo{index_->pairs.size(), index_->memory_bytes(), index_->build_ms};
-}
-
-std::optional<std::string> SpaceMatcher::saved_index() const {
-  return glocal::saved_index(*index_, *map_, rule_);
 }
 
 PoseSearchParams SpaceMatcher::search_params() const {

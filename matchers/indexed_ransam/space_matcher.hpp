@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,14 +40,12 @@ class SpaceMatcher final : public Matcher {
   };
   /// What it has in common with the search in the plane.
   struct Answer {
-    std::size_t best = 10;                  ///< How many poses become hypotheses.
-    std::size_t carried = 10;               ///< How many of these are carried to the next step.
-    double contact_epsilon = 0.1;           ///< m; for Omega.
-    std::filesystem::path index_file = {};  ///< To be read instead of building the index; empty for none.
+    std::size_t best = 10;         ///< How many poses become hypotheses.
+    std::size_t carried = 10;      ///< How many of these are carried to the next step.
+    double contact_epsilon = 0.1;  ///< m; for Omega.
   };
 
-  /// Throws ConfigError where the map is too large, or has hardly any surfaces, or index_file is not the
-  /// index of this map and these parameters.
+  /// Throws ConfigError where the map is too large, or has hardly any surfaces.
   SpaceMatcher(const Params& params, const Answer& answer, const StageSetup& setup);
 
   void restrict_to(const PoseGate& gate) override { gate_ = gate; }
@@ -58,7 +55,6 @@ class SpaceMatcher final : public Matcher {
                                                 const LocalMap& local) override;
   void reset() override { carried_.clear(); }
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override;
-  [[nodiscard]] std::optional<std::string> saved_index() const override;
 
  private:
   [[nodiscard]] PoseSearchParams search_params() const;

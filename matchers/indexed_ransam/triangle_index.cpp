@@ -117,48 +117,15 @@ TriangleIndex::TriangleIndex(Points points, const TriangleRule& rule, std::size_
   for (const std::vector<Entry>& chunk : found) entries.insert(entries.end(), chunk.begin(), chunk.end());
   std::stable_sort(entries.begin(), entries.end(),
                    [](const Entry& a, const Entry& b) { return a.relation < b.relation; });
-  std::vector<Relation> keys;
-  std::vector<std::uint32_t> begins;
-  std::vector<Triple> triangles;
-  triangles.reserve(entries.size());
+  triangles_.reserve(entries.size());
   for (const Entry& entry : entries) {
-    if (keys.empty() || keys.back() != entry.relation) {
-      keys.push_back(entry.relation);
-      begins.push_back(static_cast<std::uint32_t>(triangles.size()));
+    if (relations_.empty() || relations_.back() != entry.relation) {
+      relations_.push_back(entry.relation);
+      begins_.push_back(static_cast<std::uint32_t>(triangles_.size()));
     }
-    triangles.push_back(entry.triangle);
+    triangles_.push_back(entry.triangle);
   }
-  begins.push_back(static_cast<std::uint32_t>(triangles.size()));
-  relations_ = SharedArray(std::move(keys));
-  begins_ = SharedArray(std::move(begins));
-  triangles_ = SharedArray(std::move(triangles));
-}
-
-TriangleIndex::TriangleIndex(const SavedIndex& saved) {
-  saved.expect(kind);
-  points_.x = saved.section<float>(0).copy();
-  points_.y = saved.section<float>(1).copy();
-  points_.z.assign(points_.x.size(), 0.0F);
-  relations_ = saved.section<Relation>(2);
-  begins_ = saved.section<std::uint32_t>(3);
-  triangles_ = saved.section<Triple>(4);
-
-  const auto relations = relations_.span();
-  saved.expect_fit(points_.y.size() == points_.x.size() && begins_.size() == relations.size() + 1);
-  if (!std::is_sorted(relations.begin(), relations.end())) {
-    saved.fail("the index is damaged: its relations are not in order");
-  }
-  saved.expect_finite(points_.x);
-  saved.expect_finite(points_.y);
-  saved.expect_bins(begins_.span(), triangles_.size());
-  saved.expect_below(points_.size(), triangles_.span());
-}
-
-std::string TriangleIndex::saved(const IndexOrigin& origin) const {
-  return saved_index(
-      kind, origin,
-      {std::as_bytes(std::span(points_.x)), std::as_bytes(std::span(points_.y)),
-       std::as_bytes(relations_.span()), std::as_bytes(begins_.span()), std::as_bytes(triangles_.span())});
+  begins_.push_back(static_cast<std::uint32_t>(triangles_.size()));
 }
 
 std::size_t TriangleIndex::memory_bytes() const {
@@ -167,11 +134,10 @@ std::size_t TriangleIndex::memory_bytes() const {
 }
 
 std::span<const Triple> TriangleIndex::find(Relation relation) const {
-  const auto relations = relations_.span();
-  const auto place = std::lower_bound(relations.begin(), relations.end(), relation);
-  if (place == relations.end() || *place != relation) return {};
-  const auto i = static_cast<std::size_t>(place - relations.begin());
-  return triangles_.span().subspan(begins_[i], begins_[i + 1] - begins_[i]);
+  const auto place = std::lower_bound(relations_.begin(), relations_.end(), relation);
+  if (place == relations_.end() || *place != relation) return {};
+  const auto i = static_cast<std::size_t>(place - relations_.begin());
+  return std::span(triangles_).subspan(begins_[i], begins_[i + 1] - begins_[i]);
 }
 
 }  // namespace glocal

@@ -4,11 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
+#include <vector>
 
 #include "glocal/points.hpp"
 #include "matchers/common/triangle.hpp"
-#include "matchers/indexed_ransam/saved_index.hpp"
 
 namespace glocal {
 
@@ -17,15 +16,8 @@ namespace glocal {
 /// direction: pillars, trees.
 class TriangleIndex {
  public:
-  static constexpr const char* kind = "triangles";
-
   /// The same for any number of threads.
   TriangleIndex(Points points, const TriangleRule& rule, std::size_t max_entries, int threads = 1);
-  /// Reads what saved() left. Throws ConfigError where it is no index of triangles.
-  explicit TriangleIndex(const SavedIndex& saved);
-
-  /// The content of a file that holds the index.
-  [[nodiscard]] std::string saved(const IndexOrigin& origin) const;
 
   [[nodiscard]] const Points& points() const { return points_; }
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
@@ -36,9 +28,9 @@ class TriangleIndex {
 
  private:
   Points points_;                      ///< z is 0.
-  SharedArray<Relation> relations_;    ///< Those that occur, ascending.
-  SharedArray<std::uint32_t> begins_;  ///< Of each relation in triangles_, and the end of the last.
-  SharedArray<Triple> triangles_;
+  std::vector<Relation> relations_;    ///< Those that occur, ascending.
+  std::vector<std::uint32_t> begins_;  ///< Of each relation in triangles_, and the end of the last.
+  std::vector<Triple> triangles_;
 };
 
 }  // namespace glocal

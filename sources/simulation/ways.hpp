@@ -41,8 +41,6 @@ class WorldWays final : public Ways {
   [[nodiscard]] std::string obstacle_from(const Position& place) const override;
 
  private:
-  [[nodiscard]] Position nearest_place(const Position& place) const;
-
   std::vector<Position> places_;
   Shapes reality_;
 };

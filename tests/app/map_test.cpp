@@ -2,15 +2,12 @@
 #include <gmock/gmock.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "app/program.hpp"
 
 namespace glocal::test::map_test {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -102,128 +99,6 @@ TEST_F(MapCommand, ReportsFaults) {
               HasSubstr("the name must end in .yaml (ROS map) or .pcd (points)"));
   EXPECT_THAT(run("map info " + file("none.yaml")).err, HasSubstr("no such file"));
   EXPECT_EQ(run("map").exit_code, 2);
-}
-
-/// A room and an experiment in it that is matched by an index of its map.
-class MapIndexCommand : public CommandLine {
- protected:
-  MapIndexCommand() {
-    std::ofstream(file("world.yaml"))
-        << "size: [12, 6]\n"
-           "walls: [{points: [[0, 0], [12, 0], [12, 4], [7, 6], [0, 6]], closed: true}]\n"
-           "free_from: [[1, 1]]\n"
-           "way_points: [[1, 3], [10, 3], [10, 1]]\n";
-    std::ofstream(file("room.yaml")) << "schema: 1\n"
-                                        "name: room\n"
-                                        "map: {simulation: {world: world.yaml}}\n"
-                                        "observations: {simulation: {world: world.yaml}}\n"
-                                        "trials: {whole: true, max_steps: 10}\n"
-                                        "localizer: {matcher: indexed_ransam}\n";
-  }
-  [[nodiscard]] Answer build(const std::string& options = "") const {
-    return run("map index " + file("room.yaml") + " -o " + file("room.index") + " " + options);
-  }
-  [[nodiscard]] Answer run_room(const std::string& out, const std::string& options = "") const {
-    return run("run " + file("room.yaml") + " --quiet --out " + file(out) + " " + options);
-  }
-  [[nodiscard]] nlohmann::json json(const std::string& name) const {
-    return nlohmann::json::parse(content(file(name)));
-  }
-
-  const std::string use_ = "--set localizer.matcher.indexed_ransam.index_file=" + file("room.index");
-};
-
-TEST_F(MapIndexCommand, ARunWithASavedIndexGivesTheSameAnswers) {
-  const Answer answer = build();
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  std::size_t entries = 0;
-  std::size_t bytes = 0;
-  ASSERT_EQ(std::sscanf(answer.out.c_str(), "entries %zu bytes %zu build", &entries, &bytes), 2)
-      << answer.out;
-  EXPECT_GT(entries, 10'000U);
-  // The file has a few hundred bytes besides.
-  EXPECT_NEAR(static_cast<double>(fs::file_size(file("room.index"))), static_cast<double>(bytes), 1000.0);
-
-  ASSERT_EQ(run_room("built").exit_code, 0);
-  const Answer read = run_room("read", use_);
-  ASSERT_EQ(read.exit_code, 0) << read.err;
-  EXPECT_EQ(content(file("read/trials.jsonl")), content(file("built/trials.jsonl")));
-  EXPECT_EQ(content(file("read/trajectories/trial_0000_estimate.tum")),
-            content(file("built/trajectories/trial_0000_estimate.tum")));
-  EXPECT_NE(content(file("built/trajectories/trial_0000_estimate.tum")), "");
-  for (const char* out : {"built", "read"}) {
-    const nlohmann::json index = json(out + std::string("/summary.json"))["map"]["index"];
-    EXPECT_EQ(index["entries"], entries);
-    EXPECT_EQ(index["bytes"], bytes);
-  }
-  EXPECT_TRUE(json("read/provenance.json")["inputs_sha256"].contains(file("room.index")));
-  EXPECT_FALSE(json("built/provenance.json")["inputs_sha256"].contains(file("room.index")));
-  // The effective experiment names it by its absolute path.
-  EXPECT_EQ(run("run " + file("read/effective.yaml") + " --quiet --out " + file("again")).exit_code, 0);
-  EXPECT_EQ(content(file("again/trials.jsonl")), content(file("built/trials.jsonl")));
-}
-
-TEST_F(MapIndexCommand, AnIndexThatDoesNotFitIsRefusedUntilItIsBuiltAnew) {
-  const Answer none = run_room("a", use_);
-  EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.err, HasSubstr("room.index: error: the index cannot be read: No such file or directory; "
-                                  "build it anew: glocal map index EXPERIMENT.yaml --force -o "));
-  // A file that names an index that is not there yet can still be what it is built from.
-  ASSERT_EQ(build(use_).exit_code, 0);
-  ASSERT_EQ(run_room("a", use_).exit_code, 0);
-
-  const std::string longer = use_ + " --set localizer.matcher.indexed_ransam.max_length=7";
-  const Answer other_rule = run_room("b", longer);
-  EXPECT_EQ(other_rule.exit_code, 2);
-  EXPECT_THAT(other_rule.err,
-              HasSubstr("was built with other parameters: max_length 6 instead of max_length 7"));
-  const Answer other_map =
-      run("check " + file("room.yaml") + " --set map.simulation.resolution=0.06 " + use_);
-  EXPECT_EQ(other_map.exit_code, 2);
-  EXPECT_THAT(other_map.err, HasSubstr("the index belongs to another map"));
-  EXPECT_FALSE(fs::exists(file("b")));
-
-  const std::string before = content(file("room.index"));
-  const Answer taken = build(longer);
-  EXPECT_EQ(taken.exit_code, 2);
-  EXPECT_THAT(taken.err, HasSubstr("the file exists"));
-  EXPECT_EQ(content(file("room.index")), before);
-  EXPECT_EQ(build(longer + " --force").exit_code, 0);
-  EXPECT_EQ(run_room("b", longer).exit_code, 0);
-}
-
-TEST_F(MapIndexCommand, ARunInSpaceWithASavedIndexGivesTheSameAnswers) {
-  std::ofstream(file("room.yaml"))
-      << "schema: 1\n"
-         "name: room\n"
-         "map: {simulation: {world: world.yaml, resolution: 0.1, points: space}}\n"
-         "observations: {simulation: {world: world.yaml, lidar: {beams: 16, height: 0.9}}}\n"
-         "trials: {whole: true, max_steps: 3}\n"
-         "localizer: {motion: upright, local_mapper: odometry, matcher: indexed_ransam}\n";
-  const Answer answer = build();
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  ASSERT_EQ(run_room("built").exit_code, 0);
-  const Answer read = run_room("read", use_);
-  ASSERT_EQ(read.exit_code, 0) << read.err;
-  for (const char* same : {"trials.jsonl", "trajectories/trial_0000_estimate.tum"}) {
-    EXPECT_NE(content(file(std::string("built/") + same)), "") << same;
-    EXPECT_EQ(content(file(std::string("read/") + same)), content(file(std::string("built/") + same)));
-  }
-  EXPECT_EQ(json("read/summary.json")["map"]["index"]["bytes"],
-            json("built/summary.json")["map"]["index"]["bytes"]);
-  EXPECT_TRUE(json("read/provenance.json")["inputs_sha256"].contains(file("room.index")));
-
-  const Answer other_map =
-      run("check " + file("room.yaml") + " --set map.simulation.resolution=0.12 " + use_);
-  EXPECT_EQ(other_map.exit_code, 2);
-  EXPECT_THAT(other_map.err, HasSubstr("the index belongs to another map"));
-}
-
-TEST_F(MapIndexCommand, AMatcherWithoutAnIndexIsRefused) {
-  const Answer answer = build("--set localizer.matcher=ransam");
-  EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("the matcher ransam keeps no index of the map that could be saved"));
-  EXPECT_FALSE(fs::exists(file("room.index")));
 }
 
 }  // namespace

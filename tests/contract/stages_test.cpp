@@ -92,22 +92,6 @@ TEST_F(Stages, MatchersFindTheRobotInWhateverFrameTheLocalMapIs) {
   });
 }
 
-TEST_F(Stages, WhatCanBeSavedOfAMatchersIndexIsTheSameEachTime) {
-  std::size_t saved = 0;
-  for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
-    StageSetup anew = setup(2);
-    anew.use_saved = false;
-    const auto one = catalog_.matchers.make(choice, setup());
-    const auto index = one->saved_index();
-    EXPECT_EQ(index, catalog_.matchers.make(choice, anew)->saved_index());
-    if (!index) return;
-    ++saved;
-    EXPECT_FALSE(index->empty());
-    EXPECT_TRUE(one->map_index());
-  });
-  EXPECT_GT(saved, 0U);
-}
-
 // A single undisputed cluster that stays is convincing sooner or later.
 TEST_F(Stages, VerdictRulesDeclareWhatIsClear) {
   for_each(catalog_.verdict_rules, [&](const StrategyChoice& choice) {

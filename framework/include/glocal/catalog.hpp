@@ -43,8 +43,6 @@ struct StageSetup {
   bool has_verifier = false;       ///< Whether what is declared is verified; not known to a verifier.
   /// To be called with every file read while the stage is made, for the record of a run's inputs.
   std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
-  /// Whether files are read in which a stage has saved what it makes of the map; else it makes that anew.
-  bool use_saved = true;
 
   /// The epsilon of eq. 4 (m) for a stage that may have one of its own.
   [[nodiscard]] double epsilon(const std::optional<double>& own) const {

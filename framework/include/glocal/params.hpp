@@ -57,11 +57,10 @@ struct FieldInfo {
   std::size_t min_items = 0;                                ///< For lists; bounds hold for each number in it.
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
   bool may_be_nan =
-      false;              ///< Numbers: of files of other programs, which write it for what they do not know.
-  bool required = false;  ///< The file must give it.
-  bool may_be_missing = false;  ///< For paths: whoever reads the file says what to do where there is none.
-  bool is_folder = false;       ///< For paths: a folder is needed, not a file.
-  bool may_be_folder = false;   ///< For paths: a folder or a file.
+      false;               ///< Numbers: of files of other programs, which write it for what they do not know.
+  bool required = false;   ///< The file must give it.
+  bool is_folder = false;  ///< For paths: a folder is needed, not a file.
+  bool may_be_folder = false;  ///< For paths: a folder or a file.
   Audience audience = Audience::everyone;
   const char* formerly = "";  ///< What the field was called before; empty if nothing else.
   std::vector<FormerChoice> former_choices = {};  ///< For strings.

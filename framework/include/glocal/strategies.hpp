@@ -112,8 +112,6 @@ class Matcher {
   virtual void reset() = 0;
   /// For the record of a run; none if there is no index worth a word.
   [[nodiscard]] virtual std::optional<MapIndexInfo> map_index() const { return std::nullopt; }
-  /// The content of a file from which this index can be read instead of built; none if it cannot be saved.
-  [[nodiscard]] virtual std::optional<std::string> saved_index() const { return std::nullopt; }
 };
 
 /// Groups hypotheses that mean the same robot pose.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/random/sobol.hpp>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -14,10 +15,14 @@
 #include "config/reader.hpp"
 #include "config/scalars.hpp"
 #include "glocal/rng.hpp"
-#include "sobol.hpp"
 
 namespace glocal {
 namespace {
+
+/// With the direction numbers of S. Joe and F. Y. Kuo, "Constructing Sobol sequences with better
+/// two-dimensional projections", SIAM J. Sci. Comput. 30 (2008) 2635-2654.
+using Sobol = boost::random::sobol_engine<std::uint32_t, 32>;
+constexpr std::size_t most_dimensions = boost::random::default_sobol_table::max_dimension;
 
 /// Both ends of a range of numbers, as bounded as the field that they are for.
 struct Ends {
@@ -168,31 +173,36 @@ std::shared_ptr<const YamlNode> value_at(const Range& range, double u,
   return node;
 }
 
-/// Coordinates of a point, each in [0, 1).
+/// Points one after the other, by their coordinates, each in [0, 1).
 class UnitPoints {
  public:
-  UnitPoints(const SampleSection& section, std::size_t dimensions) : rng_(section.seed) {
+  UnitPoints(const SampleSection& section, std::size_t dimensions)
+      : rng_(section.seed), dimensions_(dimensions) {
     if (section.sobol) sobol_.emplace(dimensions);
   }
 
   /// Points of Sobol's sequence are shifted digit by digit (Cranley and Patterson's shift in base 2): the
   /// corner of the cube, which the sequence begins with, is no better than other places.
-  [[nodiscard]] std::vector<double> at(std::uint32_t index, std::size_t dimensions) const {
-    std::vector<double> u(dimensions);
-    if (!sobol_) {
-      for (std::size_t d = 0; d < dimensions; ++d) u[d] = rng_.stream({index, d}).uniform();
-      return u;
-    }
-    const std::vector<std::uint32_t> x = sobol_->point(index);
-    for (std::size_t d = 0; d < dimensions; ++d) {
+  [[nodiscard]] std::vector<double> next() {
+    std::vector<double> u(dimensions_);
+    for (std::size_t d = 0; d < dimensions_; ++d) {
+      if (!sobol_) {
+        u[d] = rng_.stream({index_, d}).uniform();
+        continue;
+      }
       const auto shift = static_cast<std::uint32_t>(rng_.stream({d}).next() >> 32U);
-      u[d] = static_cast<double>(x[d] ^ shift) * 0x1.0p-32;
+      // Boost leaves the corner out.
+      const std::uint32_t x = index_ == 0 ? 0 : (*sobol_)();
+      u[d] = static_cast<double>(x ^ shift) * 0x1.0p-32;
     }
+    ++index_;
     return u;
   }
 
  private:
   Rng rng_;
+  std::size_t dimensions_;
+  std::uint32_t index_ = 0;
   std::optional<Sobol> sobol_;  ///< None: random points.
 };
 
@@ -200,12 +210,12 @@ class UnitPoints {
 bool can_draw(const SampleSection& section, std::vector<Fault>& faults) {
   const YamlNode& written = *section.ranges.written;
   const std::size_t n = written.entries.size();
-  if (section.sobol && n > Sobol::most_dimensions) {
+  if (section.sobol && n > most_dimensions) {
     faults.push_back(
         fault_at(written.place,
                  fmt::format("variants.sample: {} ranges, but Sobol's sequence has at most {} dimensions "
                              "here; leave some out, or draw at random with sobol: false",
-                             n, Sobol::most_dimensions)));
+                             n, most_dimensions)));
     return false;
   }
   if (n * static_cast<std::size_t>(section.count) <= most_changes) return true;
@@ -240,9 +250,9 @@ std::vector<VariantChanges> sampled_settings(const SampleSection& section, AnyPa
   if (!written || section.count == 0 || !can_draw(section, faults)) return settings;
   const std::vector<Range> ranges = read_ranges(*written, experiment, faults);
   if (ranges.empty()) return settings;
-  const UnitPoints points(section, ranges.size());
+  UnitPoints points(section, ranges.size());
   for (int i = 0; i < section.count; ++i) {
-    const std::vector<double> u = points.at(static_cast<std::uint32_t>(i), ranges.size());
+    const std::vector<double> u = points.next();
     VariantChanges setting{fmt::format("sample-{:04}", i + 1), written->place, {}};
     for (std::size_t d = 0; d < ranges.size(); ++d) {
       const YamlEntry& path = *ranges[d].written;

@@ -277,7 +277,7 @@ Refusal take_value(const YamlNode& node, const FieldInfo& info, FilePath& value)
   const bool is_folder = std::filesystem::is_directory(path.resolved, ignored);
   if (info.is_folder) {
     if (!is_folder) return "is no folder: " + path.resolved.string();
-  } else if (!info.may_be_missing && !(is_folder && info.may_be_folder)) {
+  } else if (!(is_folder && info.may_be_folder)) {
     if (auto refusal = why_unreadable(path.resolved)) return refusal;
   }
   value = std::move(path);

@@ -158,9 +158,6 @@ void try_matcher(const Made<Matcher>& make, double epsilon, const TrialRoom& roo
     matcher->reset();
     expect_same(first, answer(*matcher), "the same random state gives another answer");
   });
-  findings.check("the index of the map", [&] {
-    expect(make(1)->saved_index() == make(2)->saved_index(), "what would be saved of it differs each time");
-  });
 }
 
 void try_clusterer(const Made<Clusterer>& make, Findings& findings) {

@@ -118,7 +118,6 @@ observations:
     tags: [a]
     extras: []
     optional_file: ""
-    made_later: ""
     noise:
       range: 0.01
       beams: 8

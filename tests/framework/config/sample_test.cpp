@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -110,6 +111,31 @@ TEST_F(SampleTest, SobolPointsFillEachRangeEvenly) {
   }
 }
 
+TEST_F(SampleTest, SobolPointsAreThePublishedOnes) {
+  // The output of Joe's and Kuo's own program for 10 points in 3 dimensions
+  // (https://web.maths.unsw.edu.au/~fkuo/sobol), in sixteenths.
+  constexpr std::array<std::array<int, 3>, 10> published = {{{0, 0, 0},
+                                                             {8, 8, 8},
+                                                             {12, 4, 4},
+                                                             {4, 12, 12},
+                                                             {6, 6, 10},
+                                                             {14, 14, 2},
+                                                             {10, 2, 14},
+                                                             {2, 10, 6},
+                                                             {3, 5, 15},
+                                                             {11, 13, 7}}};
+  const std::string sixteen = "{choices: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16]}";
+  const std::array<std::string, 3> paths = {iterations, epsilon, "observations.toy_drive.salt"};
+  const auto all = read(fmt::format("{{count: 10, ranges: {{{}: {}, {}: {}, {}: {}}}}}\n", paths[0], sixteen,
+                                    paths[1], sixteen, paths[2], sixteen));
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto part = [&](std::size_t i) { return std::stoi(all.at(i).values.at(d).second) - 1; };
+    // The shift of digits is the same for all points, and the first is the corner.
+    for (std::size_t i = 0; i < 10; ++i)
+      EXPECT_EQ(part(i) ^ part(0), published.at(i).at(d)) << i << ", " << d;
+  }
+}
+
 TEST_F(SampleTest, RandomPointsFillTheRangesToo) {
   const auto all = read("{count: 4000, sobol: false, ranges: {" + iterations + ": [1, 4], " + epsilon +
                         ": {from: 0.01, to: 1, scale: log}}}\n");
@@ -208,10 +234,10 @@ TEST_F(SampleTest, CountAndRangesBelongTogetherAndHaveLimits) {
       ElementsAre(
           "e.yaml:7:19: error: variants.sample: count: 10001 is out of range, must be >= 0 and <= 10000"));
   std::string ranges;
-  for (int i = 0; i < 38; ++i) ranges += (i == 0 ? "a" : ", a") + std::to_string(i) + ": [0, 1]";
+  for (int i = 0; i < 3668; ++i) ranges += (i == 0 ? "a" : ", a") + std::to_string(i) + ": [0, 1]";
   EXPECT_THAT(
       faults_of("{count: 3, ranges: {" + ranges + "}}\n"),
-      ElementsAre("e.yaml:7:30: error: variants.sample: 38 ranges, but Sobol's sequence has at most 37 "
+      ElementsAre("e.yaml:7:30: error: variants.sample: 3668 ranges, but Sobol's sequence has at most 3667 "
                   "dimensions here; leave some out, or draw at random with sobol: false"));
   EXPECT_THAT(faults_of("{count: 1, ranges: {nowhere.at_all: [0, 1]}}\n"),
               ElementsAre(testing::HasSubstr("e.yaml:7:31: error: unknown key 'nowhere'")));

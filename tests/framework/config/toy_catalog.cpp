@@ -112,7 +112,6 @@ void describe(ParamVisitor& v, ToyDrive::Params& p) {
   v.field("tags", p.tags, {.doc = "Words."});
   v.field("extras", p.extras, {.doc = "More files."});
   v.field("optional_file", p.optional_file, {.doc = "A file, or none."});
-  v.field("made_later", p.made_later, {.doc = "A file, there or not.", .may_be_missing = true});
   v.field("noise", p.noise, {.doc = "Errors of the laser."});
 }
 

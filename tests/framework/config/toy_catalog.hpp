@@ -45,7 +45,6 @@ struct ToyDrive final : ObservationSource {
     std::vector<std::string> tags = {"a"};
     std::vector<FilePath> extras;
     FilePath optional_file;
-    FilePath made_later;
     Noise noise;
   };
   explicit ToyDrive(const Params& params);

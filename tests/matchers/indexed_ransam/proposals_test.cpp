@@ -14,7 +14,7 @@ const Pose2 truth{5.5, 2.5, 0.7};
 
 std::vector<Pose2> proposed(const RelationRule& rule, const LocalMap& local, std::size_t draws,
                             std::uint64_t seed = 1) {
-  const auto index = relation_index(*test::small_world(), rule, {}, 1);
+  const auto index = relation_index(*test::small_world(), rule, 1);
   std::vector<Pose2> poses;
   Rng rng(seed);
   propose(*index, rule, local, draws, rng, [&](const MotionBatch& batch, std::size_t size) {

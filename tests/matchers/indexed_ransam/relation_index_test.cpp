@@ -2,12 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-#include <utility>
-#include <vector>
+#include <memory>
 
-#include "files.hpp"
-#include "glocal/error.hpp"
 #include "test_world.hpp"
 
 namespace glocal::relation_index_test {
@@ -34,36 +30,18 @@ TEST(RelationIndex, TakesTrianglesWhereTooFewPlacesHaveANormal) {
   const double share = oriented_points_of(*map, {}).share;
   ASSERT_GT(share, 0.5);
   ASSERT_LT(share, 0.9);
-  EXPECT_FALSE(has_triangles(*relation_index(*map, {.min_oriented_share = share}, {}, 1)));
-  EXPECT_TRUE(has_triangles(*relation_index(*map, {.min_oriented_share = share + 1e-6}, {}, 1)));
+  EXPECT_FALSE(has_triangles(*relation_index(*map, {.min_oriented_share = share}, 1)));
+  EXPECT_TRUE(has_triangles(*relation_index(*map, {.min_oriented_share = share + 1e-6}, 1)));
   EXPECT_FALSE(
-      has_triangles(*relation_index(*map, {.relation = "oriented_pair", .min_oriented_share = 1.0}, {}, 1)));
-  EXPECT_TRUE(
-      has_triangles(*relation_index(*map, {.relation = "triangle", .min_oriented_share = 0.0}, {}, 1)));
+      has_triangles(*relation_index(*map, {.relation = "oriented_pair", .min_oriented_share = 1.0}, 1)));
+  EXPECT_TRUE(has_triangles(*relation_index(*map, {.relation = "triangle", .min_oriented_share = 0.0}, 1)));
 }
 
 TEST(RelationIndex, IsSharedByAllWhoAskForTheSame) {
   const auto map = test::small_world();
-  const auto one = relation_index(*map, {}, {}, 1);
-  EXPECT_EQ(relation_index(*map, {}, {}, 2), one);
-  EXPECT_NE(relation_index(*map, {.pairs = {.max_length = 5.0}}, {}, 1), one);
-}
-
-TEST(RelationIndex, ComesBackFromAFile) {
-  const test::TemporaryFolder folder;
-  const auto map = wall_and_poles();
-  // 1.0: `auto` has chosen triangles, and the file remembers.
-  for (const double min_oriented_share : {0.0, 1.0}) {
-    const RelationRule rule{.min_oriented_share = min_oriented_share};
-    const auto built = relation_index(*map, rule, {}, 1);
-    const std::string file = folder.write("index", saved_index(*built, *map, rule));
-    const auto read = relation_index(*map, rule, file, 1);
-    EXPECT_EQ(has_triangles(*read), has_triangles(*built));
-    EXPECT_EQ(saved_index(*read, *map, rule), saved_index(*built, *map, rule));
-    RelationRule other = rule;
-    other.min_height = 0.5;
-    EXPECT_THROW((void)relation_index(*map, other, file, 1), ConfigError);
-  }
+  const auto one = relation_index(*map, {}, 1);
+  EXPECT_EQ(relation_index(*map, {}, 2), one);
+  EXPECT_NE(relation_index(*map, {.pairs = {.max_length = 5.0}}, 1), one);
 }
 
 }  // namespace

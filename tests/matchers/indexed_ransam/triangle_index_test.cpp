@@ -1,6 +1,5 @@
 #include "matchers/indexed_ransam/triangle_index.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +9,6 @@
 #include <set>
 
 #include "bench/plain.hpp"
-#include "files.hpp"
 #include "glocal/rng.hpp"
 #include "test_world.hpp"
 
@@ -136,8 +134,12 @@ TEST(TriangleIndex, OfTooManyAnEvenShareIsKeptTheSameForAnyNumberOfThreads) {
   ASSERT_GT(all, 5 * most);
   EXPECT_LE(one.size(), most);
   EXPECT_GT(one.size(), most / 2);
-  EXPECT_EQ(one.saved({}), TriangleIndex(points, rule, most, 2).saved({}));
-  EXPECT_EQ(one.saved({}), TriangleIndex(points, rule, most, 5).saved({}));
+  for (const int threads : {2, 5}) {
+    const TriangleIndex other(points, rule, most, threads);
+    EXPECT_EQ(other.size(), one.size());
+    for (const auto& [relation, triangles] : all_triangles(points, rule))
+      EXPECT_TRUE(std::ranges::equal(one.find(relation), other.find(relation)));
+  }
   // Each kind of triangle keeps the same share: compare those with a long and with a short longest side.
   std::size_t kept_long = 0;
   std::size_t all_long = 0;
@@ -156,45 +158,6 @@ TEST(TriangleIndex, TooFewPointsHaveNoTriangle) {
     EXPECT_EQ(index.size(), 0U);
     EXPECT_TRUE(index.find(1).empty());
   }
-}
-
-class SavedTriangles : public ::testing::Test {
- protected:
-  [[nodiscard]] std::filesystem::path write(const std::vector<Relation>& relations,
-                                            const std::vector<std::uint32_t>& begins,
-                                            const std::vector<Triple>& triangles) const {
-    const std::vector<float> zeros(10, 0.0F);
-    return folder_.write("a.index",
-                         saved_index(TriangleIndex::kind, {},
-                                     {std::as_bytes(std::span(zeros)), std::as_bytes(std::span(zeros)),
-                                      std::as_bytes(std::span(relations)), std::as_bytes(std::span(begins)),
-                                      std::as_bytes(std::span(triangles))}));
-  }
-  [[nodiscard]] static std::string fault_of(const std::filesystem::path& file) {
-    return test::config_error("", [&] { const TriangleIndex index(SavedIndex(file, {})); });
-  }
-
-  test::TemporaryFolder folder_;
-};
-
-TEST_F(SavedTriangles, AreTheSameAsBefore) {
-  const TriangleIndex built(scattered(100, 8.0), {.max_side = 4.0}, 20'000);
-  const std::string bytes = built.saved({});
-  const TriangleIndex again(SavedIndex(folder_.write("a.index", bytes), {}));
-  EXPECT_GT(again.size(), 1'000U);
-  EXPECT_EQ(again.points(), built.points());
-  EXPECT_EQ(again.saved({}), bytes);
-}
-
-TEST_F(SavedTriangles, ThatCannotBeAreRefused) {
-  using ::testing::HasSubstr;
-  ASSERT_EQ(fault_of(write({3, 7}, {0, 1, 2}, {{0, 1, 2}, {7, 8, 9}})), "");
-  EXPECT_THAT(fault_of(write({7, 3}, {0, 1, 2}, {{0, 1, 2}, {7, 8, 9}})), HasSubstr("not in order"));
-  EXPECT_THAT(fault_of(write({3, 7}, {0, 2}, {{0, 1, 2}, {7, 8, 9}})), HasSubstr("do not fit together"));
-  EXPECT_THAT(fault_of(write({3, 7}, {0, 3, 2}, {{0, 1, 2}, {7, 8, 9}})), HasSubstr("bins overlap"));
-  EXPECT_THAT(fault_of(write({3, 7}, {0, 1, 2}, {{0, 1, 2}, {7, 8, 10}})), HasSubstr("does not have"));
-  EXPECT_THAT(fault_of(folder_.write("b.index", saved_index("oriented point pairs", {}, {}))),
-              HasSubstr("the index is one of oriented point pairs instead of triangles; build it anew"));
 }
 
 }  // namespace
