@@ -8,12 +8,14 @@
 
 namespace {
 
-// libFuzzer hands its inputs over without anything else. NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
+// libFuzzer hands its inputs over without anything else.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 int (*chosen)(const std::uint8_t* data, std::size_t size) = nullptr;
 
 }  // namespace
 
-// The names are libFuzzer's. It passes over options that begin with two dashes. NOLINTBEGIN(readability-identifier-naming)
+// The names are libFuzzer's. It passes over options that begin with two dashes.
+// NOLINTBEGIN(readability-identifier-naming)
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   constexpr std::string_view option = "--fuzzer=";
   for (int i = 1; i < *argc; ++i) {
@@ -30,5 +32,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   std::exit(2);
 }
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { return chosen(data, size); }
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return chosen(data, size);
+}
 // NOLINTEND(readability-identifier-naming)
