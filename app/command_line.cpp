@@ -111,7 +111,6 @@ void add_all(CLI::App& app, Context& context) {
   add_new_plugin(app, context);
   add_contract(app, context);
   add_completion(app, context);
-  add_manual(app, context);
 }
 
 /// As a shell would read them.

@@ -40,7 +40,6 @@ void add_help(CLI::App& app, Context& context);
 void add_leaderboard(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_localize(CLI::App& app, Context& context);
-void add_manual(CLI::App& app, Context& context);
 void add_map(CLI::App& app, Context& context);
 void add_mapping(CLI::App& app, Context& context);
 void add_merge(CLI::App& app, Context& context);

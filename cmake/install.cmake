@@ -14,10 +14,11 @@ foreach(folder configs leaderboard)
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${CMAKE_BINARY_DIR}/share/glocal/${folder} SYMBOLIC)
 endforeach()
 install(EXPORT glocal_targets FILE glocalTargets.cmake NAMESPACE glocal:: DESTINATION ${package_dir})
-# The program writes its own manual. Shells look for completions in folders of their own; these are Debian's.
+# The manual is made of what the program says of itself. Shells look for completions in folders of their own; these are Debian's.
 set(manual ${CMAKE_BINARY_DIR}/manual)
-add_custom_command(OUTPUT ${manual}/glocal.1 DEPENDS glocal_app
-  COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual} COMMAND glocal_app manual ${manual})
+add_custom_command(OUTPUT ${manual}/glocal.1 DEPENDS glocal_app scripts/manual_pages
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual} COMMAND scripts/manual_pages $<TARGET_FILE:glocal_app> ${manual}
+  WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 add_custom_target(manual ALL DEPENDS ${manual}/glocal.1)
 install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 set(completions ${CMAKE_SOURCE_DIR}/app/completion)

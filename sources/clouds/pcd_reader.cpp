@@ -1,6 +1,7 @@
 #include "sources/clouds/pcd_reader.hpp"
 
 #include <fmt/format.h>
+#include <lzf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <utility>
 
 #include "glocal/words.hpp"
-#include "sources/clouds/lzf.hpp"
 #include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"
 
@@ -22,6 +22,19 @@ struct PcdField {
   std::size_t offset = 0;       ///< Of its first byte in a point.
   std::size_t first_value = 0;  ///< Of all values of a point.
 };
+
+/// What was compressed by LZF; none if the data is damaged or does not make up `size` bytes.
+std::optional<std::string> decompressed(std::string_view data, std::size_t size) {
+  // Three bytes stand for 264 at most: memory is taken only for what the data can hold.
+  constexpr std::size_t most_of_one = 88;
+  if (size / most_of_one > data.size()) return std::nullopt;
+  std::string bytes(size, '\0');
+  const auto from = static_cast<unsigned>(data.size()), to = static_cast<unsigned>(size);
+  // The library looks at a first byte in any case.
+  const unsigned found = data.empty() ? 0 : lzf_decompress(data.data(), from, bytes.data(), to);
+  if (found != size) return std::nullopt;
+  return bytes;
+}
 
 std::optional<Scalar> pcd_scalar(std::string_view type, std::string_view size) {
   constexpr std::array<std::pair<std::string_view, Scalar>, 10> names = {{{"I1", Scalar::int8},
@@ -292,7 +305,7 @@ class PcdReader {
     if (compressed > data.size() - 2 * size_bytes)
       refuse_number_of_points(fmt::format("{} bytes follow where compressed data of {} bytes is announced",
                                           data.size() - 2 * size_bytes, compressed));
-    const auto unpacked = lzf_decompressed(data.substr(2 * size_bytes, compressed), size);
+    const auto unpacked = decompressed(data.substr(2 * size_bytes, compressed), size);
     if (!unpacked) refuse_cloud(file_, 0, "the compressed data is damaged; get a fresh copy");
     take_points(*unpacked, [&](const PcdField& field) {
       return std::pair(field.offset * header_.points(), field.values * size_of(field.type));

@@ -70,6 +70,15 @@ TEST(PcdReader, ReadsCompressedFieldsOneAfterTheOther) {
   expect_two_mixed(read(header(mixed, 2, "binary_compressed") + sizes + packed));
 }
 
+TEST(PcdReader, RepeatsWhatWasJustDecompressed) {
+  // A number, then 260 bytes from 4 bytes back.
+  const std::string packed = "\x03" + bytes(1.5F) + "\xe0\xfb\x03";
+  const std::string sizes = bytes(static_cast<std::uint32_t>(packed.size()), std::uint32_t{264});
+  const Cloud cloud = read(header(xyz, 22, "binary_compressed") + sizes + packed);
+  ASSERT_EQ(cloud.points.size(), 22U);
+  for (std::size_t i = 0; i < 22; ++i) EXPECT_EQ(cloud.points[i], (Point{1.5F, 1.5F, 1.5F}));
+}
+
 TEST(PcdReader, ReadsTheFirstVersions) {
   const Cloud cloud = read("# a cloud\nCOLUMNS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n");
   EXPECT_EQ(cloud.points[0], (Point{1.0F, 2.0F, 3.0F}));
@@ -184,7 +193,17 @@ TEST(PcdReader, RefusesDamagedCompressedData) {
   EXPECT_EQ(with(14, 12, packed),
             "a.pcd:11: error: the header announces 1 points, but 13 bytes follow where compressed data of 14 "
             "bytes is announced; get a fresh copy");
-  EXPECT_EQ(with(12, 12, packed), "a.pcd: error: the compressed data is damaged; get a fresh copy");
+  const std::string one = "\x03" + bytes(1.0F);
+  const std::vector<std::string> damaged = {packed.substr(0, 12),  // ends within its bytes
+                                            one + "\xc0",          // ends within a reference
+                                            one + "\xc0\x04",      // refers to what is before the beginning
+                                            one + std::string("\xe0\x00\x03", 3),  // more than announced
+                                            one + "\xa0\x03",                      // less than announced
+                                            ""};
+  for (const std::string& data : damaged) {
+    EXPECT_EQ(with(static_cast<std::uint32_t>(data.size()), 12, data),
+              "a.pcd: error: the compressed data is damaged; get a fresh copy");
+  }
   EXPECT_EQ(fault(head + bytes(std::uint32_t{13}, std::uint32_t{12}) + packed, {.max_size_gb = 1e-9}),
             "a.pcd: error: its points have more than 1e-09 GB when decompressed; if it is the right file, "
             "raise max_size_gb");
