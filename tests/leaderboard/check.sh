@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Runs a fixed share of a suite anew and compares it with the leaderboard: check.sh GLOCAL SUITE SHARE [CASE…]. The cases are those that need no
-# data sets; without GLOCAL_DATASETS only they are tried.
+# Runs a fixed share of a suite anew and compares it with the leaderboard: check.sh GLOCAL CASES OPTION…. CASES, in one word, are those that need
+# no data sets; without GLOCAL_DATASETS only they are tried. The rest is for glocal leaderboard check.
 set -euo pipefail
-glocal=$1 suite=$2 share=$3
-shift 3
+glocal=$1 cases=$2
+shift 2
 options=()
 if [ -z "${GLOCAL_DATASETS:-}" ]; then
-  [ $# -gt 0 ] || { echo "GLOCAL_DATASETS is not set"; exit 77; }
-  for name; do options+=(--case "$name"); done
+  [ -n "$cases" ] || { echo "GLOCAL_DATASETS is not set"; exit 77; }
+  for name in $cases; do options+=(--case "$name"); done
 fi
-"$glocal" leaderboard check "$suite" --share "$share" "${options[@]}"
+"$glocal" leaderboard check "$@" "${options[@]}"
