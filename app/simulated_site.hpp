@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "glocal/catalog.hpp"
 #include "glocal/occupancy_grid.hpp"
 #include "glocal/strategies.hpp"
 
