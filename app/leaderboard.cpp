@@ -129,10 +129,8 @@ void write_board_page(const BoardOptions& options) {
 
 /// What makes an entry anew.
 std::string renewal(const BoardEntry& entry) {
-  return fmt::format(
-      "glocal run --suite {0} --method {1}{2} --out results/{0}/{1} && glocal leaderboard add "
-      "results/{0}/{1} --force",
-      entry.suite, entry.method, entry.share < 1.0 ? fmt::format(" --share {}", entry.share) : "");
+  return fmt::format("{2} --out results/{0}/{1} && glocal leaderboard add results/{0}/{1} --force",
+                     entry.suite, entry.method, entry.command());
 }
 
 /// Writes an entry and its line of the history.

@@ -196,7 +196,7 @@ std::string trials_of(const LocalizeRequest& request) {
   return where + ", max_steps: 200";
 }
 
-/// A line of the localizer's keys; nothing without a prior.
+/// The value of localizer.prior.
 std::string prior_yaml(const Prior& prior) {
   std::vector<std::string> keys;
   const StartRegion& region = prior.region;

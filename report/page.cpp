@@ -93,9 +93,10 @@ bool is_beside_file(std::string_view name) {
 }
 
 std::string_view script_for(const Json& head) {
-  const Json maps = head.value("maps", Json::array());
-  const bool is_in_space =
-      std::any_of(maps.begin(), maps.end(), [](const Json& map) { return map.contains("z"); });
+  const auto maps = head.find("maps");
+  const bool is_in_space = maps != head.end() && std::any_of(maps->begin(), maps->end(), [](const Json& map) {
+                             return map.contains("z");
+                           });
   return is_in_space ? space_text : std::string_view{};
 }
 

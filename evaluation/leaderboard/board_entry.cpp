@@ -147,6 +147,11 @@ const CaseResult* BoardEntry::find(const std::string& case_name, std::uint64_t s
   return found == results.end() ? nullptr : &*found;
 }
 
+std::string BoardEntry::command() const {
+  return fmt::format("glocal run --suite {} --method {}{}", suite, method,
+                     share < 1.0 ? fmt::format(" --share {}", share) : "");
+}
+
 std::string BoardEntry::label() const {
   return share < 1.0 ? fmt::format("{} (share {})", method, share) : method;
 }
@@ -188,9 +193,7 @@ void require_whole(BoardEntry& entry, const Suite& suite, const fs::path& file) 
   for (const SuiteCase& one : suite.cases) {
     for (const std::uint64_t seed : suite.seeds) {
       const CaseResult* result = entry.find(one.name, seed);
-      std::size_t starts = 0;
-      for (std::size_t start = 0; start < one.starts; ++start)
-        starts += is_in_share(one.name, seed, start, entry.share) ? 1 : 0;
+      const std::size_t starts = starts_in_share(one, seed, entry.share).size();
       if (result == nullptr && starts == 0) continue;  // None of its starts is in the share.
       if (result == nullptr) {
         lacks(fmt::format("there is no result for the case {} with seed {}; run all of the suite", one.name,

@@ -37,15 +37,13 @@ std::string hash_of_method(const StoredRun& run) {
   return sha256_of_text(text);
 }
 
-Json provenance_of_entry(const StoredRun& run, const std::string& suite, const std::string& method,
-                         double share) {
+Json provenance_of_entry(const StoredRun& run, const std::string& command) {
   const Json& from = run.provenance;
   const std::string began = from.value("began", std::string());
   return {{"version", from.value("version", "")},
           {"revision", from.value("revision", "")},
           {"date", began.substr(0, began.find('T'))},
-          {"command", fmt::format("glocal run --suite {} --method {}{}", suite, method,
-                                  share < 1.0 ? fmt::format(" --share {}", share) : "")},
+          {"command", command},
           {"cpu", run.machine.cpu},
           {"method_sha256", hash_of_method(run)}};
 }
@@ -81,8 +79,9 @@ class RunReader {
     const auto same = [&](const BoardEntry& e) { return e.suite == suite_ && e.method == method_; };
     auto entry = std::find_if(entries.begin(), entries.end(), same);
     if (entry == entries.end()) {
-      entries.push_back({suite_, method_, share_, provenance_of_entry(run_, suite_, method_, share_), {}});
+      entries.push_back({.suite = suite_, .method = method_, .share = share_, .results = {}});
       entry = std::prev(entries.end());
+      entry->provenance = provenance_of_entry(run_, entry->command());
     } else if (entry->share != share_) {
       refuse_results(run_.folder, fmt::format("has a share of {} of the starts, and the results beside it {}",
                                               share_, entry->share));

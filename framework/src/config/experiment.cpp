@@ -333,17 +333,6 @@ void check_own_values(const std::vector<Override>& overrides, const Suite& suite
   }
 }
 
-/// The numbers of a case's starts that are in a share.
-std::vector<double> starts_in_share(const Variant& variant, double share) {
-  std::vector<double> starts;
-  const SuiteCase& one_case = *variant.suite->find_case(variant.case_name);
-  for (std::size_t i = 0; i < one_case.starts; ++i) {
-    if (is_in_share(one_case.name, variant.experiment.seed, i, share))
-      starts.push_back(static_cast<double>(i));
-  }
-  return starts;
-}
-
 /// Whether the starts of all variants can be gone through: one by one, each is in the share or not.
 bool are_countable(const Suite& suite, const std::vector<Variant>& variants) {
   constexpr std::size_t most_starts = 5'000'000;
@@ -372,7 +361,10 @@ void join_suite(const YamlNode& experiment, const Products& products, std::vecto
       faults.insert(
           fault_at(experiment.place, fmt::format("variant '{}': changes the trials of {}; leave that out",
                                                  variant.name, products.suite->id())));
-    if (products.share < 1.0) variant.experiment.trials.only = starts_in_share(variant, products.share);
+    if (products.share >= 1.0) continue;
+    const auto starts = starts_in_share(*products.suite->find_case(variant.case_name),
+                                        variant.experiment.seed, products.share);
+    variant.experiment.trials.only.assign(starts.begin(), starts.end());
   }
   if (products.share >= 1.0) return;
   std::erase_if(variants, [](const Variant& variant) { return variant.experiment.trials.only.empty(); });

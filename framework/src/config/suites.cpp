@@ -167,6 +167,14 @@ bool is_in_share(std::string_view case_name, std::uint64_t seed, std::size_t sta
   return Rng(fnv1a(case_name)).stream({seed, start}).uniform() < share;
 }
 
+std::vector<std::size_t> starts_in_share(const SuiteCase& one_case, std::uint64_t seed, double share) {
+  std::vector<std::size_t> starts;
+  for (std::size_t start = 0; start < one_case.starts; ++start) {
+    if (is_in_share(one_case.name, seed, start, share)) starts.push_back(start);
+  }
+  return starts;
+}
+
 std::string input_name(const Suite& suite, const fs::path& input) {
   const fs::path file = fs::absolute(input).lexically_normal();
   if (const char* datasets = std::getenv("GLOCAL_DATASETS"); datasets != nullptr && *datasets != '\0') {

@@ -53,6 +53,10 @@ struct Suite {
 [[nodiscard]] bool is_in_share(std::string_view case_name, std::uint64_t seed, std::size_t start,
                                double share);
 
+/// The numbers of a case's starts that belong to a share.
+[[nodiscard]] std::vector<std::size_t> starts_in_share(const SuiteCase& one_case, std::uint64_t seed,
+                                                       double share);
+
 /// How a suite names an input file: `data:…` for data sets, else by its way from the suite's file.
 [[nodiscard]] std::string input_name(const Suite& suite, const std::filesystem::path& input);
 
