@@ -8,6 +8,8 @@ export class PageState {
   private timer = 0;
   /** What the address says, or would say of the page as it was opened. */
   private known = "";
+  /** The address as it was read or written last. */
+  private hash = location.hash;
 
   constructor(
     private readonly store: Store,
@@ -25,7 +27,8 @@ export class PageState {
 
   /** What is not said is as on a page that was just opened. An address of a part of the page says nothing. */
   private read(): void {
-    const hash = location.hash.slice(1);
+    this.hash = location.hash;
+    const hash = this.hash.slice(1);
     if (!hash.includes("=")) return;
     const said = new URLSearchParams(hash);
     const { runs } = this.store.report;
@@ -46,9 +49,12 @@ export class PageState {
   private write(): void {
     const address = this.address();
     if (address === this.known) return;
+    // Somebody changed the address a moment ago. It is read next, and must not be lost.
+    if (location.hash !== this.hash) return;
     this.known = address;
     try {
       history.replaceState(null, "", `#${address}`);
+      this.hash = location.hash;
     } catch {
       // Pages within other pages may have no address of their own.
     }
