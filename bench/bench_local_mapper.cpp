@@ -99,8 +99,8 @@ void wide_search(benchmark::State& state) {
   ScanMatching mapper(params);
   for (const Observation& observation : observations) mapper.add(observation);
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(
-        correlative_search(mapper.grid(), observations.back().scan.hits, mapper.robot(), params.wide_search));
+    benchmark::DoNotOptimize(correlative_search(mapper.grid(), observations.back().scan.hits, mapper.robot(),
+                                                params.wide_search, 0.02));
   }
 }
 BENCHMARK(wide_search)->Unit(benchmark::kMillisecond);

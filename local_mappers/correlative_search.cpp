@@ -19,8 +19,12 @@ constexpr std::size_t max_window =
 /// Sums of likelihoods of the points, for a block of shifts in x and y by whole cells.
 using Sums = std::array<std::uint16_t, max_window>;
 
-/// 16 bits hold the sum of so many likelihoods.
-constexpr int max_points = 65535 / PointGrid::likelihood_one;
+/// Hits that are looked at: more find no better pose, and cost as much more.
+constexpr std::size_t max_points = 100;
+static_assert(max_points <= 65535 / PointGrid::likelihood_one, "16 bits hold the sum of so many likelihoods");
+
+/// Hits 3 m away move by a cell.
+constexpr double rotation_step_deg = 1.0;
 
 /// Shifts by first_column … + PointGrid::window_width - 1 and by first_row … + rows - 1 cells, tried
 /// together.
@@ -31,9 +35,9 @@ struct Block {
 };
 
 /// Hits spread evenly over the scan.
-Points spread_hits(const Points& hits, int wanted) {
+Points spread_hits(const Points& hits) {
   Points chosen;
-  const std::size_t n = std::min(hits.size(), static_cast<std::size_t>(wanted));
+  const std::size_t n = std::min(hits.size(), max_points);
   chosen.reserve(n);
   for (std::size_t i = 0; i < n; ++i) chosen.push_back(hits[(2 * i + 1) * hits.size() / (2 * n)]);
   return chosen;
@@ -72,12 +76,13 @@ double square_share(int part, int whole) {
 /// Tries poses and remembers the best.
 class Search {
  public:
-  Search(const PointGrid& grid, Points hits, const Pose2& predicted, const CorrelativeSearchParams& params)
+  Search(const PointGrid& grid, Points hits, const Pose2& predicted, double translation,
+         double odometry_penalty)
       : grid_(grid),
         hits_(std::move(hits)),
         predicted_(predicted),
-        odometry_penalty_(params.odometry_penalty),
-        shift_(static_cast<int>(std::lround(params.translation / grid.resolution()))),
+        odometry_penalty_(odometry_penalty),
+        shift_(static_cast<int>(std::lround(translation / grid.resolution()))),
         scale_(1.0 / (PointGrid::likelihood_one * static_cast<double>(hits_.size()))) {
     cells_.reserve(hits_.size());
   }
@@ -142,31 +147,15 @@ void describe(ParamVisitor& v, CorrelativeSearchParams& p) {
            .min = 0.0,
            .max = 180.0,
            .formerly = "rotation"});
-  v.field("rotation_step_deg", p.rotation_step_deg,
-          {.doc = "Step between rotations tried.",
-           .unit = "deg",
-           .min = 0.05,
-           .max = 60.0,
-           .formerly = "rotation_step"});
-  v.field("points", p.points,
-          {.doc = "Hits of a scan used in the search, spread evenly over its beams.",
-           .min = 1,
-           .max = max_points});
-  v.field("odometry_penalty", p.odometry_penalty,
-          {.doc = "What a pose at the border of the search loses in likelihood; grows with the square of the "
-                  "deviation.",
-           .min = 0.0,
-           .max = 1.0});
 }
 
 SearchResult correlative_search(const PointGrid& grid, const Points& hits, const Pose2& predicted,
-                                const CorrelativeSearchParams& params) {
+                                const CorrelativeSearchParams& params, double odometry_penalty) {
   if (hits.empty()) return {predicted, 0.0};
-  Search search(grid, spread_hits(hits, params.points), predicted, params);
-  const int turns = static_cast<int>(std::lround(params.rotation_deg / params.rotation_step_deg));
+  Search search(grid, spread_hits(hits), predicted, params.translation, odometry_penalty);
+  const int turns = static_cast<int>(std::lround(params.rotation_deg / rotation_step_deg));
   for (int turn = -turns; turn <= turns; ++turn) {
-    search.try_rotation(turn * radians(params.rotation_step_deg),
-                        params.odometry_penalty * square_share(turn, turns));
+    search.try_rotation(turn * radians(rotation_step_deg), odometry_penalty * square_share(turn, turns));
   }
   return search.best();
 }

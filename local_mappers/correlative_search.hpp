@@ -11,9 +11,6 @@ namespace glocal {
 struct CorrelativeSearchParams {
   double translation = 0.1;
   double rotation_deg = 9.0;
-  double rotation_step_deg = 1.0;
-  int points = 100;
-  double odometry_penalty = 0.005;
 };
 void describe(ParamVisitor& v, CorrelativeSearchParams& p);
 
@@ -23,11 +20,12 @@ struct SearchResult {
   double likelihood = 0.0;  ///< Mean over the points used, in [0, 1].
 };
 
-/// The best of all poses in a box around `predicted` (cell by cell in x and y, in steps of rotation), by the
-/// mean likelihood of the hits (robot frame, m) minus `odometry_penalty` times the squared deviation from
-/// `predicted`, in units of the box. Of equally good poses, the one tried first. After Olson, "Real-time
-/// correlative scan matching", ICRA 2009.
+/// The best of all poses in a box around `predicted` (cell by cell in x and y, degree by degree), by the mean
+/// likelihood of at most 100 hits (robot frame, m; spread evenly) minus `odometry_penalty` times the squared
+/// deviation from `predicted`, in units of the box. Of equally good poses, the one tried first. After Olson,
+/// "Real-time correlative scan matching", ICRA 2009.
 [[nodiscard]] SearchResult correlative_search(const PointGrid& grid, const Points& hits,
-                                              const Pose2& predicted, const CorrelativeSearchParams& params);
+                                              const Pose2& predicted, const CorrelativeSearchParams& params,
+                                              double odometry_penalty);
 
 }  // namespace glocal

@@ -20,16 +20,6 @@ std::size_t direction(float x, float y) {
 
 }  // namespace
 
-void describe(ParamVisitor& v, FreeSpaceCheckParams& p) {
-  v.field("scans", p.scans, {.doc = "Latest scans that a new one is compared with.", .min = 1, .max = 100});
-  v.field("margin", p.margin,
-          {.doc = "A beam that went on for less than this behind a hit may have met the same thing.",
-           .unit = "m",
-           .min = 0.0});
-  v.field("min_hits", p.min_hits,
-          {.doc = "Scans with fewer hits in common view are not compared.", .min = 1});
-}
-
 RangeProfile::RangeProfile(const Scan& scan) : origin_(scan.origin), ranges_(directions, 0.0F) {
   for (const Points* ends : {&scan.hits, &scan.free_ends}) {
     for (std::size_t i = 0; i < ends->size(); ++i) {
@@ -49,10 +39,8 @@ RangeProfile::RangeProfile(const Scan& scan) : origin_(scan.origin), ranges_(dir
   }
 }
 
-RangeProfile::Seen RangeProfile::look_at(const Points& hits, const Pose2& here_from_hits,
-                                         double margin) const {
+RangeProfile::Seen RangeProfile::look_at(const Points& hits, const Pose2& here_from_hits) const {
   const Transform transform(here_from_hits);
-  const auto tolerance = static_cast<float>(margin);
   Seen seen;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Point p = transform(hits[i]);
@@ -64,8 +52,8 @@ RangeProfile::Seen RangeProfile::look_at(const Points& hits, const Pose2& here_f
                             ranges_[(d + 1) % directions]};
     const auto [nearest, farthest] = std::minmax_element(around.begin(), around.end());
     const float range = std::hypot(x, y);
-    if (*nearest == 0.0F || range > *farthest + tolerance) continue;
-    ++(range < *nearest - tolerance ? seen.violation : seen.met);
+    if (*nearest == 0.0F || range > *farthest + margin) continue;
+    ++(range < *nearest - margin ? seen.violation : seen.met);
   }
   return seen;
 }
@@ -80,16 +68,16 @@ double FreeSpaceCheck::violation(const Scan& scan, const Pose2& local_from_robot
   };
   for (const PlacedScan& before : scans_) {
     const Pose2 before_from_now = inverse(before.local_from_robot) * local_from_robot;
-    count(before.profile.look_at(scan.hits, before_from_now, params_.margin));
-    count(now.look_at(before.hits, inverse(before_from_now), params_.margin));
+    count(before.profile.look_at(scan.hits, before_from_now));
+    count(now.look_at(before.hits, inverse(before_from_now)));
   }
-  if (all < static_cast<std::size_t>(params_.min_hits)) return 0.0;
+  if (all < min_hits) return 0.0;
   return static_cast<double>(through) / static_cast<double>(all);
 }
 
 void FreeSpaceCheck::add(const Scan& scan, const Pose2& local_from_robot) {
   scans_.push_back({local_from_robot, scan.hits, RangeProfile(scan)});
-  if (scans_.size() > static_cast<std::size_t>(params_.scans)) scans_.pop_front();
+  if (scans_.size() > scans) scans_.pop_front();
 }
 
 }  // namespace glocal

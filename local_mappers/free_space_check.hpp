@@ -6,29 +6,24 @@
 #include <vector>
 
 #include "glocal/observation.hpp"
-#include "glocal/params.hpp"
 
 namespace glocal {
-
-struct FreeSpaceCheckParams {
-  int scans = 4;
-  double margin = 0.3;
-  int min_hits = 50;
-};
-void describe(ParamVisitor& v, FreeSpaceCheckParams& p);
 
 /// How far a scan saw in each direction from its sensor.
 class RangeProfile {
  public:
   explicit RangeProfile(const Scan& scan);
 
+  /// A beam that went on for less than this behind a hit may have met the same thing, m.
+  static constexpr float margin = 0.3F;
+
   /// Hits of another scan, counted by what this one says of them; those it could not see are in neither.
   struct Seen {
     std::size_t met = 0;        ///< Beams met something there, too.
     std::size_t violation = 0;  ///< Beams passed through there, and met nothing for `margin` more.
   };
-  /// `here_from_hits`: from the frame of the hits to that of this scan's robot; `margin` in m.
-  [[nodiscard]] Seen look_at(const Points& hits, const Pose2& here_from_hits, double margin) const;
+  /// `here_from_hits`: from the frame of the hits to that of this scan's robot.
+  [[nodiscard]] Seen look_at(const Points& hits, const Pose2& here_from_hits) const;
 
  private:
   Point origin_;
@@ -39,7 +34,10 @@ class RangeProfile {
 /// carried away without knowing gives itself away by that, even where the scans fit fairly well.
 class FreeSpaceCheck {
  public:
-  explicit FreeSpaceCheck(const FreeSpaceCheckParams& params) : params_(params) {}
+  /// Latest scans that a new one is compared with.
+  static constexpr std::size_t scans = 4;
+  /// With fewer hits in common view nothing is said.
+  static constexpr std::size_t min_hits = 50;
 
   /// Of the hits that the latest scans could see from where they were made, and of theirs that `scan` could
   /// see, made at `local_from_robot`: the share seen through; 0 if there are too few to say.
@@ -54,7 +52,6 @@ class FreeSpaceCheck {
     Points hits;
     RangeProfile profile;
   };
-  FreeSpaceCheckParams params_;
   std::deque<PlacedScan> scans_;
 };
 

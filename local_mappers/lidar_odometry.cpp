@@ -43,31 +43,6 @@ void describe(ParamVisitor& v, LidarOdometry::Params& p) {
               "odometry since the last observation, or the last step (velocity); odometry is the last "
               "step, too, where odometry stands still or there is none.",
        .choices = {"none", "velocity", "odometry"}});
-  v.field(
-      "initial_threshold", p.initial_threshold,
-      {.doc = "Standard deviation of a hit from where the prediction puts it, before anything is known of "
-              "how good predictions are. It adapts.",
-       .unit = "m",
-       .above = 0.0,
-       .audience = Audience::expert});
-  v.field("min_correction", p.min_correction,
-          {.doc = "Corrections that move no hit farther than this do not count for the threshold.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("max_gate", p.max_gate,
-          {.doc = "A hit matches a point of the map within three standard deviations, and at most this.",
-           .unit = "m",
-           .max = 100.0,
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("registration", p.registration,
-          {.doc = "Point-to-plane registration.", .audience = Audience::expert});
-  v.field("min_matches", p.min_matches,
-          {.doc = "With fewer matched hits the prediction is kept.",
-           .min = 6,
-           .max = 100000,
-           .audience = Audience::expert});
   v.field("min_fit", p.min_fit,
           {.doc = "An observation fits only if this share of its hits has found a point of the map. One that "
                   "does not fit moves the robot as predicted and adds no points.",
@@ -109,11 +84,11 @@ LidarOdometry::LidarOdometry(const Params& params, const StageSetup& setup)
     : params_(params),
       motion_(setup.motion),
       map_(params.surfaces),
-      threshold_(params.initial_threshold, params.min_correction) {}
+      threshold_(initial_threshold, min_correction) {}
 
 void LidarOdometry::reset() {
   map_.reset();
-  threshold_ = {params_.initial_threshold, params_.min_correction};
+  threshold_ = {initial_threshold, min_correction};
   odom_from_last_.reset();
   last_from_robot_ = {};
   last_step_seconds_ = last_stamp_ = 0.0;
@@ -167,12 +142,11 @@ SteadyMotion LidarOdometry::motion_in_scan(const Observation& observation) const
 
 Pose3 LidarOdometry::match(const Scan& scan, const Pose3& prediction) {
   const Points hits = voxel_downsampled(scan.hits, params_.scan_voxel);
-  if (map().points.empty() || hits.size() < static_cast<std::size_t>(params_.min_matches)) return prediction;
+  if (map().points.empty() || hits.size() < min_matches) return prediction;
   const double sigma = threshold_.sigma();
-  const MatchLimits limits{.gate = std::min(3.0 * sigma, params_.max_gate), .kernel = sigma / 3.0};
-  const PlaneRegistration found =
-      register_to_planes(map_, hits, scan.origin, prediction, limits, params_.registration);
-  const bool fits = found.matches >= static_cast<std::size_t>(params_.min_matches) &&
+  const MatchLimits limits{.gate = std::min(3.0 * sigma, max_gate), .kernel = sigma / 3.0};
+  const PlaneRegistration found = register_to_planes(map_, hits, scan.origin, prediction, limits);
+  const bool fits = found.matches >= min_matches &&
                     static_cast<double>(found.matches) >= params_.min_fit * static_cast<double>(hits.size());
   misfits_ = fits ? 0 : misfits_ + 1;
   if (!fits) return prediction;

@@ -50,11 +50,6 @@ class LidarOdometry final : public LocalMapper {
     double scan_voxel = 0.25;
     std::string prediction = "odometry";
     std::string deskew = "odometry";
-    double initial_threshold = 0.3;
-    double min_correction = 0.02;
-    double max_gate = 2.0;
-    PlaneRegistrationParams registration;
-    int min_matches = 30;
     double min_fit = 0.3;
     int restart_after = 3;
     int scans = 400;
@@ -68,6 +63,15 @@ class LidarOdometry final : public LocalMapper {
   void reset() override;
 
  private:
+  /// Sigma before anything is known of predictions, m.
+  static constexpr double initial_threshold = 0.3;
+  /// Corrections that move no hit farther than this do not count for sigma, m.
+  static constexpr double min_correction = 0.02;
+  /// A hit matches a point of the map within three sigma, and at most this, m.
+  static constexpr double max_gate = 2.0;
+  /// With fewer matched hits the prediction is kept.
+  static constexpr std::size_t min_matches = 30;
+
   [[nodiscard]] Pose3 predicted(const Pose3& odom_from_robot) const;
   /// The robot's motion while it made the scan of an observation, as far as it is known.
   [[nodiscard]] SteadyMotion motion_in_scan(const Observation& observation) const;

@@ -3,12 +3,19 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "local_mappers/gauss_newton.hpp"
-
 namespace glocal {
 
 namespace {
 
+/// Scale of the kernel, as a share of the gate: what is at the gate has a hundredth of a near hit's weight.
+constexpr double kernel_share = 0.333;
+/// Between the normals of a hit and its point of the map: farther turned it is another side of the thing.
+constexpr double max_normal_angle_deg = 60.0;
+/// Of matches without normals, which count point to point; others have weight 1.
+constexpr double pointwise_weight = 0.2;
+/// Added to the diagonal of the normal equations per match: keeps directions still that no match sees.
+constexpr double damping = 1e-4;
+constexpr int max_steps = 20;
 constexpr double converged_m = 1e-4;
 constexpr double converged_rad = 1e-4;
 
@@ -58,26 +65,16 @@ void describe(ParamVisitor& v, LineRegistrationParams& p) {
           {.doc = "Farthest a hit may be from its point of the map; at most 11 cells.",
            .unit = "m",
            .above = 0.0});
-  v.field("kernel_share", p.kernel_share,
-          {.doc = "Scale of the Geman-McClure kernel, as a share of the gate.", .max = 10.0, .above = 0.0});
-  v.field("max_normal_angle_deg", p.max_normal_angle_deg,
-          {.doc = "Largest angle between the normals of a hit and its point of the map.",
-           .unit = "deg",
-           .min = 0.0,
-           .max = 180.0,
-           .formerly = "max_normal_angle"});
-  describe_gauss_newton(v, p);
 }
 
 NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                          const Points& normals, const Pose2& local_from_robot,
-                          const LineRegistrationParams& params) {
+                          const Points& normals, const Pose2& local_from_robot, double gate) {
   const Transform transform(local_from_robot);
   const Transform rotation({0.0, 0.0, local_from_robot.theta});
   const Point robot = transform({});
-  const auto gate_squared = static_cast<float>(params.gate * params.gate);
-  const auto min_cosine = static_cast<float>(std::cos(radians(params.max_normal_angle_deg)));
-  NormalSums sums(params.gate * params.kernel_share);
+  const auto gate_squared = static_cast<float>(gate * gate);
+  const auto min_cosine = static_cast<float>(std::cos(radians(max_normal_angle_deg)));
+  NormalSums sums(gate * kernel_share);
   int matches = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Point p = transform(hits[i]);
@@ -95,8 +92,8 @@ NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Poin
     const Point normal = rotation(normals[i]);
     const bool has_normals = (nx != 0.0F || ny != 0.0F) && (normal.x != 0.0F || normal.y != 0.0F);
     if (!has_normals) {
-      sums.add(dx, 1.0, 0.0, lever_x, params.pointwise_weight);
-      sums.add(dy, 0.0, 1.0, lever_y, params.pointwise_weight);
+      sums.add(dx, 1.0, 0.0, lever_x, pointwise_weight);
+      sums.add(dy, 0.0, 1.0, lever_y, pointwise_weight);
     } else if (nx * normal.x + ny * normal.y >= min_cosine) {
       sums.add(nx * dx + ny * dy, nx, ny, nx * lever_x + ny * lever_y, 1.0);
     } else {
@@ -108,14 +105,13 @@ NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Poin
 }
 
 ScanRegistration register_scan(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                               const Points& normals, const Pose2& start,
-                               const LineRegistrationParams& params) {
+                               const Points& normals, const Pose2& start, double gate) {
   ScanRegistration result{start, 0};
-  for (int iteration = 0; iteration < params.max_iterations; ++iteration) {
-    NormalEquations equations = linearise(grid, map, hits, normals, result.local_from_robot, params);
+  for (int iteration = 0; iteration < max_steps; ++iteration) {
+    NormalEquations equations = linearise(grid, map, hits, normals, result.local_from_robot, gate);
     result.matches = equations.matches;
     if (equations.matches == 0) break;
-    equations.hessian.diagonal().array() += params.damping * equations.matches;
+    equations.hessian.diagonal().array() += damping * equations.matches;
     const Eigen::Vector3d step = -equations.hessian.ldlt().solve(equations.gradient);
     Pose2& pose = result.local_from_robot;
     pose = {pose.x + step.x(), pose.y + step.y(), wrap_angle(pose.theta + step.z())};

@@ -13,11 +13,6 @@ namespace glocal {
 
 struct LineRegistrationParams {
   double gate = 0.45;
-  double kernel_share = 0.333;
-  double max_normal_angle_deg = 60.0;
-  double pointwise_weight = 0.2;
-  int max_iterations = 20;
-  double damping = 1e-4;
 };
 void describe(ParamVisitor& v, LineRegistrationParams& p);
 
@@ -31,21 +26,19 @@ struct NormalEquations {
 };
 
 /// Matches hits (robot frame, with their normals) to nearest points of the map and sums up the Geman-McClure
-/// costs rho(r) = c^2 r^2 / (2 (c^2 + r^2)), c = gate * kernel_share, of the distances r to the lines through
+/// costs rho(r) = c^2 r^2 / (2 (c^2 + r^2)), c = gate / 3, of the distances r to the lines through
 /// these points; where either has no normal, of the distances along x and y, with less weight.
 [[nodiscard]] NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                                        const Points& normals, const Pose2& local_from_robot,
-                                        const LineRegistrationParams& params);
+                                        const Points& normals, const Pose2& local_from_robot, double gate);
 
 struct ScanRegistration {
   Pose2 local_from_robot;
   int matches = 0;  ///< In the last iteration.
 };
 
-/// Iterates Gauss-Newton steps from `start` until they are below 0.1 mm and 0.1 mrad. Directions the points
-/// do not determine (along a bare corridor) stay at `start`.
+/// Iterates Gauss-Newton steps from `start` until they are below 0.1 mm and 0.1 mrad, at most 20. Directions
+/// the points do not determine (along a bare corridor) stay at `start`.
 [[nodiscard]] ScanRegistration register_scan(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                                             const Points& normals, const Pose2& start,
-                                             const LineRegistrationParams& params);
+                                             const Points& normals, const Pose2& start, double gate);
 
 }  // namespace glocal

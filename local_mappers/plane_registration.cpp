@@ -6,11 +6,16 @@
 #include <cmath>
 #include <optional>
 
-#include "local_mappers/gauss_newton.hpp"
-
 namespace glocal {
 namespace {
 
+/// What keeps a step from running away.
+struct StepRules {
+  static constexpr double pointwise_weight = 0.1;  ///< Of matches without normals; others have weight 1.
+  /// Added to the diagonal of the normal equations per match: keeps directions still that no match sees.
+  static constexpr double damping = 1e-3;
+  static constexpr int most = 30;
+};
 constexpr double small_step_m = 1e-4;
 constexpr double small_step_rad = 1e-4;
 
@@ -33,8 +38,8 @@ class SpatialNormalEquations {
     gradient_.noalias() += w * residual * derivative;
   }
 
-  [[nodiscard]] Vector6 step(double damping) const {
-    const Matrix6 damped = hessian_ + damping * Matrix6::Identity();
+  [[nodiscard]] Vector6 step(std::size_t matches) const {
+    const Matrix6 damped = hessian_ + StepRules::damping * static_cast<double>(matches) * Matrix6::Identity();
     return damped.ldlt().solve(-gradient_);
   }
 
@@ -50,17 +55,12 @@ Eigen::Vector3d vector_of(const Point& p) {
 
 }  // namespace
 
-void describe(ParamVisitor& v, PlaneRegistrationParams& p) {
-  describe_gauss_newton(v, p);
-}
-
 PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, const Point& sensor,
-                                     const Pose3& start, const MatchLimits& limits,
-                                     const PlaneRegistrationParams& params) {
+                                     const Pose3& start, const MatchLimits& limits) {
   PlaneRegistration result{start, 0};
   const Points& points = map.map().points;
   const Points& normals = map.map().normals;
-  for (int iteration = 0; iteration < params.max_iterations; ++iteration) {
+  for (int iteration = 0; iteration < StepRules::most; ++iteration) {
     Pose3& pose = result.local_from_robot;
     const Points placed = moved(hits, pose);
     const Vector3 sensor_in_local = pose * as_vector(sensor);
@@ -75,7 +75,7 @@ PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, 
       const Eigen::Vector3d offset = hit - vector_of(points[*found]);
       if (normals[*found] == Point{}) {
         for (int axis = 0; axis < 3; ++axis)
-          equations.add(offset[axis], Eigen::Vector3d::Unit(axis), hit - robot, params.pointwise_weight);
+          equations.add(offset[axis], Eigen::Vector3d::Unit(axis), hit - robot, StepRules::pointwise_weight);
       } else {
         const Eigen::Vector3d normal = vector_of(normals[*found]);
         if (normal.dot(eye - hit) < 0.0) continue;
@@ -84,7 +84,7 @@ PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, 
       ++result.matches;
     }
     if (result.matches == 0) return result;
-    const Vector6 step = equations.step(params.damping * static_cast<double>(result.matches));
+    const Vector6 step = equations.step(result.matches);
     pose = {{pose.x + step[0], pose.y + step[1], pose.z + step[2]},
             exponential({step[3], step[4], step[5]}) * pose.rotation};
     if (step.head<3>().norm() < small_step_m && step.tail<3>().norm() < small_step_rad) break;

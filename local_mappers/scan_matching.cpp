@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace glocal {
-
 void describe(ParamVisitor& v, ScanMatching::Params& p) {
   describe(v, p.voxels);
   v.field("likelihood_sigma", p.likelihood_sigma,
@@ -17,38 +16,8 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
           {.doc = "Search that follows where the first finds nothing that fits well: wheels slip, and logs "
                   "have jumps.",
            .audience = Audience::expert});
-  v.field("wide_search_below", p.wide_search_below,
-          {.doc = "The wide search is tried where the mean likelihood of the first search is below this, and "
-                  "its own result must reach it.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::expert});
-  v.field(
-      "wide_search_gain", p.wide_search_gain,
-      {.doc = "The result of the wide search must be more likely than that of the first one by this much.",
-       .min = 0.0,
-       .max = 1.0,
-       .audience = Audience::expert});
   v.field("refinement", p.refinement,
           {.doc = "Point-to-line registration after the search.", .audience = Audience::expert});
-  v.field("min_matches", p.min_matches,
-          {.doc = "With fewer matched hits odometry is kept.",
-           .min = 3,
-           .max = 100000,
-           .audience = Audience::expert});
-  v.field("max_correction", p.max_correction,
-          {.doc = "Odometry is kept if the refinement moves the robot farther than this from where the "
-                  "search ended.",
-           .unit = "m",
-           .min = 0.0,
-           .audience = Audience::expert});
-  v.field("max_correction_angle_deg", p.max_correction_angle_deg,
-          {.doc = "Odometry is kept if the refinement turns the robot by more than this from where the "
-                  "search ended.",
-           .unit = "deg",
-           .min = 0.0,
-           .audience = Audience::expert,
-           .formerly = "max_correction_angle"});
   v.field("min_fit", p.min_fit,
           {.doc = "An observation fits only if its mean likelihood after the search reaches this. One that "
                   "does not fit moves the robot by odometry and adds no points.",
@@ -63,10 +32,6 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
        .max = 1.0,
        .audience = Audience::tuner,
        .formerly = "max_seen_through"});
-  v.field("free_space_check", p.free_space_check,
-          {.doc = "How scans are compared to find free-space violations.",
-           .audience = Audience::expert,
-           .formerly = "sight"});
   v.field(
       "restart_after", p.restart_after,
       {.doc =
@@ -81,8 +46,7 @@ ScanMatching::ScanMatching(const Params& params)
     : params_(params),
       map_(params.voxels,
            std::min(cells_in(params.refinement.gate, params.voxels.resolution), PointGrid::max_reach),
-           params.likelihood_sigma),
-      free_space_check_(params.free_space_check) {}
+           params.likelihood_sigma) {}
 
 void ScanMatching::reset() {
   map_.reset();
@@ -119,8 +83,7 @@ Pose2 ScanMatching::predict(const Pose2& odom_from_robot) const {
 }
 
 Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& predicted) {
-  if (map().points.empty() || scan.hits.size() < static_cast<std::size_t>(params_.min_matches))
-    return predicted;
+  if (map().points.empty() || scan.hits.size() < static_cast<std::size_t>(min_matches)) return predicted;
   const SearchResult found = search(scan.hits, predicted);
   const bool fits = found.likelihood >= params_.min_fit;
   const Pose2 refined = fits ? refine(scan, normals, found.local_from_robot, predicted) : predicted;
@@ -133,20 +96,19 @@ Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& 
 Pose2 ScanMatching::refine(const Scan& scan, const Points& normals, const Pose2& found,
                            const Pose2& predicted) const {
   const ScanRegistration refined =
-      register_scan(grid(), map(), scan.hits, normals, found, params_.refinement);
-  const bool sound =
-      refined.matches >= params_.min_matches &&
-      distance(refined.local_from_robot, found) <= params_.max_correction &&
-      rotation_between(refined.local_from_robot, found) <= radians(params_.max_correction_angle_deg);
+      register_scan(grid(), map(), scan.hits, normals, found, params_.refinement.gate);
+  const bool sound = refined.matches >= min_matches &&
+                     distance(refined.local_from_robot, found) <= max_correction &&
+                     rotation_between(refined.local_from_robot, found) <= radians(max_correction_angle_deg);
   return sound ? refined.local_from_robot : predicted;
 }
 
 SearchResult ScanMatching::search(const Points& hits, const Pose2& predicted) const {
-  const SearchResult near = correlative_search(grid(), hits, predicted, params_.search);
-  if (near.likelihood >= params_.wide_search_below) return near;
-  const SearchResult far = correlative_search(grid(), hits, predicted, params_.wide_search);
+  const SearchResult near = correlative_search(grid(), hits, predicted, params_.search, near_penalty);
+  if (near.likelihood >= wide_search_below) return near;
+  const SearchResult far = correlative_search(grid(), hits, predicted, params_.wide_search, wide_penalty);
   // Far from odometry only a good fit is believed: every place resembles some other a little.
-  const double needed = std::max(params_.wide_search_below, near.likelihood + params_.wide_search_gain);
+  const double needed = std::max(wide_search_below, near.likelihood + wide_search_gain);
   return far.likelihood >= needed ? far : near;
 }
 

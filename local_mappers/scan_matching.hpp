@@ -26,16 +26,10 @@ class ScanMatching final : public LocalMapper {
     double likelihood_sigma = 0.1;
     ScanNormalParams normals;
     CorrelativeSearchParams search;
-    CorrelativeSearchParams wide_search{.translation = 0.75, .rotation_deg = 86.0, .odometry_penalty = 0.02};
-    double wide_search_below = 0.5;
-    double wide_search_gain = 0.15;
+    CorrelativeSearchParams wide_search{.translation = 0.75, .rotation_deg = 86.0};
     LineRegistrationParams refinement;
-    int min_matches = 15;
-    double max_correction = 0.6;
-    double max_correction_angle_deg = 35.0;
     double min_fit = 0.15;
     double max_free_space_violation = 0.15;
-    FreeSpaceCheckParams free_space_check;
     int restart_after = 2;
   };
 
@@ -59,6 +53,20 @@ class ScanMatching final : public LocalMapper {
   [[nodiscard]] const PointGrid& grid() const { return map_.grid(); }
 
  private:
+  /// What a pose at the border of the search loses in likelihood: odometry holds where hits say nothing …
+  static constexpr double near_penalty = 0.005;
+  /// … and is preferred among places that resemble each other.
+  static constexpr double wide_penalty = 0.02;
+  /// The wide search is tried where the first one's likelihood is below this, and must itself reach it …
+  static constexpr double wide_search_below = 0.5;
+  /// … and be more likely than the first one by this much.
+  static constexpr double wide_search_gain = 0.15;
+  /// With fewer matched hits odometry is kept.
+  static constexpr int min_matches = 15;
+  /// A refinement that goes farther from where the search ended has run away, m …
+  static constexpr double max_correction = 0.6;
+  static constexpr double max_correction_angle_deg = 35.0;  ///< … and one that turns farther, deg.
+
   /// What odometry says, from the last pose on.
   [[nodiscard]] Pose2 predict(const Pose2& odom_from_robot) const;
   /// Where the scan fits best, or `predicted` where it says too little. Counts misfits.

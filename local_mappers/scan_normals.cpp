@@ -8,6 +8,10 @@ namespace glocal {
 
 namespace {
 
+/// Farthest two successive hits of one surface may be apart, m: a beam's spacing on a wall seen at a flat
+/// angle.
+constexpr float max_gap = 0.6F;
+
 /// Neighbours of a hit that lie on the same surface, as far as jumps between beams can tell: [first, last].
 struct Window {
   std::size_t first;
@@ -15,7 +19,7 @@ struct Window {
 };
 
 /// For each hit, how many hits before it follow one another without a jump.
-std::vector<int> unbroken_before(const Points& hits, float max_gap) {
+std::vector<int> unbroken_before(const Points& hits) {
   std::vector<int> counts(hits.size(), 0);
   for (std::size_t i = 1; i < hits.size(); ++i) {
     const float dx = hits.x[i] - hits.x[i - 1];
@@ -58,8 +62,6 @@ Point line_normal(const Points& hits, std::size_t centre, Window window, float m
 void describe(ParamVisitor& v, ScanNormalParams& p) {
   v.field("beams", p.beams,
           {.doc = "Neighbouring hits on each side that a normal is computed from.", .min = 1, .max = 100});
-  v.field("max_gap", p.max_gap,
-          {.doc = "Farthest two successive hits of one surface may be apart.", .unit = "m", .above = 0.0});
   v.field("max_roughness", p.max_roughness,
           {.doc = "Largest ratio of the variances across and along a line; rougher hits get no normal.",
            .max = 1.0,
@@ -68,7 +70,7 @@ void describe(ParamVisitor& v, ScanNormalParams& p) {
 
 Points scan_normals(const Points& hits, const Point& sensor, const ScanNormalParams& params) {
   const std::size_t n = hits.size();
-  const std::vector<int> before = unbroken_before(hits, static_cast<float>(params.max_gap));
+  const std::vector<int> before = unbroken_before(hits);
   Points normals;
   normals.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -30,7 +30,7 @@ TEST(RangeProfile, TellsWhatWasMetFromWhatWasSeenThroughAndWhatWasHidden) {
   hits.push_back({-3.8F, 0.0F, 0.0F});  // 4.8 m: met, within the margin
   hits.push_back({1.0F, 5.2F, 0.0F});   // 5.2 m: met as well
   hits.push_back({7.0F, 0.0F, 0.0F});   // 6 m: behind what was met
-  const RangeProfile::Seen seen = profile.look_at(hits, {}, 0.3);
+  const RangeProfile::Seen seen = profile.look_at(hits, {});
   EXPECT_EQ(seen.violation, 2U);
   EXPECT_EQ(seen.met, 2U);
 }
@@ -40,8 +40,8 @@ TEST(RangeProfile, LooksAtHitsWhereTheirRobotWas) {
   Points hits;
   hits.push_back({1.0F, 0.0F, 0.0F});
   // The other robot stood at (0, 4) and looked along y: its hit is at (0, 5).
-  EXPECT_EQ(profile.look_at(hits, {0.0, 4.0, radians(90)}, 0.3).met, 1U);
-  EXPECT_EQ(profile.look_at(hits, {0.0, 2.0, radians(90)}, 0.3).violation, 1U);
+  EXPECT_EQ(profile.look_at(hits, {0.0, 4.0, radians(90)}).met, 1U);
+  EXPECT_EQ(profile.look_at(hits, {0.0, 2.0, radians(90)}).violation, 1U);
 }
 
 TEST(RangeProfile, SaysNothingOfDirectionsItDidNotLookIn) {
@@ -54,7 +54,7 @@ TEST(RangeProfile, SaysNothingOfDirectionsItDidNotLookIn) {
   hits.push_back({3.0F, 0.0F, 0.0F});   // on the way of free beams
   hits.push_back({0.0F, 3.0F, 0.0F});   // beside
   hits.push_back({-3.0F, 0.0F, 0.0F});  // behind
-  const RangeProfile::Seen seen = RangeProfile(ahead).look_at(hits, {}, 0.3);
+  const RangeProfile::Seen seen = RangeProfile(ahead).look_at(hits, {});
   EXPECT_EQ(seen.violation, 1U);
   EXPECT_EQ(seen.met, 0U);
 }
@@ -62,7 +62,7 @@ TEST(RangeProfile, SaysNothingOfDirectionsItDidNotLookIn) {
 struct FreeSpace {
   Rng rng{7};
   std::vector<test::Wall> walls = test::furnished_room();
-  FreeSpaceCheck latest{FreeSpaceCheckParams{}};
+  FreeSpaceCheck latest;
 
   [[nodiscard]] Scan scan_at(const Pose2& pose) { return test::scan_from(walls, pose, {.noise = 0.02}, rng); }
 };
@@ -87,24 +87,26 @@ TEST(FreeSpaceCheck, AScanFromElsewhereIsNot) {
 }
 
 TEST(FreeSpaceCheck, SaysNothingFromTooFewHits) {
-  FreeSpaceCheck latest({.min_hits = 3});
+  FreeSpaceCheck latest;
   latest.add(circle_around({}, 5.0F), {});
+  // Each hit of this scan is seen through; the other's lie behind them.
+  const Points all = circle_around({}, 1.0F).hits;
   Scan scan;
-  scan.origin = {0.0F, 0.0F, 0.0F};
-  scan.hits.push_back({1.0F, 0.0F, 0.0F});
-  // One hit of this scan is seen through, and it could have seen one or two of the other's, behind its own.
+  for (std::size_t i = 0; i < 49; ++i) scan.hits.push_back(all[14 * i]);
   EXPECT_EQ(latest.violation(scan, {}), 0.0);
-  scan.hits.push_back({0.0F, 1.0F, 0.0F});
-  scan.hits.push_back({-1.0F, 0.0F, 0.0F});
+  scan.hits.push_back(all[14 * 49]);
   EXPECT_EQ(latest.violation(scan, {}), 1.0);
 }
 
-TEST(FreeSpaceCheck, ForgetsOldScans) {
-  FreeSpaceCheck latest({.scans = 1});
+TEST(FreeSpaceCheck, ForgetsAllButTheLatestFourScans) {
+  FreeSpaceCheck latest;
+  const Scan near = circle_around({}, 2.0F);
   latest.add(circle_around({}, 5.0F), {});
-  EXPECT_EQ(latest.violation(circle_around({}, 2.0F), {}), 1.0);
-  latest.add(circle_around({}, 2.0F), {});
-  EXPECT_EQ(latest.violation(circle_around({}, 2.0F), {}), 0.0);
+  EXPECT_EQ(latest.violation(near, {}), 1.0);
+  for (int i = 0; i < 3; ++i) latest.add(near, {});
+  EXPECT_GT(latest.violation(near, {}), 0.0);
+  latest.add(near, {});
+  EXPECT_EQ(latest.violation(near, {}), 0.0);
   latest.clear();
   EXPECT_EQ(latest.violation(circle_around({}, 5.0F), {}), 0.0);
 }

@@ -36,11 +36,10 @@ TEST(LineRegistration, OneMatchByHand) {
   hits.push_back({2.1F, 0.2F, 0.0F});
   Points normals;
   normals.push_back({-1.0F, 0.0F, 0.0F});
-  // c = 0.3 * 0.5 = 0.15; r = -0.1; share = 0.0225 / (0.0225 + 0.01) = 9 / 13.
-  const NormalEquations e = linearise(world.grid, world.map, hits, normals, {},
-                                      {.gate = 0.3, .kernel_share = 0.5, .damping = 1e-4});
+  // c = 0.45 * 0.333 = 0.14985; r = -0.1; share = 0.02245502 / (0.02245502 + 0.01).
+  const NormalEquations e = linearise(world.grid, world.map, hits, normals, {}, 0.45);
   EXPECT_EQ(e.matches, 1);
-  const double share = 9.0 / 13.0;
+  const double share = 0.6918813;
   EXPECT_NEAR(e.cost, 0.5 * share * 0.01, 1e-7);
   // Derivatives of r: (-1, 0, n . (-y, x)) = (-1, 0, 0.2).
   EXPECT_NEAR(e.gradient.x(), 0.1 * share * share, 1e-6);
@@ -59,12 +58,11 @@ TEST(LineRegistration, MatchesNeedTheGateAndTheNormals) {
   ASSERT_TRUE(world.grid.insert(world.grid.cell(2.0F, 0.0F), 0));
   Points hits;
   hits.push_back({2.2F, 0.0F, 0.0F});
-  const LineRegistrationParams params{.gate = 0.25, .max_normal_angle_deg = 60.0};
   const auto matches = [&](double normal_angle, double robot_x) {
     Points normals;
     normals.push_back(
         {static_cast<float>(-std::cos(normal_angle)), static_cast<float>(std::sin(normal_angle)), 0});
-    return linearise(world.grid, world.map, hits, normals, {robot_x, 0, 0}, params).matches;
+    return linearise(world.grid, world.map, hits, normals, {robot_x, 0, 0}, 0.25).matches;
   };
   EXPECT_EQ(matches(radians(59), 0.0), 1);
   EXPECT_EQ(matches(radians(61), 0.0), 0);
@@ -81,14 +79,14 @@ TEST(LineRegistration, TheGradientIsTheNumericDerivativeOfTheCost) {
   for (std::size_t i = 0; i < normals.size(); i += 7) normals.set(i, {});
   // A wide gate, so that no match is lost within the differences; these are taken where a match may change
   // only for few.
-  const LineRegistrationParams params{.gate = 0.45, .kernel_share = 0.333};
+  constexpr double gate = 0.45;
   const Pose2 pose{0.013, -0.021, 0.017};
   const auto cost = [&](double dx, double dy, double dt) {
     return linearise(world.grid, world.map, scan.hits, normals, {pose.x + dx, pose.y + dy, pose.theta + dt},
-                     params)
+                     gate)
         .cost;
   };
-  const NormalEquations e = linearise(world.grid, world.map, scan.hits, normals, pose, params);
+  const NormalEquations e = linearise(world.grid, world.map, scan.hits, normals, pose, gate);
   ASSERT_GT(e.matches, 300);
   const double h = 5e-5;
   const Eigen::Vector3d numeric{(cost(h, 0, 0) - cost(-h, 0, 0)) / (2 * h),
@@ -103,7 +101,7 @@ TEST(LineRegistration, BringsAScanBackOntoItself) {
   const ScanMap world(scan);
   const Points normals = scan_normals(scan.hits, {}, {});
   const ScanRegistration found =
-      register_scan(world.grid, world.map, scan.hits, normals, {0.05, -0.04, 0.03}, LineRegistrationParams{});
+      register_scan(world.grid, world.map, scan.hits, normals, {0.05, -0.04, 0.03}, 0.45);
   EXPECT_NEAR(found.local_from_robot.x, 0.0, 2e-3);
   EXPECT_NEAR(found.local_from_robot.y, 0.0, 2e-3);
   EXPECT_NEAR(found.local_from_robot.theta, 0.0, 1e-3);
@@ -116,7 +114,7 @@ TEST(LineRegistration, ABareCorridorLeavesTheWayAlongItAlone) {
   const ScanMap world(scan);
   const Points normals = scan_normals(scan.hits, {}, {});
   const ScanRegistration found =
-      register_scan(world.grid, world.map, scan.hits, normals, {0.1, 0.05, 0.02}, LineRegistrationParams{});
+      register_scan(world.grid, world.map, scan.hits, normals, {0.1, 0.05, 0.02}, 0.45);
   EXPECT_NEAR(found.local_from_robot.x, 0.1, 0.01);
   EXPECT_NEAR(found.local_from_robot.y, 0.0, 2e-3);
   EXPECT_NEAR(found.local_from_robot.theta, 0.0, 1e-3);
@@ -126,7 +124,7 @@ TEST(LineRegistration, WithoutMatchesItStays) {
   const ScanMap world(Scan{});
   Points hits;
   hits.push_back({1, 1, 0});
-  const ScanRegistration found = register_scan(world.grid, world.map, hits, hits, {0.1, 0.2, 0.3}, {});
+  const ScanRegistration found = register_scan(world.grid, world.map, hits, hits, {0.1, 0.2, 0.3}, 0.45);
   EXPECT_EQ(found.local_from_robot, (Pose2{0.1, 0.2, 0.3}));
   EXPECT_EQ(found.matches, 0);
 }

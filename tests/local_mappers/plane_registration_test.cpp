@@ -31,7 +31,7 @@ TEST_F(PlaneRegistrationTest, FindsAllSixOfAPose) {
   const Pose3 truth({4.8, 1.7, 1.1}, exponential({0.03, -0.02, 0.4}));
   const Scan scan = test::ring_scan(test::furnished_hall(), truth, 0.0, rng_);
   const Pose3 start = truth * Pose3({0.1, -0.08, 0.06}, exponential({0.03, 0.02, -0.05}));
-  const PlaneRegistration found = register_to_planes(map_, scan.hits, {}, start, limits, {});
+  const PlaneRegistration found = register_to_planes(map_, scan.hits, {}, start, limits);
   EXPECT_LT(distance(found.local_from_robot, truth), 0.01);
   EXPECT_LT(rotation_between(found.local_from_robot, truth), radians(0.2));
   EXPECT_GT(found.matches, scan.hits.size() * 9 / 10);
@@ -40,7 +40,7 @@ TEST_F(PlaneRegistrationTest, FindsAllSixOfAPose) {
 TEST_F(PlaneRegistrationTest, StaysWhereNothingIsNear) {
   const Pose3 start({200.0, 0.0, 0.0}, {});
   const Scan scan = test::ring_scan(test::furnished_hall(), {{5.0, 1.5, 1.0}, {}}, 0.0, rng_);
-  const PlaneRegistration found = register_to_planes(map_, scan.hits, {}, start, limits, {});
+  const PlaneRegistration found = register_to_planes(map_, scan.hits, {}, start, limits);
   EXPECT_EQ(found.local_from_robot, start);
   EXPECT_EQ(found.matches, 0U);
 }
@@ -57,7 +57,7 @@ TEST(PlaneRegistration, StaysInDirectionsThatNoPointDetermines) {
   for (std::size_t i = 0; i < floor.size(); ++i)
     if (std::abs(floor.x[i]) < 1.0F && std::abs(floor.y[i]) < 1.0F) inner.push_back(floor[i]);
   const Pose3 start({0.2, -0.1, 0.05}, turn_about_z(0.1));
-  const Pose3 found = register_to_planes(map, inner, {}, start, limits, {}).local_from_robot;
+  const Pose3 found = register_to_planes(map, inner, {}, start, limits).local_from_robot;
   EXPECT_NEAR(found.z, 0.0, 1e-3);
   EXPECT_NEAR(found.x, 0.2, 1e-3);
   EXPECT_NEAR(found.y, -0.1, 1e-3);
@@ -72,9 +72,9 @@ TEST(PlaneRegistration, TakesNoSurfaceFromBehind) {
   }
   SurfaceMap map{SurfaceMapParams{}};
   map.add(wall, {}, 0.0);
-  EXPECT_EQ(register_to_planes(map, wall, {}, {}, limits, {}).matches, wall.size());
+  EXPECT_EQ(register_to_planes(map, wall, {}, {}, limits).matches, wall.size());
   const Point beyond{4.0F, 0.0F, 0.0F};
-  EXPECT_EQ(register_to_planes(map, wall, beyond, {}, limits, {}).matches, 0U);
+  EXPECT_EQ(register_to_planes(map, wall, beyond, {}, limits).matches, 0U);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST(ScanNormals, DoNotReachAcrossAJump) {
   Points hits = wall({2, 0, 0}, radians(90), 5);
   const Points behind = wall({4, 0.25F, 0}, radians(90), 5);
   for (std::size_t i = 0; i < behind.size(); ++i) hits.push_back(behind[i]);
-  const Points normals = scan_normals(hits, {}, {.beams = 4, .max_gap = 0.3, .max_roughness = 0.1});
+  const Points normals = scan_normals(hits, {}, {.beams = 4, .max_roughness = 0.1});
   for (std::size_t i = 0; i < hits.size(); ++i) EXPECT_NEAR(normals.x[i], -1.0, 1e-5) << i;
 }
 
@@ -73,7 +73,7 @@ TEST(ScanNormals, BisectACorner) {
   Points hits;
   for (int i = 4; i >= 0; --i) hits.push_back({0.0F, 1.0F - 0.05F * static_cast<float>(i), 0.0F});
   for (int i = 1; i <= 4; ++i) hits.push_back({-0.05F * static_cast<float>(i), 1.0F, 0.0F});
-  const Points normals = scan_normals(hits, {-1, 0, 0}, {.beams = 4, .max_gap = 0.3, .max_roughness = 1.0});
+  const Points normals = scan_normals(hits, {-1, 0, 0}, {.beams = 4, .max_roughness = 1.0});
   EXPECT_NEAR(normals.x[4], -std::sqrt(0.5), 1e-4);
   EXPECT_NEAR(normals.y[4], -std::sqrt(0.5), 1e-4);
 }
