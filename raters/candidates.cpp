@@ -23,14 +23,16 @@ std::size_t count_places(const std::vector<Pose3>& poses) {
 
 }  // namespace
 
-Verdict ambiguous(std::vector<Pose3> poses) {
+std::optional<Verdict> ambiguous(std::vector<Pose3> poses) {
+  constexpr std::size_t max_candidates = 10;
   const std::size_t n = poses.size();
+  if (n < 2 || n > max_candidates) return std::nullopt;
   const std::size_t places = count_places(poses);
   const std::string where = places == n   ? ""
                             : places == 1 ? " at one place"
                                           : fmt::format(" at {} places", places);
-  return {VerdictKind::ambiguous, std::nullopt, std::move(poses),
-          fmt::format("{} poses{} explain the observations about equally well", n, where)};
+  return Verdict{VerdictKind::ambiguous, std::nullopt, std::move(poses),
+                 fmt::format("{} poses{} explain the observations about equally well", n, where)};
 }
 
 }  // namespace glocal

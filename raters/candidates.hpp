@@ -1,14 +1,16 @@
 // Poses among which a verdict rule cannot decide.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "glocal/step_result.hpp"
 
 namespace glocal {
 
-/// The verdict on robot poses, two or more and the best one first, that are about equally good. Its sentence
-/// counts places: poses within a metre of one that is better are at its place, whichever way they look.
-[[nodiscard]] Verdict ambiguous(std::vector<Pose3> poses);
+/// The verdict on robot poses, the best one first, that are about equally good, if they are two to ten: with
+/// more the robot is still searching. Its sentence counts places: poses within a metre of one that is better
+/// are at its place, whichever way they look.
+[[nodiscard]] std::optional<Verdict> ambiguous(std::vector<Pose3> poses);
 
 }  // namespace glocal

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "raters/candidates.hpp"
 
@@ -18,28 +19,10 @@ void describe(ParamVisitor& v, ConsecutiveRating::Params& p) {
           {.doc = "Number of consecutive steps in which the same cluster must be rated so highly.",
            .min = 1,
            .audience = Audience::tuner});
-  v.field("same_distance", p.same_distance,
-          {.doc = "A cluster is the same as in the last step only if its robot pose, moved by the local "
-                  "motion, is nearer than this.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("same_rotation_deg", p.same_rotation_deg,
-          {.doc = "A cluster is the same as in the last step only if its robot pose, moved by the local "
-                  "motion, is turned by less than this.",
-           .unit = "deg",
-           .max = 180.0,
-           .above = 0.0,
-           .audience = Audience::expert});
   v.field("candidate_share", p.candidate_share,
           {.doc = "A cluster is a candidate if its rating (eq. 7) is at least this share of the best one's.",
            .min = 0.0,
            .max = 1.0,
-           .audience = Audience::expert});
-  v.field("max_candidates", p.max_candidates,
-          {.doc = "The verdict is ambiguous with two to so many distinct candidate poses; with more it is "
-                  "searching.",
-           .min = 2,
            .audience = Audience::expert});
 }
 
@@ -67,11 +50,7 @@ Verdict ConsecutiveRating::judge(const StepResult& step) {
                         params_.consecutive)};
   }
   last_.reset();
-  std::vector<Pose3> poses = candidates(step);
-  const std::size_t n = poses.size();
-  if (n >= 2 && n <= static_cast<std::size_t>(params_.max_candidates)) {
-    return ambiguous(std::move(poses));
-  }
+  if (std::optional<Verdict> verdict = ambiguous(candidates(step))) return *std::move(verdict);
   return {VerdictKind::searching,
           std::nullopt,
           {},
@@ -80,13 +59,9 @@ Verdict ConsecutiveRating::judge(const StepResult& step) {
               step.clusters.size(), rating, params_.min_rating)};
 }
 
-bool ConsecutiveRating::same(const Pose3& a, const Pose3& b) const {
-  return are_same(a, b, params_.same_distance, params_.same_rotation_deg);
-}
-
 bool ConsecutiveRating::continues(const Leader& last, const StepResult& step) const {
   const auto expected = last.pose.expected_in(step);
-  return expected && same(step.clusters.front().map_from_robot, *expected);
+  return expected && are_same(step.clusters.front().map_from_robot, *expected);
 }
 
 /// Robot poses of the highly rated clusters, leaving out those that only repeat a better one.
@@ -95,7 +70,7 @@ std::vector<Pose3> ConsecutiveRating::candidates(const StepResult& step) const {
   const double least = params_.candidate_share * step.ratings.front().r;
   for (std::size_t i = 0; i < step.clusters.size() && step.ratings[i].r >= least; ++i) {
     const Pose3& pose = step.clusters[i].map_from_robot;
-    if (std::none_of(poses.begin(), poses.end(), [&](const Pose3& other) { return same(pose, other); })) {
+    if (std::none_of(poses.begin(), poses.end(), [&](const Pose3& other) { return are_same(pose, other); })) {
       poses.push_back(pose);
     }
   }

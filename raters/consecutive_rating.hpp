@@ -18,10 +18,7 @@ class ConsecutiveRating final : public VerdictRule {
   struct Params {
     double min_rating = 0.8;
     int consecutive = 3;
-    double same_distance = 0.5;
-    double same_rotation_deg = 15.0;
     double candidate_share = 0.4;
-    int max_candidates = 10;
   };
 
   explicit ConsecutiveRating(const Params& params) : params_(params) {}
@@ -37,7 +34,6 @@ class ConsecutiveRating final : public VerdictRule {
     FollowedPose pose;
     int count = 0;
   };
-  [[nodiscard]] bool same(const Pose3& a, const Pose3& b) const;
   [[nodiscard]] bool continues(const Leader& last, const StepResult& step) const;
   [[nodiscard]] std::vector<Pose3> candidates(const StepResult& step) const;
 

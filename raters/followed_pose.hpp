@@ -34,8 +34,10 @@ struct FollowedPose {
   }
 };
 
-/// Nearer to each other, and turned by less, than this.
-[[nodiscard]] inline bool are_same(const Pose3& a, const Pose3& b, double distance_m, double rotation_deg) {
+/// Whether two estimates may be of one robot pose: drift of a step and the spread of a cluster stay below.
+[[nodiscard]] inline bool are_same(const Pose3& a, const Pose3& b) {
+  constexpr double distance_m = 0.5;
+  constexpr double rotation_deg = 15.0;
   return distance(a, b) < distance_m && rotation_between(a, b) < radians(rotation_deg);
 }
 

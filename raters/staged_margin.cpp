@@ -5,10 +5,59 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "raters/candidates.hpp"
 
 namespace glocal {
+namespace {
+
+/// Steps since the robot last turned fast, before anything is declared.
+constexpr int steady_steps = 3;
+
+/// A rival of a pose is another place or another heading.
+bool are_rivals(const Pose3& a, const Pose3& b) {
+  constexpr double distance_m = 1.0;
+  constexpr double rotation_deg = 30.0;
+  return distance(a, b) > distance_m || rotation_between(a, b) > radians(rotation_deg);
+}
+
+/// The probability that the best pose is right: logistic in its margin and in the logarithm of the steps in
+/// which it has been the same. Fitted to starts in simulated worlds (docs/method.md). Never 1, however clear
+/// the margin is: a place off the map has no hypothesis.
+double confidence_of(double margin, int steps) {
+  return 0.998 / (1.0 + std::exp(-(-1.5 + 28.5 * margin + 0.45 * std::log(steps))));
+}
+
+/// The best hypothesis' own, and the spread of those near it that are about as good.
+std::optional<PoseCovariance> covariance(const std::vector<Hypothesis>& hypotheses) {
+  constexpr double spread_margin = 0.05;  // in score, at which a hypothesis counts 1/e
+  const Hypothesis& best = hypotheses.front();
+  if (!best.covariance) return std::nullopt;
+  const double heading = best.map_from_robot.heading();
+  PoseCovariance spread;
+  double weights = 0.0;
+  for (const Hypothesis& h : hypotheses) {
+    if (are_rivals(h.map_from_robot, best.map_from_robot)) continue;
+    const double weight = std::exp((h.score - best.score) / spread_margin);
+    const double x = h.map_from_robot.x - best.map_from_robot.x;
+    const double y = h.map_from_robot.y - best.map_from_robot.y;
+    const double t = wrap_angle(h.map_from_robot.heading() - heading);
+    weights += weight;
+    spread.xx += weight * x * x;
+    spread.xy += weight * x * y;
+    spread.xt += weight * x * t;
+    spread.yy += weight * y * y;
+    spread.yt += weight * y * t;
+    spread.tt += weight * t * t;
+  }
+  const PoseCovariance& own = *best.covariance;
+  return PoseCovariance{own.xx + spread.xx / weights, own.xy + spread.xy / weights,
+                        own.xt + spread.xt / weights, own.yy + spread.yy / weights,
+                        own.yt + spread.yt / weights, own.tt + spread.tt / weights};
+}
+
+}  // namespace
 
 void describe(ParamVisitor& v, StagedMargin::Stage& p) {
   v.field(
@@ -18,19 +67,6 @@ void describe(ParamVisitor& v, StagedMargin::Stage& p) {
           {.doc = "Number of consecutive steps in which the margin must be kept.", .min = 1});
   v.field("distance", p.distance,
           {.doc = "Way the robot must drive while the margin is kept.", .unit = "m", .min = 0.0});
-}
-
-void describe(ParamVisitor& v, StagedMargin::Confidence& p) {
-  v.field("bias", p.bias, {.doc = "Log odds that the best pose is right when it has no margin at all."});
-  v.field("margin", p.margin, {.doc = "Log odds that a margin of 1 adds."});
-  v.field("steps", p.steps,
-          {.doc = "Log odds that time adds, for each natural logarithm of the number of steps in which the "
-                  "best pose has been the same."});
-  v.field("most", p.most,
-          {.doc = "Upper limit of the confidence, however clear the margin is: a place off the map has no "
-                  "hypothesis.",
-           .max = 1.0,
-           .above = 0.0});
 }
 
 void describe(ParamVisitor& v, StagedMargin::Params& p) {
@@ -45,42 +81,11 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
               "more contact.",
        .max_items = 100,
        .audience = Audience::tuner});
-  v.field("rival_distance", p.rival_distance,
-          {.doc = "A hypothesis is a rival of the best one if it is farther away than this, or turned by "
-                  "more than rival_rotation_deg.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("rival_rotation_deg", p.rival_rotation_deg,
-          {.doc = "A hypothesis is a rival of the best one if it is turned by more than this, or farther "
-                  "away than rival_distance.",
-           .unit = "deg",
-           .max = 180.0,
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("same_distance", p.same_distance,
-          {.doc = "The best hypothesis is the same as in the last step only if its robot pose, moved by the "
-                  "local motion, is nearer than this.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("same_rotation_deg", p.same_rotation_deg,
-          {.doc = "The best hypothesis is the same as in the last step only if its robot pose, moved by the "
-                  "local motion, is turned by less than this.",
-           .unit = "deg",
-           .max = 180.0,
-           .above = 0.0,
-           .audience = Audience::expert});
   v.field("max_turn_rate_deg", p.max_turn_rate_deg,
           {.doc = "Nothing is declared while the robot turns faster than this: scans are smeared then, and "
                   "time stamps are not exact enough for the heading.",
            .unit = "deg/s",
            .above = 0.0,
-           .audience = Audience::expert});
-  v.field("steady_steps", p.steady_steps,
-          {.doc = "Number of steps since the robot last turned faster than max_turn_rate_deg, before "
-                  "anything is declared.",
-           .min = 1,
            .audience = Audience::expert});
   v.field("max_free_space_violation", p.max_free_space_violation,
           {.doc = "Nothing is declared if a larger share of the points lies in space known to be free, where "
@@ -96,22 +101,11 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
        .min = 0.0,
        .max = 1.0,
        .audience = Audience::tuner});
-  v.field("confidence", p.confidence,
-          {.doc = "Logistic model that makes a probability of the margin.", .audience = Audience::expert});
-  v.field("spread_margin", p.spread_margin,
-          {.doc = "In the covariance, a hypothesis near the best one counts 1/e where its score is lower by "
-                  "this much.",
-           .above = 0.0,
-           .audience = Audience::expert});
   v.field("candidate_margin", p.candidate_margin,
           {.doc = "The verdict is ambiguous if the score of a rival is within this of the best one.",
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::tuner});
-  v.field("max_candidates", p.max_candidates,
-          {.doc = "The verdict is ambiguous with two to so many candidate poses; with more it is searching.",
-           .min = 2,
-           .audience = Audience::expert});
 }
 
 StagedMargin::StagedMargin(const Params& params, const StageSetup& setup)
@@ -171,7 +165,7 @@ Verdict StagedMargin::judge(const StepResult& step) {
   if (!scan_fits)
     verdict.why = fmt::format("only {:.0f} % of the last scan fits the best pose", 100.0 * *step.omega_scan);
   verdict.needs_certificate = is_declared_ && !(may_be_declared && is_clear);
-  verdict.estimate = {pose, confidence(margin), covariance(step.hypotheses)};
+  verdict.estimate = {pose, confidence_of(margin, steps_), covariance(step.hypotheses)};
   verdict.evidence = {{"margin", margin},
                       {"steps", static_cast<double>(steps_)},
                       {"distance_m", distance_},
@@ -187,7 +181,7 @@ bool StagedMargin::is_steady(double turn_rate_deg) {
   } else if (since_turn_) {
     ++*since_turn_;
   }
-  return !since_turn_ || *since_turn_ >= params_.steady_steps;
+  return !since_turn_ || *since_turn_ >= steady_steps;
 }
 
 bool StagedMargin::Ladder::is_reached(double margin, double driven) {
@@ -229,53 +223,11 @@ Verdict StagedMargin::localized(const StepResult& step, double margin) const {
 }
 
 Verdict StagedMargin::undecided(const StepResult& step, double margin) const {
-  std::vector<Pose3> poses = candidates(step);
-  const std::size_t n = poses.size();
-  if (n >= 2 && n <= static_cast<std::size_t>(params_.max_candidates)) {
-    return ambiguous(std::move(poses));
-  }
+  if (std::optional<Verdict> verdict = ambiguous(candidates(step))) return *std::move(verdict);
   return {VerdictKind::searching,
           std::nullopt,
           {},
           fmt::format("the best pose is better by {:.2f} only, and the best in {} steps", margin, steps_)};
-}
-
-/// A logistic model of the margin and of how long the best pose has been the same.
-double StagedMargin::confidence(double margin) const {
-  const Confidence& c = params_.confidence;
-  return c.most / (1.0 + std::exp(-(c.bias + c.margin * margin + c.steps * std::log(steps_))));
-}
-
-/// The best hypothesis' own, and the spread of those near it that are about as good.
-std::optional<PoseCovariance> StagedMargin::covariance(const std::vector<Hypothesis>& hypotheses) const {
-  const Hypothesis& best = hypotheses.front();
-  if (!best.covariance) return std::nullopt;
-  const double heading = best.map_from_robot.heading();
-  PoseCovariance spread;
-  double weights = 0.0;
-  for (const Hypothesis& h : hypotheses) {
-    if (are_rivals(h.map_from_robot, best.map_from_robot)) continue;
-    const double weight = std::exp((h.score - best.score) / params_.spread_margin);
-    const double x = h.map_from_robot.x - best.map_from_robot.x;
-    const double y = h.map_from_robot.y - best.map_from_robot.y;
-    const double t = wrap_angle(h.map_from_robot.heading() - heading);
-    weights += weight;
-    spread.xx += weight * x * x;
-    spread.xy += weight * x * y;
-    spread.xt += weight * x * t;
-    spread.yy += weight * y * y;
-    spread.yt += weight * y * t;
-    spread.tt += weight * t * t;
-  }
-  const PoseCovariance& own = *best.covariance;
-  return PoseCovariance{own.xx + spread.xx / weights, own.xy + spread.xy / weights,
-                        own.xt + spread.xt / weights, own.yy + spread.yy / weights,
-                        own.yt + spread.yt / weights, own.tt + spread.tt / weights};
-}
-
-bool StagedMargin::are_rivals(const Pose3& a, const Pose3& b) const {
-  return distance(a, b) > params_.rival_distance ||
-         rotation_between(a, b) > radians(params_.rival_rotation_deg);
 }
 
 /// Poses below Omega_max are not among the hypotheses: without a rival there, the best one may still have it.
@@ -289,8 +241,7 @@ double StagedMargin::margin_of(const StepResult& step) const {
 
 bool StagedMargin::continues(const StepResult& step) const {
   const auto expected = best_ ? best_->expected_in(step) : std::nullopt;
-  return expected && are_same(step.hypotheses.front().map_from_robot, *expected, params_.same_distance,
-                              params_.same_rotation_deg);
+  return expected && are_same(step.hypotheses.front().map_from_robot, *expected);
 }
 
 /// The best pose and its rivals of about the same score, each a rival of the others.

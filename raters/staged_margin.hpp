@@ -30,28 +30,13 @@ class StagedMargin final : public VerdictRule {
     int steps = 3;
     double distance = 0.0;
   };
-  /// The logistic model of the confidence.
-  struct Confidence {
-    double bias = -1.5;
-    double margin = 28.5;
-    double steps = 0.45;
-    double most = 0.998;
-  };
   struct Params {
     std::vector<Stage> stages = {{0.30, 3, 0.0}, {0.25, 4, 1.0}, {0.20, 5, 2.0}, {0.12, 8, 3.0}};
     std::vector<Stage> certified_stages = {{0.25, 2, 0.0}, {0.20, 3, 0.0}, {0.15, 4, 1.0}, {0.12, 5, 2.0}};
-    double rival_distance = 1.0;
-    double rival_rotation_deg = 30.0;
-    double same_distance = 0.5;
-    double same_rotation_deg = 15.0;
     double max_turn_rate_deg = 60.0;
-    int steady_steps = 3;
     double max_free_space_violation = 0.4;
     double min_scan_contact = 0.75;
-    double spread_margin = 0.05;
-    Confidence confidence = {};
     double candidate_margin = 0.10;
-    int max_candidates = 10;
   };
 
   StagedMargin(const Params& params, const StageSetup& setup);
@@ -87,11 +72,8 @@ class StagedMargin final : public VerdictRule {
   [[nodiscard]] bool is_steady(double turn_rate_deg);
   [[nodiscard]] Verdict localized(const StepResult& step, double margin) const;
   [[nodiscard]] Verdict undecided(const StepResult& step, double margin) const;
-  [[nodiscard]] double confidence(double margin) const;
-  [[nodiscard]] std::optional<PoseCovariance> covariance(const std::vector<Hypothesis>& hypotheses) const;
   [[nodiscard]] bool continues(const StepResult& step) const;
   [[nodiscard]] std::vector<Pose3> candidates(const StepResult& step) const;
-  [[nodiscard]] bool are_rivals(const Pose3& a, const Pose3& b) const;
 
   Params params_;
   Ladder stages_;
@@ -104,7 +86,6 @@ class StagedMargin final : public VerdictRule {
   std::optional<int> since_turn_;
 };
 void describe(ParamVisitor& v, StagedMargin::Stage& p);
-void describe(ParamVisitor& v, StagedMargin::Confidence& p);
 void describe(ParamVisitor& v, StagedMargin::Params& p);
 
 }  // namespace glocal

@@ -125,10 +125,13 @@ TEST(ConsecutiveRating, CountsPlacesForPeople) {
 }
 
 TEST(ConsecutiveRating, NamesTheRatingThatItLooksAt) {
-  ConsecutiveRating rule({.max_candidates = 2});
-  const std::vector<Rated> many = {{{0, 0, 0}, 0.4}, {{5, 0, 0}, 0.4}, {{0, 5, 0}, 0.4}, {{5, 5, 0}, 0.4}};
+  ConsecutiveRating rule({});
+  std::vector<Rated> many;
+  for (int i = 0; i < 11; ++i) many.push_back({{5.0 * i, 0, 0}, 0.4});
   EXPECT_EQ(rule.judge(step(many)).why,
-            "the best of 4 clusters has only r̄ = 0.25 of all ratings, and more than 0.80 is needed");
+            "the best of 11 clusters has only r̄ = 0.09 of all ratings, and more than 0.80 is needed");
+  many.pop_back();
+  EXPECT_EQ(rule.judge(step(many)).kind, VerdictKind::ambiguous);
 }
 
 TEST(ConsecutiveRating, KnowsWhenItCanDeclareAtTheEarliest) {

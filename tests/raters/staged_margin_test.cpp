@@ -155,20 +155,20 @@ TEST(StagedMargin, AViolationOfFreeSpaceForbidsADeclaration) {
 }
 
 TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
-  StagedMargin rule({.confidence = {.bias = -1.0, .margin = 10.0, .steps = 2.0, .most = 0.9}}, {});
+  StagedMargin rule({}, {});
   Verdict verdict = rule.judge(step(0.9, 0.7));
   ASSERT_TRUE(verdict.estimate);
   EXPECT_EQ(verdict.estimate->map_from_robot, here);
-  // Log odds -1 + 10 * 0.2 = 1, then 1 + 2 ln 2.
-  EXPECT_NEAR(verdict.estimate->confidence, 0.9 * 0.731059, 1e-6);
+  // Log odds -1.5 + 28.5 * 0.2 = 4.2, then 4.2 + 0.45 ln 2.
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9852260, 1e-6);
   verdict = rule.judge(step(0.9, 0.7));
-  EXPECT_NEAR(verdict.estimate->confidence, 0.9 * 0.915776, 1e-6);
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9891412, 1e-6);
   EXPECT_EQ(rule.judge({}).estimate, std::nullopt);
 }
 
 TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
   const PoseCovariance own{.xx = 0.01, .yy = 0.04, .tt = 0.001};
-  StagedMargin rule({.spread_margin = 0.05}, {});
+  StagedMargin rule({}, {});
   StepResult one = step(0.9, 0.2);
   one.hypotheses[0].covariance = own;
   EXPECT_EQ(rule.judge(one).estimate->covariance, own);
