@@ -38,7 +38,6 @@ void describe(ParamVisitor& v, GridMatching& p) {
           {.doc = "How poses are refined on the distance field, in the plane; without iterations they stay "
                   "on the grid.",
            .audience = Audience::expert});
-  describe_field_cell(v, p.field_cell);
 }
 
 std::size_t most_points(const GridMatching& p) {
@@ -59,7 +58,7 @@ GridMatcher::GridMatcher(const GridMatching& params, const StageSetup& setup,
     : params_(params),
       contact_(std::move(contact)),
       refiner_(params.candidate, static_cast<std::size_t>(params.max_poses), params.refinement,
-               distance_field(*setup.map, params.field_cell, setup.threads), contact_) {}
+               distance_field(*setup.map, setup.threads), contact_) {}
 
 MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
                                Rng& rng) {

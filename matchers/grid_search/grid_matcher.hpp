@@ -22,7 +22,6 @@ struct GridMatching {
   int max_poses = 50;
   CandidateRule candidate = {};
   PoseRefinement refinement = {};
-  double field_cell = 0.05;
 };
 void describe(ParamVisitor& v, GridMatching& p);
 

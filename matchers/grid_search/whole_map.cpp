@@ -12,7 +12,6 @@ namespace glocal {
 namespace {
 
 /// m; as matchers have it, so that they share the field.
-constexpr double field_cell = 0.05;
 
 /// How many more points a search in space looks at: there are heights, too, and scans have many points.
 constexpr double more_looks_in_space = 10.0;
@@ -75,7 +74,7 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
       threads_(setup.threads) {
   most_looks_ = looks_on(*setup.map, params.max_looks * (in_space_ ? more_looks_in_space : 1.0));
   contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(*setup.map)), epsilon_);
-  if (!in_space_) field_ = distance_field(*setup.map, field_cell, setup.threads);
+  if (!in_space_) field_ = distance_field(*setup.map, setup.threads);
   const double automatic = in_space_ ? automatic_box_cell_in_space(*setup.map, epsilon_)
                                      : automatic_box_cell(*setup.map, epsilon_);
   pyramid_ = box_pyramid(*setup.map, params.cell.value_or(automatic), epsilon_, setup.motion, setup.threads);

@@ -101,7 +101,6 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
           {.doc = "How poses are refined on the distance field.", .audience = Audience::expert});
   v.field("uncertainty", p.uncertainty,
           {.doc = "What the covariance of a hypothesis is made from.", .audience = Audience::expert});
-  describe_field_cell(v, p.field_cell);
   describe(v, p.beams);
   v.field("unknown_weight", p.unknown_weight,
           {.doc = "What the share of points in unknown cells adds to the score.",
@@ -208,9 +207,9 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       contact_(contact_index(*map_, "bitset", setup.epsilon(params.contact_epsilon))),
       relation_(relation_rule(params)),
       refiner_(params.candidate, static_cast<std::size_t>(params.candidates), params.refinement,
-               distance_field(*map_, params.field_cell, setup.threads), contact_),
+               distance_field(*map_, setup.threads), contact_),
       judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
-             distance_field(*map_, params.field_cell, setup.threads)),
+             distance_field(*map_, setup.threads)),
       exact_search_(params.exact_search, *map_, setup.epsilon(params.contact_epsilon), setup.threads) {
   const auto start = std::chrono::steady_clock::now();
   index_ = relation_index(*map_, relation_, setup.threads);

@@ -51,7 +51,6 @@ class IndexedRansam final : public Matcher {
     CandidateRule candidate = {};
     PoseRefinement refinement = {};
     PoseUncertainty uncertainty = {};
-    double field_cell = 0.05;
     BeamRule beams = {.weight = 1.0, .cap = 0.3};
     double unknown_weight = 0.1;
     double free_space_weight = 0.25;

@@ -7,13 +7,6 @@
 
 namespace glocal {
 
-void describe(ParamVisitor& v, HashRule& r) {
-  v.field("tables", r.tables, {.doc = "Hash tables (L).", .min = 1, .max = 1000});
-  v.field("projections", r.projections, {.doc = "Projections that name a bucket (k).", .min = 1, .max = 64});
-  v.field("bucket_width", r.bucket_width,
-          {.doc = "Width of a bucket along each projection (w); vectors have length 1.", .above = 0.0});
-}
-
 HashedVectors::HashedVectors(const FeatureVectors& vectors, const HashRule& rule, Rng rng)
     : rule_(rule), dimensions_(vectors.dimensions) {
   const auto tables = static_cast<std::size_t>(rule.tables);

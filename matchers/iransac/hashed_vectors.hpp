@@ -5,18 +5,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "glocal/params.hpp"
 #include "glocal/rng.hpp"
 #include "matchers/iransac/shape_context.hpp"
 
 namespace glocal {
 
+/// Of vectors of length 1. With these a twelfth of all vectors is compared, and few neighbours are missed.
 struct HashRule {
   int tables = 12;            ///< L
   int projections = 8;        ///< k
   double bucket_width = 2.0;  ///< w
 };
-void describe(ParamVisitor& v, HashRule& r);
 
 /// Locality-sensitive hashing for the Euclidean distance (Datar, Immorlica, Indyk and Mirrokni 2004): each of
 /// L tables puts a vector v into the bucket named by k numbers floor((a . v + b) / w), with a normal and b

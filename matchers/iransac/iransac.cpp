@@ -16,17 +16,16 @@
 namespace glocal {
 namespace {
 
-OrientedPointRule oriented_point_rule(const IRansac::Params& p) {
-  return {.voxel_size = p.voxel_size, .radius = p.normal_radius};
-}
+/// Points that features are made of, one in each square of this side.
+constexpr OrientedPointRule oriented_point_rule{.voxel_size = 0.1, .radius = 0.2};
 
-std::string index_key(const IRansac::Params& p) {
-  const ShapeContextRule& s = p.shape_context;
-  const std::string hashing =
-      p.lsh ? fmt::format("{} {} {}", p.hashing.tables, p.hashing.projections, p.hashing.bucket_width) : "";
-  return fmt::format("{} {} {} {} {} {} {}", p.voxel_size, p.normal_radius, s.radius, s.nearest, s.rings,
-                     s.sectors, hashing);
-}
+/// What makes a pair of matches fit: features apart enough for a heading, and the same shape on both sides.
+struct FittingPair {
+  static constexpr double min_distance = 1.0;  ///< m
+  static constexpr double tolerance = 0.2;     ///< m, of their distance.
+  static constexpr double angle_tolerance_deg = 20.0;
+  static constexpr int most = 1000;  ///< The first so many of a step become hypotheses.
+};
 
 Point point_of(const OrientedPoints& s, std::uint32_t i) {
   return {s.x[i], s.y[i]};
@@ -94,49 +93,8 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
           {.doc = "Look features up by locality-sensitive hashing, which misses some, instead of comparing "
                   "them with all.",
            .audience = Audience::tuner});
-  v.field("hashing", p.hashing,
-          {.doc = "How features are hashed where lsh is set.", .audience = Audience::expert});
-  v.field("shape_context", p.shape_context, {.doc = "What makes a feature.", .audience = Audience::expert});
-  v.field(
-      "voxel_size", p.voxel_size,
-      {.doc = "Side of the squares that give one point each, for features and for what features are made of.",
-       .unit = "m",
-       .min = 0.01,
-       .audience = Audience::expert,
-       .formerly = "thinning"});
-  v.field("normal_radius", p.normal_radius,
-          {.doc = "Neighbours that give a point's normal.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
   v.field("draws", p.draws,
           {.doc = "Pairs of matches drawn in a step.", .min = 0, .max = 100e6, .audience = Audience::expert});
-  v.field("fresh", p.fresh,
-          {.doc = "Number of fitting pairs that become hypotheses: the first ones of a step.",
-           .min = 0,
-           .max = 1e6,
-           .audience = Audience::expert});
-  v.field("min_distance", p.min_distance,
-          {.doc = "Features nearer to each other give poor headings and are no pair.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("tolerance", p.tolerance,
-          {.doc = "By how much the distances of a pair on both sides may differ.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("angle_tolerance_deg", p.angle_tolerance_deg,
-          {.doc = "By how much the normals of a pair may differ on both sides.",
-           .unit = "deg",
-           .max = 180.0,
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("block", p.block,
-          {.doc = "Observations after which half of the hypotheses are given up (B of Nister 2003).",
-           .min = 1,
-           .max = 100000,
-           .audience = Audience::expert});
   v.field("pool", p.pool,
           {.doc = "Hypotheses left by preemption, and carried to the next step.",
            .min = 1,
@@ -147,7 +105,6 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
   describe(v, p.candidate);
   v.field("refinement", p.refinement,
           {.doc = "How poses are refined on the distance field.", .audience = Audience::expert});
-  describe_field_cell(v, p.field_cell);
 }
 
 IRansac::IRansac(const Params& params, const StageSetup& setup)
@@ -155,11 +112,11 @@ IRansac::IRansac(const Params& params, const StageSetup& setup)
       threads_(setup.threads),
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       refiner_(params.candidate, static_cast<std::size_t>(params.pool), params.refinement,
-               distance_field(*setup.map, params.field_cell, setup.threads), contact_) {
+               distance_field(*setup.map, setup.threads), contact_) {
   const auto begin = std::chrono::steady_clock::now();
-  index_ = setup.map->index<FeatureIndex>(index_key(params), [&] {
-    return FeatureIndex(oriented_points_of(*setup.map, oriented_point_rule(params), setup.threads),
-                        params.shape_context, params.lsh ? std::optional(params.hashing) : std::nullopt,
+  index_ = setup.map->index<FeatureIndex>(params.lsh ? "hashed" : "compared", [&] {
+    return FeatureIndex(oriented_points_of(*setup.map, oriented_point_rule, setup.threads),
+                        ShapeContextRule{}, params.lsh ? std::optional(HashRule{}) : std::nullopt,
                         setup.threads);
   });
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
@@ -177,9 +134,8 @@ MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/,
   result.proposals = pool_.size() - carried;
   const Points shuffled = sample_of(local.points, local.points.size(), rng);
   const Points latest = latest_points(local);
-  result.points_tested =
-      preempt(pool_, *contact_, shuffled, sample_of(latest, latest.size(), rng),
-              {static_cast<std::size_t>(params_.block), static_cast<std::size_t>(params_.pool)}, threads_);
+  result.points_tested = preempt(pool_, *contact_, shuffled, sample_of(latest, latest.size(), rng),
+                                 {.fewest = static_cast<std::size_t>(params_.pool)}, threads_);
 
   std::vector<Candidate> candidates;
   for (const ScoredPose& pose : pool_) candidates.push_back({pose.map_from_local, pose.score()});
@@ -201,11 +157,11 @@ MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/,
 /// Adds fresh hypotheses to the pool.
 void IRansac::propose(const LocalMap& local, Rng& rng) {
   const OrientedPoints oriented_points =
-      voxel_downsampled(oriented_points_of(local, oriented_point_rule(params_)), params_.voxel_size);
+      voxel_downsampled(oriented_points_of(local, oriented_point_rule), oriented_point_rule.voxel_size);
   const std::vector<std::uint32_t> drawn =
       draw_numbers(static_cast<std::size_t>(params_.features), oriented_points.size(), rng);
   if (drawn.size() < 2) return;
-  const FeatureVectors features = shape_contexts(oriented_points, drawn, params_.shape_context, threads_);
+  const FeatureVectors features = shape_contexts(oriented_points, drawn, ShapeContextRule{}, threads_);
   std::vector<std::vector<std::uint32_t>> matches(drawn.size());
   parallel_for(threads_, drawn.size(), [&](std::size_t i) {
     matches[i] = index_->nearest(features[i], static_cast<std::size_t>(params_.matches));
@@ -213,18 +169,18 @@ void IRansac::propose(const LocalMap& local, Rng& rng) {
 
   const auto any = [&](std::size_t n) { return rng.below(static_cast<std::uint32_t>(n)); };
   const OrientedPoints& map = index_->oriented_points();
-  const double angle = radians(params_.angle_tolerance_deg);
+  const double angle = radians(FittingPair::angle_tolerance_deg);
   MotionBatch motion;
   int proposed = 0;
-  for (int draw = 0; draw < params_.draws && proposed < params_.fresh; ++draw) {
+  for (int draw = 0; draw < params_.draws && proposed < FittingPair::most; ++draw) {
     const std::size_t first = any(drawn.size());
     const std::size_t second = any(drawn.size());
     if (matches[first].empty() || matches[second].empty()) continue;
     const std::uint32_t map_first = matches[first][any(matches[first].size())];
     const std::uint32_t map_second = matches[second][any(matches[second].size())];
     const PairShape pair(oriented_points, drawn[first], drawn[second]);
-    if (pair.length < params_.min_distance) continue;
-    if (!pair.is_like(PairShape(map, map_first, map_second), params_.tolerance, angle)) continue;
+    if (pair.length < FittingPair::min_distance) continue;
+    if (!pair.is_like(PairShape(map, map_first, map_second), FittingPair::tolerance, angle)) continue;
     lay({point_of(oriented_points, drawn[first]), point_of(oriented_points, drawn[second])},
         {point_of(map, map_first), point_of(map, map_second)}, motion, 0);
     pool_.push_back({motion[0].pose()});

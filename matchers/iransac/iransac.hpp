@@ -36,22 +36,12 @@ class IRansac final : public Matcher {
     int features = 40;
     int matches = 10;
     bool lsh = false;
-    HashRule hashing = {};
-    ShapeContextRule shape_context = {};
-    double voxel_size = 0.1;
-    double normal_radius = 0.2;
     int draws = 20000;
-    int fresh = 1000;
-    double min_distance = 1.0;
-    double tolerance = 0.2;
-    double angle_tolerance_deg = 20.0;
-    int block = 16;
     int pool = 100;
     std::optional<double> contact_epsilon = {};
     int best = 10;
     CandidateRule candidate = {};
     PoseRefinement refinement = {};
-    double field_cell = 0.05;
   };
 
   /// Throws ConfigError where the map is too large for a contact grid or a distance field.

@@ -95,18 +95,6 @@ float sum_over(std::size_t n, Term term) {
 
 }  // namespace
 
-void describe(ParamVisitor& v, ShapeContextRule& r) {
-  v.field("radius", r.radius, {.doc = "Points around one that make its feature.", .unit = "m", .above = 0.0});
-  v.field("nearest", r.nearest,
-          {.doc = "Radius of the innermost ring; the others grow by a constant factor.",
-           .unit = "m",
-           .above = 0.0});
-  v.require(r.nearest < r.radius, "nearest", "must be below radius");
-  v.field("rings", r.rings, {.doc = "Bins of distance.", .min = 1, .max = 64});
-  v.field("sectors", r.sectors,
-          {.doc = "Bins of bearing, in the half turn about the normal.", .min = 1, .max = 360});
-}
-
 float dot(const float* a, const float* b, std::size_t dimensions) {
   return sum_over(dimensions, [&](std::size_t i) { return a[i] * b[i]; });
 }

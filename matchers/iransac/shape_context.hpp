@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "glocal/params.hpp"
 #include "matchers/common/oriented_points.hpp"
 
 namespace glocal {
@@ -17,7 +16,6 @@ struct ShapeContextRule {
   int rings = 5;
   int sectors = 12;  ///< Of the half turn on the free side of the point's surface.
 };
-void describe(ParamVisitor& v, ShapeContextRule& r);
 
 /// A set of vectors of one length, one after the other.
 struct FeatureVectors {

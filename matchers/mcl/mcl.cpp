@@ -30,8 +30,7 @@ LikelihoodFieldRule field_rule(const Mcl::Params& p) {
           .sigma_hit = p.sigma_hit,
           .z_unknown = p.z_unknown,
           .max_range = p.laser_max_range,
-          .max_distance = p.laser_likelihood_max_dist,
-          .distance_cell = p.field_cell};
+          .max_distance = p.laser_likelihood_max_dist};
 }
 
 BeamModelRule beam_rule(const Mcl::Params& p) {
@@ -45,8 +44,8 @@ BeamModelRule beam_rule(const Mcl::Params& p) {
 }
 
 std::string field_key(const Mcl::Params& p) {
-  return fmt::format("{} {} {} {} {} {} {} {}", p.laser_model_type, p.z_hit, p.z_rand, p.z_unknown,
-                     p.sigma_hit, p.laser_max_range, p.laser_likelihood_max_dist, p.field_cell);
+  return fmt::format("{} {} {} {} {} {} {}", p.laser_model_type, p.z_hit, p.z_rand, p.z_unknown, p.sigma_hit,
+                     p.laser_max_range, p.laser_likelihood_max_dist);
 }
 
 }  // namespace
@@ -71,7 +70,6 @@ Mcl::Mcl(const Params& params, const StageSetup& setup)
 void Mcl::reset() {
   particles_ = {};
   odom_from_last_.reset();
-  updates_ = 0;
   averages_.reset();
 }
 
@@ -147,7 +145,7 @@ void Mcl::update(const Pose2& moved, const Beams& beams, Rng& rng) {
     }
   });
   weigh(log_likelihoods);
-  if (++updates_ % params_.resample_interval == 0) resample(rng);
+  resample(rng);
 }
 
 /// What a beam of this likelihood adds to a pose's score.
@@ -249,8 +247,6 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
                   "manual proposes 0.1.",
            .min = 0.0,
            .max = 1.0});
-  v.field("resample_interval", p.resample_interval,
-          {.doc = "Updates between resamplings.", .min = 1, .max = 1000, .audience = Audience::expert});
   v.field("update_min_d", p.update_min_d,
           {.doc = "An observation counts once the robot has driven this far since the last one that counted, "
                   "or turned by update_min_a_deg; 0 lets every one count.",
@@ -308,12 +304,6 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
            .audience = Audience::expert});
   v.field("laser_max_range", p.laser_max_range,
           {.doc = "Range of the laser, over which z_rand is spread.", .unit = "m", .above = 0.0});
-  v.field("field_cell", p.field_cell,
-          {.doc = "Side of a cell of the likelihood field.",
-           .unit = "m",
-           .min = 0.01,
-           .max = 1.0,
-           .audience = Audience::expert});
   describe_contact_epsilon(v, p.contact_epsilon);
   describe(v, p.merging);
 }

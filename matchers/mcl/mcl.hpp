@@ -41,7 +41,6 @@ class Mcl final : public Matcher {
     double pf_z = 0.99;
     double recovery_alpha_slow = 0.0;
     double recovery_alpha_fast = 0.0;
-    int resample_interval = 1;
     double update_min_d = 0.25;
     double update_min_a_deg = 11.5;
     OdometryNoise noise = {};
@@ -57,7 +56,6 @@ class Mcl final : public Matcher {
     double lambda_short = 0.1;
     double laser_likelihood_max_dist = 2.0;
     double laser_max_range = 100.0;
-    double field_cell = 0.05;
     std::optional<double> contact_epsilon = {};
     ParticleMerging merging = {};
   };
@@ -101,7 +99,6 @@ class Mcl final : public Matcher {
 
   Particles particles_;                  ///< As of the last update.
   std::optional<Pose2> odom_from_last_;  ///< Of the last update; none before the first.
-  int updates_ = 0;
   RecoveryAverages averages_;
 };
 void describe(ParamVisitor& v, Mcl::Params& p);

@@ -61,14 +61,13 @@ void describe(ParamVisitor& v, Ransac::Params& p) {
   v.field("refinement", p.refinement,
           {.doc = "How hypotheses are fitted to all points at the end; not without iterations.",
            .audience = Audience::expert});
-  describe_field_cell(v, p.field_cell);
 }
 
 Ransac::Ransac(const Params& params, const StageSetup& setup)
     : params_(params),
       setup_(setup),
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
-      field_(distance_field(*setup.map, params.field_cell, setup.threads)) {}
+      field_(distance_field(*setup.map, setup.threads)) {}
 
 MatchResult Ransac::match(const LocalMap& local, const Observation& /*latest*/, double omega_max, Rng& rng) {
   if (local.points.empty()) return {};

@@ -36,7 +36,6 @@ class Ransac final : public Matcher {
     int max_hypotheses = 1000;
     int refinement_points = 50;
     PoseRefinement refinement = {};
-    double field_cell = 0.05;
   };
 
   /// Throws ConfigError where the map is too large for a contact grid or a distance field.

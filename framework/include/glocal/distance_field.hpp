@@ -88,12 +88,8 @@ inline DistanceField::Value DistanceField::at(float x, float y) const {
   return {step_ * (below + b * (above - below)), dx * slope, (above - below) * slope};
 }
 
-/// That of a map, with cells of this side (m), shared by all who ask for it.
-[[nodiscard]] std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell,
-                                                                  int threads);
-
-/// The field `field_cell` (m) of a strategy that asks for one.
-void describe_field_cell(ParamVisitor& v, double& cell);
+/// That of a map, with cells of 5 cm, shared by all who ask for it.
+[[nodiscard]] std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, int threads);
 
 /// How a pose is refined on the field.
 struct PoseRefinement {

@@ -1,7 +1,5 @@
 #include "glocal/distance_field.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -35,9 +33,7 @@ PointsByTile sorted_by_tile(std::size_t points, std::size_t tiles, TileOf tile_o
 
 [[noreturn]] void refuse_size() {
   throw ConfigError(
-      {{"", 0, 0,
-        "the map is too large for a distance field: it would need more than 1 GiB; cut the map, "
-        "or take a larger field_cell"}});
+      {{"", 0, 0, "the map is too large for a distance field: it would need more than 1 GiB; cut the map"}});
 }
 
 }  // namespace
@@ -143,9 +139,9 @@ void DistanceField::stamp(std::size_t tile, const Points& points, std::span<cons
     cells[i] = static_cast<std::uint8_t>(std::lround(std::sqrt(squares[i]) / farthest * beyond_reach));
 }
 
-std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, double cell, int threads) {
-  return map.index<DistanceField>(fmt::format("{}", cell),
-                                  [&] { return DistanceField(map.points(), cell, 0.5, threads); });
+std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, int threads) {
+  // Half a metre is as far as a pose is ever refined from.
+  return map.index<DistanceField>("", [&] { return DistanceField(map.points(), 0.05, 0.5, threads); });
 }
 
 namespace {
@@ -212,15 +208,6 @@ PoseCovariance pose_covariance(const DistanceField& field, const Points& points,
   const double turn = radians(uncertainty.drift_deg) * radians(uncertainty.drift_deg);
   c.diagonal() += Eigen::Vector3d(drift, drift, turn);
   return {.xx = c(0, 0), .xy = c(0, 1), .xt = c(0, 2), .yy = c(1, 1), .yt = c(1, 2), .tt = c(2, 2)};
-}
-
-void describe_field_cell(ParamVisitor& v, double& cell) {
-  v.field("field_cell", cell,
-          {.doc = "Side of a cell of the distance field.",
-           .unit = "m",
-           .min = 0.01,
-           .max = 1.0,
-           .audience = Audience::expert});
 }
 
 void describe(ParamVisitor& v, PoseRefinement& p) {

@@ -32,7 +32,7 @@ LocalMap row_of_points() {
 
 PoseJudge judge_of(const JudgeRule& rule) {
   const auto map = map_with_a_wall();
-  return {rule, map, contact_index(*map, "kd_tree", rule.contact_epsilon), distance_field(*map, 0.05, 1)};
+  return {rule, map, contact_index(*map, "kd_tree", rule.contact_epsilon), distance_field(*map, 1)};
 }
 
 const Pose2 on_the_wall{4.05, 1.05, 0.0};
