@@ -45,7 +45,9 @@ class Supervisor {
         options_(std::move(options)),
         quiet_(quiet),
         context_(context),
-        scan_(journals_folder(options_.out), [](const std::string& text) { spdlog::warn(text); }) {
+        scan_(
+            journals_folder(options_.out), [](const std::string& text) { spdlog::warn(text); },
+            JournalScan::Closed::indexed) {
     share_ = share_of(steps_of(manifest_), shard_);
   }
 
