@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "app/interrupts.hpp"
 #include "app/standard_streams.hpp"
 
 namespace glocal::app {
@@ -79,6 +80,41 @@ std::optional<double> Progress::seconds_left(double share_done) const {
   const double passed_s = std::chrono::duration<double>(Clock::now() - start_).count();
   if (passed_s < 2.0 || share_done < 0.01) return std::nullopt;
   return passed_s * (1.0 - share_done) / share_done;
+}
+
+RunnerCallbacks Waiting::callbacks() {
+  return {.counted = [this](std::size_t trials) { progress_.emplace(!quiet_, trials); },
+          .begin = [this](const LoadedVariant& variant) { begin(variant); },
+          .trials = {[this](std::size_t trial, const StepRecord& record, const Localizer& now) {
+                       step(trial, record, now);
+                     },
+                     [this](const TrialRecord& record) { finish(record); }, is_interrupted},
+          .note =
+              [this](const std::string& text) {
+                if (!quiet_) spdlog::info(text);
+              },
+          .warn = [](const std::string& text) { spdlog::warn(text); }};
+}
+
+void Waiting::begin(const LoadedVariant& variant) {
+  progress_->begin(variant.name);
+  progress_->skip(variant.finished);
+  longest_trial_ = std::min(variant.loaded.drive.samples.size(), step_limit(variant.experiment.trials));
+  if (live_ != nullptr) live_->begin(variant.name, variant.folder, variant.settings, variant.loaded);
+}
+
+void Waiting::step(std::size_t trial, const StepRecord& record, const Localizer& now) {
+  const std::size_t step = record.result.step;
+  progress_->step(trial, step, static_cast<double>(step) / static_cast<double>(longest_trial_),
+                  to_string(record.result.verdict.kind));
+  if (live_ != nullptr) live_->step(trial, record, now.local_map().points, progress_->now());
+}
+
+void Waiting::finish(const TrialRecord& record) {
+  progress_->finish(record.trial);
+  if (live_ != nullptr) live_->finish(record, progress_->now());
+  if (record.outcome == Outcome::failed)
+    spdlog::error("trial {} failed in step {}: {}", record.trial, record.records.size(), record.why);
 }
 
 }  // namespace glocal::app

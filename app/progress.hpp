@@ -8,7 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "report/run_progress.hpp"
+#include "evaluation/running/experiment_runner.hpp"
+#include "report/live_run.hpp"
 
 namespace glocal::app {
 
@@ -51,6 +52,29 @@ class Progress {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
   std::mutex mutex_;
+};
+
+/// Tells whoever waits how far a run is: on the terminal, and to those who watch. Calls may come from several
+/// threads.
+class Waiting {
+ public:
+  explicit Waiting(bool quiet, LiveRun* live = nullptr) : quiet_(quiet), live_(live) {}
+
+  /// Good as long as this object is.
+  [[nodiscard]] RunnerCallbacks callbacks();
+
+  /// Takes the bar off the terminal.
+  void end() { progress_.reset(); }
+
+ private:
+  void begin(const LoadedVariant& variant);
+  void step(std::size_t trial, const StepRecord& record, const Localizer& now);
+  void finish(const TrialRecord& record);
+
+  bool quiet_;
+  LiveRun* live_;  ///< Null if nobody may watch.
+  std::optional<Progress> progress_;
+  std::size_t longest_trial_ = 1;  ///< Steps.
 };
 
 }  // namespace glocal::app

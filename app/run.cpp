@@ -18,8 +18,6 @@
 #include "config/reader.hpp"
 #include "config/text_file.hpp"
 #include "config/yaml_parser.hpp"
-#include "evaluation/running/experiment_runner.hpp"
-#include "report/live_run.hpp"
 
 namespace glocal::app {
 namespace {
@@ -36,57 +34,6 @@ struct RunCommand {
   std::string shard;  ///< "3/64"; empty if this process runs all.
   std::string watch;  ///< Port, or any_port; empty if nobody may watch.
   bool quiet = false;
-};
-
-/// Tells whoever waits how far the run is: on the terminal, and to those who watch.
-class Waiting {
- public:
-  Waiting(bool quiet, LiveRun* live) : quiet_(quiet), live_(live) {}
-
-  /// Good as long as this object is.
-  RunnerCallbacks callbacks() {
-    return {.counted = [this](std::size_t trials) { progress_.emplace(!quiet_, trials); },
-            .begin = [this](const LoadedVariant& variant) { begin(variant); },
-            .trials = {[this](std::size_t trial, const StepRecord& record, const Localizer& now) {
-                         step(trial, record, now);
-                       },
-                       [this](const TrialRecord& record) { finish(record); }, is_interrupted},
-            .note =
-                [this](const std::string& text) {
-                  if (!quiet_) spdlog::info(text);
-                },
-            .warn = [](const std::string& text) { spdlog::warn(text); }};
-  }
-
-  /// Takes the bar off the terminal.
-  void end() { progress_.reset(); }
-
- private:
-  void begin(const LoadedVariant& variant) {
-    progress_->begin(variant.name);
-    progress_->skip(variant.finished);
-    longest_trial_ = std::min(variant.loaded.drive.samples.size(), step_limit(variant.experiment.trials));
-    if (live_ != nullptr) live_->begin(variant.name, variant.folder, variant.settings, variant.loaded);
-  }
-
-  void step(std::size_t trial, const StepRecord& record, const Localizer& now) {
-    const std::size_t step = record.result.step;
-    progress_->step(trial, step, static_cast<double>(step) / static_cast<double>(longest_trial_),
-                    to_string(record.result.verdict.kind));
-    if (live_ != nullptr) live_->step(trial, record, now.local_map().points, progress_->now());
-  }
-
-  void finish(const TrialRecord& record) {
-    progress_->finish(record.trial);
-    if (live_ != nullptr) live_->finish(record, progress_->now());
-    if (record.outcome == Outcome::failed)
-      spdlog::error("trial {} failed in step {}: {}", record.trial, record.records.size(), record.why);
-  }
-
-  bool quiet_;
-  LiveRun* live_;  ///< Null if nobody may watch.
-  std::optional<Progress> progress_;
-  std::size_t longest_trial_ = 1;  ///< Steps.
 };
 
 /// Whether nothing says which localizer is to be run.

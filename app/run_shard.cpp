@@ -45,7 +45,9 @@ class Supervisor {
         options_(std::move(options)),
         quiet_(quiet),
         context_(context),
-        scan_(journals_folder(options_.out), [](const std::string& text) { spdlog::warn(text); }) {
+        scan_(
+            journals_folder(options_.out), [](const std::string& text) { spdlog::warn(text); },
+            JournalScan::Closed::indexed) {
     share_ = share_of(steps_of(manifest_), shard_);
   }
 
@@ -136,26 +138,9 @@ std::optional<int> Supervisor::run_process(const std::vector<PlannedTrial>& tria
 
 /// In the child.
 int Supervisor::work(const std::vector<PlannedTrial>& trials, ShardJournal& journal) {
-  Progress progress(!quiet_, trials.size());
-  std::size_t longest = 1;
-  ShardCallbacks callbacks;
-  callbacks.begin = [&](const LoadedExperiment& loaded, const std::string& variant) {
-    longest = std::max<std::size_t>(1, loaded.drive.samples.size());
-    progress.begin(variant);
-  };
-  callbacks.step = [&](std::size_t trial, const StepRecord& record) {
-    const std::size_t step = record.result.step;
-    progress.step(trial, step, static_cast<double>(step) / static_cast<double>(longest),
-                  to_string(record.result.verdict.kind));
-  };
-  callbacks.done = [&](const TrialRecord& record) {
-    progress.finish(record.trial);
-    if (record.outcome == Outcome::failed)
-      spdlog::error("trial {} failed in step {}: {}", record.trial, record.records.size(), record.why);
-  };
-  callbacks.stop = is_interrupted;
-  callbacks.warn = [](const std::string& text) { spdlog::warn(text); };
-  return run_shard_trials(variants_, manifest_, trials, context_.catalog, options_, journal, callbacks)
+  Waiting waiting(quiet_);
+  return run_shard_trials(variants_, manifest_, trials, context_.catalog, options_, journal,
+                          waiting.callbacks())
              ? 0
              : incomplete;
 }

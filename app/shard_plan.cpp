@@ -34,9 +34,8 @@ std::optional<Manifest> planned_shards(std::vector<Variant>& variants, const std
   }
   // What is loaded to find out leaves threads behind, with which this process could have no children.
   const ChildEnd end = run_in_child([&] {
-    FileHashes hashes;
     ExperimentLoader loader(context.catalog, [](const std::string& text) { spdlog::warn(text); });
-    write_manifest(shared, plan(variants, file, plugins, context.catalog, loader, hashes));
+    write_manifest(shared, plan(variants, file, plugins, loader));
     return 0;
   });
   if (!end.exit_code)

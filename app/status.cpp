@@ -97,7 +97,9 @@ void watch(const Manifest& manifest, JournalScan& scan) {
 
 void show_status(const StatusCommand& command) {
   const Manifest manifest = read_manifest(command.folder);
-  JournalScan scan(journals_folder(command.folder), [](const std::string& text) { spdlog::warn(text); });
+  JournalScan scan(
+      journals_folder(command.folder), [](const std::string& text) { spdlog::warn(text); },
+      JournalScan::Closed::indexed);
   if (command.watch) {
     watch(manifest, scan);
   } else if (command.json) {

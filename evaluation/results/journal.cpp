@@ -68,15 +68,6 @@ TrialFigures figures_of(const Json& json) {
   throw RunError(fmt::format("{}:1: {}", file.string(), why));
 }
 
-/// The line is the checksum, a space, and what it is of.
-std::string checked_text(const std::filesystem::path& file) {
-  const std::string line = content_of(file);
-  const std::string_view text = std::string_view(line).substr(std::min(line.size(), std::size_t{9}));
-  if (text.empty() || !line.starts_with(checksum(text) + " "))
-    refuse_entry(file, "the entry is damaged: its checksum is another one");
-  return std::string(text);
-}
-
 void check_files(const JournalEntry& entry, const std::filesystem::path& folder,
                  const std::filesystem::path& file) {
   for (const auto& [name, sum] : entry.files) {
@@ -105,6 +96,12 @@ std::string checksum(std::string_view bytes) {
   return fmt::format("{:08x}", libdeflate_crc32(0, bytes.data(), bytes.size()));
 }
 
+std::optional<std::string_view> checked_content(std::string_view text) {
+  const std::string_view content = text.substr(std::min(text.size(), std::size_t{9}));
+  if (content.empty() || !text.starts_with(checksum(content) + " ")) return std::nullopt;
+  return content;
+}
+
 std::filesystem::path entry_name(std::size_t trial) {
   return std::filesystem::path(journal_folder) / fmt::format("trial_{:04}.json", trial);
 }
@@ -118,10 +115,12 @@ std::optional<JournalEntry> read_entry(const std::filesystem::path& folder, std:
   const std::filesystem::path file = folder / entry_name(trial);
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return std::nullopt;
-  const std::string text = checked_text(file);
+  const std::string line = content_of(file);
+  const auto text = checked_content(line);
+  if (!text) refuse_entry(file, "the entry is damaged: its checksum is another one");
   JournalEntry entry;
   try {
-    entry = entry_of(parse_json(text));
+    entry = entry_of(parse_json(std::string(*text)));
   } catch (const std::exception&) {
     refuse_entry(file, "the entry is not as glocal run leaves it");
   }

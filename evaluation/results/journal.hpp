@@ -34,6 +34,9 @@ inline constexpr const char* journal_folder = "journal";
 /// CRC-32 as 8 hexadecimal digits, as gzip and zip have it.
 [[nodiscard]] std::string checksum(std::string_view bytes);
 
+/// What stands behind its checksum and a space; none if the checksum is another one's.
+[[nodiscard]] std::optional<std::string_view> checked_content(std::string_view text);
+
 /// Where the entry of a trial is, in a results folder.
 [[nodiscard]] std::filesystem::path entry_name(std::size_t trial);
 

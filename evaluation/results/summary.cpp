@@ -99,18 +99,12 @@ Json Summary::figures() const {
           {"stage_ms", std::move(stage_ms)}};
 }
 
-Json Summary::to_json(const Run& run) const {
-  Json map = {{"points", run.map_points}, {"build_ms", run.map_build_ms}, {"index_ms", run.map_index_ms}};
-  if (run.map_index) {
-    map["index"] = {{"entries", run.map_index->entries},
-                    {"bytes", run.map_index->bytes},
-                    {"build_ms", run.map_index->build_ms}};
-  }
-  Json json = {{"name", run.name}, {"seed", run.seed}, {"complete", run.complete}};
+Json Summary::to_json(const Json& run, bool complete) const {
+  Json json = {{"name", run.at("name")}, {"seed", run.at("seed")}, {"complete", complete}};
   json.update(figures());
-  json["map"] = std::move(map);
-  json["peak_rss_mb"] = run.peak_rss_mb;
-  if (run.others_load) json["others_load"] = *run.others_load;
+  for (const char* key : {"map", "peak_rss_mb", "others_load"}) {
+    if (run.contains(key)) json[key] = run.at(key);
+  }
   return json;
 }
 

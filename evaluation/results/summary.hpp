@@ -4,12 +4,10 @@
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "evaluation/results/agreement.hpp"
 #include "evaluation/running/trials.hpp"
-#include "glocal/strategies.hpp"
 
 namespace glocal {
 
@@ -33,19 +31,9 @@ class Summary {
  public:
   void add(const TrialFigures& trial);
 
-  struct Run {
-    std::string name;
-    std::uint64_t seed = 0;
-    bool complete = true;  ///< False if the run was interrupted: later trials are missing.
-    std::size_t map_points = 0;
-    double map_build_ms = 0.0;
-    double map_index_ms = 0.0;  ///< To make all stages, which build what they look up in the map.
-    std::optional<MapIndexInfo> map_index = {};
-    double peak_rss_mb = 0.0;  ///< Of the process that ran the trials, or of the largest.
-    /// Processors that others kept busy while trials ran, in the mean; none if not known.
-    std::optional<double> others_load = {};
-  };
-  [[nodiscard]] nlohmann::ordered_json to_json(const Run& run) const;
+  /// `run` says what does not follow from trials: `name`, `seed`, `map`, `peak_rss_mb` (of the process that
+  /// ran them, or of the largest) and perhaps `others_load`. It is not complete if later trials are missing.
+  [[nodiscard]] nlohmann::ordered_json to_json(const nlohmann::ordered_json& run, bool complete) const;
   /// What follows from the trials alone.
   [[nodiscard]] nlohmann::ordered_json figures() const;
 

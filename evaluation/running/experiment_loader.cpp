@@ -166,12 +166,12 @@ void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
   if (!faults.empty()) throw ConfigError(std::move(faults));
 }
 
-std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,
-                                      const Catalog& catalog) {
+std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader) {
   std::vector<std::size_t> trials(variants.size());
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
     trials[i] = loaded.starts.size();
-    if (variants.size() > 1) static_cast<void>(make_localizer(variants[i].experiment, catalog, loaded));
+    if (variants.size() > 1)
+      static_cast<void>(make_localizer(variants[i].experiment, loader.catalog(), loaded));
   });
   return trials;
 }

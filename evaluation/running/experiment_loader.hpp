@@ -88,8 +88,7 @@ void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
 /// Prepares every variant and, if there are several, makes its localizer: whatever one of them cannot work
 /// with shows before the first is run. Tells how many trials each has. Throws ConfigError with the faults of
 /// all.
-[[nodiscard]] std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,
-                                                    const Catalog& catalog);
+[[nodiscard]] std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader);
 
 /// What to do while trials run side by side: calls come from several threads at once, those about one trial
 /// from one.

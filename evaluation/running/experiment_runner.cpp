@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "config/nearest.hpp"
@@ -12,8 +11,8 @@
 #include "evaluation/results/map_files.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/run_results.hpp"
+#include "evaluation/results/summary.hpp"
 #include "evaluation/results/variant_order.hpp"
-#include "evaluation/running/elapsed.hpp"
 #include "evaluation/running/others_load.hpp"
 #include "glocal/error.hpp"
 
@@ -77,7 +76,7 @@ RunResult ExperimentRunner::run() {
   check_outputs();
   note_trials();
   std::size_t trials = 0;
-  for (const std::size_t n : count_trials(variants_, loader_, catalog_)) trials += n;
+  for (const std::size_t n : count_trials(variants_, loader_)) trials += n;
   callbacks_.counted(trials);
   const std::size_t kept = results_.size();
   for (const std::size_t i : loading_order(variants_, catalog_)) {
@@ -166,19 +165,14 @@ void ExperimentRunner::note_trials() const {
 std::optional<std::string> ExperimentRunner::why_other(const std::filesystem::path& folder,
                                                        Variant& variant) {
   return why_other_run(folder, effective_yaml(variant.experiment, catalog_), origin_json(variant), file_,
-                       hashes_);
+                       loader_.hashes());
 }
 
 void ExperimentRunner::run_one(Variant& variant) {
-  Experiment& experiment = variant.experiment;
-  LoadedExperiment& loaded = loader_.load(experiment);
-  if (!file_.empty()) loaded.inputs.insert(file_);
-  loaded.inputs.insert(options_.plugins.begin(), options_.plugins.end());
-  const auto start = std::chrono::steady_clock::now();
-  std::vector<Localizer> localizers;
-  localizers.push_back(make_localizer(experiment, catalog_, loaded));
-  const double map_index_ms = ms_since(start);
-  if (const auto why = why_never_declared(experiment, loaded, localizers.front())) callbacks_.warn(*why);
+  VariantRun run(variant, loader_, file_, options_);
+  const std::size_t trials = run.loaded().starts.size();
+  if (const auto why = why_never_declared(variant.experiment, run.loaded(), run.localizer()))
+    callbacks_.warn(*why);
 
   // Nothing is written before everything is known to be in order.
   std::optional<std::string> declined;
@@ -193,61 +187,39 @@ void ExperimentRunner::run_one(Variant& variant) {
         fmt::format("{}: starts afresh: what an earlier run has left unfinished is dropped, as {}",
                     folder.path().string(), *declined));
   if (is_complete(folder.unfinished()) == true) {
-    begin(variant, folder, loaded, loaded.starts.size());
+    begin(variant, folder, run, trials);
     put_in_place(folder, variant.name, Json::parse(content_of(folder.unfinished() / "summary.json")));
     return;
   }
-  RunResults results(folder, experiment.output, loaded.starts.size(), callbacks_.warn);
-  const std::size_t trials = loaded.starts.size();
-  write_origin(folder, variant, loaded);
-  begin(variant, folder, loaded, trials - results.to_run().size());
+  const std::vector<std::size_t> to_run = missing_trials(folder, trials, callbacks_.warn);
+  Json description = run.description();
+  write_origin(folder, description);
+  if (variant.experiment.output.maps != "none") {
+    for (const auto& [name, content] : map_files(*run.loaded().map)) folder.write(name, content);
+  }
+  begin(variant, folder, run, trials - to_run.size());
 
-  while (localizers.size() <
-         std::min(static_cast<std::size_t>(std::max(options_.jobs, 1)), results.to_run().size()))
-    localizers.push_back(make_localizer(experiment, catalog_, loaded));
-  const auto on_step = [&](std::size_t trial, const StepRecord& record, const Localizer& now) {
-    const Sample& sample = loaded.drive.samples[loaded.starts[trial] + record.result.step];
-    results.step(trial, record, sample.observation.scan, now);
-    callbacks_.trials.step(trial, record, now);
-  };
-  const auto on_done = [&](const TrialRecord& record) {
-    results.finish(record);
-    callbacks_.trials.done(record);
-  };
+  TrialKeeper keeper;
+  keeper.finish = [&](TrialOutput output, double /*ms*/) { keep_trial(folder, std::move(output)); };
   const OthersLoad others_load;
-  const bool complete = run_trials(localizers, experiment, loaded, results.to_run(),
-                                   {on_step, on_done, callbacks_.trials.stop});
-
-  const Json summary = results.put_together().to_json(
-      {experiment.name, experiment.seed, complete, loaded.map->points().size(), loaded.map_build_ms,
-       map_index_ms, localizers.front().map_index(), peak_rss_mb(), others_load.mean()});
-  // The summary comes last: a later run takes its word that all is there.
-  folder.write_for_good("summary.json", summary.dump(2) + "\n");
-  put_in_place(folder, variant.name, summary);
+  const bool complete = run.run(to_run, keeper, callbacks_.trials);
+  description["peak_rss_mb"] = peak_rss_mb();
+  if (const auto mean = others_load.mean()) description["others_load"] = *mean;
+  const auto entry_of = [&](std::size_t trial) { return read_entry(folder.unfinished(), trial); };
+  put_in_place(folder, variant.name, put_together(folder, description, trials, complete, entry_of));
   if (!complete)
     callbacks_.warn(
         fmt::format("interrupted: {} of {} trials were finished and kept", results_.back().trials, trials));
 }
 
-/// What tells which run this is.
-void ExperimentRunner::write_origin(OutputFolder& folder, Variant& variant, const LoadedExperiment& loaded) {
-  Experiment& experiment = variant.experiment;
-  folder.write("effective.yaml", effective_yaml(experiment, catalog_, *loaded.map));
-  const Json origin = provenance_of_run(catalog_, variant, options_, loaded.inputs, hashes_);
-  // Names of files need not be UTF-8.
-  folder.write("provenance.json", origin.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (experiment.output.maps == "none") return;
-  for (const auto& [name, content] : map_files(*loaded.map)) folder.write(name, content);
-}
-
-void ExperimentRunner::begin(const Variant& variant, const OutputFolder& folder,
-                             const LoadedExperiment& loaded, std::size_t finished) {
+void ExperimentRunner::begin(const Variant& variant, const OutputFolder& folder, const VariantRun& run,
+                             std::size_t finished) {
   if (finished > 0)
     callbacks_.note(fmt::format("{}: goes on where an earlier run has stopped: {} of {} trials are finished",
-                                folder.path().string(), finished, loaded.starts.size()));
+                                folder.path().string(), finished, run.loaded().starts.size()));
   std::map<std::string, std::string> inputs;
-  for (const std::filesystem::path& input : loaded.inputs) inputs[input.string()] = hashes_.of(input);
-  callbacks_.begin({variant.name, folder.path(), variant.experiment, loaded,
+  for (const std::filesystem::path& input : run.inputs()) inputs[input.string()] = loader_.hashes().of(input);
+  callbacks_.begin({variant.name, folder.path(), variant.experiment, run.loaded(),
                     read_settings(folder.unfinished(), inputs), finished});
 }
 

@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "evaluation/results/output_folder.hpp"
-#include "evaluation/results/provenance.hpp"
 #include "evaluation/results/results_folder.hpp"
-#include "evaluation/running/experiment_loader.hpp"
+#include "evaluation/running/variant_run.hpp"
 #include "glocal/run_experiment.hpp"
 
 namespace glocal {
@@ -56,9 +55,7 @@ class ExperimentRunner {
   void check_outputs();
   void note_trials() const;
   void run_one(Variant& variant);
-  void write_origin(OutputFolder& folder, Variant& variant, const LoadedExperiment& loaded);
-  void begin(const Variant& variant, const OutputFolder& folder, const LoadedExperiment& loaded,
-             std::size_t finished);
+  void begin(const Variant& variant, const OutputFolder& folder, const VariantRun& run, std::size_t finished);
   void put_in_place(OutputFolder& folder, const std::string& variant, const nlohmann::ordered_json& summary);
   [[nodiscard]] std::optional<std::string> why_other(const std::filesystem::path& folder, Variant& variant);
   void add_result(const std::string& name, const nlohmann::ordered_json& summary) {
@@ -73,7 +70,6 @@ class ExperimentRunner {
   RunnerCallbacks callbacks_;
   std::filesystem::path out_;
   ExperimentLoader loader_;
-  FileHashes hashes_;
   std::vector<VariantResult> results_;
 };
 

@@ -10,10 +10,13 @@
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "glocal/error.hpp"
@@ -49,17 +52,23 @@ std::string_view next_word(std::string_view& text) {
   return word;
 }
 
-double number_of(std::string_view word) {
-  double value = 0.0;
+template <class Number>
+Number number_of(std::string_view word) {
+  Number value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) throw std::invalid_argument("no number");
   return value;
 }
 
+/// Where the index of a closed journal is.
+fs::path index_of(fs::path journal) {
+  return journal.replace_extension(".index");
+}
+
 }  // namespace
 
-JournalScan::JournalScan(fs::path folder, std::function<void(const std::string&)> warn)
-    : folder_(std::move(folder)), warn_(std::move(warn)) {
+JournalScan::JournalScan(fs::path folder, std::function<void(const std::string&)> warn, Closed closed)
+    : folder_(std::move(folder)), warn_(std::move(warn)), closed_(closed) {
   update();
 }
 
@@ -99,7 +108,10 @@ void JournalScan::find_journals() {
   const fs::file_time_type now = now_at(folder_);
   for (const auto& [name, is_closed] : found) {
     const auto [known, is_new] = known_.try_emplace(name, journals_.size());
-    if (is_new) journals_.emplace_back();
+    if (is_new) {
+      journals_.emplace_back();
+      indexes_.emplace_back();
+    }
     Journal& journal = journals_[known->second];
     journal.is_closed = is_closed;
     const std::string_view end = is_closed ? journal_end : unfinished_journal_end;
@@ -111,6 +123,7 @@ void JournalScan::find_journals() {
 
 void JournalScan::read(std::size_t journal) {
   constexpr std::size_t piece = 1 << 22;
+  if (closed_ == Closed::indexed && journals_[journal].read == 0 && take_index(journal)) return;
   const int descriptor = descriptor_of(journal);
   std::string text;  // From the first byte that is not read yet.
   std::uint64_t at = journals_[journal].read;
@@ -129,25 +142,67 @@ void JournalScan::read(std::size_t journal) {
     if (n == 0) break;
   }
   journals_[journal].read = at;
+  if (journals_[journal].is_closed) update_index(journal);
+}
+
+/// False if there is no index that is as its journal: what was changed since is read.
+bool JournalScan::take_index(std::size_t journal) {
+  const fs::path& file = journals_[journal].file;
+  const fs::path index = index_of(file);
+  std::error_code error;
+  const fs::file_time_type written = fs::last_write_time(index, error);
+  if (error || !journals_[journal].is_closed || written < fs::last_write_time(file, error)) return false;
+  const std::string text = content_of(index);
+  const auto content = checked_content(text);
+  if (!content) return false;
+  std::istringstream lines{std::string(*content)};
+  for (std::string line; std::getline(lines, line);) take_content(journal, std::nullopt, line);
+  journals_[journal].read = fs::file_size(file);
+  return true;
+}
+
+void JournalScan::update_index(std::size_t journal) {
+  std::string& text = indexes_[journal];
+  const fs::path index = index_of(journals_[journal].file);
+  std::error_code ignored;
+  if (damaged_.contains(journal)) fs::remove(index, ignored);
+  if (closed_ == Closed::indexed && !damaged_.contains(journal) && !text.empty()) {
+    try {
+      AtomicFiles files(true);
+      files.add(index, checksum(text) + " " + text);
+      files.commit();
+    } catch (const RunError&) {
+      // Whoever may not write here reads all again next time.
+    }
+  }
+  text.clear();
 }
 
 void JournalScan::take_line(std::size_t journal, std::uint64_t offset, std::string_view line) {
-  constexpr std::size_t of_checksum = 9;
   try {
-    const std::string_view content = line.substr(std::min(line.size(), of_checksum));
-    if (content.empty() || !line.starts_with(checksum(content) + " "))
-      throw std::invalid_argument("its checksum is another one");
-    take_content(journal, offset + of_checksum, content);
+    const auto content = checked_content(line);
+    if (!content) throw std::invalid_argument("its checksum is another one");
+    take_content(journal, offset + (line.size() - content->size()), *content);
   } catch (const std::exception& damage) {
+    damaged_.insert(journal);
     warn_(fmt::format("{}: byte {}: the line is damaged ({}); what it told is run again",
                       journals_[journal].file.string(), offset, reason(damage)));
   }
 }
 
-void JournalScan::take_content(std::size_t journal, std::uint64_t offset, std::string_view content) {
+/// A line of a journal, or one of its index, which has no offset: it has places in the journal where the
+/// former has what is there.
+void JournalScan::take_content(std::size_t journal, std::optional<std::uint64_t> offset,
+                               std::string_view content) {
   std::string_view rest = content;
+  std::optional<Place> placed;
+  const auto place = [&] {
+    if (!offset)
+      return Place{journal, number_of<std::uint64_t>(next_word(rest)), number_of<std::uint64_t>(rest)};
+    placed = Place{journal, *offset + (content.size() - rest.size()), rest.size()};
+    return *placed;
+  };
   const std::string_view word = next_word(rest);
-  const auto place = [&] { return Place{journal, offset + (content.size() - rest.size()), rest.size()}; };
   if (word == journal_words::shard) {
     const nlohmann::ordered_json json = parse_json(std::string(rest));
     journals_[journal].shard = {whole_number(json, "shard"), whole_number(json, "of")};
@@ -158,10 +213,11 @@ void JournalScan::take_content(std::size_t journal, std::uint64_t offset, std::s
     variants_[identity].push_back(place());
   } else if (word == journal_words::begin) {
     const TrialId id = trial_id_of(next_word(rest));
-    if (!finished_.contains(id)) begun_[id] = place();
+    const Place at = place();
+    if (!finished_.contains(id)) begun_[id] = at;
   } else if (word == journal_words::trial) {
     const TrialId id = trial_id_of(next_word(rest));
-    const double ms = number_of(next_word(rest));
+    const auto ms = number_of<double>(next_word(rest));
     const Outcome outcome = outcome_of(std::string(next_word(rest)));
     finished_.try_emplace(id, Finished{place(), ms, outcome});
     begun_.erase(id);
@@ -171,6 +227,12 @@ void JournalScan::take_content(std::size_t journal, std::uint64_t offset, std::s
     crashes_[id].push_back({json.at("signal"), json.at("where")});
   } else {
     throw std::invalid_argument(fmt::format("there is no word '{}'", word));
+  }
+  if (placed) {
+    content.remove_suffix(rest.size());
+    indexes_[journal] += fmt::format("{}{} {}\n", content, placed->offset, placed->size);
+  } else if (offset) {
+    indexes_[journal] += fmt::format("{}\n", content);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -43,8 +45,13 @@ class JournalScan {
     Outcome outcome = Outcome::undecided;
   };
 
+  /// What is read of a journal whose writer is done: all of it, or an index beside it. Who reads indexes
+  /// writes those that are missing; who reads all removes that of a journal with damaged lines.
+  enum class Closed { whole, indexed };
+
   /// `warn` is told of lines that are damaged; these do not count.
-  JournalScan(std::filesystem::path folder, std::function<void(const std::string&)> warn);
+  JournalScan(std::filesystem::path folder, std::function<void(const std::string&)> warn,
+              Closed closed = Closed::whole);
   ~JournalScan();
   JournalScan(const JournalScan&) = delete;
   JournalScan& operator=(const JournalScan&) = delete;
@@ -76,13 +83,18 @@ class JournalScan {
   void find_journals();
   void read(std::size_t journal);
   void take_line(std::size_t journal, std::uint64_t offset, std::string_view line);
-  void take_content(std::size_t journal, std::uint64_t offset, std::string_view content);
+  void take_content(std::size_t journal, std::optional<std::uint64_t> offset, std::string_view content);
+  [[nodiscard]] bool take_index(std::size_t journal);
+  void update_index(std::size_t journal);
   [[nodiscard]] int descriptor_of(std::size_t journal) const;
   void close_all() const;
 
   std::filesystem::path folder_;
   std::function<void(const std::string&)> warn_;
+  Closed closed_;
   std::vector<Journal> journals_;
+  std::vector<std::string> indexes_;          ///< What was read of each, with places instead of outputs.
+  std::set<std::size_t> damaged_;             ///< Journals.
   std::map<std::string, std::size_t> known_;  ///< By the name that a file has when it is closed.
   std::unordered_map<TrialId, Finished, TrialIdHash> finished_;
   std::unordered_map<TrialId, Place, TrialIdHash> begun_;

@@ -219,7 +219,8 @@ TrialId id_of(const PlannedVariant& variant, std::size_t trial, const PlannedSta
 }
 
 std::string identity_of(const Experiment& experiment, const std::set<fs::path>& inputs,
-                        const std::vector<fs::path>& plugins, const Catalog& catalog, FileHashes& hashes) {
+                        const std::vector<fs::path>& plugins, ExperimentLoader& loader) {
+  FileHashes& hashes = loader.hashes();
   std::map<std::string, std::string> by_name;
   std::set<std::string> contents;
   for (const fs::path& input : inputs) {
@@ -228,7 +229,8 @@ std::string identity_of(const Experiment& experiment, const std::set<fs::path>& 
   }
   for (const fs::path& plugin : plugins) contents.insert(hashes.of(plugin));
   std::string text;
-  for (const auto& [path, setting] : settings_of(text_of(experiment, catalog), "effective.yaml", by_name))
+  for (const auto& [path, setting] :
+       settings_of(text_of(experiment, loader.catalog()), "effective.yaml", by_name))
     text += path + "=" + setting.identity + "\n";
   for (const std::string& content : contents) text += content + "\n";
   return sha256_of_text(text);
@@ -252,7 +254,9 @@ Manifest sketch_of(const std::vector<Variant>& variants, const fs::path& file,
 }
 
 Manifest plan(std::vector<Variant>& variants, const fs::path& file, const std::vector<fs::path>& plugins,
-              const Catalog& catalog, ExperimentLoader& loader, FileHashes& hashes) {
+              ExperimentLoader& loader) {
+  const Catalog& catalog = loader.catalog();
+  FileHashes& hashes = loader.hashes();
   Manifest manifest = sketch_of(variants, file, plugins, catalog, hashes);
   std::map<std::string, std::set<fs::path>> of_stages;  // Files that stages of these values read.
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
@@ -270,7 +274,7 @@ Manifest plan(std::vector<Variant>& variants, const fs::path& file, const std::v
       planned.inputs.insert(input.string());
       manifest.inputs[input.string()] = hashes.of(input);
     }
-    planned.identity = identity_of(experiment, inputs, plugins, catalog, hashes);
+    planned.identity = identity_of(experiment, inputs, plugins, loader);
     planned.starts = place_of(planned_starts(loaded, experiment.trials), manifest.starts);
   });
   return manifest;

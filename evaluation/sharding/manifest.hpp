@@ -72,7 +72,7 @@ inline constexpr const char* shards_folder = ".shards";
 [[nodiscard]] std::string identity_of(const Experiment& experiment,
                                       const std::set<std::filesystem::path>& inputs,
                                       const std::vector<std::filesystem::path>& plugins,
-                                      const Catalog& catalog, FileHashes& hashes);
+                                      ExperimentLoader& loader);
 
 /// What can be said of variants before anything is loaded: without identities, values,
 /// inputs and starts.
@@ -83,8 +83,7 @@ inline constexpr const char* shards_folder = ".shards";
 /// Loads all, so that whatever is wrong with any variant shows, and says what there is to do. Throws
 /// ConfigError.
 [[nodiscard]] Manifest plan(std::vector<Variant>& variants, const std::filesystem::path& file,
-                            const std::vector<std::filesystem::path>& plugins, const Catalog& catalog,
-                            ExperimentLoader& loader, FileHashes& hashes);
+                            const std::vector<std::filesystem::path>& plugins, ExperimentLoader& loader);
 
 /// Faults that say how what is asked for differs from what a folder was made for; none if it is the same, or
 /// has more variants. `here` is the sketch of `variants`.

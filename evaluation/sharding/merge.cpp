@@ -27,12 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::optional<MapIndexInfo> index_of(const Json& map) {
-  if (!map.contains("index")) return std::nullopt;
-  const Json& index = map.at("index");
-  return MapIndexInfo{index.at("entries"), index.at("bytes"), index.at("build_ms")};
-}
-
 /// What a run of one machine has crashed in: the last word is the last process's.
 JournalEntry crashed_entry(std::size_t trial, const Json& start, const std::vector<Crash>& crashes) {
   const Crash& last = crashes.back();
@@ -70,7 +64,7 @@ class VariantMerge {
  private:
   [[nodiscard]] TrialId id(std::size_t trial) const { return id_of(planned_, trial, starts_[trial]); }
   [[nodiscard]] std::optional<JournalEntry> take(OutputFolder& folder, std::size_t trial) const;
-  void add_machines(Json& origin, double& peak_rss_mb) const;
+  [[nodiscard]] Json description() const;
   void move_up(const fs::path& merged) const;
 
   const PlannedVariant& planned_;
@@ -124,17 +118,25 @@ std::optional<JournalEntry> VariantMerge::take(OutputFolder& folder, std::size_t
   return crashed_entry(trial, parse_json(scan_.text_at(start->second)), scan_.crashes().at(of_trial));
 }
 
-/// Machines that have taken part are all named; memory is that of the largest process.
-void VariantMerge::add_machines(Json& origin, double& peak_rss_mb) const {
+/// What journals say besides trials. Machines that have taken part are all named; memory is that of the
+/// largest process.
+Json VariantMerge::description() const {
+  Json description = first_;
+  Json& origin = description.at("provenance");
   std::set<std::string> hosts, cpus;
+  double peak = 0.0;
   for (const JournalScan::Place& at : *places_) {
-    const Json description = parse_json(scan_.text_at(at));
-    hosts.insert(description.at("provenance").at("host").get<std::string>());
-    cpus.insert(description.at("provenance").at("cpu").get<std::string>());
-    peak_rss_mb = std::max(peak_rss_mb, description.at("peak_rss_mb").get<double>());
+    const Json of_one = parse_json(scan_.text_at(at));
+    hosts.insert(of_one.at("provenance").at("host").get<std::string>());
+    cpus.insert(of_one.at("provenance").at("cpu").get<std::string>());
+    peak = std::max(peak, of_one.at("peak_rss_mb").get<double>());
   }
   origin["host"] = fmt::format("{}", fmt::join(hosts, ", "));
   origin["cpu"] = fmt::format("{}", fmt::join(cpus, ", "));
+  // Variants of the same values share what shards leave, though they have different names.
+  if (!planned_.origin.is_null()) origin["variant"] = planned_.origin;
+  description["peak_rss_mb"] = peak;
+  return description;
 }
 
 Json VariantMerge::write(bool is_complete) const {
@@ -143,19 +145,10 @@ Json VariantMerge::write(bool is_complete) const {
   const bool is_beside = planned_.name.empty() && is_shared_folder(folder_);
   const fs::path place = is_beside ? folder_ / shards_folder / "merged" : folder_;
   OutputFolder folder(place, true);
-  Json origin = first_.at("provenance");
-  double peak = 0.0;
-  add_machines(origin, peak);
-  // Variants of the same values share what shards leave, though they have different names.
-  if (!planned_.origin.is_null()) origin["variant"] = planned_.origin;
-  folder.write("effective.yaml", first_.at("effective").get<std::string>());
-  folder.write("provenance.json", origin.dump(2) + "\n");
-  const Json& map = first_.at("map");
-  Json summary = put_together(folder, first_.at("steps"), starts_.size(),
-                              [&](std::size_t trial) { return take(folder, trial); })
-                     .to_json({first_.at("name"), first_.at("seed"), is_complete, map.at("points"),
-                               map.at("build_ms"), map.at("index_ms"), index_of(map), peak});
-  folder.write_for_good("summary.json", summary.dump(2) + "\n");
+  const Json described = description();
+  write_origin(folder, described);
+  Json summary = put_together(folder, described, starts_.size(), is_complete,
+                              [&](std::size_t trial) { return take(folder, trial); });
   folder.commit();
   if (is_beside) move_up(place);
   return summary;

@@ -36,8 +36,9 @@ class Shards : public Room {
 
   [[nodiscard]] std::vector<fs::path> journals() const {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(file("shared/.shards/journals")))
-      files.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(file("shared/.shards/journals"))) {
+      if (entry.path().extension() != ".index") files.push_back(entry.path());
+    }
     return files;
   }
 

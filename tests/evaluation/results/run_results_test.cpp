@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "evaluation/results/records.hpp"
+#include "evaluation/results/summary.hpp"
 #include "evaluation/results/writers.hpp"
 #include "files.hpp"
 
@@ -48,8 +49,7 @@ class RunResultsTest : public testing::Test {
   /// Runs these trials of four, and leaves the folder as a killed run would.
   void leave_unfinished(const std::vector<std::size_t>& trials) {
     OutputFolder folder(path(), false);
-    RunResults results(folder, config_, 4, warn_);
-    for (const std::size_t trial : trials) results.finish(trial_record(trial));
+    for (const std::size_t trial : trials) keep(folder, trial);
   }
 
   [[nodiscard]] fs::path path() const { return folder_ / "results"; }
@@ -62,7 +62,16 @@ class RunResultsTest : public testing::Test {
   std::vector<std::size_t> to_run() {
     OutputFolder folder(path(), false, take_up);
     folder.keep_unfinished();
-    return RunResults(folder, config_, 4, warn_).to_run();
+    return missing_trials(folder, 4, warn_);
+  }
+
+  void keep(OutputFolder& folder, std::size_t trial) {
+    keep_trial(folder, TrialCollector(config_).finish(trial_record(trial)));
+  }
+
+  [[nodiscard]] nlohmann::ordered_json put_together_all(OutputFolder& folder) const {
+    return put_together(folder, {{"name", "a"}, {"seed", 1}, {"steps", config_.steps}}, 4, true,
+                        [&](std::size_t trial) { return read_entry(folder.unfinished(), trial); });
   }
 
   TemporaryFolder folder_;
@@ -76,11 +85,10 @@ class RunResultsTest : public testing::Test {
 TEST_F(RunResultsTest, FilesAreInTheOrderOfTrialsWhoeverWroteThem) {
   leave_unfinished({3, 1});
   OutputFolder folder(path(), false, take_up);
-  RunResults results(folder, config_, 4, warn_);
-  EXPECT_THAT(results.to_run(), ElementsAre(0, 2));
-  results.finish(trial_record(2));
-  results.finish(trial_record(0));
-  Summary summary = results.put_together();
+  EXPECT_THAT(missing_trials(folder, 4, warn_), ElementsAre(0, 2));
+  keep(folder, 2);
+  keep(folder, 0);
+  const auto json = put_together_all(folder);
   folder.commit();
 
   Summary expected;
@@ -98,11 +106,8 @@ TEST_F(RunResultsTest, FilesAreInTheOrderOfTrialsWhoeverWroteThem) {
     for (const char* what : {"estimate", "localized"})
       EXPECT_TRUE(fs::exists(path() / fmt::format("trajectories/trial_{:04}_{}.tum", trial, what)));
   }
-  auto json = summary.to_json({"a", 1, true, 1, 1.0, 1.0});
-  auto expected_json = expected.to_json({"a", 1, true, 1, 1.0, 1.0});
-  json.erase("peak_rss_mb");
-  expected_json.erase("peak_rss_mb");
-  EXPECT_EQ(json, expected_json);
+  EXPECT_EQ(json, expected.to_json({{"name", "a"}, {"seed", 1}}, true));
+  EXPECT_EQ(content(path() / "summary.json"), json.dump(2) + "\n");
   EXPECT_EQ(json["after_declaration"]["steps"], 4);
 }
 
@@ -110,7 +115,7 @@ TEST_F(RunResultsTest, AreWholeWithoutStepLinesToo) {
   config_.steps = false;
   leave_unfinished({0, 1, 2, 3});
   OutputFolder folder(path(), false, take_up);
-  const auto json = RunResults(folder, config_, 4, warn_).put_together().to_json({"a", 1, true, 1, 1.0, 1.0});
+  const auto json = put_together_all(folder);
   EXPECT_EQ(json["trials"]["right"], 4);
   EXPECT_EQ(json["stage_ms"]["local_map"]["max"], 1.0);
   EXPECT_FALSE(fs::exists(unfinished("steps.jsonl")));

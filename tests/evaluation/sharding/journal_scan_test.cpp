@@ -28,8 +28,8 @@ TrialOutput output(std::size_t trial) {
 
 class JournalScanTest : public testing::Test {
  protected:
-  [[nodiscard]] JournalScan scan() {
-    return {folder_.path(), [this](const std::string& text) { warnings_.push_back(text); }};
+  [[nodiscard]] JournalScan scan(JournalScan::Closed closed = JournalScan::Closed::whole) {
+    return {folder_.path(), [this](const std::string& text) { warnings_.push_back(text); }, closed};
   }
 
   [[nodiscard]] fs::path only_file() const { return fs::directory_iterator(folder_.path())->path(); }
@@ -144,6 +144,46 @@ TEST_F(JournalScanTest, EveryDamagedByteIsFound) {
     EXPECT_THAT(scan().finished(), IsEmpty()) << i;
     EXPECT_FALSE(warnings_.empty()) << i;
   }
+}
+
+TEST_F(JournalScanTest, AClosedJournalIsReadOnceAndThenItsIndex) {
+  ShardJournal journal(folder_.path(), {1, 1}, 1);
+  journal.add_variant("v", {{"key", "value"}});
+  journal.begin(first, {{"sample", 7}});
+  journal.finish(first, 12.4, output(7));
+  journal.begin(second, {{"sample", 8}});
+  journal.add_crash(second, {"SIGSEGV", "matcher 'a', step 1"});
+  journal.close();
+  const auto expect_all = [&](const JournalScan& read) {
+    EXPECT_EQ(output_of(read.text_at(read.finished().at(first).output)).files, output(7).files);
+    EXPECT_EQ(read.text_at(read.begun().at(second)), "{\"sample\":8}");
+    EXPECT_THAT(read.crashes().at(second), SizeIs(1));
+    EXPECT_EQ(read.text_at(read.variants().at("v")[0]), "{\"key\":\"value\"}");
+    EXPECT_EQ(read.journals()[0].jobs, 1U);
+  };
+  const fs::path index = fs::path(journal.file()).replace_extension(".index");
+  expect_all(scan());
+  EXPECT_FALSE(fs::exists(index)) << "who reads all leaves none";
+  expect_all(scan(JournalScan::Closed::indexed));
+  ASSERT_TRUE(fs::exists(index));
+  expect_all(scan(JournalScan::Closed::indexed));
+
+  // A disk may lose bytes and leave the time as it was: who reads all finds out, and all others with him.
+  const std::string whole = content(journal.file());
+  std::ofstream(journal.file()) << std::string(whole).replace(whole.find("right"), 5, "wrong");
+  const auto written = fs::last_write_time(index);
+  fs::last_write_time(journal.file(), written);
+  expect_all(scan(JournalScan::Closed::indexed));
+  EXPECT_THAT(warnings_, IsEmpty());
+  EXPECT_THAT(scan().finished(), IsEmpty());
+  EXPECT_FALSE(fs::exists(index));
+  EXPECT_THAT(scan(JournalScan::Closed::indexed).finished(), IsEmpty());
+  EXPECT_FALSE(fs::exists(index));
+
+  std::ofstream(journal.file()) << whole;
+  expect_all(scan(JournalScan::Closed::indexed));
+  fs::resize_file(index, fs::file_size(index) / 2);
+  expect_all(scan(JournalScan::Closed::indexed));
 }
 
 TEST_F(JournalScanTest, LongLinesAndManyOfThem) {

@@ -50,9 +50,8 @@ class ManifestTest : public testing::Test {
   }
 
   [[nodiscard]] Manifest planned(std::vector<Variant> of) const {
-    FileHashes hashes;
     ExperimentLoader loader(catalog_, [](const std::string&) {});
-    return plan(of, folder_ / "e.yaml", {}, catalog_, loader, hashes);
+    return plan(of, folder_ / "e.yaml", {}, loader);
   }
 
   [[nodiscard]] std::vector<Fault> differences_of(const std::vector<Variant>& of,
