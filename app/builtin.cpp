@@ -2,8 +2,8 @@
 
 #include "clustering/register.hpp"
 #include "local_mappers/register.hpp"
-#include "matchers/in_space/surfel_pair_registrar.hpp"
 #include "matchers/register.hpp"
+#include "matchers/surfels/surfel_pair_registrar.hpp"
 #include "raters/register.hpp"
 #include "sources/register.hpp"
 

@@ -44,7 +44,7 @@ class AdaptiveThreshold {
 /// allows.
 class LidarOdometry final : public LocalMapper {
  public:
-  static constexpr Motions motions{.planar = false, .upright = true, .free = true};
+  static constexpr Motions motions = motions_in_space;
   struct Params {
     SurfaceMapParams surfaces;
     double scan_voxel = 0.25;

@@ -8,6 +8,8 @@
 #include "matchers/mcl/mcl.hpp"
 #include "matchers/ransac/ransac.hpp"
 #include "matchers/ransam/ransam.hpp"
+#include "matchers/ransam/triangle_ransam.hpp"
+#include "matchers/surfel_ransam/surfel_ransam.hpp"
 
 namespace glocal {
 
@@ -26,7 +28,16 @@ void register_matchers(Catalog& catalog) {
   catalog.matchers.add<Ransac>("ransac", "Random sample consensus of pairs of points, without any table.");
   catalog.matchers.add<Ransam>("ransam",
                                "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",
-                               {.contact = ContactChoice(catalog.contact_indexes)});
+                               {.triples = {.contact = ContactChoice(catalog.contact_indexes)}});
+  catalog.matchers.add<SurfelRansam>("surfel_ransam",
+                                     "Random sample matching of pairs of surfels over an index of the map in "
+                                     "space; refined, carried on, checked by what the scan looked through.");
+  catalog.matchers.add<TriangleRansam>(
+      "triangle_ransam",
+      "Random sample matching of triangles in space over a hash table, as ransam's in the plane.",
+      {.contact = ContactChoice(catalog.contact_indexes)});
+  catalog.matchers.note_counterparts("indexed_ransam", "surfel_ransam");
+  catalog.matchers.note_counterparts("ransam", "triangle_ransam");
   catalog.verifiers.add<NoVerifier>("none", "Every pose that the verdict rule declares is declared.");
   catalog.verifiers.add<WholeMap>(
       "whole_map", "Branch and bound over all poses: a declared pose has no rival, or is not declared.");

@@ -19,6 +19,16 @@ const std::string* RegistryBase::renamed(std::string_view formerly) const {
   return it == renamed_.end() ? nullptr : &it->second;
 }
 
+void RegistryBase::note_counterparts(const std::string& in_plane, const std::string& in_space) {
+  counterparts_.emplace(in_plane, in_space);
+  counterparts_.emplace(in_space, in_plane);
+}
+
+const StrategyInfo* RegistryBase::counterpart(std::string_view name) const {
+  const auto it = counterparts_.find(name);
+  return it == counterparts_.end() ? nullptr : find(it->second);
+}
+
 StrategyChoice RegistryBase::choose(std::string_view name) const {
   const StrategyInfo* info = find(name);
   if (info == nullptr) throw std::out_of_range("no " + kind_ + " '" + std::string(name) + "'");

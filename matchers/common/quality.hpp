@@ -10,7 +10,7 @@
 #include "glocal/contact.hpp"
 #include "glocal/points.hpp"
 #include "glocal/rng.hpp"
-#include "matchers/in_space/rigid_motion.hpp"
+#include "matchers/surfels/rigid_motion.hpp"
 
 namespace glocal {
 

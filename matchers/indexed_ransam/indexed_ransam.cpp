@@ -184,21 +184,9 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
       {.doc = "When an exact search of the whole map, on boxes of poses as the verifier whole_map makes it, "
               "adds its poses.",
        .audience = Audience::expert});
-  v.field(
-      "space", p.space,
-      {.doc = "The search where localizer.motion is not planar: of the fields above, only contact_epsilon, "
-              "best and carried count there.",
-       .audience = Audience::tuner});
+  v.removed("space", "in space the matcher surfel_ransam searches, which has these keys itself");
   v.require(!p.exact_search.cell || !p.contact_epsilon || *p.exact_search.cell <= *p.contact_epsilon,
             "exact_search", "cell must be at most contact_epsilon");
-}
-
-std::unique_ptr<Matcher> IndexedRansam::make(const Params& params, const StageSetup& setup) {
-  if (setup.motion == Motion::planar) return std::make_unique<IndexedRansam>(params, setup);
-  const SpaceMatcher::Answer answer{.best = static_cast<std::size_t>(params.best),
-                                    .carried = static_cast<std::size_t>(params.carried),
-                                    .contact_epsilon = setup.epsilon(params.contact_epsilon)};
-  return std::make_unique<SpaceMatcher>(params.space, answer, setup);
 }
 
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)

@@ -16,7 +16,6 @@
 #include "matchers/indexed_ransam/exact_search.hpp"
 #include "matchers/indexed_ransam/pose_judge.hpp"
 #include "matchers/indexed_ransam/relation_index.hpp"
-#include "matchers/indexed_ransam/space_matcher.hpp"
 #include "matchers/indexed_ransam/step_candidates.hpp"
 
 namespace glocal {
@@ -30,12 +29,8 @@ namespace glocal {
 /// `blocked_weight` times the share of blocked beams, plus `unknown_weight` times the share of points in
 /// unknown cells, less `free_space_weight` times that of points in free cells out of contact, less
 /// `fit_weight` times the mean distance to the map as a share of contact_epsilon.
-///
-/// This is the search in the plane; make() gives a SpaceMatcher for any other motion.
 class IndexedRansam final : public Matcher {
  public:
-  static constexpr Motions motions = all_motions;
-
   struct Params {
     int iterations = 600;
     int points_per_iterations = 80000;
@@ -66,11 +61,7 @@ class IndexedRansam final : public Matcher {
     double voxel_size = 0.1;
     double normal_radius = 0.2;
     ExactSearchRule exact_search = {};
-    SpaceMatcher::Params space = {};
   };
-
-  /// What suits the setup's motion.
-  [[nodiscard]] static std::unique_ptr<Matcher> make(const Params& params, const StageSetup& setup);
 
   /// Throws ConfigError where the map is too large for a contact grid, a distance field or a pyramid.
   IndexedRansam(const Params& params, const StageSetup& setup);

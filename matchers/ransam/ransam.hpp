@@ -1,17 +1,15 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "glocal/catalog.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "matchers/common/beam_evidence.hpp"
-#include "matchers/common/quality.hpp"
 #include "matchers/common/triangle.hpp"
 #include "matchers/ransam/triple_matching.hpp"
+#include "matchers/ransam/triple_search.hpp"
 
 namespace glocal {
 
@@ -25,27 +23,9 @@ namespace glocal {
 class Ransam final : public Matcher {
  public:
   struct Params {
-    int iterations = 200000;
-    std::optional<double> contact_epsilon = {};
-    double relation_cell = 0.10;
-    double min_side = 0.3;
-    double min_height = 0.1;
-    double local_radius = 0.0;
-    int extrapolation_batch = 8;
-    double extrapolation_z = 1.96;
-    std::string extrapolation = "interval";
-    double wald_false_rejects = 0.025;
-    double wald_background = 0.3;
-    ContactChoice contact = "bitset";
-    bool neighbour_cells = false;
-    int max_hypotheses = 10000;
-    int table_bits = 0;
+    TripleSearch triples = {};
     BeamRule beams = {};
   };
-
-  static constexpr Motions motions = all_motions;
-  /// A SpaceRansam where the motion is not planar.
-  [[nodiscard]] static std::unique_ptr<Matcher> make(const Params& params, const StageSetup& setup);
 
   /// Throws ConfigError where the map is too large for a contact grid.
   Ransam(const Params& params, const StageSetup& setup);
@@ -71,8 +51,5 @@ class Ransam final : public Matcher {
   std::shared_ptr<const ClearanceGrid> clearance_;  ///< Null where beams are not asked.
 };
 void describe(ParamVisitor& v, Ransam::Params& p);
-
-[[nodiscard]] TripleMatchingRule triple_matching_rule(const Ransam::Params& p);
-[[nodiscard]] ExtrapolationRule extrapolation_rule(const Ransam::Params& p);
 
 }  // namespace glocal

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "matchers/in_space/surfel_contact.hpp"
+#include "matchers/surfels/surfel_contact.hpp"
 
 namespace glocal {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "glocal/pose3.hpp"
 #include "matchers/common/triangle.hpp"
-#include "matchers/in_space/rigid_motion.hpp"
+#include "matchers/surfels/rigid_motion.hpp"
 
 namespace glocal {
 

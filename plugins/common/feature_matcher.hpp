@@ -55,7 +55,7 @@ template <class Search>
 class FeatureMatcher final : public Matcher {
  public:
   using Params = FeatureMatcherParams<Search>;
-  static constexpr Motions motions{.planar = false, .upright = true, .free = true};
+  static constexpr Motions motions = motions_in_space;
 
   /// Throws ConfigError if the map has too few points.
   FeatureMatcher(const Params& params, const StageSetup& setup)

@@ -4,8 +4,10 @@
 
 #include "icp.hpp"
 #include "kd_tree_contact.hpp"
+#include "plugins/common/feature_matcher.hpp"
 #include "plugins/common/feature_registrar.hpp"
 #include "prerejective.hpp"
+#include "space_search.hpp"
 
 GLOCAL_PLUGIN("glocal_pcl", "0.1.0", catalog) {
   using namespace glocal;
@@ -17,5 +19,7 @@ GLOCAL_PLUGIN("glocal_pcl", "0.1.0", catalog) {
   const char* const prerejective =
       "PCL's SampleConsensusPrerejective: triples of points with like FPFH features.";
   catalog.matchers.add<PclPrerejective>("pcl_prerejective", prerejective);
+  catalog.matchers.add<FeatureMatcher<PrerejectiveSearch>>("pcl_cloud_prerejective", prerejective);
+  catalog.matchers.note_counterparts("pcl_prerejective", "pcl_cloud_prerejective");
   catalog.cloud_registrars.add<FeatureRegistrar<PrerejectiveSearch>>("pcl_prerejective", prerejective);
 }

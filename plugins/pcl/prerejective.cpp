@@ -60,14 +60,8 @@ void describe(ParamVisitor& v, PclPrerejective::Params& p) {
           {.doc = "Distance at which a point counts as inlier.", .unit = "m", .above = 0.0});
   v.field("refinement", p.refinement, {.doc = "ICP from the poses found."});
   describe_contact_epsilon(v, p.contact_epsilon);
-  v.field("in_space", p.in_space,
-          {.doc = "The search where the motion is not planar; none of the above counts there."});
+  v.removed("in_space", "in space the matcher pcl_cloud_prerejective searches, which has these keys itself");
   v.require(p.feature_radius > p.normal_radius, "feature_radius", "must be above normal_radius");
-}
-
-std::unique_ptr<Matcher> PclPrerejective::make(const Params& params, const StageSetup& setup) {
-  if (setup.motion == Motion::planar) return std::make_unique<PclPrerejective>(params, setup);
-  return std::make_unique<FeatureMatcher<PrerejectiveSearch>>(params.in_space, setup);
 }
 
 PclPrerejective::PclPrerejective(const Params& params, const StageSetup& setup)

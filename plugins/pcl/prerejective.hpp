@@ -10,15 +10,13 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "icp.hpp"
-#include "plugins/common/feature_matcher.hpp"
 #include "prerejection.hpp"
-#include "space_search.hpp"
 
 namespace glocal {
 
 /// pcl::SampleConsensusPrerejective with FPFH features (Rusu, Blodow and Beetz 2009; Buch et al. 2013) of
 /// normals in the plane: triples of points with like features, rejected early where their sides differ.
-/// Several runs give several hypotheses, each refined by ICP. This is the search in the plane.
+/// Several runs give several hypotheses, each refined by ICP.
 class PclPrerejective final : public Matcher {
  public:
   struct Params {
@@ -32,12 +30,7 @@ class PclPrerejective final : public Matcher {
     double inlier_fraction = 0.3;
     IcpParams refinement{.points = 500, .iterations = 20, .max_distance = 0.5};
     std::optional<double> contact_epsilon = {};
-    FeatureMatcherParams<PrerejectiveSearch> in_space = {};
   };
-  static constexpr Motions motions = all_motions;
-
-  /// This in the plane, a FeatureMatcher in space.
-  [[nodiscard]] static std::unique_ptr<Matcher> make(const Params& params, const StageSetup& setup);
 
   PclPrerejective(const Params& params, const StageSetup& setup);
 

@@ -81,6 +81,26 @@ TEST_F(ProductsCommand, AMethodInPlaceOfAMatcherIsNamed) {
   EXPECT_THAT(answer.err, HasSubstr("; 'indexed' is a method: --method indexed\n"));
 }
 
+TEST_F(ProductsCommand, TheLikeOfAMatcherInSpaceIsNamedAndThatInThePlane) {
+  const auto refusal = [&](const std::string& localizer) {
+    folder_.write("method.yaml", "localizer:\n  {" + localizer + "}\n");
+    const Answer answer = run("check --method " + file("method.yaml") + " --case " + file("small_room.yaml"));
+    EXPECT_EQ(answer.exit_code, 2) << answer.err;
+    EXPECT_THAT(answer.err, testing::EndsWith("\n1 error\n"));
+    return answer.err;
+  };
+  EXPECT_THAT(
+      refusal("matcher: indexed_ransam, motion: free, local_mapper: odometry"),
+      HasSubstr("method.yaml:2:13: error: localizer: matcher: the matcher 'indexed_ransam' can do the motion "
+                "planar, not free; set localizer.motion to planar, or take surfel_ransam\n"));
+  EXPECT_THAT(refusal("matcher: triangle_ransam"), HasSubstr("to upright or free, or take ransam\n"));
+  EXPECT_THAT(
+      refusal("matcher: {indexed_ransam: {space: {rounds: 4}}}"),
+      HasSubstr(
+          "method.yaml:2:31: error: localizer.matcher.indexed_ransam: key 'space' was removed: in space "
+          "the matcher surfel_ransam searches, which has these keys itself\n"));
+}
+
 TEST_F(ProductsCommand, TheSameWarningComesOnce) {
   folder_.write("map.pgm", std::string("P5\n3 2\n255\n") + std::string("\x00\xfe\xfe\xfe\xcd\x00", 6));
   for (const char* name : {"one.yaml", "two.yaml"})

@@ -7,7 +7,7 @@
 
 #include "app/program.hpp"
 #include "evaluation/results/pcd.hpp"
-#include "matchers/in_space/scanned_hall.hpp"
+#include "matchers/surfels/scanned_hall.hpp"
 
 namespace glocal::test::register_test {
 namespace {

@@ -51,7 +51,7 @@ bool is_public(const fs::path& file) {
 }
 
 /// What matchers of all families share.
-const std::set<std::string> shared_by_families = {"common", "in_space"};
+const std::set<std::string> shared_by_families = {"common", "surfels"};
 
 /// Why matchers of one family may not include this file of another one; empty if they may.
 std::string fault_between_families(const fs::path& file, const fs::path& included) {
@@ -61,7 +61,7 @@ std::string fault_between_families(const fs::path& file, const fs::path& include
   if (family.empty() || other == family || shared_by_families.contains(other) ||
       known_exceptions.contains({family, other}))
     return "";
-  return "a family of matchers includes only itself, common and in_space";
+  return "a family of matchers includes only itself, common and surfels";
 }
 
 /// Why a file may not include another; empty if it may. Paths begin at the root.
@@ -135,7 +135,7 @@ TEST(Layers, EveryIncludePointsDownwards) {
 
 TEST(Layers, TheCheckFindsWhatPointsUpwards) {
   const std::string strategy = "strategies include only the framework's public headers and their own folder";
-  const std::string family = "a family of matchers includes only itself, common and in_space";
+  const std::string family = "a family of matchers includes only itself, common and surfels";
   for (const auto& [file, included, fault] : {
            std::array<std::string, 3>{"framework/src/error.cpp", "framework/include/glocal/error.hpp", ""},
            {"framework/src/error.cpp", "evaluation/include/glocal/outcome.hpp",
@@ -159,9 +159,9 @@ TEST(Layers, TheCheckFindsWhatPointsUpwards) {
            {"matchers/register.cpp", "matchers/mcl/mcl.hpp", ""},
            {"matchers/mcl/mcl.cpp", "matchers/common/merge.hpp", ""},
            {"matchers/mcl/mcl.cpp", "matchers/ransam/ransam.hpp", family},
-           {"matchers/mcl/mcl.cpp", "matchers/in_space/surfels.hpp", ""},
+           {"matchers/mcl/mcl.cpp", "matchers/surfels/surfels.hpp", ""},
            {"matchers/common/merge.cpp", "matchers/ransam/ransam.hpp", family},
-           {"matchers/in_space/surfels.cpp", "matchers/ransam/ransam.hpp", family},
+           {"matchers/surfels/surfels.cpp", "matchers/ransam/ransam.hpp", family},
            {"matchers/indexed_ransam/indexed_ransam.cpp", "matchers/grid_search/grid_search.hpp", ""},
        }) {
     EXPECT_EQ(fault_of(file, included), fault) << file << " includes " << included;

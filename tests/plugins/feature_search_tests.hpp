@@ -7,7 +7,7 @@
 #include "files.hpp"
 #include "glocal/builtin.hpp"
 #include "loading/plugin_loader.hpp"
-#include "matchers/in_space/scanned_hall.hpp"
+#include "matchers/surfels/scanned_hall.hpp"
 
 namespace glocal::test::feature_search_tests {
 
@@ -25,9 +25,10 @@ inline Points few_points() {
   return points;
 }
 
-/// A search, and the plugin that has it.
+/// A search as a matcher and as a cloud registrar, and the plugin that has both.
 struct Search {
-  const char* name;
+  const char* matcher;
+  const char* registrar;
   const char* plugin;
 };
 
@@ -41,7 +42,7 @@ class FeatureSearch : public testing::TestWithParam<Search> {
   Registration registration(const Points& source, const Points& target) {
     RegistrationOptions options;
     options.voxel_size = 0.3;
-    return catalog_.cloud_registrars.make({GetParam().name}, options)->find(source, target);
+    return catalog_.cloud_registrars.make({GetParam().registrar}, options)->find(source, target);
   }
 
   /// In the hall, of which two scans are known.
@@ -60,7 +61,7 @@ class FeatureSearch : public testing::TestWithParam<Search> {
     setup.map = std::make_shared<const GlobalMap>(std::move(data));
     setup.contact_epsilon = 0.2;
     setup.motion = motion;
-    return catalog_.matchers.make({GetParam().name}, setup);
+    return catalog_.matchers.make({GetParam().matcher}, setup);
   }
 
   TemporaryFolder folder_;

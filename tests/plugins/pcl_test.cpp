@@ -106,7 +106,9 @@ TEST_F(Pcl, AMapWithoutFreeSpaceIsRefused) {
 
 namespace glocal::test::feature_search_tests {
 
-INSTANTIATE_TEST_SUITE_P(Pcl, FeatureSearch, testing::Values(Search{"pcl_prerejective", GLOCAL_PCL_PLUGIN}),
-                         [](const auto& search) { return search.param.name; });
+INSTANTIATE_TEST_SUITE_P(Pcl, FeatureSearch,
+                         testing::Values(Search{"pcl_cloud_prerejective", "pcl_prerejective",
+                                                GLOCAL_PCL_PLUGIN}),
+                         [](const auto& search) { return search.param.registrar; });
 
 }  // namespace glocal::test::feature_search_tests

@@ -41,6 +41,7 @@ struct Motions {
 };
 
 inline constexpr Motions all_motions{.planar = true, .upright = true, .free = true};
+inline constexpr Motions motions_in_space{.planar = false, .upright = true, .free = true};
 
 /// "planar or upright".
 [[nodiscard]] std::string to_string(const Motions& motions);

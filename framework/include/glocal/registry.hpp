@@ -59,6 +59,11 @@ class RegistryBase {
   /// What a strategy is called now that had this name before; null if there is none.
   [[nodiscard]] const std::string* renamed(std::string_view formerly) const;
 
+  /// Notes two strategies that are the same idea, one of them in the plane and the other in space.
+  void note_counterparts(const std::string& in_plane, const std::string& in_space);
+  /// The other one of such a pair; null if there is none.
+  [[nodiscard]] const StrategyInfo* counterpart(std::string_view name) const;
+
   /// Who registers from now on; named in StrategyInfo::origin and in messages.
   void set_origin(std::string origin) { origin_ = std::move(origin); }
 
@@ -72,6 +77,7 @@ class RegistryBase {
   std::string origin_ = "glocal";
   std::map<std::string, StrategyInfo, std::less<>> infos_;
   std::map<std::string, std::string, std::less<>> renamed_;
+  std::map<std::string, std::string, std::less<>> counterparts_;
 };
 
 /// Makes strategies of one kind. `Setup` is what they may use when they are made.

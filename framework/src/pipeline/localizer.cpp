@@ -121,8 +121,10 @@ std::optional<std::string> why_unfit(const StrategyChoice& choice, const Registr
   const StrategyInfo* info = registry.find(choice.name);
   if (info == nullptr || info->motions.contain(motion)) return std::nullopt;
   std::vector<std::string> fit;
+  const StrategyInfo* counterpart = registry.counterpart(info->name);
+  const bool has_like = counterpart != nullptr && counterpart->motions.contain(motion);
   for (const StrategyInfo* other : registry.all()) {
-    if (other->motions.contain(motion)) fit.push_back(other->name);
+    if (has_like ? other == counterpart : other->motions.contain(motion)) fit.push_back(other->name);
   }
   const std::string others = fit.empty()
                                  ? fmt::format("; no {} can do {}", registry.kind(), to_string(motion))

@@ -14,9 +14,9 @@
 #include "glocal/error.hpp"
 #include "matchers/grid_search/branch_and_bound.hpp"
 #include "matchers/grid_search/grid_search.hpp"
-#include "matchers/in_space/hall_map.hpp"
-#include "matchers/in_space/scanned_hall.hpp"
 #include "matchers/same_answer.hpp"
+#include "matchers/surfels/hall_map.hpp"
+#include "matchers/surfels/scanned_hall.hpp"
 
 namespace glocal::space_branch_and_bound_test {
 namespace {

@@ -15,9 +15,9 @@ namespace {
 
 using test::local_map_at;
 
-MatchResult match(const Ransam::Params& params, const LocalMap& local, double omega_max, int threads = 1,
+MatchResult match(const TripleSearch& triples, const LocalMap& local, double omega_max, int threads = 1,
                   std::uint64_t seed = 1) {
-  Ransam ransam(params, {test::small_world(), threads});
+  Ransam ransam({.triples = triples}, {test::small_world(), threads});
   Rng rng(seed);
   return ransam.match(local, {}, omega_max, rng);
 }
@@ -47,7 +47,7 @@ TEST(Ransam, FindsThePose) {
 TEST(Ransam, APriorLeavesThoseHypothesesThatItAllows) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
   const PoseGate gate({.region = {2.5, 6.0, 1.0}, .heading = {-40.0, 60.0}}, {});
-  Ransam ransam({.iterations = 50000, .max_hypotheses = 1000000}, {test::small_world(), 1});
+  Ransam ransam({.triples = {.iterations = 50000, .max_hypotheses = 1000000}}, {test::small_world(), 1});
   const auto match_again = [&] {
     Rng rng(1);
     return ransam.match(local, {}, 0.6, rng).hypotheses;
@@ -121,25 +121,25 @@ TEST(Ransam, AgreesWithExhaustiveSearch) {
 TEST(Ransam, TheNumberOfThreadsChangesNothing) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
   // So many draws that threads fill the table in two rounds; and a few near ones.
-  const Ransam::Params many_draws{.iterations = 600'000};
-  const Ransam::Params near_draws{.iterations = 60'000, .local_radius = 1.5};
-  for (const Ransam::Params& params : {many_draws, near_draws}) {
-    const MatchResult one = match(params, local, 0.6, 1);
+  const TripleSearch many_draws{.iterations = 600'000};
+  const TripleSearch near_draws{.iterations = 60'000, .local_radius = 1.5};
+  for (const TripleSearch& triples : {many_draws, near_draws}) {
+    const MatchResult one = match(triples, local, 0.6, 1);
     for (const int threads : {2, 5}) {
-      test::expect_same_answer(one, match(params, local, 0.6, threads));
+      test::expect_same_answer(one, match(triples, local, 0.6, threads));
     }
   }
 }
 
 TEST(Ransam, ASecondMatchDoesNotDependOnTheFirst) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
-  const Ransam::Params params{.iterations = 20000};
-  Ransam used(params, {test::small_world(), 1});
+  const TripleSearch triples{.iterations = 20000};
+  Ransam used({.triples = triples}, {test::small_world(), 1});
   Rng other(99);
   (void)used.match(local_map_at({5.5, 2.5, 0.7}, 3.0), {}, 0.5, other);
   Rng rng(1);
   const MatchResult second = used.match(local, {}, 0.6, rng);
-  const MatchResult fresh = match(params, local, 0.6);
+  const MatchResult fresh = match(triples, local, 0.6);
   EXPECT_EQ(second.proposals, fresh.proposals);
   ASSERT_EQ(second.hypotheses.size(), fresh.hypotheses.size());
   EXPECT_EQ(second.points_tested, fresh.points_tested);
@@ -159,7 +159,7 @@ TEST(Ransam, LocalDrawsGiveMoreCorrectHypothesesOnALargeMap) {
   const auto map = std::make_shared<const GlobalMap>(std::move(data));
   const Pose2 truth{5.5, 2.5, 0.7};
   const auto correct = [&](double local_radius) {
-    Ransam ransam({.iterations = 50000, .local_radius = local_radius}, {map, 1});
+    Ransam ransam({.triples = {.iterations = 50000, .local_radius = local_radius}}, {map, 1});
     Rng match_rng(1);
     const MatchResult result = ransam.match(local_map_at(truth, 3.0), {}, 0.7, match_rng);
     return std::count_if(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
@@ -248,7 +248,8 @@ Observation three_beams_of_four() {
 const Pose2 in_first_room{5.5, 2.5, 0.0};
 
 MatchResult match_in_three_rooms(double blocked_weight, const Observation& latest, int threads = 1) {
-  Ransam ransam({.iterations = 100000, .beams = {.weight = blocked_weight}}, {three_rooms(), threads});
+  Ransam ransam({.triples = {.iterations = 100000}, .beams = {.weight = blocked_weight}},
+                {three_rooms(), threads});
   Rng rng(1);
   return ransam.match(local_map_at(in_first_room, 3.0), latest, 0.8, rng);
 }
@@ -317,7 +318,7 @@ TEST(Ransam, BeamsCountOnlyWhereTheyAreAskedFor) {
 }
 
 TEST(Ransam, BeamsOfEarlierStepsCountUntilTheLocalFrameChanges) {
-  Ransam ransam({.iterations = 100000, .beams = {.weight = 1.0}}, {three_rooms(), 1});
+  Ransam ransam({.triples = {.iterations = 100000}, .beams = {.weight = 1.0}}, {three_rooms(), 1});
   LocalMap local = local_map_at(in_first_room, 3.0);
   const auto wrong_room = [&](const Observation& latest) {
     Rng rng(1);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "glocal/cloud_resolution.hpp"
-#include "matchers/in_space/point_to_plane.hpp"
-#include "matchers/in_space/pose_search.hpp"
+#include "matchers/surfels/point_to_plane.hpp"
+#include "matchers/surfels/pose_search.hpp"
 
 namespace glocal {
 namespace {

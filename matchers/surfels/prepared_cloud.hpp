@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "glocal/rng.hpp"
-#include "matchers/in_space/range_view.hpp"
-#include "matchers/in_space/surfel_contact.hpp"
-#include "matchers/in_space/surfels.hpp"
+#include "matchers/surfels/range_view.hpp"
+#include "matchers/surfels/surfel_contact.hpp"
+#include "matchers/surfels/surfels.hpp"
 
 namespace glocal {
 

@@ -1,4 +1,4 @@
-#include "matchers/in_space/point_to_plane.hpp"
+#include "matchers/surfels/point_to_plane.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>

@@ -1,10 +1,10 @@
-#include "matchers/in_space/pose_search.hpp"
+#include "matchers/surfels/pose_search.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 
-#include "matchers/in_space/point_to_plane.hpp"
+#include "matchers/surfels/point_to_plane.hpp"
 
 namespace glocal {
 namespace {

@@ -1,9 +1,9 @@
 // Refinement of a motion between clouds of surfels.
 #pragma once
 
-#include "matchers/in_space/prepared_cloud.hpp"
-#include "matchers/in_space/rigid_motion.hpp"
-#include "matchers/in_space/surfel_contact.hpp"
+#include "matchers/surfels/prepared_cloud.hpp"
+#include "matchers/surfels/rigid_motion.hpp"
+#include "matchers/surfels/surfel_contact.hpp"
 
 namespace glocal {
 

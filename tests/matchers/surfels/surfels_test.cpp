@@ -1,15 +1,15 @@
-#include "matchers/in_space/surfels.hpp"
+#include "matchers/surfels/surfels.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "matchers/in_space/point_to_plane.hpp"
-#include "matchers/in_space/prepared_cloud.hpp"
-#include "matchers/in_space/scanned_hall.hpp"
-#include "matchers/in_space/surfel_pairs.hpp"
-#include "matchers/in_space/voxel_table.hpp"
+#include "matchers/surfels/point_to_plane.hpp"
+#include "matchers/surfels/prepared_cloud.hpp"
+#include "matchers/surfels/scanned_hall.hpp"
+#include "matchers/surfels/surfel_pairs.hpp"
+#include "matchers/surfels/voxel_table.hpp"
 
 namespace glocal::test::surfels_test {
 namespace {

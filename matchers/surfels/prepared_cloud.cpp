@@ -1,4 +1,4 @@
-#include "matchers/in_space/prepared_cloud.hpp"
+#include "matchers/surfels/prepared_cloud.hpp"
 
 #include <cstdint>
 #include <numeric>

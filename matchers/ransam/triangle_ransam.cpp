@@ -1,4 +1,4 @@
-#include "matchers/ransam/space_ransam.hpp"
+#include "matchers/ransam/triangle_ransam.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include "glocal/error.hpp"
 #include "glocal/voxel_filter.hpp"
 #include "matchers/common/merge.hpp"
-#include "matchers/in_space/rigid_motion.hpp"
-#include "matchers/in_space/surfel_contact.hpp"
 #include "matchers/ransam/space_triangle.hpp"
+#include "matchers/surfels/rigid_motion.hpp"
+#include "matchers/surfels/surfel_contact.hpp"
 
 namespace glocal {
 namespace {
@@ -61,8 +61,8 @@ std::shared_ptr<const SurfacePoints> surfaces_of(const GlobalMap& map, float vox
       fmt::format("{}", voxel_size), [&] { return SurfacePoints(map.points(), map.points(), voxel_size); });
   if (surfaces->points.empty()) {
     throw ConfigError({{"", 0, 0,
-                        fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: ransam needs "
-                                    "them where the motion is not planar",
+                        fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: "
+                                    "triangle_ransam needs them",
                                     voxel_size)}});
   }
   return surfaces;
@@ -84,21 +84,16 @@ SurfacePoints::SurfacePoints(const Points& cloud, const Points& some, float voxe
   }
 }
 
-SpaceRansam::SpaceRansam(const Ransam::Params& params, const StageSetup& setup)
+TriangleRansam::TriangleRansam(const Params& params, const StageSetup& setup)
     : params_(params),
       upright_(setup.motion == Motion::upright),
       voxel_size_(static_cast<float>(epsilons_per_voxel * setup.epsilon(params.contact_epsilon))),
       contact_(contact_index(*setup.map, params.contact, setup.epsilon(params.contact_epsilon))),
       map_(surfaces_of(*setup.map, voxel_size_)),
-      matching_(map_->points, find_relations_in_space, triple_matching_rule(params), setup.threads) {
-  if (params.beams.weight > 0.0) {
-    throw ConfigError(
-        {{"", 0, 0, "ransam asks beams in the plane only: blocked_weight must be 0 with other motions"}});
-  }
-}
+      matching_(map_->points, find_relations_in_space, matching_rule(params), setup.threads) {}
 
-MatchResult SpaceRansam::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
-                               Rng& rng) {
+MatchResult TriangleRansam::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
+                                  Rng& rng) {
   if (local.points.empty()) return {};
   const TripleMatching::Draws draws{rng.next(), rng.next()};
   const QualityTest quality(local.points, contact_, extrapolation_rule(params_), omega_max, rng);
@@ -117,9 +112,9 @@ MatchResult SpaceRansam::match(const LocalMap& local, const Observation& /*lates
   return joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.max_hypotheses));
 }
 
-MatchResult SpaceRansam::test_hypotheses(const SurfacePoints& local, const QualityTest& quality,
-                                         const TripleBatch& local_triples,
-                                         const TripleBatch& map_triples) const {
+MatchResult TriangleRansam::test_hypotheses(const SurfacePoints& local, const QualityTest& quality,
+                                            const TripleBatch& local_triples,
+                                            const TripleBatch& map_triples) const {
   MatchResult found;
   found.proposals = local_triples.size;
   Points memory;

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "matchers/in_space/rigid_motion.hpp"
-#include "matchers/in_space/surfels.hpp"
-#include "matchers/in_space/voxel_table.hpp"
+#include "matchers/surfels/rigid_motion.hpp"
+#include "matchers/surfels/surfels.hpp"
+#include "matchers/surfels/voxel_table.hpp"
 
 namespace glocal {
 

@@ -1,12 +1,12 @@
-#include "matchers/in_space/surfels.hpp"
+#include "matchers/surfels/surfels.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
-#include "matchers/in_space/rigid_motion.hpp"
-#include "matchers/in_space/voxel_table.hpp"
+#include "matchers/surfels/rigid_motion.hpp"
+#include "matchers/surfels/voxel_table.hpp"
 
 namespace glocal {
 namespace {

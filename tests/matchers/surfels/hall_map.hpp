@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "glocal/global_map.hpp"
-#include "matchers/in_space/scanned_hall.hpp"
+#include "matchers/surfels/scanned_hall.hpp"
 
 namespace glocal::test {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "glocal/error.hpp"
-#include "matchers/in_space/scanned_hall.hpp"
+#include "matchers/surfels/scanned_hall.hpp"
 
 namespace glocal::test::register_clouds_test {
 namespace {

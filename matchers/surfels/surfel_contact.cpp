@@ -1,4 +1,4 @@
-#include "matchers/in_space/surfel_contact.hpp"
+#include "matchers/surfels/surfel_contact.hpp"
 
 namespace glocal {
 namespace {

@@ -1,4 +1,4 @@
-#include "matchers/in_space/voxel_table.hpp"
+#include "matchers/surfels/voxel_table.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "matchers/in_space/rigid_motion.hpp"
+#include "matchers/surfels/rigid_motion.hpp"
 
 namespace glocal {
 

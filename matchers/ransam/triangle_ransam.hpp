@@ -5,8 +5,8 @@
 #include "glocal/contact.hpp"
 #include "glocal/strategies.hpp"
 #include "matchers/common/quality.hpp"
-#include "matchers/ransam/ransam.hpp"
 #include "matchers/ransam/triple_matching.hpp"
+#include "matchers/ransam/triple_search.hpp"
 
 namespace glocal {
 
@@ -26,11 +26,13 @@ struct SurfacePoints {
 /// Three points are laid on their mirror image by a rotation, so sides cannot tell the two apart. Normals
 /// can: triples are drawn from points on surfaces, and a proposal must turn each corner's normal to within 41
 /// degrees of its partner's, n and -n being the same. Omega (eq. 4) asks all points of the local map.
-class SpaceRansam final : public Matcher {
+class TriangleRansam final : public Matcher {
  public:
-  /// Throws ConfigError where the map is too large for a contact grid or has no surfaces, and where beams are
-  /// to be asked.
-  SpaceRansam(const Ransam::Params& params, const StageSetup& setup);
+  using Params = TripleSearch;
+  static constexpr Motions motions = motions_in_space;
+
+  /// Throws ConfigError where the map is too large for a contact grid or has no surfaces.
+  TriangleRansam(const Params& params, const StageSetup& setup);
 
   void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
@@ -42,7 +44,7 @@ class SpaceRansam final : public Matcher {
                                             const TripleBatch& local_triples,
                                             const TripleBatch& map_triples) const;
 
-  Ransam::Params params_;
+  Params params_;
   bool upright_;
   float voxel_size_;
   std::shared_ptr<const ContactIndex> contact_;

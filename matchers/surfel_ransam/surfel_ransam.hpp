@@ -11,8 +11,8 @@
 #include "glocal/contact.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
-#include "matchers/in_space/pose_search.hpp"
-#include "matchers/indexed_ransam/space_index.hpp"
+#include "matchers/surfel_ransam/surfel_index.hpp"
+#include "matchers/surfels/pose_search.hpp"
 
 namespace glocal {
 
@@ -24,10 +24,15 @@ namespace glocal {
 /// Hypotheses are the best distinct poses; their score is the contact (mean of the share of surfels and of
 /// the share of points) less `seen_through_weight` times the share of the map's surfels that the latest scan
 /// looked through, and less `free_space_weight` times the share of points where the map is free.
-class SpaceMatcher final : public Matcher {
+class SurfelRansam final : public Matcher {
  public:
+  static constexpr Motions motions = motions_in_space;
+
   struct Params {
+    std::optional<double> contact_epsilon = {};
     std::optional<double> voxel_size = {};
+    int best = 10;
+    int carried = 10;
     int pairs = 300000;
     int first_rounds = 24;
     int rounds = 4;
@@ -38,15 +43,9 @@ class SpaceMatcher final : public Matcher {
     double seen_through_weight = 1.0;
     double free_space_weight = 1.0;
   };
-  /// What it has in common with the search in the plane.
-  struct Answer {
-    std::size_t best = 10;         ///< How many poses become hypotheses.
-    std::size_t carried = 10;      ///< How many of these are carried to the next step.
-    double contact_epsilon = 0.1;  ///< m; for Omega.
-  };
 
   /// Throws ConfigError where the map is too large, or has hardly any surfaces.
-  SpaceMatcher(const Params& params, const Answer& answer, const StageSetup& setup);
+  SurfelRansam(const Params& params, const StageSetup& setup);
 
   void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
@@ -67,17 +66,16 @@ class SpaceMatcher final : public Matcher {
   [[nodiscard]] double free_space_violation(const Points& points, const Pose3& map_from_points) const;
 
   Params params_;
-  Answer answer_;
   bool upright_;
   std::shared_ptr<const GlobalMap> map_;
-  SpaceIndexRule rule_;
+  SurfelIndexRule rule_;
   std::shared_ptr<const ContactIndex> contact_;
-  std::shared_ptr<const SpaceIndex> index_;
+  std::shared_ptr<const SurfelIndex> index_;
   PoseGate gate_;
   std::optional<PreparedCloud> prepared_;  ///< The local map of the last match().
   std::vector<RigidMotion> carried_;       ///< map_from_local of the last step's best.
   int epoch_ = 0;                          ///< Of the local map in whose frame they are.
 };
-void describe(ParamVisitor& v, SpaceMatcher::Params& p);
+void describe(ParamVisitor& v, SurfelRansam::Params& p);
 
 }  // namespace glocal

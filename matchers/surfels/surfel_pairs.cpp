@@ -1,4 +1,4 @@
-#include "matchers/in_space/surfel_pairs.hpp"
+#include "matchers/surfels/surfel_pairs.hpp"
 
 #include <algorithm>
 #include <bit>

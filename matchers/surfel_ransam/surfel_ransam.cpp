@@ -1,4 +1,4 @@
-#include "matchers/indexed_ransam/space_matcher.hpp"
+#include "matchers/surfel_ransam/surfel_ransam.hpp"
 
 #include <fmt/format.h>
 
@@ -31,20 +31,31 @@ Points evenly_sampled(const Points& points) {
   return sample;
 }
 
-SpaceIndexRule index_rule(const SpaceMatcher::Params& params, const GlobalMap& map) {
+SurfelIndexRule index_rule(const SurfelRansam::Params& params, const GlobalMap& map) {
   return {.voxel_size = static_cast<float>(params.voxel_size.value_or(map_voxel_size(map.resolution()))),
           .pairs = static_cast<std::size_t>(params.pairs)};
 }
 
 }  // namespace
 
-void describe(ParamVisitor& v, SpaceMatcher::Params& p) {
+void describe(ParamVisitor& v, SurfelRansam::Params& p) {
+  describe_contact_epsilon(v, p.contact_epsilon);
   v.field("voxel_size", p.voxel_size,
           {.doc = "Side of the voxels of map and local map that give one surfel each; auto takes three times "
                   "the map's resolution, and at least 0.1 m.",
            .unit = "m",
            .min = 0.01,
            .audience = Audience::tuner});
+  v.field("best", p.best,
+          {.doc = "Number of poses that become hypotheses: those with the highest scores.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::expert});
+  v.field("carried", p.carried,
+          {.doc = "Number of hypotheses carried on to the next step: those with the highest scores.",
+           .min = 0,
+           .max = 10000,
+           .audience = Audience::expert});
   v.field("pairs", p.pairs,
           {.doc = "Pairs of surfels in the index of the map (8 bytes each).",
            .min = 1000,
@@ -93,28 +104,26 @@ void describe(ParamVisitor& v, SpaceMatcher::Params& p) {
            .audience = Audience::tuner});
 }
 
-SpaceMatcher::SpaceMatcher(const Params& params, const Answer& answer, const StageSetup& setup)
+SurfelRansam::SurfelRansam(const Params& params, const StageSetup& setup)
     : params_(params),
-      answer_(answer),
       upright_(setup.motion == Motion::upright),
       map_(setup.map),
       rule_(index_rule(params, *setup.map)),
-      contact_(contact_index(*setup.map, "bitset", answer.contact_epsilon)),
-      index_(space_index(*setup.map, rule_)) {
+      contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
+      index_(surfel_index(*setup.map, rule_)) {
   if (index_->pairs.size() == 0) {
     throw ConfigError(
         {{"", 0, 0,
-          fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: indexed_ransam "
-                      "needs them where the motion is not planar",
+          fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: surfel_ransam needs them",
                       rule_.voxel_size)}});
   }
 }
 
-std::optional<MapIndexInfo> SpaceMatcher::map_index() const {
+std::optional<MapIndexInfo> SurfelRansam::map_index() const {
   return MapIndexInfo{index_->pairs.size(), index_->memory_bytes(), index_->build_ms};
 }
 
-PoseSearchParams SpaceMatcher::search_params() const {
+PoseSearchParams SurfelRansam::search_params() const {
   return {.rounds = static_cast<std::size_t>(carried_.empty() ? params_.first_rounds : params_.rounds),
           .draws = static_cast<std::size_t>(params_.draws),
           .partners = static_cast<std::size_t>(params_.partners),
@@ -126,7 +135,7 @@ PoseSearchParams SpaceMatcher::search_params() const {
           .gate = gate_};
 }
 
-double SpaceMatcher::free_space_violation(const Points& points, const Pose3& map_from_points) const {
+double SurfelRansam::free_space_violation(const Points& points, const Pose3& map_from_points) const {
   const FreeVoxels& free = map_->free_voxels();
   if (free.empty()) return 0.0;
   const Points in_map = moved(points, map_from_points);
@@ -137,7 +146,7 @@ double SpaceMatcher::free_space_violation(const Points& points, const Pose3& map
   return static_cast<double>(violating) / static_cast<double>(points.size());
 }
 
-std::vector<FoundPose> SpaceMatcher::find(const LocalMap& local, const PoseSearchParams& params,
+std::vector<FoundPose> SurfelRansam::find(const LocalMap& local, const PoseSearchParams& params,
                                           std::span<const RigidMotion> known, Rng& rng,
                                           SearchEffort& effort) const {
   const Points sample = evenly_sampled(local.points);
@@ -150,7 +159,7 @@ std::vector<FoundPose> SpaceMatcher::find(const LocalMap& local, const PoseSearc
       .find(*prepared_, rng, known, judge_sample, &effort);
 }
 
-Hypothesis SpaceMatcher::told(const FoundPose& pose, const LocalMap& local) const {
+Hypothesis SurfelRansam::told(const FoundPose& pose, const LocalMap& local) const {
   Hypothesis h;
   h.map_from_local = pose.target_from_source.pose();
   h.quality = contact_->share(local.points, h.map_from_local);
@@ -159,7 +168,7 @@ Hypothesis SpaceMatcher::told(const FoundPose& pose, const LocalMap& local) cons
   return h;
 }
 
-MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest, double omega_max,
+MatchResult SurfelRansam::match(const LocalMap& local, const Observation& latest, double omega_max,
                                 Rng& rng) {
   MatchResult result;
   if (local.points.empty()) return result;
@@ -168,11 +177,12 @@ MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest
   prepared_.emplace(prepared(local, latest.scan, rule_.voxel_size));
   SearchEffort effort;
   std::vector<FoundPose> found = find(local, search_params(), carried_, rng, effort);
-  if (found.size() > answer_.best) found.resize(answer_.best);
+  found.resize(std::min(found.size(), static_cast<std::size_t>(params_.best)));
 
   carried_.clear();
   for (const FoundPose& pose : found) {
-    if (carried_.size() < answer_.carried) carried_.push_back(pose.target_from_source);
+    if (carried_.size() < static_cast<std::size_t>(params_.carried))
+      carried_.push_back(pose.target_from_source);
     if (pose.score < omega_max) continue;
     result.hypotheses.push_back(told(pose, local));
     effort.points_tested += local.points.size();
@@ -183,7 +193,7 @@ MatchResult SpaceMatcher::match(const LocalMap& local, const Observation& latest
 }
 
 /// Refines them, too: contact alone leaves them a little beside the surfaces that they fit.
-std::vector<Hypothesis> SpaceMatcher::take_up(std::vector<Hypothesis> found, const LocalMap& local) {
+std::vector<Hypothesis> SurfelRansam::take_up(std::vector<Hypothesis> found, const LocalMap& local) {
   std::vector<RigidMotion> known;
   for (const Hypothesis& h : found) known.emplace_back(h.map_from_local);
   PoseSearchParams params = search_params();

@@ -1,4 +1,4 @@
-#include "matchers/indexed_ransam/space_matcher.hpp"
+#include "matchers/surfel_ransam/surfel_ransam.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,11 +12,10 @@
 
 #include "files.hpp"
 #include "glocal/error.hpp"
-#include "matchers/indexed_ransam/indexed_ransam.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 
-namespace glocal::space_matcher_test {
+namespace glocal::surfel_ransam_test {
 namespace {
 
 /// A box along the axes, m.
@@ -117,9 +116,9 @@ Pose3 somewhere(Rng& rng, bool upright) {
   return {place, turn * exponential({rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), 0.0})};
 }
 
-SpaceMatcher matcher(Motion motion, const SpaceMatcher::Params& params = {.pairs = 100000},
+SurfelRansam matcher(Motion motion, const SurfelRansam::Params& params = {.pairs = 100000},
                      const std::shared_ptr<const GlobalMap>& map = furnished()) {
-  return {params, {}, {.map = map, .motion = motion}};
+  return {params, {.map = map, .motion = motion}};
 }
 
 bool is_near(const Pose3& a, const Pose3& b) {
@@ -127,7 +126,7 @@ bool is_near(const Pose3& a, const Pose3& b) {
 }
 
 /// A sensor that lies on its side may see floor, ceiling and two walls alone: these leave it free to slide.
-TEST(SpaceMatcher, FindsASensorThatIsHeldAnyWayUnlessItMaySlide) {
+TEST(SurfelRansam, FindsASensorThatIsHeldAnyWayUnlessItMaySlide) {
   Rng rng(1);
   int right = 0;
   for (std::uint64_t i = 0; i < 10; ++i) {
@@ -144,7 +143,7 @@ TEST(SpaceMatcher, FindsASensorThatIsHeldAnyWayUnlessItMaySlide) {
   EXPECT_GE(right, 8);
 }
 
-TEST(SpaceMatcher, UprightPosesTurnAboutZAlone) {
+TEST(SurfelRansam, UprightPosesTurnAboutZAlone) {
   Rng rng(2);
   int right = 0;
   for (std::uint64_t i = 0; i < 10; ++i) {
@@ -163,7 +162,7 @@ TEST(SpaceMatcher, UprightPosesTurnAboutZAlone) {
 }
 
 // Up to what a contact index may be wrong by.
-TEST(SpaceMatcher, TheQualityIsTheContactOfTheLocalMap) {
+TEST(SurfelRansam, TheQualityIsTheContactOfTheLocalMap) {
   const Seen seen({{3.0, 2.5, 1.0}, exponential({0.3, 0.2, 1.0})});
   const KdTreeContact surely(furnished()->points(), 0.8 * 0.1);
   const KdTreeContact perhaps(furnished()->points(), 1.2 * 0.1);
@@ -181,7 +180,7 @@ TEST(SpaceMatcher, TheQualityIsTheContactOfTheLocalMap) {
   EXPECT_GT(found.front().quality, 0.95);
 }
 
-TEST(SpaceMatcher, FindsTheRobotInWhateverFrameTheLocalMapIs) {
+TEST(SurfelRansam, FindsTheRobotInWhateverFrameTheLocalMapIs) {
   const Pose3 truth{{6.5, 2.0, 1.2}, exponential({0.1, -0.2, 2.0})};
   Seen seen(truth);
   seen.local.local_from_robot = {{4.0, -7.0, 1.0}, exponential({0.5, 0.1, -1.0})};
@@ -193,7 +192,7 @@ TEST(SpaceMatcher, FindsTheRobotInWhateverFrameTheLocalMapIs) {
 }
 
 // Turned half about its middle, an empty hall is the same.
-TEST(SpaceMatcher, OfTwoPosesThatAreAlikeItFindsTheOneThatThePriorAllows) {
+TEST(SurfelRansam, OfTwoPosesThatAreAlikeItFindsTheOneThatThePriorAllows) {
   const auto empty = map_of({});
   const Pose3 truth({3.0, 2.5, 1.0}, turn_about_z(0.4));
   const Pose3 alike = Pose3({12.0, 8.0, 0.0}, turn_about_z(radians(180.0))) * truth;
@@ -205,7 +204,7 @@ TEST(SpaceMatcher, OfTwoPosesThatAreAlikeItFindsTheOneThatThePriorAllows) {
   seen.local.ends = {seen.local.points.size()};
   for (const Pose3& wanted : {truth, alike}) {
     const PoseGate gate({.region = {wanted.x + 1.0, wanted.y, 2.0}, .heading = {}}, {});
-    SpaceMatcher one({.pairs = 100000}, {.best = 1, .carried = 1}, {.map = empty, .motion = Motion::upright});
+    SurfelRansam one({.best = 1, .carried = 1, .pairs = 100000}, {.map = empty, .motion = Motion::upright});
     one.restrict_to(gate);
     Rng rng(5);
     for (int step = 0; step < 2; ++step) {
@@ -216,7 +215,7 @@ TEST(SpaceMatcher, OfTwoPosesThatAreAlikeItFindsTheOneThatThePriorAllows) {
   }
 }
 
-TEST(SpaceMatcher, WhatTheLatestScanLookedThroughSpeaksAgainstAPose) {
+TEST(SurfelRansam, WhatTheLatestScanLookedThroughSpeaksAgainstAPose) {
   // A cupboard of the map that is gone.
   std::vector<Box> before = furniture;
   before.push_back(cupboard);
@@ -271,14 +270,14 @@ std::shared_ptr<const GlobalMap> before_the_furniture(bool is_known) {
   return std::make_shared<const GlobalMap>(std::move(data));
 }
 
-TEST(SpaceMatcher, PointsWhereTheMapIsFreeSpeakAgainstAPose) {
+TEST(SurfelRansam, PointsWhereTheMapIsFreeSpeakAgainstAPose) {
   const Pose3 truth{{5.0, 3.5, 1.0}, turn_about_z(0.4)};
   const Seen seen(truth);
   const auto best = [&](bool is_known, double weight) {
     Rng rng(1);
-    const SpaceMatcher::Params params{
+    const SurfelRansam::Params params{
         .pairs = 100000, .seen_through_weight = 0.0, .free_space_weight = weight};
-    SpaceMatcher made = matcher(Motion::upright, params, before_the_furniture(is_known));
+    SurfelRansam made = matcher(Motion::upright, params, before_the_furniture(is_known));
     return made.match(seen.local, seen.latest, 0.0, rng).hypotheses.at(0);
   };
   const Hypothesis unknown = best(false, 1.0);
@@ -312,7 +311,7 @@ TEST(SpaceMatcher, PointsWhereTheMapIsFreeSpeakAgainstAPose) {
   EXPECT_NEAR(known.free_space_violation.value(), share, 0.02);
 }
 
-TEST(SpaceMatcher, OfTwoHallsThatLookAlikeItTakesTheOneWhereNothingIsKnownToBeFree) {
+TEST(SurfelRansam, OfTwoHallsThatLookAlikeItTakesTheOneWhereNothingIsKnownToBeFree) {
   // Both lack what the robot sees; the second is 20 m farther on.
   const Vector3 farther{20.0, 0.0, 0.0};
   const std::vector<Box> first = {furniture[0]};
@@ -329,7 +328,7 @@ TEST(SpaceMatcher, OfTwoHallsThatLookAlikeItTakesTheOneWhereNothingIsKnownToBeFr
   const Seen seen(truth);
   const auto scores = [&](double weight) {
     Rng rng(1);
-    SpaceMatcher made = matcher(Motion::upright, {.pairs = 100000, .free_space_weight = weight}, map);
+    SurfelRansam made = matcher(Motion::upright, {.pairs = 100000, .free_space_weight = weight}, map);
     std::array<double, 2> found{};
     for (const Hypothesis& h : made.match(seen.local, seen.latest, 0.0, rng).hypotheses) {
       if (is_near(h.map_from_local, truth)) found[0] = h.score;
@@ -344,10 +343,10 @@ TEST(SpaceMatcher, OfTwoHallsThatLookAlikeItTakesTheOneWhereNothingIsKnownToBeFr
   EXPECT_GT(there, here + 0.05);
 }
 
-TEST(SpaceMatcher, TheBestPosesAreCarriedToTheNextStep) {
+TEST(SurfelRansam, TheBestPosesAreCarriedToTheNextStep) {
   const Pose3 truth{{3.0, 2.5, 1.0}, turn_about_z(-2.0)};
   Seen seen(truth);
-  SpaceMatcher carrying = matcher(Motion::upright, {.pairs = 100000, .rounds = 0});
+  SurfelRansam carrying = matcher(Motion::upright, {.pairs = 100000, .rounds = 0});
   Rng rng(1);
   EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
   const MatchResult second = carrying.match(seen.local, seen.latest, 0.1, rng);
@@ -361,7 +360,7 @@ TEST(SpaceMatcher, TheBestPosesAreCarriedToTheNextStep) {
   EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
 }
 
-TEST(SpaceMatcher, PosesThatAVerifierHasFoundAreJudgedAsItsOwnAndCarriedOn) {
+TEST(SurfelRansam, PosesThatAVerifierHasFoundAreJudgedAsItsOwnAndCarriedOn) {
   const Pose3 truth{{3.0, 2.5, 1.0}, turn_about_z(-2.0)};
   const Seen seen(truth);
   Rng rng(1);
@@ -369,7 +368,7 @@ TEST(SpaceMatcher, PosesThatAVerifierHasFoundAreJudgedAsItsOwnAndCarriedOn) {
   ASSERT_TRUE(is_near(own.hypotheses.at(0).map_from_local, truth));
 
   // One that has looked elsewhere.
-  SpaceMatcher misled = matcher(Motion::upright, {.pairs = 100000, .rounds = 0});
+  SurfelRansam misled = matcher(Motion::upright, {.pairs = 100000, .rounds = 0});
   misled.restrict_to(PoseGate({.region = {9.0, 6.0, 1.5}, .heading = {}}, {}));
   (void)misled.match(seen.local, seen.latest, 0.0, rng);
   misled.restrict_to({});
@@ -389,9 +388,9 @@ TEST(SpaceMatcher, PosesThatAVerifierHasFoundAreJudgedAsItsOwnAndCarriedOn) {
   EXPECT_TRUE(is_near(next.hypotheses.front().map_from_local, truth));
 }
 
-TEST(SpaceMatcher, AnswersAlikeAfterAReset) {
+TEST(SurfelRansam, AnswersAlikeAfterAReset) {
   const Seen seen({{7.0, 5.0, 1.3}, exponential({1.0, 0.2, 1.0})});
-  SpaceMatcher same = matcher(Motion::free);
+  SurfelRansam same = matcher(Motion::free);
   const auto answer = [&] {
     same.reset();
     Rng rng(4);
@@ -408,27 +407,19 @@ TEST(SpaceMatcher, AnswersAlikeAfterAReset) {
   EXPECT_EQ(first.points_tested, again.points_tested);
 }
 
-TEST(SpaceMatcher, FindsNothingForAnEmptyLocalMap) {
+TEST(SurfelRansam, FindsNothingForAnEmptyLocalMap) {
   Rng rng(1);
   EXPECT_TRUE(matcher(Motion::free).match({}, {}, 0.0, rng).hypotheses.empty());
 }
 
-TEST(SpaceMatcher, IsTheSearchOfEveryMotionButThePlanarOne) {
-  for (const Motion motion : every_motion) {
-    const auto made = IndexedRansam::make({.space = {.pairs = 1000}}, {.map = furnished(), .motion = motion});
-    EXPECT_EQ(dynamic_cast<const IndexedRansam*>(made.get()) != nullptr, motion == Motion::planar);
-    EXPECT_TRUE(made->map_index());
-  }
-}
-
-TEST(SpaceMatcher, AMapWithoutSurfacesIsAnError) {
+TEST(SurfelRansam, AMapWithoutSurfacesIsAnError) {
   MapData line;
   for (int i = 0; i < 100; ++i) line.points.push_back({0.1F * static_cast<float>(i), 0.0F, 0.0F});
   const auto map = std::make_shared<const GlobalMap>(std::move(line));
   EXPECT_THROW((void)matcher(Motion::free, {}, map), ConfigError);
 }
 
-TEST(SpaceMatcher, FindsScansOfABuilding) {
+TEST(SurfelRansam, FindsScansOfABuilding) {
   const std::filesystem::path folder = test::dataset("lidar3d/fr_079");
   if (folder.empty()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
   const SourceSetup setup;
@@ -439,7 +430,7 @@ TEST(SpaceMatcher, FindsScansOfABuilding) {
   scan_params.folder = test::file_path(folder / "scans");
   scan_params.reference = test::file_path(folder / "scans/poses.tum");
   CloudDrive scans(scan_params, setup);
-  SpaceMatcher in_building = matcher(Motion::free, {}, map);
+  SurfelRansam in_building = matcher(Motion::free, {}, map);
   for (std::uint64_t i = 0; i < 5; ++i) {
     const auto sample = scans.next();
     ASSERT_TRUE(sample && sample->map_from_robot);
@@ -456,4 +447,4 @@ TEST(SpaceMatcher, FindsScansOfABuilding) {
 }
 
 }  // namespace
-}  // namespace glocal::space_matcher_test
+}  // namespace glocal::surfel_ransam_test

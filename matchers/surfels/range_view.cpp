@@ -1,4 +1,4 @@
-#include "matchers/in_space/range_view.hpp"
+#include "matchers/surfels/range_view.hpp"
 
 namespace glocal {
 

@@ -9,8 +9,8 @@
 #include "glocal/params.hpp"
 #include "glocal/prior.hpp"
 #include "glocal/rng.hpp"
-#include "matchers/in_space/prepared_cloud.hpp"
-#include "matchers/in_space/surfel_pairs.hpp"
+#include "matchers/surfels/prepared_cloud.hpp"
+#include "matchers/surfels/surfel_pairs.hpp"
 
 namespace glocal {
 

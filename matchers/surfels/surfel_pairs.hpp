@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "glocal/rng.hpp"
-#include "matchers/in_space/rigid_motion.hpp"
-#include "matchers/in_space/surfels.hpp"
+#include "matchers/surfels/rigid_motion.hpp"
+#include "matchers/surfels/surfels.hpp"
 
 namespace glocal {
 

@@ -1,4 +1,4 @@
-#include "matchers/ransam/space_ransam.hpp"
+#include "matchers/ransam/triangle_ransam.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "glocal/error.hpp"
-#include "matchers/in_space/hall_map.hpp"
-#include "matchers/in_space/scanned_hall.hpp"
 #include "matchers/same_answer.hpp"
+#include "matchers/surfels/hall_map.hpp"
+#include "matchers/surfels/scanned_hall.hpp"
 
-namespace glocal::space_ransam_test {
+namespace glocal::triangle_ransam_test {
 namespace {
 
 LocalMap local_at(const Pose3& map_from_robot) {
@@ -21,17 +21,16 @@ LocalMap local_at(const Pose3& map_from_robot) {
   return local;
 }
 
-const Ransam::Params params{
+const TriangleRansam::Params params{
     .iterations = 200000, .contact_epsilon = 0.2, .relation_cell = 0.2, .min_side = 1.5, .min_height = 1.0};
 
-MatchResult match(Motion motion, const LocalMap& local, double omega_max, int threads = 1,
-                  const Ransam::Params& with = params) {
-  SpaceRansam ransam(with, {.map = test::hall_map(), .threads = threads, .motion = motion});
+MatchResult match(Motion motion, const LocalMap& local, double omega_max, int threads = 1) {
+  TriangleRansam ransam(params, {.map = test::hall_map(), .threads = threads, .motion = motion});
   Rng rng(1);
   return ransam.match(local, {}, omega_max, rng);
 }
 
-TEST(SpaceRansam, FindsThePoseOfATiltedSensor) {
+TEST(TriangleRansam, FindsThePoseOfATiltedSensor) {
   const Pose3 truth{{4.0, 4.5, 1.5}, exponential({0.3, -0.2, 2.0})};
   const MatchResult result = match(Motion::free, local_at(truth), 0.5);
   ASSERT_FALSE(result.hypotheses.empty());
@@ -39,7 +38,7 @@ TEST(SpaceRansam, FindsThePoseOfATiltedSensor) {
   EXPECT_LT(rotation_between(result.hypotheses.front().map_from_local, truth), radians(4.0));
 }
 
-TEST(SpaceRansam, UprightPosesTurnAboutZAlone) {
+TEST(TriangleRansam, UprightPosesTurnAboutZAlone) {
   const Pose3 truth{{8.0, 4.0, 1.2}, turn_about_z(-2.5)};
   const MatchResult result = match(Motion::upright, local_at(truth), 0.4);
   ASSERT_FALSE(result.hypotheses.empty());
@@ -51,7 +50,7 @@ TEST(SpaceRansam, UprightPosesTurnAboutZAlone) {
   EXPECT_LT(rotation_between(result.hypotheses.front().map_from_local, truth), radians(4.0));
 }
 
-TEST(SpaceRansam, HypothesesAreWhatTheContractSays) {
+TEST(TriangleRansam, HypothesesAreWhatTheContractSays) {
   const LocalMap local = local_at({{4.0, 4.5, 1.5}, exponential({0.3, -0.2, 2.0})});
   const MatchResult result = match(Motion::free, local, 0.3);
   ASSERT_FALSE(result.hypotheses.empty());
@@ -69,12 +68,12 @@ TEST(SpaceRansam, HypothesesAreWhatTheContractSays) {
   }
 }
 
-TEST(SpaceRansam, AnswersAlikeForAnyNumberOfThreads) {
+TEST(TriangleRansam, AnswersAlikeForAnyNumberOfThreads) {
   const LocalMap local = local_at({{4.0, 4.5, 1.5}, exponential({0.3, -0.2, 2.0})});
   test::expect_same_answer(match(Motion::free, local, 0.3, 1), match(Motion::free, local, 0.3, 2));
 }
 
-TEST(SpaceRansam, FindsNothingForAnEmptyLocalMapNorForOneWithoutSurfaces) {
+TEST(TriangleRansam, FindsNothingForAnEmptyLocalMapNorForOneWithoutSurfaces) {
   EXPECT_TRUE(match(Motion::free, {}, 0.0).hypotheses.empty());
   LocalMap point;
   point.points.push_back({1.0F, 0.0F, 0.0F});
@@ -82,22 +81,12 @@ TEST(SpaceRansam, FindsNothingForAnEmptyLocalMapNorForOneWithoutSurfaces) {
   EXPECT_TRUE(match(Motion::free, point, 0.0).hypotheses.empty());
 }
 
-TEST(SpaceRansam, IsTheSearchOfEveryMotionButThePlanarOne) {
-  for (const Motion motion : every_motion) {
-    const auto made = Ransam::make(params, {.map = test::hall_map(), .motion = motion});
-    EXPECT_EQ(dynamic_cast<const Ransam*>(made.get()) != nullptr, motion == Motion::planar);
-  }
-}
-
-TEST(SpaceRansam, RefusesBeamsAndMapsWithoutSurfaces) {
-  Ransam::Params with_beams = params;
-  with_beams.beams.weight = 0.5;
-  EXPECT_THROW(SpaceRansam(with_beams, {.map = test::hall_map(), .motion = Motion::free}), ConfigError);
+TEST(TriangleRansam, RefusesMapsWithoutSurfaces) {
   MapData line;
   for (int i = 0; i < 100; ++i) line.points.push_back({0.1F * static_cast<float>(i), 0.0F, 0.0F});
   const auto map = std::make_shared<const GlobalMap>(std::move(line));
-  EXPECT_THROW(SpaceRansam(params, {.map = map, .motion = Motion::free}), ConfigError);
+  EXPECT_THROW(TriangleRansam(params, {.map = map, .motion = Motion::free}), ConfigError);
 }
 
 }  // namespace
-}  // namespace glocal::space_ransam_test
+}  // namespace glocal::triangle_ransam_test

@@ -1,0 +1,36 @@
+// What may be asked of a search by triples of points, in the plane and in space.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "glocal/contact.hpp"
+#include "glocal/params.hpp"
+#include "matchers/common/quality.hpp"
+#include "matchers/ransam/triple_matching.hpp"
+
+namespace glocal {
+
+struct TripleSearch {
+  int iterations = 200000;
+  std::optional<double> contact_epsilon = {};
+  double relation_cell = 0.10;
+  double min_side = 0.3;
+  double min_height = 0.1;
+  double local_radius = 0.0;
+  int extrapolation_batch = 8;
+  double extrapolation_z = 1.96;
+  std::string extrapolation = "interval";
+  double wald_false_rejects = 0.025;
+  double wald_background = 0.3;
+  ContactChoice contact = "bitset";
+  bool neighbour_cells = false;
+  int max_hypotheses = 10000;
+  int table_bits = 0;
+};
+void describe(ParamVisitor& v, TripleSearch& p);
+
+[[nodiscard]] TripleMatchingRule matching_rule(const TripleSearch& p);
+[[nodiscard]] ExtrapolationRule extrapolation_rule(const TripleSearch& p);
+
+}  // namespace glocal
