@@ -17,21 +17,6 @@ void describe(ParamVisitor& v, BeamRule& p) {
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::expert});
-  v.field("beam_scans", p.scans,
-          {.doc = "Number of the latest scans whose beams are looked at.",
-           .min = 1,
-           .max = 1000,
-           .audience = Audience::expert});
-  v.field("beams", p.beams,
-          {.doc = "Number of beams of each scan that are looked at.",
-           .min = 1,
-           .max = 10000,
-           .audience = Audience::expert});
-  v.field("beam_margin", p.margin,
-          {.doc = "Length of a beam before its hit in which it may touch occupied cells.",
-           .unit = "m",
-           .min = 0.0,
-           .audience = Audience::expert});
 }
 
 void BeamEvidence::add(const LocalMap& local, const Scan& scan) {

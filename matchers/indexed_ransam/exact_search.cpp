@@ -23,16 +23,6 @@ void describe(ParamVisitor& v, ExactSearchRule& p) {
           {.doc = "Contact that a pose needs to be searched for: less takes more time.",
            .max = 1.0,
            .above = 0.0});
-  v.field("cell", p.cell,
-          {.doc = "Side of the smallest boxes of translations, at most contact_epsilon; auto is 0.025 m, "
-                  "0.05 m on maps of more than 2 hectares, and 0.1 m on maps of more than 25 hectares.",
-           .unit = "m",
-           .min = 0.01,
-           .max = 1.0});
-  v.field("points", p.points,
-          {.doc = "Number of points of the local map that are searched for.", .min = 16, .max = 30000});
-  v.field("max_poses", p.max_poses,
-          {.doc = "Largest number of poses that each round of the search adds.", .min = 1, .max = 10000});
   v.field("max_looks", p.max_looks,
           {.doc = "A search ends when it has looked at more points; on maps of more than 2 hectares it may "
                   "look at as many more as they are larger.",

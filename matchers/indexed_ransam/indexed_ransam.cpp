@@ -10,14 +10,8 @@ namespace {
 
 RelationRule relation_rule(const IndexedRansam::Params& p) {
   return {.relation = p.relation,
-          .min_oriented_share = p.min_oriented_share,
-          .points = {.voxel_size = p.voxel_size, .radius = p.normal_radius},
-          .pairs = {.min_length = p.min_length,
-                    .max_length = p.max_length,
-                    .length_cell = p.length_cell,
-                    .angle_cells = p.angle_cells,
-                    .max_entries = static_cast<std::size_t>(p.max_entries)},
-          .min_height = p.min_height};
+          .points = {.voxel_size = p.voxel_size, .radius = 2.0 * p.voxel_size},
+          .pairs = {.min_length = p.min_length, .max_entries = static_cast<std::size_t>(p.max_entries)}};
 }
 
 JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
@@ -27,47 +21,30 @@ JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
           .fit_weight = p.fit_weight,
           .most = static_cast<std::size_t>(p.best),
           .contact_epsilon = contact_epsilon,
-          .kernel = p.refinement.kernel,
-          .uncertainty = p.uncertainty};
+          .kernel = p.refinement.kernel};
 }
 
-/// The chance that a draw meets its own place in the map falls with the number of places.
-std::size_t draws_on(std::size_t points, const IndexedRansam::Params& p) {
-  const double draws = p.iterations * std::max(1.0, static_cast<double>(points) /
-                                                        static_cast<double>(p.points_per_iterations));
-  return static_cast<std::size_t>(std::min<double>(draws, std::max(p.iterations, p.max_iterations)));
-}
+/// Steps in which first_iterations are drawn: from then on the best poses of the steps before are there.
+constexpr int first_steps = 4;
+
+/// Points of the local map that judge a proposal's contact before it is refined.
+constexpr std::size_t contact_points = 128;
 
 }  // namespace
 
 void describe(ParamVisitor& v, IndexedRansam::Params& p) {
-  v.field("iterations", p.iterations,
-          {.doc = "Oriented point pairs or triangles drawn from the local map in a step.",
-           .min = 0,
-           .max = 10e6,
-           .audience = Audience::tuner});
   v.field(
-      "points_per_iterations", p.points_per_iterations,
-      {.doc = "Points of the index up to which iterations are enough: of a map with more of them, as many "
-              "more are drawn.",
-       .min = 1,
-       .audience = Audience::expert});
-  v.field(
-      "max_iterations", p.max_iterations,
-      {.doc = "Oriented point pairs or triangles drawn from the local map in a step at most, however large "
-              "the map is; iterations count where they are more.",
+      "iterations", p.iterations,
+      {.doc = "Oriented point pairs or triangles drawn from the local map in a step; on a map of more than "
+              "80,000 oriented points as many more as it has more of them, up to 12,000.",
        .min = 0,
        .max = 10e6,
-       .audience = Audience::expert});
+       .audience = Audience::tuner});
   v.field("first_iterations", p.first_iterations,
-          {.doc = "Oriented point pairs or triangles drawn from the local map in each of the first steps at "
-                  "least, when nothing is carried on yet.",
+          {.doc = "Oriented point pairs or triangles drawn from the local map in each of the first four "
+                  "steps at least, when nothing is carried on yet.",
            .min = 0,
            .max = 10e6});
-  v.field("first_steps", p.first_steps,
-          {.doc = "Number of first steps in which first_iterations are drawn.",
-           .min = 0,
-           .audience = Audience::expert});
   v.removed("adaptive", "the number of draws is fixed; set iterations and first_iterations");
   describe_contact_epsilon(v, p.contact_epsilon);
   v.field("min_contact", p.min_contact,
@@ -75,11 +52,6 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::tuner});
-  v.field("contact_points", p.contact_points,
-          {.doc = "Number of points of the local map that judge a proposal's contact before it is refined.",
-           .min = 16,
-           .max = 100000,
-           .audience = Audience::expert});
   v.field("candidates", p.candidates,
           {.doc = "Distinct poses that are refined and judged.",
            .min = 1,
@@ -96,11 +68,8 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .min = 0,
            .max = 10000,
            .audience = Audience::expert});
-  describe(v, p.candidate);
   v.field("refinement", p.refinement,
           {.doc = "How poses are refined on the distance field.", .audience = Audience::expert});
-  v.field("uncertainty", p.uncertainty,
-          {.doc = "What the covariance of a hypothesis is made from.", .audience = Audience::expert});
   describe(v, p.beams);
   v.field("unknown_weight", p.unknown_weight,
           {.doc = "What the share of points in unknown cells adds to the score.",
@@ -123,44 +92,11 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .unit = "m",
            .above = 0.0,
            .audience = Audience::expert});
-  v.field("max_length", p.max_length,
-          {.doc = "Longest oriented point pair, or side of a triangle.",
-           .unit = "m",
-           .max = 100.0,
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.require(p.max_length > p.min_length, "max_length", "must be above min_length");
-  v.field("length_cell", p.length_cell,
-          {.doc = "Oriented point pairs in a bin, or sides of triangles, differ in length by less.",
-           .unit = "m",
-           .min = 0.01,
-           .audience = Audience::expert});
-  v.field("angle_cells", p.angle_cells,
-          {.doc = "Bins of each of an oriented point pair's two angles in a full turn.",
-           .min = 4,
-           .max = 360,
-           .audience = Audience::expert});
-  constexpr double most_bins = 16e6;
-  v.require((p.max_length - p.min_length) / p.length_cell * p.angle_cells * p.angle_cells <= most_bins,
-            "length_cell",
-            "must be larger, or angle_cells smaller: there would be more than 16 million bins");
   v.field("relation", p.relation,
           {.doc = "What is drawn and sorted: two points with their normals, three points, or three where few "
                   "have normals.",
            .choices = {"oriented_pair", "triangle", "auto"},
            .former_choices = {{"dipole", "oriented_pair"}}});
-  v.field("min_oriented_share", p.min_oriented_share,
-          {.doc = "Share of the map's points that have a normal, below which auto takes triangles.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::expert,
-           .formerly = "min_surfaces"});
-  v.field(
-      "min_height", p.min_height,
-      {.doc = "Triangles that are flatter give poor poses and are skipped: the height over the longest side.",
-       .unit = "m",
-       .min = 0.0,
-       .audience = Audience::expert});
   v.field("max_entries", p.max_entries,
           {.doc = "Largest number of oriented point pairs (8 bytes each) or triangles (12 to 20 bytes) in "
                   "the index: of more, an even share is kept.",
@@ -168,25 +104,18 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .max = 100e6,
            .audience = Audience::expert});
   v.field("voxel_size", p.voxel_size,
-          {.doc = "Side of the squares of the map that give one oriented point each.",
+          {.doc = "Side of the squares of the map that give one oriented point each; its normal is of what "
+                  "is within twice as much.",
            .unit = "m",
            .min = 0.01,
            .audience = Audience::expert,
            .formerly = "thinning"});
-  v.field("normal_radius", p.normal_radius,
-          {.doc = "Neighbourhood that gives a point's normal; at most twice the voxel_size.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.require(p.normal_radius <= 2.0 * p.voxel_size, "normal_radius", "must be at most twice the voxel_size");
   v.field(
       "exact_search", p.exact_search,
       {.doc = "When an exact search of the whole map, on boxes of poses as the verifier whole_map makes it, "
               "adds its poses.",
        .audience = Audience::expert});
   v.removed("space", "in space the matcher surfel_ransam searches, which has these keys itself");
-  v.require(!p.exact_search.cell || !p.contact_epsilon || *p.exact_search.cell <= *p.contact_epsilon,
-            "exact_search", "cell must be at most contact_epsilon");
 }
 
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
@@ -194,7 +123,7 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       map_(setup.map),
       contact_(contact_index(*map_, "bitset", setup.epsilon(params.contact_epsilon))),
       relation_(relation_rule(params)),
-      refiner_(params.candidate, static_cast<std::size_t>(params.candidates), params.refinement,
+      refiner_(CandidateRule{}, static_cast<std::size_t>(params.candidates), params.refinement,
                distance_field(*map_, setup.threads), contact_),
       judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
              distance_field(*map_, setup.threads)),
@@ -207,7 +136,14 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
         return MapIndexInfo{index.size(), index.memory_bytes(), time.count()};
       },
       *index_);
-  draws_ = draws_on(points_of(*index_), params_);
+  draws_ = draws_on(points_of(*index_), params.iterations);
+}
+
+std::size_t IndexedRansam::draws_on(std::size_t points, int iterations) {
+  constexpr double points_per_iterations = 80000.0;
+  constexpr int most = 12000;
+  const double draws = iterations * std::max(1.0, static_cast<double>(points) / points_per_iterations);
+  return static_cast<std::size_t>(std::min<double>(draws, std::max(iterations, most)));
 }
 
 void IndexedRansam::reset() {
@@ -225,7 +161,7 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   if (local.epoch != epoch_) reset();
   epoch_ = local.epoch;
   judge_.take_in(local, latest.scan);
-  const Points sample = sample_of(local.points, static_cast<std::size_t>(params_.contact_points), rng);
+  const Points sample = sample_of(local.points, contact_points, rng);
 
   constexpr std::size_t proposals_per_candidate = 10;  // as many lie near each other
   StepCandidates candidates(*contact_, sample, params_.min_contact,
@@ -269,7 +205,7 @@ std::vector<Hypothesis> IndexedRansam::take_up(std::vector<Hypothesis> found, co
 
 /// More in the first steps, when nothing is carried yet.
 std::size_t IndexedRansam::draws_of_step() {
-  const bool is_first = steps_++ < params_.first_steps;
+  const bool is_first = steps_++ < first_steps;
   return is_first ? std::max(static_cast<std::size_t>(params_.first_iterations), draws_) : draws_;
 }
 

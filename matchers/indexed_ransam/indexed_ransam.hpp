@@ -33,38 +33,31 @@ class IndexedRansam final : public Matcher {
  public:
   struct Params {
     int iterations = 600;
-    int points_per_iterations = 80000;
-    int max_iterations = 12000;
     int first_iterations = 1500;
-    int first_steps = 4;
     std::optional<double> contact_epsilon = {};
     double min_contact = 0.2;
-    int contact_points = 128;
     int candidates = 40;
     int best = 10;
     int carried = 10;
-    CandidateRule candidate = {};
     PoseRefinement refinement = {};
-    PoseUncertainty uncertainty = {};
     BeamRule beams = {.weight = 1.0, .cap = 0.3};
     double unknown_weight = 0.1;
     double free_space_weight = 0.25;
     double fit_weight = 0.05;
     double min_length = 0.5;
-    double max_length = 6.0;
-    double length_cell = 0.1;
-    int angle_cells = 24;
     std::string relation = "auto";
-    double min_oriented_share = 0.3;
-    double min_height = 0.3;
     int max_entries = 1000000;
     double voxel_size = 0.1;
-    double normal_radius = 0.2;
     ExactSearchRule exact_search = {};
   };
 
   /// Throws ConfigError where the map is too large for a contact grid, a distance field or a pyramid.
   IndexedRansam(const Params& params, const StageSetup& setup);
+
+  /// Draws of a step on an index of so many points, where `iterations` are enough for 80,000: the chance that
+  /// a draw meets its own place in the map falls with the number of places. At most 12,000, but for
+  /// `iterations`.
+  [[nodiscard]] static std::size_t draws_on(std::size_t points, int iterations);
 
   void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,

@@ -110,7 +110,6 @@ struct PoseUncertainty {
   double drift = 0.02;             ///< m; of the robot in its local map.
   double drift_deg = 0.5;          ///< deg; the same of its heading.
 };
-void describe(ParamVisitor& v, PoseUncertainty& p);
 
 /// Covariance of the robot's pose where a pose of the points is the refined one: the Gauss-Newton inverse
 /// Hessian there, times the points' variance, plus the local map's drift. What the points leave open is

@@ -212,20 +212,6 @@ PoseCovariance pose_covariance(const DistanceField& field, const Points& points,
 
 void describe(ParamVisitor& v, PoseRefinement& p) {
   v.field("iterations", p.iterations, {.doc = "Gauss-Newton iterations at most.", .min = 0, .max = 1000});
-  v.field("kernel", p.kernel,
-          {.doc = "Points at this distance from the map count a quarter (Geman-McClure).",
-           .unit = "m",
-           .above = 0.0});
-}
-
-void describe(ParamVisitor& v, PoseUncertainty& p) {
-  v.field("point_deviation", p.point_deviation,
-          {.doc = "Deviation of a point from the map, at least.", .unit = "m", .above = 0.0});
-  v.field("correlated_points", p.correlated_points,
-          {.doc = "Number of neighbouring points that err alike, and so count as one.", .min = 1.0});
-  v.field("drift", p.drift, {.doc = "Deviation of the robot in its local map.", .unit = "m", .min = 0.0});
-  v.field("drift_deg", p.drift_deg,
-          {.doc = "Deviation of the robot's heading in its local map.", .unit = "deg", .min = 0.0});
 }
 
 }  // namespace glocal

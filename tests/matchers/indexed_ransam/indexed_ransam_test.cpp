@@ -38,20 +38,11 @@ TEST(IndexedRansam, FindsThePoseFromAnywhereWithFewDraws) {
 }
 
 TEST(IndexedRansam, DrawsGrowWithTheMapUpToABound) {
-  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
-  const auto proposals = [&](int points_per_iterations, int max_iterations) {
-    return static_cast<double>(match({.iterations = 500,
-                                      .points_per_iterations = points_per_iterations,
-                                      .max_iterations = max_iterations,
-                                      .first_iterations = 0},
-                                     local)
-                                   .proposals);
-  };
-  const auto points = static_cast<int>(oriented_points_of(*test::small_world(), OrientedPointRule{}).size());
-  const double few = proposals(2 * points, 12000);
-  EXPECT_NEAR(proposals(points / 4, 12000), 4.0 * few, 0.2 * few);
-  EXPECT_NEAR(proposals(points / 40, 1000), 2.0 * few, 0.2 * few);
-  EXPECT_EQ(proposals(points / 40, 100), few);
+  EXPECT_EQ(IndexedRansam::draws_on(1'000, 600), 600U);
+  EXPECT_EQ(IndexedRansam::draws_on(80'000, 600), 600U);
+  EXPECT_EQ(IndexedRansam::draws_on(200'000, 600), 1500U);
+  EXPECT_EQ(IndexedRansam::draws_on(10'000'000, 600), 12'000U);
+  EXPECT_EQ(IndexedRansam::draws_on(10'000'000, 20'000), 20'000U);
 }
 
 TEST(IndexedRansam, HypothesesAreDistinctPoses) {
@@ -63,8 +54,8 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
     for (std::size_t k = 0; k < i; ++k) {
       const Pose3& a = result.hypotheses[i].map_from_local;
       const Pose3& b = result.hypotheses[k].map_from_local;
-      EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
-                  rotation_between(a, b) >= radians(params.candidate.rotation_deg));
+      EXPECT_TRUE(distance(a, b) >= CandidateRule{}.distance ||
+                  rotation_between(a, b) >= radians(CandidateRule{}.rotation_deg));
     }
   }
 }
@@ -112,14 +103,18 @@ TEST(IndexedRansam, BlockedBeamsLowerTheScoreAndLeaveTheQuality) {
 TEST(IndexedRansam, TheBestPosesAreCarriedToTheNextStep) {
   const Pose2 truth{5.5, 2.5, 0.7};
   const LocalMap local = local_map_at(truth, 3.0);
-  // Draws in the first step only.
-  IndexedRansam matcher({.iterations = 0, .first_steps = 1}, {test::small_world(), 1});
+  // Draws in the first four steps only.
+  IndexedRansam matcher({.iterations = 0}, {test::small_world(), 1});
   Rng rng(1);
-  ASSERT_FALSE(matcher.match(local, {}, 0.1, rng).hypotheses.empty());
-  const MatchResult second = matcher.match(local, {}, 0.1, rng);
-  EXPECT_EQ(second.proposals, 0U);
-  ASSERT_FALSE(second.hypotheses.empty());
-  EXPECT_LT(distance(second.hypotheses.front().map_from_local, truth), 0.05);
+  for (int i = 0; i < 4; ++i) {
+    const MatchResult drawn = matcher.match(local, {}, 0.1, rng);
+    EXPECT_GT(drawn.proposals, 0U);
+    ASSERT_FALSE(drawn.hypotheses.empty());
+  }
+  const MatchResult fifth = matcher.match(local, {}, 0.1, rng);
+  EXPECT_EQ(fifth.proposals, 0U);
+  ASSERT_FALSE(fifth.hypotheses.empty());
+  EXPECT_LT(distance(fifth.hypotheses.front().map_from_local, truth), 0.05);
   // Another local frame, or a reset: nothing to carry. The first step comes again, with its draws.
   LocalMap restarted = local;
   restarted.epoch = 1;
