@@ -12,12 +12,12 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "config/suites.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
+#include "evaluation/results/results_folder.hpp"
 #include "evaluation/results/valid_text.hpp"
 #include "glocal/error.hpp"
 #include "version.hpp"
@@ -83,15 +83,13 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
 };
 
-/// Comments tell what follows from the map; they are no values, and only stand behind values without quotes.
-std::string without_comments(const std::string& yaml) {
-  std::string text;
-  std::istringstream lines(yaml);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t comment = line.find("  # ");
-    text += (line.find('"') < comment ? line : line.substr(0, comment)) + "\n";
+/// Whether an effective.yaml has other values. Its comments, which tell what follows from the map, are none.
+bool has_other_values(const std::string& there, const std::string& here) {
+  try {
+    return settings_of(there, "effective.yaml", {}) != settings_of(here, "effective.yaml", {});
+  } catch (const ConfigError&) {
+    return true;
   }
-  return text;
 }
 
 }  // namespace
@@ -172,7 +170,7 @@ Json provenance_of_run(const Catalog& catalog, const Variant& variant, const Run
 std::optional<std::string> why_other_run(const std::filesystem::path& folder, const std::string& effective,
                                          const Json& origin, const std::filesystem::path& experiment_file,
                                          FileHashes& hashes) {
-  if (without_comments(content_of(folder / "effective.yaml")) != without_comments(effective))
+  if (has_other_values(content_of(folder / "effective.yaml"), effective))
     return "it is of other values (effective.yaml)";
   Json record;
   try {

@@ -50,6 +50,7 @@ struct TrialResult {
 struct Setting {
   std::string text;
   std::string identity;  ///< The text, or the hash of the file it names.
+  friend bool operator==(const Setting&, const Setting&) = default;
 };
 
 /// The machine that times were taken on, and what it did besides.

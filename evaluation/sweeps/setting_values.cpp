@@ -1,35 +1,38 @@
 #include "evaluation/sweeps/setting_values.hpp"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
 #include <set>
-#include <string_view>
 
+#include "config/experiment_params.hpp"
+#include "config/field_docs.hpp"
 #include "config/writer.hpp"
 #include "config/yaml_parser.hpp"
 
 namespace glocal {
 namespace {
 
-/// Where an experiment chooses a strategy.
-constexpr std::array<std::string_view, 9> choices = {
-    "map",
-    "observations",
-    "localizer.local_mapper",
-    "localizer.matcher",
-    "localizer.clusterer",
-    "localizer.rater",
-    "localizer.threshold_policy",
-    "localizer.verdict_rule",
-    "localizer.verifier",
-};
+/// Adds where a struct chooses a strategy.
+void add_choices(const StructDoc& doc, const std::string& above, std::vector<std::string>& choices) {
+  for (const FieldDoc& field : doc.fields) {
+    if (field.type == FieldType::strategy) choices.push_back(above + field.name);
+    for (const StructDoc& inner : field.inner) add_choices(inner, above + field.name + ".", choices);
+  }
+}
 
-/// The choice that a path is of, or is below; none for others.
+/// The choice of an experiment that a path is of, or is below; none for others.
 std::optional<std::string> choice_of(const std::string& path) {
-  for (const std::string_view choice : choices) {
-    if (path == choice || path.starts_with(std::string(choice) + ".")) return std::string(choice);
+  static const std::vector<std::string> choices = [] {
+    Experiment experiment;
+    const Catalog no_strategies;
+    ExperimentParams params(experiment, no_strategies);
+    std::vector<std::string> found;
+    add_choices(document(params), "", found);
+    return found;
+  }();
+  for (const std::string& choice : choices) {
+    if (path == choice || path.starts_with(choice + ".")) return choice;
   }
   return std::nullopt;
 }

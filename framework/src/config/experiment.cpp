@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -173,8 +174,8 @@ bool changes_trials(const Change& change) {
   return std::find(of_trials.begin(), of_trials.end(), first) != of_trials.end();
 }
 
-/// The experiment with the variant's changes; faults that the experiment has without them are left out. They
-/// are told by their words, so the variant is read as the same struct.
+/// The experiment with the variant's changes; faults that the experiment has without them are left out. For
+/// them to be the same the variant is read as the same struct.
 Variant read_variant(YamlNode tree, const VariantChanges& changes, const Catalog& catalog,
                      const std::set<Fault>& of_base, std::set<Fault>& faults) {
   Variant variant{
@@ -373,6 +374,13 @@ void join_suite(const YamlNode& experiment, const Products& products, std::vecto
                                                          products.share, products.suite->id())));
 }
 
+std::string effective_text(Experiment& experiment, const Catalog& catalog,
+                           const std::map<std::string, std::string>& comments) {
+  ExperimentParams params(experiment, catalog);
+  return "# Every value of the experiment, defaulted or not: running this file gives the same results.\n" +
+         write_yaml(params, comments);
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, TrialsConfig& p) {
@@ -565,21 +573,15 @@ std::vector<FilePath> read_plugins(const std::filesystem::path& file,
 }
 
 std::string effective_yaml(Experiment& experiment, const Catalog& catalog) {
-  ExperimentParams params(experiment, catalog);
-  return "# Every value of the experiment, defaulted or not: running this file gives the same results.\n" +
-         write_yaml(params);
+  return effective_text(experiment, catalog, {});
 }
 
 std::string effective_yaml(Experiment& experiment, const Catalog& catalog, const GlobalMap& map) {
-  std::string text = effective_yaml(experiment, catalog);
-  // That of the localizer: no other key of this name is indented so little.
-  constexpr std::string_view automatic = "\n  contact_epsilon: auto";
-  const std::size_t at = text.find(automatic);
-  if (at != std::string::npos) {
-    text.insert(at + automatic.size(), fmt::format("  # {:.3g} m here, twice the map's resolution",
-                                                   contact_epsilon_on(map, experiment.localizer)));
-  }
-  return text;
+  if (experiment.localizer.contact_epsilon) return effective_yaml(experiment, catalog);
+  const double epsilon = contact_epsilon_on(map, experiment.localizer);
+  return effective_text(
+      experiment, catalog,
+      {{"localizer.contact_epsilon", fmt::format("{:.3g} m here, twice the map's resolution", epsilon)}});
 }
 
 }  // namespace glocal

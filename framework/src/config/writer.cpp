@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 #include "config/scalars.hpp"
 #include "config/uniform_visitor.hpp"
@@ -37,13 +38,18 @@ bool is_plain(const std::string& text) {
 
 class YamlWriter final : public UniformVisitor<YamlWriter> {
  public:
-  explicit YamlWriter(std::size_t indent) : indent_(indent, ' ') {}
+  using Comments = std::map<std::string, std::string>;
+
+  /// `path` is that of the struct, with a dot behind it.
+  YamlWriter(std::size_t indent, std::string path, const Comments& comments)
+      : indent_(indent, ' '), path_(std::move(path)), comments_(comments) {}
 
   [[nodiscard]] const std::string& text() const { return text_; }
 
   template <class T>
   void value(std::string_view name, T& v, const FieldInfo& /*info*/) {
-    line(name, flow(v));
+    const auto comment = comments_.find(path_ + std::string(name));
+    line(name, flow(v) + (comment == comments_.end() ? "" : "  # " + comment->second));
   }
 
   /// Variants are written as experiments of their own.
@@ -55,7 +61,7 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
 
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
                 const FieldInfo& /*info*/) override {
-    YamlWriter parameters(indent_.size() + 4);
+    YamlWriter parameters(indent_.size() + 4, path_below(name) + choice.name + ".", comments_);
     const bool left_open = !choice.params && registry.find(choice.name) != nullptr;
     const OwnedParams params = left_open ? registry.choose(choice.name).params : choice.params;
     if (params) params->visit(parameters);
@@ -70,7 +76,7 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
 
  private:
   void group(std::string_view name, AnyParams& params, const FieldInfo& /*info*/) override {
-    YamlWriter fields(indent_.size() + 2);
+    YamlWriter fields(indent_.size() + 2, path_below(name), comments_);
     params.visit(fields);
     if (fields.text_.empty()) {
       line(name, "{}");
@@ -90,17 +96,23 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
 
   /// A list's item: its fields, the first of them behind a dash.
   [[nodiscard]] std::string item(AnyList& list, std::size_t i) const {
-    YamlWriter fields(indent_.size() + 4);
+    static const Comments none;
+    YamlWriter fields(indent_.size() + 4, "", none);
     list.visit(i, fields);
     const std::string dash = indent_ + "  - ";
     return fields.text_.empty() ? dash + "{}\n" : dash + fields.text_.substr(dash.size());
+  }
+
+  [[nodiscard]] std::string path_below(std::string_view name) const {
+    return path_ + std::string(name) + ".";
   }
 
   void line(std::string_view name, const std::string& value) {
     text_ += indent_ + std::string(name) + ": " + value + "\n";
   }
 
-  std::string indent_;
+  std::string indent_, path_;
+  const Comments& comments_;
   std::string text_;
 };
 
@@ -127,8 +139,8 @@ std::string flow_yaml(const YamlNode& node) {
   return "null";
 }
 
-std::string write_yaml(AnyParams& params) {
-  YamlWriter writer(0);
+std::string write_yaml(AnyParams& params, const std::map<std::string, std::string>& comments) {
+  YamlWriter writer(0, "", comments);
   params.visit(writer);
   return writer.text();
 }
