@@ -8,6 +8,7 @@
 #include "sources/clouds/cloud_drive_map.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 #include "sources/ros_map/ros_map.hpp"
+#include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/random_scans.hpp"
 #include "sources/simulation/simulation.hpp"
 #include "sources/sites/office.hpp"
@@ -18,8 +19,10 @@ void register_sources(Catalog& catalog) {
   catalog.observation_sources.add<BagDrive>("bag", "A drive recorded by a robot: ROS bag or MCAP.");
   catalog.observation_sources.add<CarmenLog>("carmen_log", "A drive recorded as a CARMEN log.");
   catalog.observation_sources.add<CloudDrive>("cloud_drive", "A drive recorded as clouds of points.");
-  catalog.observation_sources.add<Simulation>("simulation",
-                                              "A drive through a simulated world, or through a ROS map.");
+  catalog.observation_sources.add<Simulation>(
+      "simulation", "A drive through a simulated world, or through a ROS map, with a planar laser.");
+  catalog.observation_sources.add<LidarSimulation>("lidar_simulation",
+                                                   "A drive through a simulated world with a lidar.");
   catalog.observation_sources.add<sites::OfficeDrive>("office",
                                                       "A drive through a simulated office of any size.");
   catalog.observation_sources.add<RandomScans>("random_scans", "Single scans at random places of a ROS map.");

@@ -38,15 +38,10 @@ void describe(ParamVisitor& v, Kidnapping& p) {
           {.doc = "Heading of the robot where it is put down.", .unit = "deg", .min = -360.0, .max = 360.0});
 }
 
-void describe(ParamVisitor& v, DriveParams& p) {
-  v.field("world", p.world, {.doc = "File that describes the world and the drive."});
-  v.field("map", p.map,
-          {.doc = "Map of the ROS map server (YAML file) that the robot drives in, in place of a world."});
-  v.field("way_points", p.way_points,
-          {.doc = "In a map: places to drive to one after the other, [x, y] each, by shortest ways. Without, "
-                  "the places of a random tour are drawn.",
-           .unit = "m",
-           .max_items = 10000});
+namespace {
+
+/// What is the same with any sensor; where the robot drives is not.
+void describe_drive(ParamVisitor& v, DriveParams& p) {
   v.field("tour_legs", p.tour_legs,
           {.doc = "Number of ways of a random tour: each pair of consecutive way points is a way in both "
                   "directions, and ways meet where way points are equal. 0 drives the way points as they are "
@@ -60,7 +55,6 @@ void describe(ParamVisitor& v, DriveParams& p) {
        .unit = "m",
        .min = 0.0,
        .max = 5.0});
-  describe_max_unknown(v, p.max_unknown);
   v.field(
       "boxes", p.boxes,
       {.doc = "Number of boxes that have been put there since the map was made: with sides of 0.3 to 1 m, "
@@ -83,10 +77,28 @@ void describe(ParamVisitor& v, DriveParams& p) {
            .unit = "s",
            .min = 0.0,
            .audience = Audience::expert});
-  v.field("laser", p.laser, {.doc = "A planar range finder."});
-  v.field("lidar", p.lidar, {.doc = "A lidar of several beams, in place of the planar range finder."});
   v.field("odometry", p.odometry,
           {.doc = "How badly the robot's own motion is measured.", .audience = Audience::expert});
+  v.require(std::is_sorted(p.kidnappings.begin(), p.kidnappings.end(),
+                           [](const Kidnapping& a, const Kidnapping& b) { return a.after_m < b.after_m; }),
+            "kidnappings", "must be in rising order of after_m");
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, LaserDriveParams& p) {
+  v.field("world", p.world, {.doc = "File that describes the world and the drive."});
+  v.field("map", p.map,
+          {.doc = "Map of the ROS map server (YAML file) that the robot drives in, in place of a world."});
+  v.field("way_points", p.way_points,
+          {.doc = "In a map: places to drive to one after the other, [x, y] each, by shortest ways. Without, "
+                  "the places of a random tour are drawn.",
+           .unit = "m",
+           .max_items = 10000});
+  describe_drive(v, p);
+  describe_max_unknown(v, p.max_unknown);
+  v.field("laser", p.laser, {.doc = "A planar range finder."});
+  v.removed("lidar", "a drive with a lidar is the observation source lidar_simulation");
   const bool has_map = !p.map.text.empty();
   v.require(has_map == p.world.text.empty(), "world",
             "must be given, or map in its place: a robot drives in one of the two");
@@ -95,14 +107,12 @@ void describe(ParamVisitor& v, DriveParams& p) {
   v.require(p.way_points.size() != 1, "way_points", "must be two or more");
   v.require(!has_map || !p.way_points.empty() || p.tour_legs > 0, "tour_legs",
             "must be 1 or more in a map without way_points");
-  v.require(!has_map || p.lidar.beams == 0, "map",
-            "must be left out where there is a lidar: a map says nothing of heights; give a world");
-  v.require(std::is_sorted(p.kidnappings.begin(), p.kidnappings.end(),
-                           [](const Kidnapping& a, const Kidnapping& b) { return a.after_m < b.after_m; }),
-            "kidnappings", "must be in rising order of after_m");
-  v.require(p.lidar.beams == 0 || p.laser == LaserParams{}, "laser",
-            "must be left out where there is a lidar: a robot has one of the two");
-  v.require(p.lidar.beams > 0 || p.lidar == LidarParams{}, "lidar", "must have beams, 1 or more");
+}
+
+void describe(ParamVisitor& v, LidarDriveParams& p) {
+  v.field("world", p.world, {.doc = "File that describes the world and the drive.", .required = true});
+  describe_drive(v, p);
+  v.field("lidar", p.lidar, {.doc = "A lidar of several beams."});
   v.require(p.lidar.scan_time <= p.step_seconds, "lidar",
             "scan_time must be at most step_seconds: a scan is over before the next one begins");
 }

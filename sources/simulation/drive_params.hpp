@@ -29,23 +29,33 @@ struct Kidnapping {
 };
 void describe(ParamVisitor& v, Kidnapping& p);
 
+/// Of a drive, whatever the robot measures with.
 struct DriveParams {
   FilePath world;
-  FilePath map;
-  std::vector<Position> way_points;
   int tour_legs = 0;
   double clearance = 0.3;
-  double max_unknown = 0.2;
   int boxes = 0;
   int people = 0;
   std::vector<Kidnapping> kidnappings;
   double step_length = 0.6;
   double step_turn_deg = 45.0;
   double step_seconds = 1.0;
-  LaserParams laser;
-  LidarParams lidar;
   OdometryParams odometry;
 };
-void describe(ParamVisitor& v, DriveParams& p);
+
+/// With a planar laser, in a world or a map.
+struct LaserDriveParams : DriveParams {
+  FilePath map;
+  std::vector<Position> way_points;
+  double max_unknown = 0.2;
+  LaserParams laser;
+};
+void describe(ParamVisitor& v, LaserDriveParams& p);
+
+/// With a lidar, in a world.
+struct LidarDriveParams : DriveParams {
+  LidarParams lidar;
+};
+void describe(ParamVisitor& v, LidarDriveParams& p);
 
 }  // namespace glocal

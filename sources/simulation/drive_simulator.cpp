@@ -46,10 +46,10 @@ Pose2 DrivingRobot::measured_motion(const Pose2& from, const Pose2& to) const {
   return {scale * motion.x, scale * motion.y, wrap_angle(turn_scale * motion.theta + yaw_per_m * way)};
 }
 
-DriveSimulator::DriveSimulator(const DriveParams& params, const SourceSetup& setup)
+DriveSimulator::DriveSimulator(const LaserDriveParams& params, const SourceSetup& setup)
     : DriveSimulator(params, setup.seed, planned_drive(params, setup)) {}
 
-DriveSimulator::DriveSimulator(const DriveParams& params, std::uint64_t seed, PlannedDrive drive)
+DriveSimulator::DriveSimulator(const LaserDriveParams& params, std::uint64_t seed, PlannedDrive drive)
     : laser_(params.laser),
       max_unknown_(params.max_unknown),
       world_(std::move(drive.world)),

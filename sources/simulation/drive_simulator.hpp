@@ -50,9 +50,9 @@ class DrivingRobot {
 class DriveSimulator {
  public:
   /// Throws ConfigError where planned_drive() does.
-  DriveSimulator(const DriveParams& params, const SourceSetup& setup);
+  DriveSimulator(const LaserDriveParams& params, const SourceSetup& setup);
   /// A drive that was planned elsewhere.
-  DriveSimulator(const DriveParams& params, std::uint64_t seed, PlannedDrive drive);
+  DriveSimulator(const LaserDriveParams& params, std::uint64_t seed, PlannedDrive drive);
 
   /// The scan of the next step, with its reference pose; none at the end of the drive. Rays that meet nothing
   /// within the laser's range read max_range, those that are lost in unknown cells of a map 0.

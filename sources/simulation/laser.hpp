@@ -21,8 +21,6 @@ struct LaserParams {
   double x = 0.0;
   double y = 0.0;
   double yaw_deg = 0.0;
-
-  friend bool operator==(const LaserParams&, const LaserParams&) = default;
 };
 void describe(ParamVisitor& v, LaserParams& p);
 

@@ -8,10 +8,7 @@
 namespace glocal {
 
 void describe(ParamVisitor& v, LidarParams& p) {
-  v.field("beams", p.beams,
-          {.doc = "Number of beams, one above the other. 0 is no lidar: the robot has the planar laser.",
-           .min = 0,
-           .max = 1024});
+  v.field("beams", p.beams, {.doc = "Number of beams, one above the other.", .min = 1, .max = 1024});
   v.field("vertical_fov_deg", p.vertical_fov_deg,
           {.doc = "Elevations of the lowest and the highest beam; a single beam is midway.",
            .unit = "deg",

@@ -11,10 +11,10 @@
 
 namespace glocal {
 
-/// How a lidar measures, and how it is carried about. The defaults but for the beams are much like a Velodyne
+/// How a lidar measures, and how it is carried about. The defaults are much like a Velodyne
 /// VLP-16 on a robot of medium height.
 struct LidarParams {
-  int beams = 0;
+  int beams = 16;
   std::vector<double> vertical_fov_deg = {-15.0, 15.0};
   double azimuth_step_deg = 0.8;
   double min_range = 0.5;
@@ -26,8 +26,6 @@ struct LidarParams {
   double tilt_deg = 3.0;
   double tilt_noise_deg = 0.1;
   double scan_time = 0.0;
-
-  friend bool operator==(const LidarParams&, const LidarParams&) = default;
 };
 void describe(ParamVisitor& v, LidarParams& p);
 

@@ -21,10 +21,10 @@ Pose2 between(const Pose2& from, const Pose2& to, double share) {
 
 }  // namespace
 
-LidarSimulation::LidarSimulation(const DriveParams& params, const SourceSetup& setup)
+LidarSimulation::LidarSimulation(const Params& params, const SourceSetup& setup)
     : LidarSimulation(params, setup, planned_drive(params, setup)) {}
 
-LidarSimulation::LidarSimulation(const DriveParams& params, const SourceSetup& setup, PlannedDrive drive)
+LidarSimulation::LidarSimulation(const Params& params, const SourceSetup& setup, PlannedDrive drive)
     : lidar_(params.lidar),
       step_seconds_(params.step_seconds),
       file_(params.world.resolved.string()),

@@ -6,6 +6,7 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
+#include "sources/simulation/drive_params.hpp"
 #include "sources/simulation/drive_simulator.hpp"
 #include "sources/simulation/scene.hpp"
 
@@ -16,14 +17,17 @@ namespace glocal {
 /// does; its height stands still, as the floor is level, and its roll and pitch are measured by gravity.
 class LidarSimulation final : public ObservationSource {
  public:
+  using Params = LidarDriveParams;
+  static constexpr Motions motions = motions_in_space;
+
   /// Throws ConfigError where planned_drive() does, for a sensor above the ceiling, and for a drive through
   /// the world's cloud.
-  LidarSimulation(const DriveParams& params, const SourceSetup& setup);
+  LidarSimulation(const Params& params, const SourceSetup& setup);
 
   [[nodiscard]] std::optional<Sample> next() override;
 
  private:
-  LidarSimulation(const DriveParams& params, const SourceSetup& setup, PlannedDrive drive);
+  LidarSimulation(const Params& params, const SourceSetup& setup, PlannedDrive drive);
 
   /// Where the sensor is, `time` seconds (0 or less) after a step.
   [[nodiscard]] Pose3 pose_at(const DriveStep& step, double time) const;

@@ -56,7 +56,7 @@ Pose2 pose_after(const Kidnapping& kidnapping) {
 
 /// The file that says where to drive.
 std::string file_of(const DriveParams& params) {
-  return (params.map.text.empty() ? params.world : params.map).resolved.string();
+  return params.world.resolved.string();
 }
 
 /// A robot cannot drive on through walls.
@@ -117,12 +117,13 @@ void add_things(PlannedDrive& drive, const OccupancyGrid& grid, const ClearRegio
   drive.world.rectangles.insert(drive.world.rectangles.end(), boxes.begin(), boxes.end());
 }
 
-PlannedDrive drive_in_world(const DriveParams& params, const SourceSetup& setup) {
+/// A cloud is for those who see it, and for what must not stand in it.
+PlannedDrive drive_in_world(const DriveParams& params, const SourceSetup& setup, bool sees_cloud) {
   setup.note_input(params.world.resolved);
   PlannedDrive drive = drive_in(read_world(params.world.resolved), params, setup.seed);
   const bool has_things = params.boxes > 0 || params.people > 0;
   const bool has_cloud = !drive.world.cloud.text.empty();
-  if (has_cloud && (has_things || params.lidar.beams > 0)) {
+  if (has_cloud && (has_things || sees_cloud)) {
     setup.note_input(drive.world.cloud.resolved);
     drive.cloud = voxels_of(drive.world);
   }
@@ -136,7 +137,8 @@ PlannedDrive drive_in_world(const DriveParams& params, const SourceSetup& setup)
   return drive;
 }
 
-PlannedDrive drive_in_map(const DriveParams& params, const SourceSetup& setup) {
+PlannedDrive drive_in_map(LaserDriveParams params, const SourceSetup& setup) {
+  params.world = params.map;  // Where it drives, as faults tell.
   PlannedDrive drive{{}, RosMap({params.map}, setup).load().grid, {}, {}};
   const OccupancyGrid& grid = *drive.map;
   const Rng rng = stream_of(DriveStream::tour, setup.seed);
@@ -183,8 +185,12 @@ PlannedDrive drive_in(World world, const DriveParams& params, std::uint64_t seed
   return drive;
 }
 
-PlannedDrive planned_drive(const DriveParams& params, const SourceSetup& setup) {
-  return params.map.text.empty() ? drive_in_world(params, setup) : drive_in_map(params, setup);
+PlannedDrive planned_drive(const LaserDriveParams& params, const SourceSetup& setup) {
+  return params.map.text.empty() ? drive_in_world(params, setup, false) : drive_in_map(params, setup);
+}
+
+PlannedDrive planned_drive(const LidarDriveParams& params, const SourceSetup& setup) {
+  return drive_in_world(params, setup, true);
 }
 
 }  // namespace glocal

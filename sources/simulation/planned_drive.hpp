@@ -43,6 +43,7 @@ struct PlannedDrive {
 
 /// Throws ConfigError for a faulty world or map, and where route_of(), MapWays, drawn_boxes() and
 /// floor_near() do.
-[[nodiscard]] PlannedDrive planned_drive(const DriveParams& params, const SourceSetup& setup);
+[[nodiscard]] PlannedDrive planned_drive(const LaserDriveParams& params, const SourceSetup& setup);
+[[nodiscard]] PlannedDrive planned_drive(const LidarDriveParams& params, const SourceSetup& setup);
 
 }  // namespace glocal

@@ -5,14 +5,8 @@
 
 #include "sources/carmen/carmen_log.hpp"
 #include "sources/carmen/carmen_writer.hpp"
-#include "sources/simulation/lidar_simulation.hpp"
 
 namespace glocal {
-
-std::unique_ptr<ObservationSource> Simulation::make(const Params& params, const SourceSetup& setup) {
-  if (params.lidar.beams > 0) return std::make_unique<LidarSimulation>(params, setup);
-  return std::make_unique<Simulation>(params, setup);
-}
 
 Simulation::Simulation(const Params& params, const SourceSetup& setup)
     : scan_limits_(scan_limits(params.laser)), simulator_(params, setup) {}

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,10 +17,8 @@ namespace glocal {
 /// A drive through a simulated world or a map, with a planar laser.
 class Simulation final : public ObservationSource {
  public:
-  using Params = DriveParams;
+  using Params = LaserDriveParams;
 
-  /// A Simulation, or a LidarSimulation where there is a lidar.
-  static std::unique_ptr<ObservationSource> make(const Params& params, const SourceSetup& setup);
   /// Throws ConfigError where planned_drive() does.
   Simulation(const Params& params, const SourceSetup& setup);
   /// Of a world that is in no file, along its way points.

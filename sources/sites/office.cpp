@@ -27,8 +27,8 @@ World office_of(const OfficeParams& p) {
 
 }  // namespace
 
-DriveParams office_drive() {
-  DriveParams params;
+LaserDriveParams office_drive() {
+  LaserDriveParams params;
   params.step_length = 0.3;
   params.step_turn_deg = 15.0;
   params.step_seconds = 0.5;

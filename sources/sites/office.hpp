@@ -19,7 +19,7 @@ struct OfficeParams {
 };
 
 /// How the robot drives and measures there.
-[[nodiscard]] DriveParams office_drive();
+[[nodiscard]] LaserDriveParams office_drive();
 
 /// Way driven where nothing is said, m: so long that starts are all over the office.
 [[nodiscard]] double usual_length(double side);

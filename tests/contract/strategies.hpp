@@ -24,6 +24,7 @@
 #include "sources/clouds/cloud_drive_map.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 #include "sources/ros_map/ros_map.hpp"
+#include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/random_scans.hpp"
 #include "sources/simulation/simulation.hpp"
 #include "sources/sites/office.hpp"
@@ -53,6 +54,7 @@ class Contract : public ::testing::Test {
                                        "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
                                        "occupied_thresh: 0.65\nfree_thresh: 0.196\n"));
     fill<Simulation::Params>("observation_source/simulation", [&](auto& p) { p.world = world_; });
+    fill<LidarSimulation::Params>("observation_source/lidar_simulation", [&](auto& p) { p.world = world_; });
     const auto make_small = [](sites::OfficeParams& p) {
       p.side = 20.0;
       p.length = 10.0;

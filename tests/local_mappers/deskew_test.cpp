@@ -10,8 +10,8 @@
 
 #include "files.hpp"
 #include "local_mappers/lidar_odometry.hpp"
+#include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/scene.hpp"
-#include "sources/simulation/simulation.hpp"
 
 namespace glocal::deskew_test {
 namespace {
@@ -43,9 +43,9 @@ class FastDrive : public testing::Test {
   }
 
   [[nodiscard]] std::vector<Sample> samples() const {
-    const auto source = Simulation::make(params_, {});
+    LidarSimulation source(params_, {});
     std::vector<Sample> all;
-    while (auto sample = source->next()) all.push_back(*std::move(sample));
+    while (auto sample = source.next()) all.push_back(*std::move(sample));
     return all;
   }
 
@@ -72,7 +72,7 @@ class FastDrive : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  DriveParams params_;
+  LidarDriveParams params_;
 };
 
 TEST_F(FastDrive, PointsAreWhereTheyWouldBeSeenFromTheLastPose) {

@@ -362,10 +362,10 @@ void try_registrar(const CloudRegistrars& registry, const StrategyChoice& choice
   });
 }
 
-std::vector<Sample> all_of(ObservationSource& source) {
+std::vector<Sample> all_of(ObservationSource& source, Motion motion) {
   std::vector<Sample> samples;
   while (auto sample = source.next()) {
-    check_sample(*sample, Motion::planar);
+    check_sample(*sample, motion);
     samples.push_back(std::move(*sample));
   }
   return samples;
@@ -378,15 +378,15 @@ bool are_equal(const Sample& a, const Sample& b) {
          a.map_from_robot == b.map_from_robot && a.segment == b.segment;
 }
 
-void try_source(const Made<ObservationSource>& make, Findings& findings) {
+void try_source(const Made<ObservationSource>& make, Motion motion, Findings& findings) {
   findings.check("the end", [&] {
     const auto source = make(1);
-    expect(!all_of(*source).empty(), "there is no observation at all");
+    expect(!all_of(*source, motion).empty(), "there is no observation at all");
     expect(!source->next() && !source->next(), "there is another observation after it");
   });
   findings.check("the same seed", [&] {
-    const auto first = all_of(*make(1));
-    const auto again = all_of(*make(1));
+    const auto first = all_of(*make(1), motion);
+    const auto again = all_of(*make(1), motion);
     expect(std::equal(first.begin(), first.end(), again.begin(), again.end(),
                       [](const Sample& a, const Sample& b) { return are_equal(a, b); }),
            "it gives another drive");
@@ -439,8 +439,8 @@ void try_stage_of_room(const std::string& kind, const StrategyChoice& choice, co
   try_matcher(made(catalog.matchers), epsilon, room, findings);
 }
 
-void try_others(const std::string& kind, const StrategyChoice& choice, const Catalog& catalog,
-                Findings& findings) {
+void try_others(const std::string& kind, const StrategyChoice& choice, const Motions& motions,
+                const Catalog& catalog, Findings& findings) {
   const TrialRoom room(Motion::planar);
   const auto stage = [&](const auto& registry) { return made_for_trial(registry, choice, room); };
   const auto source = [&](const auto& registry) {
@@ -452,7 +452,8 @@ void try_others(const std::string& kind, const StrategyChoice& choice, const Cat
   if (kind == catalog.verdict_rules.kind()) try_verdict_rule(stage(catalog.verdict_rules), findings);
   if (kind == catalog.contact_indexes.kind()) try_contact_index(catalog.contact_indexes, choice, findings);
   if (kind == catalog.cloud_registrars.kind()) try_registrar(catalog.cloud_registrars, choice, findings);
-  if (kind == catalog.observation_sources.kind()) try_source(source(catalog.observation_sources), findings);
+  if (kind == catalog.observation_sources.kind())
+    try_source(source(catalog.observation_sources), motions.planar ? Motion::planar : Motion::free, findings);
   if (kind == catalog.map_sources.kind()) try_map_source(source(catalog.map_sources), findings);
 }
 
@@ -475,7 +476,7 @@ std::vector<std::string> broken_promises(const std::string& kind, const Strategy
     try_stage_of_room(kind, chosen, catalog, TrialRoom(motion), findings);
   }
   findings.set_motion(Motion::planar);
-  try_others(kind, chosen, catalog, findings);
+  try_others(kind, chosen, info->motions, catalog, findings);
   return findings.take();
 }
 

@@ -32,7 +32,7 @@ void expect_near(const Pose3& a, const Pose3& b) {
 
 TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
   const test::TemporaryFolder folder;
-  DriveParams params;
+  LaserDriveParams params;
   params.world =
       test::file_path(folder.write("world.yaml",
                                    "size: [20, 3]\n"

@@ -27,7 +27,7 @@ class Conversion : public testing::Test {
  protected:
   /// A simulated drive with a laser that is off the robot's centre and looks aside.
   std::filesystem::path simulated_log() {
-    DriveParams params;
+    LaserDriveParams params;
     params.world =
         file_path(folder_.write("world.yaml",
                                 "size: [20, 3]\n"

@@ -1,3 +1,5 @@
+#include "sources/simulation/lidar_simulation.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,19 +46,19 @@ class LidarDrive : public testing::Test {
   [[nodiscard]] std::vector<Sample> read_all(std::uint64_t seed = 1) const {
     SourceSetup setup;
     setup.seed = seed;
-    const auto source = Simulation::make(params_, setup);
+    LidarSimulation source(params_, setup);
     std::vector<Sample> samples;
-    while (auto sample = source->next()) samples.push_back(*std::move(sample));
-    EXPECT_FALSE(source->next());
+    while (auto sample = source.next()) samples.push_back(*std::move(sample));
+    EXPECT_FALSE(source.next());
     return samples;
   }
 
   /// What is wrong with a drive's parameters or world; empty if nothing is.
   [[nodiscard]] std::string fault(const std::string& yaml) const {
     return test::config_error(folder_ / "", [&] {
-      ParamsOf<DriveParams> params;
+      ParamsOf<LidarDriveParams> params;
       read_yaml(folder_.write("params.yaml", "world: world.yaml\n" + yaml), params);
-      static_cast<void>(Simulation::make(params.value, {}));
+      const LidarSimulation made(params.value, {});
     });
   }
 
@@ -73,7 +75,7 @@ class LidarDrive : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  DriveParams params_;
+  LidarDriveParams params_;
 };
 
 /// How far a place is from the nearest of the room's six faces, m.
@@ -205,7 +207,11 @@ TEST_F(LidarDrive, HasNoiseOutliersAndGaps) {
 }
 
 TEST_F(LidarDrive, OdometryIsThatOfThePlaneWithGravity) {
-  const auto planar = read_all();
+  LaserDriveParams laser;
+  static_cast<DriveParams&>(laser) = params_;
+  Simulation simulation(laser, {.seed = 1});
+  std::vector<Sample> planar;
+  while (auto sample = simulation.next()) planar.push_back(*std::move(sample));
   params_.lidar.beams = 2;
   const auto spatial = read_all();
   ASSERT_EQ(planar.size(), spatial.size());
@@ -299,9 +305,7 @@ TEST_F(LidarDrive, MeetsThingsAndPeopleInAnOctree) {
 TEST_F(LidarDrive, SaysWhatIsWrong) {
   EXPECT_EQ(fault("lidar: {beams: 16}\n"), "");
   EXPECT_THAT(fault("lidar: {beams: -1}\n"), HasSubstr("beams"));
-  EXPECT_THAT(fault("lidar: {max_range: 10}\n"), HasSubstr("lidar: must have beams, 1 or more"));
-  EXPECT_THAT(fault("lidar: {beams: 16}\nlaser: {fov_deg: 270}\n"),
-              HasSubstr("laser: must be left out where there is a lidar"));
+  EXPECT_THAT(fault("laser: {fov_deg: 270}\n"), HasSubstr("unknown key 'laser'"));
   EXPECT_THAT(fault("lidar: {beams: 16, vertical_fov_deg: [15, -15]}\n"),
               HasSubstr("vertical_fov_deg: must be rising"));
   EXPECT_THAT(fault("lidar: {beams: 16, min_range: 50}\n"), HasSubstr("min_range: must be below max_range"));

@@ -10,6 +10,7 @@
 #include "glocal/yaml.hpp"
 #include "octree_files.hpp"
 #include "sources/plan.hpp"
+#include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/scene.hpp"
 #include "sources/simulation/simulation.hpp"
 #include "sources/simulation/world_grid.hpp"
@@ -52,8 +53,8 @@ const std::vector<std::string> floor_plan{
     "########################################",  //
 };
 
-DriveParams params_in(const test::Plan& plan) {
-  DriveParams params;
+LaserDriveParams params_in(const test::Plan& plan) {
+  LaserDriveParams params;
   params.map = plan.file();
   params.tour_legs = 12;
   return params;
@@ -95,7 +96,7 @@ TEST(PlannedDrive, KeepsClearOfAllThatIsNotFree) {
 
 TEST(PlannedDrive, ComesByItsWayPoints) {
   const test::Plan plan(floor_plan);
-  DriveParams params = params_in(plan);
+  LaserDriveParams params = params_in(plan);
   params.tour_legs = 0;
   params.way_points = {{1.75, 9.25}, {16.75, 9.25}, {2.25, 1.75}};
   const std::vector<Pose2> poses = planned_drive(params, {}).route.poses;
@@ -113,7 +114,7 @@ TEST(PlannedDrive, ComesByItsWayPoints) {
 
 TEST(PlannedDrive, GoesOnToWhereItWasGoing) {
   const test::Plan plan(floor_plan);
-  DriveParams params = params_in(plan);
+  LaserDriveParams params = params_in(plan);
   params.tour_legs = 0;
   params.way_points = {{1.25, 1.75}, {14.75, 1.75}};
   params.step_length = 0.5;
@@ -145,7 +146,7 @@ TEST(PlannedDrive, GoesOnToWhereItWasGoing) {
 
 TEST(PlannedDrive, HasBoxesAndPeopleByNumber) {
   const test::Plan plan(floor_plan);
-  DriveParams params = params_in(plan);
+  LaserDriveParams params = params_in(plan);
   params.tour_legs = 3;
   params.boxes = 6;
   params.people = 4;
@@ -167,7 +168,7 @@ TEST(PlannedDrive, HasBoxesAndPeopleByNumber) {
 
 TEST(PlannedDrive, SeesWallsBoxesAndPeople) {
   const test::Plan plan(floor_plan);
-  DriveParams params = params_in(plan);
+  LaserDriveParams params = params_in(plan);
   params.boxes = 8;
   params.people = 5;
   params.tour_legs = 6;
@@ -216,7 +217,7 @@ constexpr const char* hall =
 
 TEST(PlannedDrive, HasBoxesAndPeopleInWorldsToo) {
   const test::TemporaryFolder folder;
-  DriveParams params;
+  LaserDriveParams params;
   params.world = test::file_path(folder.write("world.yaml", hall));
   params.boxes = 10;
   params.people = 3;
@@ -237,7 +238,7 @@ TEST(PlannedDrive, HasBoxesAndPeopleInWorldsToo) {
 
 TEST(PlannedDrive, ShowsBoxesToALidar) {
   const test::TemporaryFolder folder;
-  DriveParams params;
+  LidarDriveParams params;
   params.world = test::file_path(folder.write("world.yaml", hall));
   params.lidar.beams = 8;
   params.lidar.noise = params.lidar.outliers = params.lidar.tilt_deg = 0.0;
@@ -247,9 +248,9 @@ TEST(PlannedDrive, ShowsBoxesToALidar) {
     world.walls.clear();
     return shapes_in_reality(world);
   }();
-  const auto source = Simulation::make(params, {.seed = 1});
+  LidarSimulation source(params, {.seed = 1});
   std::size_t on_boxes = 0;
-  while (const auto sample = source->next()) {
+  while (const auto sample = source.next()) {
     const Scan& scan = sample->observation.scan;
     for (std::size_t i = 0; i < scan.hits.size(); ++i) {
       const Vector3 hit = *sample->map_from_robot * Vector3{scan.hits.x[i], scan.hits.y[i], scan.hits.z[i]};
@@ -285,7 +286,7 @@ class OctreeHall : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  DriveParams params_;
+  LidarDriveParams params_;
 };
 
 /// Distance to a box on a floor, by the slabs between its pairs of faces; infinite if it is not met.
@@ -392,21 +393,22 @@ TEST_F(OctreeHall, ShowsThemToALidar) {
 }
 
 TEST_F(OctreeHall, IsReadOnlyByThoseWhoAskForIt) {
-  const auto inputs = [&] {
+  const auto inputs = [](const auto& params) {
     std::vector<std::string> names;
     SourceSetup setup;
     setup.note_input = [&](const std::filesystem::path& file) { names.push_back(file.filename()); };
-    static_cast<void>(planned_drive(params_, setup));
+    static_cast<void>(planned_drive(params, setup));
     return names;
   };
   const std::vector<std::string> both = {"world.yaml", "hall.bt"};
-  EXPECT_EQ(inputs(), both);
+  EXPECT_EQ(inputs(params_), both);
   params_.boxes = params_.people = 0;
-  EXPECT_EQ(inputs(), both);
-  params_.lidar = {};
-  EXPECT_EQ(inputs(), (std::vector<std::string>{"world.yaml"}));
-  params_.people = 1;
-  EXPECT_EQ(inputs(), both);
+  EXPECT_EQ(inputs(params_), both);
+  LaserDriveParams laser;
+  static_cast<DriveParams&>(laser) = params_;
+  EXPECT_EQ(inputs(laser), (std::vector<std::string>{"world.yaml"}));
+  laser.people = 1;
+  EXPECT_EQ(inputs(laser), both);
 }
 
 TEST(PlannedDrive, NotesTheFilesItReads) {
@@ -423,7 +425,7 @@ std::string fault_in(const std::string& yaml) {
   folder.write("world.yaml", hall);
   folder.write("map.yaml", "image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
   return test::config_error(folder / "", [&] {
-    ParamsOf<DriveParams> params;
+    ParamsOf<LaserDriveParams> params;
     read_yaml(folder.write("params.yaml", yaml), params);
   });
 }
@@ -443,8 +445,8 @@ TEST(DriveParams, AreOfAWorldOrOfAMap) {
                "way_points: must be left out where there is a world, whose file has them");
   expect_fault("map: map.yaml\nway_points: [[1, 1]]\n", "way_points: must be two or more");
   expect_fault("map: map.yaml\n", "tour_legs: must be 1 or more in a map without way_points");
-  expect_fault("map: map.yaml\ntour_legs: 3\nlidar: {beams: 16}\n",
-               "map: must be left out where there is a lidar");
+  expect_fault("world: world.yaml\nlidar: {beams: 16}\n",
+               "key 'lidar' was removed: a drive with a lidar is the observation source lidar_simulation");
 }
 
 }  // namespace

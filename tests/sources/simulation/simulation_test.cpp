@@ -23,15 +23,15 @@ constexpr const char* room =
     "free_from: [[1, 1]]\n"
     "way_points: [[1, 1], [2.5, 1], [2.5, 2]]\n";
 
-DriveParams exact(const std::filesystem::path& world) {
-  DriveParams params;
+LaserDriveParams exact(const std::filesystem::path& world) {
+  LaserDriveParams params;
   params.world = test::file_path(world);
   params.laser.noise = 0.0;
   params.odometry = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   return params;
 }
 
-std::vector<Sample> read_all(const DriveParams& params, std::uint64_t seed = 1) {
+std::vector<Sample> read_all(const LaserDriveParams& params, std::uint64_t seed = 1) {
   SourceSetup setup;
   setup.seed = seed;
   Simulation simulation(params, setup);
@@ -49,7 +49,7 @@ void expect_near(const Pose3& a, const Pose2& b) {
 
 TEST(Route, TakesStepsAndTurnsOnTheSpot) {
   const test::TemporaryFolder folder;
-  DriveParams params;
+  LaserDriveParams params;
   params.world = test::file_path(folder.write("world.yaml", room));
   const auto poses = route_of(WorldWays(read_world(params.world.resolved)), params, Rng(1)).poses;
   ASSERT_EQ(poses.size(), 8U);  // The start, 3 steps of 0.5 m, 2 turns of 45 degrees, 2 steps of 0.5 m.
@@ -84,7 +84,7 @@ std::vector<Position> corners_of(const std::vector<Pose2>& poses) {
 
 TEST(Route, OfATourKeepsToTheWaysAndTurnsBackAtDeadEndsOnly) {
   const test::TemporaryFolder folder;
-  DriveParams params;
+  LaserDriveParams params;
   params.world = test::file_path(folder.write("world.yaml", triangle));
   params.tour_legs = 200;
   const World world = read_world(params.world.resolved);
@@ -107,7 +107,7 @@ TEST(Route, OfATourKeepsToTheWaysAndTurnsBackAtDeadEndsOnly) {
 
 TEST(Route, GoesOnWhereTheRobotIsCarriedTo) {
   const test::TemporaryFolder folder;
-  DriveParams params = exact(folder.write("world.yaml", triangle));
+  LaserDriveParams params = exact(folder.write("world.yaml", triangle));
   params.step_length = 0.5;
   params.step_turn_deg = 180.0;
   params.kidnappings = {{.after_m = 2.1, .to = {4, 4}, .heading_deg = 180.0}};
@@ -131,7 +131,7 @@ TEST(Route, GoesOnWhereTheRobotIsCarriedTo) {
 
 TEST(Route, SaysWhyARobotCannotBeCarriedThere) {
   const test::TemporaryFolder folder;
-  DriveParams params;
+  LaserDriveParams params;
   params.world = test::file_path(
       folder.write("world.yaml", std::string(triangle) + "rectangles: [{centre: [6, 3], size: [1, 4]}]\n"));
   const auto fault = [&](const Kidnapping& kidnapping) {
@@ -152,7 +152,7 @@ TEST(Route, SaysWhyARobotCannotBeCarriedThere) {
 
 TEST(Simulation, MeasuresDistancesExactlyWithoutNoise) {
   const test::TemporaryFolder folder;
-  DriveParams params = exact(folder.write("world.yaml", room));
+  LaserDriveParams params = exact(folder.write("world.yaml", room));
   params.laser.step_deg = 90.0;
   params.laser.max_range = 4.0;
   const auto samples = read_all(params);
@@ -173,7 +173,7 @@ TEST(Simulation, MeasuresDistancesExactlyWithoutNoise) {
 
 TEST(Simulation, SeesWhatIsThereAndNotWhatTheMapShows) {
   const test::TemporaryFolder folder;
-  DriveParams params = exact(
+  LaserDriveParams params = exact(
       folder.write("world.yaml", std::string(room) + "circles:\n"
                                                      "  - {centre: [4, 1], radius: 0.5, in_reality: false}\n"
                                                      "  - {centre: [5, 1], radius: 0.5, on_map: false}\n"
@@ -188,7 +188,7 @@ TEST(Simulation, SeesWhatIsThereAndNotWhatTheMapShows) {
 
 TEST(Simulation, MountsTheLaser) {
   const test::TemporaryFolder folder;
-  DriveParams params = exact(folder.write("world.yaml", room));
+  LaserDriveParams params = exact(folder.write("world.yaml", room));
   params.laser = {.fov_deg = 90.0, .step_deg = 90.0, .noise = 0.0, .x = 0.5, .y = 0.25, .yaw_deg = 45.0};
   const auto samples = read_all(params);
   const Scan& scan =
@@ -204,7 +204,7 @@ TEST(Simulation, MountsTheLaser) {
 
 TEST(Simulation, NoiseHasItsSize) {
   const test::TemporaryFolder folder;
-  DriveParams params = exact(folder.write("world.yaml", room));
+  LaserDriveParams params = exact(folder.write("world.yaml", room));
   params.laser.fov_deg = 0.1;  // All rays meet the wall 5 m ahead.
   params.laser.step_deg = 0.01;
   params.laser.noise = 0.02;
@@ -228,7 +228,7 @@ TEST(Simulation, NoiseHasItsSize) {
 
 TEST(Simulation, OutliersHaveTheirShare) {
   const test::TemporaryFolder folder;
-  DriveParams params = exact(folder.write("world.yaml", room));
+  LaserDriveParams params = exact(folder.write("world.yaml", room));
   params.step_length = 0.01;
   const auto clean = read_all(params);
   params.laser.outliers = 0.05;
@@ -256,7 +256,7 @@ TEST(Simulation, OdometryIsExactWithoutErrors) {
 
 TEST(Simulation, OdometryDriftsWithDistanceAndTurn) {
   const test::TemporaryFolder folder;
-  DriveParams params = exact(folder.write("world.yaml", room));
+  LaserDriveParams params = exact(folder.write("world.yaml", room));
   params.odometry.distance_bias = 0.1;
   auto samples = read_all(params);
   expect_near(samples.back().observation.odom_from_robot, {1.65, 1.1, pi / 2});
@@ -270,7 +270,7 @@ TEST(Simulation, OdometryDriftsWithDistanceAndTurn) {
 
 TEST(Simulation, DependsOnItsSeedOnly) {
   const test::TemporaryFolder folder;
-  DriveParams params;
+  LaserDriveParams params;
   params.world = test::file_path(folder.write("world.yaml", room));
   const auto a = read_all(params, 7);
   const auto b = read_all(params, 7);
@@ -361,7 +361,7 @@ TEST(Worlds, OfThePaperAreReadAndHaveItsSizes) {
   const Points corridors = points("paper_simulation.yaml");
   EXPECT_NEAR(extent(corridors.x), 26.16, 1e-4);
   EXPECT_NEAR(extent(corridors.y), 26.7, 1e-4);
-  DriveParams params;
+  LaserDriveParams params;
   params.world = test::file_path(folder / "paper_simulation.yaml");
   EXPECT_EQ(read_all(params).size(), 136U);
   EXPECT_FALSE(points("paper_symmetry.yaml").empty());
@@ -370,7 +370,7 @@ TEST(Worlds, OfThePaperAreReadAndHaveItsSizes) {
 
 TEST(Route, OfMoreThanAMillionObservationsIsRefused) {
   const test::TemporaryFolder folder;
-  DriveParams params;
+  LaserDriveParams params;
   params.world = test::file_path(folder.write("world.yaml", room));
   params.tour_legs = 100000;
   params.step_length = 0.001;
@@ -387,7 +387,7 @@ TEST(Route, OfATourBetweenManyPlacesIsQuick) {
   for (int i = 0; i < 10000; ++i) star.push_back({i % 2 == 0 ? 0.0 : 1.0 + i, 1.0});
   World world;
   world.way_points = star;
-  DriveParams params;
+  LaserDriveParams params;
   params.tour_legs = 2000;
   params.step_length = 1e6;
   params.step_turn_deg = 180.0;
