@@ -2,6 +2,7 @@
 
 #include "matchers/grid_search/branch_and_bound.hpp"
 #include "matchers/grid_search/exhaustive.hpp"
+#include "matchers/grid_search/upright_branch_and_bound.hpp"
 #include "matchers/grid_search/whole_map.hpp"
 #include "matchers/indexed_ransam/indexed_ransam.hpp"
 #include "matchers/iransac/iransac.hpp"
@@ -27,6 +28,9 @@ void register_matchers(Catalog& catalog) {
   catalog.matchers.add<Ransam>("ransam",
                                "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",
                                {.contact = ContactChoice(catalog.contact_indexes)});
+  catalog.matchers.add<UprightBranchAndBound>(
+      "upright_branch_and_bound",
+      "Exact search of a grid of upright poses, as branch_and_bound's of the plane.");
   catalog.verifiers.add<NoVerifier>("none", "Every pose that the verdict rule declares is declared.");
   catalog.verifiers.add<WholeMap>(
       "whole_map", "Branch and bound over all poses: a declared pose has no rival, or is not declared.");

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "matchers/grid_search/pose_grid.hpp"
+#include "matchers/box_search/pose_boxes.hpp"
 
 namespace glocal {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "matchers/box_search/map_area.hpp"
+#include "matchers/box_search/search_boxes.hpp"
 #include "matchers/common/candidates.hpp"
 #include "matchers/grid_search/contact_climb.hpp"
-#include "matchers/grid_search/map_area.hpp"
-#include "matchers/grid_search/rival_search.hpp"
 
 namespace glocal {
 namespace {
@@ -78,38 +78,37 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
   if (!in_space_) field_ = distance_field(*setup.map, field_cell, setup.threads);
   const double automatic = in_space_ ? automatic_box_cell_in_space(*setup.map, epsilon_)
                                      : automatic_box_cell(*setup.map, epsilon_);
-  pyramid_ = box_pyramid(*setup.map, params.cell.value_or(automatic), epsilon_, setup.motion, setup.threads);
+  pyramid_ = box_pyramid(BoxPyramid::Of::all_poses, *setup.map, params.cell.value_or(automatic), epsilon_,
+                         setup.motion, setup.threads);
 }
 
 Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
   const auto points = static_cast<double>(local.points.size());
-  const Pose3 declared_robot = map_from_local * local.local_from_robot;
   const double contact = contact_of(local.points, map_from_local);
   const double least = std::max(1.0, std::ceil((contact - params_.margin) * points));
-  const RivalRule rule{.distance = params_.distance,
-                       .rotation = radians(params_.rotation_deg),
-                       .most_rivals = static_cast<std::size_t>(params_.max_rivals),
-                       .most_looks = most_looks_};
-  const RivalSearchResult found =
-      search_rivals(*pyramid_, local.points, local.local_from_robot, declared_robot,
-                    static_cast<std::size_t>(least), rule, gate, threads_);
-  Verification result{.distance = rule.distance, .rotation = rule.rotation, .margin = params_.margin};
-  result.points_tested = found.looks;
-  const auto is_rival = [&](const Pose3& pose) {
-    const Pose3 robot = pose * local.local_from_robot;
-    return gate.allows(pose) && (distance(robot, declared_robot) > rule.distance ||
-                                 rotation_between(robot, declared_robot) > rule.rotation);
-  };
+  const BoxSearchRule rule{.least = static_cast<std::size_t>(least),
+                           .most_places = static_cast<std::size_t>(params_.max_rivals),
+                           .most_looks = most_looks_,
+                           .gate = gate};
+  const Exclusion declared{map_from_local * local.local_from_robot,
+                           {.translation = params_.distance, .rotation = radians(params_.rotation_deg)}};
+  const BoxSearchResult search =
+      search_boxes(*pyramid_, local.points, local.local_from_robot, rule, declared, threads_);
+  Verification result{
+      .distance = declared.near.translation, .rotation = declared.near.rotation, .margin = params_.margin};
+  result.points_tested = search.looks;
   std::vector<Hypothesis> rivals;
-  for (const RivalSearchResult::Rival& rival : found.rivals) {
-    for (const Pose3& pose : {rival.map_from_local, refined(local.points, rival.map_from_local)}) {
-      if (is_rival(pose)) rivals.push_back(Hypothesis::by_contact(pose, contact_of(local.points, pose)));
+  for (const BoxSearchResult::FoundPose& found : search.poses) {
+    for (const Pose3& pose : {found.upright(), refined(local.points, found.upright())}) {
+      const Pose3 robot = pose * local.local_from_robot;
+      if (gate.allows(pose) && !declared.near.are_near(robot, declared.map_from_robot))
+        rivals.push_back(Hypothesis::by_contact(pose, contact_of(local.points, pose)));
     }
   }
-  result.rivals = distinct_candidates(std::move(rivals), local.local_from_robot, {}, rule.most_rivals);
-  if (found.is_complete)
+  result.rivals = distinct_candidates(std::move(rivals), local.local_from_robot, {}, rule.most_places);
+  if (search.is_complete)
     result.certificate = {.contact = contact,
-                          .at_most = static_cast<double>(found.at_most) / points,
+                          .at_most = static_cast<double>(search.at_most) / points,
                           .epsilon = epsilon_,
                           .delta = pyramid_->delta()};
   return result;

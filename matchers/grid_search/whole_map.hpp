@@ -8,12 +8,12 @@
 #include "glocal/distance_field.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
-#include "matchers/grid_search/box_pyramid.hpp"
+#include "matchers/box_search/box_pyramid.hpp"
 
 namespace glocal {
 
 /// Searches the whole map for poses with about as much contact as the declared one, by branch and bound on
-/// boxes of poses (rival_search.hpp). If none is found, no pose has it: the certificate holds for every pose
+/// boxes of poses (search_boxes.hpp). If none is found, no pose has it: the certificate holds for every pose
 /// of the plane, not for those of a grid alone. Where the motion is upright, it holds for every x, y, z and
 /// yaw of the local map, which does not tilt: the robot's roll and pitch are those of the declared pose.
 ///

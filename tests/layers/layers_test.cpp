@@ -33,10 +33,6 @@ const std::map<std::string, std::set<std::string>> layers_below = {
       "python"}},
     {"python", {"evaluation", "framework"}}};
 
-/// Families of matchers that may include another one. indexed_ransam searches the whole map with the grid's
-/// pyramid before its first draw.
-const std::set<std::pair<std::string, std::string>> known_exceptions = {{"indexed_ransam", "grid_search"}};
-
 /// Made when glocal is built.
 const std::map<std::string, std::string> generated = {{"version.hpp", "framework/src/version.hpp"}};
 
@@ -51,17 +47,15 @@ bool is_public(const fs::path& file) {
 }
 
 /// What matchers of all families share.
-const std::set<std::string> shared_by_families = {"common", "in_space"};
+const std::set<std::string> shared_by_families = {"box_search", "common", "in_space"};
 
 /// Why matchers of one family may not include this file of another one; empty if they may.
 std::string fault_between_families(const fs::path& file, const fs::path& included) {
   const std::string family = folder_at(file, 1);
   const std::string other = folder_at(included, 1);
   // What is in no family registers them all.
-  if (family.empty() || other == family || shared_by_families.contains(other) ||
-      known_exceptions.contains({family, other}))
-    return "";
-  return "a family of matchers includes only itself, common and in_space";
+  if (family.empty() || other == family || shared_by_families.contains(other)) return "";
+  return "a family of matchers includes only itself and what all share";
 }
 
 /// Why a file may not include another; empty if it may. Paths begin at the root.
@@ -110,7 +104,6 @@ std::vector<std::string> lines_of(const fs::path& file) {
 TEST(Layers, EveryIncludePointsDownwards) {
   const std::regex include(R"re(\s*#\s*include\s*(["<])([^">]+)[">].*)re");
   std::size_t checked = 0;
-  std::set<std::pair<std::string, std::string>> exceptions_used;
   std::set<std::string> folders = strategy_folders;
   folders.insert("plugins");
   for (const auto& [layer, below] : layers_below) folders.insert(layer);
@@ -124,18 +117,15 @@ TEST(Layers, EveryIncludePointsDownwards) {
         if (!included) continue;
         ++checked;
         EXPECT_EQ(fault_of(file, *included), "") << file << " includes " << *included;
-        exceptions_used.emplace(folder_at(file, 1), folder_at(*included, 1));
       }
     }
   }
   EXPECT_GT(checked, 500U);
-  for (const auto& exception : known_exceptions)
-    EXPECT_TRUE(exceptions_used.contains(exception)) << exception.first << " needs no exception any more";
 }
 
 TEST(Layers, TheCheckFindsWhatPointsUpwards) {
   const std::string strategy = "strategies include only the framework's public headers and their own folder";
-  const std::string family = "a family of matchers includes only itself, common and in_space";
+  const std::string family = "a family of matchers includes only itself and what all share";
   for (const auto& [file, included, fault] : {
            std::array<std::string, 3>{"framework/src/error.cpp", "framework/include/glocal/error.hpp", ""},
            {"framework/src/error.cpp", "evaluation/include/glocal/outcome.hpp",
@@ -162,7 +152,8 @@ TEST(Layers, TheCheckFindsWhatPointsUpwards) {
            {"matchers/mcl/mcl.cpp", "matchers/in_space/surfels.hpp", ""},
            {"matchers/common/merge.cpp", "matchers/ransam/ransam.hpp", family},
            {"matchers/in_space/surfels.cpp", "matchers/ransam/ransam.hpp", family},
-           {"matchers/indexed_ransam/indexed_ransam.cpp", "matchers/grid_search/grid_search.hpp", ""},
+           {"matchers/indexed_ransam/indexed_ransam.cpp", "matchers/grid_search/exhaustive.hpp", family},
+           {"matchers/indexed_ransam/indexed_ransam.cpp", "matchers/box_search/search_boxes.hpp", ""},
        }) {
     EXPECT_EQ(fault_of(file, included), fault) << file << " includes " << included;
   }

@@ -1,5 +1,3 @@
-#include "matchers/grid_search/contact_pyramid.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +7,9 @@
 
 #include "glocal/error.hpp"
 #include "glocal/rng.hpp"
+#include "matchers/box_search/box_pyramid.hpp"
 
-namespace glocal::contact_pyramid_test {
+namespace glocal::grid_pyramid_test {
 namespace {
 
 constexpr double cell = 0.1;
@@ -42,7 +41,7 @@ CellPoints at(int column, int row) {
 /// Which cells are in contact, by the distances from their centres to all points.
 class ContactCells {
  public:
-  ContactCells(const Points& map, const ContactPyramid& pyramid) {
+  ContactCells(const Points& map, const BoxPyramid& pyramid) {
     for (int row = 0; row < pyramid.frame().rows; ++row) {
       for (int column = 0; column < pyramid.frame().columns; ++column) {
         const double x = pyramid.frame().min_x + (column + 0.5) * pyramid.frame().cell;
@@ -83,10 +82,10 @@ class ContactCells {
   std::set<std::pair<int, int>> cells_;
 };
 
-TEST(ContactPyramid, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
+TEST(PyramidOfGrid, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
   Rng rng(1);
   const Points map = random_map(rng, 60);
-  const ContactPyramid pyramid(map, cell, epsilon, 3);
+  const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, map, cell, epsilon, 3);
   const ContactCells cells(map, pyramid);
   TileCounts counts;
   int bounds_above_any_pose = 0;
@@ -97,7 +96,7 @@ TEST(ContactPyramid, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
     // Tiles that reach over each side of the map, and such that lie beside it.
     const int column = static_cast<int>(rng.below(260)) - 130 - 32 * size;
     const int row = static_cast<int>(rng.below(160)) - 80 - 4 * size;
-    pyramid.count(level, points, column, row, 0, counts);
+    pyramid.count(level, {points}, column, row, 0, 0, counts);
     for (int k = 0; k < 5; ++k) {
       const int node_column = static_cast<int>(rng.below(TileCounts::columns));
       const int node_row = static_cast<int>(rng.below(TileCounts::rows));
@@ -120,17 +119,17 @@ TEST(ContactPyramid, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
   EXPECT_GT(bounds_above_any_pose, 0);  // or there was nothing to tell a bound from a count
 }
 
-TEST(ContactPyramid, WindowsBeginAnywhere) {
+TEST(PyramidOfGrid, WindowsBeginAnywhere) {
   // One point in the middle of a cell: with epsilon of less than a cell, that cell alone is in contact.
   Points map;
   map.push_back({1.0F, 1.0F, 0.0F});
-  const ContactPyramid pyramid(map, 0.1, 0.06, 2);
+  const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, map, 0.1, 0.06, 2);
   TileCounts counts;
   std::pair<int, int> in_contact{-1, -1};
   std::size_t cells = 0;
   for (int row = 0; row < pyramid.frame().rows; ++row) {
     for (int column = 0; column < pyramid.frame().columns; ++column) {
-      pyramid.count(0, at(column, row), 0, 0, 0, counts);
+      pyramid.count(0, {at(column, row)}, 0, 0, 0, 0, counts);
       cells += counts.at(0, 0);
       if (counts.at(0, 0) == 1) in_contact = {column, row};
     }
@@ -144,20 +143,20 @@ TEST(ContactPyramid, WindowsBeginAnywhere) {
         const bool reached =
             before_column >= 0 && before_column < size && before_row >= 0 && before_row < size;
         const CellPoints point = at(in_contact.first - before_column, in_contact.second - before_row);
-        pyramid.count(level, point, 0, 0, 0, counts);
+        pyramid.count(level, {point}, 0, 0, 0, 0, counts);
         EXPECT_EQ(counts.at(0, 0), reached ? 1U : 0U) << level << " " << before_column << " " << before_row;
       }
     }
   }
 }
 
-TEST(ContactPyramid, LargestAndAtLeastSayWhatTheCountsSay) {
+TEST(PyramidOfGrid, LargestAndAtLeastSayWhatTheCountsSay) {
   Rng rng(2);
   const Points map = random_map(rng, 300);
-  const ContactPyramid pyramid(map, cell, epsilon, 1);
+  const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, map, cell, epsilon, 1);
   const CellPoints points = random_points(rng, 700);
   TileCounts counts;
-  pyramid.count(1, points, 0, 0, 0, counts);
+  pyramid.count(1, {points}, 0, 0, 0, 0, counts);
   std::size_t largest = 0;
   for (int row = 0; row < TileCounts::rows; ++row) {
     for (int column = 0; column < TileCounts::columns; ++column)
@@ -176,29 +175,29 @@ TEST(ContactPyramid, LargestAndAtLeastSayWhatTheCountsSay) {
   }
 }
 
-TEST(ContactPyramid, StopsOnlyWhereNoNodeCanReachWhatIsAskedFor) {
+TEST(PyramidOfGrid, StopsOnlyWhereNoNodeCanReachWhatIsAskedFor) {
   Rng rng(3);
   const Points map = random_map(rng, 100);
-  const ContactPyramid pyramid(map, cell, epsilon, 0);
+  const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, map, cell, epsilon, 0);
   const CellPoints points = random_points(rng, 500);
   TileCounts all;
   TileCounts stopped;
-  ASSERT_GT(pyramid.count(0, points, 0, 0, 0, all), 64U);
+  ASSERT_GT(pyramid.count(0, {points}, 0, 0, 0, 0, all), 64U);
   const std::size_t largest = all.largest();
-  EXPECT_LT(pyramid.count(0, points, 0, 0, points.size(), stopped), points.size());
+  EXPECT_LT(pyramid.count(0, {points}, 0, 0, 0, points.size(), stopped), points.size());
   EXPECT_LT(stopped.largest(), points.size());
-  pyramid.count(0, points, 0, 0, largest, stopped);
+  pyramid.count(0, {points}, 0, 0, 0, largest, stopped);
   EXPECT_EQ(stopped.at_least(largest), all.at_least(largest));
-  pyramid.count(0, points, 0, 0, largest + 1, stopped);
+  pyramid.count(0, {points}, 0, 0, 0, largest + 1, stopped);
   EXPECT_EQ(stopped.at_least(largest + 1), TileCounts::Mask{});
 }
 
-TEST(ContactPyramid, RefusesAMapThatIsTooLarge) {
+TEST(PyramidOfGrid, RefusesAMapThatIsTooLarge) {
   Points map;
   map.push_back({0.0F, 0.0F, 0.0F});
   map.push_back({1e6F, 1e6F, 0.0F});
-  EXPECT_THROW(ContactPyramid(map, 0.05, 0.1), ConfigError);
+  EXPECT_THROW(BoxPyramid(BoxPyramid::Of::pose_grid, map, 0.05, 0.1, 4), ConfigError);
 }
 
 }  // namespace
-}  // namespace glocal::contact_pyramid_test
+}  // namespace glocal::grid_pyramid_test

@@ -1,4 +1,4 @@
-// Counts of points in contact for many neighbouring translations at once.
+// Counts of points in contact for many neighbouring translations at once. Reasons: docs/performance.md.
 #pragma once
 
 #include <array>
@@ -88,33 +88,27 @@ class TileCounts {
   TileLooks looks_;         ///< Of the last tile; kept for their memory.
 };
 
-/// Windows over the cells of a map: a byte for each, which says whether one of its cells is in contact.
+/// Windows over one layer of cells of a map: a byte for each, which says whether one of its cells is in
+/// contact. The first ones begin so many cells before the first column and the first row.
 struct Windows {
-  /// How many cells before the first one they begin, at most.
-  int columns_before = 0, rows_before = 0, layers_before = 0;
-  std::size_t width = 0, height = 0, depth = 1;
-  bool in_space = false;
-  std::vector<std::uint8_t> bytes =
-      std::vector<std::uint8_t>(width * height * depth);  ///< Columns, then rows, then layers.
+  int before = 0;
+  std::size_t width = 0, height = 0;
+  std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(width * height);  ///< Columns, then rows.
 
-  [[nodiscard]] std::uint8_t& at(int column, int row, int layer) { return bytes[index(column, row, layer)]; }
-  [[nodiscard]] std::uint8_t at(int column, int row, int layer) const {
-    return bytes[index(column, row, layer)];
-  }
+  [[nodiscard]] std::uint8_t* at(int column, int row) { return &bytes[index(column, row)]; }
+  [[nodiscard]] const std::uint8_t* at(int column, int row) const { return &bytes[index(column, row)]; }
 
-  [[nodiscard]] std::size_t index(int column, int row, int layer) const {
-    const auto line = static_cast<std::size_t>(layer + layers_before) * height +
-                      static_cast<std::size_t>(row + rows_before);
-    return line * width + static_cast<std::size_t>(column + columns_before);
+ private:
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row + before) * width + static_cast<std::size_t>(column + before);
   }
 };
 
 /// The bits of one layer of windows of one size. Blocks of them that are empty take no memory.
 class LayerBits {
  public:
-  /// Of the given layer. Windows with a cell in contact begin at most 2^level - 1 cells before the first
-  /// column and row.
-  LayerBits(int level, const Windows& windows, int layer = 0);
+  /// Windows with a cell in contact begin at most 2^level - 1 cells before the first column and row.
+  LayerBits(int level, const Windows& windows);
 
  private:
   friend class WindowBits;
@@ -134,8 +128,6 @@ class LayerBits {
 /// same translation by layers.
 class WindowBits {
  public:
-  /// Of all layers of windows.
-  WindowBits(int level, const Windows& windows);
   /// Of layers of windows of one size, at least one, of which so many lie below that of layer 0.
   WindowBits(std::vector<LayerBits> layers, int layers_before, bool in_space);
 
@@ -146,13 +138,14 @@ class WindowBits {
   std::size_t add(const CellPoints& points, int column, int row, int layer, std::size_t least,
                   std::size_t behind, TileCounts& counts) const;
 
-  [[nodiscard]] int layers_before() const { return layers_before_; }
-  [[nodiscard]] int layers() const { return last_layer_ + 1; }
   [[nodiscard]] std::size_t memory_bytes() const {
     return bits_.size() * sizeof(std::uint64_t) + blocks_.size() * sizeof(std::uint32_t);
   }
 
  private:
+  /// Where those of the points that meet a tile look; behind them at nothing. Returns how many they are.
+  std::size_t find(const CellPoints& points, int column, int row, int layer, TileLooks& looks) const;
+
   BitsLayout layout_;
   int layers_before_;
   std::int32_t last_layer_;

@@ -1,5 +1,3 @@
-#include "matchers/grid_search/grid_search.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +11,7 @@
 #include <vector>
 
 #include "glocal/rng.hpp"
-#include "matchers/grid_search/pose_grid.hpp"
+#include "matchers/box_search/search_boxes.hpp"
 #include "test_world.hpp"
 
 namespace glocal::grid_search_test {
@@ -34,7 +32,7 @@ struct GridPose {
 };
 
 /// All poses of the grid with a point in contact, counted one point at a time.
-std::vector<GridPose> brute_force(const Problem& problem, const ContactPyramid& pyramid, std::size_t least) {
+std::vector<GridPose> brute_force(const Problem& problem, const BoxPyramid& pyramid, std::size_t least) {
   const auto index = [&](int column, int row) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(pyramid.frame().columns) +
            static_cast<std::size_t>(column);
@@ -52,9 +50,9 @@ std::vector<GridPose> brute_force(const Problem& problem, const ContactPyramid& 
     }
   }
   std::vector<GridPose> poses;
-  const PoseGrid grid(problem.local, cell, 0.001);
-  for (std::size_t rotation = 0; rotation < grid.rotations(); ++rotation) {
-    const CellPoints points = grid.cells(rotation);
+  const PoseGrid grid(problem.local, pyramid.frame(), 0.001);
+  for (std::size_t rotation = 0; rotation < grid.rotations(0); ++rotation) {
+    const CellPoints points = grid.cells(0, rotation).front();
     for (int row = -60; row < pyramid.frame().rows + 60; ++row) {
       for (int column = -60; column < pyramid.frame().columns + 60; ++column) {
         std::size_t in_contact = 0;
@@ -65,24 +63,28 @@ std::vector<GridPose> brute_force(const Problem& problem, const ContactPyramid& 
           in_contact += contact[index(c, r)];
         }
         if (in_contact < std::max<std::size_t>(1, least)) continue;
-        poses.push_back(
-            {grid.pose(rotation, column, row, pyramid.frame().min_x, pyramid.frame().min_y), in_contact});
+        poses.push_back({grid.pose(0, rotation, column, row), in_contact});
       }
     }
   }
   return poses;
 }
 
+BoxSearchResult search(const BoxPyramid& pyramid, const Problem& p, const BoxSearchRule& rule,
+                       int threads = 1) {
+  return search_boxes(pyramid, p.local, p.local_from_robot, rule, std::nullopt, threads);
+}
+
 /// The contact of the best pose in each cell of robot poses, falling.
 std::vector<std::size_t> best_of_cells(const std::vector<GridPose>& poses, const Pose2& local_from_robot,
-                                       const GridSearchRule& rule) {
+                                       const BoxSearchRule& rule) {
   std::map<std::tuple<int, int, int>, std::size_t> best;
   // As many parts of a right angle as are at most so wide; headings are rounded to the nearest.
-  const int quarter = static_cast<int>(std::ceil(std::numbers::pi / 2.0 / rule.rotation));
+  const int quarter = static_cast<int>(std::ceil(std::numbers::pi / 2.0 / rule.cell_rotation));
   for (const GridPose& pose : poses) {
     const Pose2 robot = pose.map_from_local * local_from_robot;
     const auto number = [](double value, double size) { return static_cast<int>(std::floor(value / size)); };
-    const double side = rule.distance / std::numbers::sqrt2;
+    const double side = rule.cell_distance / std::numbers::sqrt2;
     const auto nearest = static_cast<int>(std::lround(robot.theta / (std::numbers::pi / 2.0) * quarter));
     const int turn = nearest == -2 * quarter ? 2 * quarter : nearest;  // both are 180 degrees
     std::size_t& most = best[{number(robot.x, side), number(robot.y, side), turn}];
@@ -94,7 +96,7 @@ std::vector<std::size_t> best_of_cells(const std::vector<GridPose>& poses, const
   return contacts;
 }
 
-std::vector<std::size_t> contacts_of(const GridSearchResult& result) {
+std::vector<std::size_t> contacts_of(const BoxSearchResult& result) {
   std::vector<std::size_t> contacts;
   for (const auto& pose : result.poses) contacts.push_back(pose.in_contact);
   return contacts;
@@ -135,12 +137,13 @@ class GridSearch : public ::testing::TestWithParam<int> {
 
 TEST_P(GridSearch, FindsWhatBruteForceFinds) {
   const Problem p = problem();
-  const ContactPyramid pyramid(p.map, cell, epsilon, 3);
+  const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, p.map, cell, epsilon, 3);
   for (const double min_quality : {0.0, 0.5, 0.75}) {
     const auto least = static_cast<std::size_t>(std::ceil(min_quality * static_cast<double>(p.local.size())));
     const std::vector<GridPose> all = brute_force(p, pyramid, least);
-    const GridSearchRule rule{.min_quality = min_quality, .min_rotation_step = 0.001, .max_poses = 1000000};
-    const GridSearchResult found = search_grid(pyramid, p.local, p.local_from_robot, rule, 1);
+    const BoxSearchRule rule{
+        .least = std::max<std::size_t>(1, least), .most_places = 1000000, .min_rotation_step = 0.001};
+    const BoxSearchResult found = search(pyramid, p, rule);
     EXPECT_EQ(contacts_of(found), best_of_cells(all, p.local_from_robot, rule));
     if (min_quality < 0.75) continue;  // many millions of pairs
     ASSERT_FALSE(all.empty());
@@ -155,8 +158,8 @@ TEST_P(GridSearch, FindsWhatBruteForceFinds) {
       const Pose2 robot = pose.map_from_local * p.local_from_robot;
       EXPECT_TRUE(std::any_of(found.poses.begin(), found.poses.end(), [&](const auto& other) {
         const Pose2 other_robot = other.map_from_local * p.local_from_robot;
-        return other.in_contact >= pose.in_contact && distance(robot, other_robot) <= rule.distance &&
-               rotation_between(robot, other_robot) <= rule.rotation;
+        return other.in_contact >= pose.in_contact && distance(robot, other_robot) <= rule.cell_distance &&
+               rotation_between(robot, other_robot) <= rule.cell_rotation;
       }));
     }
   }
@@ -164,27 +167,27 @@ TEST_P(GridSearch, FindsWhatBruteForceFinds) {
 
 TEST_P(GridSearch, WithALimitFindsTheBest) {
   const Problem p = problem();
-  const ContactPyramid pyramid(p.map, cell, epsilon, 3);
-  GridSearchRule rule{.min_rotation_step = 0.001};
+  const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, p.map, cell, epsilon, 3);
+  BoxSearchRule rule{.min_rotation_step = 0.001};
   std::vector<std::size_t> best = best_of_cells(brute_force(p, pyramid, 1), p.local_from_robot, rule);
   for (const std::size_t limit : {std::size_t{100}, std::size_t{20}, std::size_t{1}}) {
     ASSERT_GT(best.size(), limit);
     best.resize(limit);
-    rule.max_poses = limit;
-    EXPECT_EQ(contacts_of(search_grid(pyramid, p.local, p.local_from_robot, rule, 1)), best);
+    rule.most_places = limit;
+    EXPECT_EQ(contacts_of(search(pyramid, p, rule)), best);
   }
 }
 
 TEST_P(GridSearch, OfAllPosesItFindsTheBestThatAreAllowed) {
   const Problem p = problem();
-  const ContactPyramid pyramid(p.map, cell, epsilon, 3);
+  const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, p.map, cell, epsilon, 3);
   const Pose2 local_from_start{-0.5, 0.3, 2.0};
   std::vector<GridPose> all = brute_force(p, pyramid, 1);
   for (const Prior& prior :
        {Prior{.region = {2.1, 2.3, 1.5}, .heading = {}}, Prior{.region = {}, .heading = {-100.0, 130.0}},
         Prior{.region = {0.1, 3.3, 3.0}, .heading = {30.0, 200.0}}}) {
     const PoseGate gate(prior, local_from_start);
-    GridSearchRule rule{.min_rotation_step = 0.001, .max_poses = 1000000, .gate = gate};
+    BoxSearchRule rule{.most_places = 1000000, .min_rotation_step = 0.001, .gate = gate};
     std::vector<GridPose> allowed;
     std::copy_if(all.begin(), all.end(), std::back_inserter(allowed), [&](const GridPose& pose) {
       const Pose2 start = pose.map_from_local * local_from_start;
@@ -195,24 +198,24 @@ TEST_P(GridSearch, OfAllPosesItFindsTheBestThatAreAllowed) {
     });
     std::vector<std::size_t> best = best_of_cells(allowed, p.local_from_robot, rule);
     ASSERT_GT(best.size(), 20U);
-    EXPECT_EQ(contacts_of(search_grid(pyramid, p.local, p.local_from_robot, rule, 1)), best);
-    rule.max_poses = 20;
+    EXPECT_EQ(contacts_of(search(pyramid, p, rule)), best);
+    rule.most_places = 20;
     best.resize(20);
-    EXPECT_EQ(contacts_of(search_grid(pyramid, p.local, p.local_from_robot, rule, 2)), best);
+    EXPECT_EQ(contacts_of(search(pyramid, p, rule, 2)), best);
   }
 }
 
 TEST_P(GridSearch, AnswersAlikeForAnyNumberOfThreads) {
   const Problem p = problem();
-  const ContactPyramid pyramid(p.map, cell, epsilon, 2);
-  const GridSearchRule rule{.min_quality = 0.3};
-  const GridSearchResult one = search_grid(pyramid, p.local, p.local_from_robot, rule, 1);
-  const GridSearchResult two = search_grid(pyramid, p.local, p.local_from_robot, rule, 2);
+  const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, p.map, cell, epsilon, 2);
+  const BoxSearchRule rule{.least = (3 * p.local.size() + 9) / 10};
+  const BoxSearchResult one = search(pyramid, p, rule);
+  const BoxSearchResult two = search(pyramid, p, rule, 2);
   ASSERT_EQ(contacts_of(one), contacts_of(two));
   for (std::size_t i = 0; i < one.poses.size(); ++i) {
     EXPECT_EQ(one.poses[i].map_from_local, two.poses[i].map_from_local);
   }
-  EXPECT_EQ(one.points_tested, two.points_tested);
+  EXPECT_EQ(one.looks, two.looks);
   EXPECT_EQ(one.tested, two.tested);
 }
 
@@ -223,8 +226,8 @@ TEST(GridSearch, FindsBothOfTwoEqualPlaces) {
   Problem p = small_world_problem({2.0, 2.0, 0.3});
   const std::size_t n = p.map.size();
   for (std::size_t i = 0; i < n; ++i) p.map.push_back({p.map.x[i] + 12.0F, p.map.y[i], 0.0F});
-  const ContactPyramid pyramid(p.map, cell, epsilon, 3);
-  const GridSearchResult found = search_grid(pyramid, p.local, p.local_from_robot, {.min_quality = 0.5}, 1);
+  const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, p.map, cell, epsilon, 3);
+  const BoxSearchResult found = search(pyramid, p, {.least = (p.local.size() + 1) / 2});
   ASSERT_GE(found.poses.size(), 2U);
   const std::size_t most = found.poses.front().in_contact;
   std::vector<Pose2> best;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "glocal/points.hpp"
-#include "matchers/grid_search/contact_pyramid.hpp"
-#include "matchers/grid_search/window_bits.hpp"
+#include "matchers/box_search/cell_frame.hpp"
+#include "matchers/box_search/window_bits.hpp"
 
 namespace glocal {
 
@@ -17,8 +17,8 @@ struct WindowKind {
   int height = 1;  ///< Layers of cells.
   int step = 1;    ///< One begins every so many layers of cells, those of window 0 at layer 0.
 
-  /// How many layers of windows begin below the first layer of cells; such windows are higher than a step.
-  [[nodiscard]] int layers_before() const { return height > step ? 1 : 0; }
+  /// How many layers of windows begin below the first layer of cells, but reach it.
+  [[nodiscard]] int layers_before() const { return (height - 1) / step; }
   /// How many layers of windows have a cell of the frame.
   [[nodiscard]] std::size_t layers(const CellFrame& frame) const {
     const int layers = (frame.layers + step - 1) / step + layers_before();
@@ -27,7 +27,7 @@ struct WindowKind {
 };
 
 /// The bits of windows of each kind over the cells within `epsilon` (m) of a point of the map: by their
-/// centres, or, with `anywhere`, by the nearest of their places. Windows are at most twice as high as a step.
+/// centres, or, with `anywhere`, by the nearest of their places.
 [[nodiscard]] std::vector<WindowBits> windows_of_map(const Points& map_points, const CellFrame& frame,
                                                      double epsilon, bool anywhere,
                                                      const std::vector<WindowKind>& kinds, int threads);

@@ -1,5 +1,3 @@
-#include "matchers/grid_search/pose_grid.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "glocal/rng.hpp"
+#include "matchers/box_search/pose_boxes.hpp"
 
 namespace glocal::pose_grid_test {
 namespace {
@@ -23,10 +22,10 @@ Points random_points(Rng& rng, std::size_t n) {
 TEST(PoseGrid, APoseBringsEachPointIntoItsCell) {
   Rng rng(1);
   const Points points = random_points(rng, 20);
-  const PoseGrid grid(points, 0.1, 0.001);
-  for (const std::size_t rotation : {std::size_t{0}, grid.rotations() / 3, grid.rotations() - 1}) {
-    const CellPoints cells = grid.cells(rotation);
-    const Pose2 pose = grid.pose(rotation, 17, -5, 40.0, -8.0);
+  const PoseGrid grid(points, {.cell = 0.1, .min_x = 40.0, .min_y = -8.0}, 0.001);
+  for (const std::size_t rotation : {std::size_t{0}, grid.rotations(0) / 3, grid.rotations(0) - 1}) {
+    const CellPoints cells = grid.cells(0, rotation).front();
+    const Pose2 pose = grid.pose(0, rotation, 17, -5);
     ASSERT_EQ(cells.size(), points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Pose2 at = pose * Pose2{points.x[i], points.y[i], 0.0};
@@ -43,14 +42,15 @@ TEST(PoseGrid, AStepOfRotationMovesTheFarthestPointByACell) {
   points.push_back({8.0F, 0.0F, 0.0F});
   points.push_back({3.0F, 1.0F, 0.0F});
   points.push_back({3.0F, -1.0F, 0.0F});
-  const PoseGrid grid(points, 0.05, 0.001);
-  EXPECT_EQ(grid.rotations(), static_cast<std::size_t>(std::ceil(2.0 * std::numbers::pi / 0.01)));
-  EXPECT_NEAR(grid.angle(1), 0.01, 1e-4);
+  const CellFrame frame{.cell = 0.05};
+  const PoseGrid grid(points, frame, 0.001);
+  EXPECT_EQ(grid.rotations(0), static_cast<std::size_t>(std::ceil(2.0 * std::numbers::pi / 0.01)));
+  EXPECT_NEAR(grid.angle(0, 1), 0.01, 1e-4);
   // Not smaller than asked for, and never larger than 0.1 rad.
-  EXPECT_EQ(PoseGrid(points, 0.05, 0.02).rotations(), 315U);
+  EXPECT_EQ(PoseGrid(points, frame, 0.02).rotations(0), 315U);
   Points one;
   one.push_back({100.0F, 7.0F, 0.0F});
-  EXPECT_EQ(PoseGrid(one, 0.05, 0.001).rotations(), 63U);
+  EXPECT_EQ(PoseGrid(one, frame, 0.001).rotations(0), 63U);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "matchers/grid_search/window_bits.hpp"
+#include "matchers/box_search/window_bits.hpp"
 
 #include <algorithm>
 #include <bit>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "matchers/grid_search/window_bits.cpp"
+#define HWY_TARGET_INCLUDE "matchers/box_search/window_bits.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
 
@@ -134,6 +134,8 @@ namespace {
 constexpr int word_bits = 64;
 /// Points and looks come in multiples of this: a vector of the widest instruction set.
 constexpr std::size_t lanes = 16;
+/// So many looks are added at once.
+constexpr std::size_t at_a_time = 8;
 constexpr std::size_t block_words = BitsLayout::block_rows + TileCounts::rows;
 
 int low_bits(int value, int n) {
@@ -196,25 +198,22 @@ TileCounts::Mask TileCounts::at_least(std::size_t count) const {
   return nodes;
 }
 
-LayerBits::LayerBits(int level, const Windows& windows, int layer) {
-  const auto last_node = [&](std::size_t windows_along, int before) {
-    return (static_cast<int>(windows_along) - before - 1) >> level;
-  };
+LayerBits::LayerBits(int level, const Windows& windows) {
+  const int columns = static_cast<int>(windows.width) - windows.before;
+  const int rows = static_cast<int>(windows.height) - windows.before;
   // A tile may begin a whole tile before the first windows and end as far behind the last.
-  const int last_column = last_node(windows.width, windows.columns_before) + TileCounts::columns;
-  const int last_row = last_node(windows.height, windows.rows_before) + TileCounts::rows;
+  const int last_column = ((columns - 1) >> level) + TileCounts::columns;
+  const int last_row = ((rows - 1) >> level) + TileCounts::rows;
   layout_ = {.level = level,
              .words = last_column / word_bits + 2,
              .row_blocks = last_row / BitsLayout::block_rows + 1,
              .last_column = last_column,
              .last_row = last_row};
   numbers_.resize(static_cast<std::size_t>(layout_.words * layout_.row_blocks) << (2 * level));
-  const int columns = static_cast<int>(windows.width) - windows.columns_before;
-  const int rows = static_cast<int>(windows.height) - windows.rows_before;
-  for (int row = -windows.rows_before; row < rows; ++row) {
-    const std::uint8_t* line = &windows.bytes[windows.index(0, row, layer)];
+  for (int row = -windows.before; row < rows; ++row) {
+    const std::uint8_t* line = windows.at(0, row);
     const std::uint8_t* end = line + columns;
-    for (const std::uint8_t* next = next_set(line - windows.columns_before, end); next != end;
+    for (const std::uint8_t* next = next_set(line - windows.before, end); next != end;
          next = next_set(next + 1, end))
       set(static_cast<int>(next - line), row);
   }
@@ -242,16 +241,6 @@ std::uint64_t* LayerBits::block(std::size_t place) {
   return &words_[(numbers_[place] - 1) * block_words];
 }
 
-WindowBits::WindowBits(int level, const Windows& windows)
-    : WindowBits(
-          [&] {
-            std::vector<LayerBits> layers;
-            for (std::size_t i = 0; i < windows.depth; ++i)
-              layers.emplace_back(level, windows, static_cast<int>(i) - windows.layers_before);
-            return layers;
-          }(),
-          windows.layers_before, windows.in_space) {}
-
 WindowBits::WindowBits(std::vector<LayerBits> layers, int layers_before, bool in_space)
     : layout_(layers.front().layout_),
       layers_before_(layers_before),
@@ -271,11 +260,11 @@ WindowBits::WindowBits(std::vector<LayerBits> layers, int layers_before, bool in
   }
 }
 
-std::size_t WindowBits::add(const CellPoints& points, int column, int row, int layer, std::size_t least,
-                            std::size_t behind, TileCounts& counts) const {
-  TileLooks& looks = counts.looks_;
+std::size_t WindowBits::find(const CellPoints& points, int column, int row, int layer,
+                             TileLooks& looks) const {
+  const std::size_t padded = points.columns_.size();
   for (std::vector<std::uint32_t>* each : {&looks.words, &looks.next, &looks.shifts})
-    each->resize(points.columns_.size() + lanes);
+    each->resize(padded + lanes);
   const TileLayout tile{.bits = layout_,
                         .column = column,
                         .row = row,
@@ -284,15 +273,19 @@ std::size_t WindowBits::add(const CellPoints& points, int column, int row, int l
                         .blocks = blocks_.data()};
   const std::int32_t* columns = points.columns_.data();
   const std::int32_t* rows = points.rows_.data();
-  const std::size_t padded = points.columns_.size();
   const std::size_t n = in_space_
                             ? HWY_DYNAMIC_DISPATCH(find_looks_in_space)(tile, columns, rows,
                                                                         points.layers_.data(), padded, looks)
                             : HWY_DYNAMIC_DISPATCH(find_looks_in_plane)(tile, columns, rows, padded, looks);
-  constexpr std::ptrdiff_t group = 8;
   for (std::vector<std::uint32_t>* each : {&looks.words, &looks.next, &looks.shifts})
-    std::fill_n(each->begin() + static_cast<std::ptrdiff_t>(n), group, 0);  // nothing in the first block
+    std::fill_n(each->begin() + static_cast<std::ptrdiff_t>(n), at_a_time, 0);  // nothing in the first block
+  return n;
+}
 
+std::size_t WindowBits::add(const CellPoints& points, int column, int row, int layer, std::size_t least,
+                            std::size_t behind, TileCounts& counts) const {
+  TileLooks& looks = counts.looks_;
+  const std::size_t n = find(points, column, row, layer, looks);
   counts.points_ += n;
   counts.planes_.resize(
       std::max(counts.planes_.size(), static_cast<std::size_t>(std::bit_width(counts.points_))));
@@ -301,8 +294,8 @@ std::size_t WindowBits::add(const CellPoints& points, int column, int row, int l
   while (looked_at < n && counts.largest() + (n - looked_at) + behind >= least) {
     const std::size_t now = std::min(stretch, n - looked_at);
     HWY_DYNAMIC_DISPATCH(add_looks_in_vectors)
-    (bits_.data(), looks, looked_at, (now + group - 1) / group * group, counts.planes_.front().data(),
-     counts.planes_.size());
+    (bits_.data(), looks, looked_at, (now + at_a_time - 1) / at_a_time * at_a_time,
+     counts.planes_.front().data(), counts.planes_.size());
     counts.find_largest();
     looked_at += now;
   }

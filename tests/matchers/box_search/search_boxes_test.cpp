@@ -1,4 +1,4 @@
-#include "matchers/grid_search/rival_search.hpp"
+#include "matchers/box_search/search_boxes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "glocal/rng.hpp"
 
-namespace glocal::rival_search_test {
+namespace glocal::search_boxes_test {
 namespace {
 
 constexpr double cell = 0.05;
@@ -40,6 +40,17 @@ std::size_t brute_count(const Points& map, const Points& points, const Pose2& ma
     n += found ? 1 : 0;
   }
   return n;
+}
+
+BoxPyramid pyramid_of(const Points& map) {
+  return {BoxPyramid::Of::all_poses, map, cell, epsilon,
+          BoxPyramid::default_top_level(BoxPyramid::Of::all_poses)};
+}
+
+/// All poses but those near this one.
+BoxSearchResult search(const BoxPyramid& pyramid, const Points& points, const Pose2& declared,
+                       const BoxSearchRule& rule, int threads = 1) {
+  return search_boxes(pyramid, points, {}, rule, Exclusion{declared}, threads);
 }
 
 /// A room of 4 m x 3 m with a wall into it, at the left or elsewhere, so that it looks different from every
@@ -81,12 +92,12 @@ Pose2 somewhere_in_box(const PoseBoxes& boxes, const CellFrame& frame, int level
 TEST(BoxPyramid, BoundsEveryPoseOfABoxAndNotByMuchMore) {
   Rng rng(1);
   const Points map = random_points(rng, 80, 9.0, 5.0);
-  const BoxPyramid pyramid(map, cell, epsilon);
+  const BoxPyramid pyramid = pyramid_of(map);
   TileCounts counts;
   std::size_t poses_with_contact = 0;
   for (int i = 0; i < 60; ++i) {
     const Points points = random_points(rng, 30, 4.0, 3.0);
-    const PoseBoxes boxes(points, pyramid.frame(), pyramid.top_level());
+    const AllPoses boxes(points, pyramid.frame(), pyramid.top_level());
     const int level = static_cast<int>(rng.below(4));
     const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(level)));
     const int size = 1 << level;
@@ -115,13 +126,13 @@ TEST(BoxPyramid, BoundsEveryPoseOfABoxAndNotByMuchMore) {
 TEST(BoxPyramid, ClustersBoundEveryPoseOfABox) {
   Rng rng(5);
   const Points map = random_points(rng, 200, 9.0, 5.0);
-  const BoxPyramid pyramid(map, cell, epsilon);
+  const BoxPyramid pyramid = pyramid_of(map);
   const int top = pyramid.top_level();
   TileCounts counts;
   std::size_t bounded = 0;
   for (int i = 0; i < 40; ++i) {
     const Points points = random_points(rng, 300, 4.0, 3.0);
-    const PoseBoxes boxes(points, pyramid.frame(), top);
+    const AllPoses boxes(points, pyramid.frame(), top);
     const std::size_t loose = boxes.points_without_cluster();
     ASSERT_LT(loose, 150U);
     const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(top)));
@@ -134,7 +145,7 @@ TEST(BoxPyramid, ClustersBoundEveryPoseOfABox) {
       const Pose2 pose =
           somewhere_in_box(boxes, pyramid.frame(), top, rotation, column + node_column * (1 << top),
                            row + node_row * (1 << top), rng);
-      const std::size_t at_most = loose + PoseBoxes::cluster_size * counts.at(node_column, node_row);
+      const std::size_t at_most = loose + AllPoses::cluster_size * counts.at(node_column, node_row);
       ASSERT_LE(brute_count(map, points, pose, epsilon), at_most);
       bounded += at_most < points.size() ? 1 : 0;
     }
@@ -142,10 +153,10 @@ TEST(BoxPyramid, ClustersBoundEveryPoseOfABox) {
   EXPECT_GT(bounded, 500U);  // or the clusters say nothing
 }
 
-TEST(PoseBoxes, IntervalsOfALevelAreHalvesOfThoseAbove) {
+TEST(AllPoses, IntervalsOfALevelAreHalvesOfThoseAbove) {
   Rng rng(2);
   const Points points = random_points(rng, 30, 8.0, 6.0);
-  const PoseBoxes boxes(points, {.cell = cell, .columns = 100, .rows = 100}, 3);
+  const AllPoses boxes(points, {.cell = cell, .columns = 100, .rows = 100}, 3);
   EXPECT_EQ(boxes.rotations(0), 8 * boxes.rotations(3));
   EXPECT_NEAR(boxes.half_width(2), 0.5 * boxes.half_width(3), 1e-12);
   EXPECT_NEAR(boxes.angle(2, 10) + boxes.half_width(2), boxes.angle(3, 5), 1e-12);
@@ -153,37 +164,37 @@ TEST(PoseBoxes, IntervalsOfALevelAreHalvesOfThoseAbove) {
   EXPECT_LE(2.0 * boxes.half_width(0) * 4.5, cell * 1.01);
 }
 
-TEST(RivalSearch, FindsTheOtherRoomThatLooksAlike) {
+TEST(SearchBoxes, FindsTheOtherRoomThatLooksAlike) {
   Points map = room(0.0F, 0.0F, true);
   add(map, room(10.0F, 3.0F, true));
   add(map, room(20.0F, 0.0F, false));
-  const BoxPyramid pyramid(map, cell, epsilon);
+  const BoxPyramid pyramid = pyramid_of(map);
   const Points points = seen_in_room();
   const auto all = static_cast<double>(points.size());
   const auto least = static_cast<std::size_t>(0.97 * all);
-  const auto found = search_rivals(pyramid, points, {}, Pose2{2.0, 1.5, 0.0}, least, {}, {}, 1);
+  const auto found = search(pyramid, points, {2.0, 1.5, 0.0}, {.least = least});
   ASSERT_TRUE(found.is_complete);
-  ASSERT_FALSE(found.rivals.empty());
-  const Pose2 rival = seen_from_above(found.rivals.front().map_from_local);
+  ASSERT_FALSE(found.poses.empty());
+  const Pose2 rival = found.poses.front().map_from_local;
   EXPECT_NEAR(rival.x, 12.0, 0.15);
   EXPECT_NEAR(rival.y, 4.5, 0.15);
   EXPECT_NEAR(wrap_angle(rival.theta), 0.0, 0.05);
   EXPECT_EQ(found.at_most, points.size());
-  for (const auto& r : found.rivals) {
+  for (const auto& r : found.poses) {
     EXPECT_GE(r.in_contact, least);
     EXPECT_GT(std::hypot(r.map_from_local.x - 2.0, r.map_from_local.y - 1.5), 0.9);
   }
 }
 
-TEST(RivalSearch, NoPoseElsewhereHasMoreContactThanItSays) {
+TEST(SearchBoxes, NoPoseElsewhereHasMoreContactThanItSays) {
   Rng rng(3);
   Points map = room(0.0F, 0.0F, true);
   add(map, room(6.0F, 1.0F, false));
   add(map, random_points(rng, 60, 10.0, 6.0));
-  const BoxPyramid pyramid(map, cell, epsilon);
+  const BoxPyramid pyramid = pyramid_of(map);
   const Points points = seen_in_room();
   const Pose2 declared{2.0, 1.5, 0.0};
-  const auto found = search_rivals(pyramid, points, {}, declared, points.size() / 2, {}, {}, 1);
+  const auto found = search(pyramid, points, declared, {.least = points.size() / 2, .most_places = 20});
   ASSERT_TRUE(found.is_complete);
   ASSERT_LT(found.at_most, points.size());
   std::size_t best = 0;
@@ -198,8 +209,7 @@ TEST(RivalSearch, NoPoseElsewhereHasMoreContactThanItSays) {
         {rng.uniform(-1.0, 11.0), rng.uniform(-1.0, 7.0), rng.uniform(-std::numbers::pi, std::numbers::pi)});
   // Close to the best ones, and to the edge of the neighbourhood.
   for (int i = 0; i < 1000; ++i) {
-    const Pose2 near = seen_from_above(
-        found.rivals[rng.below(static_cast<std::uint32_t>(found.rivals.size()))].map_from_local);
+    const Pose2 near = found.poses[rng.below(static_cast<std::uint32_t>(found.poses.size()))].map_from_local;
     look_at({near.x + rng.uniform(-0.1, 0.1), near.y + rng.uniform(-0.1, 0.1),
              near.theta + rng.uniform(-0.05, 0.05)});
     const double angle = rng.uniform(-std::numbers::pi, std::numbers::pi);
@@ -210,42 +220,40 @@ TEST(RivalSearch, NoPoseElsewhereHasMoreContactThanItSays) {
   EXPECT_GT(best, found.at_most * 2 / 3);
 }
 
-TEST(RivalSearch, LooksOnlyWhereAPriorAllows) {
+TEST(SearchBoxes, LooksOnlyWhereAPriorAllows) {
   Points map = room(0.0F, 0.0F, true);
   add(map, room(10.0F, 3.0F, true));
-  const BoxPyramid pyramid(map, cell, epsilon);
+  const BoxPyramid pyramid = pyramid_of(map);
   const Points points = seen_in_room();
   const std::size_t least = points.size() * 9 / 10;
-  const auto search = [&](double x, double y) {
+  const auto search_about = [&](double x, double y) {
     const Prior prior{.region = {.x = x, .y = y, .radius = 3.0}, .heading = {}};
-    return search_rivals(pyramid, points, {}, Pose2{2.0, 1.5, 0.0}, least, {}, PoseGate(prior, Pose3{}), 1);
+    return search(pyramid, points, {2.0, 1.5, 0.0}, {.least = least, .gate = PoseGate(prior, Pose3{})});
   };
-  EXPECT_TRUE(search(2.0, 1.5).rivals.empty());
-  EXPECT_EQ(search(2.0, 1.5).at_most, least - 1);
-  EXPECT_FALSE(search(12.0, 4.5).rivals.empty());
+  EXPECT_TRUE(search_about(2.0, 1.5).poses.empty());
+  EXPECT_EQ(search_about(2.0, 1.5).at_most, least - 1);
+  EXPECT_FALSE(search_about(12.0, 4.5).poses.empty());
 }
 
-TEST(RivalSearch, AnswersAlikeForAnyNumberOfThreadsAndGivesUpWhenToldTo) {
+TEST(SearchBoxes, AnswersAlikeForAnyNumberOfThreadsAndGivesUpWhenToldTo) {
   Points map = room(0.0F, 0.0F, true);
   add(map, room(10.0F, 3.0F, false));
-  const BoxPyramid pyramid(map, cell, epsilon);
+  const BoxPyramid pyramid = pyramid_of(map);
   const Points points = seen_in_room();
-  const auto search = [&](int threads, std::size_t most_looks) {
-    return search_rivals(pyramid, points, {}, Pose2{2.0, 1.5, 0.0}, points.size() * 2 / 3,
-                         {.most_looks = most_looks}, {}, threads);
-  };
-  const auto one = search(1, 1'000'000'000);
-  const auto two = search(2, 1'000'000'000);
+  BoxSearchRule rule{.least = points.size() * 2 / 3};
+  const auto one = search(pyramid, points, {2.0, 1.5, 0.0}, rule, 1);
+  const auto two = search(pyramid, points, {2.0, 1.5, 0.0}, rule, 2);
   EXPECT_TRUE(one.is_complete);
   EXPECT_EQ(one.looks, two.looks);
   EXPECT_EQ(one.at_most, two.at_most);
-  ASSERT_EQ(one.rivals.size(), two.rivals.size());
-  for (std::size_t i = 0; i < one.rivals.size(); ++i) {
-    EXPECT_EQ(one.rivals[i].map_from_local.x, two.rivals[i].map_from_local.x);
-    EXPECT_EQ(one.rivals[i].in_contact, two.rivals[i].in_contact);
+  ASSERT_EQ(one.poses.size(), two.poses.size());
+  for (std::size_t i = 0; i < one.poses.size(); ++i) {
+    EXPECT_EQ(one.poses[i].map_from_local.x, two.poses[i].map_from_local.x);
+    EXPECT_EQ(one.poses[i].in_contact, two.poses[i].in_contact);
   }
-  EXPECT_FALSE(search(1, 10).is_complete);
+  rule.most_looks = 10;
+  EXPECT_FALSE(search(pyramid, points, {2.0, 1.5, 0.0}, rule).is_complete);
 }
 
 }  // namespace
-}  // namespace glocal::rival_search_test
+}  // namespace glocal::search_boxes_test

@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "glocal/rng.hpp"
+#include "matchers/box_search/search_boxes.hpp"
 #include "matchers/grid_search/contact_climb.hpp"
-#include "matchers/grid_search/rival_search.hpp"
 #include "matchers/grid_search/whole_map.hpp"
 
-namespace glocal::space_rival_search_test {
+namespace glocal::space_search_boxes_test {
 namespace {
 
 constexpr double cell = 0.1;
@@ -85,7 +85,14 @@ std::size_t brute_count(const Points& map, const Points& points, const Pose3& ma
 }
 
 BoxPyramid pyramid_of(const Points& map, int threads = 1) {
-  return {map, cell, epsilon, BoxPyramid::default_top_level, threads, Motion::upright};
+  constexpr auto all_poses = BoxPyramid::Of::all_poses;
+  return {all_poses, map, cell, epsilon, BoxPyramid::default_top_level(all_poses), threads, Motion::upright};
+}
+
+/// All poses but those near this one.
+BoxSearchResult search(const BoxPyramid& pyramid, const Points& points, const Pose3& map_from_declared,
+                       const BoxSearchRule& rule, int threads = 1) {
+  return search_boxes(pyramid, points, local_from_robot, rule, Exclusion{map_from_declared}, threads);
 }
 
 /// An upright pose of a box, turned about the middle of the points.
@@ -96,7 +103,7 @@ Pose3 somewhere_in_box(const PoseBoxes& boxes, const CellFrame& frame, int level
   const Pose2 at_zero{frame.min_x, frame.min_y, 0.0};
   const Pose2 turned = at_zero * Pose2{0.0, 0.0, angle} * inverse(at_zero) * middle;
   const int size = 1 << level;
-  const double height = PoseBoxes::layers_of_box(level, frame) * (layer + rng.uniform());
+  const double height = AllPoses::layers_of_box(level, frame) * (layer + rng.uniform());
   return {{turned.x + cell * (first_column + rng.uniform() * size),
            turned.y + cell * (first_row + rng.uniform() * size), boxes.height(height)},
           turn_about_z(turned.theta)};
@@ -110,15 +117,15 @@ TEST(BoxPyramidInSpace, BoundsEveryPoseOfABoxAndNotByMuchMore) {
   std::size_t poses_with_contact = 0;
   for (int i = 0; i < 120; ++i) {
     const Points points = random_points(rng, 40, 3.0, 2.0, 2.0);
-    const PoseBoxes boxes(points, pyramid.frame(), pyramid.top_level());
+    const AllPoses boxes(points, pyramid.frame(), pyramid.top_level());
     const int level = static_cast<int>(rng.below(4));
     const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(level)));
     const int size = 1 << level;
     const int column = static_cast<int>(rng.below(80)) - 40 * size;
     const int row = static_cast<int>(rng.below(60)) - 4 * size;
-    const int high = PoseBoxes::layers_of_box(level, pyramid.frame());
+    const int high = AllPoses::layers_of_box(level, pyramid.frame());
     const int layer = (static_cast<int>(rng.below(35)) - 15) / high;
-    pyramid.count(level, boxes.cells(level, rotation), column, row, layer, 0, counts);
+    pyramid.count(level, boxes.cells(level, rotation), column, row, high * layer, 0, counts);
     for (int k = 0; k < 60; ++k) {
       const int node_column = static_cast<int>(rng.below(TileCounts::columns));
       const int node_row = static_cast<int>(rng.below(TileCounts::rows));
@@ -145,7 +152,7 @@ TEST(BoxPyramidInSpace, ClustersBoundEveryPoseOfABox) {
   const BoxPyramid pyramid = pyramid_of(map);
   const int top = pyramid.top_level();
   const Points points = room(-2.0, -1.5, -1.0, true);
-  const PoseBoxes boxes(points, pyramid.frame(), top);
+  const AllPoses boxes(points, pyramid.frame(), top);
   const std::size_t loose = boxes.points_without_cluster();
   ASSERT_LT(loose, points.size() / 5);
   TileCounts counts;
@@ -155,14 +162,15 @@ TEST(BoxPyramidInSpace, ClustersBoundEveryPoseOfABox) {
     const int column = static_cast<int>(rng.below(60)) - 250;
     const int row = static_cast<int>(rng.below(40)) - 30;
     const int layer = static_cast<int>(rng.below(9));
-    pyramid.count(top, boxes.cluster_cells(rotation), column, row, layer, 0, counts);
+    pyramid.count(top, boxes.cluster_cells(rotation), column, row, boxes.layers_of_box(top) * layer, 0,
+                  counts);
     for (int k = 0; k < 10; ++k) {
       const int node_column = static_cast<int>(rng.below(TileCounts::columns));
       const int node_row = static_cast<int>(rng.below(TileCounts::rows));
       const Pose3 pose =
           somewhere_in_box(boxes, pyramid.frame(), top, rotation, column + node_column * (1 << top),
                            row + node_row * (1 << top), layer, rng);
-      const std::size_t at_most = loose + PoseBoxes::cluster_size * counts.at(node_column, node_row);
+      const std::size_t at_most = loose + AllPoses::cluster_size * counts.at(node_column, node_row);
       ASSERT_LE(brute_count(map, points, pose, epsilon), at_most);
       bounded += at_most < points.size() ? 1 : 0;
     }
@@ -175,12 +183,12 @@ TEST(BoxPyramidInSpace, IsTheSameForAnyNumberOfThreads) {
   const Points points = seen_in_room();
   const BoxPyramid one = pyramid_of(map, 1);
   const BoxPyramid two = pyramid_of(map, 2);
-  const PoseBoxes boxes(points, one.frame(), one.top_level());
+  const AllPoses boxes(points, one.frame(), one.top_level());
   TileCounts by_one, by_two;
   EXPECT_EQ(one.memory_bytes(), two.memory_bytes());
   for (int level = 0; level <= one.top_level(); ++level) {
-    one.count(level, boxes.cells(level, 3), -10, -10, 5, 0, by_one);
-    two.count(level, boxes.cells(level, 3), -10, -10, 5, 0, by_two);
+    one.count(level, boxes.cells(level, 3), -10, -10, 4, 0, by_one);
+    two.count(level, boxes.cells(level, 3), -10, -10, 4, 0, by_two);
     for (int row = 0; row < TileCounts::rows; ++row) {
       for (int column = 0; column < TileCounts::columns; ++column)
         ASSERT_EQ(by_one.at(column, row), by_two.at(column, row));
@@ -197,12 +205,12 @@ Points two_rooms() {
   return map;
 }
 
-TEST(RivalSearchInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
+TEST(SearchBoxesInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
   const Points map = two_rooms();
   const Points points = seen_in_room();
   const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0) * local_from_robot;
   const auto found =
-      search_rivals(pyramid_of(map), points, local_from_robot, declared, points.size() * 7 / 10, {}, {}, 1);
+      search(pyramid_of(map), points, declared, {.least = points.size() * 7 / 10, .most_places = 20});
   ASSERT_TRUE(found.is_complete);
   ASSERT_LT(found.at_most, points.size());
   Rng rng(4);
@@ -220,10 +228,9 @@ TEST(RivalSearchInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
     look_at(
         {{rng.uniform(-1.0, 11.0), rng.uniform(-1.0, 5.0), rng.uniform(-1.0, 3.0)}, turn(std::numbers::pi)});
   // Close to the best ones, and to the edge of the neighbourhood, above and below it, too.
-  ASSERT_FALSE(found.rivals.empty());
+  ASSERT_FALSE(found.poses.empty());
   for (int i = 0; i < 600; ++i) {
-    const Pose3& near =
-        found.rivals[rng.below(static_cast<std::uint32_t>(found.rivals.size()))].map_from_local;
+    const Pose3 near = found.poses[rng.below(static_cast<std::uint32_t>(found.poses.size()))].upright();
     look_at({near.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}, turn(0.05) * near.rotation});
     const Vector3 way{up_to(1.0), up_to(1.0), up_to(1.0)};
     const Pose3 robot({declared.translation() + (rng.uniform(1.0, 1.1) / norm(way)) * way},
@@ -237,7 +244,7 @@ TEST(RivalSearchInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
   EXPECT_GT(best, found.at_most * 2 / 3);
 }
 
-TEST(RivalSearchInSpace, WhatIsNearTheDeclaredPoseIsNoRivalButWhatIsAboveItIs) {
+TEST(SearchBoxesInSpace, WhatIsNearTheDeclaredPoseIsNoRivalButWhatIsAboveItIs) {
   // What is seen of one floor is seen of the other.
   Points map = room(0.0, 0.0, 0.0, true);
   const BoxPyramid one_floor = pyramid_of(map);
@@ -245,18 +252,16 @@ TEST(RivalSearchInSpace, WhatIsNearTheDeclaredPoseIsNoRivalButWhatIsAboveItIs) {
   const Points points = seen_in_room();
   const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0) * local_from_robot;
   const std::size_t least = points.size() * 98 / 100;
-  const auto search = [&](const BoxPyramid& pyramid) {
-    return search_rivals(pyramid, points, local_from_robot, declared, least, {}, {}, 1);
-  };
-  EXPECT_TRUE(search(one_floor).rivals.empty());
-  EXPECT_EQ(search(one_floor).at_most, least - 1);
-  const auto found = search(pyramid_of(map));
-  ASSERT_FALSE(found.rivals.empty());
-  EXPECT_NEAR(found.rivals.front().map_from_local.z, map_from_local_in(0.0, 0.0, 2.6).z, 0.2);
+  const auto none = search(one_floor, points, declared, {.least = least});
+  EXPECT_TRUE(none.poses.empty());
+  EXPECT_EQ(none.at_most, least - 1);
+  const auto found = search(pyramid_of(map), points, declared, {.least = least});
+  ASSERT_FALSE(found.poses.empty());
+  EXPECT_NEAR(found.poses.front().z, map_from_local_in(0.0, 0.0, 2.6).z, 0.2);
   EXPECT_EQ(found.at_most, points.size());
 }
 
-TEST(RivalSearchInSpace, LooksOnlyWhereAPriorAllows) {
+TEST(SearchBoxesInSpace, LooksOnlyWhereAPriorAllows) {
   Points map = room(0.0, 0.0, 0.0, true);
   add(map, room(7.0, 2.0, 1.0, true));
   const BoxPyramid pyramid = pyramid_of(map);
@@ -264,29 +269,26 @@ TEST(RivalSearchInSpace, LooksOnlyWhereAPriorAllows) {
   const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0);
   const auto rivals = [&](double x, double y) {
     const Prior prior{.region = {.x = x, .y = y, .radius = 3.0}, .heading = {}};
-    return search_rivals(pyramid, points, {}, declared, points.size() * 98 / 100, {},
-                         PoseGate(prior, Pose3{}), 1)
-        .rivals;
+    const BoxSearchRule rule{.least = points.size() * 98 / 100, .gate = PoseGate(prior, Pose3{})};
+    return search_boxes(pyramid, points, {}, rule, Exclusion{declared}, 1).poses;
   };
   EXPECT_TRUE(rivals(2.0, 1.5).empty());
   EXPECT_FALSE(rivals(9.0, 3.5).empty());
 }
 
-TEST(RivalSearchInSpace, AnswersAlikeForAnyNumberOfThreads) {
+TEST(SearchBoxesInSpace, AnswersAlikeForAnyNumberOfThreads) {
   const BoxPyramid pyramid = pyramid_of(two_rooms());
   const Points points = seen_in_room();
   const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0);
-  const auto search = [&](int threads) {
-    return search_rivals(pyramid, points, {}, declared, points.size() * 7 / 10, {}, {}, threads);
-  };
-  const auto one = search(1);
-  const auto two = search(2);
+  const BoxSearchRule rule{.least = points.size() * 7 / 10};
+  const auto one = search(pyramid, points, declared, rule, 1);
+  const auto two = search(pyramid, points, declared, rule, 2);
   EXPECT_EQ(one.looks, two.looks);
   EXPECT_EQ(one.at_most, two.at_most);
-  ASSERT_FALSE(one.rivals.empty());
-  ASSERT_EQ(one.rivals.size(), two.rivals.size());
-  for (std::size_t i = 0; i < one.rivals.size(); ++i)
-    EXPECT_EQ(one.rivals[i].map_from_local, two.rivals[i].map_from_local);
+  ASSERT_FALSE(one.poses.empty());
+  ASSERT_EQ(one.poses.size(), two.poses.size());
+  for (std::size_t i = 0; i < one.poses.size(); ++i)
+    EXPECT_EQ(one.poses[i].upright(), two.poses[i].upright());
 }
 
 TEST(ContactClimb, FindsTheSummitNearby) {
@@ -350,4 +352,4 @@ TEST(WholeMapInSpace, BringsTheRoomThatLooksAlike) {
 }
 
 }  // namespace
-}  // namespace glocal::space_rival_search_test
+}  // namespace glocal::space_search_boxes_test

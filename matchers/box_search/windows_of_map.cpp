@@ -1,6 +1,7 @@
-#include "matchers/grid_search/windows_of_map.hpp"
+#include "matchers/box_search/windows_of_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -10,6 +11,37 @@
 
 namespace glocal {
 namespace {
+
+/// The cells of one layer of a frame that are within `epsilon` (m) of a point of the map: by their centres,
+/// or, with `anywhere`, by the nearest of their places. Each is a window of one cell.
+Windows cells_in_contact(const Points& map_points, const CellFrame& frame, double epsilon, bool anywhere,
+                         int layer) {
+  Windows cells{.width = static_cast<std::size_t>(frame.columns),
+                .height = static_cast<std::size_t>(frame.rows)};
+  const double half_cell = anywhere ? 0.5 : 0.0;
+  const double reach = epsilon / frame.cell;
+  const auto first = [&](double centre) {
+    return std::max(0, static_cast<int>(std::ceil(centre - reach - half_cell)));
+  };
+  const auto square = [&](double distance) {
+    const double beyond = std::max(0.0, std::abs(distance) - half_cell);
+    return beyond * beyond;
+  };
+  for (std::size_t i = 0; i < map_points.size(); ++i) {
+    // In cells, relative to the centre of cell (0, 0, 0).
+    const double x = (map_points.x[i] - frame.min_x) / frame.cell - 0.5;
+    const double y = (map_points.y[i] - frame.min_y) / frame.cell - 0.5;
+    const double z = frame.in_space ? (map_points.z[i] - frame.min_z) / frame.cell - 0.5 : 0.0;
+    if (layer < z - reach - half_cell || layer > z + reach + half_cell) continue;
+    for (int row = first(y); row < frame.rows && row <= y + reach + half_cell; ++row) {
+      for (int column = first(x); column < frame.columns && column <= x + reach + half_cell; ++column) {
+        if (square(column - x) + square(row - y) + square(layer - z) <= reach * reach)
+          *cells.at(column, row) = 1;
+      }
+    }
+  }
+  return cells;
+}
 
 /// Says of each window along one axis that has one of the cells from `begin` on and before `end`, whether one
 /// of the cells from `behind` before to `ahead` - 1 after its own is marked: calls mark(window) after
@@ -30,17 +62,17 @@ Windows widened(const Windows& cells, int behind, int ahead) {
   const int columns = static_cast<int>(cells.width);
   const int rows = static_cast<int>(cells.height);
   const int before = ahead - 1;
-  Windows lines{.columns_before = before,
+  Windows lines{.before = before,
                 .width = static_cast<std::size_t>(columns + behind + before),
-                .height = cells.height};
+                .height = static_cast<std::size_t>(rows + before)};
   int first_row = rows;
   int end_row = 0;
   for (int row = 0; row < rows; ++row) {
-    const std::uint8_t* cell = &cells.bytes[cells.index(0, row, 0)];
+    const std::uint8_t* cell = cells.at(0, row);
     if (next_set(cell, cell + columns) == cell + columns) continue;
     first_row = std::min(first_row, row);
     end_row = row + 1;
-    std::uint8_t* window = &lines.at(0, row, 0);
+    std::uint8_t* window = lines.at(0, row);
     int last = never;
     slide(
         0, columns, behind, ahead,
@@ -49,21 +81,19 @@ Windows widened(const Windows& cells, int behind, int ahead) {
         },
         [&](int column) { window[column] = last >= column - behind ? 1 : 0; });
   }
-  Windows windows{.columns_before = before,
-                  .rows_before = before,
-                  .width = lines.width,
-                  .height = static_cast<std::size_t>(rows + behind + before)};
+  Windows windows{
+      .before = before, .width = lines.width, .height = static_cast<std::size_t>(rows + behind + before)};
   const std::size_t width = lines.width;
   std::vector<int> last_of_columns(width, never);
   int* last = last_of_columns.data();
   slide(
       first_row, end_row, behind, ahead,
       [&](int row) {
-        const std::uint8_t* line = &lines.at(-before, row, 0);
+        const std::uint8_t* line = lines.at(-before, row);
         for (std::size_t i = 0; i < width; ++i) last[i] = line[i] != 0 ? row : last[i];
       },
       [&](int row) {
-        std::uint8_t* line = &windows.at(-before, row, 0);
+        std::uint8_t* line = windows.at(-before, row);
         const int first = row - behind;
         for (std::size_t i = 0; i < width; ++i) line[i] = last[i] >= first ? 1 : 0;
       });
@@ -121,7 +151,7 @@ class WindowBuilder {
     cells_.resize(static_cast<std::size_t>(std::min(layers, frame_.layers - layer)));
     parallel_for(threads_, cells_.size() - known, [&](std::size_t i) {
       cells_[known + i] =
-          layer_near(map_points_, frame_, epsilon_, anywhere_, layer + static_cast<int>(known + i));
+          cells_in_contact(map_points_, frame_, epsilon_, anywhere_, layer + static_cast<int>(known + i));
     });
   }
 
@@ -145,8 +175,7 @@ class WindowBuilder {
   /// Which cells are in contact in one of these layers.
   [[nodiscard]] Windows joined(int begin, int end) const {
     Windows all{.width = static_cast<std::size_t>(frame_.columns),
-                .height = static_cast<std::size_t>(frame_.rows),
-                .in_space = frame_.in_space};
+                .height = static_cast<std::size_t>(frame_.rows)};
     std::uint8_t* bytes = all.bytes.data();
     const std::size_t size = all.bytes.size();
     for (int layer = std::max(0, begin); layer < std::min(end, frame_.layers); ++layer) {

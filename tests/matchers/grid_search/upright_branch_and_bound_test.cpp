@@ -1,4 +1,4 @@
-#include "matchers/grid_search/space_branch_and_bound.hpp"
+#include "matchers/grid_search/upright_branch_and_bound.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,19 +12,18 @@
 #include <vector>
 
 #include "glocal/error.hpp"
-#include "matchers/grid_search/branch_and_bound.hpp"
-#include "matchers/grid_search/grid_search.hpp"
+#include "matchers/box_search/search_boxes.hpp"
 #include "matchers/in_space/hall_map.hpp"
 #include "matchers/in_space/scanned_hall.hpp"
 #include "matchers/same_answer.hpp"
 
-namespace glocal::space_branch_and_bound_test {
+namespace glocal::upright_branch_and_bound_test {
 namespace {
 
 constexpr double cell = 0.3;
 constexpr double epsilon = 0.3;
 constexpr double robot_height = 0.4;
-const Pose2 local_from_robot{0.7, -0.4, 1.0};
+const Pose3 local_from_robot({0.7, -0.4, robot_height}, turn_about_z(1.0));
 
 /// Points of a small, high room.
 Points random_map(Rng& rng) {
@@ -43,6 +42,10 @@ Points random_local(Rng& rng) {
                      static_cast<float>(rng.uniform(-1.0, 1.5))});
   }
   return local;
+}
+
+BoxPyramid pyramid_of(const Points& map, double side = cell, double near = epsilon) {
+  return {BoxPyramid::Of::pose_grid, map, side, near, 2, 1, Motion::upright};
 }
 
 /// Which cells of a frame are in contact, by the distances from their centres to all points.
@@ -89,14 +92,14 @@ class ContactCells {
 /// The contact of the best pose in each cell of robot poses, falling: of all poses of the grid, counted one
 /// point at a time.
 std::vector<std::size_t> brute_force(const Points& map, const Points& local, const CellFrame& frame,
-                                     const GridSearchRule& rule) {
+                                     const BoxSearchRule& rule) {
   const ContactCells contact(map, frame);
-  const PoseGrid grid(local, cell, rule.min_rotation_step);
-  const double side = rule.distance / std::numbers::sqrt2;
-  const PoseBinning binning{side, square_parts_of_a_turn(rule.rotation)};
+  const PoseGrid grid(local, frame, rule.min_rotation_step);
+  const double side = rule.cell_distance / std::numbers::sqrt2;
+  const PoseBinning binning{side, square_parts_of_a_turn(rule.cell_rotation)};
   std::map<std::pair<PoseCell, int>, std::size_t> best;
-  for (std::size_t rotation = 0; rotation < grid.rotations(); ++rotation) {
-    const CellPoints points = grid.cells(rotation);
+  for (std::size_t rotation = 0; rotation < grid.rotations(0); ++rotation) {
+    const CellPoints points = grid.cells(0, rotation).front();
     for (int layer = -20; layer < frame.layers + 20; ++layer) {
       const double z = frame.min_z + cell * layer + robot_height;
       if (z < frame.min_z || z >= frame.min_z + cell * frame.layers) continue;
@@ -104,7 +107,7 @@ std::vector<std::size_t> brute_force(const Points& map, const Points& local, con
         for (int column = -20; column < frame.columns + 20; ++column) {
           const std::size_t in_contact = contact.count(points, column, row, layer);
           if (in_contact == 0) continue;
-          const Pose2 robot = grid.pose(rotation, column, row, frame.min_x, frame.min_y) * local_from_robot;
+          const Pose2 robot = grid.pose(0, rotation, column, row) * seen_from_above(local_from_robot);
           std::size_t& most = best[{binning.cell_of(robot), static_cast<int>(std::floor(z / side))}];
           most = std::max(most, in_contact);
         }
@@ -117,7 +120,7 @@ std::vector<std::size_t> brute_force(const Points& map, const Points& local, con
   return contacts;
 }
 
-std::vector<std::size_t> contacts_of(const GridSearchResult& result) {
+std::vector<std::size_t> contacts_of(const BoxSearchResult& result) {
   std::vector<std::size_t> contacts;
   for (const auto& pose : result.poses) contacts.push_back(pose.in_contact);
   return contacts;
@@ -128,17 +131,18 @@ TEST(GridSearchInSpace, FindsWhatBruteForceFinds) {
     Rng rng(seed);
     const Points map = random_map(rng);
     const Points local = random_local(rng);
-    const ContactPyramid pyramid(map, cell, epsilon, 2, Motion::upright);
-    GridSearchRule rule{.min_rotation_step = 0.1, .distance = 0.8, .rotation = 0.4, .max_poses = 1000000};
+    const BoxPyramid pyramid = pyramid_of(map);
+    BoxSearchRule rule{
+        .cell_distance = 0.8, .cell_rotation = 0.4, .most_places = 1000000, .min_rotation_step = 0.1};
     std::vector<std::size_t> best = brute_force(map, local, pyramid.frame(), rule);
     const auto found = [&] {
-      return contacts_of(search_grid(pyramid, local, local_from_robot, rule, 1, robot_height));
+      return contacts_of(search_boxes(pyramid, local, local_from_robot, rule, std::nullopt, 1));
     };
     EXPECT_EQ(found(), best);
     for (const std::size_t limit : {std::size_t{100}, std::size_t{10}, std::size_t{1}}) {
       ASSERT_GT(best.size(), limit);
       best.resize(limit);
-      rule.max_poses = limit;
+      rule.most_places = limit;
       EXPECT_EQ(found(), best);
     }
   }
@@ -148,15 +152,15 @@ TEST(GridSearchInSpace, PosesBringAsManyPointsIntoContactAsTheySay) {
   Rng rng(4);
   const Points map = random_map(rng);
   const Points local = random_local(rng);
-  const ContactPyramid pyramid(map, cell, epsilon, 2, Motion::upright);
+  const BoxPyramid pyramid = pyramid_of(map);
   const ContactCells contact(map, pyramid.frame());
   const CellFrame& frame = pyramid.frame();
-  const GridSearchResult found = search_grid(pyramid, local, local_from_robot,
-                                             {.min_quality = 0.6, .min_rotation_step = 0.1}, 1, robot_height);
+  const BoxSearchResult found =
+      search_boxes(pyramid, local, local_from_robot,
+                   {.least = (6 * local.size() + 9) / 10, .min_rotation_step = 0.1}, std::nullopt, 1);
   ASSERT_FALSE(found.poses.empty());
   for (const auto& pose : found.poses) {
-    const Pose2& above = pose.map_from_local;
-    const Points there = moved(local, Pose3({above.x, above.y, pose.z}, turn_about_z(above.theta)));
+    const Points there = moved(local, pose.upright());
     std::size_t in_contact = 0;
     for (std::size_t i = 0; i < there.size(); ++i) {
       const auto number = [](double value, double least) {
@@ -170,10 +174,10 @@ TEST(GridSearchInSpace, PosesBringAsManyPointsIntoContactAsTheySay) {
   }
 }
 
-TEST(ContactPyramidInSpace, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
+TEST(PyramidOfGridInSpace, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
   Rng rng(5);
   const Points map = random_map(rng);
-  const ContactPyramid pyramid(map, cell, epsilon, 2, Motion::upright);
+  const BoxPyramid pyramid = pyramid_of(map);
   const CellFrame& frame = pyramid.frame();
   const ContactCells contact(map, frame);
   const auto between = [&](int least, int most) {
@@ -188,7 +192,7 @@ TEST(ContactPyramidInSpace, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
     const int column = between(-20, 20);
     const int row = between(-20, 20);
     const int layer = between(-8, 16);
-    pyramid.count(level, points, column, row, 0, counts, layer);
+    pyramid.count(level, {points}, column, row, layer, 0, counts);
     const int node_column = between(0, 16);
     const int node_row = between(0, TileCounts::rows);
     std::size_t windows = 0;
@@ -209,20 +213,20 @@ TEST(ContactPyramidInSpace, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
   }
 }
 
-TEST(ContactPyramidInSpace, RefusesAMapThatIsTooLarge) {
+TEST(PyramidOfGridInSpace, RefusesAMapThatIsTooLarge) {
   Points map;
   map.push_back({0.0F, 0.0F, 0.0F});
   map.push_back({100.0F, 100.0F, 100.0F});
-  EXPECT_NO_THROW(ContactPyramid(map, 0.5, 0.5, 2, Motion::upright));
-  EXPECT_THROW(ContactPyramid(map, 0.05, 0.1, 2, Motion::upright), ConfigError);
+  EXPECT_NO_THROW(pyramid_of(map, 0.5, 0.5));
+  EXPECT_THROW(pyramid_of(map, 0.05, 0.1), ConfigError);
 }
 
-const GridMatching coarse{
+const GridRule coarse{
     .contact_epsilon = 0.2, .cell = 0.2, .min_rotation_step_deg = 2.0, .max_points = 100, .max_poses = 10};
 
 MatchResult match(const LocalMap& local, int threads = 1) {
-  SpaceBranchAndBound matcher(coarse,
-                              {.map = test::hall_map(), .threads = threads, .motion = Motion::upright});
+  UprightBranchAndBound matcher(coarse,
+                                {.map = test::hall_map(), .threads = threads, .motion = Motion::upright});
   Rng rng(1);
   return matcher.match(local, {}, 0.3, rng);
 }
@@ -236,7 +240,7 @@ LocalMap local_at(const Pose3& map_from_robot) {
   return local;
 }
 
-TEST(SpaceBranchAndBound, FindsThePose) {
+TEST(UprightBranchAndBound, FindsThePose) {
   const Pose3 truth{{8.0, 4.0, 1.2}, turn_about_z(-2.5)};
   const LocalMap local = local_at(truth);
   const MatchResult result = match(local);
@@ -256,7 +260,7 @@ TEST(SpaceBranchAndBound, FindsThePose) {
   }
 }
 
-TEST(SpaceBranchAndBound, HypothesesAreDistinct) {
+TEST(UprightBranchAndBound, HypothesesAreDistinct) {
   const LocalMap local = local_at({{8.0, 4.0, 1.2}, turn_about_z(-2.5)});
   const MatchResult result = match(local);
   for (std::size_t i = 0; i < result.hypotheses.size(); ++i) {
@@ -269,21 +273,14 @@ TEST(SpaceBranchAndBound, HypothesesAreDistinct) {
   }
 }
 
-TEST(SpaceBranchAndBound, AnswersAlikeForAnyNumberOfThreads) {
+TEST(UprightBranchAndBound, AnswersAlikeForAnyNumberOfThreads) {
   const LocalMap local = local_at({{4.0, 5.0, 1.5}, turn_about_z(1.0)});
   test::expect_same_answer(match(local, 1), match(local, 2));
 }
 
-TEST(SpaceBranchAndBound, FindsNothingForAnEmptyLocalMap) {
+TEST(UprightBranchAndBound, FindsNothingForAnEmptyLocalMap) {
   EXPECT_TRUE(match({}).hypotheses.empty());
 }
 
-TEST(SpaceBranchAndBound, IsTheSearchOfUprightPoses) {
-  for (const Motion motion : {Motion::planar, Motion::upright}) {
-    const auto made = BranchAndBound::make(coarse, {.map = test::hall_map(), .motion = motion});
-    EXPECT_EQ(dynamic_cast<const SpaceBranchAndBound*>(made.get()) != nullptr, motion == Motion::upright);
-  }
-}
-
 }  // namespace
-}  // namespace glocal::space_branch_and_bound_test
+}  // namespace glocal::upright_branch_and_bound_test

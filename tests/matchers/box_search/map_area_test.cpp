@@ -1,4 +1,4 @@
-#include "matchers/grid_search/map_area.hpp"
+#include "matchers/box_search/map_area.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "glocal/contact.hpp"
 #include "glocal/strategies.hpp"
-#include "matchers/grid_search/contact_pyramid.hpp"
+#include "matchers/box_search/box_pyramid.hpp"
 #include "matchers/grid_search/grid_matcher.hpp"
 
 namespace glocal {
@@ -15,10 +15,13 @@ namespace glocal {
 /// As in the plane, a pose of the grid is as good as the share of points that come to lie in a cell whose
 /// centre is within contact_epsilon of a point of the map; cells are cubes. Poses stay on the grid. Their
 /// score is that share, their quality Omega (eq. 4) of all points.
-class SpaceBranchAndBound final : public Matcher {
+class UprightBranchAndBound final : public Matcher {
  public:
+  using Params = GridRule;
+  static constexpr Motions motions{.planar = false, .upright = true};
+
   /// Throws ConfigError where the map is too large for a contact grid or a pyramid.
-  SpaceBranchAndBound(const GridMatching& params, const StageSetup& setup);
+  UprightBranchAndBound(const Params& params, const StageSetup& setup);
 
   void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
@@ -26,10 +29,10 @@ class SpaceBranchAndBound final : public Matcher {
   void reset() override {}
 
  private:
-  GridMatching params_;
+  GridRule params_;
   int threads_;
   std::shared_ptr<const ContactIndex> contact_;
-  std::shared_ptr<const ContactPyramid> pyramid_;
+  std::shared_ptr<const BoxPyramid> pyramid_;
   PoseGate gate_;
 };
 
