@@ -9,7 +9,7 @@
 #include "bench/scenes.hpp"
 #include "matchers/box_search/box_pyramid.hpp"
 #include "matchers/grid_search/branch_and_bound.hpp"
-#include "matchers/grid_search/whole_map.hpp"
+#include "verifiers/whole_map.hpp"
 
 namespace glocal::bench {
 namespace {

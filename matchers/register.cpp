@@ -3,7 +3,6 @@
 #include "matchers/grid_search/branch_and_bound.hpp"
 #include "matchers/grid_search/exhaustive.hpp"
 #include "matchers/grid_search/upright_branch_and_bound.hpp"
-#include "matchers/grid_search/whole_map.hpp"
 #include "matchers/indexed_ransam/indexed_ransam.hpp"
 #include "matchers/iransac/iransac.hpp"
 #include "matchers/mcl/mcl.hpp"
@@ -31,9 +30,6 @@ void register_matchers(Catalog& catalog) {
   catalog.matchers.add<UprightBranchAndBound>(
       "upright_branch_and_bound",
       "Exact search of a grid of upright poses, as branch_and_bound's of the plane.");
-  catalog.verifiers.add<NoVerifier>("none", "Every pose that the verdict rule declares is declared.");
-  catalog.verifiers.add<WholeMap>(
-      "whole_map", "Branch and bound over all poses: a declared pose has no rival, or is not declared.");
 }
 
 }  // namespace glocal

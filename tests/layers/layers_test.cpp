@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 const fs::path root = GLOCAL_SOURCE_DIR;
 
-const std::set<std::string> strategy_folders = {"sources", "local_mappers", "matchers", "clustering",
-                                                "raters"};
+const std::set<std::string> strategy_folders = {"sources",    "local_mappers", "matchers",
+                                                "clustering", "raters",        "verifiers"};
 
 const std::map<std::string, std::set<std::string>> layers_below = {
     {"framework", {}},
@@ -30,7 +30,7 @@ const std::map<std::string, std::set<std::string>> layers_below = {
     {"report", {"evaluation", "framework"}},
     {"app",
      {"report", "evaluation", "framework", "sources", "local_mappers", "matchers", "clustering", "raters",
-      "python"}},
+      "verifiers", "python"}},
     {"python", {"evaluation", "framework"}}};
 
 /// Made when glocal is built.
@@ -46,7 +46,7 @@ bool is_public(const fs::path& file) {
   return folder_at(file, 1) == "include";
 }
 
-/// What matchers of all families share.
+/// What matchers of all families share, and verifiers with them.
 const std::set<std::string> shared_by_families = {"box_search", "common", "in_space"};
 
 /// Why matchers of one family may not include this file of another one; empty if they may.
@@ -69,6 +69,7 @@ std::string fault_of(const fs::path& file, const fs::path& included) {
   if (other == "framework" && is_public(included)) return "";
   const bool is_own = layer == other && (layer != "plugins" || folder_at(file, 1) == folder_at(included, 1) ||
                                          folder_at(included, 1) == "common");
+  if (layer == "verifiers" && shared_by_families.contains(folder_at(included, 1))) return "";
   if (!is_own) return "strategies include only the framework's public headers and their own folder";
   return layer == "matchers" ? fault_between_families(file, included) : "";
 }
@@ -142,6 +143,9 @@ TEST(Layers, TheCheckFindsWhatPointsUpwards) {
            {"raters/softmax.cpp", "framework/src/config/reader.hpp", strategy},
            {"raters/softmax.cpp", "evaluation/include/glocal/outcome.hpp", strategy},
            {"raters/softmax.cpp", "clustering/dbscan.hpp", strategy},
+           {"raters/softmax.cpp", "matchers/common/merge.hpp", strategy},
+           {"verifiers/whole_map.cpp", "matchers/box_search/search_boxes.hpp", ""},
+           {"verifiers/whole_map.cpp", "matchers/mcl/mcl.hpp", strategy},
            {"plugins/pcl/icp.cpp", "plugins/pcl/clouds.hpp", ""},
            {"plugins/pcl/icp.cpp", "plugins/octomap/tree_file.hpp", strategy},
            {"plugins/pcl/plugin.cpp", "plugins/common/feature_matcher.hpp", ""},
@@ -178,7 +182,7 @@ TEST(Layers, TheProgramPrintsInOnePlace) {
   EXPECT_GT(found_in_its_place, 2U);
   // Libraries print nothing.
   for (const std::string folder : {"framework", "sources", "local_mappers", "matchers", "clustering",
-                                   "raters", "evaluation", "report"}) {
+                                   "raters", "verifiers", "evaluation", "report"}) {
     for (const fs::path& file : files_in(folder, {".cpp", ".hpp"})) {
       for (const std::string& line : lines_of(file))
         EXPECT_FALSE(std::regex_search(line, prints)) << file << ": " << line;
@@ -193,7 +197,7 @@ TEST(Layers, TheFrameworkIsAtMostAThirdOfTheCode) {
   std::size_t framework = 0;
   for (const char* folder :
        {"app", "bench", "clustering", "cmake", "evaluation", "examples", "framework", "local_mappers",
-        "matchers", "plugins", "raters", "report", "scripts", "sources"}) {
+        "matchers", "plugins", "raters", "report", "scripts", "sources", "verifiers"}) {
     for (const fs::path& file : files_in(folder, code)) {
       const std::size_t lines = lines_of(file).size();
       all += lines;

@@ -4,68 +4,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "glocal/rng.hpp"
+#include "matchers/box_search/rooms_in_space.hpp"
 #include "matchers/box_search/search_boxes.hpp"
-#include "matchers/grid_search/contact_climb.hpp"
-#include "matchers/grid_search/whole_map.hpp"
 
 namespace glocal::space_search_boxes_test {
 namespace {
 
+using namespace test::rooms_in_space;
+
 constexpr double cell = 0.1;
 constexpr double epsilon = 0.2;
-
-/// The robot leans, and is not where the local frame begins.
-const Pose3 local_from_robot({0.3, -0.2, 0.4}, turn_about_z(0.8) * exponential({0.03, 0.02, 0.0}));
-
-Point point(double x, double y, double z) {
-  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-}
-
-void add(Points& points, const Points& more) {
-  for (std::size_t i = 0; i < more.size(); ++i) points.push_back(more[i]);
-}
-
-Points random_points(Rng& rng, std::size_t n, double width, double depth, double height) {
-  Points points;
-  for (std::size_t i = 0; i < n; ++i)
-    points.push_back(point(rng.uniform(0.0, width), rng.uniform(0.0, depth), rng.uniform(0.0, height)));
-  return points;
-}
-
-/// Floor and walls of a room of 4 m x 2.8 m x 2 m, with a wall into it, at the left or elsewhere: it looks
-/// different from every side. Its corner is at (x, y, z).
-Points room(double x, double y, double z, bool is_left, double apart = 0.2) {
-  Points points;
-  const auto each = [&](double length, auto use) {
-    for (int i = 0; i <= std::lround(length / apart); ++i) use(apart * i);
-  };
-  each(4.0, [&](double u) {
-    each(2.8, [&](double v) { points.push_back(point(x + u, y + v, z)); });
-    each(2.0, [&](double h) {
-      points.push_back(point(x + u, y, z + h));
-      points.push_back(point(x + u, y + 2.8, z + h));
-    });
-  });
-  each(2.0, [&](double h) {
-    each(2.8, [&](double v) {
-      points.push_back(point(x, y + v, z + h));
-      points.push_back(point(x + 4.0, y + v, z + h));
-    });
-    each(1.6, [&](double v) { points.push_back(point(x + (is_left ? 0.9 : 2.7), y + v, z + h)); });
-  });
-  return points;
-}
-
-/// Where the local frame lies in a room with this corner.
-Pose3 map_from_local_in(double x, double y, double z) {
-  return Pose3({x + 2.0, y + 1.5, z + 1.0}, turn_about_z(0.3));
-}
-
-/// What a robot in such a room sees: fewer points than the map has.
-Points seen_in_room() {
-  return moved(room(0.0, 0.0, 0.0, true, 0.4), inverse(map_from_local_in(0.0, 0.0, 0.0)));
-}
 
 /// Points nearer to one of the map than this, each looked at.
 std::size_t brute_count(const Points& map, const Points& points, const Pose3& map_from_local, double near) {
@@ -196,15 +144,6 @@ TEST(BoxPyramidInSpace, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-/// A room, one that is another one beside it, and things in the air.
-Points two_rooms() {
-  Rng rng(3);
-  Points map = room(0.0, 0.0, 0.0, true);
-  add(map, room(6.0, 1.0, 0.7, false));
-  add(map, random_points(rng, 60, 10.0, 4.0, 2.5));
-  return map;
-}
-
 TEST(SearchBoxesInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
   const Points map = two_rooms();
   const Points points = seen_in_room();
@@ -289,66 +228,6 @@ TEST(SearchBoxesInSpace, AnswersAlikeForAnyNumberOfThreads) {
   ASSERT_EQ(one.poses.size(), two.poses.size());
   for (std::size_t i = 0; i < one.poses.size(); ++i)
     EXPECT_EQ(one.poses[i].upright(), two.poses[i].upright());
-}
-
-TEST(ContactClimb, FindsTheSummitNearby) {
-  const Points map = room(0.0, 0.0, 0.0, true);
-  const BitsetContact contact(map, epsilon);
-  const Points points = seen_in_room();
-  const Pose3 summit = map_from_local_in(0.0, 0.0, 0.0);
-  const Pose3 beside(summit.translation() + Vector3{0.25, -0.2, 0.25}, turn_about_z(0.06) * summit.rotation);
-  ASSERT_LT(contact.share(points, beside), 0.8);
-  const Pose3 found = climbed_pose(contact, points, beside, 0.1);
-  EXPECT_GT(contact.share(points, found), 0.99);
-  EXPECT_LT(distance(found, summit), epsilon);
-  EXPECT_EQ(found.tilt(), 0.0);
-}
-
-Verification verification(const Points& map, const Pose3& map_from_local) {
-  MapData data;
-  data.points = map;
-  WholeMap verifier({.contact_epsilon = epsilon},
-                    {.map = std::make_shared<const GlobalMap>(std::move(data)), .motion = Motion::upright});
-  LocalMap local;
-  local.points = seen_in_room();
-  local.ends = {local.points.size()};
-  local.local_from_robot = local_from_robot;
-  return verifier.verify(local, map_from_local, {});
-}
-
-TEST(WholeMapInSpace, CertifiesAPoseWithoutEqual) {
-  const auto found = verification(two_rooms(), map_from_local_in(0.0, 0.0, 0.0));
-  ASSERT_TRUE(found.certificate);
-  EXPECT_EQ(found.certificate->contact, 1.0);
-  EXPECT_LT(found.certificate->at_most, 1.0);
-  EXPECT_GE(found.certificate->at_most, 0.9);
-  EXPECT_DOUBLE_EQ(found.certificate->epsilon, epsilon);
-  EXPECT_NEAR(found.certificate->delta, 0.1 * std::sqrt(4.0 + 4.0 + 2.25), 1e-9);
-  for (const Hypothesis& rival : found.rivals) EXPECT_LT(rival.quality, 1.0);
-}
-
-TEST(WholeMapInSpace, BoxesAreLargerOnMapsOfVeryManyCells) {
-  Points map = room(0.0, 0.0, 0.0, true);
-  map.push_back(point(80.0, 80.0, 80.0));
-  const auto found = verification(map, map_from_local_in(0.0, 0.0, 0.0));
-  ASSERT_TRUE(found.certificate);
-  EXPECT_NEAR(found.certificate->delta, 0.2 * std::sqrt(4.0 + 4.0 + 2.25), 1e-9);
-}
-
-TEST(WholeMapInSpace, BringsTheRoomThatLooksAlike) {
-  Points map = room(0.0, 0.0, 0.0, true);
-  const Pose3 other_from_room({8.13, 2.07, 1.45}, turn_about_z(2.0));
-  add(map, moved(room(0.0, 0.0, 0.0, true), other_from_room));
-  const auto found = verification(map, map_from_local_in(0.0, 0.0, 0.0));
-  ASSERT_TRUE(found.certificate);
-  EXPECT_EQ(found.certificate->at_most, 1.0);
-  ASSERT_FALSE(found.rivals.empty());
-  const Hypothesis& rival = found.rivals.front();
-  const Pose3 truth = other_from_room * map_from_local_in(0.0, 0.0, 0.0);
-  EXPECT_LT(distance(rival.map_from_local, truth), epsilon);
-  EXPECT_LT(rotation_between(rival.map_from_local, truth), radians(5.0));
-  EXPECT_GT(rival.quality, 0.98);
-  EXPECT_EQ(rival.score, rival.quality);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "matchers/grid_search/whole_map.hpp"
+#include "verifiers/whole_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "matchers/grid_search/contact_climb.hpp"
+#include "verifiers/contact_climb.hpp"
 
 #include <algorithm>
 #include <array>

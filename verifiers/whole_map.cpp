@@ -1,4 +1,4 @@
-#include "matchers/grid_search/whole_map.hpp"
+#include "verifiers/whole_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "matchers/box_search/map_area.hpp"
 #include "matchers/box_search/search_boxes.hpp"
 #include "matchers/common/candidates.hpp"
-#include "matchers/grid_search/contact_climb.hpp"
+#include "verifiers/contact_climb.hpp"
 
 namespace glocal {
 namespace {
