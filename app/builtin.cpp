@@ -6,6 +6,7 @@
 #include "matchers/surfels/surfel_pair_registrar.hpp"
 #include "raters/register.hpp"
 #include "sources/register.hpp"
+#include "verifiers/register.hpp"
 
 namespace glocal {
 
@@ -16,6 +17,7 @@ void register_builtin_strategies(Catalog& catalog) {
   register_matchers(catalog);
   register_clustering(catalog);
   register_raters(catalog);
+  register_verifiers(catalog);
   catalog.cloud_registrars.add<SurfelPairRegistrar>(
       "surfel_pairs", "Pairs of surfels that are alike, judged by what each cloud saw through.");
 }

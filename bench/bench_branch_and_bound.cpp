@@ -7,27 +7,31 @@
 #include <vector>
 
 #include "bench/scenes.hpp"
-#include "matchers/grid_search/box_pyramid.hpp"
+#include "matchers/box_search/box_pyramid.hpp"
 #include "matchers/grid_search/branch_and_bound.hpp"
-#include "matchers/grid_search/contact_pyramid.hpp"
-#include "matchers/grid_search/whole_map.hpp"
+#include "verifiers/whole_map.hpp"
 
 namespace glocal::bench {
 namespace {
 
+BoxPyramid pyramid_of_grid(const Scene& s) {
+  constexpr auto grid = BoxPyramid::Of::pose_grid;
+  return {grid, s.map(), 0.05, 0.1, BoxPyramid::default_top_level(grid)};
+}
+
 void pyramid(benchmark::State& state, const Scene& s) {
   std::size_t bytes = 0;
-  for ([[maybe_unused]] auto _ : state) bytes = ContactPyramid(s.map(), 0.05, 0.1).memory_bytes();
+  for ([[maybe_unused]] auto _ : state) bytes = pyramid_of_grid(s).memory_bytes();
   state.counters["MB"] = static_cast<double>(bytes) / 1e6;
 }
 
 /// Tiles of the lowest level all over the map: what a look at a point costs.
 void tiles(benchmark::State& state, const Scene& s) {
-  const ContactPyramid pyramid(s.map(), 0.05, 0.1);
-  CellPoints points;
+  const BoxPyramid pyramid = pyramid_of_grid(s);
+  std::vector<CellPoints> points(1);
   Rng rng(1);
   for (int i = 0; i < 200; ++i) {
-    points.push_back(static_cast<int>(rng.below(201)) - 100, static_cast<int>(rng.below(201)) - 100);
+    points.front().push_back(static_cast<int>(rng.below(201)) - 100, static_cast<int>(rng.below(201)) - 100);
   }
   TileCounts counts;
   std::size_t points_tested = 0;
@@ -35,7 +39,7 @@ void tiles(benchmark::State& state, const Scene& s) {
     points_tested = 0;
     for (int row = 0; row < pyramid.frame().rows; row += TileCounts::rows) {
       for (int column = 0; column < pyramid.frame().columns; column += TileCounts::columns) {
-        points_tested += pyramid.count(0, points, column, row, 0, counts);
+        points_tested += pyramid.count(0, points, column, row, 0, 0, counts);
       }
     }
   }
@@ -62,7 +66,7 @@ std::vector<PlacedMap> local_maps(const Scene& s, std::size_t step) {
 
 /// So many poses searched for.
 void match(benchmark::State& state, const Scene& s) {
-  BranchAndBound matcher({.max_poses = static_cast<int>(state.range(1))}, {s.loaded.map, 1});
+  BranchAndBound matcher({.grid = {.max_poses = static_cast<int>(state.range(1))}}, {s.loaded.map, 1});
   const std::vector<PlacedMap> maps = local_maps(s, static_cast<std::size_t>(state.range(0)));
   Rng rng(1);
   for ([[maybe_unused]] auto _ : state) {
@@ -73,7 +77,8 @@ void match(benchmark::State& state, const Scene& s) {
 
 void boxes(benchmark::State& state, const Scene& s) {
   std::size_t bytes = 0;
-  for ([[maybe_unused]] auto _ : state) bytes = BoxPyramid(s.map(), 0.025, 0.1, 4).memory_bytes();
+  for ([[maybe_unused]] auto _ : state)
+    bytes = BoxPyramid(BoxPyramid::Of::all_poses, s.map(), 0.025, 0.1, 4).memory_bytes();
   state.counters["MB"] = static_cast<double>(bytes) / 1e6;
 }
 

@@ -2,7 +2,7 @@
 
 #include "matchers/grid_search/branch_and_bound.hpp"
 #include "matchers/grid_search/exhaustive.hpp"
-#include "matchers/grid_search/whole_map.hpp"
+#include "matchers/grid_search/upright_branch_and_bound.hpp"
 #include "matchers/indexed_ransam/indexed_ransam.hpp"
 #include "matchers/iransac/iransac.hpp"
 #include "matchers/mcl/mcl.hpp"
@@ -36,11 +36,12 @@ void register_matchers(Catalog& catalog) {
       "triangle_ransam",
       "Random sample matching of triangles in space over a hash table, as ransam's in the plane.",
       {.contact = ContactChoice(catalog.contact_indexes)});
+  catalog.matchers.add<UprightBranchAndBound>(
+      "upright_branch_and_bound",
+      "Exact search of a grid of upright poses, as branch_and_bound's of the plane.");
+  catalog.matchers.note_counterparts("branch_and_bound", "upright_branch_and_bound");
   catalog.matchers.note_counterparts("indexed_ransam", "surfel_ransam");
   catalog.matchers.note_counterparts("ransam", "triangle_ransam");
-  catalog.verifiers.add<NoVerifier>("none", "Every pose that the verdict rule declares is declared.");
-  catalog.verifiers.add<WholeMap>(
-      "whole_map", "Branch and bound over all poses: a declared pose has no rival, or is not declared.");
 }
 
 }  // namespace glocal

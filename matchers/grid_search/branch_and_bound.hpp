@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "matchers/grid_search/contact_pyramid.hpp"
+#include "matchers/box_search/box_pyramid.hpp"
 #include "matchers/grid_search/grid_matcher.hpp"
 
 namespace glocal {
@@ -14,26 +14,23 @@ namespace glocal {
 /// distance is within half a cell's diagonal of contact_epsilon. Exact means: among all poses of the grid
 /// that bring any point and the share Omega_max into contact, none that is better than the best hypothesis
 /// has been missed, and each is within 2 candidate_distance and 2 candidate_rotation of a hypothesis at least
-/// as good; up to max_poses (search_grid).
+/// as good; up to max_poses (search_boxes).
 ///
 /// `points_tested` counts looks at a point, each of which serves 512 neighbouring translations; `proposals`
 /// the poses of the grid whose points were counted.
 class BranchAndBound final : public GridMatcher {
  public:
   using Params = GridMatching;
-  static constexpr Motions motions{.planar = true, .upright = true};
-  /// A SpaceBranchAndBound where the motion is upright.
-  [[nodiscard]] static std::unique_ptr<Matcher> make(const Params& params, const StageSetup& setup);
 
   /// Throws ConfigError where the map is too large for a contact grid, a pyramid or a distance field.
   BranchAndBound(const Params& params, const StageSetup& setup);
 
  private:
-  [[nodiscard]] GridSearchResult search(const Points& points, const Pose2& local_from_robot,
-                                        const GridSearchRule& rule) const override;
+  [[nodiscard]] BoxSearchResult search(const Points& points, const Pose3& local_from_robot,
+                                       const BoxSearchRule& rule) const override;
 
   int threads_;
-  std::shared_ptr<const ContactPyramid> pyramid_;
+  std::shared_ptr<const BoxPyramid> pyramid_;
 };
 
 }  // namespace glocal

@@ -35,7 +35,7 @@ class Candidates {
         least_after_(least_after_batches(points.size(), least)) {}
 
   [[nodiscard]] bool full() const { return size_ == MotionBatch::capacity; }
-  void add(const Transform& map_from_points, const GridPose& pose) {
+  void add(const Transform& map_from_points, const Box& pose) {
     motions_.cosine[size_] = map_from_points.cosine();
     motions_.sine[size_] = map_from_points.sine();
     motions_.x[size_] = map_from_points.x();
@@ -44,20 +44,20 @@ class Candidates {
   }
 
   /// Adds those that reach the bar, and begins anew.
-  void test(const RobotCells& robots, FoundPoses& found) {
+  void test(const RobotCells& robots, FoundPlaces& found) {
     const std::size_t n = points_.size();
     const ContactIndex::BatchColumn begins{};
     contact_.count_at_most(points_, n, motions_, size_, begins, at_most_);
     found.tested += size_;
-    found.points_tested += size_ * n;
+    found.looks += size_ * n;
     for (std::size_t i = 0; i < size_; ++i) {
       if (at_most_[i] < least_) continue;
       const auto [in_contact, looked_at] =
           contact_.count_while(points_, 0, n, batch, least_after_, motions_[i]);
-      found.points_tested += looked_at;
+      found.looks += looked_at;
       if (in_contact < least_) continue;
-      poses_[i].in_contact = in_contact;
-      glocal::add(found.best, robots.of(poses_[i]), poses_[i]);
+      poses_[i].at_middle = in_contact;
+      found.take_in(robots.of(poses_[i]), {in_contact, poses_[i]});
     }
     size_ = 0;
   }
@@ -69,51 +69,63 @@ class Candidates {
   std::vector<std::uint32_t> least_after_;
   std::size_t size_ = 0;
   MotionBatch motions_;
-  std::array<GridPose, MotionBatch::capacity> poses_{};
+  std::array<Box, MotionBatch::capacity> poses_{};
   ContactIndex::BatchColumn at_most_{};
 };
 
 }  // namespace
 
 void describe(ParamVisitor& v, Exhaustive::Params& p) {
-  describe(v, p.grid);
+  describe(v, p.matching);
   p.contact.describe_as("contact", v);
 }
 
 Exhaustive::Exhaustive(const Params& params, const StageSetup& setup)
-    : GridMatcher(params.grid, setup,
-                  contact_index(*setup.map, params.contact, setup.epsilon(params.grid.contact_epsilon))),
+    : GridMatcher(
+          params.matching, setup,
+          contact_index(*setup.map, params.contact, setup.epsilon(params.matching.grid.contact_epsilon))),
       threads_(setup.threads),
-      frame_(cell_frame(setup.map->points(), params.grid.cell, setup.epsilon(params.grid.contact_epsilon))),
-      contact_(contact_index(*setup.map, params.contact, setup.epsilon(params.grid.contact_epsilon))) {
-  check_cell(params.grid.cell, setup.epsilon(params.grid.contact_epsilon));
+      frame_(cell_frame(setup.map->points(), params.matching.grid.cell,
+                        setup.epsilon(params.matching.grid.contact_epsilon))),
+      contact_(
+          contact_index(*setup.map, params.contact, setup.epsilon(params.matching.grid.contact_epsilon))) {
+  check_cell(params.matching.grid.cell, setup.epsilon(params.matching.grid.contact_epsilon));
 }
 
-GridSearchResult Exhaustive::search(const Points& points, const Pose2& local_from_robot,
-                                    const GridSearchRule& rule) const {
-  const PoseGrid grid(points, frame_.cell, rule.min_rotation_step);
-  BestPoses best(rule, points.size());
-  for (std::size_t begin = 0; begin < grid.rotations(); begin += rotations_per_round) {
-    std::vector<FoundPoses> found(std::min(rotations_per_round, grid.rotations() - begin));
+BoxSearchResult Exhaustive::search(const Points& points, const Pose3& local_from_robot,
+                                   const BoxSearchRule& rule) const {
+  const PoseGrid grid(points, frame_, rule.min_rotation_step);
+  BestPlaces best(rule.most_places, rule.least);
+  BoxSearchResult result{.is_complete = true};
+  for (std::size_t begin = 0; begin < grid.rotations(0); begin += rotations_per_round) {
+    std::vector<FoundPlaces> found(std::min(rotations_per_round, grid.rotations(0) - begin));
     parallel_for(threads_, found.size(), [&](std::size_t i) {
-      const Pose2 at_zero = grid.pose(begin + i, 0, 0, frame_.min_x, frame_.min_y);
-      const RobotCells robots(at_zero * local_from_robot, 0.0, frame_.cell, rule);
+      const Pose2 at_zero = grid.pose(0, begin + i, 0.0, 0.0);
+      const RobotCells robots(at_zero * seen_from_above(local_from_robot), 0.0, frame_.cell,
+                              rule.cell_distance, rule.cell_rotation);
       const AllowedTranslations allowed(rule.gate, at_zero, frame_.cell);
-      found[i] = search_rotation(grid, begin + i, points, robots, allowed, best.least());
+      found[i] = search_rotation(grid, begin + i, points, robots, allowed, best.bar());
     });
-    best.add(found);
+    for (const FoundPlaces& rotation : found) {
+      result.tested += rotation.tested;
+      result.looks += rotation.looks;
+      best.add(rotation.places);
+    }
+    best.raise();
   }
-  return best.result(grid, frame_);
+  for (const auto& [bound, box] : best.falling(true))
+    result.poses.push_back({grid.pose(0, box.rotation, box.column, box.row), 0.0, bound});
+  return result;
 }
 
-FoundPoses Exhaustive::search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
-                                       const RobotCells& robots, const AllowedTranslations& allowed,
-                                       std::size_t least) const {
-  const Translations all = translations(grid.cells(rotation), frame_);
-  const Pose2 at_zero = grid.pose(rotation, 0, 0, frame_.min_x, frame_.min_y);
+FoundPlaces Exhaustive::search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
+                                        const RobotCells& robots, const AllowedTranslations& allowed,
+                                        std::size_t least) const {
+  const Translations all = grid.translations(grid.cells(0, rotation), least);
+  const Pose2 at_zero = grid.pose(0, rotation, 0.0, 0.0);
   const Transform turned(at_zero);
   Candidates candidates(*contact_, points, least);
-  FoundPoses found;
+  FoundPlaces found;
   for (int row = all.first_row; row <= all.last_row; ++row) {
     for (int column = all.first_column; column <= all.last_column; ++column) {
       if (!allowed.any(column, row)) continue;

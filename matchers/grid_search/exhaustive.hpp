@@ -4,9 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "matchers/grid_search/contact_pyramid.hpp"
+#include "matchers/box_search/allowed_translations.hpp"
+#include "matchers/box_search/best_places.hpp"
+#include "matchers/box_search/pose_boxes.hpp"
 #include "matchers/grid_search/grid_matcher.hpp"
-#include "matchers/grid_search/pose_grid.hpp"
 
 namespace glocal {
 
@@ -22,7 +23,7 @@ namespace glocal {
 class Exhaustive final : public GridMatcher {
  public:
   struct Params {
-    GridMatching grid = {};
+    GridMatching matching = {};
     ContactChoice contact = "bitset";
   };
 
@@ -30,11 +31,11 @@ class Exhaustive final : public GridMatcher {
   Exhaustive(const Params& params, const StageSetup& setup);
 
  private:
-  [[nodiscard]] GridSearchResult search(const Points& points, const Pose2& local_from_robot,
-                                        const GridSearchRule& rule) const override;
-  [[nodiscard]] FoundPoses search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
-                                           const RobotCells& robots, const AllowedTranslations& allowed,
-                                           std::size_t least) const;
+  [[nodiscard]] BoxSearchResult search(const Points& points, const Pose3& local_from_robot,
+                                       const BoxSearchRule& rule) const override;
+  [[nodiscard]] FoundPlaces search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
+                                            const RobotCells& robots, const AllowedTranslations& allowed,
+                                            std::size_t least) const;
 
   int threads_;
   CellFrame frame_;

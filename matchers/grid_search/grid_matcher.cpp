@@ -1,12 +1,12 @@
 #include "matchers/grid_search/grid_matcher.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
-
-#include "matchers/grid_search/contact_pyramid.hpp"
 
 namespace glocal {
 
-void describe(ParamVisitor& v, GridMatching& p) {
+void describe(ParamVisitor& v, GridRule& p) {
   describe_contact_epsilon(v, p.contact_epsilon);
   v.field("cell", p.cell,
           {.doc = "Translations are multiples of this; at most contact_epsilon.",
@@ -34,22 +34,29 @@ void describe(ParamVisitor& v, GridMatching& p) {
            .max = 100000,
            .audience = Audience::tuner});
   describe(v, p.candidate);
+}
+
+void describe(ParamVisitor& v, GridMatching& p) {
+  describe(v, p.grid);
   v.field("refinement", p.refinement,
           {.doc = "How poses are refined on the distance field, in the plane; without iterations they stay "
                   "on the grid.",
            .audience = Audience::expert});
 }
 
-std::size_t most_points(const GridMatching& p) {
-  return p.max_points > 0 ? static_cast<std::size_t>(p.max_points) : TileCounts::most_points;
+std::size_t GridRule::most_points() const {
+  return max_points > 0 ? static_cast<std::size_t>(max_points) : TileCounts::most_points;
 }
 
-GridSearchRule search_rule(const GridMatching& p, double omega_max, const PoseGate& gate) {
-  return {.min_quality = omega_max,
-          .min_rotation_step = radians(p.min_rotation_step_deg),
-          .distance = p.candidate.distance,
-          .rotation = radians(p.candidate.rotation_deg),
-          .max_poses = static_cast<std::size_t>(p.max_poses),
+BoxSearchRule GridRule::search_rule(double share, std::size_t points, const PoseGate& gate) const {
+  const auto n = static_cast<double>(points);
+  auto least = static_cast<std::size_t>(std::max(1.0, std::floor(share * n)));
+  while (static_cast<double>(least) / n < share) ++least;
+  return {.least = least,
+          .cell_distance = candidate.distance,
+          .cell_rotation = radians(candidate.rotation_deg),
+          .most_places = static_cast<std::size_t>(max_poses),
+          .min_rotation_step = radians(min_rotation_step_deg),
           .gate = gate};
 }
 
@@ -57,25 +64,26 @@ GridMatcher::GridMatcher(const GridMatching& params, const StageSetup& setup,
                          std::shared_ptr<const ContactIndex> contact)
     : params_(params),
       contact_(std::move(contact)),
-      refiner_(params.candidate, static_cast<std::size_t>(params.max_poses), params.refinement,
+      refiner_(params.grid.candidate, static_cast<std::size_t>(params.grid.max_poses), params.refinement,
                distance_field(*setup.map, setup.threads), contact_) {}
 
 MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
                                Rng& rng) {
   MatchResult result;
   if (local.points.empty()) return result;
-  const Points sample = sample_of(local.points, most_points(params_), rng);
+  const Points sample = sample_of(local.points, params_.grid.most_points(), rng);
   const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
-  const GridSearchResult found = search(sample, local_from_robot, search_rule(params_, omega_max, gate_));
-  result.proposals = found.tested;
-  result.points_tested = found.points_tested;
+  const BoxSearchResult search_result =
+      search(sample, local.local_from_robot, params_.grid.search_rule(omega_max, sample.size(), gate_));
+  result.proposals = search_result.tested;
+  result.points_tested = search_result.looks;
   std::vector<Candidate> candidates;
-  for (const GridSearchResult::Pose& pose : found.poses) {
+  for (const BoxSearchResult::FoundPose& pose : search_result.poses) {
     candidates.push_back(
         {pose.map_from_local, static_cast<double>(pose.in_contact) / static_cast<double>(sample.size())});
   }
-  candidates = distinct_candidates(std::move(candidates), local_from_robot, params_.candidate,
-                                   static_cast<std::size_t>(params_.max_poses));
+  candidates = distinct_candidates(std::move(candidates), local_from_robot, params_.grid.candidate,
+                                   static_cast<std::size_t>(params_.grid.max_poses));
   if (params_.refinement.iterations > 0) {
     result.points_tested += candidates.size() * local.points.size();
     candidates = refiner_.refined(std::move(candidates), local_from_robot, sample, local.points);

@@ -8,30 +8,37 @@
 #include "glocal/distance_field.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
+#include "matchers/box_search/search_boxes.hpp"
 #include "matchers/common/candidates.hpp"
-#include "matchers/grid_search/best_poses.hpp"
 
 namespace glocal {
 
-/// Which grid of poses is searched, and what becomes of the poses found.
-struct GridMatching {
+/// Which grid of poses is searched.
+struct GridRule {
   std::optional<double> contact_epsilon = {};
   double cell = 0.05;
   double min_rotation_step_deg = 0.3;
   int max_points = 200;
   int max_poses = 50;
   CandidateRule candidate = {};
+
+  /// By how many points a local map is searched for.
+  [[nodiscard]] std::size_t most_points() const;
+  /// For poses that bring this share of so many points into contact.
+  [[nodiscard]] BoxSearchRule search_rule(double share, std::size_t points, const PoseGate& gate) const;
+};
+/// Among the fields of a matcher, not in a group of their own.
+void describe(ParamVisitor& v, GridRule& p);
+
+/// Which grid of poses is searched, and what becomes of the poses found.
+struct GridMatching {
+  GridRule grid = {};
   PoseRefinement refinement = {};
 };
 void describe(ParamVisitor& v, GridMatching& p);
 
-/// By how many points a local map is searched for.
-[[nodiscard]] std::size_t most_points(const GridMatching& p);
-[[nodiscard]] GridSearchRule search_rule(const GridMatching& p, double omega_max, const PoseGate& gate);
-
-/// Matching by a search of a grid of poses. A pose of the grid turns the local map by whole steps about its
-/// middle and moves it by whole cells (PoseGrid). A local map of more than max_points is searched for by a
-/// sample of them.
+/// Matching in the plane by a search of a grid of poses (PoseGrid). A local map of more than max_points is
+/// searched for by a sample of them.
 ///
 /// Hypotheses are the distinct poses (candidates) of what was found. Refined ones, as they are by default,
 /// have left the grid, and are scored by what all points say (Omega, eq. 4); without iterations of refinement
@@ -49,8 +56,8 @@ class GridMatcher : public Matcher {
   void reset() final {}
 
  private:
-  [[nodiscard]] virtual GridSearchResult search(const Points& points, const Pose2& local_from_robot,
-                                                const GridSearchRule& rule) const = 0;
+  [[nodiscard]] virtual BoxSearchResult search(const Points& points, const Pose3& local_from_robot,
+                                               const BoxSearchRule& rule) const = 0;
 
   GridMatching params_;
   std::shared_ptr<const ContactIndex> contact_;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "matchers/grid_search/map_area.hpp"
-#include "matchers/grid_search/rival_search.hpp"
+#include "matchers/box_search/map_area.hpp"
+#include "matchers/box_search/search_boxes.hpp"
 
 namespace glocal {
 
@@ -37,7 +37,7 @@ ExactSearch::ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, doub
     : rule_(rule), most_looks_(looks_on(map, rule.max_looks)), threads_(threads), wait_(rule.after_steps) {
   if (rule.after_steps == 0) return;
   const double cell = rule.cell.value_or(automatic_box_cell(map, contact_epsilon));
-  pyramid_ = box_pyramid(map, cell, contact_epsilon, Motion::planar, threads);
+  pyramid_ = box_pyramid(BoxPyramid::Of::all_poses, map, cell, contact_epsilon, Motion::planar, threads);
 }
 
 bool ExactSearch::is_due(const std::vector<Hypothesis>& best) {
@@ -62,24 +62,21 @@ std::size_t ExactSearch::search(const Points& points, const Pose3& local_from_ro
   constexpr double lower = 0.1;
   std::size_t looks = 0;
   for (double bar = std::max(first_bar, rule_.min_contact);; bar = std::max(bar - lower, rule_.min_contact)) {
-    RivalRule rule{.most_rivals = static_cast<std::size_t>(rule_.max_poses),
-                   .most_looks = most_looks_ - looks};
-    Pose3 best_robot;
-    if (best.empty()) {
-      rule.distance = 0.0;  // nothing is near
-    } else {
-      best_robot = best.front().map_from_local * local_from_robot;
-    }
     const double least = std::max(1.0, std::ceil(bar * static_cast<double>(points.size())));
-    const RivalSearchResult found = search_rivals(*pyramid_, points, local_from_robot, best_robot,
-                                                  static_cast<std::size_t>(least), rule, gate, threads_);
-    looks += found.looks;
+    const BoxSearchRule rule{.least = static_cast<std::size_t>(least),
+                             .most_places = static_cast<std::size_t>(rule_.max_poses),
+                             .most_looks = most_looks_ - looks,
+                             .gate = gate};
+    std::optional<Exclusion> known;
+    if (!best.empty()) known = {best.front().map_from_local * local_from_robot};
+    const BoxSearchResult result = search_boxes(*pyramid_, points, local_from_robot, rule, known, threads_);
+    looks += result.looks;
     std::vector<Pose2> poses;
-    for (const RivalSearchResult::Rival& rival : found.rivals)
-      poses.push_back(seen_from_above(rival.map_from_local));
+    for (const BoxSearchResult::FoundPose& found : result.poses)
+      poses.push_back(seen_from_above(found.upright()));
     if (!poses.empty()) best = settle(poses);
     const bool is_settled = !best.empty() && best.front().score >= bar - lower;
-    if (is_settled || bar <= rule_.min_contact || !found.is_complete || looks >= most_looks_) return looks;
+    if (is_settled || bar <= rule_.min_contact || !result.is_complete || looks >= most_looks_) return looks;
   }
 }
 

@@ -12,7 +12,7 @@
 #include "glocal/params.hpp"
 #include "glocal/points.hpp"
 #include "glocal/prior.hpp"
-#include "matchers/grid_search/box_pyramid.hpp"
+#include "matchers/box_search/box_pyramid.hpp"
 
 namespace glocal {
 
@@ -29,7 +29,7 @@ struct ExactSearchRule {
 void describe(ParamVisitor& v, ExactSearchRule& p);
 
 /// Searches all poses of the plane for those with much contact, by branch and bound on boxes of poses
-/// (grid_search/rival_search.hpp), in rounds that ask for less and less.
+/// (box_search/search_boxes.hpp), in rounds that ask for less and less.
 class ExactSearch {
  public:
   /// Throws ConfigError where the map is too large for a pyramid.

@@ -90,9 +90,9 @@ class Contract : public ::testing::Test {
                                 [&](auto& p) { p.path = file_path(folder_ / "clouds/0.ply"); });
     fill<Exhaustive::Params>("matcher/exhaustive", [](auto& p) {
       // Defaults would take minutes.
-      p.grid.contact_epsilon = 0.2;
-      p.grid.cell = 0.2;
-      p.grid.min_rotation_step_deg = 2.9;
+      p.matching.grid.contact_epsilon = 0.2;
+      p.matching.grid.cell = 0.2;
+      p.matching.grid.min_rotation_step_deg = 2.9;
     });
     // So that some of the particles fit well enough after a single scan.
     fill<Mcl::Params>("matcher/mcl", [](auto& p) {
@@ -136,6 +136,7 @@ class Contract : public ::testing::Test {
                               "matcher/indexed_ransam",
                               "matcher/surfel_ransam",
                               "matcher/branch_and_bound",
+                              "matcher/upright_branch_and_bound",
                               "matcher/ransac",
                               "matcher/iransac",
                               "threshold_policy/fixed",

@@ -69,13 +69,13 @@ TEST(BranchAndBound, FindsAllPosesOfASymmetricWorld) {
 
 TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGrid) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
-  const BranchAndBound::Params params{.contact_epsilon = 0.1, .refinement = on_the_grid};
+  const BranchAndBound::Params params{.grid = {.contact_epsilon = 0.1}, .refinement = on_the_grid};
   const auto found = match(params, local).hypotheses;
   ASSERT_GT(found.size(), 1U);
   // Half a diagonal of a cell nearer or farther than epsilon is all that the grid can be wrong by.
-  const double blur = params.cell / std::sqrt(2.0) + 1e-4;
-  const auto near = contact_index(*test::small_world(), "kd_tree", *params.contact_epsilon - blur);
-  const auto far = contact_index(*test::small_world(), "kd_tree", *params.contact_epsilon + blur);
+  const double blur = params.grid.cell / std::sqrt(2.0) + 1e-4;
+  const auto near = contact_index(*test::small_world(), "kd_tree", *params.grid.contact_epsilon - blur);
+  const auto far = contact_index(*test::small_world(), "kd_tree", *params.grid.contact_epsilon + blur);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Transform pose(seen_from_above(found[i].map_from_local));
     EXPECT_GE(found[i].score, near->share(local.points, pose));
@@ -83,8 +83,8 @@ TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGri
     for (std::size_t k = 0; k < i; ++k) {
       const Pose3& a = found[i].map_from_local;
       const Pose3& b = found[k].map_from_local;
-      EXPECT_TRUE(distance(a, b) >= params.candidate.distance ||
-                  rotation_between(a, b) >= radians(params.candidate.rotation_deg));
+      EXPECT_TRUE(distance(a, b) >= params.grid.candidate.distance ||
+                  rotation_between(a, b) >= radians(params.grid.candidate.rotation_deg));
     }
   }
 }
@@ -92,7 +92,7 @@ TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGri
 TEST(BranchAndBound, RefinedOnesAreAsGoodAsAllPointsSay) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
   const auto contact = contact_index(*test::small_world(), "bitset", 0.1);
-  const auto found = match({.max_points = 40}, local).hypotheses;
+  const auto found = match({.grid = {.max_points = 40}}, local).hypotheses;
   ASSERT_FALSE(found.empty());
   for (const Hypothesis& h : found) {
     EXPECT_DOUBLE_EQ(h.quality, contact->share(local.points, Transform(seen_from_above(h.map_from_local))));
@@ -102,7 +102,8 @@ TEST(BranchAndBound, RefinedOnesAreAsGoodAsAllPointsSay) {
 TEST(BranchAndBound, OnePointFitsAllAlongTheWalls) {
   Points one;
   one.push_back({1.0F, 0.0F, 0.0F});
-  const auto found = match({.max_poses = 10, .refinement = on_the_grid}, local_of(one), 1.0).hypotheses;
+  const auto found =
+      match({.grid = {.max_poses = 10}, .refinement = on_the_grid}, local_of(one), 1.0).hypotheses;
   ASSERT_FALSE(found.empty());
   for (const Hypothesis& h : found) EXPECT_EQ(h.score, 1.0);
 }
@@ -125,12 +126,13 @@ TEST(BranchAndBound, AThresholdOfOneAsksForAllPoints) {
   EXPECT_LT(distance(all.front().map_from_local, truth), 0.2);
   LocalMap off = local_map_at(truth, 2.5);
   off.points.push_back({2.5F, 2.5F, 0.0F});  // nothing stands there
-  EXPECT_TRUE(match({.max_points = 0, .refinement = on_the_grid}, off, 1.0).hypotheses.empty());
+  EXPECT_TRUE(match({.grid = {.max_points = 0}, .refinement = on_the_grid}, off, 1.0).hypotheses.empty());
 }
 
 TEST(BranchAndBound, WithoutAThresholdAnyContactIsEnough) {
   const auto found =
-      match({.max_poses = 30, .refinement = on_the_grid}, local_map_at({2.0, 2.0, 0.0}, 2.5), 0.0).hypotheses;
+      match({.grid = {.max_poses = 30}, .refinement = on_the_grid}, local_map_at({2.0, 2.0, 0.0}, 2.5), 0.0)
+          .hypotheses;
   ASSERT_FALSE(found.empty());
   EXPECT_LE(found.size(), 30U);
   EXPECT_GT(found.back().score, 0.0);
@@ -150,9 +152,9 @@ TEST(BranchAndBound, AnswersAlikeForAnyNumberOfThreads) {
 TEST(BranchAndBound, RefusesCellsLargerThanTheEpsilonOfTheMap) {
   // Epsilon is not said, and so that of the setup: nobody could tell before the map was there.
   const StageSetup setup{.map = test::small_world(), .contact_epsilon = 0.04};
-  EXPECT_THROW(BranchAndBound({.cell = 0.05}, setup), ConfigError);
-  EXPECT_NO_THROW(BranchAndBound({.cell = 0.04}, setup));
-  EXPECT_NO_THROW(BranchAndBound({.contact_epsilon = 0.05, .cell = 0.05}, setup));
+  EXPECT_THROW(BranchAndBound({.grid = {.cell = 0.05}}, setup), ConfigError);
+  EXPECT_NO_THROW(BranchAndBound({.grid = {.cell = 0.04}}, setup));
+  EXPECT_NO_THROW(BranchAndBound({.grid = {.contact_epsilon = 0.05, .cell = 0.05}}, setup));
 }
 
 }  // namespace

@@ -64,20 +64,20 @@ TEST(Exhaustive, FindsTheBestPoseOfAllOfTheGrid) {
     local.ends = {local.points.size()};
 
     double best = 0.0;
-    const PoseGrid grid(local.points, cell, 0.1);
     const CellFrame frame = cell_frame(map, cell, epsilon);
-    for (std::size_t rotation = 0; rotation < grid.rotations(); ++rotation) {
+    const PoseGrid grid(local.points, frame, 0.1);
+    for (std::size_t rotation = 0; rotation < grid.rotations(0); ++rotation) {
       for (int row = -15; row < frame.rows + 15; ++row) {
         for (int column = -15; column < frame.columns + 15; ++column) {
-          const Pose2 pose = grid.pose(rotation, column, row, frame.min_x, frame.min_y);
+          const Pose2 pose = grid.pose(0, rotation, column, row);
           best = std::max(best, omega(map, local.points, pose, epsilon));
         }
       }
     }
-    const Exhaustive::Params params{.grid = {.contact_epsilon = epsilon,
-                                             .cell = cell,
-                                             .min_rotation_step_deg = degrees(0.1),
-                                             .refinement = on_the_grid},
+    const Exhaustive::Params params{.matching = {.grid = {.contact_epsilon = epsilon,
+                                                          .cell = cell,
+                                                          .min_rotation_step_deg = degrees(0.1)},
+                                                 .refinement = on_the_grid},
                                     .contact = "kd_tree"};
     const auto found = match<Exhaustive>(params, local, 0.1, map_of(map)).hypotheses;
     ASSERT_FALSE(found.empty());
@@ -104,23 +104,24 @@ class BesideBranchAndBound : public ::testing::TestWithParam<int> {
 
 TEST_P(BesideBranchAndBound, TheBestPosesAreEquallyGood) {
   const auto best_of = [](const MatchResult& result) { return result.hypotheses.front().score; };
-  const GridMatching grid{.contact_epsilon = 0.3, .cell = 0.15, .max_points = 60, .refinement = on_the_grid};
-  const double bounded = best_of(match<BranchAndBound>(grid, local_, 0.3, test::small_world()));
+  const GridMatching matching{.grid = {.contact_epsilon = 0.3, .cell = 0.15, .max_points = 60},
+                              .refinement = on_the_grid};
+  const double bounded = best_of(match<BranchAndBound>(matching, local_, 0.3, test::small_world()));
   // A cell is in contact as its centre is, which is half a diagonal of a cell nearer or farther than the
   // point; a voxel of the bitset as its own. Whole cells leave the grid where it is.
   const auto at = [&](double epsilon) {
-    Exhaustive::Params params{.grid = grid};
-    params.grid.contact_epsilon = epsilon;
+    Exhaustive::Params params{.matching = matching};
+    params.matching.grid.contact_epsilon = epsilon;
     return best_of(match<Exhaustive>(params, local_, 0.3, test::small_world()));
   };
-  EXPECT_GE(bounded, at(*grid.contact_epsilon - grid.cell));
-  EXPECT_LE(bounded, at(*grid.contact_epsilon + 2.0 * grid.cell));
+  EXPECT_GE(bounded, at(*matching.grid.contact_epsilon - matching.grid.cell));
+  EXPECT_LE(bounded, at(*matching.grid.contact_epsilon + 2.0 * matching.grid.cell));
 }
 
 TEST_P(BesideBranchAndBound, TheSamePoseIsBestOnceRefined) {
-  const GridMatching grid{.contact_epsilon = 0.15, .cell = 0.15, .max_points = 60};
-  const auto bounded = match<BranchAndBound>(grid, local_, 0.5, test::small_world()).hypotheses;
-  const auto all = match<Exhaustive>({.grid = grid}, local_, 0.5, test::small_world()).hypotheses;
+  const GridMatching matching{.grid = {.contact_epsilon = 0.15, .cell = 0.15, .max_points = 60}};
+  const auto bounded = match<BranchAndBound>(matching, local_, 0.5, test::small_world()).hypotheses;
+  const auto all = match<Exhaustive>({.matching = matching}, local_, 0.5, test::small_world()).hypotheses;
   ASSERT_FALSE(bounded.empty());
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all.front().quality, bounded.front().quality);
@@ -136,7 +137,7 @@ TEST(Exhaustive, AnEmptyLocalMapFitsNowhere) {
 
 TEST(Exhaustive, AnswersAlikeForAnyNumberOfThreads) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
-  const Exhaustive::Params params{.grid = {.contact_epsilon = 0.2, .cell = 0.2}};
+  const Exhaustive::Params params{.matching = {.grid = {.contact_epsilon = 0.2, .cell = 0.2}}};
   const MatchResult one = match<Exhaustive>(params, local, 0.1, test::small_world(), 1);
   const MatchResult two = match<Exhaustive>(params, local, 0.1, test::small_world(), 2);
   test::expect_same_answer(one, two);

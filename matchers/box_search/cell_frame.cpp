@@ -1,0 +1,50 @@
+#include "matchers/box_search/cell_frame.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "glocal/error.hpp"
+
+namespace glocal {
+
+void check_cell(double cell, double epsilon) {
+  if (cell <= epsilon) return;
+  throw ConfigError(
+      {{"", 0, 0,
+        fmt::format("the cell of {} m of an exact search is larger than contact_epsilon, which is "
+                    "{:.3g} m on this map; take a smaller cell or a larger contact_epsilon",
+                    cell, epsilon)}});
+}
+
+CellFrame cell_frame(const Points& map_points, double cell, double epsilon, Motion motion) {
+  const auto least = [&](const std::vector<float>& values) {
+    return *std::min_element(values.begin(), values.end()) - epsilon;
+  };
+  const auto cells = [&](const std::vector<float>& values) {
+    const double most = *std::max_element(values.begin(), values.end()) + epsilon;
+    return std::floor((most - least(values)) / cell) + 1.0;
+  };
+  const bool in_space = motion != Motion::planar;
+  const double columns = cells(map_points.x);
+  const double rows = cells(map_points.y);
+  const double layers = in_space ? cells(map_points.z) : 1.0;
+  constexpr double largest = 1024.0 * 1024.0 * 1024.0;
+  if (!(columns * rows * layers <= largest)) {
+    throw ConfigError({{"", 0, 0,
+                        fmt::format("the map is too large for a grid of cells of {} m: it would need more "
+                                    "than 1 GiB; cut the map, or take a larger cell",
+                                    cell)}});
+  }
+  return {.cell = cell,
+          .min_x = least(map_points.x),
+          .min_y = least(map_points.y),
+          .min_z = in_space ? least(map_points.z) : 0.0,
+          .columns = static_cast<int>(columns),
+          .rows = static_cast<int>(rows),
+          .layers = static_cast<int>(layers),
+          .in_space = in_space};
+}
+
+}  // namespace glocal

@@ -1,0 +1,71 @@
+// Branch and bound over boxes of poses: no pose that is good enough is missed.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "glocal/points.hpp"
+#include "glocal/pose3.hpp"
+#include "glocal/pose_tolerance.hpp"
+#include "glocal/prior.hpp"
+#include "matchers/box_search/best_places.hpp"
+#include "matchers/box_search/box_pyramid.hpp"
+#include "matchers/box_search/pose_boxes.hpp"
+
+namespace glocal {
+
+struct BoxSearchRule {
+  std::size_t least = 1;       ///< Points that must be able to be in contact; at least 1.
+  double cell_distance = 0.4;  ///< m; robot poses in a cell of this diagonal …
+  double cell_rotation = 0.2;  ///< rad; … and this size count as one.
+  std::size_t most_places = 50;
+  /// A longer search is given up. At a point, for the 512 boxes of a tile.
+  std::size_t most_looks = std::numeric_limits<std::size_t>::max();
+  double min_rotation_step = 0.005;  ///< rad; of a grid, see PoseGrid.
+  PoseGate gate = {};                ///< Only poses that it allows are searched for.
+};
+
+/// Robot poses that are not searched for: those near this one.
+struct Exclusion {
+  Pose3 map_from_robot;
+  PoseTolerance near = {};
+};
+
+struct BoxSearchResult {
+  /// The pose at the middle of the best box of a cell of robot poses.
+  struct FoundPose {
+    Pose2 map_from_local;        ///< Seen from above.
+    double z = 0.0;              ///< Of the local frame's origin in the map, m; 0 in the plane.
+    std::size_t in_contact = 0;  ///< Points that can be in contact in the cell; on a grid, that are.
+
+    [[nodiscard]] Pose3 upright() const {
+      return {{map_from_local.x, map_from_local.y, z}, turn_about_z(map_from_local.theta)};
+    }
+  };
+  std::vector<FoundPose> poses = {};  ///< At least `least`; falling contact.
+  /// No pose that was searched for has more points in contact. If nothing was found, `least` - 1.
+  std::size_t at_most = 0;
+  std::size_t tested = 0;    ///< Boxes of the lowest level whose points were counted.
+  std::size_t looks = 0;     ///< At a point, for the 512 boxes of a tile.
+  bool is_complete = false;  ///< If not, the search was given up, and says nothing.
+};
+
+/// The best places of a local map: of each cell of robot poses the best box that can bring at least `least`
+/// of the points into contact, of the pyramid's grid or of all poses. What is left out cannot reach it
+/// anywhere in its box. Of all poses, the smallest boxes are one cell wide, and their rotations move the
+/// farthest point by one. At least one point, and of more than TileCounts::most_points the search is given
+/// up.
+///
+/// Where there would be more than `most_places`, these are the best of them (any, where several are equally
+/// good as the last). As soon as so many are known, nothing that does not beat the last of them is searched.
+/// The answer does not depend on the number of threads.
+///
+/// Over a pyramid in the plane the poses are those of the plane. In space they are those at which the local
+/// frame stands upright in the map: x, y, z and yaw.
+[[nodiscard]] BoxSearchResult search_boxes(const BoxPyramid& pyramid, const Points& points,
+                                           const Pose3& local_from_robot, const BoxSearchRule& rule,
+                                           const std::optional<Exclusion>& exclusion, int threads);
+
+}  // namespace glocal

@@ -1,0 +1,306 @@
+#include "matchers/box_search/window_bits.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "matchers/box_search/window_bits.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once for each instruction set
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace glocal::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Words = hn::CappedTag<std::uint64_t, TileCounts::rows>;
+using V = hn::Vec<Words>;
+
+/// Full adder in each bit: sum + a + b = 2 * carry + sum.
+HWY_INLINE V add(V& sum, V a, V b) {
+  const V either = hn::Xor(sum, a);
+  const V carry = hn::Or(hn::And(sum, a), hn::And(either, b));
+  sum = hn::Xor(either, b);
+  return carry;
+}
+
+/// Adds the bits that eight points find to the counts of some rows of a tile (Harley and Seal's counter).
+template <class Bits>
+HWY_INLINE void add_eight(const Bits& bits, std::uint64_t* planes, std::size_t planes_size) {
+  const Words d;
+  constexpr std::size_t stride = TileCounts::rows;
+  V ones = hn::LoadU(d, planes);
+  V twos = hn::LoadU(d, planes + stride);
+  V fours = hn::LoadU(d, planes + 2 * stride);
+  V a = add(ones, bits(0), bits(1));
+  V b = add(ones, bits(2), bits(3));
+  const V c = add(twos, a, b);
+  a = add(ones, bits(4), bits(5));
+  b = add(ones, bits(6), bits(7));
+  V carry = add(fours, c, add(twos, a, b));
+  hn::StoreU(ones, d, planes);
+  hn::StoreU(twos, d, planes + stride);
+  hn::StoreU(fours, d, planes + 2 * stride);
+  for (std::size_t k = 3; k < planes_size; ++k) {
+    const V plane = hn::LoadU(d, planes + k * stride);
+    hn::StoreU(hn::Xor(plane, carry), d, planes + k * stride);
+    carry = hn::And(plane, carry);
+  }
+}
+
+/// Adds the bits found by looks [begin, begin + n), n a multiple of eight.
+void add_looks_in_vectors(const std::uint64_t* bits, const TileLooks& looks, std::size_t begin, std::size_t n,
+                          std::uint64_t* planes, std::size_t planes_size) {
+  const Words d;
+  for (std::size_t row = 0; row < TileCounts::rows; row += hn::Lanes(d)) {
+    for (std::size_t i = begin; i < begin + n; i += 8) {
+      const auto found = [&](std::size_t k) HWY_ATTR {
+        const int shift = static_cast<int>(looks.shifts[i + k]);
+        const V low = hn::ShiftRightSame(hn::LoadU(d, bits + looks.words[i + k] + row), shift);
+        const V next = hn::LoadU(d, bits + looks.next[i + k] + row);
+        return hn::Or(low, hn::ShiftLeftSame(hn::ShiftLeft<1>(next), 63 - shift));
+      };
+      add_eight(found, planes + row, planes_size);
+    }
+  }
+}
+
+/// The looks of those of n points that meet a tile; n is a multiple of every vector's length. Writes whole
+/// vectors. Returns how many they are. `layers` are looked at in space alone.
+template <bool in_space>
+HWY_INLINE std::size_t find_looks(const TileLayout& tile, const std::int32_t* columns,
+                                  const std::int32_t* rows, const std::int32_t* layers, std::size_t n,
+                                  TileLooks& looks) {
+  const hn::CappedTag<std::int32_t, 16> d;
+  const hn::Rebind<std::uint32_t, decltype(d)> words;
+  const BitsLayout& bits = tile.bits;
+  const auto low_bits = hn::Set(d, (1 << bits.level) - 1);
+  const auto within = [&](auto value, std::int32_t last) HWY_ATTR {
+    return hn::And(hn::Gt(value, hn::Set(d, -1)), hn::Lt(value, hn::Set(d, last + 1)));
+  };
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const auto x = hn::Add(hn::LoadU(d, columns + i), hn::Set(d, tile.column));
+    const auto y = hn::Add(hn::LoadU(d, rows + i), hn::Set(d, tile.row));
+    const auto first = hn::Add(hn::ShiftRightSame(x, bits.level), hn::Set(d, TileCounts::columns));
+    const auto line = hn::Add(hn::ShiftRightSame(y, bits.level), hn::Set(d, TileCounts::rows));
+    auto phase = hn::Or(hn::ShiftLeftSame(hn::And(y, low_bits), bits.level), hn::And(x, low_bits));
+    auto meets = hn::And(within(first, bits.last_column), within(line, bits.last_row));
+    if constexpr (in_space) {
+      const auto layer = hn::Add(hn::LoadU(d, layers + i), hn::Set(d, tile.layer));
+      phase = hn::Or(hn::ShiftLeftSame(layer, 2 * bits.level), phase);
+      meets = hn::And(meets, within(layer, tile.last_layer));
+    }
+    if (hn::AllFalse(d, meets)) continue;
+    const auto column = hn::Add(hn::Mul(phase, hn::Set(d, bits.words)), hn::ShiftRight<6>(first));
+    const auto block = hn::Add(hn::Mul(column, hn::Set(d, bits.row_blocks)), hn::ShiftRight<5>(line));
+    // Of points that do not meet the tile, those of the first.
+    const auto place = hn::IfThenElseZero(meets, block);
+    const auto row = hn::BitCast(words, hn::And(line, hn::Set(d, BitsLayout::block_rows - 1)));
+    const auto word = hn::Add(hn::GatherIndex(words, tile.blocks, place), row);
+    const auto next = hn::Add(hn::GatherIndex(words, tile.blocks + bits.row_blocks, place), row);
+    const auto found = hn::RebindMask(words, meets);
+    hn::CompressStore(hn::BitCast(words, hn::And(first, hn::Set(d, 63))), found, words,
+                      looks.shifts.data() + size);
+    hn::CompressStore(next, found, words, looks.next.data() + size);
+    size += hn::CompressStore(word, found, words, looks.words.data() + size);
+  }
+  return size;
+}
+
+std::size_t find_looks_in_plane(const TileLayout& tile, const std::int32_t* columns, const std::int32_t* rows,
+                                std::size_t n, TileLooks& looks) {
+  return find_looks<false>(tile, columns, rows, nullptr, n, looks);
+}
+
+std::size_t find_looks_in_space(const TileLayout& tile, const std::int32_t* columns, const std::int32_t* rows,
+                                const std::int32_t* layers, std::size_t n, TileLooks& looks) {
+  return find_looks<true>(tile, columns, rows, layers, n, looks);
+}
+
+}  // namespace
+}  // namespace glocal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace glocal {
+
+HWY_EXPORT(add_looks_in_vectors);
+HWY_EXPORT(find_looks_in_plane);
+HWY_EXPORT(find_looks_in_space);
+
+namespace {
+
+constexpr int word_bits = 64;
+/// Points and looks come in multiples of this: a vector of the widest instruction set.
+constexpr std::size_t lanes = 16;
+/// So many looks are added at once.
+constexpr std::size_t at_a_time = 8;
+constexpr std::size_t block_words = BitsLayout::block_rows + TileCounts::rows;
+
+int low_bits(int value, int n) {
+  return value & ((1 << n) - 1);
+}
+
+}  // namespace
+
+void CellPoints::push_back(std::int32_t column, std::int32_t row, std::int32_t layer) {
+  constexpr std::int32_t far_away = -(1 << 29);
+  if (size_ == columns_.size()) {
+    columns_.resize(size_ + lanes, far_away);
+    rows_.resize(size_ + lanes, far_away);
+    layers_.resize(size_ + lanes, far_away);
+  }
+  columns_[size_] = column;
+  rows_[size_] = row;
+  layers_[size_] = layer;
+  ++size_;
+}
+
+void TileCounts::clear() {
+  planes_.assign(3, {});
+  largest_ = 0;
+  points_ = 0;
+}
+
+std::size_t TileCounts::at(int column, int row) const {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    count |= (planes_[k][static_cast<std::size_t>(row)] >> column & 1U) << k;
+  }
+  return count;
+}
+
+void TileCounts::find_largest() {
+  Mask nodes;
+  nodes.fill(~std::uint64_t{0});
+  largest_ = 0;
+  for (std::size_t k = planes_.size(); k-- > 0;) {
+    Mask with_bit;
+    std::uint64_t any = 0;
+    for (std::size_t row = 0; row < rows; ++row) any |= with_bit[row] = nodes[row] & planes_[k][row];
+    if (any == 0) continue;
+    nodes = with_bit;
+    largest_ |= std::size_t{1} << k;
+  }
+}
+
+TileCounts::Mask TileCounts::at_least(std::size_t count) const {
+  Mask nodes;
+  nodes.fill(count >> planes_.size() == 0 ? ~std::uint64_t{0} : 0);
+  // From the lowest bit on: whether the bits so far are at least those of `count`.
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const bool needed = (count >> k & 1U) != 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      nodes[row] = needed ? nodes[row] & planes_[k][row] : nodes[row] | planes_[k][row];
+    }
+  }
+  return nodes;
+}
+
+LayerBits::LayerBits(int level, const Windows& windows) {
+  const int columns = static_cast<int>(windows.width) - windows.before;
+  const int rows = static_cast<int>(windows.height) - windows.before;
+  // A tile may begin a whole tile before the first windows and end as far behind the last.
+  const int last_column = ((columns - 1) >> level) + TileCounts::columns;
+  const int last_row = ((rows - 1) >> level) + TileCounts::rows;
+  layout_ = {.level = level,
+             .words = last_column / word_bits + 2,
+             .row_blocks = last_row / BitsLayout::block_rows + 1,
+             .last_column = last_column,
+             .last_row = last_row};
+  numbers_.resize(static_cast<std::size_t>(layout_.words * layout_.row_blocks) << (2 * level));
+  for (int row = -windows.before; row < rows; ++row) {
+    const std::uint8_t* line = windows.at(0, row);
+    const std::uint8_t* end = line + columns;
+    for (const std::uint8_t* next = next_set(line - windows.before, end); next != end;
+         next = next_set(next + 1, end))
+      set(static_cast<int>(next - line), row);
+  }
+}
+
+void LayerBits::set(int column, int row) {
+  const int level = layout_.level;
+  const int phase = low_bits(row, level) << level | low_bits(column, level);
+  const int bit = (column >> level) + TileCounts::columns;
+  const int line = (row >> level) + TileCounts::rows;
+  const int in_block = low_bits(line, std::bit_width(unsigned{BitsLayout::block_rows - 1}));
+  const auto place = static_cast<std::size_t>((phase * layout_.words + bit / word_bits) * layout_.row_blocks +
+                                              line / BitsLayout::block_rows);
+  const std::uint64_t mask = std::uint64_t{1} << static_cast<unsigned>(bit % word_bits);
+  block(place)[in_block] |= mask;
+  if (in_block < TileCounts::rows && line >= BitsLayout::block_rows)
+    block(place - 1)[BitsLayout::block_rows + in_block] |= mask;
+}
+
+std::uint64_t* LayerBits::block(std::size_t place) {
+  if (numbers_[place] == 0) {
+    words_.resize(words_.size() + block_words);
+    numbers_[place] = static_cast<std::uint32_t>(words_.size() / block_words);
+  }
+  return &words_[(numbers_[place] - 1) * block_words];
+}
+
+WindowBits::WindowBits(std::vector<LayerBits> layers, int layers_before, bool in_space)
+    : layout_(layers.front().layout_),
+      layers_before_(layers_before),
+      last_layer_(static_cast<std::int32_t>(layers.size()) - 1),
+      in_space_(in_space) {
+  std::size_t words = block_words;
+  for (const LayerBits& layer : layers) words += layer.words_.size();
+  bits_.reserve(words);
+  bits_.resize(block_words);
+  blocks_.reserve(layers.size() * layers.front().numbers_.size());
+  for (LayerBits& layer : layers) {
+    const std::size_t before = bits_.size() - block_words;
+    for (const std::uint32_t number : layer.numbers_)
+      blocks_.push_back(number == 0 ? 0 : static_cast<std::uint32_t>(before + number * block_words));
+    bits_.insert(bits_.end(), layer.words_.begin(), layer.words_.end());
+    layer.words_ = {};  // or it would all be there twice
+  }
+}
+
+std::size_t WindowBits::find(const CellPoints& points, int column, int row, int layer,
+                             TileLooks& looks) const {
+  const std::size_t padded = points.columns_.size();
+  for (std::vector<std::uint32_t>* each : {&looks.words, &looks.next, &looks.shifts})
+    each->resize(padded + lanes);
+  const TileLayout tile{.bits = layout_,
+                        .column = column,
+                        .row = row,
+                        .layer = layer + layers_before_,
+                        .last_layer = last_layer_,
+                        .blocks = blocks_.data()};
+  const std::int32_t* columns = points.columns_.data();
+  const std::int32_t* rows = points.rows_.data();
+  const std::size_t n = in_space_
+                            ? HWY_DYNAMIC_DISPATCH(find_looks_in_space)(tile, columns, rows,
+                                                                        points.layers_.data(), padded, looks)
+                            : HWY_DYNAMIC_DISPATCH(find_looks_in_plane)(tile, columns, rows, padded, looks);
+  for (std::vector<std::uint32_t>* each : {&looks.words, &looks.next, &looks.shifts})
+    std::fill_n(each->begin() + static_cast<std::ptrdiff_t>(n), at_a_time, 0);  // nothing in the first block
+  return n;
+}
+
+std::size_t WindowBits::add(const CellPoints& points, int column, int row, int layer, std::size_t least,
+                            std::size_t behind, TileCounts& counts) const {
+  TileLooks& looks = counts.looks_;
+  const std::size_t n = find(points, column, row, layer, looks);
+  counts.points_ += n;
+  counts.planes_.resize(
+      std::max(counts.planes_.size(), static_cast<std::size_t>(std::bit_width(counts.points_))));
+  constexpr std::size_t stretch = 64;
+  std::size_t looked_at = 0;
+  while (looked_at < n && counts.largest() + (n - looked_at) + behind >= least) {
+    const std::size_t now = std::min(stretch, n - looked_at);
+    HWY_DYNAMIC_DISPATCH(add_looks_in_vectors)
+    (bits_.data(), looks, looked_at, (now + at_a_time - 1) / at_a_time * at_a_time,
+     counts.planes_.front().data(), counts.planes_.size());
+    counts.find_largest();
+    looked_at += now;
+  }
+  return looked_at;
+}
+
+}  // namespace glocal
+#endif

@@ -1,0 +1,46 @@
+#include "matchers/grid_search/upright_branch_and_bound.hpp"
+
+#include <algorithm>
+
+#include "matchers/box_search/search_boxes.hpp"
+
+namespace glocal {
+
+UprightBranchAndBound::UprightBranchAndBound(const Params& params, const StageSetup& setup)
+    : params_(params),
+      threads_(setup.threads),
+      contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
+      pyramid_(box_pyramid(BoxPyramid::Of::pose_grid, *setup.map, params.cell,
+                           setup.epsilon(params.contact_epsilon), setup.motion, setup.threads)) {}
+
+MatchResult UprightBranchAndBound::match(const LocalMap& local, const Observation& /*latest*/,
+                                         double omega_max, Rng& rng) {
+  MatchResult result;
+  if (local.points.empty()) return result;
+  const Points sample = sample_of(local.points, params_.most_points(), rng);
+  const BoxSearchResult search_result =
+      search_boxes(*pyramid_, sample, local.local_from_robot,
+                   params_.search_rule(omega_max, sample.size(), gate_), std::nullopt, threads_);
+  result.proposals = search_result.tested;
+  result.points_tested = search_result.looks;
+  for (const BoxSearchResult::FoundPose& pose : search_result.poses) {
+    const Pose3 map_from_local = pose.upright();
+    const Pose3 robot = map_from_local * local.local_from_robot;
+    // Neighbours of a better pose that lie in another cell of robot poses.
+    const bool is_known =
+        std::any_of(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
+          const Pose3 other = h.map_from_local * local.local_from_robot;
+          return is_same_candidate(robot, other, params_.candidate);
+        });
+    if (is_known) continue;
+    const double omega = contact_->share(local.points, map_from_local);
+    result.points_tested += local.points.size();
+    result.hypotheses.push_back(
+        {.map_from_local = map_from_local,
+         .quality = omega,
+         .score = static_cast<double>(pose.in_contact) / static_cast<double>(sample.size())});
+  }
+  return result;
+}
+
+}  // namespace glocal

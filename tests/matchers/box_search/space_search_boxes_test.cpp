@@ -1,0 +1,234 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "matchers/box_search/rooms_in_space.hpp"
+#include "matchers/box_search/search_boxes.hpp"
+
+namespace glocal::space_search_boxes_test {
+namespace {
+
+using namespace test::rooms_in_space;
+
+constexpr double cell = 0.1;
+constexpr double epsilon = 0.2;
+
+/// Points nearer to one of the map than this, each looked at.
+std::size_t brute_count(const Points& map, const Points& points, const Pose3& map_from_local, double near) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3 p = map_from_local * Vector3{points.x[i], points.y[i], points.z[i]};
+    bool found = false;
+    for (std::size_t k = 0; k < map.size() && !found; ++k) {
+      const double dx = map.x[k] - p.x;
+      const double dy = map.y[k] - p.y;
+      const double dz = map.z[k] - p.z;
+      found = dx * dx + dy * dy + dz * dz <= near * near;
+    }
+    n += found ? 1 : 0;
+  }
+  return n;
+}
+
+BoxPyramid pyramid_of(const Points& map, int threads = 1) {
+  constexpr auto all_poses = BoxPyramid::Of::all_poses;
+  return {all_poses, map, cell, epsilon, BoxPyramid::default_top_level(all_poses), threads, Motion::upright};
+}
+
+/// All poses but those near this one.
+BoxSearchResult search(const BoxPyramid& pyramid, const Points& points, const Pose3& map_from_declared,
+                       const BoxSearchRule& rule, int threads = 1) {
+  return search_boxes(pyramid, points, local_from_robot, rule, Exclusion{map_from_declared}, threads);
+}
+
+/// An upright pose of a box, turned about the middle of the points.
+Pose3 somewhere_in_box(const PoseBoxes& boxes, const CellFrame& frame, int level, std::size_t rotation,
+                       double first_column, double first_row, int layer, Rng& rng) {
+  const Pose2 middle = boxes.pose(level, rotation, 0.0, 0.0);
+  const double angle = rng.uniform(-1.0, 1.0) * boxes.half_width(level);
+  const Pose2 at_zero{frame.min_x, frame.min_y, 0.0};
+  const Pose2 turned = at_zero * Pose2{0.0, 0.0, angle} * inverse(at_zero) * middle;
+  const int size = 1 << level;
+  const double height = AllPoses::layers_of_box(level, frame) * (layer + rng.uniform());
+  return {{turned.x + cell * (first_column + rng.uniform() * size),
+           turned.y + cell * (first_row + rng.uniform() * size), boxes.height(height)},
+          turn_about_z(turned.theta)};
+}
+
+TEST(BoxPyramidInSpace, BoundsEveryPoseOfABoxAndNotByMuchMore) {
+  Rng rng(1);
+  const Points map = random_points(rng, 300, 7.0, 5.0, 3.0);
+  const BoxPyramid pyramid = pyramid_of(map);
+  TileCounts counts;
+  std::size_t poses_with_contact = 0;
+  for (int i = 0; i < 120; ++i) {
+    const Points points = random_points(rng, 40, 3.0, 2.0, 2.0);
+    const AllPoses boxes(points, pyramid.frame(), pyramid.top_level());
+    const int level = static_cast<int>(rng.below(4));
+    const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(level)));
+    const int size = 1 << level;
+    const int column = static_cast<int>(rng.below(80)) - 40 * size;
+    const int row = static_cast<int>(rng.below(60)) - 4 * size;
+    const int high = AllPoses::layers_of_box(level, pyramid.frame());
+    const int layer = (static_cast<int>(rng.below(35)) - 15) / high;
+    pyramid.count(level, boxes.cells(level, rotation), column, row, high * layer, 0, counts);
+    for (int k = 0; k < 60; ++k) {
+      const int node_column = static_cast<int>(rng.below(TileCounts::columns));
+      const int node_row = static_cast<int>(rng.below(TileCounts::rows));
+      const double first_column = column + node_column * size;
+      const double first_row = row + node_row * size;
+      const Pose3 pose =
+          somewhere_in_box(boxes, pyramid.frame(), level, rotation, first_column, first_row, layer, rng);
+      const std::size_t contact = brute_count(map, points, pose, epsilon);
+      ASSERT_LE(contact, counts.at(node_column, node_row));
+      poses_with_contact += contact > 0 ? 1 : 0;
+      if (level > 0) continue;
+      const Pose2 above = boxes.pose(0, rotation, first_column + 0.5, first_row + 0.5);
+      const Pose3 centre({above.x, above.y, boxes.height(layer + 0.5)}, turn_about_z(above.theta));
+      ASSERT_LE(counts.at(node_column, node_row),
+                brute_count(map, points, centre, epsilon + pyramid.delta() + 1e-6));
+    }
+  }
+  EXPECT_GT(poses_with_contact, 1000U);  // or there was nothing to be bounded
+}
+
+TEST(BoxPyramidInSpace, ClustersBoundEveryPoseOfABox) {
+  Rng rng(5);
+  const Points map = room(0.0, 0.0, 0.0, true);
+  const BoxPyramid pyramid = pyramid_of(map);
+  const int top = pyramid.top_level();
+  const Points points = room(-2.0, -1.5, -1.0, true);
+  const AllPoses boxes(points, pyramid.frame(), top);
+  const std::size_t loose = boxes.points_without_cluster();
+  ASSERT_LT(loose, points.size() / 5);
+  TileCounts counts;
+  std::size_t bounded = 0;
+  for (int i = 0; i < 20; ++i) {
+    const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(top)));
+    const int column = static_cast<int>(rng.below(60)) - 250;
+    const int row = static_cast<int>(rng.below(40)) - 30;
+    const int layer = static_cast<int>(rng.below(9));
+    pyramid.count(top, boxes.cluster_cells(rotation), column, row, boxes.layers_of_box(top) * layer, 0,
+                  counts);
+    for (int k = 0; k < 10; ++k) {
+      const int node_column = static_cast<int>(rng.below(TileCounts::columns));
+      const int node_row = static_cast<int>(rng.below(TileCounts::rows));
+      const Pose3 pose =
+          somewhere_in_box(boxes, pyramid.frame(), top, rotation, column + node_column * (1 << top),
+                           row + node_row * (1 << top), layer, rng);
+      const std::size_t at_most = loose + AllPoses::cluster_size * counts.at(node_column, node_row);
+      ASSERT_LE(brute_count(map, points, pose, epsilon), at_most);
+      bounded += at_most < points.size() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(bounded, 100U);  // or the clusters say nothing
+}
+
+TEST(BoxPyramidInSpace, IsTheSameForAnyNumberOfThreads) {
+  const Points map = room(0.0, 0.0, 0.0, true);
+  const Points points = seen_in_room();
+  const BoxPyramid one = pyramid_of(map, 1);
+  const BoxPyramid two = pyramid_of(map, 2);
+  const AllPoses boxes(points, one.frame(), one.top_level());
+  TileCounts by_one, by_two;
+  EXPECT_EQ(one.memory_bytes(), two.memory_bytes());
+  for (int level = 0; level <= one.top_level(); ++level) {
+    one.count(level, boxes.cells(level, 3), -10, -10, 4, 0, by_one);
+    two.count(level, boxes.cells(level, 3), -10, -10, 4, 0, by_two);
+    for (int row = 0; row < TileCounts::rows; ++row) {
+      for (int column = 0; column < TileCounts::columns; ++column)
+        ASSERT_EQ(by_one.at(column, row), by_two.at(column, row));
+    }
+  }
+}
+
+TEST(SearchBoxesInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
+  const Points map = two_rooms();
+  const Points points = seen_in_room();
+  const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0) * local_from_robot;
+  const auto found =
+      search(pyramid_of(map), points, declared, {.least = points.size() * 7 / 10, .most_places = 20});
+  ASSERT_TRUE(found.is_complete);
+  ASSERT_LT(found.at_most, points.size());
+  Rng rng(4);
+  std::size_t best = 0;
+  const auto look_at = [&](const Pose3& map_from_local) {
+    const Pose3 robot = map_from_local * local_from_robot;
+    if (distance(robot, declared) <= 1.0 && rotation_between(robot, declared) <= radians(30.0)) return;
+    const std::size_t contact = brute_count(map, points, map_from_local, epsilon);
+    best = std::max(best, contact);
+    ASSERT_LE(contact, found.at_most);
+  };
+  const auto turn = [&](double most) { return turn_about_z(rng.uniform(-most, most)); };
+  const auto up_to = [&](double most) { return rng.uniform(-most, most); };
+  for (int i = 0; i < 1500; ++i)
+    look_at(
+        {{rng.uniform(-1.0, 11.0), rng.uniform(-1.0, 5.0), rng.uniform(-1.0, 3.0)}, turn(std::numbers::pi)});
+  // Close to the best ones, and to the edge of the neighbourhood, above and below it, too.
+  ASSERT_FALSE(found.poses.empty());
+  for (int i = 0; i < 600; ++i) {
+    const Pose3 near = found.poses[rng.below(static_cast<std::uint32_t>(found.poses.size()))].upright();
+    look_at({near.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}, turn(0.05) * near.rotation});
+    const Vector3 way{up_to(1.0), up_to(1.0), up_to(1.0)};
+    const Pose3 robot({declared.translation() + (rng.uniform(1.0, 1.1) / norm(way)) * way},
+                      turn(0.05) * declared.rotation);
+    look_at(robot * inverse(local_from_robot));
+    const Pose3 turned({declared.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}},
+                       turn_about_z(radians(rng.uniform(30.0, 34.0))) * declared.rotation);
+    look_at(turned * inverse(local_from_robot));
+  }
+  // Nor is what it says far from the truth.
+  EXPECT_GT(best, found.at_most * 2 / 3);
+}
+
+TEST(SearchBoxesInSpace, WhatIsNearTheDeclaredPoseIsNoRivalButWhatIsAboveItIs) {
+  // What is seen of one floor is seen of the other.
+  Points map = room(0.0, 0.0, 0.0, true);
+  const BoxPyramid one_floor = pyramid_of(map);
+  add(map, room(0.0, 0.0, 2.6, true));
+  const Points points = seen_in_room();
+  const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0) * local_from_robot;
+  const std::size_t least = points.size() * 98 / 100;
+  const auto none = search(one_floor, points, declared, {.least = least});
+  EXPECT_TRUE(none.poses.empty());
+  EXPECT_EQ(none.at_most, least - 1);
+  const auto found = search(pyramid_of(map), points, declared, {.least = least});
+  ASSERT_FALSE(found.poses.empty());
+  EXPECT_NEAR(found.poses.front().z, map_from_local_in(0.0, 0.0, 2.6).z, 0.2);
+  EXPECT_EQ(found.at_most, points.size());
+}
+
+TEST(SearchBoxesInSpace, LooksOnlyWhereAPriorAllows) {
+  Points map = room(0.0, 0.0, 0.0, true);
+  add(map, room(7.0, 2.0, 1.0, true));
+  const BoxPyramid pyramid = pyramid_of(map);
+  const Points points = seen_in_room();
+  const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0);
+  const auto rivals = [&](double x, double y) {
+    const Prior prior{.region = {.x = x, .y = y, .radius = 3.0}, .heading = {}};
+    const BoxSearchRule rule{.least = points.size() * 98 / 100, .gate = PoseGate(prior, Pose3{})};
+    return search_boxes(pyramid, points, {}, rule, Exclusion{declared}, 1).poses;
+  };
+  EXPECT_TRUE(rivals(2.0, 1.5).empty());
+  EXPECT_FALSE(rivals(9.0, 3.5).empty());
+}
+
+TEST(SearchBoxesInSpace, AnswersAlikeForAnyNumberOfThreads) {
+  const BoxPyramid pyramid = pyramid_of(two_rooms());
+  const Points points = seen_in_room();
+  const Pose3 declared = map_from_local_in(0.0, 0.0, 0.0);
+  const BoxSearchRule rule{.least = points.size() * 7 / 10};
+  const auto one = search(pyramid, points, declared, rule, 1);
+  const auto two = search(pyramid, points, declared, rule, 2);
+  EXPECT_EQ(one.looks, two.looks);
+  EXPECT_EQ(one.at_most, two.at_most);
+  ASSERT_FALSE(one.poses.empty());
+  ASSERT_EQ(one.poses.size(), two.poses.size());
+  for (std::size_t i = 0; i < one.poses.size(); ++i)
+    EXPECT_EQ(one.poses[i].upright(), two.poses[i].upright());
+}
+
+}  // namespace
+}  // namespace glocal::space_search_boxes_test

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "matchers/box_search/rooms_in_space.hpp"
+#include "verifiers/contact_climb.hpp"
+#include "verifiers/whole_map.hpp"
+
+namespace glocal::whole_map_in_space_test {
+namespace {
+
+using namespace test::rooms_in_space;
+
+constexpr double epsilon = 0.2;
+
+TEST(ContactClimb, FindsTheSummitNearby) {
+  const Points map = room(0.0, 0.0, 0.0, true);
+  const BitsetContact contact(map, epsilon);
+  const Points points = seen_in_room();
+  const Pose3 summit = map_from_local_in(0.0, 0.0, 0.0);
+  const Pose3 beside(summit.translation() + Vector3{0.25, -0.2, 0.25}, turn_about_z(0.06) * summit.rotation);
+  ASSERT_LT(contact.share(points, beside), 0.8);
+  const Pose3 found = climbed_pose(contact, points, beside, 0.1);
+  EXPECT_GT(contact.share(points, found), 0.99);
+  EXPECT_LT(distance(found, summit), epsilon);
+  EXPECT_EQ(found.tilt(), 0.0);
+}
+
+Verification verification(const Points& map, const Pose3& map_from_local) {
+  MapData data;
+  data.points = map;
+  WholeMap verifier({.contact_epsilon = epsilon},
+                    {.map = std::make_shared<const GlobalMap>(std::move(data)), .motion = Motion::upright});
+  LocalMap local;
+  local.points = seen_in_room();
+  local.ends = {local.points.size()};
+  local.local_from_robot = local_from_robot;
+  return verifier.verify(local, map_from_local, {});
+}
+
+TEST(WholeMapInSpace, CertifiesAPoseWithoutEqual) {
+  const auto found = verification(two_rooms(), map_from_local_in(0.0, 0.0, 0.0));
+  ASSERT_TRUE(found.certificate);
+  EXPECT_EQ(found.certificate->contact, 1.0);
+  EXPECT_LT(found.certificate->at_most, 1.0);
+  EXPECT_GE(found.certificate->at_most, 0.9);
+  EXPECT_DOUBLE_EQ(found.certificate->epsilon, epsilon);
+  EXPECT_NEAR(found.certificate->delta, 0.1 * std::sqrt(4.0 + 4.0 + 2.25), 1e-9);
+  for (const Hypothesis& rival : found.rivals) EXPECT_LT(rival.quality, 1.0);
+}
+
+TEST(WholeMapInSpace, BoxesAreLargerOnMapsOfVeryManyCells) {
+  Points map = room(0.0, 0.0, 0.0, true);
+  map.push_back(point(80.0, 80.0, 80.0));
+  const auto found = verification(map, map_from_local_in(0.0, 0.0, 0.0));
+  ASSERT_TRUE(found.certificate);
+  EXPECT_NEAR(found.certificate->delta, 0.2 * std::sqrt(4.0 + 4.0 + 2.25), 1e-9);
+}
+
+TEST(WholeMapInSpace, BringsTheRoomThatLooksAlike) {
+  Points map = room(0.0, 0.0, 0.0, true);
+  const Pose3 other_from_room({8.13, 2.07, 1.45}, turn_about_z(2.0));
+  add(map, moved(room(0.0, 0.0, 0.0, true), other_from_room));
+  const auto found = verification(map, map_from_local_in(0.0, 0.0, 0.0));
+  ASSERT_TRUE(found.certificate);
+  EXPECT_EQ(found.certificate->at_most, 1.0);
+  ASSERT_FALSE(found.rivals.empty());
+  const Hypothesis& rival = found.rivals.front();
+  const Pose3 truth = other_from_room * map_from_local_in(0.0, 0.0, 0.0);
+  EXPECT_LT(distance(rival.map_from_local, truth), epsilon);
+  EXPECT_LT(rotation_between(rival.map_from_local, truth), radians(5.0));
+  EXPECT_GT(rival.quality, 0.98);
+  EXPECT_EQ(rival.score, rival.quality);
+}
+
+}  // namespace
+}  // namespace glocal::whole_map_in_space_test

@@ -1,0 +1,102 @@
+#include "verifiers/whole_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace glocal::whole_map_test {
+namespace {
+
+/// An L of walls: where its corner is, and how it lies, is plain to see.
+Points corner(float x0, float y0) {
+  Points points;
+  for (int i = 0; i < 60; ++i) {
+    const float along = 0.05F * static_cast<float>(i);
+    points.push_back({x0 + along, y0, 0.0F});
+    if (i < 40) points.push_back({x0, y0 + along, 0.0F});
+  }
+  return points;
+}
+
+std::shared_ptr<const GlobalMap> map_of(const std::vector<Points>& parts) {
+  MapData data;
+  for (const Points& part : parts) {
+    for (std::size_t i = 0; i < part.size(); ++i) data.points.push_back(part[i]);
+  }
+  return std::make_shared<const GlobalMap>(std::move(data));
+}
+
+/// What a robot 1 m before both walls of a corner sees.
+LocalMap before_a_corner() {
+  LocalMap local;
+  local.points = corner(-1.0F, -1.0F);
+  local.ends = {local.points.size()};
+  return local;
+}
+
+Verification verification(const std::shared_ptr<const GlobalMap>& map, const Pose2& declared,
+                          const PoseGate& gate = {}) {
+  WholeMap verifier({}, StageSetup{.map = map});
+  return verifier.verify(before_a_corner(), Pose3(declared), gate);
+}
+
+TEST(WholeMap, CertifiesAPoseWithoutEqual) {
+  const auto found = verification(map_of({corner(0.0F, 0.0F)}), {1.0, 1.0, 0.0});
+  ASSERT_TRUE(found.certificate);
+  EXPECT_EQ(found.certificate->contact, 1.0);
+  EXPECT_LT(found.certificate->at_most, 1.0);
+  EXPECT_GE(found.certificate->at_most, 0.89);
+  EXPECT_DOUBLE_EQ(found.certificate->epsilon, 0.1);
+  EXPECT_GT(found.certificate->delta, 0.0);
+  EXPECT_GT(found.points_tested, 0U);
+  for (const Hypothesis& rival : found.rivals) EXPECT_LT(rival.quality, found.certificate->contact);
+}
+
+TEST(WholeMap, BringsTheOtherCorner) {
+  const auto found = verification(map_of({corner(0.0F, 0.0F), corner(7.03F, 4.01F)}), {1.0, 1.0, 0.0});
+  ASSERT_FALSE(found.rivals.empty());
+  const Hypothesis& rival = found.rivals.front();
+  EXPECT_NEAR(rival.map_from_local.x, 8.03, 0.1);
+  EXPECT_NEAR(rival.map_from_local.y, 5.01, 0.1);
+  EXPECT_EQ(rival.quality, 1.0);
+  EXPECT_EQ(rival.score, 1.0);
+  ASSERT_TRUE(found.certificate);
+  EXPECT_EQ(found.certificate->at_most, 1.0);
+}
+
+TEST(WholeMap, BringsEachRivalOnce) {
+  // The other corner's surroundings fit, too, if less well, and lead to the same pose.
+  const auto found = verification(map_of({corner(0.0F, 0.0F), corner(7.03F, 4.01F)}), {1.0, 1.0, 0.0});
+  for (std::size_t i = 0; i < found.rivals.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Pose3& a = found.rivals[i].map_from_local;
+      const Pose3& b = found.rivals[k].map_from_local;
+      EXPECT_TRUE(distance(a, b) >= 0.4 || rotation_between(a, b) >= radians(11.5)) << i << " and " << k;
+    }
+  }
+}
+
+TEST(WholeMap, RivalsOutsideOfAPriorAreNone) {
+  const Prior prior{.region = {.x = 1.0, .y = 1.0, .radius = 2.0}, .heading = {}};
+  const auto found = verification(map_of({corner(0.0F, 0.0F), corner(7.0F, 4.0F)}), {1.0, 1.0, 0.0},
+                                  PoseGate(prior, Pose3{}));
+  for (const Hypothesis& rival : found.rivals) EXPECT_LT(rival.map_from_local.x, 3.0);
+}
+
+TEST(WholeMap, BoxesAreLargerOnLargeMaps) {
+  const auto delta_with = [](float width) {
+    return verification(map_of({corner(0.0F, 0.0F), corner(width, width)}), {1.0, 1.0, 0.0})
+        .certificate->delta;
+  };
+  EXPECT_NEAR(delta_with(100.0F), 2.0 * std::sqrt(2.0) * 0.025, 1e-9);
+  EXPECT_NEAR(delta_with(200.0F), 2.0 * std::sqrt(2.0) * 0.05, 1e-9);
+  EXPECT_NEAR(delta_with(600.0F), 2.0 * std::sqrt(2.0) * 0.1, 1e-9);
+}
+
+TEST(NoVerifier, VerifiesNothing) {
+  NoVerifier verifier({});
+  EXPECT_FALSE(verifier.verifies());
+}
+
+}  // namespace
+}  // namespace glocal::whole_map_test

@@ -1,0 +1,13 @@
+#include "verifiers/register.hpp"
+
+#include "verifiers/whole_map.hpp"
+
+namespace glocal {
+
+void register_verifiers(Catalog& catalog) {
+  catalog.verifiers.add<NoVerifier>("none", "Every pose that the verdict rule declares is declared.");
+  catalog.verifiers.add<WholeMap>(
+      "whole_map", "Branch and bound over all poses: a declared pose has no rival, or is not declared.");
+}
+
+}  // namespace glocal

@@ -1,0 +1,126 @@
+#include "verifiers/whole_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "matchers/box_search/map_area.hpp"
+#include "matchers/box_search/search_boxes.hpp"
+#include "matchers/common/candidates.hpp"
+#include "verifiers/contact_climb.hpp"
+
+namespace glocal {
+namespace {
+
+/// m; as matchers have it, so that they share the field.
+
+/// How many more points a search in space looks at: there are heights, too, and scans have many points.
+constexpr double more_looks_in_space = 10.0;
+
+/// The exact one would take more memory than all else.
+const char* contact_for(double area) {
+  return area > huge_area ? "bitset" : "kd_tree";
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, WholeMap::Params& p) {
+  v.field("margin", p.margin,
+          {.doc = "Poses are searched for whose contact is at most this much lower than the declared pose's, "
+                  "and one whose score is at most this much lower refutes the declaration.",
+           .min = 0.0,
+           .max = 1.0,
+           .audience = Audience::tuner});
+  v.field("distance", p.distance,
+          {.doc = "A pose is a rival of the declared one if it is farther away than this, or turned by more "
+                  "than rotation_deg.",
+           .unit = "m",
+           .above = 0.0});
+  v.field("rotation_deg", p.rotation_deg,
+          {.doc = "A pose is a rival of the declared one if it is turned by more than this, or farther away "
+                  "than distance.",
+           .unit = "deg",
+           .max = 180.0,
+           .above = 0.0});
+  describe_contact_epsilon(v, p.contact_epsilon);
+  v.field("cell", p.cell,
+          {.doc = "Side of the smallest boxes of translations, at most contact_epsilon; auto is 0.025 m, "
+                  "0.05 m on maps of more than 2 hectares, and 0.1 m on maps of more than 25 hectares; in "
+                  "space half of contact_epsilon, and all of it on maps of more than 400 million such "
+                  "cells.",
+           .unit = "m",
+           .min = 0.01,
+           .max = 1.0,
+           .audience = Audience::expert});
+  v.require(!p.contact_epsilon || !p.cell || *p.cell <= *p.contact_epsilon, "cell",
+            "must be at most contact_epsilon");
+  v.field("max_rivals", p.max_rivals,
+          {.doc = "Number of rivals that are judged: those with the most contact.",
+           .min = 1,
+           .max = 10000,
+           .audience = Audience::expert});
+  v.field("max_looks", p.max_looks,
+          {.doc = "A search that looks at more points is given up, and nothing is declared in this step; on "
+                  "maps of more than 2 hectares it may look at as many more as they are larger, and in space "
+                  "at ten times as many.",
+           .min = 1,
+           .max = 2e9,
+           .audience = Audience::expert});
+}
+
+WholeMap::WholeMap(const Params& params, const StageSetup& setup)
+    : params_(params),
+      in_space_(setup.motion != Motion::planar),
+      epsilon_(setup.epsilon(params.contact_epsilon)),
+      threads_(setup.threads) {
+  most_looks_ = looks_on(*setup.map, params.max_looks * (in_space_ ? more_looks_in_space : 1.0));
+  contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(*setup.map)), epsilon_);
+  if (!in_space_) field_ = distance_field(*setup.map, setup.threads);
+  const double automatic = in_space_ ? automatic_box_cell_in_space(*setup.map, epsilon_)
+                                     : automatic_box_cell(*setup.map, epsilon_);
+  pyramid_ = box_pyramid(BoxPyramid::Of::all_poses, *setup.map, params.cell.value_or(automatic), epsilon_,
+                         setup.motion, setup.threads);
+}
+
+Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
+  const auto points = static_cast<double>(local.points.size());
+  const double contact = contact_of(local.points, map_from_local);
+  const double least = std::max(1.0, std::ceil((contact - params_.margin) * points));
+  const BoxSearchRule rule{.least = static_cast<std::size_t>(least),
+                           .most_places = static_cast<std::size_t>(params_.max_rivals),
+                           .most_looks = most_looks_,
+                           .gate = gate};
+  const Exclusion declared{map_from_local * local.local_from_robot,
+                           {.translation = params_.distance, .rotation = radians(params_.rotation_deg)}};
+  const BoxSearchResult search =
+      search_boxes(*pyramid_, local.points, local.local_from_robot, rule, declared, threads_);
+  Verification result{
+      .distance = declared.near.translation, .rotation = declared.near.rotation, .margin = params_.margin};
+  result.points_tested = search.looks;
+  std::vector<Hypothesis> rivals;
+  for (const BoxSearchResult::FoundPose& found : search.poses) {
+    for (const Pose3& pose : {found.upright(), refined(local.points, found.upright())}) {
+      const Pose3 robot = pose * local.local_from_robot;
+      if (gate.allows(pose) && !declared.near.are_near(robot, declared.map_from_robot))
+        rivals.push_back(Hypothesis::by_contact(pose, contact_of(local.points, pose)));
+    }
+  }
+  result.rivals = distinct_candidates(std::move(rivals), local.local_from_robot, {}, rule.most_places);
+  if (search.is_complete)
+    result.certificate = {.contact = contact,
+                          .at_most = static_cast<double>(search.at_most) / points,
+                          .epsilon = epsilon_,
+                          .delta = pyramid_->delta()};
+  return result;
+}
+
+double WholeMap::contact_of(const Points& points, const Pose3& map_from_points) const {
+  return in_space_ ? contact_->share(points, map_from_points)
+                   : contact_->share(points, Transform(seen_from_above(map_from_points)));
+}
+
+Pose3 WholeMap::refined(const Points& points, const Pose3& map_from_points) const {
+  if (in_space_) return climbed_pose(*contact_, points, map_from_points, pyramid_->frame().cell / 2.0);
+  return refined_pose(*field_, points, seen_from_above(map_from_points), {});
+}
+
+}  // namespace glocal

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "glocal/catalog.hpp"
+#include "glocal/contact.hpp"
+#include "glocal/distance_field.hpp"
+#include "glocal/params.hpp"
+#include "glocal/strategies.hpp"
+#include "matchers/box_search/box_pyramid.hpp"
+
+namespace glocal {
+
+/// Searches the whole map for poses with about as much contact as the declared one, by branch and bound on
+/// boxes of poses (search_boxes.hpp). If none is found, no pose has it: the certificate holds for every pose
+/// of the plane, not for those of a grid alone. Where the motion is upright, it holds for every x, y, z and
+/// yaw of the local map, which does not tilt: the robot's roll and pitch are those of the declared pose.
+///
+/// The search counts contact (Omega, eq. 4) and nothing else. What the matcher thinks of a pose beyond that,
+/// it says of the rivals that the search brings (Matcher::take_up).
+class WholeMap final : public Verifier {
+ public:
+  static constexpr Motions motions{.planar = true, .upright = true};
+
+  struct Params {
+    double margin = 0.05;
+    double distance = 1.0;
+    double rotation_deg = 30.0;
+    std::optional<double> contact_epsilon = {};
+    std::optional<double> cell = {};
+    int max_rivals = 10;
+    int max_looks = 40'000'000;
+  };
+
+  /// Throws ConfigError where the map is too large for a contact grid or a pyramid.
+  WholeMap(const Params& params, const StageSetup& setup);
+
+  [[nodiscard]] Verification verify(const LocalMap& local, const Pose3& map_from_local,
+                                    const PoseGate& gate) override;
+
+ private:
+  [[nodiscard]] double contact_of(const Points& points, const Pose3& map_from_points) const;
+  /// Near a pose that the search found, one that fits better.
+  [[nodiscard]] Pose3 refined(const Points& points, const Pose3& map_from_points) const;
+
+  Params params_;
+  bool in_space_;
+  double epsilon_;
+  int threads_;
+  std::size_t most_looks_;
+  std::shared_ptr<const ContactIndex> contact_;
+  std::shared_ptr<const DistanceField> field_;  ///< To refine rivals on; in the plane only.
+  std::shared_ptr<const BoxPyramid> pyramid_;
+};
+void describe(ParamVisitor& v, WholeMap::Params& p);
+
+/// Never looks for rivals.
+class NoVerifier final : public Verifier {
+ public:
+  static constexpr Motions motions = all_motions;
+  struct Params {};
+
+  explicit NoVerifier(const Params& /*params*/) {}
+  [[nodiscard]] bool verifies() const override { return false; }
+  [[nodiscard]] Verification verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
+                                    const PoseGate& /*gate*/) override {
+    return {};
+  }
+};
+inline void describe(ParamVisitor& /*v*/, NoVerifier::Params& /*p*/) {}
+
+}  // namespace glocal
