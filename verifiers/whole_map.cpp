@@ -104,7 +104,7 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
         rivals.push_back(Hypothesis::by_contact(pose, contact_of(local.points, pose)));
     }
   }
-  result.rivals = distinct_candidates(std::move(rivals), local.local_from_robot, {}, rule.most_places);
+  result.rivals = distinct_candidates(std::move(rivals), local.local_from_robot, rule.most_places);
   if (search.is_complete)
     result.certificate = {.contact = contact,
                           .at_most = static_cast<double>(search.at_most) / points,

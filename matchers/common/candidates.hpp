@@ -9,7 +9,6 @@
 
 #include "glocal/contact.hpp"
 #include "glocal/distance_field.hpp"
-#include "glocal/params.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose2.hpp"
 #include "glocal/rng.hpp"
@@ -22,36 +21,30 @@ struct Candidate {
   double quality = 0.0;
 };
 
-/// When two robot poses are one candidate, both nearer and turned by less; and how many points refine one.
-struct CandidateRule {
-  double distance = 0.4;  ///< m
-  double rotation_deg = 11.5;
-  int refinement_points = 50;
-};
-/// Among the fields of a matcher, not in a group of their own.
-void describe(ParamVisitor& v, CandidateRule& p);
+/// Robot poses nearer to each other than this, m, …
+inline constexpr double candidate_distance = 0.4;
+/// … and turned by less than this are one candidate: refinement leads from one to the other.
+inline constexpr double candidate_rotation = radians(11.5);
 
 /// Of robot poses in the plane (Pose2) or in space (Pose3).
 template <class Pose>
-[[nodiscard]] bool is_same_candidate(const Pose& a, const Pose& b, const CandidateRule& rule) {
-  return distance(a, b) < rule.distance && rotation_between(a, b) < radians(rule.rotation_deg);
+[[nodiscard]] bool is_same_candidate(const Pose& a, const Pose& b) {
+  return distance(a, b) < candidate_distance && rotation_between(a, b) < candidate_rotation;
 }
 
 /// The best first, at most `most`, leaving out those that only repeat a better one: the same robot pose.
 /// A candidate has a `map_from_local` and a `quality`.
 template <class Candidate, class Pose>
 [[nodiscard]] std::vector<Candidate> distinct_candidates(std::vector<Candidate> candidates,
-                                                         const Pose& local_from_robot,
-                                                         const CandidateRule& rule, std::size_t most) {
+                                                         const Pose& local_from_robot, std::size_t most) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
   std::vector<Candidate> kept;
   std::vector<Pose> robots;
   for (const Candidate& candidate : candidates) {
     const Pose robot = candidate.map_from_local * local_from_robot;
-    const bool repeats = std::any_of(robots.begin(), robots.end(), [&](const Pose& other) {
-      return is_same_candidate(robot, other, rule);
-    });
+    const bool repeats = std::any_of(robots.begin(), robots.end(),
+                                     [&](const Pose& other) { return is_same_candidate(robot, other); });
     if (repeats) continue;
     kept.push_back(candidate);
     robots.push_back(robot);
@@ -64,17 +57,16 @@ template <class Candidate, class Pose>
 class CandidateRefiner {
  public:
   /// Of more than `most` candidates the best are kept.
-  CandidateRefiner(const CandidateRule& rule, std::size_t most, const PoseRefinement& refinement,
+  CandidateRefiner(std::size_t most, const PoseRefinement& refinement,
                    std::shared_ptr<const DistanceField> field, std::shared_ptr<const ContactIndex> contact);
 
-  /// The distinct ones, each refined by the first points of `sample` and judged anew by the contact of
+  /// The distinct ones, each refined by the first 50 points of `sample` and judged anew by the contact of
   /// `points`; distinct again, as some may have become one.
   [[nodiscard]] std::vector<Candidate> refined(std::vector<Candidate> candidates,
                                                const Pose2& local_from_robot, const Points& sample,
                                                const Points& points) const;
 
  private:
-  CandidateRule rule_;
   std::size_t most_;
   PoseRefinement refinement_;
   std::shared_ptr<const DistanceField> field_;

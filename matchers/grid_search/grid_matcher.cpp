@@ -28,12 +28,11 @@ void describe(ParamVisitor& v, GridRule& p) {
            .max = static_cast<double>(TileCounts::most_points),
            .audience = Audience::tuner});
   v.field("max_poses", p.max_poses,
-          {.doc = "Number of poses searched for: the best, one in each cell of candidate_distance (its "
-                  "diagonal) and candidate_rotation_deg. Fewer take less time.",
+          {.doc = "Number of poses searched for: the best, one in each cell of 0.4 m (its "
+                  "diagonal) and 11.5 degrees. Fewer take less time.",
            .min = 1,
            .max = 100000,
            .audience = Audience::tuner});
-  describe(v, p.candidate);
 }
 
 void describe(ParamVisitor& v, GridMatching& p) {
@@ -53,8 +52,8 @@ BoxSearchRule GridRule::search_rule(double share, std::size_t points, const Pose
   auto least = static_cast<std::size_t>(std::max(1.0, std::floor(share * n)));
   while (static_cast<double>(least) / n < share) ++least;
   return {.least = least,
-          .cell_distance = candidate.distance,
-          .cell_rotation = radians(candidate.rotation_deg),
+          .cell_distance = candidate_distance,
+          .cell_rotation = candidate_rotation,
           .most_places = static_cast<std::size_t>(max_poses),
           .min_rotation_step = radians(min_rotation_step_deg),
           .gate = gate};
@@ -64,7 +63,7 @@ GridMatcher::GridMatcher(const GridMatching& params, const StageSetup& setup,
                          std::shared_ptr<const ContactIndex> contact)
     : params_(params),
       contact_(std::move(contact)),
-      refiner_(params.grid.candidate, static_cast<std::size_t>(params.grid.max_poses), params.refinement,
+      refiner_(static_cast<std::size_t>(params.grid.max_poses), params.refinement,
                distance_field(*setup.map, setup.threads), contact_) {}
 
 MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
@@ -82,7 +81,7 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
     candidates.push_back(
         {pose.map_from_local, static_cast<double>(pose.in_contact) / static_cast<double>(sample.size())});
   }
-  candidates = distinct_candidates(std::move(candidates), local_from_robot, params_.grid.candidate,
+  candidates = distinct_candidates(std::move(candidates), local_from_robot,
                                    static_cast<std::size_t>(params_.grid.max_poses));
   if (params_.refinement.iterations > 0) {
     result.points_tested += candidates.size() * local.points.size();

@@ -20,7 +20,6 @@ struct GridRule {
   double min_rotation_step_deg = 0.3;
   int max_points = 200;
   int max_poses = 50;
-  CandidateRule candidate = {};
 
   /// By how many points a local map is searched for.
   [[nodiscard]] std::size_t most_points() const;

@@ -30,7 +30,7 @@ MatchResult UprightBranchAndBound::match(const LocalMap& local, const Observatio
     const bool is_known =
         std::any_of(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
           const Pose3 other = h.map_from_local * local.local_from_robot;
-          return is_same_candidate(robot, other, params_.candidate);
+          return is_same_candidate(robot, other);
         });
     if (is_known) continue;
     const double omega = contact_->share(local.points, map_from_local);

@@ -123,7 +123,7 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       map_(setup.map),
       contact_(contact_index(*map_, "bitset", setup.epsilon(params.contact_epsilon))),
       relation_(relation_rule(params)),
-      refiner_(CandidateRule{}, static_cast<std::size_t>(params.candidates), params.refinement,
+      refiner_(static_cast<std::size_t>(params.candidates), params.refinement,
                distance_field(*map_, setup.threads), contact_),
       judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
              distance_field(*map_, setup.threads)),

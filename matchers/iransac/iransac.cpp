@@ -102,7 +102,6 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
            .audience = Audience::expert});
   describe_contact_epsilon(v, p.contact_epsilon);
   v.field("best", p.best, {.doc = "Distinct poses that become hypotheses.", .min = 1, .max = 10000});
-  describe(v, p.candidate);
   v.field("refinement", p.refinement,
           {.doc = "How poses are refined on the distance field.", .audience = Audience::expert});
 }
@@ -111,7 +110,7 @@ IRansac::IRansac(const Params& params, const StageSetup& setup)
     : params_(params),
       threads_(setup.threads),
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
-      refiner_(params.candidate, static_cast<std::size_t>(params.pool), params.refinement,
+      refiner_(static_cast<std::size_t>(params.pool), params.refinement,
                distance_field(*setup.map, setup.threads), contact_) {
   const auto begin = std::chrono::steady_clock::now();
   index_ = setup.map->index<FeatureIndex>(params.lsh ? "hashed" : "compared", [&] {

@@ -40,7 +40,6 @@ class IRansac final : public Matcher {
     int pool = 100;
     std::optional<double> contact_epsilon = {};
     int best = 10;
-    CandidateRule candidate = {};
     PoseRefinement refinement = {};
   };
 

@@ -83,8 +83,7 @@ TEST(BranchAndBound, HypothesesAreDistinctAndUnrefinedOnesKeepTheQualityOfTheGri
     for (std::size_t k = 0; k < i; ++k) {
       const Pose3& a = found[i].map_from_local;
       const Pose3& b = found[k].map_from_local;
-      EXPECT_TRUE(distance(a, b) >= params.grid.candidate.distance ||
-                  rotation_between(a, b) >= radians(params.grid.candidate.rotation_deg));
+      EXPECT_TRUE(distance(a, b) >= candidate_distance || rotation_between(a, b) >= candidate_rotation);
     }
   }
 }

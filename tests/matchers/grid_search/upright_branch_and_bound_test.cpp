@@ -267,8 +267,7 @@ TEST(UprightBranchAndBound, HypothesesAreDistinct) {
     for (std::size_t k = 0; k < i; ++k) {
       const Pose3 a = result.hypotheses[i].map_from_local * local.local_from_robot;
       const Pose3 b = result.hypotheses[k].map_from_local * local.local_from_robot;
-      EXPECT_TRUE(distance(a, b) >= coarse.candidate.distance ||
-                  rotation_between(a, b) >= radians(coarse.candidate.rotation_deg));
+      EXPECT_TRUE(distance(a, b) >= candidate_distance || rotation_between(a, b) >= candidate_rotation);
     }
   }
 }

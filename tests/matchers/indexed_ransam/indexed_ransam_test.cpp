@@ -54,8 +54,7 @@ TEST(IndexedRansam, HypothesesAreDistinctPoses) {
     for (std::size_t k = 0; k < i; ++k) {
       const Pose3& a = result.hypotheses[i].map_from_local;
       const Pose3& b = result.hypotheses[k].map_from_local;
-      EXPECT_TRUE(distance(a, b) >= CandidateRule{}.distance ||
-                  rotation_between(a, b) >= radians(CandidateRule{}.rotation_deg));
+      EXPECT_TRUE(distance(a, b) >= candidate_distance || rotation_between(a, b) >= candidate_rotation);
     }
   }
 }

@@ -110,7 +110,7 @@ TEST_F(StepCandidatesTest, AreDistinctAndFitBetterOnceRefined) {
   candidates.add(truth * Pose2{0.08, -0.05, 0.03});
   candidates.add(truth * Pose2{-0.06, 0.04, -0.02});
   candidates.add({1.0, 8.0, 1.0});
-  const CandidateRefiner refiner({}, 10, {}, distance_field(*map_, 1), contact_);
+  const CandidateRefiner refiner(10, {}, distance_field(*map_, 1), contact_);
   candidates.refine(refiner, {});
   ASSERT_EQ(candidates.all().size(), 2U);
   EXPECT_LT(distance(candidates.all().front().map_from_local, truth), 0.01);
