@@ -60,8 +60,7 @@ void separate_tables(benchmark::State& state) {
                              .contact_epsilon = 0.05,
                              .relation_cell = 0.15,
                              .min_side = 1.5,
-                             .min_height = 1.0,
-                             .table_bits = 20}},
+                             .min_height = 1.0}},
                 {simulation().loaded.map, 1});
   Rng rng(1);
   std::size_t proposals = 0;

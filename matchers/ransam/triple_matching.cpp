@@ -15,7 +15,6 @@ constexpr std::size_t draws_per_chunk = RelationBatch::probes * TripleBatch::cap
 constexpr std::size_t chunks_at_a_time = 256;
 
 unsigned table_bits(const TripleMatchingRule& rule) {
-  if (rule.table_bits > 0) return rule.table_bits;
   // Two slots a draw. Half of the draws of a map have no relation worth keeping, so about one entry in eight
   // is lost to another relation in its slot; a larger table costs more time than it gains.
   return static_cast<unsigned>(std::bit_width(static_cast<unsigned>(rule.iterations) * 2U - 1U));

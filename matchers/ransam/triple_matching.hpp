@@ -18,7 +18,6 @@ struct TripleMatchingRule {
   std::size_t iterations = 200000;  ///< Triples drawn from each of the two point sets.
   double local_radius = 0.0;        ///< m; see TripleSampler.
   bool neighbour_cells = false;     ///< Look local triples up in neighbouring relations, too.
-  unsigned table_bits = 0;          ///< The table has 2^this slots; 0: as many as suit the draws.
 };
 
 /// Draws triples of the global and of the local map, and has those tested that meet in a hash table. Whatever

@@ -45,17 +45,6 @@ void describe(ParamVisitor& v, TripleSearch& p) {
               "whose share of false rejects holds however often it looks.",
        .choices = {"interval", "wald"},
        .audience = Audience::expert});
-  v.field("wald_false_rejects", p.wald_false_rejects,
-          {.doc = "Share of hypotheses just as good as the threshold that Wald's test may give up.",
-           .max = 0.5,
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("wald_background", p.wald_background,
-          {.doc = "Share of points a wrong pose has in contact by chance, for Wald's test; at most half the "
-                  "threshold is taken.",
-           .max = 0.9,
-           .above = 0.0,
-           .audience = Audience::expert});
   p.contact.describe_as("contact", v);
   v.field(
       "neighbour_cells", p.neighbour_cells,
@@ -67,27 +56,19 @@ void describe(ParamVisitor& v, TripleSearch& p) {
                   "or coarser until they fit) become one, which counts as many.",
            .min = 100,
            .audience = Audience::expert});
-  v.field("table_bits", p.table_bits,
-          {.doc = "The hash table has 2^this slots of 8 bytes; 0 chooses two to four slots a draw.",
-           .min = 0,
-           .max = 30,
-           .audience = Audience::expert});
 }
 
 TripleMatchingRule matching_rule(const TripleSearch& p) {
   return {.iterations = static_cast<std::size_t>(p.iterations),
           .local_radius = p.local_radius,
-          .neighbour_cells = p.neighbour_cells,
-          .table_bits = static_cast<unsigned>(p.table_bits)};
+          .neighbour_cells = p.neighbour_cells};
 }
 
 ExtrapolationRule extrapolation_rule(const TripleSearch& p) {
   return {
       .kind = p.extrapolation == "wald" ? ExtrapolationRule::Kind::wald : ExtrapolationRule::Kind::interval,
       .batch = p.extrapolation_batch,
-      .confidence_z = p.extrapolation_z,
-      .false_rejects = p.wald_false_rejects,
-      .background = p.wald_background};
+      .confidence_z = p.extrapolation_z};
 }
 
 }  // namespace glocal

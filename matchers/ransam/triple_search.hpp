@@ -21,12 +21,9 @@ struct TripleSearch {
   int extrapolation_batch = 8;
   double extrapolation_z = 1.96;
   std::string extrapolation = "interval";
-  double wald_false_rejects = 0.025;
-  double wald_background = 0.3;
   ContactChoice contact = "bitset";
   bool neighbour_cells = false;
   int max_hypotheses = 10000;
-  int table_bits = 0;
 };
 void describe(ParamVisitor& v, TripleSearch& p);
 
