@@ -19,7 +19,8 @@ void register_builtin_strategies(Catalog& catalog) {
   register_raters(catalog);
   register_verifiers(catalog);
   catalog.cloud_registrars.add<SurfelPairRegistrar>(
-      "surfel_pairs", "Pairs of surfels that are alike, judged by what each cloud saw through.");
+      "surfel_pairs", "Pairs of surfels that are alike, judged by what each cloud saw through.",
+      stable_since("0.1.0"));
 }
 
 }  // namespace glocal

@@ -10,11 +10,14 @@ namespace glocal {
 void register_clustering(Catalog& catalog) {
   catalog.clusterers.add<HierarchicalKmeans>(
       "hierarchical_kmeans",
-      "Splits in two, again and again, what is spread too widely (Section III-A, eq. 6).");
-  catalog.clusterers.add<Dbscan>("dbscan", "Joins what has enough others near it, in clusters of any shape.");
-  catalog.clusterers.add<MeanShift>("mean_shift", "Joins what climbs to the same maximum of density.");
-  catalog.clusterers.add<PoseGridClusterer>("pose_grid",
-                                            "Joins what lies in the same cell of a grid of poses.");
+      "Splits in two, again and again, what is spread too widely (Section III-A, eq. 6).",
+      stable_since("0.1.0"));
+  catalog.clusterers.add<Dbscan>("dbscan", "Joins what has enough others near it, in clusters of any shape.",
+                                 experimental_since("0.1.0"));
+  catalog.clusterers.add<MeanShift>("mean_shift", "Joins what climbs to the same maximum of density.",
+                                    experimental_since("0.1.0"));
+  catalog.clusterers.add<PoseGridClusterer>(
+      "pose_grid", "Joins what lies in the same cell of a grid of poses.", experimental_since("0.1.0"));
 }
 
 }  // namespace glocal

@@ -15,30 +15,37 @@ namespace glocal {
 
 void register_matchers(Catalog& catalog) {
   catalog.matchers.add<BranchAndBound>(
-      "branch_and_bound", "Exact search of a grid of poses, by upper bounds for whole blocks of them.");
+      "branch_and_bound", "Exact search of a grid of poses, by upper bounds for whole blocks of them.",
+      stable_since("0.1.0"));
   catalog.matchers.add<Exhaustive>("exhaustive", "Every pose of a grid, each judged by eq. 4.",
+                                   stable_since("0.1.0"),
                                    {.contact = ContactChoice(catalog.contact_indexes)});
   catalog.matchers.add<IndexedRansam>("indexed_ransam",
                                       "Random sample matching of oriented point pairs over an index of the "
-                                      "map; refined, carried on, checked by beams.");
+                                      "map; refined, carried on, checked by beams.",
+                                      stable_since("0.1.0"));
   catalog.matchers.add<IRansac>(
-      "iransac", "Incremental, preemptive random sample consensus over features of the map, hashed or not.");
+      "iransac", "Incremental, preemptive random sample consensus over features of the map, hashed or not.",
+      stable_since("0.1.0"));
   catalog.matchers.add<Mcl>(
-      "mcl", "Monte Carlo localization: a particle filter, as AMCL is; the local map is not looked at.");
-  catalog.matchers.add<Ransac>("ransac", "Random sample consensus of pairs of points, without any table.");
-  catalog.matchers.add<Ransam>("ransam",
-                               "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",
-                               {.triples = {.contact = ContactChoice(catalog.contact_indexes)}});
+      "mcl", "Monte Carlo localization: a particle filter, as AMCL is; the local map is not looked at.",
+      stable_since("0.1.0"));
+  catalog.matchers.add<Ransac>("ransac", "Random sample consensus of pairs of points, without any table.",
+                               stable_since("0.1.0"));
+  catalog.matchers.add<Ransam>(
+      "ransam", "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",
+      stable_since("0.1.0"), {.triples = {.contact = ContactChoice(catalog.contact_indexes)}});
   catalog.matchers.add<SurfelRansam>("surfel_ransam",
                                      "Random sample matching of pairs of surfels over an index of the map in "
-                                     "space; refined, carried on, checked by what the scan looked through.");
+                                     "space; refined, carried on, checked by what the scan looked through.",
+                                     stable_since("0.1.0"));
   catalog.matchers.add<TriangleRansam>(
       "triangle_ransam",
       "Random sample matching of triangles in space over a hash table, as ransam's in the plane.",
-      {.contact = ContactChoice(catalog.contact_indexes)});
+      experimental_since("0.1.0"), {.contact = ContactChoice(catalog.contact_indexes)});
   catalog.matchers.add<UprightBranchAndBound>(
       "upright_branch_and_bound",
-      "Exact search of a grid of upright poses, as branch_and_bound's of the plane.");
+      "Exact search of a grid of upright poses, as branch_and_bound's of the plane.", stable_since("0.1.0"));
   catalog.matchers.note_counterparts("branch_and_bound", "upright_branch_and_bound");
   catalog.matchers.note_counterparts("indexed_ransam", "surfel_ransam");
   catalog.matchers.note_counterparts("ransam", "triangle_ransam");

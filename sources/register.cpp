@@ -16,25 +16,34 @@
 namespace glocal {
 
 void register_sources(Catalog& catalog) {
-  catalog.observation_sources.add<BagDrive>("bag", "A drive recorded by a robot: ROS bag or MCAP.");
-  catalog.observation_sources.add<CarmenLog>("carmen_log", "A drive recorded as a CARMEN log.");
-  catalog.observation_sources.add<CloudDrive>("cloud_drive", "A drive recorded as clouds of points.");
+  catalog.observation_sources.add<BagDrive>("bag", "A drive recorded by a robot: ROS bag or MCAP.",
+                                            stable_since("0.1.0"));
+  catalog.observation_sources.add<CarmenLog>("carmen_log", "A drive recorded as a CARMEN log.",
+                                             stable_since("0.1.0"));
+  catalog.observation_sources.add<CloudDrive>("cloud_drive", "A drive recorded as clouds of points.",
+                                              stable_since("0.1.0"));
   catalog.observation_sources.add<Simulation>(
-      "simulation", "A drive through a simulated world, or through a ROS map, with a planar laser.");
-  catalog.observation_sources.add<LidarSimulation>("lidar_simulation",
-                                                   "A drive through a simulated world with a lidar.");
-  catalog.observation_sources.add<sites::OfficeDrive>("office",
-                                                      "A drive through a simulated office of any size.");
-  catalog.observation_sources.add<RandomScans>("random_scans", "Single scans at random places of a ROS map.");
-  catalog.map_sources.add<BagMap>("bag_map", "A map recorded as a message: ROS bag or MCAP.");
-  catalog.map_sources.add<LogMap>("log_map", "A map from the reference poses of a CARMEN log.");
-  catalog.map_sources.add<CloudDriveMap>("cloud_drive",
-                                         "A map in space from the reference poses of a drive of clouds.");
-  catalog.map_sources.add<RosMap>("ros_map", "A map of the ROS map server: a YAML file and an image.");
-  catalog.map_sources.add<PointCloudMap>("point_cloud",
-                                         "A cloud of points: PCD, PLY, KITTI, or OctoMap's .bt.");
-  catalog.map_sources.add<SimulatedMap>("simulation", "The map of a simulated world.");
-  catalog.map_sources.add<sites::OfficeMap>("office", "The map of a simulated office of any size.");
+      "simulation", "A drive through a simulated world, or through a ROS map, with a planar laser.",
+      stable_since("0.1.0"));
+  catalog.observation_sources.add<LidarSimulation>(
+      "lidar_simulation", "A drive through a simulated world with a lidar.", stable_since("0.1.0"));
+  catalog.observation_sources.add<sites::OfficeDrive>(
+      "office", "A drive through a simulated office of any size.", stable_since("0.1.0"));
+  catalog.observation_sources.add<RandomScans>("random_scans", "Single scans at random places of a ROS map.",
+                                               experimental_since("0.1.0"));
+  catalog.map_sources.add<BagMap>("bag_map", "A map recorded as a message: ROS bag or MCAP.",
+                                  experimental_since("0.1.0"));
+  catalog.map_sources.add<LogMap>("log_map", "A map from the reference poses of a CARMEN log.",
+                                  stable_since("0.1.0"));
+  catalog.map_sources.add<CloudDriveMap>(
+      "cloud_drive", "A map in space from the reference poses of a drive of clouds.", stable_since("0.1.0"));
+  catalog.map_sources.add<RosMap>("ros_map", "A map of the ROS map server: a YAML file and an image.",
+                                  stable_since("0.1.0"));
+  catalog.map_sources.add<PointCloudMap>(
+      "point_cloud", "A cloud of points: PCD, PLY, KITTI, or OctoMap's .bt.", stable_since("0.1.0"));
+  catalog.map_sources.add<SimulatedMap>("simulation", "The map of a simulated world.", stable_since("0.1.0"));
+  catalog.map_sources.add<sites::OfficeMap>("office", "The map of a simulated office of any size.",
+                                            stable_since("0.1.0"));
 }
 
 }  // namespace glocal

@@ -5,9 +5,11 @@
 namespace glocal {
 
 void register_verifiers(Catalog& catalog) {
-  catalog.verifiers.add<NoVerifier>("none", "Every pose that the verdict rule declares is declared.");
+  catalog.verifiers.add<NoVerifier>("none", "Every pose that the verdict rule declares is declared.",
+                                    stable_since("0.1.0"));
   catalog.verifiers.add<WholeMap>(
-      "whole_map", "Branch and bound over all poses: a declared pose has no rival, or is not declared.");
+      "whole_map", "Branch and bound over all poses: a declared pose has no rival, or is not declared.",
+      stable_since("0.1.0"));
 }
 
 }  // namespace glocal

@@ -2,6 +2,19 @@
 
 namespace glocal {
 
+Standing stable_since(std::string version) {
+  return {true, std::move(version)};
+}
+
+Standing experimental_since(std::string version) {
+  return {false, std::move(version)};
+}
+
+std::string to_string(const Standing& standing) {
+  const std::string status = standing.is_stable ? "stable" : "experimental";
+  return standing.since.empty() ? status : status + " since " + standing.since;
+}
+
 std::vector<const StrategyInfo*> RegistryBase::all() const {
   std::vector<const StrategyInfo*> result;
   result.reserve(infos_.size());
@@ -35,13 +48,13 @@ StrategyChoice RegistryBase::choose(std::string_view name) const {
   return {info->name, info->default_params()};
 }
 
-void RegistryBase::insert(std::string name, std::string doc, Motions motions,
+void RegistryBase::insert(std::string name, std::string doc, Standing standing, Motions motions,
                           std::function<std::unique_ptr<AnyParams>()> default_params) {
   if (const StrategyInfo* taken = find(name)) {
     throw std::invalid_argument(kind_ + " '" + name + "' of " + origin_ + " is already registered by " +
                                 taken->origin);
   }
-  StrategyInfo info{name, std::move(doc), origin_, motions, std::move(default_params)};
+  StrategyInfo info{name, std::move(doc), origin_, std::move(standing), motions, std::move(default_params)};
   infos_.emplace(std::move(name), std::move(info));
 }
 

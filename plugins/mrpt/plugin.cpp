@@ -5,5 +5,6 @@
 GLOCAL_PLUGIN("glocal_mrpt", "0.1.0", catalog) {
   using namespace glocal;
   catalog.matchers.add<MrptMcl>("mrpt_mcl",
-                                "MRPT's Monte Carlo localization, from particles all over the map.");
+                                "MRPT's Monte Carlo localization, from particles all over the map.",
+                                experimental_since("0.1.0"));
 }

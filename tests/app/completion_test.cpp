@@ -54,7 +54,7 @@ TEST_F(Completion, OffersValuesWhereTheyAreKnown) {
   EXPECT_THAT(candidates("run --method indexed_"), ElementsAre("indexed_single", ":files"));
   EXPECT_THAT(candidates("run --case paper_l"), ElementsAre("paper_lab", ":files"));
   EXPECT_THAT(candidates("describe rans"), ElementsAre("ransac", "ransam"));
-  EXPECT_THAT(candidates("describe tri"), ElementsAre("trials"));
+  EXPECT_THAT(candidates("describe trial"), ElementsAre("trials"));
   EXPECT_THAT(candidates("help summ"), ElementsAre("summarize"));
   EXPECT_THAT(candidates("prepare --poses-of r"), ElementsAre("robot"));
   EXPECT_THAT(candidates("prepare --poses-of=r"), ElementsAre("--poses-of=robot"));

@@ -1,4 +1,4 @@
-// Every strategy's parameters are documented.
+// Every strategy says what it is, since when, and what its parameters are.
 #include <gtest/gtest.h>
 
 #include "config/field_docs.hpp"
@@ -16,12 +16,13 @@ void expect_documented(const StructDoc& doc) {
   }
 }
 
-TEST_F(Contract, EveryParameterIsDocumented) {
+TEST_F(Contract, EveryStrategyAndParameterIsDocumented) {
   for (const RegistryBase* registry : std::as_const(catalog_).registries()) {
     for (const StrategyInfo* info : registry->all()) {
       SCOPED_TRACE(registry->kind() + " " + info->name);
       EXPECT_TRUE(info->doc.ends_with('.')) << info->doc;
       EXPECT_TRUE(info->origin.starts_with("glocal")) << info->origin;
+      EXPECT_FALSE(info->standing.since.empty());
       expect_documented(document(*info->default_params()));
     }
   }

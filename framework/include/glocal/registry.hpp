@@ -16,12 +16,24 @@
 
 namespace glocal {
 
+/// What of a strategy can be relied on. One that says nothing is experimental.
+struct Standing {
+  bool is_stable =
+      false;  ///< Names and answers stay, or the changelog says why not; others may change or go.
+  std::string since = {};  ///< The version that brought it; empty if that is not said.
+};
+[[nodiscard]] Standing stable_since(std::string version);
+[[nodiscard]] Standing experimental_since(std::string version);
+/// "stable since 0.1.0".
+[[nodiscard]] std::string to_string(const Standing& standing);
+
 /// What is known of a strategy besides how to make it.
 struct StrategyInfo {
   std::string name;
   std::string doc;     ///< One sentence.
   std::string origin;  ///< "glocal", or the plugin it came from.
-  Motions motions;     ///< What a stage of the localizer can work with.
+  Standing standing;
+  Motions motions;  ///< What a stage of the localizer can work with.
   std::function<std::unique_ptr<AnyParams>()> default_params;
 };
 
@@ -69,7 +81,7 @@ class RegistryBase {
 
  protected:
   /// Throws std::invalid_argument if the name is taken, naming both origins.
-  void insert(std::string name, std::string doc, Motions motions,
+  void insert(std::string name, std::string doc, Standing standing, Motions motions,
               std::function<std::unique_ptr<AnyParams>()> default_params);
 
  private:
@@ -91,9 +103,9 @@ class Registry final : public RegistryBase {
   /// instead. `defaults` are given where they hold what only the registering function has at hand: another
   /// registry.
   template <std::derived_from<Interface> T>
-  void add(std::string name, std::string doc, typename T::Params defaults = {}) {
+  void add(std::string name, std::string doc, Standing standing = {}, typename T::Params defaults = {}) {
     using Params = typename T::Params;
-    insert(name, std::move(doc), motions_of<T>(), [defaults = std::move(defaults)] {
+    insert(name, std::move(doc), std::move(standing), motions_of<T>(), [defaults = std::move(defaults)] {
       auto params = std::make_unique<ParamsOf<Params>>();
       params->value = defaults;
       return params;
@@ -115,7 +127,7 @@ class Registry final : public RegistryBase {
   void add_made(std::string name, std::string doc, Motions motions,
                 std::function<std::unique_ptr<AnyParams>()> default_params,
                 std::function<std::unique_ptr<Interface>(const AnyParams&, const Setup&)> make) {
-    insert(name, std::move(doc), motions, std::move(default_params));
+    insert(name, std::move(doc), {}, motions, std::move(default_params));
     makers_[std::move(name)] = std::move(make);
   }
 

@@ -56,9 +56,9 @@ void write_struct(const StructDoc& doc, std::size_t indent, std::string& text) {
 }
 
 std::string strategy_help(const StrategyInfo& info, const RegistryBase& registry) {
-  std::string text =
-      fmt::format("{} ({}, from {})\n{}\n{}\n", info.name, registry.kind(), info.origin, info.doc,
-                  info.motions == Motions{} ? "" : fmt::format("Motions: {}.\n", to_string(info.motions)));
+  std::string text = fmt::format(
+      "{} ({}, from {}, {})\n{}\n{}\n", info.name, registry.kind(), info.origin, to_string(info.standing),
+      info.doc, info.motions == Motions{} ? "" : fmt::format("Motions: {}.\n", to_string(info.motions)));
   const StructDoc doc = document(*info.default_params());
   if (doc.fields.empty()) return text + "  No parameters.\n";
   write_struct(doc, 2, text);
@@ -104,6 +104,8 @@ Json strategy_json(const StrategyInfo& info, const RegistryBase& registry) {
           {"name", info.name},
           {"doc", info.doc},
           {"origin", info.origin},
+          {"status", info.standing.is_stable ? "stable" : "experimental"},
+          {"since", info.standing.since},
           {"motions", std::move(motions)}};
 }
 
@@ -160,9 +162,15 @@ std::optional<std::string> help(std::string_view name, const Catalog& catalog) {
 std::string list_strategies(const RegistryBase& registry) {
   const auto all = registry.all();
   std::size_t width = 0;
-  for (const StrategyInfo* info : all) width = std::max(width, info->name.size());
+  std::size_t standing_width = 0;
+  for (const StrategyInfo* info : all) {
+    width = std::max(width, info->name.size());
+    standing_width = std::max(standing_width, to_string(info->standing).size());
+  }
   std::string text;
-  for (const StrategyInfo* info : all) text += fmt::format("  {:<{}}  {}\n", info->name, width, info->doc);
+  for (const StrategyInfo* info : all)
+    text += fmt::format("  {:<{}}  {:<{}}  {}\n", info->name, width, to_string(info->standing),
+                        standing_width, info->doc);
   return text;
 }
 

@@ -18,10 +18,10 @@ namespace glocal {
 /// The same as data: a list with an object for each; docs/file-formats.md tells the keys.
 [[nodiscard]] std::optional<nlohmann::ordered_json> help_json(std::string_view name, const Catalog& catalog);
 
-/// Kind, name, sentence, origin and motions of each strategy of a registry.
+/// Kind, name, sentence, origin, status and motions of each strategy of a registry.
 [[nodiscard]] nlohmann::ordered_json strategies_json(const RegistryBase& registry);
 
-/// The strategies of one registry, a line each.
+/// The strategies of one registry, a line each: name, status, sentence.
 [[nodiscard]] std::string list_strategies(const RegistryBase& registry);
 
 }  // namespace glocal

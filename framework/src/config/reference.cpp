@@ -105,7 +105,7 @@ std::string parameter_reference(const Catalog& catalog) {
     if (registry->all().empty()) text += "\nNone.\n";
     for (const StrategyInfo* info : registry->all()) {
       text += fmt::format(
-          "\n### {}\n\n{}\n\n{}{}", info->name, info->doc,
+          "\n### {}\n\n{}\n\nStatus: {}.\n\n{}{}", info->name, info->doc, to_string(info->standing),
           info->motions == Motions{} ? "" : fmt::format("Motions: {}.\n\n", to_string(info->motions)),
           table(document(*info->default_params())));
     }

@@ -34,8 +34,8 @@ class Loading : public testing::Test {
 
   [[nodiscard]] LoadedExperiment load() const {
     Catalog catalog;
-    catalog.map_sources.add<GivenMap>("given", "A given map.", {map_});
-    catalog.observation_sources.add<ListedSamples>("listed", "Given samples.", {samples_});
+    catalog.map_sources.add<GivenMap>("given", "A given map.", {}, {map_});
+    catalog.observation_sources.add<ListedSamples>("listed", "Given samples.", {}, {samples_});
     Experiment experiment = default_experiment();
     experiment.map = catalog.map_sources.choose("given");
     experiment.observations = catalog.observation_sources.choose("listed");

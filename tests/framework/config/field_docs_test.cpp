@@ -20,7 +20,7 @@ class FieldDocs : public testing::Test {
 };
 
 TEST_F(FieldDocs, HelpOfAStrategyHasEveryFact) {
-  EXPECT_EQ(help("toy_map", catalog_).value_or(""), R"(toy_map (map_source, from glocal)
+  EXPECT_EQ(help("toy_map", catalog_).value_or(""), R"(toy_map (map_source, from glocal, experimental)
 A map from nowhere.
 
   path: path, required
@@ -36,12 +36,13 @@ A map from nowhere.
       height: number (> 0 m), default 2.5
           How high it is.
 )");
-  EXPECT_EQ(help("indexed", catalog_).value_or(""),
-            "indexed (matcher, from glocal)\nMatches nothing, faster.\n\n  No parameters.\n");
+  EXPECT_EQ(
+      help("indexed", catalog_).value_or(""),
+      "indexed (matcher, from glocal, stable since 0.1.0)\nMatches nothing, faster.\n\n  No parameters.\n");
 }
 
 TEST_F(FieldDocs, WhatToTuneComesFirstAndWhatIsForExpertsLast) {
-  EXPECT_EQ(help("ransam", catalog_).value_or(""), R"(ransam (matcher, from glocal)
+  EXPECT_EQ(help("ransam", catalog_).value_or(""), R"(ransam (matcher, from glocal, experimental)
 Matches nothing.
 
   Tune first: iterations.
@@ -82,14 +83,15 @@ TEST_F(FieldDocs, HelpOfTheExperimentNamesTheStrategies) {
 TEST_F(FieldDocs, HelpShowsAllStrategiesOfAName) {
   catalog_.raters.add<ToyRater>("ransam", "Another of that name.");
   const std::string text = help("ransam", catalog_).value_or("");
-  EXPECT_THAT(text, HasSubstr("ransam (matcher, from glocal)"));
-  EXPECT_THAT(text, HasSubstr("ransam (rater, from glocal)"));
+  EXPECT_THAT(text, HasSubstr("ransam (matcher, from glocal, experimental)"));
+  EXPECT_THAT(text, HasSubstr("ransam (rater, from glocal, experimental)"));
   EXPECT_EQ(help("nothing", catalog_), std::nullopt);
 }
 
 TEST_F(FieldDocs, ListAlignsItsColumns) {
   EXPECT_EQ(list_strategies(catalog_.matchers),
-            "  indexed  Matches nothing, faster.\n  ransam   Matches nothing.\n");
+            "  indexed  stable since 0.1.0  Matches nothing, faster.\n  ransam   experimental        Matches "
+            "nothing.\n");
 }
 
 TEST_F(FieldDocs, ReferenceFlattensKeysAndEscapesCells) {
@@ -100,7 +102,10 @@ TEST_F(FieldDocs, ReferenceFlattensKeysAndEscapesCells) {
   EXPECT_THAT(
       text, HasSubstr("- `trials`: exactly one of every_m, starts_m, every_scan and whole must be given.\n"));
   EXPECT_THAT(text, HasSubstr("- `min_range`: must be less than max_range.\n"));
-  EXPECT_THAT(text, HasSubstr("### indexed\n\nMatches nothing, faster.\n\nNo parameters.\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr(
+          "### indexed\n\nMatches nothing, faster.\n\nStatus: stable since 0.1.0.\n\nNo parameters.\n"));
   EXPECT_THAT(text, HasSubstr("| `path` | path | required |  | The map's file. |\n"));
 }
 

@@ -62,7 +62,10 @@ TEST_F(HelpTest, AllStrategiesOfARegistryAreListedAsData) {
   const Json matchers = strategies_json(catalog_.matchers);
   ASSERT_EQ(matchers.size(), 2U);
   EXPECT_EQ(matchers[0]["name"], "indexed");
+  EXPECT_EQ(matchers[0]["status"], "stable");
+  EXPECT_EQ(matchers[0]["since"], "0.1.0");
   EXPECT_EQ(matchers[1]["name"], "ransam");
+  EXPECT_EQ(matchers[1]["status"], "experimental");
   EXPECT_EQ(matchers[1]["kind"], "matcher");
 }
 

@@ -133,7 +133,7 @@ void register_toys(Catalog& c) {
   c.observation_sources.add<ToyDrive>("toy_drive", "A drive to nowhere.");
   c.local_mappers.add<ToyMapper>("scan_matching", "Joins nothing.");
   c.matchers.add<ToyMatcher>("ransam", "Matches nothing.");
-  c.matchers.add<ToyIndexed>("indexed", "Matches nothing, faster.");
+  c.matchers.add<ToyIndexed>("indexed", "Matches nothing, faster.", stable_since("0.1.0"));
   c.matchers.note_renamed("ransack", "ransam");
   c.clusterers.add<ToyClusterer>("hierarchical_kmeans", "Groups nothing.");
   c.raters.add<ToyRater>("cluster_rating", "Rates nothing.");

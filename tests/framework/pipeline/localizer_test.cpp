@@ -463,7 +463,7 @@ TEST(ContactEpsilon, FollowsFromTheResolutionOfAMapOfPointsAlone) {
 
 TEST_F(LocalizerTest, ContactEpsilonIsSaidOnceOrFollowsFromTheMap) {
   const auto seen = std::make_shared<StageSetup>();
-  catalog_.clusterers.add<SetupWitness>("witness", "Writes down what it is made with.", {seen});
+  catalog_.clusterers.add<SetupWitness>("witness", "Writes down what it is made with.", {}, {seen});
   LocalizerConfig config = follow(script_);
   config.clusterer = catalog_.clusterers.choose("witness");
   const auto epsilon_on = [&](double resolution) {
@@ -482,7 +482,7 @@ TEST_F(LocalizerTest, ContactEpsilonIsSaidOnceOrFollowsFromTheMap) {
 
 TEST_F(LocalizerTest, StagesKnowWhetherTheVerifierVerifies) {
   const auto seen = std::make_shared<StageSetup>();
-  catalog_.clusterers.add<SetupWitness>("witness", "Writes down what it is made with.", {seen});
+  catalog_.clusterers.add<SetupWitness>("witness", "Writes down what it is made with.", {}, {seen});
   LocalizerConfig config = follow(script_);
   config.clusterer = catalog_.clusterers.choose("witness");
   const auto is_known = [&] {

@@ -34,12 +34,12 @@ void describe(ParamVisitor& v, Room::Params& p) {
 }
 
 /// Stands in the middle of the room and sees its walls, so many times.
-class Standing final : public ObservationSource {
+class StandingStill final : public ObservationSource {
  public:
   struct Params {
     int scans = 20;
   };
-  explicit Standing(const Params& params) : left_(params.scans) {}
+  explicit StandingStill(const Params& params) : left_(params.scans) {}
   std::optional<Sample> next() override {
     if (left_-- <= 0) return std::nullopt;
     Sample sample;
@@ -54,7 +54,7 @@ class Standing final : public ObservationSource {
   int left_;
   double stamp_ = 0.0;
 };
-void describe(ParamVisitor& v, Standing::Params& p) {
+void describe(ParamVisitor& v, StandingStill::Params& p) {
   v.field("scans", p.scans, {.doc = "How many.", .min = 1});
 }
 
@@ -167,7 +167,7 @@ void describe(ParamVisitor& v, Ahead::Params& p) {
 
 GLOCAL_PLUGIN("every_kind", "1.2.3", catalog) {
   catalog.map_sources.add<Room>("room", "A square room.");
-  catalog.observation_sources.add<Standing>("standing", "A robot that stands still.");
+  catalog.observation_sources.add<StandingStill>("standing", "A robot that stands still.");
   catalog.local_mappers.add<LastScan>("last_scan", "The last scan alone.");
   catalog.matchers.add<Oracle>("oracle", "Knows the answer.");
   catalog.clusterers.add<EachAlone>("each_alone", "Every hypothesis is a cluster.");
