@@ -26,8 +26,6 @@ class JournalScan {
  public:
   struct Journal {
     std::filesystem::path file;
-    Shard shard;
-    std::string host;
     std::size_t jobs = 1;    ///< Trials at once.
     bool is_closed = false;  ///< Its writer is done.
     /// Its writer is at work: the file was written, or touched, not long ago by the clock of its server.

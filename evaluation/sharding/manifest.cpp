@@ -93,7 +93,6 @@ Json to_json(const Manifest& manifest) {
                         {"identity", v.identity},
                         {"text", v.text},
                         {"values", to_json(v.values, first)},
-                        {"inputs", v.inputs},
                         {"starts", v.starts},
                         {"origin", v.origin}});
   }
@@ -121,7 +120,7 @@ Manifest manifest_of(const Json& json) {
   const std::map<std::string, std::string> first = json.at("values");
   for (const Json& v : json.at("variants")) {
     manifest.variants.push_back({v.at("name"), v.at("identity"), v.at("text"),
-                                 values_of(v.at("values"), first), v.at("inputs"), whole_number(v, "starts"),
+                                 values_of(v.at("values"), first), whole_number(v, "starts"),
                                  v.at("origin")});
     const PlannedVariant& variant = manifest.variants.back();
     static_cast<void>(manifest.starts.at(variant.starts));
@@ -270,10 +269,7 @@ Manifest plan(std::vector<Variant>& variants, const fs::path& file, const std::v
     }
     std::set<fs::path> inputs = loaded.inputs;
     inputs.insert(known->second.begin(), known->second.end());
-    for (const fs::path& input : inputs) {
-      planned.inputs.insert(input.string());
-      manifest.inputs[input.string()] = hashes.of(input);
-    }
+    for (const fs::path& input : inputs) manifest.inputs[input.string()] = hashes.of(input);
     planned.identity = identity_of(experiment, inputs, plugins, loader);
     planned.starts = place_of(planned_starts(loaded, experiment.trials), manifest.starts);
   });

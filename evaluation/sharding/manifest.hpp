@@ -32,7 +32,6 @@ struct PlannedVariant {
   std::string identity;
   std::string text;                           ///< Hash of the effective experiment, as YAML.
   std::map<std::string, std::string> values;  ///< All of the experiment, as text, by path.
-  std::set<std::string> inputs;               ///< Files.
   std::size_t starts = 0;                     ///< Which of the manifest's lists.
   nlohmann::ordered_json origin;              ///< As origin_json() tells.
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/room.hpp"
+#include "evaluation/results/file_io.hpp"
 #include "glocal/builtin.hpp"
 #include "glocal/run_experiment.hpp"
 
@@ -21,12 +22,6 @@ struct Damage {
   std::function<void(const fs::path& folder)> inflict;
   std::string fault;  ///< Regular expression: file, line and rule.
 };
-
-std::string read(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 void write(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
@@ -47,7 +42,7 @@ std::function<void(const fs::path&)> cut_bytes(const char* name, std::size_t byt
 
 std::function<void(const fs::path&)> without_last_line(const char* name) {
   return [=](const fs::path& folder) {
-    const std::string text = read(folder / name);
+    const std::string text = content_of(folder / name);
     write(folder / name, text.substr(0, text.rfind('\n', text.size() - 2) + 1));
   };
 }
@@ -55,7 +50,7 @@ std::function<void(const fs::path&)> without_last_line(const char* name) {
 std::function<void(const fs::path&)> renamed(const char* name, const std::string& from,
                                              const std::string& to) {
   return [=](const fs::path& folder) {
-    std::string text = read(folder / name);
+    std::string text = content_of(folder / name);
     const std::size_t at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     write(folder / name, text.replace(at, from.size(), to));

@@ -64,10 +64,7 @@ class Figures : public Room {
   }
 
   [[nodiscard]] std::vector<Json> steps(const std::string& folder) const {
-    std::vector<Json> all;
-    std::ifstream in(file(folder + "/steps.jsonl"));
-    for (std::string line; std::getline(in, line);) all.push_back(Json::parse(line));
-    return all;
+    return json_lines(file(folder + "/steps.jsonl"));
   }
 
   void write_steps(const std::string& folder, const std::vector<Json>& all) const {

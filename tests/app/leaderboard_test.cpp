@@ -56,9 +56,8 @@ class Leaderboard : public Room {
   /// Calls `row` with each first step of a trial of the results.
   void for_each_first_step(const std::function<void(std::uint64_t seed, const Json& step)>& row) const {
     for (const std::uint64_t seed : {1U, 2U}) {
-      std::ifstream lines(file("results/few_small_room_seed-" + std::to_string(seed) + "/steps.jsonl"));
-      for (std::string line; std::getline(lines, line);) {
-        const Json step = Json::parse(line);
+      for (const Json& step :
+           json_lines(file(fmt::format("results/few_small_room_seed-{}/steps.jsonl", seed)))) {
         if (step.at("step") == 0) row(seed, step);
       }
     }
@@ -133,9 +132,7 @@ TEST_F(Leaderboard, RenewingNeedsForceAndComparesOldAndNew) {
   write_method(2000);
   run_and_add(" --force");
   EXPECT_THAT(content(folder_.path() / "out"), HasSubstr("few of tiny@1, start by start:\n  wrong "));
-  std::ifstream history(file("leaderboard/history.jsonl"));
-  std::vector<Json> lines;
-  for (std::string line; std::getline(history, line);) lines.push_back(Json::parse(line));
+  const std::vector<Json> lines = json_lines(file("leaderboard/history.jsonl"));
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[1]["suite"], "tiny@1");
   EXPECT_EQ(lines[1]["starts"], lines[0]["starts"]);
@@ -221,9 +218,8 @@ TEST_F(Leaderboard, ImportedPosesAreJudgedLikeOnesOwn) {
   // The declared poses of the run itself, in the form of others.
   std::string csv = "case,start,step,x,y,yaw_deg,declared,seed\n";
   for (const int seed : {1, 2}) {
-    std::ifstream lines(file(fmt::format("results/few_small_room_seed-{}/trials.jsonl", seed)));
-    for (std::string line; std::getline(lines, line);) {
-      const Json trial = Json::parse(line);
+    for (const Json& trial :
+         json_lines(file(fmt::format("results/few_small_room_seed-{}/trials.jsonl", seed)))) {
       if (!trial.contains("pose")) continue;
       const Json& pose = trial.at("pose");
       csv += fmt::format("small_room,{},{},{},{},{},1,{}\n", trial.at("trial").get<int>(),

@@ -13,13 +13,7 @@ using testing::Not;
 class LocalizeWithPrior : public Room {
  protected:
   LocalizeWithPrior() {
-    std::ofstream(file("world.yaml")) << "size: [12, 6]\n"
-                                         "walls:\n"
-                                         "  - {points: [[0, 0], [12, 0], [12, 6], [0, 6]], closed: true}\n"
-                                         "  - {points: [[4, 0], [4, 2]]}\n"
-                                         "  - {points: [[8, 6], [8, 4]]}\n"
-                                         "free_from: [[1, 1]]\n"
-                                         "way_points: [[2, 3], [10, 3], [10, 1.5]]\n";
+    write_symmetric_world();
     const Answer answer = run("simulate " + file("room.yaml") + " --out " + file("recorded"));
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
   }

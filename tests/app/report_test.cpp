@@ -131,18 +131,15 @@ TEST_F(ReportCommand, HasEveryLineOfTheRun) {
     EXPECT_EQ(run["name"], name);
     EXPECT_EQ(run["summary"], json(name + "/summary.json"));
     EXPECT_EQ(run["provenance"], json(name + "/provenance.json"));
-    std::ifstream trials(file(name + "/trials.jsonl"));
     std::size_t n = 0;
-    for (std::string line; std::getline(trials, line); ++n) {
-      Json trial = run["trials"][n];
+    for (const Json& line : json_lines(file(name + "/trials.jsonl"))) {
+      Json trial = run["trials"][n++];
       for (const char* more : {"columns", "local_map", "scans"}) EXPECT_EQ(trial.erase(more), 1U) << more;
-      EXPECT_EQ(trial, with_short_numbers(Json::parse(line), "stamp"));
+      EXPECT_EQ(trial, with_short_numbers(line, "stamp"));
     }
     EXPECT_EQ(run["trials"].size(), n);
-    std::ifstream steps(file(name + "/steps.jsonl"));
     std::vector<std::size_t> seen(n);
-    for (std::string line; std::getline(steps, line);) {
-      const Json step = Json::parse(line);
+    for (const Json& step : json_lines(file(name + "/steps.jsonl"))) {
       const std::size_t trial = step["trial"];
       expect_step(run["trials"][trial]["columns"], step);
       ++seen[trial];

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "app/program.hpp"
 
@@ -11,6 +12,14 @@ namespace glocal::test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+/// The lines of a file, each a value.
+inline std::vector<Json> json_lines(const fs::path& file) {
+  std::vector<Json> all;
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);) all.push_back(Json::parse(line));
+  return all;
+}
 
 /// Times are all that may differ between two runs of the same experiment.
 inline Json without_times(Json json) {
@@ -28,6 +37,18 @@ class Room : public CommandLine {
   Room() {
     write_world();
     write_experiment("trials: {every_scan: 6, max_steps: 5}\n");
+  }
+
+  /// The same again when it is turned by 180 degrees about (6, 3).
+  void write_symmetric_world() const {
+    folder_.write("world.yaml",
+                  "size: [12, 6]\n"
+                  "walls:\n"
+                  "  - {points: [[0, 0], [12, 0], [12, 6], [0, 6]], closed: true}\n"
+                  "  - {points: [[4, 0], [4, 2]]}\n"
+                  "  - {points: [[8, 6], [8, 4]]}\n"
+                  "free_from: [[1, 1]]\n"
+                  "way_points: [[2, 3], [10, 3], [10, 1.5]]\n");
   }
 
   /// `more` are further keys of the experiment.
@@ -48,9 +69,8 @@ class Room : public CommandLine {
 
   /// All lines, without their times.
   [[nodiscard]] std::string lines(const std::string& name) const {
-    std::ifstream in(file(name));
     std::string text;
-    for (std::string line; std::getline(in, line);) text += without_times(Json::parse(line)).dump() + "\n";
+    for (const Json& line : json_lines(file(name))) text += without_times(line).dump() + "\n";
     return text;
   }
 

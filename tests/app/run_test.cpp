@@ -56,16 +56,15 @@ double distance_to_walls(const Point& p) {
 
 TEST_F(RunCommand, LeavesTheScanOfEachStepInTheRobotsFrame) {
   ASSERT_EQ(run_room("a", "--quiet --set output.maps=all").exit_code, 0);
-  std::ifstream steps(file("a/steps.jsonl"));
-  for (std::string line; std::getline(steps, line);) {
-    const Json step = Json::parse(line);
+  for (const Json& step : json_lines(file("a/steps.jsonl"))) {
     const Json& pose = step["reference"];
     const Transform map_from_robot(Pose2{pose["x"], pose["y"], pose["theta"]});
     const Points hits = read_pcd(file(
         fmt::format("a/maps/trial_{:04}/scan_{:04}.pcd", step["trial"].get<int>(), step["step"].get<int>())));
     EXPECT_GT(hits.size(), 50U);
     for (std::size_t i = 0; i < hits.size(); ++i)
-      ASSERT_LT(distance_to_walls(map_from_robot(hits[i])), 0.15) << line.substr(0, 30);
+      ASSERT_LT(distance_to_walls(map_from_robot(hits[i])), 0.15)
+          << step["trial"] << ", step " << step["step"];
   }
 }
 
@@ -213,15 +212,9 @@ TEST_F(RunCommand, AnInterruptKeepsFinishedTrials) {
   EXPECT_GE(summary["trials"]["count"], 1);
 }
 
-// Turned by 180 degrees about (6, 3) this world is the same, and nothing the robot sees can tell.
+// Nothing the robot sees can tell.
 TEST_F(RunCommand, APerfectlySymmetricWorldIsNeverDeclared) {
-  std::ofstream(file("world.yaml")) << "size: [12, 6]\n"
-                                       "walls:\n"
-                                       "  - {points: [[0, 0], [12, 0], [12, 6], [0, 6]], closed: true}\n"
-                                       "  - {points: [[4, 0], [4, 2]]}\n"
-                                       "  - {points: [[8, 6], [8, 4]]}\n"
-                                       "free_from: [[1, 1]]\n"
-                                       "way_points: [[2, 3], [10, 3], [10, 1.5]]\n";
+  write_symmetric_world();
   std::ofstream(file("room.yaml")) << "schema: 1\n"
                                       "name: room\n"
                                       "map: {simulation: {world: world.yaml}}\n"
@@ -231,14 +224,12 @@ TEST_F(RunCommand, APerfectlySymmetricWorldIsNeverDeclared) {
                                       "verdict_rule: staged_margin}\n";
   const Answer answer = run_room("symmetric");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  std::ifstream in(file("symmetric/steps.jsonl"));
-  int steps = 0;
-  for (std::string line; std::getline(in, line); ++steps) {
-    const Json step = Json::parse(line);
-    EXPECT_EQ(step["verdict"], "ambiguous") << steps;
-    EXPECT_THAT(step["why"].get<std::string>(), HasSubstr("2 poses")) << steps;
+  const std::vector<Json> steps = json_lines(file("symmetric/steps.jsonl"));
+  for (const Json& step : steps) {
+    EXPECT_EQ(step["verdict"], "ambiguous") << step["step"];
+    EXPECT_THAT(step["why"].get<std::string>(), HasSubstr("2 poses")) << step["step"];
   }
-  EXPECT_GT(steps, 15);
+  EXPECT_GT(steps.size(), 15U);
 }
 
 }  // namespace

@@ -135,13 +135,13 @@ TEST_F(WatchedRun, IsShownWhileItGoesOnAndToTheEnd) {
   EXPECT_EQ(exit_code(), 0) << content(file("err"));
   const Json& live = last["live"];
   EXPECT_EQ(live["trials_done"], live["trials"]);
-  std::ifstream lines(file("watched/trials.jsonl"));
   std::size_t n = 0;
-  for (std::string line; std::getline(lines, line); ++n) {
+  for (const Json& line : json_lines(file("watched/trials.jsonl"))) {
     Json shown = last["runs"][0]["trials"][n];
     EXPECT_EQ(shown["columns"]["step"].size(), 5U - (n == 3 ? 1U : 0U));
     shown.erase("columns");
-    EXPECT_EQ(shown, Json::parse(line));
+    EXPECT_EQ(shown, line);
+    ++n;
   }
   EXPECT_EQ(last["runs"][0]["trials"].size(), n);
   EXPECT_FALSE(client().Get("/data"));

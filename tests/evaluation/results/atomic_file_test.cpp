@@ -9,15 +9,10 @@
 #include "files.hpp"
 #include "glocal/error.hpp"
 
-namespace glocal::atomic_file_test {
+namespace glocal::test::atomic_file_test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::ptrdiff_t entries(const fs::path& folder) {
   return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
@@ -30,8 +25,8 @@ TEST(AtomicFiles, AppearTogetherWhenCommitted) {
   files.add(folder / "sub/b.txt", "second");
   EXPECT_FALSE(fs::exists(folder / "sub/a.txt"));
   files.commit();
-  EXPECT_EQ(content(folder / "sub/a.txt"), "first");
-  EXPECT_EQ(content(folder / "sub/b.txt"), "second");
+  EXPECT_EQ(content_of(folder / "sub/a.txt"), "first");
+  EXPECT_EQ(content_of(folder / "sub/b.txt"), "second");
   EXPECT_EQ(entries(folder / "sub"), 2);
 }
 
@@ -44,8 +39,8 @@ TEST(AtomicFiles, CanBeWrittenPieceByPiece) {
   files.append("third");
   EXPECT_FALSE(fs::exists(folder / "b.txt"));
   files.commit();
-  EXPECT_EQ(content(folder / "a.txt"), "first");
-  EXPECT_EQ(content(folder / "b.txt"), "second, third");
+  EXPECT_EQ(content_of(folder / "a.txt"), "first");
+  EXPECT_EQ(content_of(folder / "b.txt"), "second, third");
 }
 
 TEST(AtomicFiles, LeaveNothingWithoutCommit) {
@@ -57,7 +52,7 @@ TEST(AtomicFiles, LeaveNothingWithoutCommit) {
     files.add(folder / "b.txt", "new");
   }
   EXPECT_EQ(entries(folder / ""), 1);
-  EXPECT_EQ(content(folder / "b.txt"), "old");
+  EXPECT_EQ(content_of(folder / "b.txt"), "old");
 }
 
 TEST(AtomicFiles, ReplaceOnlyWhenAllowed) {
@@ -66,11 +61,11 @@ TEST(AtomicFiles, ReplaceOnlyWhenAllowed) {
   AtomicFiles refused(false);
   EXPECT_EQ(test::config_error(file.parent_path(), [&] { refused.add(file, "new"); }),
             "a.txt: error: the file exists; choose another name, or replace it with --force");
-  EXPECT_EQ(content(file), "old, and longer");
+  EXPECT_EQ(content_of(file), "old, and longer");
   AtomicFiles allowed(true);
   allowed.add(file, "new");
   allowed.commit();
-  EXPECT_EQ(content(file), "new");
+  EXPECT_EQ(content_of(file), "new");
 }
 
 TEST(AtomicFiles, SayWhyTheyCannotBeWritten) {
@@ -110,4 +105,4 @@ TEST(WithoutLinks, FollowsThemToWhereNothingIsYet) {
 }
 
 }  // namespace
-}  // namespace glocal::atomic_file_test
+}  // namespace glocal::test::atomic_file_test

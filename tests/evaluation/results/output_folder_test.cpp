@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "evaluation/results/file_io.hpp"
 #include "files.hpp"
 #include "glocal/error.hpp"
 
@@ -17,11 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::ptrdiff_t entries(const fs::path& folder) {
   return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
@@ -68,8 +64,8 @@ TEST(OutputFolder, AppearsWholeWhenCommitted) {
     EXPECT_EQ(out.path(), folder / "a/results");
     out.commit();
   }
-  EXPECT_EQ(content(folder / "a/results/steps.jsonl"), "one\ntwo\n");
-  EXPECT_EQ(content(folder / "a/results/maps/global.pcd"), "points");
+  EXPECT_EQ(content_of(folder / "a/results/steps.jsonl"), "one\ntwo\n");
+  EXPECT_EQ(content_of(folder / "a/results/maps/global.pcd"), "points");
   EXPECT_EQ(entries(folder / "a"), 1);
 }
 
@@ -88,7 +84,7 @@ TEST(OutputFolder, AnEmptyFolderIsFree) {
   OutputFolder out(folder / "results/", false);
   out.append("a", "1");
   out.commit();
-  EXPECT_EQ(content(folder / "results/a"), "1");
+  EXPECT_EQ(content_of(folder / "results/a"), "1");
 }
 
 TEST(OutputFolder, RefusesWhatIsThere) {
@@ -102,7 +98,7 @@ TEST(OutputFolder, RefusesWhatIsThere) {
           "earlier results with --force");
   EXPECT_EQ(config_error(parent, [&] { OutputFolder(file, true); }),
             "a.txt: error: output: exists and is not a folder; choose another one with --out");
-  EXPECT_EQ(content(file), "mine");
+  EXPECT_EQ(content_of(file), "mine");
   EXPECT_EQ(entries(parent), 1);
 }
 
@@ -114,16 +110,16 @@ TEST(OutputFolder, ReplacesOnlyEarlierResults) {
   EXPECT_EQ(config_error(parent, [&] { OutputFolder(folder / "home", true); }),
             "home: error: output: --force replaces only earlier results, and this folder has no "
             "provenance.json; choose another one with --out");
-  EXPECT_EQ(content(folder / "home/thesis.tex"), "years of work");
+  EXPECT_EQ(content_of(folder / "home/thesis.tex"), "years of work");
 
   fs::create_directory(folder / "results");
   folder.write("results/provenance.json", "old");
   folder.write("results/old.txt", "old");
   OutputFolder out(folder / "results", true);
   out.append("provenance.json", "new");
-  EXPECT_EQ(content(folder / "results/provenance.json"), "old");
+  EXPECT_EQ(content_of(folder / "results/provenance.json"), "old");
   out.commit();
-  EXPECT_EQ(content(folder / "results/provenance.json"), "new");
+  EXPECT_EQ(content_of(folder / "results/provenance.json"), "new");
   EXPECT_FALSE(fs::exists(folder / "results/old.txt"));
   EXPECT_EQ(entries(parent), 2);
 }
@@ -137,7 +133,7 @@ TEST(OutputFolder, KeepsResultsThatAppearedMeanwhile) {
     folder.write("results/provenance.json", "sooner");
     EXPECT_NE(run_error([&] { out.commit(); }), "");
   }
-  EXPECT_EQ(content(folder / "results/provenance.json"), "sooner");
+  EXPECT_EQ(content_of(folder / "results/provenance.json"), "sooner");
   EXPECT_EQ(entries(folder / ""), 1);
 }
 
@@ -153,7 +149,7 @@ TEST(OutputFolder, EarlierResultsComeBackIfNewOnesCannotTakeTheirPlace) {
   }
   EXPECT_FALSE(fs::exists(folder / "results"));
   const OutputFolder out(folder / "results", true);
-  EXPECT_EQ(content(folder / "results/provenance.json"), "old");
+  EXPECT_EQ(content_of(folder / "results/provenance.json"), "old");
   EXPECT_FALSE(fs::exists(folder / ".results.replaced"));
 }
 
@@ -164,7 +160,7 @@ TEST(OutputFolder, TakesUpWhatWasLeftUnfinished) {
     out.write("a", "1");
     out.keep_unfinished();
   }
-  EXPECT_EQ(content(folder / ".results.unfinished/a"), "1");
+  EXPECT_EQ(content_of(folder / ".results.unfinished/a"), "1");
   EXPECT_EQ(entries(folder / ""), 1) << "the lock goes with its owner";
   {
     OutputFolder out(folder / "results", false, [](const fs::path&, bool) { return true; });
@@ -172,8 +168,8 @@ TEST(OutputFolder, TakesUpWhatWasLeftUnfinished) {
     out.write("b", "3");
     out.commit();
   }
-  EXPECT_EQ(content(folder / "results/a"), "1");
-  EXPECT_EQ(content(folder / "results/b"), "3");
+  EXPECT_EQ(content_of(folder / "results/a"), "1");
+  EXPECT_EQ(content_of(folder / "results/b"), "3");
   EXPECT_EQ(entries(folder / ""), 1);
 }
 
@@ -185,7 +181,7 @@ TEST(OutputFolder, WhatWasLeftMayBeRemovedBeforeItIsSynced) {
   fs::remove(folder / ".results.unfinished/left.json.part");
   EXPECT_NO_THROW(out.write_for_good("new.json", "whole"));
   out.commit();
-  EXPECT_EQ(content(folder / "results/new.json"), "whole");
+  EXPECT_EQ(content_of(folder / "results/new.json"), "whole");
 }
 
 TEST(OutputFolder, RemovesWhatIsNotTakenUp) {
@@ -204,7 +200,7 @@ TEST(OutputFolder, TakesUpResultsThatAreNotComplete) {
   OutputFolder out(folder / "results", false, [](const fs::path&, bool) { return true; });
   EXPECT_FALSE(fs::exists(folder / "results"));
   out.commit();
-  EXPECT_EQ(content(folder / "results/a"), "1");
+  EXPECT_EQ(content_of(folder / "results/a"), "1");
 }
 
 TEST(OutputFolder, AKillAtTheVeryEndLeavesNothingForLong) {
@@ -268,7 +264,7 @@ TEST(OutputFolder, ALinkStaysAndWhatItLeadsToIsWritten) {
       OutputFolder out(folder / link, true);
       out.append("provenance.json", text);
       out.commit();
-      EXPECT_EQ(content(folder / real / "provenance.json"), text);
+      EXPECT_EQ(content_of(folder / real / "provenance.json"), text);
       EXPECT_TRUE(fs::is_symlink(folder / link));
     }
   }
@@ -302,7 +298,7 @@ TEST(OutputFolder, WhatIsUnfinishedGoesOnBeforeWhatWasInterrupted) {
   fs::create_directory(folder / ".results.unfinished");
   folder.write(".results.unfinished/a", "of another run");
   OutputFolder out(folder / "results", true, [](const fs::path&, bool is_final) { return is_final; });
-  EXPECT_EQ(content(out.unfinished() / "a"), "interrupted");
+  EXPECT_EQ(content_of(out.unfinished() / "a"), "interrupted");
 }
 
 /// Another user than root, who may do everything.
@@ -355,7 +351,7 @@ TEST_F(LockedResults, ThatCannotBeRemovedAreNotLeftInSilence) {
   EXPECT_THAT(run_error([&] { out.commit(); }),
               AllOf(HasSubstr((folder_ / ".results.replaced").string() + ": cannot remove"),
                     HasSubstr("remove the folder, then give the same command again")));
-  EXPECT_EQ(content(folder_ / "results/provenance.json"), "new");
+  EXPECT_EQ(content_of(folder_ / "results/provenance.json"), "new");
   if (getuid() == 0) static_cast<void>(seteuid(0));
   fs::permissions(folder_ / ".results.replaced/maps", fs::perms::all);
   fs::create_directory(folder_ / "results/maps");

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "evaluation/results/file_io.hpp"
 #include "evaluation/results/records.hpp"
 #include "evaluation/results/summary.hpp"
 #include "evaluation/results/writers.hpp"
@@ -22,12 +22,6 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
-
-std::string content(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 /// A trial of two steps that was declared rightly in the second; numbers that no short text has.
 TrialRecord trial_record(std::size_t trial) {
@@ -100,14 +94,14 @@ TEST_F(RunResultsTest, FilesAreInTheOrderOfTrialsWhoeverWroteThem) {
     trials += trial_line(record);
     steps += step_line(trial, record.records[0]) + step_line(trial, record.records[1]);
   }
-  EXPECT_EQ(content(path() / "trials.jsonl"), trials);
-  EXPECT_EQ(content(path() / "steps.jsonl"), steps);
+  EXPECT_EQ(content_of(path() / "trials.jsonl"), trials);
+  EXPECT_EQ(content_of(path() / "steps.jsonl"), steps);
   for (int trial = 0; trial < 4; ++trial) {
     for (const char* what : {"estimate", "localized"})
       EXPECT_TRUE(fs::exists(path() / fmt::format("trajectories/trial_{:04}_{}.tum", trial, what)));
   }
   EXPECT_EQ(json, expected.to_json({{"name", "a"}, {"seed", 1}}, true));
-  EXPECT_EQ(content(path() / "summary.json"), json.dump(2) + "\n");
+  EXPECT_EQ(content_of(path() / "summary.json"), json.dump(2) + "\n");
   EXPECT_EQ(json["after_declaration"]["steps"], 4);
 }
 
@@ -149,7 +143,7 @@ TEST_F(RunResultsTest, WhatIsDamagedIsRunAgainWithAWarning) {
 TEST_F(RunResultsTest, AnEditedEntryIsRunAgain) {
   leave_unfinished({0, 1, 2, 3});
   const fs::path file = unfinished("journal/trial_0001.json");
-  std::string text = content(file);
+  std::string text = content_of(file);
   const std::size_t right = text.find("\"right\"");
   ASSERT_NE(right, std::string::npos);
   std::ofstream(file) << text.replace(right, 7, "\"wrong\"");

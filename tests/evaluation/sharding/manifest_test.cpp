@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "evaluation/results/file_io.hpp"
 #include "files.hpp"
 #include "glocal/builtin.hpp"
 #include "temporary_folder.hpp"
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Pair;
 using testing::SizeIs;
 
 class ManifestTest : public testing::Test {
@@ -76,7 +78,7 @@ TEST_F(ManifestTest, SaysWhatThereIsToDo) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(starts[i], (PlannedStart{4 * i, 3}));
   EXPECT_EQ(manifest.count_trials(), 16U);
   EXPECT_THAT(manifest.starts, SizeIs(1)) << "the same ones are there once";
-  EXPECT_THAT(manifest.variants[0].inputs, ElementsAre(fs::canonical(folder_ / "world.yaml").string()));
+  EXPECT_THAT(manifest.inputs, ElementsAre(Pair(fs::canonical(folder_ / "world.yaml").string(), SizeIs(64))));
 }
 
 TEST_F(ManifestTest, IsReadAsItWasWritten) {
@@ -99,8 +101,7 @@ TEST_F(ManifestTest, IsReadAsItWasWritten) {
 TEST_F(ManifestTest, AStartThatIsNoWholeNumberIsRefused) {
   write_manifest(folder_ / "shared", planned(variants()));
   const fs::path file = manifest_file(folder_ / "shared");
-  std::ifstream in(file);
-  const std::string whole(std::istreambuf_iterator<char>(in), {});
+  const std::string whole = content_of(file);
   const std::size_t first = whole.find('0', whole.find("\"samples\""));
   ASSERT_NE(first, std::string::npos);
   for (const std::string wrong : {"2.7e48", "-1", "0.5", "\"1\""}) {
