@@ -297,8 +297,7 @@ class DocsExamples : public CommandLine {
     if (command.starts_with("run ")) return;
     for (const std::string& folder : words_like(command, R"(results/\w+)")) {
       const std::string experiment = "configs/experiments/" + folder.substr(8) + ".yaml";
-      if (!fs::exists(folder) && fs::exists(experiment))
-        expect_success(tried("run " + experiment), document);
+      if (!fs::exists(folder) && fs::exists(experiment)) expect_success(tried("run " + experiment), document);
     }
   }
 
