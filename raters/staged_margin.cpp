@@ -116,6 +116,7 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
 
 StagedMargin::StagedMargin(const Params& params, const StageSetup& setup)
     : params_(params),
+      near_{.translation = params.rival_distance, .rotation = radians(params.rival_rotation_deg)},
       stages_(params.stages),
       certified_stages_(setup.has_verifier ? params.certified_stages : std::vector<Stage>{}) {}
 
@@ -190,7 +191,7 @@ bool StagedMargin::is_steady(double turn_rate_deg) {
   return !since_turn_ || *since_turn_ >= params_.steady_steps;
 }
 
-bool StagedMargin::Ladder::is_reached(double margin, double driven) {
+bool StagedMargin::Stages::is_reached(double margin, double driven) {
   bool reached = false;
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const Stage& stage = stages_[i];
@@ -206,11 +207,11 @@ bool StagedMargin::Ladder::is_reached(double margin, double driven) {
   return reached;
 }
 
-bool StagedMargin::Ladder::is_lost() const {
+bool StagedMargin::Stages::is_lost() const {
   return std::all_of(kept_.begin(), kept_.end(), [](const Kept& kept) { return kept.steps == 0; });
 }
 
-std::size_t StagedMargin::Ladder::least_steps() const {
+std::size_t StagedMargin::Stages::least_steps() const {
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const Stage& stage : stages_) least = std::min(least, static_cast<std::size_t>(stage.steps));
   return least;
@@ -254,7 +255,7 @@ std::optional<PoseCovariance> StagedMargin::covariance(const std::vector<Hypothe
   PoseCovariance spread;
   double weights = 0.0;
   for (const Hypothesis& h : hypotheses) {
-    if (are_rivals(h.map_from_robot, best.map_from_robot)) continue;
+    if (!near_.are_near(h.map_from_robot, best.map_from_robot)) continue;
     const double weight = std::exp((h.score - best.score) / params_.spread_margin);
     const double x = h.map_from_robot.x - best.map_from_robot.x;
     const double y = h.map_from_robot.y - best.map_from_robot.y;
@@ -273,16 +274,11 @@ std::optional<PoseCovariance> StagedMargin::covariance(const std::vector<Hypothe
                         own.yt + spread.yt / weights, own.tt + spread.tt / weights};
 }
 
-bool StagedMargin::are_rivals(const Pose3& a, const Pose3& b) const {
-  return distance(a, b) > params_.rival_distance ||
-         rotation_between(a, b) > radians(params_.rival_rotation_deg);
-}
-
 /// Poses below Omega_max are not among the hypotheses: without a rival there, the best one may still have it.
 double StagedMargin::margin_of(const StepResult& step) const {
   const Hypothesis& best = step.hypotheses.front();
   const auto rival = std::find_if(step.hypotheses.begin(), step.hypotheses.end(), [&](const Hypothesis& h) {
-    return are_rivals(h.map_from_robot, best.map_from_robot);
+    return !near_.are_near(h.map_from_robot, best.map_from_robot);
   });
   return best.score - (rival == step.hypotheses.end() ? step.omega_max : rival->score);
 }
@@ -298,8 +294,9 @@ std::vector<Pose3> StagedMargin::candidates(const StepResult& step) const {
   std::vector<Pose3> poses;
   for (const Hypothesis& h : step.hypotheses) {
     if (h.score < step.hypotheses.front().score - params_.candidate_margin) break;
-    const bool repeats = std::any_of(
-        poses.begin(), poses.end(), [&](const Pose3& other) { return !are_rivals(h.map_from_robot, other); });
+    const bool repeats = std::any_of(poses.begin(), poses.end(), [&](const Pose3& other) {
+      return near_.are_near(h.map_from_robot, other);
+    });
     if (!repeats) poses.push_back(h.map_from_robot);
   }
   return poses;

@@ -7,6 +7,7 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/params.hpp"
+#include "glocal/pose_tolerance.hpp"
 #include "glocal/strategies.hpp"
 #include "raters/followed_pose.hpp"
 
@@ -40,8 +41,8 @@ class StagedMargin final : public VerdictRule {
   struct Params {
     std::vector<Stage> stages = {{0.30, 3, 0.0}, {0.25, 4, 1.0}, {0.20, 5, 2.0}, {0.12, 8, 3.0}};
     std::vector<Stage> certified_stages = {{0.25, 2, 0.0}, {0.20, 3, 0.0}, {0.15, 4, 1.0}, {0.12, 5, 2.0}};
-    double rival_distance = 1.0;
-    double rival_rotation_deg = 30.0;
+    double rival_distance = PoseTolerance::default_translation;
+    double rival_rotation_deg = PoseTolerance::default_rotation_deg;
     double same_distance = 0.5;
     double same_rotation_deg = 15.0;
     double max_turn_rate_deg = 60.0;
@@ -67,9 +68,9 @@ class StagedMargin final : public VerdictRule {
     double distance = 0.0;
   };
   /// Stages of one kind, and how long each has been kept.
-  class Ladder {
+  class Stages {
    public:
-    explicit Ladder(std::vector<Stage> stages) : stages_(std::move(stages)), kept_(stages_.size()) {}
+    explicit Stages(std::vector<Stage> stages) : stages_(std::move(stages)), kept_(stages_.size()) {}
     void begin_anew() { kept_.assign(stages_.size(), {}); }
     /// Counts a step for each stage, and says whether one is reached.
     [[nodiscard]] bool is_reached(double margin, double driven);
@@ -91,11 +92,11 @@ class StagedMargin final : public VerdictRule {
   [[nodiscard]] std::optional<PoseCovariance> covariance(const std::vector<Hypothesis>& hypotheses) const;
   [[nodiscard]] bool continues(const StepResult& step) const;
   [[nodiscard]] std::vector<Pose3> candidates(const StepResult& step) const;
-  [[nodiscard]] bool are_rivals(const Pose3& a, const Pose3& b) const;
 
   Params params_;
-  Ladder stages_;
-  Ladder certified_stages_;  ///< None where nothing is verified.
+  PoseTolerance near_;  ///< Poses that are not near each other are rivals.
+  Stages stages_;
+  Stages certified_stages_;  ///< None where nothing is verified.
   std::optional<FollowedPose> best_;
   int steps_ = 0;             ///< In which the best pose has been the same.
   double distance_ = 0.0;     ///< m; driven in these.
