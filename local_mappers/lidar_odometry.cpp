@@ -55,7 +55,7 @@ void describe(ParamVisitor& v, LidarOdometry::Params& p) {
            .unit = "m",
            .above = 0.0,
            .audience = Audience::expert});
-  v.field("max_gate", p.max_gate,
+  v.field("max_gate", p.max_match_distance,
           {.doc = "A hit matches a point of the map within three standard deviations, and at most this.",
            .unit = "m",
            .max = 100.0,
@@ -118,7 +118,7 @@ void LidarOdometry::reset() {
   last_from_robot_ = {};
   last_step_seconds_ = last_stamp_ = 0.0;
   misfits_ = 0;
-  way_ = forgotten_at_ = 0.0;
+  travelled_ = forgotten_at_ = 0.0;
   since_forgetting_ = 0;
 }
 
@@ -133,7 +133,7 @@ void LidarOdometry::add(const Observation& observation) {
     map_.move_robot(match(scan, predicted(odom_from_robot)));
     last_from_robot_ = inverse(local_from_last) * map().local_from_robot;
     last_step_seconds_ = observation.stamp - last_stamp_;
-    way_ += norm(last_from_robot_.translation());
+    travelled_ += norm(last_from_robot_.translation());
   } else {
     map_.move_robot(first_pose(odom_from_robot, motion_));
   }
@@ -147,7 +147,7 @@ void LidarOdometry::add(const Observation& observation) {
   }
   const Pose3& local_from_robot = map().local_from_robot;
   map_.add(misfits_ > misfits_before ? Points{} : moved(scan.hits, local_from_robot),
-           as_point(local_from_robot * as_vector(scan.origin)), way_);
+           as_point(local_from_robot * as_vector(scan.origin)), travelled_);
   forget();
 }
 
@@ -169,7 +169,8 @@ Pose3 LidarOdometry::match(const Scan& scan, const Pose3& prediction) {
   const Points hits = voxel_downsampled(scan.hits, params_.scan_voxel);
   if (map().points.empty() || hits.size() < static_cast<std::size_t>(params_.min_matches)) return prediction;
   const double sigma = threshold_.sigma();
-  const MatchLimits limits{.gate = std::min(3.0 * sigma, params_.max_gate), .kernel = sigma / 3.0};
+  const MatchLimits limits{.match_distance = std::min(3.0 * sigma, params_.max_match_distance),
+                           .kernel = sigma / 3.0};
   const PlaneRegistration found =
       register_to_planes(map_, hits, scan.origin, prediction, limits, params_.registration);
   const bool fits = found.matches >= static_cast<std::size_t>(params_.min_matches) &&
@@ -183,13 +184,13 @@ Pose3 LidarOdometry::match(const Scan& scan, const Pose3& prediction) {
 // Not with each observation, as what is looked up by has to be made anew.
 void LidarOdometry::forget() {
   constexpr double share = 0.1;
-  const bool has_driven = params_.distance > 0.0 && way_ - forgotten_at_ > share * params_.distance;
+  const bool has_driven = params_.distance > 0.0 && travelled_ - forgotten_at_ > share * params_.distance;
   const bool has_seen = params_.scans > 0 && ++since_forgetting_ > share * params_.scans;
   if (!has_driven && !has_seen) return;
   const auto unlimited = std::numeric_limits<std::size_t>::max();
   map_.forget(params_.scans > 0 ? static_cast<std::size_t>(params_.scans) : unlimited,
-              params_.distance > 0.0 ? way_ - params_.distance : 0.0);
-  forgotten_at_ = way_;
+              params_.distance > 0.0 ? travelled_ - params_.distance : 0.0);
+  forgotten_at_ = travelled_;
   since_forgetting_ = 0;
 }
 

@@ -52,7 +52,7 @@ class LidarOdometry final : public LocalMapper {
     std::string deskew = "odometry";
     double initial_threshold = 0.3;
     double min_correction = 0.02;
-    double max_gate = 2.0;
+    double max_match_distance = 2.0;
     PlaneRegistrationParams registration;
     int min_matches = 30;
     double min_fit = 0.3;
@@ -84,7 +84,7 @@ class LidarOdometry final : public LocalMapper {
   double last_step_seconds_ = 0.0;       ///< … and how long it took; 0 before the first.
   double last_stamp_ = 0.0;              ///< s
   int misfits_ = 0;                      ///< Observations in a row that did not fit.
-  double way_ = 0.0;                     ///< Driven so far, m.
+  double travelled_ = 0.0;               ///< Driven so far, m.
   double forgotten_at_ = 0.0;            ///< Where on the way forget() has looked last, m …
   int since_forgetting_ = 0;             ///< … and observations since then.
 };

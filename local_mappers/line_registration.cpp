@@ -54,7 +54,7 @@ class NormalSums {
 }  // namespace
 
 void describe(ParamVisitor& v, LineRegistrationParams& p) {
-  v.field("gate", p.gate,
+  v.field("gate", p.match_distance,
           {.doc = "Farthest a hit may be from its point of the map; at most 11 cells.",
            .unit = "m",
            .above = 0.0});
@@ -75,9 +75,9 @@ NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Poin
   const Transform transform(local_from_robot);
   const Transform rotation({0.0, 0.0, local_from_robot.theta});
   const Point robot = transform({});
-  const auto gate_squared = static_cast<float>(params.gate * params.gate);
+  const auto match_distance_squared = static_cast<float>(params.match_distance * params.match_distance);
   const auto min_cosine = static_cast<float>(std::cos(radians(params.max_normal_angle_deg)));
-  NormalSums sums(params.gate * params.kernel_share);
+  NormalSums sums(params.match_distance * params.kernel_share);
   int matches = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Point p = transform(hits[i]);
@@ -86,7 +86,7 @@ NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Poin
     const auto j = static_cast<std::size_t>(found);
     const float dx = p.x - map.points.x[j];
     const float dy = p.y - map.points.y[j];
-    if (dx * dx + dy * dy > gate_squared) continue;
+    if (dx * dx + dy * dy > match_distance_squared) continue;
     // Turning the robot moves a hit at right angles to its ray.
     const float lever_x = robot.y - p.y;
     const float lever_y = p.x - robot.x;

@@ -12,7 +12,7 @@
 namespace glocal {
 
 struct LineRegistrationParams {
-  double gate = 0.45;
+  double match_distance = 0.45;
   double kernel_share = 0.333;
   double max_normal_angle_deg = 60.0;
   double pointwise_weight = 0.2;
@@ -31,8 +31,8 @@ struct NormalEquations {
 };
 
 /// Matches hits (robot frame, with their normals) to nearest points of the map and sums up the Geman-McClure
-/// costs rho(r) = c^2 r^2 / (2 (c^2 + r^2)), c = gate * kernel_share, of the distances r to the lines through
-/// these points; where either has no normal, of the distances along x and y, with less weight.
+/// costs rho(r) = c^2 r^2 / (2 (c^2 + r^2)), c = match_distance * kernel_share, of the distances r to the
+/// lines through these points; where either has no normal, of the distances along x and y, with less weight.
 [[nodiscard]] NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Points& hits,
                                         const Points& normals, const Pose2& local_from_robot,
                                         const LineRegistrationParams& params);

@@ -73,14 +73,15 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
            "Observations in a row that do not fit before a new local map is started with the last of them.",
        .min = 1,
        .audience = Audience::expert});
-  v.require(cells_in(p.refinement.gate, p.voxels.resolution) <= PointGrid::max_reach, "refinement",
+  v.require(cells_in(p.refinement.match_distance, p.voxels.resolution) <= PointGrid::max_reach, "refinement",
             "gate must be at most 11 times resolution");
 }
 
 ScanMatching::ScanMatching(const Params& params)
     : params_(params),
       map_(params.voxels,
-           std::min(cells_in(params.refinement.gate, params.voxels.resolution), PointGrid::max_reach),
+           std::min(cells_in(params.refinement.match_distance, params.voxels.resolution),
+                    PointGrid::max_reach),
            params.likelihood_sigma),
       free_space_check_(params.free_space_check) {}
 

@@ -38,7 +38,7 @@ TEST(LineRegistration, OneMatchByHand) {
   normals.push_back({-1.0F, 0.0F, 0.0F});
   // c = 0.3 * 0.5 = 0.15; r = -0.1; share = 0.0225 / (0.0225 + 0.01) = 9 / 13.
   const NormalEquations e = linearise(world.grid, world.map, hits, normals, {},
-                                      {.gate = 0.3, .kernel_share = 0.5, .damping = 1e-4});
+                                      {.match_distance = 0.3, .kernel_share = 0.5, .damping = 1e-4});
   EXPECT_EQ(e.matches, 1);
   const double share = 9.0 / 13.0;
   EXPECT_NEAR(e.cost, 0.5 * share * 0.01, 1e-7);
@@ -59,7 +59,7 @@ TEST(LineRegistration, MatchesNeedTheGateAndTheNormals) {
   ASSERT_TRUE(world.grid.insert(world.grid.cell(2.0F, 0.0F), 0));
   Points hits;
   hits.push_back({2.2F, 0.0F, 0.0F});
-  const LineRegistrationParams params{.gate = 0.25, .max_normal_angle_deg = 60.0};
+  const LineRegistrationParams params{.match_distance = 0.25, .max_normal_angle_deg = 60.0};
   const auto matches = [&](double normal_angle, double robot_x) {
     Points normals;
     normals.push_back(
@@ -79,9 +79,9 @@ TEST(LineRegistration, TheGradientIsTheNumericDerivativeOfTheCost) {
   // A few hits without normals, so that both kinds of residual take part.
   Points normals = scan_normals(scan.hits, {}, {});
   for (std::size_t i = 0; i < normals.size(); i += 7) normals.set(i, {});
-  // A wide gate, so that no match is lost within the differences; these are taken where a match may change
-  // only for few.
-  const LineRegistrationParams params{.gate = 0.45, .kernel_share = 0.333};
+  // A large match distance, so that no match is lost within the differences; these are taken where a match
+  // may change only for few.
+  const LineRegistrationParams params{.match_distance = 0.45, .kernel_share = 0.333};
   const Pose2 pose{0.013, -0.021, 0.017};
   const auto cost = [&](double dx, double dy, double dt) {
     return linearise(world.grid, world.map, scan.hits, normals, {pose.x + dx, pose.y + dy, pose.theta + dt},
