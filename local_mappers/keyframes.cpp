@@ -28,7 +28,7 @@ void describe(ParamVisitor& v, Keyframes::Params& p) {
            .above = 0.0,
            .audience = Audience::expert});
   describe(v, p.matching);
-  v.require(p.overlap_distance <= p.matching.refinement.gate, "overlap_distance",
+  v.require(p.overlap_distance <= p.matching.refinement.match_distance, "overlap_distance",
             "must be at most refinement's gate");
 }
 

@@ -93,7 +93,7 @@ void LidarOdometry::reset() {
   last_from_robot_ = {};
   last_step_seconds_ = last_stamp_ = 0.0;
   misfits_ = 0;
-  way_ = forgotten_at_ = 0.0;
+  travelled_ = forgotten_at_ = 0.0;
   since_forgetting_ = 0;
 }
 
@@ -108,7 +108,7 @@ void LidarOdometry::add(const Observation& observation) {
     map_.move_robot(match(scan, predicted(odom_from_robot)));
     last_from_robot_ = inverse(local_from_last) * map().local_from_robot;
     last_step_seconds_ = observation.stamp - last_stamp_;
-    way_ += norm(last_from_robot_.translation());
+    travelled_ += norm(last_from_robot_.translation());
   } else {
     map_.move_robot(first_pose(odom_from_robot, motion_));
   }
@@ -122,7 +122,7 @@ void LidarOdometry::add(const Observation& observation) {
   }
   const Pose3& local_from_robot = map().local_from_robot;
   map_.add(misfits_ > misfits_before ? Points{} : moved(scan.hits, local_from_robot),
-           as_point(local_from_robot * as_vector(scan.origin)), way_);
+           as_point(local_from_robot * as_vector(scan.origin)), travelled_);
   forget();
 }
 
@@ -144,7 +144,8 @@ Pose3 LidarOdometry::match(const Scan& scan, const Pose3& prediction) {
   const Points hits = voxel_downsampled(scan.hits, params_.scan_voxel);
   if (map().points.empty() || hits.size() < min_matches) return prediction;
   const double sigma = threshold_.sigma();
-  const MatchLimits limits{.gate = std::min(3.0 * sigma, max_gate), .kernel = sigma / 3.0};
+  const MatchLimits limits{.match_distance = std::min(3.0 * sigma, max_match_distance),
+                           .kernel = sigma / 3.0};
   const PlaneRegistration found = register_to_planes(map_, hits, scan.origin, prediction, limits);
   const bool fits = found.matches >= min_matches &&
                     static_cast<double>(found.matches) >= params_.min_fit * static_cast<double>(hits.size());
@@ -157,13 +158,13 @@ Pose3 LidarOdometry::match(const Scan& scan, const Pose3& prediction) {
 // Not with each observation, as what is looked up by has to be made anew.
 void LidarOdometry::forget() {
   constexpr double share = 0.1;
-  const bool has_driven = params_.distance > 0.0 && way_ - forgotten_at_ > share * params_.distance;
+  const bool has_driven = params_.distance > 0.0 && travelled_ - forgotten_at_ > share * params_.distance;
   const bool has_seen = params_.scans > 0 && ++since_forgetting_ > share * params_.scans;
   if (!has_driven && !has_seen) return;
   const auto unlimited = std::numeric_limits<std::size_t>::max();
   map_.forget(params_.scans > 0 ? static_cast<std::size_t>(params_.scans) : unlimited,
-              params_.distance > 0.0 ? way_ - params_.distance : 0.0);
-  forgotten_at_ = way_;
+              params_.distance > 0.0 ? travelled_ - params_.distance : 0.0);
+  forgotten_at_ = travelled_;
   since_forgetting_ = 0;
 }
 

@@ -68,7 +68,7 @@ class LidarOdometry final : public LocalMapper {
   /// Corrections that move no hit farther than this do not count for sigma, m.
   static constexpr double min_correction = 0.02;
   /// A hit matches a point of the map within three sigma, and at most this, m.
-  static constexpr double max_gate = 2.0;
+  static constexpr double max_match_distance = 2.0;
   /// With fewer matched hits the prediction is kept.
   static constexpr std::size_t min_matches = 30;
 
@@ -88,7 +88,7 @@ class LidarOdometry final : public LocalMapper {
   double last_step_seconds_ = 0.0;       ///< … and how long it took; 0 before the first.
   double last_stamp_ = 0.0;              ///< s
   int misfits_ = 0;                      ///< Observations in a row that did not fit.
-  double way_ = 0.0;                     ///< Driven so far, m.
+  double travelled_ = 0.0;               ///< Driven so far, m.
   double forgotten_at_ = 0.0;            ///< Where on the way forget() has looked last, m …
   int since_forgetting_ = 0;             ///< … and observations since then.
 };

@@ -7,7 +7,8 @@ namespace glocal {
 
 namespace {
 
-/// Scale of the kernel, as a share of the gate: what is at the gate has a hundredth of a near hit's weight.
+/// Scale of the kernel, as a share of the match distance: what is as far away has a hundredth of a near hit's
+/// weight.
 constexpr double kernel_share = 0.333;
 /// Between the normals of a hit and its point of the map: farther turned it is another side of the thing.
 constexpr double max_normal_angle_deg = 60.0;
@@ -61,20 +62,20 @@ class NormalSums {
 }  // namespace
 
 void describe(ParamVisitor& v, LineRegistrationParams& p) {
-  v.field("gate", p.gate,
+  v.field("gate", p.match_distance,
           {.doc = "Farthest a hit may be from its point of the map; at most 11 cells.",
            .unit = "m",
            .above = 0.0});
 }
 
 NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                          const Points& normals, const Pose2& local_from_robot, double gate) {
+                          const Points& normals, const Pose2& local_from_robot, double match_distance) {
   const Transform transform(local_from_robot);
   const Transform rotation({0.0, 0.0, local_from_robot.theta});
   const Point robot = transform({});
-  const auto gate_squared = static_cast<float>(gate * gate);
+  const auto match_distance_squared = static_cast<float>(match_distance * match_distance);
   const auto min_cosine = static_cast<float>(std::cos(radians(max_normal_angle_deg)));
-  NormalSums sums(gate * kernel_share);
+  NormalSums sums(match_distance * kernel_share);
   int matches = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Point p = transform(hits[i]);
@@ -83,7 +84,7 @@ NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Poin
     const auto j = static_cast<std::size_t>(found);
     const float dx = p.x - map.points.x[j];
     const float dy = p.y - map.points.y[j];
-    if (dx * dx + dy * dy > gate_squared) continue;
+    if (dx * dx + dy * dy > match_distance_squared) continue;
     // Turning the robot moves a hit at right angles to its ray.
     const float lever_x = robot.y - p.y;
     const float lever_y = p.x - robot.x;
@@ -105,10 +106,10 @@ NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Poin
 }
 
 ScanRegistration register_scan(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                               const Points& normals, const Pose2& start, double gate) {
+                               const Points& normals, const Pose2& start, double match_distance) {
   ScanRegistration result{start, 0};
   for (int iteration = 0; iteration < max_steps; ++iteration) {
-    NormalEquations equations = linearise(grid, map, hits, normals, result.local_from_robot, gate);
+    NormalEquations equations = linearise(grid, map, hits, normals, result.local_from_robot, match_distance);
     result.matches = equations.matches;
     if (equations.matches == 0) break;
     equations.hessian.diagonal().array() += damping * equations.matches;

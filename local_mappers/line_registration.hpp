@@ -12,7 +12,7 @@
 namespace glocal {
 
 struct LineRegistrationParams {
-  double gate = 0.45;
+  double match_distance = 0.45;
 };
 void describe(ParamVisitor& v, LineRegistrationParams& p);
 
@@ -26,10 +26,11 @@ struct NormalEquations {
 };
 
 /// Matches hits (robot frame, with their normals) to nearest points of the map and sums up the Geman-McClure
-/// costs rho(r) = c^2 r^2 / (2 (c^2 + r^2)), c = gate / 3, of the distances r to the lines through
+/// costs rho(r) = c^2 r^2 / (2 (c^2 + r^2)), c = match_distance / 3, of the distances r to the lines through
 /// these points; where either has no normal, of the distances along x and y, with less weight.
 [[nodiscard]] NormalEquations linearise(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                                        const Points& normals, const Pose2& local_from_robot, double gate);
+                                        const Points& normals, const Pose2& local_from_robot,
+                                        double match_distance);
 
 struct ScanRegistration {
   Pose2 local_from_robot;
@@ -39,6 +40,7 @@ struct ScanRegistration {
 /// Iterates Gauss-Newton steps from `start` until they are below 0.1 mm and 0.1 mrad, at most 20. Directions
 /// the points do not determine (along a bare corridor) stay at `start`.
 [[nodiscard]] ScanRegistration register_scan(const PointGrid& grid, const LocalMap& map, const Points& hits,
-                                             const Points& normals, const Pose2& start, double gate);
+                                             const Points& normals, const Pose2& start,
+                                             double match_distance);
 
 }  // namespace glocal

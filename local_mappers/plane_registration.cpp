@@ -69,7 +69,7 @@ PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, 
     SpatialNormalEquations equations(limits.kernel);
     result.matches = 0;
     for (std::size_t i = 0; i < placed.size(); ++i) {
-      const std::optional<std::size_t> found = map.nearest(placed[i], limits.gate);
+      const std::optional<std::size_t> found = map.nearest(placed[i], limits.match_distance);
       if (!found) continue;
       const Eigen::Vector3d hit = vector_of(placed[i]);
       const Eigen::Vector3d offset = hit - vector_of(points[*found]);

@@ -11,8 +11,8 @@ namespace glocal {
 
 /// What counts as the same surface, m.
 struct MatchLimits {
-  double gate = 0.0;    ///< Farthest a hit may be from its point of the map.
-  double kernel = 0.0;  ///< Scale c of the Geman-McClure kernel.
+  double match_distance = 0.0;  ///< Farthest a hit may be from its point of the map.
+  double kernel = 0.0;          ///< Scale c of the Geman-McClure kernel.
 };
 
 struct PlaneRegistration {

@@ -38,14 +38,15 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
            "Observations in a row that do not fit before a new local map is started with the last of them.",
        .min = 1,
        .audience = Audience::expert});
-  v.require(cells_in(p.refinement.gate, p.voxels.resolution) <= PointGrid::max_reach, "refinement",
+  v.require(cells_in(p.refinement.match_distance, p.voxels.resolution) <= PointGrid::max_reach, "refinement",
             "gate must be at most 11 times resolution");
 }
 
 ScanMatching::ScanMatching(const Params& params)
     : params_(params),
       map_(params.voxels,
-           std::min(cells_in(params.refinement.gate, params.voxels.resolution), PointGrid::max_reach),
+           std::min(cells_in(params.refinement.match_distance, params.voxels.resolution),
+                    PointGrid::max_reach),
            params.likelihood_sigma) {}
 
 void ScanMatching::reset() {
@@ -96,7 +97,7 @@ Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& 
 Pose2 ScanMatching::refine(const Scan& scan, const Points& normals, const Pose2& found,
                            const Pose2& predicted) const {
   const ScanRegistration refined =
-      register_scan(grid(), map(), scan.hits, normals, found, params_.refinement.gate);
+      register_scan(grid(), map(), scan.hits, normals, found, params_.refinement.match_distance);
   const bool sound = refined.matches >= min_matches &&
                      distance(refined.local_from_robot, found) <= max_correction &&
                      rotation_between(refined.local_from_robot, found) <= radians(max_correction_angle_deg);

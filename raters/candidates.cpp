@@ -10,11 +10,10 @@ namespace glocal {
 namespace {
 
 std::size_t count_places(const std::vector<Pose3>& poses) {
-  constexpr double same_place_m = 1.0;
   std::vector<Pose3> places;
   for (const Pose3& pose : poses) {
     const bool is_new = std::none_of(places.begin(), places.end(), [&](const Pose3& place) {
-      return distance(pose, place) < same_place_m;
+      return distance(pose, place) < PoseTolerance::default_translation;
     });
     if (is_new) places.push_back(pose);
   }

@@ -15,12 +15,8 @@ namespace {
 /// Steps since the robot last turned fast, before anything is declared.
 constexpr int steady_steps = 3;
 
-/// A rival of a pose is another place or another heading.
-bool are_rivals(const Pose3& a, const Pose3& b) {
-  constexpr double distance_m = 1.0;
-  constexpr double rotation_deg = 30.0;
-  return distance(a, b) > distance_m || rotation_between(a, b) > radians(rotation_deg);
-}
+/// Poses that are not near each other are rivals.
+constexpr PoseTolerance near;
 
 /// The probability that the best pose is right: logistic in its margin and in the logarithm of the steps in
 /// which it has been the same. Fitted to starts in simulated worlds (docs/method.md). Never 1, however clear
@@ -38,7 +34,7 @@ std::optional<PoseCovariance> covariance(const std::vector<Hypothesis>& hypothes
   PoseCovariance spread;
   double weights = 0.0;
   for (const Hypothesis& h : hypotheses) {
-    if (are_rivals(h.map_from_robot, best.map_from_robot)) continue;
+    if (!near.are_near(h.map_from_robot, best.map_from_robot)) continue;
     const double weight = std::exp((h.score - best.score) / spread_margin);
     const double x = h.map_from_robot.x - best.map_from_robot.x;
     const double y = h.map_from_robot.y - best.map_from_robot.y;
@@ -184,7 +180,7 @@ bool StagedMargin::is_steady(double turn_rate_deg) {
   return !since_turn_ || *since_turn_ >= steady_steps;
 }
 
-bool StagedMargin::Ladder::is_reached(double margin, double driven) {
+bool StagedMargin::Stages::is_reached(double margin, double driven) {
   bool reached = false;
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const Stage& stage = stages_[i];
@@ -200,11 +196,11 @@ bool StagedMargin::Ladder::is_reached(double margin, double driven) {
   return reached;
 }
 
-bool StagedMargin::Ladder::is_lost() const {
+bool StagedMargin::Stages::is_lost() const {
   return std::all_of(kept_.begin(), kept_.end(), [](const Kept& kept) { return kept.steps == 0; });
 }
 
-std::size_t StagedMargin::Ladder::least_steps() const {
+std::size_t StagedMargin::Stages::least_steps() const {
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const Stage& stage : stages_) least = std::min(least, static_cast<std::size_t>(stage.steps));
   return least;
@@ -234,7 +230,7 @@ Verdict StagedMargin::undecided(const StepResult& step, double margin) const {
 double StagedMargin::margin_of(const StepResult& step) const {
   const Hypothesis& best = step.hypotheses.front();
   const auto rival = std::find_if(step.hypotheses.begin(), step.hypotheses.end(), [&](const Hypothesis& h) {
-    return are_rivals(h.map_from_robot, best.map_from_robot);
+    return !near.are_near(h.map_from_robot, best.map_from_robot);
   });
   return best.score - (rival == step.hypotheses.end() ? step.omega_max : rival->score);
 }
@@ -249,8 +245,9 @@ std::vector<Pose3> StagedMargin::candidates(const StepResult& step) const {
   std::vector<Pose3> poses;
   for (const Hypothesis& h : step.hypotheses) {
     if (h.score < step.hypotheses.front().score - params_.candidate_margin) break;
-    const bool repeats = std::any_of(
-        poses.begin(), poses.end(), [&](const Pose3& other) { return !are_rivals(h.map_from_robot, other); });
+    const bool repeats = std::any_of(poses.begin(), poses.end(), [&](const Pose3& other) {
+      return near.are_near(h.map_from_robot, other);
+    });
     if (!repeats) poses.push_back(h.map_from_robot);
   }
   return poses;

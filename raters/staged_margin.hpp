@@ -7,6 +7,7 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/params.hpp"
+#include "glocal/pose_tolerance.hpp"
 #include "glocal/strategies.hpp"
 #include "raters/followed_pose.hpp"
 
@@ -52,9 +53,9 @@ class StagedMargin final : public VerdictRule {
     double distance = 0.0;
   };
   /// Stages of one kind, and how long each has been kept.
-  class Ladder {
+  class Stages {
    public:
-    explicit Ladder(std::vector<Stage> stages) : stages_(std::move(stages)), kept_(stages_.size()) {}
+    explicit Stages(std::vector<Stage> stages) : stages_(std::move(stages)), kept_(stages_.size()) {}
     void begin_anew() { kept_.assign(stages_.size(), {}); }
     /// Counts a step for each stage, and says whether one is reached.
     [[nodiscard]] bool is_reached(double margin, double driven);
@@ -76,8 +77,8 @@ class StagedMargin final : public VerdictRule {
   [[nodiscard]] std::vector<Pose3> candidates(const StepResult& step) const;
 
   Params params_;
-  Ladder stages_;
-  Ladder certified_stages_;  ///< None where nothing is verified.
+  Stages stages_;
+  Stages certified_stages_;  ///< None where nothing is verified.
   std::optional<FollowedPose> best_;
   int steps_ = 0;             ///< In which the best pose has been the same.
   double distance_ = 0.0;     ///< m; driven in these.

@@ -93,8 +93,7 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
                            {.translation = params_.distance, .rotation = radians(params_.rotation_deg)}};
   const BoxSearchResult search =
       search_boxes(*pyramid_, local.points, local.local_from_robot, rule, declared, threads_);
-  Verification result{
-      .distance = declared.near.translation, .rotation = declared.near.rotation, .margin = params_.margin};
+  Verification result{.near = declared.near, .margin = params_.margin};
   result.points_tested = search.looks;
   std::vector<Hypothesis> rivals;
   for (const BoxSearchResult::FoundPose& found : search.poses) {

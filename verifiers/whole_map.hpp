@@ -18,15 +18,15 @@ namespace glocal {
 /// yaw of the local map, which does not tilt: the robot's roll and pitch are those of the declared pose.
 ///
 /// The search counts contact (Omega, eq. 4) and nothing else. What the matcher thinks of a pose beyond that,
-/// it says of the rivals that the search brings (Matcher::take_up).
+/// it says of the rivals that the search brings (Matcher::rescore).
 class WholeMap final : public Verifier {
  public:
   static constexpr Motions motions{.planar = true, .upright = true};
 
   struct Params {
     double margin = 0.05;
-    double distance = 1.0;
-    double rotation_deg = 30.0;
+    double distance = PoseTolerance::default_translation;
+    double rotation_deg = PoseTolerance::default_rotation_deg;
     std::optional<double> contact_epsilon = {};
     std::optional<double> cell = {};
     int max_rivals = 10;
@@ -54,20 +54,5 @@ class WholeMap final : public Verifier {
   std::shared_ptr<const BoxPyramid> pyramid_;
 };
 void describe(ParamVisitor& v, WholeMap::Params& p);
-
-/// Never looks for rivals.
-class NoVerifier final : public Verifier {
- public:
-  static constexpr Motions motions = all_motions;
-  struct Params {};
-
-  explicit NoVerifier(const Params& /*params*/) {}
-  [[nodiscard]] bool verifies() const override { return false; }
-  [[nodiscard]] Verification verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
-                                    const PoseGate& /*gate*/) override {
-    return {};
-  }
-};
-inline void describe(ParamVisitor& /*v*/, NoVerifier::Params& /*p*/) {}
 
 }  // namespace glocal

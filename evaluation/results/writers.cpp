@@ -41,7 +41,7 @@ void add_estimate(Json& json, const PoseEstimate& estimate, const std::optional<
 
 Json to_json(const Verification& v, const Certificate& certificate) {
   return {{"contact", certificate.contact},   {"at_most", certificate.at_most},
-          {"distance_m", v.distance},         {"rotation_deg", degrees(v.rotation)},
+          {"distance_m", v.near.translation}, {"rotation_deg", degrees(v.near.rotation)},
           {"epsilon_m", certificate.epsilon}, {"delta_m", certificate.delta}};
 }
 

@@ -6,24 +6,24 @@
 
 namespace glocal {
 
-std::vector<Heap> heaps_of(const Particles& particles, const PoseBinning& binning, std::size_t most) {
+std::vector<CellSum> cell_sums(const Particles& particles, const PoseBinning& binning, std::size_t most) {
   const std::vector<Pose2>& poses = particles.poses;
-  std::vector<Heap> heaps;
-  std::unordered_map<PoseCell, std::size_t, PoseCellHash> heap_of_cell;
-  std::size_t heap = 0;
+  std::vector<CellSum> sums;
+  std::unordered_map<PoseCell, std::size_t, PoseCellHash> number_of_cell;
+  std::size_t sum = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     // Copies of a particle follow each other.
     if (i == 0 || !(poses[i] == poses[i - 1])) {
-      const auto [it, is_new] = heap_of_cell.try_emplace(binning.cell_of(poses[i]), heaps.size());
-      if (is_new) heaps.emplace_back();
-      heap = it->second;
+      const auto [it, is_new] = number_of_cell.try_emplace(binning.cell_of(poses[i]), sums.size());
+      if (is_new) sums.emplace_back();
+      sum = it->second;
     }
-    heaps[heap].add(poses[i], particles.weights[i]);
+    sums[sum].add(poses[i], particles.weights[i]);
   }
-  std::stable_sort(heaps.begin(), heaps.end(),
-                   [](const Heap& a, const Heap& b) { return a.weight > b.weight; });
-  heaps.resize(std::min(heaps.size(), most));
-  return heaps;
+  std::stable_sort(sums.begin(), sums.end(),
+                   [](const CellSum& a, const CellSum& b) { return a.weight > b.weight; });
+  sums.resize(std::min(sums.size(), most));
+  return sums;
 }
 
 void describe(ParamVisitor& v, ParticleMerging& p) {
@@ -50,17 +50,17 @@ void describe(ParamVisitor& v, ParticleMerging& p) {
 std::vector<Hypothesis> hypotheses_of(const Particles& particles, const Pose2& old_from_new,
                                       const ParticleMerging& merging, const ContactIndex& contact,
                                       const LocalMap& local, const Scan& scan, double omega_max) {
-  const std::vector<Heap> heaps = heaps_of(
+  const std::vector<CellSum> sums = cell_sums(
       particles, {merging.merge_distance, square_parts_of_a_turn(radians(merging.merge_rotation_deg))},
       static_cast<std::size_t>(merging.max_hypotheses));
   const Pose2 robot_from_local = inverse(seen_from_above(local.local_from_robot));
   std::vector<Hypothesis> found;
-  for (const Heap& heap : heaps) {
-    const Pose2 map_from_robot = heap.mean() * old_from_new;
+  for (const CellSum& sum : sums) {
+    const Pose2 map_from_robot = sum.mean() * old_from_new;
     const double score = contact.share(scan.hits, Transform(map_from_robot));
     if (score < omega_max) continue;
     const Pose2 map_from_local = map_from_robot * robot_from_local;
-    const auto support = std::lround(heap.weight * static_cast<double>(particles.weights.size()));
+    const auto support = std::lround(sum.weight * static_cast<double>(particles.weights.size()));
     found.push_back({.map_from_local = map_from_local,
                      .quality = contact.share(local.points, Transform(map_from_local)),
                      .score = score,

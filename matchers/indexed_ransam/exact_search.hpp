@@ -35,21 +35,22 @@ class ExactSearch {
   /// Throws ConfigError where the map is too large for a pyramid.
   ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon, int threads);
 
-  /// Takes in the best poses of a step: whether it is the last of so many in a row in which no pose is
-  /// clearly the best. Then the count begins anew, up to twice as many; by a clear pose or reset(), up to as
-  /// many as at first.
+  /// Takes in the best poses of a step, and says whether a search is due now: after `after_steps` steps in a
+  /// row in which no pose was clearly the best. The next search is due after twice as many such steps, and so
+  /// on, until a pose is clearly the best or reset() is called.
   [[nodiscard]] bool is_due(const std::vector<Hypothesis>& best);
   void reset();
 
   [[nodiscard]] std::size_t points() const { return static_cast<std::size_t>(rule_.points); }
 
-  /// Refines and judges what a round has found: the best poses so far.
+  /// Refines and judges the poses that a round has found. Returns the best poses so far, whoever found them.
   using Settle = std::function<std::vector<Hypothesis>(const std::vector<Pose2>& map_from_local)>;
 
-  /// Brings to `settle`, round by round, the poses farther than 1 m or 30 degrees from the best one that can
-  /// have most of these points of a local map in contact. Ends where a pose has been settled whose score a
-  /// pose of the next round would hardly reach, at the least contact, or after too many looks. Returns how
-  /// many points were looked at.
+  /// Searches in rounds, each of which asks for less contact of these points of a local map than the one
+  /// before, and hands what it finds to `settle`. What is near the best pose so far is not searched for
+  /// (Exclusion). The last round is the one after which a pose has a score that those of the next round would
+  /// hardly reach, the one of `min_contact`, or the one that takes too many looks. Returns how many points
+  /// were looked at.
   std::size_t search(const Points& points, const Pose3& local_from_robot, const PoseGate& gate,
                      std::vector<Hypothesis> best, const Settle& settle) const;
 

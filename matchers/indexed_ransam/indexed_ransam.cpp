@@ -186,18 +186,18 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   for (const Hypothesis& h : best) {
     if (carried_.size() < static_cast<std::size_t>(params_.carried))
       carried_.push_back(seen_from_above(h.map_from_local));
-    if (h.score >= omega_max) result.hypotheses.push_back(judge_.told(h, local, sample));
+    if (h.score >= omega_max) result.hypotheses.push_back(judge_.to_hypothesis(h, local, sample));
   }
   return result;
 }
 
-std::vector<Hypothesis> IndexedRansam::take_up(std::vector<Hypothesis> found, const LocalMap& local) {
+std::vector<Hypothesis> IndexedRansam::rescore(std::vector<Hypothesis> found, const LocalMap& local) {
   std::vector<Candidate> candidates;
   for (const Hypothesis& h : found) candidates.push_back({seen_from_above(h.map_from_local), h.quality});
   found = judge_.best_of(candidates, local, local.points);
   for (Hypothesis& h : found) {
     carried_.push_back(seen_from_above(h.map_from_local));
-    h = judge_.told(h, local, local.points);
+    h = judge_.to_hypothesis(h, local, local.points);
     h.score = std::max(h.score, 0.0);
   }
   return found;

@@ -62,7 +62,7 @@ class IndexedRansam final : public Matcher {
   void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
-  [[nodiscard]] std::vector<Hypothesis> take_up(std::vector<Hypothesis> found,
+  [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                 const LocalMap& local) override;
   void reset() override;
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override { return map_index_; }

@@ -45,7 +45,7 @@ std::vector<Hypothesis> PoseJudge::best_of(const std::vector<Candidate>& candida
   return best;
 }
 
-Hypothesis PoseJudge::told(Hypothesis judged, const LocalMap& local, const Points& sample) const {
+Hypothesis PoseJudge::to_hypothesis(Hypothesis judged, const LocalMap& local, const Points& sample) const {
   const Pose2 map_from_local = seen_from_above(judged.map_from_local);
   const Pose2 map_from_robot = map_from_local * seen_from_above(local.local_from_robot);
   judged.score = std::min(judged.score, 1.0);

@@ -49,7 +49,8 @@ class PoseJudge {
 
   /// What a matcher tells of a pose: a score of at most 1, how uncertain the pose is, and how much of the
   /// local map lies in space known to be free.
-  [[nodiscard]] Hypothesis told(Hypothesis judged, const LocalMap& local, const Points& sample) const;
+  [[nodiscard]] Hypothesis to_hypothesis(Hypothesis judged, const LocalMap& local,
+                                         const Points& sample) const;
 
  private:
   /// What the map tells of the places of points, shares of them.

@@ -159,7 +159,7 @@ std::vector<FoundPose> SurfelRansam::find(const LocalMap& local, const PoseSearc
       .find(*prepared_, rng, known, judge_sample, &effort);
 }
 
-Hypothesis SurfelRansam::told(const FoundPose& pose, const LocalMap& local) const {
+Hypothesis SurfelRansam::to_hypothesis(const FoundPose& pose, const LocalMap& local) const {
   Hypothesis h;
   h.map_from_local = pose.target_from_source.pose();
   h.quality = contact_->share(local.points, h.map_from_local);
@@ -184,7 +184,7 @@ MatchResult SurfelRansam::match(const LocalMap& local, const Observation& latest
     if (carried_.size() < static_cast<std::size_t>(params_.carried))
       carried_.push_back(pose.target_from_source);
     if (pose.score < omega_max) continue;
-    result.hypotheses.push_back(told(pose, local));
+    result.hypotheses.push_back(to_hypothesis(pose, local));
     effort.points_tested += local.points.size();
   }
   result.proposals = effort.proposals;
@@ -193,7 +193,7 @@ MatchResult SurfelRansam::match(const LocalMap& local, const Observation& latest
 }
 
 /// Refines them, too: contact alone leaves them a little beside the surfaces that they fit.
-std::vector<Hypothesis> SurfelRansam::take_up(std::vector<Hypothesis> found, const LocalMap& local) {
+std::vector<Hypothesis> SurfelRansam::rescore(std::vector<Hypothesis> found, const LocalMap& local) {
   std::vector<RigidMotion> known;
   for (const Hypothesis& h : found) known.emplace_back(h.map_from_local);
   PoseSearchParams params = search_params();
@@ -203,7 +203,7 @@ std::vector<Hypothesis> SurfelRansam::take_up(std::vector<Hypothesis> found, con
   found.clear();
   for (const FoundPose& pose : find(local, params, known, rng, effort)) {
     carried_.push_back(pose.target_from_source);
-    Hypothesis& h = found.emplace_back(told(pose, local));
+    Hypothesis& h = found.emplace_back(to_hypothesis(pose, local));
     h.score = std::max(h.score, 0.0);
   }
   return found;

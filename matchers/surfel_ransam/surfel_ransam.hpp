@@ -50,7 +50,7 @@ class SurfelRansam final : public Matcher {
   void restrict_to(const PoseGate& gate) override { gate_ = gate; }
   [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                   Rng& rng) override;
-  [[nodiscard]] std::vector<Hypothesis> take_up(std::vector<Hypothesis> found,
+  [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                 const LocalMap& local) override;
   void reset() override { carried_.clear(); }
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override;
@@ -61,7 +61,7 @@ class SurfelRansam final : public Matcher {
   [[nodiscard]] std::vector<FoundPose> find(const LocalMap& local, const PoseSearchParams& params,
                                             std::span<const RigidMotion> known, Rng& rng,
                                             SearchEffort& effort) const;
-  [[nodiscard]] Hypothesis told(const FoundPose& pose, const LocalMap& local) const;
+  [[nodiscard]] Hypothesis to_hypothesis(const FoundPose& pose, const LocalMap& local) const;
   /// Share of points where the map is known to be free, away from its points.
   [[nodiscard]] double free_space_violation(const Points& points, const Pose3& map_from_points) const;
 

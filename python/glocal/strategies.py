@@ -125,7 +125,7 @@ class Matcher(_Stage):
     def restrict_to(self, gate: PoseGate) -> None:
         """Which poses count in match() from now on. All others are dropped after it anyway."""
 
-    def take_up(self, found: Hypotheses, local: LocalMap) -> Hypotheses:
+    def rescore(self, found: Hypotheses, local: LocalMap) -> Hypotheses:
         """Judges poses that a verifier found by contact, as match() judges its own."""
         return found
 

@@ -140,11 +140,11 @@ class PythonMatcher final : public Matcher {
         },
         Seen(local, loan), Seen(latest, loan), omega_max, rng);
   }
-  std::vector<Hypothesis> take_up(std::vector<Hypothesis> found, const LocalMap& local) override {
+  std::vector<Hypothesis> rescore(std::vector<Hypothesis> found, const LocalMap& local) override {
     const Loan loan;
-    return take_up_(
+    return rescore_(
         [](const py::object& judged) -> std::vector<Hypothesis> {
-          return *seen<std::vector<Hypothesis>>(judged, "take_up() returns Hypotheses");
+          return *seen<std::vector<Hypothesis>>(judged, "rescore() returns Hypotheses");
         },
         SeenHypotheses(std::move(found)), Seen(local, loan));
   }
@@ -152,7 +152,7 @@ class PythonMatcher final : public Matcher {
 
  private:
   Held object_;
-  Method restrict_to_{object_, "restrict_to"}, match_{object_, "match"}, take_up_{object_, "take_up"},
+  Method restrict_to_{object_, "restrict_to"}, match_{object_, "match"}, rescore_{object_, "rescore"},
       reset_{object_, "reset"};
 };
 

@@ -83,8 +83,7 @@ Verification make_verification(const py::object& rivals, const std::optional<Cer
   if (!rivals.is_none())
     verification.rivals = *seen<std::vector<Hypothesis>>(rivals, "rivals are Hypotheses");
   verification.certificate = certificate;
-  verification.distance = distance;
-  verification.rotation = rotation;
+  verification.near = {.translation = distance, .rotation = rotation};
   verification.margin = margin;
   verification.points_tested = points_tested;
   return verification;
@@ -121,8 +120,12 @@ void bind_verification(py::module_& module) {
       .def_readonly("score", &Verification::score, "Of the declared pose.")
       .def_readonly("margin", &Verification::margin,
                     "A rival is about as good if its score is lower by no more.")
-      .def_readonly("distance", &Verification::distance, "A pose farther away than this is a rival, m.")
-      .def_readonly("rotation", &Verification::rotation, "A pose turned by more than this is a rival, rad.");
+      .def_property_readonly(
+          "distance", [](const Verification& v) { return v.near.translation; },
+          "A pose farther away than this is a rival, m.")
+      .def_property_readonly(
+          "rotation", [](const Verification& v) { return v.near.rotation; },
+          "A pose turned by more than this is a rival, rad.");
 }
 
 py::dict times_of(const StepResult& step) {

@@ -7,7 +7,7 @@
 namespace glocal::plane_registration_test {
 namespace {
 
-constexpr MatchLimits limits{.gate = 1.0, .kernel = 0.2};
+constexpr MatchLimits limits{.match_distance = 1.0, .kernel = 0.2};
 
 class PlaneRegistrationTest : public testing::Test {
  protected:

@@ -93,10 +93,5 @@ TEST(WholeMap, BoxesAreLargerOnLargeMaps) {
   EXPECT_NEAR(delta_with(600.0F), 2.0 * std::sqrt(2.0) * 0.1, 1e-9);
 }
 
-TEST(NoVerifier, VerifiesNothing) {
-  NoVerifier verifier({});
-  EXPECT_FALSE(verifier.verifies());
-}
-
 }  // namespace
 }  // namespace glocal::whole_map_test

@@ -78,8 +78,14 @@ class Localizer {
   template <class Work>
   void in_stage(RunningStage& stage, std::size_t step, Work work) const;
 
+  // The stages of a step, in their order.
+  const LocalMap& add(const Observation& observation, StepResult& result);
+  void match(const LocalMap& local, const Observation& latest, StepResult& result);
+  void cluster(StepResult& result);
+  void rate(StepResult& result);
+  void judge(StepResult& result);
   /// Lets the verifier look for rivals of a pose when it is declared: with one, it is not.
-  void verify(StepResult& result, const LocalMap& local);
+  void verify(const LocalMap& local, StepResult& result);
 
   Motion motion_;
   Prior prior_;
@@ -89,7 +95,7 @@ class Localizer {
   std::unique_ptr<Rater> rater_;
   std::unique_ptr<ThresholdPolicy> threshold_policy_;
   std::unique_ptr<VerdictRule> verdict_rule_;
-  std::unique_ptr<Verifier> verifier_;
+  std::unique_ptr<Verifier> verifier_;  ///< None where declarations stand as they are.
   Stages stages_;
   UnknownPlaceMonitor unknown_place_;
   StartInLocalMap start_;  ///< Followed where a prior is given.

@@ -208,6 +208,10 @@ class ParamsOf final : public AnyParams {
   T value;
 };
 
+/// Of a strategy that has none.
+struct NoParams {};
+inline void describe(ParamVisitor& /*v*/, NoParams& /*p*/) {}
+
 /// Owns parameters of some strategy, or none; a copy owns a copy.
 class OwnedParams {
  public:

@@ -21,8 +21,8 @@ struct Particles {
   std::vector<double> weights;  ///< One for each; they add up to 1.
 };
 
-/// Particles of one cell, added up.
-struct Heap {
+/// The particles of one cell of poses: their weight, and weighted sums of their poses.
+struct CellSum {
   double weight = 0.0, x = 0.0, y = 0.0, cosine = 0.0, sine = 0.0;
 
   void add(const Pose2& pose, double w) {
@@ -37,8 +37,8 @@ struct Heap {
 };
 
 /// Particles by cells, the heaviest `most` of these first.
-[[nodiscard]] std::vector<Heap> heaps_of(const Particles& particles, const PoseBinning& binning,
-                                         std::size_t most);
+[[nodiscard]] std::vector<CellSum> cell_sums(const Particles& particles, const PoseBinning& binning,
+                                             std::size_t most);
 
 /// Which particles are one hypothesis: parameters of every particle filter.
 struct ParticleMerging {
@@ -48,7 +48,7 @@ struct ParticleMerging {
 };
 void describe(ParamVisitor& v, ParticleMerging& p);
 
-/// What a particle filter answers: its heaps, with as much support as their weights are worth in particles.
+/// What a particle filter answers: its cells, with as much support as their weights are worth in particles.
 /// The quality is that of the local map (eq. 4), the score the same of the latest scan: weights say how poses
 /// compare, not how good they are. `old_from_new` is what the robot has moved since the particles' poses, in
 /// its old frame. Those that reach omega_max, by falling score.

@@ -131,6 +131,13 @@ class Registry final : public RegistryBase {
     makers_[std::move(name)] = std::move(make);
   }
 
+  /// The choice of no strategy, where a stage need not be there: make() gives null.
+  void add_none(std::string name, std::string doc, Standing standing) {
+    insert(name, std::move(doc), std::move(standing), all_motions,
+           [] { return std::make_unique<ParamsOf<NoParams>>(); });
+    makers_[std::move(name)] = [](const AnyParams& /*params*/, const Setup& /*setup*/) { return nullptr; };
+  }
+
   [[nodiscard]] std::unique_ptr<Interface> make(const StrategyChoice& choice, const Setup& setup) const {
     if (!choice.params) return make(choose(choice.name), setup);
     return makers_.at(choice.name)(*choice.params, setup);

@@ -9,6 +9,7 @@
 #include "glocal/hypothesis.hpp"
 #include "glocal/motion.hpp"
 #include "glocal/pose3.hpp"
+#include "glocal/pose_tolerance.hpp"
 
 namespace glocal {
 
@@ -48,8 +49,7 @@ struct Certificate {
 
 /// What a verifier says of a pose that a verdict rule declares.
 struct Verification {
-  double distance = 1.0;  ///< m; a pose whose robot is farther away than this is a rival …
-  double rotation = 0.0;  ///< rad; … as is one that is turned by more.
+  PoseTolerance near = {};  ///< A pose whose robot is not near the declared one is a rival.
   /// The best ones that the search brought, judged as the matcher judges its own; falling score.
   std::vector<Hypothesis> rivals = {};
   double margin = 0.0;            ///< A rival is about as good if its score is lower by no more.

@@ -102,10 +102,10 @@ class Matcher {
   virtual void restrict_to(const PoseGate& /*gate*/) {}
   [[nodiscard]] virtual MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
                                           Rng& rng) = 0;
-  /// Judges poses of the local map of the last match() that a verifier has found by contact, as match()
-  /// judges its own, and carries them on to the next step, where it does either; here it does neither.
+  /// Scores poses of the local map of the last match() that a verifier has found by contact, as match()
+  /// scores its own, and carries them on to the next step, where it does either; here it does neither.
   /// Falling score.
-  [[nodiscard]] virtual std::vector<Hypothesis> take_up(std::vector<Hypothesis> found,
+  [[nodiscard]] virtual std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                         const LocalMap& /*local*/) {
     return found;
   }
@@ -164,8 +164,6 @@ class VerdictRule {
 class Verifier {
  public:
   virtual ~Verifier() = default;
-  /// Whether it looks for rivals at all. Where it does not, verify() is not called.
-  [[nodiscard]] virtual bool verifies() const { return true; }
   /// Of the pose of a local map with points. Poses that `gate` does not allow are no rivals.
   [[nodiscard]] virtual Verification verify(const LocalMap& local, const Pose3& map_from_local,
                                             const PoseGate& gate) = 0;

@@ -267,7 +267,7 @@ void try_verdict_rule(const Made<VerdictRule>& make, Findings& findings) {
 }
 
 void try_verifier(const Made<Verifier>& make, const TrialRoom& room, Findings& findings) {
-  if (!make(1)->verifies()) return;
+  if (!make(1)) return;
   const LocalMap local = room.local_map();
   const Pose3 declared = room.map_from_robot() * inverse(local.local_from_robot);
   const auto answer = [&](int threads) {
@@ -279,10 +279,9 @@ void try_verifier(const Made<Verifier>& make, const TrialRoom& room, Findings& f
     const Verification found = answer(1);
     for (const Hypothesis& rival : found.rivals) {
       const Pose3 other = rival.map_from_local * local.local_from_robot;
-      expect(distance(other, room.map_from_robot()) > found.distance ||
-                 rotation_between(other, room.map_from_robot()) > found.rotation,
-             "one is within {} m and {} rad of the declared pose, where none counts", found.distance,
-             found.rotation);
+      expect(!found.near.are_near(other, room.map_from_robot()),
+             "one is within {} m and {} rad of the declared pose, where none counts", found.near.translation,
+             found.near.rotation);
     }
   });
   findings.check("two threads", [&] {

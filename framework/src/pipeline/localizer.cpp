@@ -4,15 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
-#include <exception>
 #include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "cpu_time.hpp"
 #include "glocal/error.hpp"
+#include "pipeline/in_stage.hpp"
 #include "pipeline/stage_contracts.hpp"
 
 namespace glocal {
@@ -20,24 +18,6 @@ namespace {
 
 /// Names of the random streams within a step.
 enum Stage : std::uint64_t { matching, clustering };
-
-/// Does a stage's work, and adds how long it took.
-template <class Work>
-void timed(double StageTimes::*stage, StepResult& result, Work work) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::int64_t cpu_start = cpu_time_ns();
-  work();
-  result.stage_cpu_ms.*stage += 1e-6 * static_cast<double>(cpu_time_ns() - cpu_start);
-  result.stage_ms.*stage +=
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// "matcher 'ransam'", and what has happened there: "breaks its contract in step 3".
-std::string text_of(const RunningStage& stage, const char* what) {
-  const bool in_step = stage.step != RunningStage::before_first;
-  return fmt::format("{} '{}' {} {}", stage.kind, stage.name, what,
-                     in_step ? fmt::format("in step {}", stage.step) : "while it was reset");
-}
 
 /// Clusters and their ratings, best first; equal ones keep their order.
 void sort_by_rating(std::vector<Cluster>& clusters, std::vector<Rating>& ratings) {
@@ -62,54 +42,13 @@ void add_prior(Verdict& verdict, const Prior& prior) {
                   verdict.kind == VerdictKind::unknown_place ? ": the robot is perhaps outside" : "");
 }
 
-/// Whether a hypothesis is no rival of a pose.
-bool is_near(const Hypothesis& h, const Pose3& map_from_robot, const Verification& v) {
-  return distance(h.map_from_robot, map_from_robot) <= v.distance &&
-         rotation_between(h.map_from_robot, map_from_robot) <= v.rotation;
-}
-
-/// The best score of a hypothesis that is no rival of this pose.
-double score_near(const Pose3& map_from_robot, const StepResult& result) {
-  for (const Hypothesis& h : result.hypotheses) {
-    if (is_near(h, map_from_robot, *result.verification)) return h.score;
-  }
-  return result.score_best;
-}
-
-/// Takes the verdict back where a rival is about as good, or the search was given up; else tells the
-/// certificate.
-void judge_by(Verification& v, Verdict& verdict) {
-  std::vector<Pose3> candidates = {*verdict.map_from_robot};
-  for (const Hypothesis& rival : v.rivals) {
-    if (v.is_about_as_good(rival)) candidates.push_back(rival.map_from_robot);
-  }
-  const std::size_t rivals = candidates.size() - 1;
-  const bool is_topped = v.certificate && v.certificate->at_most > v.certificate->contact;
-  v.is_refuted = rivals > 0 || !v.certificate || (verdict.needs_certificate && is_topped);
-  if (!v.is_refuted) {
-    verdict.why += fmt::format("; {:.0f} % contact, and at most {:.0f} % at any pose elsewhere",
-                               100.0 * v.certificate->contact, 100.0 * v.certificate->at_most);
-    return;
-  }
-  verdict.kind = rivals > 0 ? VerdictKind::ambiguous : VerdictKind::searching;
-  verdict.map_from_robot.reset();
-  verdict.why = "the best pose was about to be declared, but ";
-  if (rivals > 0) {
-    verdict.why += fmt::format("a search of the whole map found {} about as good",
-                               rivals == 1 ? "another one" : fmt::format("{} others", rivals));
-  } else if (is_topped) {
-    verdict.why += fmt::format("it has {:.0f} % contact, and up to {:.0f} % cannot be ruled out elsewhere",
-                               100.0 * v.certificate->contact, 100.0 * v.certificate->at_most);
-  } else {
-    verdict.why += "the search of the whole map was given up: too many poses are about as good";
-  }
-  if (verdict.estimate)
-    verdict.estimate->confidence =
-        std::min(verdict.estimate->confidence, 1.0 / static_cast<double>(rivals + 1));
-  if (rivals > 0) verdict.candidates = std::move(candidates);
-}
-
 }  // namespace
+
+std::string text_of(const RunningStage& stage, const char* what) {
+  const bool in_step = stage.step != RunningStage::before_first;
+  return fmt::format("{} '{}' {} {}", stage.kind, stage.name, what,
+                     in_step ? fmt::format("in step {}", stage.step) : "while it was reset");
+}
 
 double contact_epsilon_on(const GlobalMap& map, const LocalizerConfig& config) {
   const double resolution = map.resolution();
@@ -152,7 +91,7 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
     return registry.make(choice, setup);
   };
   verifier_ = make(catalog.verifiers, config.verifier, stages_.verifier);
-  setup.has_verifier = verifier_->verifies();
+  setup.has_verifier = verifier_ != nullptr;
   local_mapper_ = make(catalog.local_mappers, config.local_mapper, stages_.local_mapper);
   matcher_ = make(catalog.matchers, config.matcher, stages_.matcher);
   clusterer_ = make(catalog.clusterers, config.clusterer, stages_.clusterer);
@@ -165,43 +104,36 @@ void Localizer::use(std::unique_ptr<ThresholdPolicy> threshold_policy) {
   threshold_policy_ = std::move(threshold_policy);
 }
 
-template <class Work>
-void Localizer::in_stage(RunningStage& stage, std::size_t step, Work work) const {
-  stage.trial = trial_;
-  stage.step = step;
-  const StageScope scope(&stage);
-  try {
-    work();
-  } catch (const BrokenContract& broken) {
-    throw StrategyError(fmt::format("{}: {}", text_of(stage, "breaks its contract"), broken.what()));
-  } catch (const std::exception& error) {
-    throw StrategyError(fmt::format("{}: {}", text_of(stage, "threw an exception"), error.what()));
-  } catch (...) {
-    throw StrategyError(text_of(stage, "threw something that is no std::exception"));
-  }
-}
-
 StepResult Localizer::step(const Observation& observation) {
   StepResult result;
   result.step = step_++;
   result.stamp = observation.stamp;
   result.motion = motion_;
+  const LocalMap& local = add(observation, result);
+  match(local, observation, result);
+  result.omega_place = unknown_place_.update(local, result.hypotheses);
+  if (!result.hypotheses.empty() && motion_ == Motion::planar)
+    result.omega_scan = unknown_place_.share_of(observation.scan.hits,
+                                                seen_from_above(result.hypotheses.front().map_from_robot));
+  cluster(result);
+  rate(result);
+  judge(result);
+  verify(local, result);
+  if (!gate_.is_open()) add_prior(result.verdict, prior_);
+  return result;
+}
 
+const LocalMap& Localizer::add(const Observation& observation, StepResult& result) {
   try {
     check_observation(observation, motion_);
   } catch (const BrokenContract& broken) {
     throw StrategyError(fmt::format("the observation of step {}: {}", result.step, broken.what()));
   }
-
-  const LocalMap* added = nullptr;
   in_stage(stages_.local_mapper, result.step, [&] {
-    timed(&StageTimes::local_map, result, [&] {
-      local_mapper_->add(observation);
-      added = &local_mapper_->map();
-    });
-    check_local_map(*added, motion_);
+    timed(&StageTimes::local_map, result, [&] { local_mapper_->add(observation); });
+    check_local_map(local_mapper_->map(), motion_);
   });
-  const LocalMap& local = *added;
+  const LocalMap& local = local_mapper_->map();
   result.local_from_robot = local.local_from_robot;
   result.local_map_epoch = local.epoch;
   result.local_map_points = local.points.size();
@@ -209,7 +141,10 @@ StepResult Localizer::step(const Observation& observation) {
     start_.follow(local, observation.odom_from_robot);
     gate_ = PoseGate(prior_, start_.local_from_start());
   }
+  return local;
+}
 
+void Localizer::match(const LocalMap& local, const Observation& latest, StepResult& result) {
   in_stage(stages_.threshold_policy, result.step, [&] {
     result.omega_max = threshold_policy_->omega_max();
     check_threshold(result.omega_max);
@@ -218,8 +153,7 @@ StepResult Localizer::step(const Observation& observation) {
     Rng rng = rng_.stream({result.step, matching});
     MatchResult match;
     if (!gate_.is_open()) matcher_->restrict_to(gate_);
-    timed(&StageTimes::match, result,
-          [&] { match = matcher_->match(local, observation, result.omega_max, rng); });
+    timed(&StageTimes::match, result, [&] { match = matcher_->match(local, latest, result.omega_max, rng); });
     check_match(match, result.omega_max, motion_);
     result.hypotheses = std::move(match.hypotheses);
     std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return !gate_.allows(h.map_from_local); });
@@ -232,24 +166,27 @@ StepResult Localizer::step(const Observation& observation) {
     result.score_best = result.hypotheses.front().score;
   }
   in_stage(stages_.threshold_policy, result.step, [&] { threshold_policy_->update(result.hypotheses); });
-  result.omega_place = unknown_place_.update(local, result.hypotheses);
-  if (!result.hypotheses.empty() && motion_ == Motion::planar)
-    result.omega_scan = unknown_place_.share_of(observation.scan.hits,
-                                                seen_from_above(result.hypotheses.front().map_from_robot));
+}
 
+void Localizer::cluster(StepResult& result) {
   in_stage(stages_.clusterer, result.step, [&] {
     Rng rng = rng_.stream({result.step, clustering});
     timed(&StageTimes::cluster, result,
           [&] { result.clusters = clusterer_->cluster(result.hypotheses, rng); });
     check_clusters(result.clusters, result.hypotheses.size(), motion_);
   });
+}
+
+void Localizer::rate(StepResult& result) {
   in_stage(stages_.rater, result.step, [&] {
     timed(&StageTimes::rate, result,
           [&] { result.ratings = rater_->rate(result.clusters, result.hypotheses); });
     check_ratings(result.ratings, result.clusters.size());
   });
   sort_by_rating(result.clusters, result.ratings);
+}
 
+void Localizer::judge(StepResult& result) {
   in_stage(stages_.verdict_rule, result.step, [&] {
     result.verdict = verdict_rule_->judge(result);
     check_verdict(result.verdict, motion_);
@@ -261,39 +198,6 @@ StepResult Localizer::step(const Observation& observation) {
         {},
         fmt::format("only {:.0f} % of what was last seen is on the map", 100.0 * *result.omega_place)};
   }
-  verify(result, local);
-  if (!gate_.is_open()) add_prior(result.verdict, prior_);
-  return result;
-}
-
-void Localizer::verify(StepResult& result, const LocalMap& local) {
-  if (result.verdict.kind != VerdictKind::localized) is_verified_ = false;
-  if (result.verdict.kind != VerdictKind::localized || is_verified_ || local.points.empty() ||
-      !verifier_->verifies())
-    return;
-  const Pose3 declared = *result.verdict.map_from_robot;
-  std::optional<Verification>& verification = result.verification;
-  in_stage(stages_.verifier, result.step, [&] {
-    timed(&StageTimes::verify, result, [&] {
-      verification = verifier_->verify(local, declared * inverse(local.local_from_robot), gate_);
-    });
-    check_verification(*verification, motion_);
-  });
-  is_verified_ = true;
-  in_stage(stages_.matcher, result.step, [&] {
-    timed(&StageTimes::verify, result,
-          [&] { verification->rivals = matcher_->take_up(std::move(verification->rivals), local); });
-    for (Hypothesis& h : verification->rivals) h.map_from_robot = h.map_from_local * local.local_from_robot;
-    check_hypotheses(verification->rivals, 0.0, motion_);
-  });
-  // A matcher that refines what it takes up may have come back to the declared pose.
-  std::erase_if(verification->rivals,
-                [&](const Hypothesis& h) { return is_near(h, declared, *verification); });
-  verification->score = score_near(declared, result);
-  judge_by(*verification, result.verdict);
-  if (!verification->is_refuted) return;
-  is_verified_ = false;
-  in_stage(stages_.verdict_rule, result.step, [&] { verdict_rule_->refute(*verification); });
 }
 
 void Localizer::reset(std::uint64_t trial) {

@@ -200,9 +200,9 @@ void check_verdict(const Verdict& verdict, Motion motion) {
 void check_verification(const Verification& verification, Motion motion) {
   check_hypotheses(verification.rivals, 0.0, motion);
   require(is_share(verification.margin), "the margin is {}, not in [0, 1]", verification.margin);
-  require(verification.distance >= 0.0 && verification.rotation >= 0.0,
-          "rivals are {} m away and turned by {} rad, which is below 0", verification.distance,
-          verification.rotation);
+  require(verification.near.translation >= 0.0 && verification.near.rotation >= 0.0,
+          "rivals are {} m away and turned by {} rad, which is below 0", verification.near.translation,
+          verification.near.rotation);
   if (!verification.certificate) return;
   const Certificate& certificate = *verification.certificate;
   require(is_share(certificate.contact) && is_share(certificate.at_most),

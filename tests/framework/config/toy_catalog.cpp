@@ -47,16 +47,6 @@ struct ToyVerdict final : VerdictRule {
   void reset() override {}
 };
 
-struct ToyVerifier final : Verifier {
-  using Params = Nothing;
-  explicit ToyVerifier(const Params& /*params*/) {}
-  bool verifies() const override { return false; }
-  Verification verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
-                      const PoseGate& /*gate*/) override {
-    return {};
-  }
-};
-
 }  // namespace
 
 ToyMap::ToyMap(const Params& /*params*/) {}
@@ -139,7 +129,7 @@ void register_toys(Catalog& c) {
   c.raters.add<ToyRater>("cluster_rating", "Rates nothing.");
   c.threshold_policies.add<ToyPolicy>("sliding_window", "Asks for one half.");
   c.verdict_rules.add<ToyVerdict>("consecutive_rating", "Never sure.");
-  c.verifiers.add<ToyVerifier>("none", "Verifies nothing.");
+  c.verifiers.add_none("none", "Verifies nothing.");
 }
 
 }  // namespace glocal::test

@@ -16,9 +16,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-struct NoParams {};
-void describe(ParamVisitor& /*v*/, NoParams& /*p*/) {}
-
 /// All hypotheses in one cluster.
 struct AnyClusterer final : Clusterer {
   [[nodiscard]] std::vector<Cluster> cluster(const std::vector<Hypothesis>&, Rng&) override { return {}; }

@@ -25,7 +25,9 @@ struct Script {
   std::vector<double> r;  ///< Of the clusters, in the order of their hypotheses.
   PoseGate gate;          ///< What the matcher was told last.
   std::function<Verdict(const StepResult&)> judge = [](const StepResult&) { return Verdict{}; };
-  std::function<Verification(const Pose3& map_from_local)> verify = {};  ///< Without it, nothing is verified.
+  std::function<Verification(const Pose3& map_from_local)> verify = [](const Pose3&) {
+    return Verification{};
+  };
 };
 
 struct FakeParams {
@@ -63,9 +65,9 @@ struct FakeMatcher final : Fake<Matcher> {
     note("match");
     return script_->match(omega_max, rng);
   }
-  [[nodiscard]] std::vector<Hypothesis> take_up(std::vector<Hypothesis> found,
+  [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                 const LocalMap& /*local*/) override {
-    note("take up");
+    note("rescore");
     return found;
   }
   void reset() override { note("reset matcher"); }
@@ -128,7 +130,6 @@ struct FakeVerdict final : Fake<VerdictRule> {
 
 struct FakeVerifier final : Fake<Verifier> {
   using Fake::Fake;
-  [[nodiscard]] bool verifies() const override { return static_cast<bool>(script_->verify); }
   [[nodiscard]] Verification verify(const LocalMap& /*local*/, const Pose3& map_from_local,
                                     const PoseGate& /*gate*/) override {
     note("verify");
@@ -161,10 +162,11 @@ inline void register_fake_stages(Catalog& catalog) {
   catalog.threshold_policies.add<FakeThreshold>("fake", "Gives given thresholds.");
   catalog.verdict_rules.add<FakeVerdict>("fake", "Gives given verdicts.");
   catalog.verifiers.add<FakeVerifier>("fake", "Gives given verifications.");
+  catalog.verifiers.add_none("none", "Verifies nothing.");
 }
 
-/// All stages follow one script; no place is unknown.
-inline LocalizerConfig follow(const std::shared_ptr<Script>& script) {
+/// All stages follow one script, the verifier only if there is to be one; no place is unknown.
+inline LocalizerConfig follow(const std::shared_ptr<Script>& script, bool is_verified = false) {
   const auto stage = [&] {
     auto params = std::make_unique<ParamsOf<FakeParams>>();
     params->value.script = script;
@@ -177,7 +179,7 @@ inline LocalizerConfig follow(const std::shared_ptr<Script>& script) {
           .rater = stage(),
           .threshold_policy = stage(),
           .verdict_rule = stage(),
-          .verifier = stage(),
+          .verifier = is_verified ? stage() : StrategyChoice{"none", {}},
           .unknown_place = {.max_contact = 0.0}};
 }
 

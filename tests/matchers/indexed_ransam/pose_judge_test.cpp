@@ -146,7 +146,7 @@ TEST(PoseJudge, TellsWhatLiesInFreeSpaceAndHowUncertainAPoseIs) {
   const LocalMap local = row_of_points();
   const PoseJudge judge = judge_of({});
   const auto told = [&](const Pose2& pose, double score) {
-    return judge.told({.map_from_local = pose, .score = score}, local, local.points);
+    return judge.to_hypothesis({.map_from_local = pose, .score = score}, local, local.points);
   };
   EXPECT_EQ(told(on_the_wall, 1.05).score, 1.0);
   EXPECT_EQ(told(on_the_wall, 0.4).score, 0.4);

@@ -375,7 +375,7 @@ TEST(SurfelRansam, PosesThatAVerifierHasFoundAreJudgedAsItsOwnAndCarriedOn) {
   const Pose3 beside{truth.translation() + Vector3{0.08, -0.06, 0.05}, turn_about_z(0.03) * truth.rotation};
   const Pose3 wrong{{6.0, 4.0, 1.0}, turn_about_z(0.5)};
   const auto taken_up =
-      misled.take_up({Hypothesis::by_contact(beside, 0.9), Hypothesis::by_contact(wrong, 0.8)}, seen.local);
+      misled.rescore({Hypothesis::by_contact(beside, 0.9), Hypothesis::by_contact(wrong, 0.8)}, seen.local);
   ASSERT_EQ(taken_up.size(), 2U);
   EXPECT_TRUE(is_near(taken_up[0].map_from_local, truth));
   EXPECT_NEAR(taken_up[0].score, own.hypotheses.front().score, 0.02);

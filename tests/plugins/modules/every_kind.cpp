@@ -5,9 +5,6 @@ namespace {
 
 using namespace glocal;
 
-struct NoParams {};
-void describe(ParamVisitor& /*v*/, NoParams& /*p*/) {}
-
 /// A square room of 8 m, a point every 5 cm, and nothing known of what is free.
 class Room final : public MapSource {
  public:
@@ -133,7 +130,6 @@ class Trusting final : public Verifier {
  public:
   using Params = NoParams;
   explicit Trusting(const Params& /*params*/) {}
-  bool verifies() const override { return false; }
   Verification verify(const LocalMap& /*local*/, const Pose3& /*map_from_local*/,
                       const PoseGate& /*gate*/) override {
     return {};
