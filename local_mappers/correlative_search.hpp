@@ -6,7 +6,7 @@
 #include "glocal/pose2.hpp"
 #include "local_mappers/point_grid.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 struct CorrelativeSearchParams {
   double translation = 0.1;
@@ -30,4 +30,4 @@ struct SearchResult {
 [[nodiscard]] SearchResult correlative_search(const PointGrid& grid, const Points& hits,
                                               const Pose2& predicted, const CorrelativeSearchParams& params);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -8,7 +8,7 @@
 #include "glocal/observation.hpp"
 #include "glocal/params.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 struct FreeSpaceCheckParams {
   int scans = 4;
@@ -58,4 +58,4 @@ class FreeSpaceCheck {
   std::deque<PlacedScan> scans_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

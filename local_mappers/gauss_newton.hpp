@@ -3,7 +3,7 @@
 
 #include "glocal/params.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// Describes the members of registrations' parameters that say how steps are made.
 template <class RegistrationParams>
@@ -20,4 +20,4 @@ void describe_gauss_newton(ParamVisitor& v, RegistrationParams& p) {
            .above = 0.0});
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -5,7 +5,7 @@
 
 #include "local_mappers/gauss_newton.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 namespace {
 
@@ -124,4 +124,4 @@ ScanRegistration register_scan(const PointGrid& grid, const LocalMap& map, const
   return result;
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -9,7 +9,7 @@
 #include "glocal/pose2.hpp"
 #include "local_mappers/point_grid.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 struct LineRegistrationParams {
   double gate = 0.45;
@@ -48,4 +48,4 @@ struct ScanRegistration {
                                              const Points& normals, const Pose2& start,
                                              const LineRegistrationParams& params);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

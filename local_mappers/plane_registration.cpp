@@ -8,7 +8,7 @@
 
 #include "local_mappers/gauss_newton.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 namespace {
 
 constexpr double small_step_m = 1e-4;
@@ -92,4 +92,4 @@ PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, 
   return result;
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

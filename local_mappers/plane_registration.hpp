@@ -8,7 +8,7 @@
 #include "glocal/pose3.hpp"
 #include "local_mappers/surface_map.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 struct PlaneRegistrationParams {
   double pointwise_weight = 0.1;
@@ -38,4 +38,4 @@ struct PlaneRegistration {
                                                    const MatchLimits& limits,
                                                    const PlaneRegistrationParams& params);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

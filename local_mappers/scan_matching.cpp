@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 void describe(ParamVisitor& v, ScanMatching::Params& p) {
   describe(v, p.voxels);
@@ -150,4 +150,4 @@ SearchResult ScanMatching::search(const Points& hits, const Pose2& predicted) co
   return far.likelihood >= needed ? far : near;
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

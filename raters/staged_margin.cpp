@@ -8,7 +8,7 @@
 
 #include "raters/candidates.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe(ParamVisitor& v, StagedMargin::Stage& p) {
   v.field(
@@ -305,4 +305,4 @@ std::vector<Pose3> StagedMargin::candidates(const StepResult& step) const {
   return poses;
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

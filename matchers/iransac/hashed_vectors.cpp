@@ -5,7 +5,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace glocal {
+namespace glocal::iransac {
 
 void describe(ParamVisitor& v, HashRule& r) {
   v.field("tables", r.tables, {.doc = "Hash tables (L).", .min = 1, .max = 1000});
@@ -75,4 +75,4 @@ double HashedVectors::collision_probability(double distance, double bucket_width
          2.0 / (std::sqrt(2.0 * std::numbers::pi) * ratio) * (1.0 - std::exp(-ratio * ratio / 2.0));
 }
 
-}  // namespace glocal
+}  // namespace glocal::iransac

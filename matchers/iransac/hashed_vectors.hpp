@@ -9,7 +9,7 @@
 #include "glocal/rng.hpp"
 #include "matchers/iransac/shape_context.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 
 struct HashRule {
   int tables = 12;            ///< L
@@ -48,4 +48,4 @@ class HashedVectors {
   std::vector<std::vector<Entry>> tables_;  ///< Each sorted by bucket, then number.
 };
 
-}  // namespace glocal
+}  // namespace glocal::iransac

@@ -13,7 +13,7 @@
 #include "glocal/parallel.hpp"
 #include "matchers/common/point_pair.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 namespace {
 
 OrientedPointRule oriented_point_rule(const IRansac::Params& p) {
@@ -232,4 +232,4 @@ void IRansac::propose(const LocalMap& local, Rng& rng) {
   }
 }
 
-}  // namespace glocal
+}  // namespace glocal::iransac

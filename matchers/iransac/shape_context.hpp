@@ -8,7 +8,7 @@
 #include "glocal/params.hpp"
 #include "matchers/common/oriented_points.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 
 /// A histogram of the points around one, over their distance and their bearing from its normal.
 struct ShapeContextRule {
@@ -46,4 +46,4 @@ struct FeatureVectors {
                                             const std::vector<std::uint32_t>& of,
                                             const ShapeContextRule& rule, int threads = 1);
 
-}  // namespace glocal
+}  // namespace glocal::iransac

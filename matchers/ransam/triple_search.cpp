@@ -1,6 +1,6 @@
 #include "matchers/ransam/triple_search.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 
 void describe(ParamVisitor& v, TripleSearch& p) {
   v.field("iterations", p.iterations,
@@ -90,4 +90,4 @@ ExtrapolationRule extrapolation_rule(const TripleSearch& p) {
       .background = p.wald_background};
 }
 
-}  // namespace glocal
+}  // namespace glocal::ransam
