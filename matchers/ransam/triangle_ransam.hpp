@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "glocal/catalog.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/strategies.hpp"
 #include "matchers/common/quality.hpp"
