@@ -18,7 +18,7 @@ void register_builtin_strategies(Catalog& catalog) {
   register_clustering(catalog);
   register_raters(catalog);
   register_verifiers(catalog);
-  catalog.cloud_registrars.add<SurfelPairRegistrar>(
+  catalog.cloud_registrars.add<surfels::SurfelPairRegistrar>(
       "surfel_pairs", "Pairs of surfels that are alike, judged by what each cloud saw through.",
       stable_since("0.1.0"));
 }

@@ -36,15 +36,15 @@ void match(benchmark::State& state, const Scene& s, const typename Kind::Params&
 }
 
 /// A local map's features among those of the whole map; the share of the ten nearest that are found.
-void nearest(benchmark::State& state, const Scene& s, const std::optional<HashRule>& hashing) {
+void nearest(benchmark::State& state, const Scene& s, const std::optional<iransac::HashRule>& hashing) {
   const OrientedPoints oriented_points = oriented_points_of(*s.loaded.map, {});
-  const FeatureIndex all(oriented_points, {}, std::nullopt, 1);
-  const FeatureIndex index(oriented_points, {}, hashing, 1);
+  const iransac::FeatureIndex all(oriented_points, {}, std::nullopt, 1);
+  const iransac::FeatureIndex index(oriented_points, {}, hashing, 1);
   const LocalMap local = local_map_at(s, s.loaded.starts.front(), 10);
   std::vector<std::uint32_t> drawn;
   const OrientedPoints seen = oriented_points_of(local, OrientedPointRule{});
   for (std::uint32_t i = 0; i < seen.size(); i += 20) drawn.push_back(i);
-  const FeatureVectors features = shape_contexts(seen, drawn, {});
+  const iransac::FeatureVectors features = iransac::shape_contexts(seen, drawn, {});
   for ([[maybe_unused]] auto _ : state) {
     for (std::size_t i = 0; i < features.size(); ++i)
       benchmark::DoNotOptimize(index.nearest(features[i], 10));
@@ -70,19 +70,19 @@ void register_all() {
     match<Exhaustive>(state, scene("paper_lab"), {.matching = {.grid = grid}}, 0.3);
   })->Arg(0);
   if (!has_datasets()) return;
-  add("ransac/intel", [](benchmark::State& state) { match<Ransac>(state, scene("intel"), {}, 0.55); })
+  add("ransac/intel", [](benchmark::State& state) { match<ransac::Ransac>(state, scene("intel"), {}, 0.55); })
       ->Arg(0)
       ->Arg(20);
   for (const bool lsh : {false, true}) {
     const std::string how = lsh ? "/lsh" : "/all";
     add("iransac/intel" + how,
         [lsh](benchmark::State& state) {
-          match<IRansac>(state, scene("indexed", "intel"), {.lsh = lsh}, 0.1);
+          match<iransac::IRansac>(state, scene("indexed", "intel"), {.lsh = lsh}, 0.1);
         })
         ->Arg(0)
         ->Arg(20);
     add("nearest/intel" + how, [lsh](benchmark::State& state) {
-      nearest(state, scene("indexed", "intel"), lsh ? std::optional(HashRule{}) : std::nullopt);
+      nearest(state, scene("indexed", "intel"), lsh ? std::optional(iransac::HashRule{}) : std::nullopt);
     });
   }
 }

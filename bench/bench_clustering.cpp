@@ -62,19 +62,19 @@ void merge(benchmark::State& state) {
 }
 
 BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
-BENCHMARK(cluster<HierarchicalKmeans>)
+BENCHMARK(cluster<clustering::HierarchicalKmeans>)
     ->ArgsProduct({{10, 100, 1000, 5000, 20'000}, {3, 1000}})
     ->ArgNames({"hypotheses", "poses"})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(cluster<Dbscan>)
+BENCHMARK(cluster<clustering::Dbscan>)
     ->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})
     ->ArgNames({"hypotheses", "poses"})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(cluster<MeanShift>)
+BENCHMARK(cluster<clustering::MeanShift>)
     ->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})
     ->ArgNames({"hypotheses", "poses"})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(cluster<PoseGridClusterer>)
+BENCHMARK(cluster<clustering::PoseGridClusterer>)
     ->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})
     ->ArgNames({"hypotheses", "poses"})
     ->Unit(benchmark::kMillisecond);

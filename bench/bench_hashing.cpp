@@ -109,9 +109,9 @@ class Narrow {
   [[nodiscard]] std::size_t memory_bytes() const { return table_.memory_bytes(); }
 
  private:
-  RelationTable table_;
+  ransam::RelationTable table_;
   RelationBatch batch_{};
-  PartnerBatch found_;
+  ransam::PartnerBatch found_;
 };
 
 /// Entries of 8 or 16 bytes, the latter for the triple itself; cleared for each fill. With or without asking
@@ -287,12 +287,12 @@ void match(benchmark::State& state) {
   const LocalMap local = local_map_at(simulation(), 0, late_step);
   const Pose2 truth = true_map_from_local(simulation(), 0, late_step, local);
   const Pose2 robot = seen_from_above(local.local_from_robot);
-  Ransam ransam({.triples = {.contact_epsilon = 0.05,
-                             .relation_cell = static_cast<double>(state.range(0)) / 100.0,
-                             .min_side = rule.min_side,
-                             .min_height = rule.min_height,
-                             .neighbour_cells = state.range(1) != 0}},
-                {simulation().loaded.map, 1});
+  ransam::Ransam ransam({.triples = {.contact_epsilon = 0.05,
+                                     .relation_cell = static_cast<double>(state.range(0)) / 100.0,
+                                     .min_side = rule.min_side,
+                                     .min_height = rule.min_height,
+                                     .neighbour_cells = state.range(1) != 0}},
+                        {simulation().loaded.map, 1});
   Rng rng(1);
   std::size_t proposals = 0;
   std::size_t right = 0;

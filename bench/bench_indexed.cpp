@@ -30,7 +30,7 @@ void pairs(benchmark::State& state, const Scene& s) {
   std::size_t bytes = 0;
   std::size_t n = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const OrientedPairIndex index(found, {}, static_cast<int>(state.range(0)));
+    const indexed_ransam::OrientedPairIndex index(found, {}, static_cast<int>(state.range(0)));
     bytes = index.memory_bytes();
     n = index.size();
   }
@@ -43,8 +43,8 @@ void triangles(benchmark::State& state, const Scene& s) {
   std::size_t bytes = 0;
   std::size_t n = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const TriangleIndex index(found, {.min_side = 0.5, .min_height = 0.3, .max_side = 6.0}, 1'000'000,
-                              static_cast<int>(state.range(0)));
+    const indexed_ransam::TriangleIndex index(found, {.min_side = 0.5, .min_height = 0.3, .max_side = 6.0},
+                                              1'000'000, static_cast<int>(state.range(0)));
     bytes = index.memory_bytes();
     n = index.size();
   }
@@ -54,15 +54,16 @@ void triangles(benchmark::State& state, const Scene& s) {
 
 /// Full batches of motions that oriented point pairs of a local map propose.
 std::vector<MotionBatch> proposals(const Scene& s, const LocalMap& local, std::size_t batches) {
-  const RelationRule rule{.relation = "oriented_pair"};
-  const auto index = relation_index(*s.loaded.map, rule, 1);
+  const indexed_ransam::RelationRule rule{.relation = "oriented_pair"};
+  const auto index = indexed_ransam::relation_index(*s.loaded.map, rule, 1);
   std::vector<MotionBatch> result;
   Rng rng(1);
   while (result.size() < batches) {
-    propose(*index, rule, local, 4 * MotionBatch::capacity, rng,
-            [&](const MotionBatch& motions, std::size_t size) {
-              if (size == MotionBatch::capacity && result.size() < batches) result.push_back(motions);
-            });
+    indexed_ransam::propose(*index, rule, local, 4 * MotionBatch::capacity, rng,
+                            [&](const MotionBatch& motions, std::size_t size) {
+                              if (size == MotionBatch::capacity && result.size() < batches)
+                                result.push_back(motions);
+                            });
   }
   return result;
 }
@@ -115,7 +116,7 @@ void clearances(benchmark::State& state, const Scene& s) {
 
 /// One match of a local map of so many keyframes, as the first one of a drive.
 void first_match(benchmark::State& state, const Scene& s) {
-  IndexedRansam matcher({}, {s.loaded.map, 1});
+  indexed_ransam::IndexedRansam matcher({}, {s.loaded.map, 1});
   std::vector<LocalMap> locals;
   for (const std::size_t start : s.loaded.starts) {
     locals.push_back(local_map_at(s, start, static_cast<std::size_t>(state.range(0))));

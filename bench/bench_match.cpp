@@ -56,12 +56,12 @@ void threads(benchmark::State& state) {
 void separate_tables(benchmark::State& state) {
   const auto partitions = static_cast<int>(state.range(0));
   const LocalMap local = local_map_at(simulation(), 0, late_step);
-  Ransam ransam({.triples = {.iterations = 200'000 / partitions,
-                             .contact_epsilon = 0.05,
-                             .relation_cell = 0.15,
-                             .min_side = 1.5,
-                             .min_height = 1.0}},
-                {simulation().loaded.map, 1});
+  ransam::Ransam ransam({.triples = {.iterations = 200'000 / partitions,
+                                     .contact_epsilon = 0.05,
+                                     .relation_cell = 0.15,
+                                     .min_side = 1.5,
+                                     .min_height = 1.0}},
+                        {simulation().loaded.map, 1});
   Rng rng(1);
   std::size_t proposals = 0;
   for ([[maybe_unused]] auto _ : state) {

@@ -20,8 +20,8 @@ const Observation& first_observation(const Scene& s) {
 /// The first step: 40,000 particles, 60 beams.
 void first_step(benchmark::State& state, const Scene& s, const std::string& model) {
   const LocalMap local = local_map_at(s, s.loaded.starts.front(), 0);
-  Mcl matcher({.max_particles = 40000, .laser_model_type = model, .laser_max_range = 20.0},
-              {s.loaded.map, static_cast<int>(state.range(0))});
+  mcl::Mcl matcher({.max_particles = 40000, .laser_model_type = model, .laser_max_range = 20.0},
+                   {s.loaded.map, static_cast<int>(state.range(0))});
   Rng rng(1);
   for ([[maybe_unused]] auto _ : state) {
     matcher.reset();
@@ -35,7 +35,7 @@ struct Lookups {
   explicit Lookups(const Scene& s) {
     const Points& hits = first_observation(s).scan.hits;
     for (std::size_t k = 0; k < 60; ++k) ends.push_back(hits[k * hits.size() / 60]);
-    const auto space = free_space(*s.loaded.map);
+    const auto space = mcl::free_space(*s.loaded.map);
     Rng rng(1);
     for (std::size_t i = 0; i < MotionBatch::capacity; ++i) {
       const Transform t(space->draw(rng));
@@ -50,9 +50,9 @@ struct Lookups {
 };
 
 void field_in_vectors(benchmark::State& state, const Scene& s) {
-  const LikelihoodField field(*s.loaded.map, {}, [](double p) { return p * p * p; });
+  const mcl::LikelihoodField field(*s.loaded.map, {}, [](double p) { return p * p * p; });
   const Lookups lookups(s);
-  LikelihoodField::Sums sums{};
+  mcl::LikelihoodField::Sums sums{};
   for ([[maybe_unused]] auto _ : state) {
     field.sum(lookups.ends, lookups.poses, MotionBatch::capacity, sums);
     benchmark::DoNotOptimize(sums);
@@ -61,7 +61,7 @@ void field_in_vectors(benchmark::State& state, const Scene& s) {
 }
 
 void field_one_by_one(benchmark::State& state, const Scene& s) {
-  const LikelihoodField field(*s.loaded.map, {}, [](double p) { return p * p * p; });
+  const mcl::LikelihoodField field(*s.loaded.map, {}, [](double p) { return p * p * p; });
   const Lookups lookups(s);
   for ([[maybe_unused]] auto _ : state) {
     for (std::size_t i = 0; i < MotionBatch::capacity; ++i) {
@@ -77,7 +77,7 @@ void field_one_by_one(benchmark::State& state, const Scene& s) {
 }
 
 void motion(benchmark::State& state, const Scene& /*s*/) {
-  const OdometryMotion moved({0.25, 0.0, 0.1}, {});
+  const mcl::OdometryMotion moved({0.25, 0.0, 0.1}, {});
   Rng rng(1);
   Pose2 pose;
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(pose = moved.sample(pose, rng));
@@ -85,7 +85,7 @@ void motion(benchmark::State& state, const Scene& /*s*/) {
 
 void build_field(benchmark::State& state, const Scene& s) {
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(LikelihoodField(*s.loaded.map, {}, [](double p) { return p * p * p; }));
+    benchmark::DoNotOptimize(mcl::LikelihoodField(*s.loaded.map, {}, [](double p) { return p * p * p; }));
   }
 }
 

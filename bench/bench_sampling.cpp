@@ -42,9 +42,10 @@ void match_after_20_steps(benchmark::State& state) {
   constexpr std::size_t step = 20;
   constexpr double omega_max = 0.75;
   const LocalMap local = local_map_at(simulation(), 0, step);
-  TripleSearch triples{.contact_epsilon = 0.05, .relation_cell = 0.15, .min_side = 0.6, .min_height = 0.3};
+  ransam::TripleSearch triples{
+      .contact_epsilon = 0.05, .relation_cell = 0.15, .min_side = 0.6, .min_height = 0.3};
   triples.local_radius = static_cast<double>(state.range(0)) / 10.0;
-  Ransam ransam({.triples = triples}, {simulation().loaded.map, 1});
+  ransam::Ransam ransam({.triples = triples}, {simulation().loaded.map, 1});
   Rng rng(1);
   std::size_t proposals = 0;
   std::size_t hypotheses = 0;

@@ -3,7 +3,7 @@
 #include "clustering/density_labels.hpp"
 #include "glocal/clusters_of.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 
 void describe(ParamVisitor& v, Dbscan::Params& p) {
   v.field("radius", p.radius,
@@ -33,4 +33,4 @@ std::vector<Cluster> Dbscan::cluster(const std::vector<Hypothesis>& hypotheses, 
                                                         : labels(robot_poses<Pose3>(hypotheses)));
 }
 
-}  // namespace glocal
+}  // namespace glocal::clustering

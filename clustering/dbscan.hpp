@@ -3,7 +3,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 
 /// DBSCAN over robot poses (Ester et al. 1996): clusters of any shape and number, made of hypotheses that
 /// have enough others near them, near in translation and in rotation. Support counts as so many hypotheses.
@@ -26,4 +26,4 @@ class Dbscan final : public Clusterer {
 };
 void describe(ParamVisitor& v, Dbscan::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::clustering

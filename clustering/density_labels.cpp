@@ -7,7 +7,7 @@
 #include "clustering/pose_groups.hpp"
 #include "glocal/pose_cells.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 namespace {
 
 /// Poses in the plane, in cells all of whose members are near each other.
@@ -65,7 +65,7 @@ class DensityLabels {
 
  private:
   [[nodiscard]] bool are_near(std::size_t i, std::size_t j) const {
-    return glocal::are_near(poses_[i], poses_[j], radius_);
+    return clustering::are_near(poses_[i], poses_[j], radius_);
   }
 
   /// Notes the cores of a cell; they are near each other.
@@ -144,4 +144,4 @@ std::vector<std::size_t> density_labels(std::span<const Pose3> poses, std::span<
   return DensityLabels<Pose3, SpatialCells>(poses, weights, radius, min_weight).find();
 }
 
-}  // namespace glocal
+}  // namespace glocal::clustering

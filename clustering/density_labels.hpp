@@ -7,7 +7,7 @@
 
 #include "glocal/pose3.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 
 /// Poses are near each other if neither of these is exceeded.
 struct PoseRadius {
@@ -36,4 +36,4 @@ template <class Pose>
                                                       std::span<const double> weights,
                                                       const PoseRadius& radius, double min_weight);
 
-}  // namespace glocal
+}  // namespace glocal::clustering

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace glocal {
+namespace glocal::clustering {
 
 /// Numbers 0 to n - 1 in sets that can be united (Galler and Fischer 1964); the smallest member names a set.
 class DisjointSets {
@@ -29,4 +29,4 @@ class DisjointSets {
   std::vector<std::size_t> parents_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::clustering

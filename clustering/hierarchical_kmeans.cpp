@@ -8,7 +8,7 @@
 
 #include "glocal/moments.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 namespace {
 
 /// Squared distance with each axis in units of the largest allowed deviation, so that metres and radians add
@@ -142,4 +142,4 @@ std::vector<Cluster> HierarchicalKmeans::cluster(const std::vector<Hypothesis>& 
                                 : split_all(items_of<Pose3>(hypotheses, all), limits, params_.max_iterations);
 }
 
-}  // namespace glocal
+}  // namespace glocal::clustering

@@ -3,7 +3,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 
 /// Hierarchical K-means over robot poses (Section III-A of the paper, eq. 6): starts with one cluster of all
 /// hypotheses and splits in two whatever is spread too widely. Clusters come in the order of the split tree,
@@ -26,4 +26,4 @@ class HierarchicalKmeans final : public Clusterer {
 };
 void describe(ParamVisitor& v, HierarchicalKmeans::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::clustering

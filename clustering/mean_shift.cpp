@@ -8,7 +8,7 @@
 #include "glocal/clusters_of.hpp"
 #include "glocal/pose_cells.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 namespace {
 
 /// A kernel on SE(2) or SE(3): how much a pose weighs, seen from another one.
@@ -243,4 +243,4 @@ std::vector<Cluster> MeanShift::cluster(const std::vector<Hypothesis>& hypothese
   return clusters_of(hypotheses, labels(PoseGroups(poses, near), poses));
 }
 
-}  // namespace glocal
+}  // namespace glocal::clustering

@@ -5,7 +5,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 
 /// Mean shift over robot poses (Comaniciu and Meer 2002): each hypothesis climbs to a mode of the density of
 /// all, weighted with support, by moving to their kernel-weighted mean again and again; hypotheses that end
@@ -34,4 +34,4 @@ class MeanShift final : public Clusterer {
 };
 void describe(ParamVisitor& v, MeanShift::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::clustering

@@ -4,7 +4,7 @@
 #include "glocal/clusters_of.hpp"
 #include "glocal/pose_cells.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 
 void describe(ParamVisitor& v, PoseGridClusterer::Params& p) {
   v.field("cell", p.cell,
@@ -40,4 +40,4 @@ std::vector<Cluster> PoseGridClusterer::cluster(const std::vector<Hypothesis>& h
   return clusters_of(hypotheses, labels);
 }
 
-}  // namespace glocal
+}  // namespace glocal::clustering

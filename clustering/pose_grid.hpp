@@ -3,7 +3,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 
 /// Robot poses in the same cell of a grid over x, y and heading are one cluster; with `joined`, so are those
 /// in cells that share a face, an edge or a corner, and so on. Takes time for sorting only. Without joining,
@@ -24,4 +24,4 @@ class PoseGridClusterer final : public Clusterer {
 };
 void describe(ParamVisitor& v, PoseGridClusterer::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::clustering

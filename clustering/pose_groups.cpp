@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glocal {
+namespace glocal::clustering {
 
 PoseGroups::PoseGroups(std::span<const Pose3> poses, const PoseRadius& radius)
     : half_{0.5 * radius.translation, 0.5 * radius.rotation}, side_(2.0 * radius.translation) {
@@ -28,4 +28,4 @@ PoseGroups::Cell PoseGroups::cell_of(const Pose3& pose) const {
   return {part(pose.x), part(pose.y), part(pose.z)};
 }
 
-}  // namespace glocal
+}  // namespace glocal::clustering

@@ -12,7 +12,7 @@
 #include "glocal/pose3.hpp"
 #include "glocal/pose_cells.hpp"
 
-namespace glocal {
+namespace glocal::clustering {
 
 /// What PoseCells are in the plane: poses in groups all of whose members are near each other. Each pose joins
 /// the first group whose leader, its first member, is within half the radius, or leads a new one. There is no
@@ -63,4 +63,4 @@ class PoseGroups {
   std::unordered_map<Cell, std::vector<std::size_t>, CellHash> groups_in_;  ///< By the leader's place.
 };
 
-}  // namespace glocal
+}  // namespace glocal::clustering

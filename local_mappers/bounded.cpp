@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 void describe(ParamVisitor& v, Bounded::Params& p) {
   v.field("scans", p.scans,
@@ -46,4 +46,4 @@ bool Bounded::is_too_long() const {
   return too_many || (params_.distance > 0.0 && way > params_.distance);
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -7,7 +7,7 @@
 #include "glocal/strategies.hpp"
 #include "local_mappers/scan_matching.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// Matches scans as scan_matching does, against a map of the last `scans` observations or `distance` metres
 /// of way, whichever is less. The map is what these observations alone would give, registered where they were
@@ -46,4 +46,4 @@ class Bounded final : public LocalMapper {
 };
 void describe(ParamVisitor& v, Bounded::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 namespace {
 
@@ -160,4 +160,4 @@ SearchResult correlative_search(const PointGrid& grid, const Points& hits, const
   return search.best();
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

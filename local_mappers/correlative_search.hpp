@@ -6,7 +6,7 @@
 #include "glocal/pose2.hpp"
 #include "local_mappers/point_grid.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 struct CorrelativeSearchParams {
   double translation = 0.1;
@@ -28,4 +28,4 @@ struct SearchResult {
                                               const Pose2& predicted, const CorrelativeSearchParams& params,
                                               double odometry_penalty);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 std::optional<Scan> deskewed(const Scan& scan, const SteadyMotion& motion) {
   if (scan.times.empty()) return std::nullopt;
@@ -29,4 +29,4 @@ std::optional<Scan> deskewed(const Scan& scan, const SteadyMotion& motion) {
   return still;
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -5,7 +5,7 @@
 
 #include "glocal/observation.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// How a robot moves: by `last_from_now` in so many seconds, straight and turning evenly.
 struct SteadyMotion {
@@ -18,4 +18,4 @@ struct SteadyMotion {
 /// still have it.
 [[nodiscard]] std::optional<Scan> deskewed(const Scan& scan, const SteadyMotion& motion);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -4,7 +4,7 @@
 #include "glocal/motion.hpp"
 #include "glocal/pose3.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// The first local_from_robot of a map: no turn at all; where the motion is upright, the tilt that odometry
 /// has, so that up is up in the local frame. The heading is 0 then.
@@ -13,4 +13,4 @@ namespace glocal {
   return {{}, turn_about_z(-odom_from_robot.heading()) * odom_from_robot.rotation};
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

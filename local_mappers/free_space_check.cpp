@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 namespace {
 
@@ -80,4 +80,4 @@ void FreeSpaceCheck::add(const Scan& scan, const Pose2& local_from_robot) {
   if (scans_.size() > scans) scans_.pop_front();
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

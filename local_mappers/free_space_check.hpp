@@ -7,7 +7,7 @@
 
 #include "glocal/observation.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// How far a scan saw in each direction from its sensor.
 class RangeProfile {
@@ -55,4 +55,4 @@ class FreeSpaceCheck {
   std::deque<PlacedScan> scans_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 void describe(ParamVisitor& v, Keyframes::Params& p) {
   v.field("distance", p.distance,
@@ -69,4 +69,4 @@ double Keyframes::overlap(const Points& hits) const {
   return static_cast<double>(near) / static_cast<double>(hits.size());
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

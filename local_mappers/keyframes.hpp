@@ -7,7 +7,7 @@
 #include "glocal/strategies.hpp"
 #include "local_mappers/scan_matching.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// Matches every scan as scan_matching does, but registers only keyframes: observations made `distance` or
 /// `angle_deg` away from the last keyframe, or of which less than `overlap` lies on the map. The others only
@@ -40,4 +40,4 @@ class Keyframes final : public LocalMapper {
 };
 void describe(ParamVisitor& v, Keyframes::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -7,7 +7,7 @@
 #include "glocal/voxel_filter.hpp"
 #include "local_mappers/first_pose.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 namespace {
 
 /// The distance of the farthest hit from the sensor, m.
@@ -168,4 +168,4 @@ void LidarOdometry::forget() {
   since_forgetting_ = 0;
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -12,7 +12,7 @@
 #include "local_mappers/plane_registration.hpp"
 #include "local_mappers/surface_map.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// How far hits may be from where a prediction puts them, learnt from how far predictions were off: sigma is
 /// the root mean square of delta = |t| + 2 r sin(|angle| / 2), the most that a correction has moved a point
@@ -94,4 +94,4 @@ class LidarOdometry final : public LocalMapper {
 };
 void describe(ParamVisitor& v, LidarOdometry::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 namespace {
 
@@ -121,4 +121,4 @@ ScanRegistration register_scan(const PointGrid& grid, const LocalMap& map, const
   return result;
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

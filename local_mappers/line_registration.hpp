@@ -9,7 +9,7 @@
 #include "glocal/pose2.hpp"
 #include "local_mappers/point_grid.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 struct LineRegistrationParams {
   double match_distance = 0.45;
@@ -43,4 +43,4 @@ struct ScanRegistration {
                                              const Points& normals, const Pose2& start,
                                              double match_distance);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

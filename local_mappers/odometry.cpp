@@ -2,7 +2,7 @@
 
 #include "local_mappers/first_pose.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 void describe(ParamVisitor& v, Odometry::Params& p) {
   describe(v, p.voxels);
@@ -49,4 +49,4 @@ void Odometry::reset() {
   odom_from_first_.reset();
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -9,7 +9,7 @@
 #include "local_mappers/scan_normals.hpp"
 #include "local_mappers/voxel_map.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// Believes odometry: no scan corrects it. What scan matching is worth shows beside this. The map starts anew
 /// (the next epoch) when the robot leaves what the grid can hold. Only a map in the plane has normals: they
@@ -40,4 +40,4 @@ class Odometry final : public LocalMapper {
 };
 void describe(ParamVisitor& v, Odometry::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-namespace glocal {
+namespace glocal::local_mappers {
 namespace {
 
 /// What keeps a step from running away.
@@ -92,4 +92,4 @@ PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, 
   return result;
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -7,7 +7,7 @@
 #include "glocal/pose3.hpp"
 #include "local_mappers/surface_map.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// What counts as the same surface, m.
 struct MatchLimits {
@@ -29,4 +29,4 @@ struct PlaneRegistration {
                                                    const Point& sensor, const Pose3& start,
                                                    const MatchLimits& limits);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 PointGrid::PointGrid(double resolution, int reach, double sigma, std::size_t max_tiles)
     : resolution_(resolution),
@@ -109,4 +109,4 @@ std::size_t PointGrid::memory_bytes() const {
   return (tiles_.size() + 1) * sizeof(Tile) + directory_.size() * sizeof(void*);
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// A cell of the plane; (0, 0) is the lowest corner of what the grid can hold.
 struct GridCell {
@@ -128,4 +128,4 @@ class PointGrid {
       tiles_;  ///< The first used_.size() are in the directory; the rest are spare.
 };
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-namespace glocal {
+namespace glocal::local_mappers {
+
 void describe(ParamVisitor& v, ScanMatching::Params& p) {
   describe(v, p.voxels);
   v.field("likelihood_sigma", p.likelihood_sigma,
@@ -113,4 +114,4 @@ SearchResult ScanMatching::search(const Points& hits, const Pose2& predicted) co
   return far.likelihood >= needed ? far : near;
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

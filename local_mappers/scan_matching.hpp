@@ -11,7 +11,7 @@
 #include "local_mappers/scan_normals.hpp"
 #include "local_mappers/voxel_map.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// Searches poses around odometry on a likelihood grid, then refines by robust point-to-line Gauss-Newton
 /// against the points of the local map. Time per observation does not grow with the drive; memory grows with
@@ -83,4 +83,4 @@ class ScanMatching final : public LocalMapper {
 };
 void describe(ParamVisitor& v, ScanMatching::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

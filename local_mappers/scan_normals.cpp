@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 namespace {
 
@@ -89,4 +89,4 @@ Points scan_normals(const Points& hits, const Point& sensor, const ScanNormalPar
   return normals;
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -4,7 +4,7 @@
 #include "glocal/params.hpp"
 #include "glocal/points.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 struct ScanNormalParams {
   int beams = 4;
@@ -18,4 +18,4 @@ void describe(ParamVisitor& v, ScanNormalParams& p);
 /// than 0.6 m from one hit to the next.
 [[nodiscard]] Points scan_normals(const Points& hits, const Point& sensor, const ScanNormalParams& params);
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glocal {
+namespace glocal::local_mappers {
 namespace {
 
 float squared_distance(const Point& a, const Point& b) {
@@ -294,4 +294,4 @@ Point SurfaceMap::normal_at(const Point& p, const Points& around) const {
   return {normal.x(), normal.y(), normal.z()};
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

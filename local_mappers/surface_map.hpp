@@ -11,7 +11,7 @@
 #include "glocal/params.hpp"
 #include "glocal/points.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 struct SurfaceMapParams {
   double resolution = 0.15;
@@ -95,4 +95,4 @@ class SurfaceMap {
   std::size_t observations_ = 0;
 };
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

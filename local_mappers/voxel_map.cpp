@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace glocal {
+namespace glocal::local_mappers {
 namespace {
 
 constexpr double bytes_per_mb = 1e6;
@@ -160,4 +160,4 @@ void VoxelMap::average_into(std::size_t index, const Point& p, const Point* norm
   if (normal != nullptr) map_.normals.set(index, average_normal(map_.normals[index], n, *normal));
 }
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -11,7 +11,7 @@
 #include "glocal/params.hpp"
 #include "local_mappers/point_grid.hpp"
 
-namespace glocal {
+namespace glocal::local_mappers {
 
 /// Parameters of any local mapper that downsamples its points, among its own.
 struct VoxelParams {
@@ -79,4 +79,4 @@ class VoxelMap {
   std::vector<std::int32_t> next_above_;  ///< Next point in the same column of the plane, or none.
 };
 
-}  // namespace glocal
+}  // namespace glocal::local_mappers

@@ -20,26 +20,28 @@ void register_matchers(Catalog& catalog) {
   catalog.matchers.add<Exhaustive>("exhaustive", "Every pose of a grid, each judged by eq. 4.",
                                    stable_since("0.1.0"),
                                    {.contact = ContactChoice(catalog.contact_indexes)});
-  catalog.matchers.add<IndexedRansam>("indexed_ransam",
-                                      "Random sample matching of oriented point pairs over an index of the "
-                                      "map; refined, carried on, checked by beams.",
-                                      stable_since("0.1.0"));
-  catalog.matchers.add<IRansac>(
+  catalog.matchers.add<indexed_ransam::IndexedRansam>(
+      "indexed_ransam",
+      "Random sample matching of oriented point pairs over an index of the "
+      "map; refined, carried on, checked by beams.",
+      stable_since("0.1.0"));
+  catalog.matchers.add<iransac::IRansac>(
       "iransac", "Incremental, preemptive random sample consensus over features of the map, hashed or not.",
       stable_since("0.1.0"));
-  catalog.matchers.add<Mcl>(
+  catalog.matchers.add<mcl::Mcl>(
       "mcl", "Monte Carlo localization: a particle filter, as AMCL is; the local map is not looked at.",
       stable_since("0.1.0"));
-  catalog.matchers.add<Ransac>("ransac", "Random sample consensus of pairs of points, without any table.",
-                               stable_since("0.1.0"));
-  catalog.matchers.add<Ransam>(
+  catalog.matchers.add<ransac::Ransac>(
+      "ransac", "Random sample consensus of pairs of points, without any table.", stable_since("0.1.0"));
+  catalog.matchers.add<ransam::Ransam>(
       "ransam", "Random sample matching of triangles over a hash table (Section II, eq. 1-5).",
       stable_since("0.1.0"), {.triples = {.contact = ContactChoice(catalog.contact_indexes)}});
-  catalog.matchers.add<SurfelRansam>("surfel_ransam",
-                                     "Random sample matching of pairs of surfels over an index of the map in "
-                                     "space; refined, carried on, checked by what the scan looked through.",
-                                     stable_since("0.1.0"));
-  catalog.matchers.add<TriangleRansam>(
+  catalog.matchers.add<surfel_ransam::SurfelRansam>(
+      "surfel_ransam",
+      "Random sample matching of pairs of surfels over an index of the map in "
+      "space; refined, carried on, checked by what the scan looked through.",
+      stable_since("0.1.0"));
+  catalog.matchers.add<ransam::TriangleRansam>(
       "triangle_ransam",
       "Random sample matching of triangles in space over a hash table, as ransam's in the plane.",
       experimental_since("0.1.0"), {.contact = ContactChoice(catalog.contact_indexes)});

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe(ParamVisitor& v, BestFraction::Params& p) {
   v.field("fraction", p.fraction,
@@ -38,4 +38,4 @@ void BestFraction::reset() {
   omega_max_ = params_.initial;
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

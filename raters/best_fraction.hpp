@@ -5,7 +5,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// Omega_max as a fraction of the best score, of the last step or so far: how good the best pose is depends
 /// on how well map and world agree, and a wrong pose is judged against that. A step without hypotheses leaves
@@ -33,4 +33,4 @@ class BestFraction final : public ThresholdPolicy {
 };
 void describe(ParamVisitor& v, BestFraction::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace glocal {
+namespace glocal::raters {
 namespace {
 
 std::size_t count_places(const std::vector<Pose3>& poses) {
@@ -34,4 +34,4 @@ std::optional<Verdict> ambiguous(std::vector<Pose3> poses) {
                  fmt::format("{} poses{} explain the observations about equally well", n, where)};
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

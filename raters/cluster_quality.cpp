@@ -4,7 +4,7 @@
 
 #include "raters/mean_score.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe_cluster_quality(ParamVisitor& v, std::string& quality) {
   v.field("quality", quality,
@@ -20,4 +20,4 @@ double cluster_score(const Cluster& cluster, const std::vector<Hypothesis>& hypo
   return std::min(best, 1.0);
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -6,7 +6,7 @@
 #include "glocal/hypothesis.hpp"
 #include "glocal/params.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// The parameter `quality` of raters that go by it: "best" or "mean".
 void describe_cluster_quality(ParamVisitor& v, std::string& quality);
@@ -15,4 +15,4 @@ void describe_cluster_quality(ParamVisitor& v, std::string& quality);
 [[nodiscard]] double cluster_score(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
                                    const std::string& quality);
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -7,7 +7,7 @@
 #include "raters/mean_score.hpp"
 #include "raters/normalise.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe(ParamVisitor& v, ClusterRating::Params& p) {
   v.field("weights", p.weights,
@@ -63,4 +63,4 @@ double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothe
   return alpha[0] * share + alpha[1] * narrow + alpha[2] * straight + alpha[3] * score;
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -3,7 +3,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// The paper's ratings: r from size, spread and mean score (eq. 7), and r normalised over the step's
 /// clusters (eq. 8).
@@ -30,4 +30,4 @@ class ClusterRating final : public Rater {
 };
 void describe(ParamVisitor& v, ClusterRating::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters

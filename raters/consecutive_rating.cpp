@@ -7,7 +7,7 @@
 
 #include "raters/candidates.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe(ParamVisitor& v, ConsecutiveRating::Params& p) {
   v.field("min_rating", p.min_rating,
@@ -77,4 +77,4 @@ std::vector<Pose3> ConsecutiveRating::candidates(const StepResult& step) const {
   return poses;
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -6,7 +6,7 @@
 #include "glocal/strategies.hpp"
 #include "raters/followed_pose.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// The paper's rule (Sections III-B and IV): localized once the same cluster's normalised rating has been
 /// high in several consecutive steps. "The same" cluster is the one whose robot pose agrees with the last one
@@ -42,4 +42,4 @@ class ConsecutiveRating final : public VerdictRule {
 };
 void describe(ParamVisitor& v, ConsecutiveRating::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -4,7 +4,7 @@
 
 #include "raters/mean_score.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe(ParamVisitor& v, ExponentialThreshold::Params& p) {
   v.field("weight", p.weight,
@@ -21,4 +21,4 @@ void ExponentialThreshold::update(const std::vector<Hypothesis>& hypotheses) {
   omega_max_ = std::clamp(omega_max_, 0.0, 1.0);
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -3,7 +3,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// Omega_max as an exponential moving average of the steps' mean hypothesis qualities (Roberts 1959), where
 /// eq. 9 has a window: the latest step counts most, and none drops out at once. A step without hypotheses
@@ -28,4 +28,4 @@ class ExponentialThreshold final : public ThresholdPolicy {
 };
 void describe(ParamVisitor& v, ExponentialThreshold::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -3,7 +3,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// The same Omega_max in every step.
 class FixedThreshold final : public ThresholdPolicy {
@@ -27,4 +27,4 @@ inline void describe(ParamVisitor& v, FixedThreshold::Params& p) {
   v.field("omega_max", p.omega_max, {.doc = "Score a hypothesis must reach.", .min = 0.0, .max = 1.0});
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

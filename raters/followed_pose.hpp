@@ -6,7 +6,7 @@
 #include "glocal/pose3.hpp"
 #include "glocal/step_result.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// A robot pose in the map as of one step, with what tells how the robot moves from there.
 struct FollowedPose {
@@ -41,4 +41,4 @@ struct FollowedPose {
   return distance(a, b) < distance_m && rotation_between(a, b) < radians(rotation_deg);
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

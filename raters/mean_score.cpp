@@ -1,6 +1,6 @@
 #include "raters/mean_score.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 namespace {
 
 /// A mean with weights; 0 of nothing.
@@ -29,4 +29,4 @@ double mean_score(const std::vector<Hypothesis>& hypotheses, std::span<const std
   return mean.value();
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

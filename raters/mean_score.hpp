@@ -6,7 +6,7 @@
 
 #include "glocal/hypothesis.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// Mean score of hypotheses, each counted as often as its support says; 0 without any.
 [[nodiscard]] double mean_score(const std::vector<Hypothesis>& hypotheses);
@@ -15,4 +15,4 @@ namespace glocal {
 [[nodiscard]] double mean_score(const std::vector<Hypothesis>& hypotheses,
                                 std::span<const std::size_t> members);
 
-}  // namespace glocal
+}  // namespace glocal::raters

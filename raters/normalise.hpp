@@ -4,7 +4,7 @@
 
 #include "glocal/hypothesis.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// Each r divided by the sum of all (eq. 8).
 inline void normalise(std::vector<Rating>& ratings) {
@@ -13,4 +13,4 @@ inline void normalise(std::vector<Rating>& ratings) {
   for (Rating& rating : ratings) rating.r_normalised = rating.r / sum;
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

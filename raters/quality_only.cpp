@@ -5,7 +5,7 @@
 #include "raters/cluster_quality.hpp"
 #include "raters/normalise.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe(ParamVisitor& v, QualityOnly::Params& p) {
   describe_cluster_quality(v, p.quality);
@@ -22,4 +22,4 @@ std::vector<Rating> QualityOnly::rate(const std::vector<Cluster>& clusters,
   return ratings;
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -5,7 +5,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// A cluster is rated by the score of its best hypothesis, or by the mean of all: where a matcher gives one
 /// hypothesis for each pose, the size of clusters says nothing. Normalised by eq. 8.
@@ -26,4 +26,4 @@ class QualityOnly final : public Rater {
 };
 void describe(ParamVisitor& v, QualityOnly::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters

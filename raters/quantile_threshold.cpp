@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace glocal {
+namespace glocal::raters {
 namespace {
 
 /// The least score such that hypotheses of at most that score have a share `quantile` of all support.
@@ -41,4 +41,4 @@ void QuantileThreshold::update(const std::vector<Hypothesis>& hypotheses) {
                                   : std::clamp(score_at(params_.quantile, hypotheses), 0.0, 1.0);
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -3,7 +3,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// Omega_max as a quantile of the last step's qualities: only the better part of as good a step would pass.
 /// As all of them are above the threshold of their step, it never falls while there are any; a step without
@@ -29,4 +29,4 @@ class QuantileThreshold final : public ThresholdPolicy {
 };
 void describe(ParamVisitor& v, QuantileThreshold::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters

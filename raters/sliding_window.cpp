@@ -5,7 +5,7 @@
 
 #include "raters/mean_score.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe(ParamVisitor& v, SlidingWindow::Params& p) {
   v.field("window", p.window,
@@ -37,4 +37,4 @@ void SlidingWindow::reset() {
   means_.assign(static_cast<std::size_t>(params_.window), params_.initial);
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -5,7 +5,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// Omega_max as the mean, over a sliding window of steps, of each step's mean hypothesis score (eq. 9).
 /// Steps before the first count as `initial`. A step without hypotheses counts as 0: every hypothesis lies
@@ -30,4 +30,4 @@ class SlidingWindow final : public ThresholdPolicy {
 };
 void describe(ParamVisitor& v, SlidingWindow::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters

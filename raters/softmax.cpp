@@ -5,7 +5,7 @@
 #include "raters/cluster_quality.hpp"
 #include "raters/normalise.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe(ParamVisitor& v, Softmax::Params& p) {
   v.field("beta", p.beta,
@@ -27,4 +27,4 @@ std::vector<Rating> Softmax::rate(const std::vector<Cluster>& clusters,
   return ratings;
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -5,7 +5,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// r = exp(beta (score - 1)), so that the normalised ratings (eq. 8) are the softmax of beta times the
 /// scores (Bridle 1990): what counts are differences in score, and one clearly better cluster outweighs
@@ -29,4 +29,4 @@ class Softmax final : public Rater {
 };
 void describe(ParamVisitor& v, Softmax::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters

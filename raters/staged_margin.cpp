@@ -9,7 +9,7 @@
 
 #include "raters/candidates.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 namespace {
 
 /// Steps since the robot last turned fast, before anything is declared.
@@ -253,4 +253,4 @@ std::vector<Pose3> StagedMargin::candidates(const StepResult& step) const {
   return poses;
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -11,7 +11,7 @@
 #include "glocal/strategies.hpp"
 #include "raters/followed_pose.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// Localized once the best hypothesis has been clearly better than every rival, a pose far from it, for long
 /// enough: the clearer, the sooner. The best hypothesis must stay the same, moved by the local motion;
@@ -89,4 +89,4 @@ class StagedMargin final : public VerdictRule {
 void describe(ParamVisitor& v, StagedMargin::Stage& p);
 void describe(ParamVisitor& v, StagedMargin::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters

@@ -7,7 +7,7 @@
 #include "matchers/box_search/map_area.hpp"
 #include "matchers/box_search/search_boxes.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 void describe(ParamVisitor& v, ExactSearchRule& p) {
   v.field("after_steps", p.after_steps,
@@ -80,4 +80,4 @@ std::size_t ExactSearch::search(const Points& points, const Pose3& local_from_ro
   }
 }
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

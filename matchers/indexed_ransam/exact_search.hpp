@@ -14,7 +14,7 @@
 #include "glocal/prior.hpp"
 #include "matchers/box_search/box_pyramid.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 /// When a search is due, and how far it goes.
 struct ExactSearchRule {
@@ -63,4 +63,4 @@ class ExactSearch {
   int wait_;           ///< For so many of them.
 };
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

@@ -5,7 +5,7 @@
 
 #include "matchers/indexed_ransam/proposals.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 namespace {
 
 RelationRule relation_rule(const IndexedRansam::Params& p) {
@@ -217,4 +217,4 @@ std::vector<Hypothesis> IndexedRansam::settled(StepCandidates& candidates, const
   return judge_.best_of(candidates.all(), local, sample);
 }
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

@@ -18,7 +18,7 @@
 #include "matchers/indexed_ransam/relation_index.hpp"
 #include "matchers/indexed_ransam/step_candidates.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 /// Random sample matching against an index: the map's oriented point pairs (two points with their normals)
 /// are sorted once, or its triangles where few points have a normal, so every draw from the local map meets
@@ -89,4 +89,4 @@ class IndexedRansam final : public Matcher {
 };
 void describe(ParamVisitor& v, IndexedRansam::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

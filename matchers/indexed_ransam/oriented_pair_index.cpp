@@ -11,7 +11,7 @@
 #include "glocal/rng.hpp"
 #include "matchers/common/squares.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 namespace {
 
 /// Calls visit(oriented point pair) for an even share of the ordered pairs of different points at an allowed
@@ -114,4 +114,4 @@ std::optional<std::uint32_t> OrientedPairIndex::bin(const OrientedPoints& s, con
   return (length_cell * angle_cells + angle_cell(pair.first)) * angle_cells + angle_cell(pair.second);
 }
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

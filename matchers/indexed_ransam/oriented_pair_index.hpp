@@ -9,7 +9,7 @@
 
 #include "matchers/common/oriented_points.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 /// Which pairs of points are worth an entry, and how alike two of them are that share a bin.
 struct OrientedPairRule {
@@ -53,4 +53,4 @@ class OrientedPairIndex {
   std::vector<OrientedPair> pairs_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 namespace {
 
 bool has_better_score(const Hypothesis& a, const Hypothesis& b) {
@@ -74,4 +74,4 @@ PoseJudge::PlaceEvidence PoseJudge::evidence_at(const Pose2& map_from_local, con
           .misfit = misfit / size};
 }
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

@@ -15,7 +15,7 @@
 #include "matchers/common/beam_evidence.hpp"
 #include "matchers/common/candidates.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 struct JudgeRule {
   BeamRule beams = {.weight = 1.0, .cap = 0.3};
@@ -69,4 +69,4 @@ class PoseJudge {
   BeamEvidence beams_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

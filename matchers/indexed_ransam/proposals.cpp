@@ -8,7 +8,7 @@
 #include "matchers/common/point_pair.hpp"
 #include "matchers/common/triple_sampler.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 namespace {
 
 using OrientedPair = OrientedPairIndex::OrientedPair;
@@ -115,4 +115,4 @@ void propose(const RelationIndex& index, const RelationRule& rule, const LocalMa
   std::visit([&](const auto& one) { propose_by(one, rule, local, draws, rng, take); }, index);
 }
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

@@ -9,7 +9,7 @@
 #include "glocal/rng.hpp"
 #include "matchers/indexed_ransam/relation_index.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 /// Takes the first `size` poses of a batch.
 using TakePoses = std::function<void(const MotionBatch& map_from_local, std::size_t size)>;
@@ -19,4 +19,4 @@ using TakePoses = std::function<void(const MotionBatch& map_from_local, std::siz
 void propose(const RelationIndex& index, const RelationRule& rule, const LocalMap& local, std::size_t draws,
              Rng& rng, const TakePoses& take);
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

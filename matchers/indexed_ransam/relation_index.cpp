@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 namespace {
 
 /// Equal for equal rules.
@@ -49,4 +49,4 @@ std::size_t points_of(const RelationIndex& index) {
   return std::visit(Size{}, index);
 }
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

@@ -12,7 +12,7 @@
 #include "matchers/indexed_ransam/oriented_pair_index.hpp"
 #include "matchers/indexed_ransam/triangle_index.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 using RelationIndex = std::variant<OrientedPairIndex, TriangleIndex>;
 
@@ -34,4 +34,4 @@ struct RelationRule {
 /// The points that its pairs or triangles are made of.
 [[nodiscard]] std::size_t points_of(const RelationIndex& index);
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

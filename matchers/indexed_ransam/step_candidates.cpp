@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 StepCandidates::StepCandidates(const ContactIndex& contact, const Points& sample, double min_contact,
                                std::size_t enough, const PoseGate& gate)
@@ -75,4 +75,4 @@ void StepCandidates::refine(const CandidateRefiner& refiner, const Pose2& local_
   std::erase_if(candidates_, [&](const Candidate& c) { return !gate_.allows(c.map_from_local); });
 }
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

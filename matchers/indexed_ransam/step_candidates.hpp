@@ -12,7 +12,7 @@
 #include "glocal/prior.hpp"
 #include "matchers/common/candidates.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 /// Candidates by the contact of a sample of the local map's points.
 class StepCandidates {
@@ -57,4 +57,4 @@ class StepCandidates {
   std::size_t points_tested_ = 0;
 };
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

@@ -11,7 +11,7 @@
 #include "glocal/rng.hpp"
 #include "matchers/common/squares.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 namespace {
 
 /// Points whose triangles one thread finds at a time. Fixed, so that their order does not depend on the
@@ -140,4 +140,4 @@ std::span<const Triple> TriangleIndex::find(Relation relation) const {
   return std::span(triangles_).subspan(begins_[i], begins_[i + 1] - begins_[i]);
 }
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

@@ -9,7 +9,7 @@
 #include "glocal/points.hpp"
 #include "matchers/common/triangle.hpp"
 
-namespace glocal {
+namespace glocal::indexed_ransam {
 
 /// The paper's relation (eq. 1) of all triangles that the rule admits, sorted once for a map and read by all;
 /// if there are more than max_entries, an even share of them. For places where oriented points have no
@@ -33,4 +33,4 @@ class TriangleIndex {
   std::vector<Triple> triangles_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::indexed_ransam

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-namespace glocal {
+namespace glocal::iransac {
 namespace {
 
 std::vector<std::uint32_t> all_of(std::size_t n) {
@@ -42,4 +42,4 @@ std::size_t FeatureIndex::memory_bytes() const {
          (hashed_ ? hashed_->memory_bytes() : 0);
 }
 
-}  // namespace glocal
+}  // namespace glocal::iransac

@@ -10,7 +10,7 @@
 #include "matchers/iransac/hashed_vectors.hpp"
 #include "matchers/iransac/shape_context.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 
 /// Shape contexts of all surface points of a map. Built once and read by all.
 class FeatureIndex {
@@ -31,4 +31,4 @@ class FeatureIndex {
   std::optional<HashedVectors> hashed_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::iransac

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace glocal {
+namespace glocal::iransac {
 
 HashedVectors::HashedVectors(const FeatureVectors& vectors, const HashRule& rule, Rng rng)
     : rule_(rule), dimensions_(vectors.dimensions) {
@@ -68,4 +68,4 @@ double HashedVectors::collision_probability(double distance, double bucket_width
          2.0 / (std::sqrt(2.0 * std::numbers::pi) * ratio) * (1.0 - std::exp(-ratio * ratio / 2.0));
 }
 
-}  // namespace glocal
+}  // namespace glocal::iransac

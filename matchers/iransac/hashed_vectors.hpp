@@ -8,7 +8,7 @@
 #include "glocal/rng.hpp"
 #include "matchers/iransac/shape_context.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 
 /// Of vectors of length 1. With these a twelfth of all vectors is compared, and few neighbours are missed.
 struct HashRule {
@@ -47,4 +47,4 @@ class HashedVectors {
   std::vector<std::vector<Entry>> tables_;  ///< Each sorted by bucket, then number.
 };
 
-}  // namespace glocal
+}  // namespace glocal::iransac

@@ -13,7 +13,7 @@
 #include "glocal/parallel.hpp"
 #include "matchers/common/point_pair.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 namespace {
 
 /// Points that features are made of, one in each square of this side.
@@ -187,4 +187,4 @@ void IRansac::propose(const LocalMap& local, Rng& rng) {
   }
 }
 
-}  // namespace glocal
+}  // namespace glocal::iransac

@@ -14,7 +14,7 @@
 #include "matchers/iransac/feature_index.hpp"
 #include "matchers/iransac/preemption.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 
 /// Incremental random sample consensus over features of the map, after Tanaka and Kondo (ICRA 2006) and, with
 /// `lsh`, Saeki, Tanaka and Nagasaka (ICRA 2009).
@@ -65,4 +65,4 @@ class IRansac final : public Matcher {
 };
 void describe(ParamVisitor& v, IRansac::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::iransac

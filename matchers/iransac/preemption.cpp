@@ -5,7 +5,7 @@
 
 #include "glocal/parallel.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 
 std::size_t left_after(std::size_t hypotheses, std::size_t observations, std::size_t block) {
   const std::size_t halvings = observations / block;
@@ -46,4 +46,4 @@ std::size_t preempt(std::vector<ScoredPose>& hypotheses, const ContactIndex& con
   return points_tested;
 }
 
-}  // namespace glocal
+}  // namespace glocal::iransac

@@ -8,7 +8,7 @@
 #include "glocal/points.hpp"
 #include "glocal/pose2.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 
 /// A pose, and the observations it has been scored by: points of the local map in contact, of those looked
 /// at.
@@ -38,4 +38,4 @@ struct PreemptionRule {
 std::size_t preempt(std::vector<ScoredPose>& hypotheses, const ContactIndex& contact, const Points& all,
                     const Points& latest, const PreemptionRule& rule, int threads);
 
-}  // namespace glocal
+}  // namespace glocal::iransac

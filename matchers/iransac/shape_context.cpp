@@ -8,7 +8,7 @@
 #include "glocal/parallel.hpp"
 #include "matchers/common/squares.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 namespace {
 
 constexpr auto pi = static_cast<float>(std::numbers::pi);
@@ -136,4 +136,4 @@ FeatureVectors shape_contexts(const OrientedPoints& oriented_points, const std::
   return result;
 }
 
-}  // namespace glocal
+}  // namespace glocal::iransac

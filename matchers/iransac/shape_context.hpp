@@ -7,7 +7,7 @@
 
 #include "matchers/common/oriented_points.hpp"
 
-namespace glocal {
+namespace glocal::iransac {
 
 /// A histogram of the points around one, over their distance and their bearing from its normal.
 struct ShapeContextRule {
@@ -44,4 +44,4 @@ struct FeatureVectors {
                                             const std::vector<std::uint32_t>& of,
                                             const ShapeContextRule& rule, int threads = 1);
 
-}  // namespace glocal
+}  // namespace glocal::iransac

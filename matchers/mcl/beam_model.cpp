@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace glocal {
+namespace glocal::mcl {
 namespace {
 
 /// The part of a standard normal distribution below x.
@@ -41,4 +41,4 @@ double beam_likelihood(double measured, double expected, const BeamModelRule& ru
   return (hits + shorts + rule.z_rand / rule.max_range) / weights;
 }
 
-}  // namespace glocal
+}  // namespace glocal::mcl

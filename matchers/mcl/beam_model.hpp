@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glocal {
+namespace glocal::mcl {
 
 /// Parameters of the model, with the names and defaults of AMCL (Nav2). The four weights need not add up to
 /// 1: only their shares count.
@@ -27,4 +27,4 @@ constexpr double met_nothing = std::numeric_limits<double>::infinity();
 /// eq. 6.4 to 6.12). A density in 1/m, for met_nothing a probability.
 [[nodiscard]] double beam_likelihood(double measured, double expected, const BeamModelRule& rule);
 
-}  // namespace glocal
+}  // namespace glocal::mcl

@@ -4,7 +4,7 @@
 
 #include "glocal/error.hpp"
 
-namespace glocal {
+namespace glocal::mcl {
 
 FreeSpace::FreeSpace(const OccupancyGrid& grid)
     : map_from_grid_(grid.map_from_grid),
@@ -35,4 +35,4 @@ std::shared_ptr<const FreeSpace> free_space(const GlobalMap& map) {
   return map.index<FreeSpace>("", [&] { return FreeSpace(map.grid()); });
 }
 
-}  // namespace glocal
+}  // namespace glocal::mcl

@@ -10,7 +10,7 @@
 #include "glocal/pose2.hpp"
 #include "glocal/rng.hpp"
 
-namespace glocal {
+namespace glocal::mcl {
 
 /// The cells of a map that are known to be free.
 class FreeSpace {
@@ -35,4 +35,4 @@ class FreeSpace {
 /// That of a map, shared by all who ask for it.
 [[nodiscard]] std::shared_ptr<const FreeSpace> free_space(const GlobalMap& map);
 
-}  // namespace glocal
+}  // namespace glocal::mcl

@@ -5,7 +5,7 @@
 
 #include "matchers/mcl/sum_over_field.hpp"
 
-namespace glocal {
+namespace glocal::mcl {
 
 double likelihood_of_distance(double distance, const LikelihoodFieldRule& rule) {
   const double deviations = std::min(distance, rule.max_distance) / rule.sigma_hit;
@@ -53,4 +53,4 @@ float LikelihoodField::at(float x, float y) const {
                 static_cast<std::size_t>(column)];
 }
 
-}  // namespace glocal
+}  // namespace glocal::mcl

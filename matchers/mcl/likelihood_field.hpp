@@ -10,7 +10,7 @@
 #include "glocal/global_map.hpp"
 #include "glocal/points.hpp"
 
-namespace glocal {
+namespace glocal::mcl {
 
 /// Parameters of the model, with the names and defaults of AMCL (Nav2).
 struct LikelihoodFieldRule {
@@ -52,4 +52,4 @@ class LikelihoodField {
   std::vector<float> cells_;  ///< The outermost ones are farther than max_distance from all points.
 };
 
-}  // namespace glocal
+}  // namespace glocal::mcl

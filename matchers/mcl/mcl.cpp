@@ -11,7 +11,7 @@
 #include "glocal/beams.hpp"
 #include "glocal/parallel.hpp"
 
-namespace glocal {
+namespace glocal::mcl {
 namespace {
 
 /// Names of the random streams within a step.
@@ -308,4 +308,4 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
   describe(v, p.merging);
 }
 
-}  // namespace glocal
+}  // namespace glocal::mcl

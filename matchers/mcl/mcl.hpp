@@ -18,7 +18,7 @@
 #include "matchers/mcl/odometry_motion.hpp"
 #include "matchers/mcl/resampling.hpp"
 
-namespace glocal {
+namespace glocal::mcl {
 
 /// Monte Carlo localization: a particle filter over robot poses (Dellaert, Fox, Burgard and Thrun 1999;
 /// Thrun, Burgard and Fox, Probabilistic Robotics, Table 8.3), with the number of particles adapted by
@@ -103,4 +103,4 @@ class Mcl final : public Matcher {
 };
 void describe(ParamVisitor& v, Mcl::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::mcl

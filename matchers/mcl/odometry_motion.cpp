@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glocal {
+namespace glocal::mcl {
 namespace {
 
 double squared(double value) {
@@ -59,4 +59,4 @@ Pose2 OdometryMotion::sample(const Pose2& map_from_old, Rng& rng) const {
           wrap_angle(heading + second)};
 }
 
-}  // namespace glocal
+}  // namespace glocal::mcl

@@ -5,7 +5,7 @@
 #include "glocal/pose2.hpp"
 #include "glocal/rng.hpp"
 
-namespace glocal {
+namespace glocal::mcl {
 
 /// Noise of odometry. Names and defaults are those of AMCL (Nav2).
 struct OdometryNoise {
@@ -32,4 +32,4 @@ class OdometryMotion {
   double first_deviation_, way_deviation_, second_deviation_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::mcl

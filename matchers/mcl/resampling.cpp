@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glocal {
+namespace glocal::mcl {
 
 std::vector<std::uint32_t> low_variance_draws(const std::vector<double>& weights, std::size_t n,
                                               double offset) {
@@ -45,4 +45,4 @@ double RecoveryAverages::share_of_new() const {
   return std::max(0.0, 1.0 - fast_ / slow_);
 }
 
-}  // namespace glocal
+}  // namespace glocal::mcl

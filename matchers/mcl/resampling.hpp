@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace glocal {
+namespace glocal::mcl {
 
 /// Low variance sampling (Thrun, Burgard and Fox, Probabilistic Robotics, Table 4.4): n indexes, ascending,
 /// each as often as n times its weight says, rounded down or up. Weights are not negative and add up to 1;
@@ -38,4 +38,4 @@ class RecoveryAverages {
   double slow_ = 0.0, fast_ = 0.0;  ///< 0 before the first update.
 };
 
-}  // namespace glocal
+}  // namespace glocal::mcl

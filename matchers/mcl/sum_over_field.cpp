@@ -8,7 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace glocal::HWY_NAMESPACE {
+namespace glocal::mcl::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -44,11 +44,11 @@ void sum_over_field_in_vectors(const FieldCells& field, const Points& points, co
 }
 
 }  // namespace
-}  // namespace glocal::HWY_NAMESPACE
+}  // namespace glocal::mcl::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace glocal {
+namespace glocal::mcl {
 
 HWY_EXPORT(sum_over_field_in_vectors);
 
@@ -57,5 +57,5 @@ void sum_over_field(const FieldCells& field, const Points& points, const MotionB
   HWY_DYNAMIC_DISPATCH(sum_over_field_in_vectors)(field, points, map_from_points, size, sums);
 }
 
-}  // namespace glocal
+}  // namespace glocal::mcl
 #endif

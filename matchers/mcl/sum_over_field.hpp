@@ -5,7 +5,7 @@
 
 #include "glocal/points.hpp"
 
-namespace glocal {
+namespace glocal::mcl {
 
 /// A table of square cells, row by row; what lies outside counts as the nearest cell at its border.
 struct FieldCells {
@@ -20,4 +20,4 @@ struct FieldCells {
 void sum_over_field(const FieldCells& field, const Points& points, const MotionBatch& map_from_points,
                     std::size_t size, float* sums);
 
-}  // namespace glocal
+}  // namespace glocal::mcl

@@ -11,7 +11,7 @@
 #include "matchers/common/merge.hpp"
 #include "matchers/common/point_pair.hpp"
 
-namespace glocal {
+namespace glocal::ransac {
 namespace {
 
 /// Iterations handled together by one thread. Fixed, so that the answer does not depend on the number of
@@ -135,4 +135,4 @@ void Ransac::refine_all(const LocalMap& local, double omega_max, MatchResult& re
                    [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
 }
 
-}  // namespace glocal
+}  // namespace glocal::ransac

@@ -11,7 +11,7 @@
 #include "glocal/strategies.hpp"
 #include "matchers/common/quality.hpp"
 
-namespace glocal {
+namespace glocal::ransac {
 
 /// Random sample consensus (Fischler and Bolles 1981) on bare points: what `ransam` is measured against.
 ///
@@ -57,4 +57,4 @@ class Ransac final : public Matcher {
 };
 void describe(ParamVisitor& v, Ransac::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::ransac

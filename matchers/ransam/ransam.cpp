@@ -5,7 +5,7 @@
 
 #include "matchers/common/merge.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 namespace {
 
 double diameter_bound(const Points& points) {
@@ -77,4 +77,4 @@ void Ransam::ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) co
   std::erase_if(hypotheses, [&](const Hypothesis& h) { return h.score < omega_max; });
 }
 
-}  // namespace glocal
+}  // namespace glocal::ransam

@@ -11,7 +11,7 @@
 #include "matchers/ransam/triple_matching.hpp"
 #include "matchers/ransam/triple_search.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 
 /// Random sample matching (Winkelbach et al.; Section II of the paper): triples of points drawn from the
 /// local and from the global map, joined over a hash table by their relation, give hypotheses; all that reach
@@ -52,4 +52,4 @@ class Ransam final : public Matcher {
 };
 void describe(ParamVisitor& v, Ransam::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::ransam

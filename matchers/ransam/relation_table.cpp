@@ -8,7 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace glocal::HWY_NAMESPACE {
+namespace glocal::ransam::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -74,11 +74,11 @@ std::size_t find_in_vectors(const std::uint64_t* table, const std::uint64_t* slo
 }
 
 }  // namespace
-}  // namespace glocal::HWY_NAMESPACE
+}  // namespace glocal::ransam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace glocal {
+namespace glocal::ransam {
 namespace {
 
 HWY_EXPORT(slots_in_vectors);
@@ -116,5 +116,5 @@ void RelationTable::find(const RelationBatch& batch, PartnerBatch& found) const 
   found.size = HWY_DYNAMIC_DISPATCH(find_in_vectors)(slots_.data(), slots.data(), first_, batch, found);
 }
 
-}  // namespace glocal
+}  // namespace glocal::ransam
 #endif

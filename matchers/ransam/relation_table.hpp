@@ -8,7 +8,7 @@
 
 #include "matchers/common/triangle.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 
 /// Draws of one side with draws of the other side that had the same relation.
 struct PartnerBatch {
@@ -54,4 +54,4 @@ class RelationTable {
   std::vector<std::uint64_t> slots_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::ransam

@@ -7,7 +7,7 @@
 
 #include "matchers/surfels/surfel_contact.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 namespace {
 
 /// Squared sides, each against the corner of the same number, m^2.
@@ -155,9 +155,10 @@ Pose3 least_squares_motion(const Triangle& from, const Triangle& to) {
 
 bool surfaces_agree(const RigidMotion& motion, const Normals& from, const Normals& to) {
   for (std::size_t corner = 0; corner < 3; ++corner) {
-    if (std::abs(dot(motion.turned(from[corner]), to[corner])) < least_cosine_of_normals) return false;
+    if (std::abs(dot(motion.turned(from[corner]), to[corner])) < surfels::least_cosine_of_normals)
+      return false;
   }
   return true;
 }
 
-}  // namespace glocal
+}  // namespace glocal::ransam

@@ -8,7 +8,7 @@
 #include "matchers/common/triangle.hpp"
 #include "matchers/surfels/rigid_motion.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 
 /// As find_relations(), but sides are those in space, and come in the order of their lengths. Mirrored
 /// triangles have the same relation: turned over, one lies on the other.
@@ -34,4 +34,4 @@ using Normals = std::array<Point, 3>;
 /// upright on it.
 [[nodiscard]] bool surfaces_agree(const RigidMotion& motion, const Normals& from, const Normals& to);
 
-}  // namespace glocal
+}  // namespace glocal::ransam

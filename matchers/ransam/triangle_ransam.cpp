@@ -13,7 +13,7 @@
 #include "matchers/surfels/rigid_motion.hpp"
 #include "matchers/surfels/surfel_contact.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 namespace {
 
 /// Surfaces are looked for in voxels of so many epsilon.
@@ -71,13 +71,13 @@ std::shared_ptr<const SurfacePoints> surfaces_of(const GlobalMap& map, float vox
 }  // namespace
 
 SurfacePoints::SurfacePoints(const Points& cloud, const Points& some, float voxel_size) {
-  const Surfels surfels = surfels_of(cloud, voxel_size, std::nullopt);
-  const SurfelContact contact(surfels, voxel_size, false);
+  const surfels::Surfels surfels = surfels::surfels_of(cloud, voxel_size, std::nullopt);
+  const surfels::SurfelContact contact(surfels, voxel_size, false);
   for (std::size_t i = 0; i < some.size(); ++i) {
     const Point p = some[i];
     const std::uint32_t k = contact.nearest(p);
-    if (k == VoxelTable::none) continue;
-    const SurfelContact::Plane& plane = contact.plane(k);
+    if (k == surfels::VoxelTable::none) continue;
+    const surfels::SurfelContact::Plane& plane = contact.plane(k);
     if (std::abs(dot(plane.normal, p) - plane.distance) > 0.5F * voxel_size) continue;
     points.push_back(p);
     normals.push_back(plane.normal);
@@ -140,4 +140,4 @@ MatchResult TriangleRansam::test_hypotheses(const SurfacePoints& local, const Qu
   return found;
 }
 
-}  // namespace glocal
+}  // namespace glocal::ransam

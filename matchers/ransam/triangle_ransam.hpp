@@ -9,7 +9,7 @@
 #include "matchers/ransam/triple_matching.hpp"
 #include "matchers/ransam/triple_search.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 
 /// Those of some points of a cloud that lie on a surface, with its normal, which may look to either side.
 struct SurfacePoints {
@@ -54,4 +54,4 @@ class TriangleRansam final : public Matcher {
   PoseGate gate_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::ransam

@@ -6,7 +6,7 @@
 
 #include "glocal/parallel.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 namespace {
 
 /// Draws handled together by one thread. Fixed, so that the answer does not depend on the number of threads.
@@ -126,4 +126,4 @@ MatchResult TripleMatching::match_local_triples(const Points& local, const Tripl
   return found;
 }
 
-}  // namespace glocal
+}  // namespace glocal::ransam

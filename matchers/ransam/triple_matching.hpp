@@ -11,7 +11,7 @@
 #include "matchers/common/triple_sampler.hpp"
 #include "matchers/ransam/relation_table.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 
 /// How triples are drawn and looked up.
 struct TripleMatchingRule {
@@ -69,4 +69,4 @@ class TripleMatching {
   std::vector<RelationBatch> drawn_;  ///< Relations of the map, where several threads find them.
 };
 
-}  // namespace glocal
+}  // namespace glocal::ransam

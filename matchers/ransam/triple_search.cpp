@@ -1,6 +1,6 @@
 #include "matchers/ransam/triple_search.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 
 void describe(ParamVisitor& v, TripleSearch& p) {
   v.field("iterations", p.iterations,
@@ -71,4 +71,4 @@ ExtrapolationRule extrapolation_rule(const TripleSearch& p) {
       .confidence_z = p.extrapolation_z};
 }
 
-}  // namespace glocal
+}  // namespace glocal::ransam

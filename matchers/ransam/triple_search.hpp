@@ -9,7 +9,7 @@
 #include "matchers/common/quality.hpp"
 #include "matchers/ransam/triple_matching.hpp"
 
-namespace glocal {
+namespace glocal::ransam {
 
 struct TripleSearch {
   int iterations = 200000;
@@ -30,4 +30,4 @@ void describe(ParamVisitor& v, TripleSearch& p);
 [[nodiscard]] TripleMatchingRule matching_rule(const TripleSearch& p);
 [[nodiscard]] ExtrapolationRule extrapolation_rule(const TripleSearch& p);
 
-}  // namespace glocal
+}  // namespace glocal::ransam

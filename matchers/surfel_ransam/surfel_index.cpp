@@ -6,11 +6,11 @@
 
 #include "matchers/surfels/pose_search.hpp"
 
-namespace glocal {
+namespace glocal::surfel_ransam {
 
 SurfelIndex::SurfelIndex(const Points& map_points, const SurfelIndexRule& rule)
     : map(map_points, rule.voxel_size, std::nullopt, false),
-      pair_rule(glocal::pair_rule(rule.voxel_size, true)),
+      pair_rule(surfels::pair_rule(rule.voxel_size, true)),
       pairs(map.surfels, pair_rule, rule.pairs, Rng(1)) {}
 
 std::size_t SurfelIndex::memory_bytes() const {
@@ -28,4 +28,4 @@ std::shared_ptr<const SurfelIndex> surfel_index(const GlobalMap& map, const Surf
   });
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfel_ransam

@@ -8,7 +8,7 @@
 #include "matchers/surfels/prepared_cloud.hpp"
 #include "matchers/surfels/surfel_pairs.hpp"
 
-namespace glocal {
+namespace glocal::surfel_ransam {
 
 /// What an index depends on, besides the map.
 struct SurfelIndexRule {
@@ -23,9 +23,9 @@ struct SurfelIndex {
 
   [[nodiscard]] std::size_t memory_bytes() const;
 
-  PreparedCloud map;
-  PairRule pair_rule;
-  PairTable pairs;
+  surfels::PreparedCloud map;
+  surfels::PairRule pair_rule;
+  surfels::PairTable pairs;
   double build_ms = 0.0;  ///< To build it.
 };
 
@@ -33,4 +33,4 @@ struct SurfelIndex {
 [[nodiscard]] std::shared_ptr<const SurfelIndex> surfel_index(const GlobalMap& map,
                                                               const SurfelIndexRule& rule);
 
-}  // namespace glocal
+}  // namespace glocal::surfel_ransam

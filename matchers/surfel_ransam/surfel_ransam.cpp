@@ -7,14 +7,14 @@
 #include "glocal/cloud_resolution.hpp"
 #include "glocal/error.hpp"
 
-namespace glocal {
+namespace glocal::surfel_ransam {
 namespace {
 
 /// The local map's surfels, finer than those of the map: a narrow view has few. With the view of the latest
 /// scan: where a local map of many scans was seen from is not known.
-PreparedCloud prepared(const LocalMap& local, const Scan& latest, float voxel_size) {
+surfels::PreparedCloud prepared(const LocalMap& local, const Scan& latest, float voxel_size) {
   constexpr float finer = 2.0F / 3.0F;
-  PreparedCloud cloud(local.points, finer * voxel_size, std::nullopt, false);
+  surfels::PreparedCloud cloud(local.points, finer * voxel_size, std::nullopt, false);
   if (!latest.hits.empty()) {
     const RigidMotion local_from_robot(local.local_from_robot);
     cloud.view.emplace(moved(latest.hits, local.local_from_robot), local_from_robot(latest.origin));
@@ -123,7 +123,7 @@ std::optional<MapIndexInfo> SurfelRansam::map_index() const {
   return MapIndexInfo{index_->pairs.size(), index_->memory_bytes(), index_->build_ms};
 }
 
-PoseSearchParams SurfelRansam::search_params() const {
+surfels::PoseSearchParams SurfelRansam::search_params() const {
   return {.rounds = static_cast<std::size_t>(carried_.empty() ? params_.first_rounds : params_.rounds),
           .draws = static_cast<std::size_t>(params_.draws),
           .partners = static_cast<std::size_t>(params_.partners),
@@ -146,20 +146,21 @@ double SurfelRansam::free_space_violation(const Points& points, const Pose3& map
   return static_cast<double>(violating) / static_cast<double>(points.size());
 }
 
-std::vector<FoundPose> SurfelRansam::find(const LocalMap& local, const PoseSearchParams& params,
-                                          std::span<const RigidMotion> known, Rng& rng,
-                                          SearchEffort& effort) const {
+std::vector<surfels::FoundPose> SurfelRansam::find(const LocalMap& local,
+                                                   const surfels::PoseSearchParams& params,
+                                                   std::span<const RigidMotion> known, Rng& rng,
+                                                   surfels::SearchEffort& effort) const {
   const Points sample = evenly_sampled(local.points);
-  const PointJudge judge_sample = [&](const RigidMotion& map_from_local) {
+  const surfels::PointJudge judge_sample = [&](const RigidMotion& map_from_local) {
     const Pose3 pose = map_from_local.pose();
     effort.points_tested += sample.size();
-    return PointEvidence{contact_->share(sample, pose), free_space_violation(sample, pose)};
+    return surfels::PointEvidence{contact_->share(sample, pose), free_space_violation(sample, pose)};
   };
-  return PoseSearch(index_->map, index_->pairs, index_->pair_rule, params)
+  return surfels::PoseSearch(index_->map, index_->pairs, index_->pair_rule, params)
       .find(*prepared_, rng, known, judge_sample, &effort);
 }
 
-Hypothesis SurfelRansam::to_hypothesis(const FoundPose& pose, const LocalMap& local) const {
+Hypothesis SurfelRansam::to_hypothesis(const surfels::FoundPose& pose, const LocalMap& local) const {
   Hypothesis h;
   h.map_from_local = pose.target_from_source.pose();
   h.quality = contact_->share(local.points, h.map_from_local);
@@ -175,12 +176,12 @@ MatchResult SurfelRansam::match(const LocalMap& local, const Observation& latest
   if (local.epoch != epoch_) reset();
   epoch_ = local.epoch;
   prepared_.emplace(prepared(local, latest.scan, rule_.voxel_size));
-  SearchEffort effort;
-  std::vector<FoundPose> found = find(local, search_params(), carried_, rng, effort);
+  surfels::SearchEffort effort;
+  std::vector<surfels::FoundPose> found = find(local, search_params(), carried_, rng, effort);
   found.resize(std::min(found.size(), static_cast<std::size_t>(params_.best)));
 
   carried_.clear();
-  for (const FoundPose& pose : found) {
+  for (const surfels::FoundPose& pose : found) {
     if (carried_.size() < static_cast<std::size_t>(params_.carried))
       carried_.push_back(pose.target_from_source);
     if (pose.score < omega_max) continue;
@@ -196,12 +197,12 @@ MatchResult SurfelRansam::match(const LocalMap& local, const Observation& latest
 std::vector<Hypothesis> SurfelRansam::rescore(std::vector<Hypothesis> found, const LocalMap& local) {
   std::vector<RigidMotion> known;
   for (const Hypothesis& h : found) known.emplace_back(h.map_from_local);
-  PoseSearchParams params = search_params();
+  surfels::PoseSearchParams params = search_params();
   params.rounds = 0;
-  SearchEffort effort;
+  surfels::SearchEffort effort;
   Rng rng(local.points.size());
   found.clear();
-  for (const FoundPose& pose : find(local, params, known, rng, effort)) {
+  for (const surfels::FoundPose& pose : find(local, params, known, rng, effort)) {
     carried_.push_back(pose.target_from_source);
     Hypothesis& h = found.emplace_back(to_hypothesis(pose, local));
     h.score = std::max(h.score, 0.0);
@@ -209,4 +210,4 @@ std::vector<Hypothesis> SurfelRansam::rescore(std::vector<Hypothesis> found, con
   return found;
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfel_ransam

@@ -14,7 +14,7 @@
 #include "matchers/surfel_ransam/surfel_index.hpp"
 #include "matchers/surfels/pose_search.hpp"
 
-namespace glocal {
+namespace glocal::surfel_ransam {
 
 /// Indexed random sample matching in space: pairs of surfels of the local map meet pairs of the map that are
 /// alike. The best distinct poses are refined point to plane, carried to the next step beside fresh ones, and
@@ -56,12 +56,13 @@ class SurfelRansam final : public Matcher {
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override;
 
  private:
-  [[nodiscard]] PoseSearchParams search_params() const;
+  [[nodiscard]] surfels::PoseSearchParams search_params() const;
   /// Poses of the prepared local map beside the known ones, judged; the points tested are added to.
-  [[nodiscard]] std::vector<FoundPose> find(const LocalMap& local, const PoseSearchParams& params,
-                                            std::span<const RigidMotion> known, Rng& rng,
-                                            SearchEffort& effort) const;
-  [[nodiscard]] Hypothesis to_hypothesis(const FoundPose& pose, const LocalMap& local) const;
+  [[nodiscard]] std::vector<surfels::FoundPose> find(const LocalMap& local,
+                                                     const surfels::PoseSearchParams& params,
+                                                     std::span<const RigidMotion> known, Rng& rng,
+                                                     surfels::SearchEffort& effort) const;
+  [[nodiscard]] Hypothesis to_hypothesis(const surfels::FoundPose& pose, const LocalMap& local) const;
   /// Share of points where the map is known to be free, away from its points.
   [[nodiscard]] double free_space_violation(const Points& points, const Pose3& map_from_points) const;
 
@@ -72,10 +73,10 @@ class SurfelRansam final : public Matcher {
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const SurfelIndex> index_;
   PoseGate gate_;
-  std::optional<PreparedCloud> prepared_;  ///< The local map of the last match().
-  std::vector<RigidMotion> carried_;       ///< map_from_local of the last step's best.
-  int epoch_ = 0;                          ///< Of the local map in whose frame they are.
+  std::optional<surfels::PreparedCloud> prepared_;  ///< The local map of the last match().
+  std::vector<RigidMotion> carried_;                ///< map_from_local of the last step's best.
+  int epoch_ = 0;                                   ///< Of the local map in whose frame they are.
 };
 void describe(ParamVisitor& v, SurfelRansam::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::surfel_ransam

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace glocal {
+namespace glocal::surfels {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -73,4 +73,4 @@ RigidMotion refined(const RigidMotion& target_from_source, const SurfelSample& s
   return RigidMotion(pose);
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfels

@@ -6,7 +6,7 @@
 
 #include "matchers/surfels/point_to_plane.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 namespace {
 
 /// Sizes of samples: the first ones see most wrong poses off.
@@ -285,4 +285,4 @@ std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
   return found;
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfels

@@ -12,7 +12,7 @@
 #include "matchers/surfels/prepared_cloud.hpp"
 #include "matchers/surfels/surfel_pairs.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 
 /// What is searched, and how long. Each round draws pairs, looks up what they may lie on, and narrows the
 /// poses down. Rounds are short: most searches are beyond doubt after a few.
@@ -81,4 +81,4 @@ class PoseSearch {
   PoseSearchParams params_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::surfels

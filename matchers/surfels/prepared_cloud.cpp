@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace glocal {
+namespace glocal::surfels {
 
 SurfelSample sample_of(const Surfels& surfels, std::size_t n, Rng& rng) {
   // Systematic: at equal steps along the sum of the weights.
@@ -53,4 +53,4 @@ Agreement agreement_of(const Surfels& moved, const RigidMotion& motion, const Pr
   return {in_contact / all, seen_through / all};
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfels

@@ -9,7 +9,7 @@
 #include "matchers/surfels/surfel_contact.hpp"
 #include "matchers/surfels/surfels.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 
 /// Some surfels of a cloud in random order, each as often as its weight says.
 struct SurfelSample {
@@ -39,4 +39,4 @@ struct Agreement {
 [[nodiscard]] Agreement agreement_of(const Surfels& moved, const RigidMotion& motion,
                                      const PreparedCloud& other);
 
-}  // namespace glocal
+}  // namespace glocal::surfels

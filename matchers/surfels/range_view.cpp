@@ -1,6 +1,6 @@
 #include "matchers/surfels/range_view.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 
 RangeView::RangeView(const Points& cloud, const Point& seen_from)
     : origin_(seen_from), ends_(6 * edge * edge) {
@@ -11,4 +11,4 @@ RangeView::RangeView(const Points& cloud, const Point& seen_from)
   }
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfels

@@ -8,7 +8,7 @@
 
 #include "matchers/surfels/rigid_motion.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 
 /// Rays of a sensor: in each cell of directions, of about three degrees on the faces of a cube, the shortest.
 class RangeView {
@@ -60,4 +60,4 @@ inline std::size_t RangeView::cell_of(const Point& direction) {
   return cell(direction.z > 0.0F ? 4 : 5, direction.x, direction.y, z);
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfels

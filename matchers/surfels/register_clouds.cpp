@@ -24,7 +24,7 @@ enum Stream : std::uint64_t { table, search, last_refinement };
 /// are some, at edges and in trees: up to half of them in scans of streets, two thirds and more in maps.
 bool may_be_seen_from(const Points& cloud, const Point& place, float voxel_size) {
   constexpr double most_hidden = 0.58;
-  const RangeView view(cloud, place);
+  const surfels::RangeView view(cloud, place);
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (length(cloud[i] - place) > 1.1F * view.shortest_range_towards(cloud[i]) + 3.0F * voxel_size) ++hidden;
@@ -38,13 +38,14 @@ struct Inliers {
   double squared_distances = 0.0;  ///< Mean, m^2
 };
 
-Inliers inliers_of(const Surfels& moved, const RigidMotion& motion, const SurfelContact& other) {
+Inliers inliers_of(const surfels::Surfels& moved, const RigidMotion& motion,
+                   const surfels::SurfelContact& other) {
   std::size_t n = 0;
   double sum = 0.0;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const Point p = motion(moved.points[i]);
     const std::uint32_t k = other.nearest(p);
-    if (k == VoxelTable::none || !other.lies_on(k, p, motion.turned(moved.normals[i]))) continue;
+    if (k == surfels::VoxelTable::none || !other.lies_on(k, p, motion.turned(moved.normals[i]))) continue;
     const double distance = static_cast<double>(dot(other.plane(k).normal, p) - other.plane(k).distance);
     sum += distance * distance;
     ++n;
@@ -73,17 +74,18 @@ Registration register_clouds(const Points& source, const Points& target, const R
   result.sensors_known = may_be_seen_from(source, options.source_seen_from, voxel_size) &&
                          may_be_seen_from(target, options.target_seen_from, voxel_size);
   const auto prepared = [&](const Points& cloud, const Point& seen_from) {
-    return PreparedCloud(cloud, voxel_size, result.sensors_known ? std::optional(seen_from) : std::nullopt,
-                         result.sensors_known);
+    return surfels::PreparedCloud(cloud, voxel_size,
+                                  result.sensors_known ? std::optional(seen_from) : std::nullopt,
+                                  result.sensors_known);
   };
-  const PreparedCloud from = prepared(source, options.source_seen_from);
-  const PreparedCloud to = prepared(target, options.target_seen_from);
+  const surfels::PreparedCloud from = prepared(source, options.source_seen_from);
+  const surfels::PreparedCloud to = prepared(target, options.target_seen_from);
 
   const Rng rng(options.seed);
-  const PairRule rule = pair_rule(voxel_size, !result.sensors_known);
-  const PairTable pairs(to.surfels, rule, pairs_in_table, rng.stream({table}));
-  const std::vector<FoundPose> found =
-      PoseSearch(to, pairs, rule, {.rounds = 40}).find(from, rng.stream({search}));
+  const surfels::PairRule rule = surfels::pair_rule(voxel_size, !result.sensors_known);
+  const surfels::PairTable pairs(to.surfels, rule, pairs_in_table, rng.stream({table}));
+  const std::vector<surfels::FoundPose> found =
+      surfels::PoseSearch(to, pairs, rule, {.rounds = 40}).find(from, rng.stream({search}));
   if (found.empty()) {
     result.why = "no two pieces of surface fix a pose: are the clouds flat, or too sparse for their voxels?";
     return result;

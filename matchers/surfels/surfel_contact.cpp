@@ -1,6 +1,6 @@
 #include "matchers/surfels/surfel_contact.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 namespace {
 
 VoxelTable nearest_surfels(const Surfels& surfels, float voxel_size) {
@@ -34,4 +34,4 @@ SurfelContact::SurfelContact(const Surfels& surfels, float voxel_size, bool one_
     planes_.push_back({surfels.normals[i], dot(surfels.normals[i], surfels.points[i])});
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfels

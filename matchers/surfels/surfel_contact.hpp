@@ -10,7 +10,7 @@
 #include "matchers/surfels/surfels.hpp"
 #include "matchers/surfels/voxel_table.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 
 /// Of normals that may be of one surface: 41 degrees.
 inline constexpr float least_cosine_of_normals = 0.755F;
@@ -56,4 +56,4 @@ class SurfelContact {
   bool one_side_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::surfels

@@ -4,7 +4,7 @@
 #include "glocal/cloud_registrar.hpp"
 #include "glocal/params.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 
 /// glocal's own way: register_clouds().
 class SurfelPairRegistrar final : public CloudRegistrar {
@@ -22,4 +22,4 @@ class SurfelPairRegistrar final : public CloudRegistrar {
 };
 inline void describe(ParamVisitor& /*v*/, SurfelPairRegistrar::Params& /*p*/) {}
 
-}  // namespace glocal
+}  // namespace glocal::surfels

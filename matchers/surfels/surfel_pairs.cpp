@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace glocal {
+namespace glocal::surfels {
 namespace {
 
 constexpr auto pi = static_cast<float>(std::numbers::pi);
@@ -171,4 +171,4 @@ RigidMotion motion_between(const Surfels& source, const SurfelPair& a, const Sur
   return motion;
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfels

@@ -12,7 +12,7 @@
 #include "matchers/surfels/rigid_motion.hpp"
 #include "matchers/surfels/surfels.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 
 /// Two surfels, by their indexes, in the order in which they are compared.
 struct SurfelPair {
@@ -79,4 +79,4 @@ class PairTable {
 [[nodiscard]] RigidMotion motion_between(const Surfels& source, const SurfelPair& a, const Surfels& target,
                                          const SurfelPair& b, bool both_sides);
 
-}  // namespace glocal
+}  // namespace glocal::surfels

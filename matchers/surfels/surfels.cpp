@@ -8,7 +8,7 @@
 #include "matchers/surfels/rigid_motion.hpp"
 #include "matchers/surfels/voxel_table.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 namespace {
 
 /// Voxels with points, and the mean of each.
@@ -171,4 +171,4 @@ Surfels surfels_of(const Points& cloud, float voxel_size, const std::optional<Po
   return surfels;
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfels

@@ -7,7 +7,7 @@
 
 #include "glocal/points.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 
 /// Pieces of surface: the mean of each voxel's points, where they and their neighbours lie in a plane.
 struct Surfels {
@@ -26,4 +26,4 @@ struct Surfels {
 [[nodiscard]] Surfels surfels_of(const Points& cloud, float voxel_size,
                                  const std::optional<Point>& seen_from);
 
-}  // namespace glocal
+}  // namespace glocal::surfels

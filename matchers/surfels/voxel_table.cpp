@@ -8,7 +8,7 @@
 
 #include "glocal/error.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 namespace {
 
 /// Smallest and largest value; (0, 0) of none.
@@ -55,4 +55,4 @@ std::uint32_t& VoxelTable::slot(const Voxel& v) {
   return voxels_[brick * voxels_per_brick + place_in_brick(v)];
 }
 
-}  // namespace glocal
+}  // namespace glocal::surfels

@@ -9,7 +9,7 @@
 
 #include "glocal/points.hpp"
 
-namespace glocal {
+namespace glocal::surfels {
 
 /// A voxel's column, row and layer.
 struct Voxel {
@@ -96,4 +96,4 @@ class VoxelTable : public VoxelRegion {
   std::vector<std::uint32_t> voxels_;  ///< The numbers of the voxels, brick by brick.
 };
 
-}  // namespace glocal
+}  // namespace glocal::surfels

@@ -8,7 +8,7 @@
 
 #include "clustering/poses.hpp"
 
-namespace glocal::dbscan_test {
+namespace glocal::clustering::dbscan_test {
 namespace {
 
 using test::at;
@@ -154,4 +154,4 @@ TEST(Dbscan, ManyAtOnePlaceAreOneCluster) {
 }
 
 }  // namespace
-}  // namespace glocal::dbscan_test
+}  // namespace glocal::clustering::dbscan_test

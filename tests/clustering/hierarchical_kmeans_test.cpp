@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace glocal::hierarchical_kmeans_test {
+namespace glocal::clustering::hierarchical_kmeans_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -135,4 +135,4 @@ TEST(HierarchicalKmeans, RotationsAllOverSpaceComeToAnEnd) {
 }
 
 }  // namespace
-}  // namespace glocal::hierarchical_kmeans_test
+}  // namespace glocal::clustering::hierarchical_kmeans_test

@@ -7,7 +7,7 @@
 
 #include "clustering/poses.hpp"
 
-namespace glocal::mean_shift_test {
+namespace glocal::clustering::mean_shift_test {
 namespace {
 
 using test::at;
@@ -142,4 +142,4 @@ TEST(MeanShift, ManyAtOnePlaceAreOneCluster) {
 }
 
 }  // namespace
-}  // namespace glocal::mean_shift_test
+}  // namespace glocal::clustering::mean_shift_test

@@ -5,7 +5,7 @@
 
 #include "clustering/poses.hpp"
 
-namespace glocal::pose_grid_test {
+namespace glocal::clustering::pose_grid_test {
 namespace {
 
 using test::at;
@@ -51,4 +51,4 @@ TEST(PoseGridClusterer, NothingGivesNothing) {
 }
 
 }  // namespace
-}  // namespace glocal::pose_grid_test
+}  // namespace glocal::clustering::pose_grid_test

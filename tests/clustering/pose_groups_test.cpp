@@ -8,7 +8,7 @@
 
 #include "clustering/poses.hpp"
 
-namespace glocal::pose_groups_test {
+namespace glocal::clustering::pose_groups_test {
 namespace {
 
 class Groups : public testing::Test {
@@ -67,4 +67,4 @@ TEST_F(Groups, AVisitEndsWhereItIsToldTo) {
 }
 
 }  // namespace
-}  // namespace glocal::pose_groups_test
+}  // namespace glocal::clustering::pose_groups_test

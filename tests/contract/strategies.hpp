@@ -95,7 +95,7 @@ class Contract : public ::testing::Test {
       p.matching.grid.min_rotation_step_deg = 2.9;
     });
     // So that some of the particles fit well enough after a single scan.
-    fill<Mcl::Params>("matcher/mcl", [](auto& p) {
+    fill<mcl::Mcl::Params>("matcher/mcl", [](auto& p) {
       p.max_particles = 20000;
       p.merging.merge_distance = 0.1;
       p.merging.merge_rotation_deg = 2.9;

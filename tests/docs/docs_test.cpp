@@ -625,7 +625,8 @@ TEST(DocsStrategy, IsShownAsItIsCompiledHere) {
 
 TEST(DocsStrategy, DoesWhatItSays) {
   Catalog catalog;
-  catalog.threshold_policies.add<ShareOfBest>("share_of_best", "A share of the last step's best quality.");
+  catalog.threshold_policies.add<raters::ShareOfBest>("share_of_best",
+                                                      "A share of the last step's best quality.");
   const auto policy = catalog.threshold_policies.make(catalog.threshold_policies.choose("share_of_best"), {});
   EXPECT_DOUBLE_EQ(policy->omega_max(), 0.4);
   policy->update({Hypothesis{.map_from_local = {}, .quality = 1.0, .score = 0.9},

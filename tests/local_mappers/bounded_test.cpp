@@ -11,7 +11,7 @@
 
 #include "local_mappers/drives.hpp"
 
-namespace glocal::bounded_test {
+namespace glocal::local_mappers::bounded_test {
 namespace {
 
 using test::at;
@@ -179,4 +179,4 @@ TEST(Bounded, DoesNotGrowWithTheDrive) {
 }
 
 }  // namespace
-}  // namespace glocal::bounded_test
+}  // namespace glocal::local_mappers::bounded_test

@@ -6,7 +6,7 @@
 
 #include "local_mappers/rooms.hpp"
 
-namespace glocal::correlative_search_test {
+namespace glocal::local_mappers::correlative_search_test {
 namespace {
 
 constexpr double resolution = 0.05;
@@ -88,4 +88,4 @@ TEST_F(CorrelativeSearch, WithoutARangeItOnlyRates) {
 }
 
 }  // namespace
-}  // namespace glocal::correlative_search_test
+}  // namespace glocal::local_mappers::correlative_search_test

@@ -13,7 +13,7 @@
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/scene.hpp"
 
-namespace glocal::deskew_test {
+namespace glocal::local_mappers::deskew_test {
 namespace {
 
 /// A hall of 14 m x 10 m x 3 m with some things in it.
@@ -148,4 +148,4 @@ TEST(Deskewed, LeavesAloneWhatItKnowsTooLittleOf) {
 }
 
 }  // namespace
-}  // namespace glocal::deskew_test
+}  // namespace glocal::local_mappers::deskew_test

@@ -8,7 +8,7 @@
 
 #include "local_mappers/rooms.hpp"
 
-namespace glocal::free_space_check_test {
+namespace glocal::local_mappers::free_space_check_test {
 namespace {
 
 /// Beams in every direction, half a degree apart, that all end after `range` m.
@@ -112,4 +112,4 @@ TEST(FreeSpaceCheck, ForgetsAllButTheLatestFourScans) {
 }
 
 }  // namespace
-}  // namespace glocal::free_space_check_test
+}  // namespace glocal::local_mappers::free_space_check_test

@@ -7,7 +7,7 @@
 
 #include "local_mappers/drives.hpp"
 
-namespace glocal::keyframes_test {
+namespace glocal::local_mappers::keyframes_test {
 namespace {
 
 using test::at;
@@ -83,4 +83,4 @@ TEST(Keyframes, TheFirstOneOfANewMapIsOne) {
 }
 
 }  // namespace
-}  // namespace glocal::keyframes_test
+}  // namespace glocal::local_mappers::keyframes_test

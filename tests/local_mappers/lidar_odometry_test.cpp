@@ -12,7 +12,7 @@
 #include "local_mappers/boxes.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 
-namespace glocal::lidar_odometry_test {
+namespace glocal::local_mappers::lidar_odometry_test {
 namespace {
 
 StageSetup in_space() {
@@ -208,4 +208,4 @@ TEST(AdaptiveThreshold, IsTheRootMeanSquareOfCorrections) {
 }
 
 }  // namespace
-}  // namespace glocal::lidar_odometry_test
+}  // namespace glocal::local_mappers::lidar_odometry_test

@@ -7,7 +7,7 @@
 #include "local_mappers/rooms.hpp"
 #include "local_mappers/scan_normals.hpp"
 
-namespace glocal::line_registration_test {
+namespace glocal::local_mappers::line_registration_test {
 namespace {
 
 /// A map made of one scan at the origin, each hit a point of its own.
@@ -130,4 +130,4 @@ TEST(LineRegistration, WithoutMatchesItStays) {
 }
 
 }  // namespace
-}  // namespace glocal::line_registration_test
+}  // namespace glocal::local_mappers::line_registration_test

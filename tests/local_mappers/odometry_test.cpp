@@ -5,7 +5,7 @@
 
 #include "local_mappers/drives.hpp"
 
-namespace glocal::odometry_test {
+namespace glocal::local_mappers::odometry_test {
 namespace {
 
 using test::at;
@@ -110,4 +110,4 @@ TEST(Odometry, KeepsWhatIsUpWhereTheMotionIsUpright) {
 }
 
 }  // namespace
-}  // namespace glocal::odometry_test
+}  // namespace glocal::local_mappers::odometry_test

@@ -4,7 +4,7 @@
 
 #include "local_mappers/boxes.hpp"
 
-namespace glocal::plane_registration_test {
+namespace glocal::local_mappers::plane_registration_test {
 namespace {
 
 constexpr MatchLimits limits{.match_distance = 1.0, .kernel = 0.2};
@@ -78,4 +78,4 @@ TEST(PlaneRegistration, TakesNoSurfaceFromBehind) {
 }
 
 }  // namespace
-}  // namespace glocal::plane_registration_test
+}  // namespace glocal::local_mappers::plane_registration_test

@@ -8,7 +8,7 @@
 
 #include "glocal/rng.hpp"
 
-namespace glocal::point_grid_test {
+namespace glocal::local_mappers::point_grid_test {
 namespace {
 
 constexpr double resolution = 0.05;
@@ -140,4 +140,4 @@ TEST(PointGrid, AClearedGridIsLikeANewOneAndKeepsItsMemory) {
 }
 
 }  // namespace
-}  // namespace glocal::point_grid_test
+}  // namespace glocal::local_mappers::point_grid_test

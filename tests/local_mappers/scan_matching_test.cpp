@@ -9,7 +9,7 @@
 
 #include "local_mappers/drives.hpp"
 
-namespace glocal::scan_matching_test {
+namespace glocal::local_mappers::scan_matching_test {
 namespace {
 
 using test::at;
@@ -312,4 +312,4 @@ TEST(ScanMatching, MemoryIsLimited) {
 }
 
 }  // namespace
-}  // namespace glocal::scan_matching_test
+}  // namespace glocal::local_mappers::scan_matching_test

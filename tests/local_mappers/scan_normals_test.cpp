@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace glocal::scan_normals_test {
+namespace glocal::local_mappers::scan_normals_test {
 namespace {
 
 /// A straight wall: points every 5 cm from `start` in direction `angle`.
@@ -79,4 +79,4 @@ TEST(ScanNormals, BisectACorner) {
 }
 
 }  // namespace
-}  // namespace glocal::scan_normals_test
+}  // namespace glocal::local_mappers::scan_normals_test

@@ -8,7 +8,7 @@
 
 #include "glocal/rng.hpp"
 
-namespace glocal::surface_map_test {
+namespace glocal::local_mappers::surface_map_test {
 namespace {
 
 using testing::ElementsAre;
@@ -121,4 +121,4 @@ TEST(SurfaceMap, LeavesOutWhatIsTooFarForSinglePrecision) {
 }
 
 }  // namespace
-}  // namespace glocal::surface_map_test
+}  // namespace glocal::local_mappers::surface_map_test

@@ -4,7 +4,7 @@
 
 #include "raters/with_scores.hpp"
 
-namespace glocal::best_fraction_test {
+namespace glocal::raters::best_fraction_test {
 namespace {
 
 using test::with_scores;
@@ -42,4 +42,4 @@ TEST(BestFraction, EmptyStepsLetItFallFromTheStart) {
 }
 
 }  // namespace
-}  // namespace glocal::best_fraction_test
+}  // namespace glocal::raters::best_fraction_test

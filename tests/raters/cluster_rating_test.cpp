@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glocal::cluster_rating_test {
+namespace glocal::raters::cluster_rating_test {
 namespace {
 
 Hypothesis with_score(double score) {
@@ -74,4 +74,4 @@ TEST(ClusterRating, NothingGivesNothing) {
 }
 
 }  // namespace
-}  // namespace glocal::cluster_rating_test
+}  // namespace glocal::raters::cluster_rating_test

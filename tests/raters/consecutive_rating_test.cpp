@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace glocal::consecutive_rating_test {
+namespace glocal::raters::consecutive_rating_test {
 namespace {
 
 struct Rated {
@@ -139,4 +139,4 @@ TEST(ConsecutiveRating, KnowsWhenItCanDeclareAtTheEarliest) {
 }
 
 }  // namespace
-}  // namespace glocal::consecutive_rating_test
+}  // namespace glocal::raters::consecutive_rating_test

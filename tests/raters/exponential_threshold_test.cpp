@@ -4,7 +4,7 @@
 
 #include "raters/with_scores.hpp"
 
-namespace glocal::exponential_threshold_test {
+namespace glocal::raters::exponential_threshold_test {
 namespace {
 
 using test::with_scores;
@@ -38,4 +38,4 @@ TEST(ExponentialThreshold, EmptyStepsLetItFall) {
 }
 
 }  // namespace
-}  // namespace glocal::exponential_threshold_test
+}  // namespace glocal::raters::exponential_threshold_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glocal::fixed_threshold_test {
+namespace glocal::raters::fixed_threshold_test {
 namespace {
 
 TEST(FixedThreshold, StaysWhateverTheHypothesesAre) {
@@ -14,4 +14,4 @@ TEST(FixedThreshold, StaysWhateverTheHypothesesAre) {
 }
 
 }  // namespace
-}  // namespace glocal::fixed_threshold_test
+}  // namespace glocal::raters::fixed_threshold_test

@@ -4,7 +4,7 @@
 
 #include "raters/two_clusters.hpp"
 
-namespace glocal::quality_only_test {
+namespace glocal::raters::quality_only_test {
 namespace {
 
 using test::qualities;
@@ -38,4 +38,4 @@ TEST(QualityOnly, StaysAboveZero) {
 }
 
 }  // namespace
-}  // namespace glocal::quality_only_test
+}  // namespace glocal::raters::quality_only_test

@@ -4,7 +4,7 @@
 
 #include "raters/with_scores.hpp"
 
-namespace glocal::quantile_threshold_test {
+namespace glocal::raters::quantile_threshold_test {
 namespace {
 
 using test::with_scores;
@@ -47,4 +47,4 @@ TEST(QuantileThreshold, OnlyTheLastStepCountsAndEmptyOnesLetItFall) {
 }
 
 }  // namespace
-}  // namespace glocal::quantile_threshold_test
+}  // namespace glocal::raters::quantile_threshold_test

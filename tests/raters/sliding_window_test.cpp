@@ -4,7 +4,7 @@
 
 #include "raters/with_scores.hpp"
 
-namespace glocal::sliding_window_test {
+namespace glocal::raters::sliding_window_test {
 namespace {
 
 using test::with_scores;
@@ -41,4 +41,4 @@ TEST(SlidingWindow, ResetForgets) {
 }
 
 }  // namespace
-}  // namespace glocal::sliding_window_test
+}  // namespace glocal::raters::sliding_window_test

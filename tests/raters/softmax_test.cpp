@@ -6,7 +6,7 @@
 
 #include "raters/two_clusters.hpp"
 
-namespace glocal::softmax_test {
+namespace glocal::raters::softmax_test {
 namespace {
 
 using test::qualities;
@@ -38,4 +38,4 @@ TEST(Softmax, IsANumberAtItsLimits) {
 }
 
 }  // namespace
-}  // namespace glocal::softmax_test
+}  // namespace glocal::raters::softmax_test

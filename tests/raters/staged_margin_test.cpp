@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace glocal::staged_margin_test {
+namespace glocal::raters::staged_margin_test {
 namespace {
 
 const Pose2 here{3.0, 4.0, 0.5};
@@ -243,4 +243,4 @@ TEST(StagedMargin, KnowsWhenItCanDeclareAtTheEarliest) {
 }
 
 }  // namespace
-}  // namespace glocal::staged_margin_test
+}  // namespace glocal::raters::staged_margin_test

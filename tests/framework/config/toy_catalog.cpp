@@ -129,7 +129,7 @@ void register_toys(Catalog& c) {
   c.raters.add<ToyRater>("cluster_rating", "Rates nothing.");
   c.threshold_policies.add<ToyPolicy>("sliding_window", "Asks for one half.");
   c.verdict_rules.add<ToyVerdict>("consecutive_rating", "Never sure.");
-  c.verifiers.add_none("none", "Verifies nothing.");
+  c.verifiers.add_none("none", "Verifies nothing.", {});
 }
 
 }  // namespace glocal::test

@@ -162,7 +162,7 @@ inline void register_fake_stages(Catalog& catalog) {
   catalog.threshold_policies.add<FakeThreshold>("fake", "Gives given thresholds.");
   catalog.verdict_rules.add<FakeVerdict>("fake", "Gives given verdicts.");
   catalog.verifiers.add<FakeVerifier>("fake", "Gives given verifications.");
-  catalog.verifiers.add_none("none", "Verifies nothing.");
+  catalog.verifiers.add_none("none", "Verifies nothing.", {});
 }
 
 /// All stages follow one script, the verifier only if there is to be one; no place is unknown.

@@ -7,7 +7,7 @@
 
 #include "test_world.hpp"
 
-namespace glocal::exact_search_test {
+namespace glocal::indexed_ransam::exact_search_test {
 namespace {
 
 ExactSearch search_after(int steps) {
@@ -107,4 +107,4 @@ TEST(ExactSearch, EndsAfterTooManyLooks) {
 }
 
 }  // namespace
-}  // namespace glocal::exact_search_test
+}  // namespace glocal::indexed_ransam::exact_search_test

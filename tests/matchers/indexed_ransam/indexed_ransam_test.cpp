@@ -11,7 +11,7 @@
 #include "glocal/yaml.hpp"
 #include "test_world.hpp"
 
-namespace glocal::indexed_ransam_test {
+namespace glocal::indexed_ransam::indexed_ransam_test {
 namespace {
 
 using test::local_map_at;
@@ -276,4 +276,4 @@ TEST(IndexedRansam, AClearBestPoseNeedsNoExactSearch) {
 }
 
 }  // namespace
-}  // namespace glocal::indexed_ransam_test
+}  // namespace glocal::indexed_ransam::indexed_ransam_test

@@ -11,7 +11,7 @@
 #include "glocal/pose2.hpp"
 #include "glocal/rng.hpp"
 
-namespace glocal::oriented_pair_index_test {
+namespace glocal::indexed_ransam::oriented_pair_index_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -159,4 +159,4 @@ TEST(OrientedPairIndex, ShortAndLongOnesHaveNoPartnersAndNothingIsAnAnswer) {
 }
 
 }  // namespace
-}  // namespace glocal::oriented_pair_index_test
+}  // namespace glocal::indexed_ransam::oriented_pair_index_test

@@ -7,7 +7,7 @@
 
 #include "glocal/rng.hpp"
 
-namespace glocal::pose_judge_test {
+namespace glocal::indexed_ransam::pose_judge_test {
 namespace {
 
 /// A wall along x = 4 m, from y = 0 to 8 m, in free cells; from x = 6 m on nothing is known.
@@ -159,4 +159,4 @@ TEST(PoseJudge, TellsWhatLiesInFreeSpaceAndHowUncertainAPoseIs) {
 }
 
 }  // namespace
-}  // namespace glocal::pose_judge_test
+}  // namespace glocal::indexed_ransam::pose_judge_test

@@ -7,7 +7,7 @@
 
 #include "test_world.hpp"
 
-namespace glocal::proposals_test {
+namespace glocal::indexed_ransam::proposals_test {
 namespace {
 
 const Pose2 truth{5.5, 2.5, 0.7};
@@ -56,4 +56,4 @@ TEST_P(Proposals, AreNoneWithoutDrawsOrPoints) {
 INSTANTIATE_TEST_SUITE_P(Relations, Proposals, testing::Values("oriented_pair", "triangle"));
 
 }  // namespace
-}  // namespace glocal::proposals_test
+}  // namespace glocal::indexed_ransam::proposals_test

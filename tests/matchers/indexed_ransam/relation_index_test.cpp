@@ -6,7 +6,7 @@
 
 #include "test_world.hpp"
 
-namespace glocal::relation_index_test {
+namespace glocal::indexed_ransam::relation_index_test {
 namespace {
 
 /// A wall, and single points that have no direction.
@@ -45,4 +45,4 @@ TEST(RelationIndex, IsSharedByAllWhoAskForTheSame) {
 }
 
 }  // namespace
-}  // namespace glocal::relation_index_test
+}  // namespace glocal::indexed_ransam::relation_index_test

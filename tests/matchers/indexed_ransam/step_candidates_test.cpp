@@ -9,7 +9,7 @@
 #include "glocal/rng.hpp"
 #include "test_world.hpp"
 
-namespace glocal::step_candidates_test {
+namespace glocal::indexed_ransam::step_candidates_test {
 namespace {
 
 const Pose2 truth{5.5, 2.5, 0.7};
@@ -118,4 +118,4 @@ TEST_F(StepCandidatesTest, AreDistinctAndFitBetterOnceRefined) {
 }
 
 }  // namespace
-}  // namespace glocal::step_candidates_test
+}  // namespace glocal::indexed_ransam::step_candidates_test

@@ -12,7 +12,7 @@
 #include "glocal/rng.hpp"
 #include "test_world.hpp"
 
-namespace glocal::triangle_index_test {
+namespace glocal::indexed_ransam::triangle_index_test {
 namespace {
 
 constexpr std::size_t no_limit = 100'000'000;
@@ -161,4 +161,4 @@ TEST(TriangleIndex, TooFewPointsHaveNoTriangle) {
 }
 
 }  // namespace
-}  // namespace glocal::triangle_index_test
+}  // namespace glocal::indexed_ransam::triangle_index_test

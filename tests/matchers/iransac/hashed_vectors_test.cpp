@@ -9,7 +9,7 @@
 
 #include "matchers/iransac/feature_index.hpp"
 
-namespace glocal::hashed_vectors_test {
+namespace glocal::iransac::hashed_vectors_test {
 namespace {
 
 constexpr std::size_t dimensions = 20;
@@ -125,4 +125,4 @@ TEST(FeatureIndex, HashingOnlyLeavesFeaturesOut) {
 }
 
 }  // namespace
-}  // namespace glocal::hashed_vectors_test
+}  // namespace glocal::iransac::hashed_vectors_test

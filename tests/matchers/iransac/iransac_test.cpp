@@ -7,7 +7,7 @@
 #include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
-namespace glocal::iransac_test {
+namespace glocal::iransac::iransac_test {
 namespace {
 
 using test::local_map_at;
@@ -91,4 +91,4 @@ TEST(IRansac, AnEmptyLocalMapFitsNowhere) {
 }
 
 }  // namespace
-}  // namespace glocal::iransac_test
+}  // namespace glocal::iransac::iransac_test

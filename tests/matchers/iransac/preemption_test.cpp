@@ -6,7 +6,7 @@
 
 #include "test_world.hpp"
 
-namespace glocal::preemption_test {
+namespace glocal::iransac::preemption_test {
 namespace {
 
 TEST(Preemption, KeepsHalfAfterEachBlock) {
@@ -75,4 +75,4 @@ TEST_F(PreemptionInSmallWorld, IsTheSameForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace glocal::preemption_test
+}  // namespace glocal::iransac::preemption_test

@@ -7,7 +7,7 @@
 
 #include "glocal/rng.hpp"
 
-namespace glocal::shape_context_test {
+namespace glocal::iransac::shape_context_test {
 namespace {
 
 OrientedPoints random_oriented_points(Rng& rng, int n) {
@@ -95,4 +95,4 @@ TEST(ShapeContexts, AreTheSameForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace glocal::shape_context_test
+}  // namespace glocal::iransac::shape_context_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace glocal::beam_model_test {
+namespace glocal::mcl::beam_model_test {
 namespace {
 
 /// The density over all ranges, by the midpoint rule, and the probability of none.
@@ -67,4 +67,4 @@ TEST(BeamModel, AgainstAWallNothingIsTooShort) {
 }
 
 }  // namespace
-}  // namespace glocal::beam_model_test
+}  // namespace glocal::mcl::beam_model_test

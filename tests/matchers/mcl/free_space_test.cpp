@@ -7,7 +7,7 @@
 
 #include "glocal/error.hpp"
 
-namespace glocal::free_space_test {
+namespace glocal::mcl::free_space_test {
 namespace {
 
 TEST(FreeSpace, PlacesAndHeadingsAreUniformWhereCellsAreFree) {
@@ -40,4 +40,4 @@ TEST(FreeSpace, RefusesAMapWithoutAny) {
 }
 
 }  // namespace
-}  // namespace glocal::free_space_test
+}  // namespace glocal::mcl::free_space_test

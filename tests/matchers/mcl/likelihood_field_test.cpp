@@ -7,7 +7,7 @@
 #include "instruction_sets.hpp"
 #include "test_world.hpp"
 
-namespace glocal::likelihood_field_test {
+namespace glocal::mcl::likelihood_field_test {
 namespace {
 
 double itself(double likelihood) {
@@ -109,4 +109,4 @@ TEST(LikelihoodField, SumsAlikeWithEveryInstructionSetAndAsOneByOne) {
 }
 
 }  // namespace
-}  // namespace glocal::likelihood_field_test
+}  // namespace glocal::mcl::likelihood_field_test

@@ -11,7 +11,7 @@
 #include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
-namespace glocal::mcl_test {
+namespace glocal::mcl::mcl_test {
 namespace {
 
 /// The small world with its walls in the grid.
@@ -237,4 +237,4 @@ TEST(Mcl, RefusesAMapWithoutFreeSpace) {
 }
 
 }  // namespace
-}  // namespace glocal::mcl_test
+}  // namespace glocal::mcl::mcl_test

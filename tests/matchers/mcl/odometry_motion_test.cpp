@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace glocal::odometry_motion_test {
+namespace glocal::mcl::odometry_motion_test {
 namespace {
 
 struct Moments {
@@ -89,4 +89,4 @@ TEST(OdometryMotion, WithoutNoiseItIsTheIncrement) {
 }
 
 }  // namespace
-}  // namespace glocal::odometry_motion_test
+}  // namespace glocal::mcl::odometry_motion_test

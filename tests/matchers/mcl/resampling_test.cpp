@@ -7,7 +7,7 @@
 
 #include "glocal/rng.hpp"
 
-namespace glocal::resampling_test {
+namespace glocal::mcl::resampling_test {
 namespace {
 
 TEST(LowVarianceDraws, EachParticleAsOftenAsItsWeightSaysUpToRounding) {
@@ -84,4 +84,4 @@ TEST(RecoveryAverages, AreOffWithARateOfZero) {
 }
 
 }  // namespace
-}  // namespace glocal::resampling_test
+}  // namespace glocal::mcl::resampling_test

@@ -8,7 +8,7 @@
 #include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
-namespace glocal::ransac_test {
+namespace glocal::ransac::ransac_test {
 namespace {
 
 using test::local_map_at;
@@ -116,4 +116,4 @@ TEST(Ransac, AnEmptyLocalMapFitsNowhere) {
 }
 
 }  // namespace
-}  // namespace glocal::ransac_test
+}  // namespace glocal::ransac::ransac_test

@@ -10,7 +10,7 @@
 #include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
-namespace glocal::ransam_test {
+namespace glocal::ransam::ransam_test {
 namespace {
 
 using test::local_map_at;
@@ -344,4 +344,4 @@ TEST(Ransam, TooFewPointsGiveNoHypothesis) {
 }
 
 }  // namespace
-}  // namespace glocal::ransam_test
+}  // namespace glocal::ransam::ransam_test

@@ -10,7 +10,7 @@
 #include "glocal/rng.hpp"
 #include "instruction_sets.hpp"
 
-namespace glocal::relation_table_test {
+namespace glocal::ransam::relation_table_test {
 namespace {
 
 std::optional<std::uint32_t> find(const RelationTable& table, Relation relation) {
@@ -150,4 +150,4 @@ TEST(RelationTable, StartsOverWhenNumbersRunOut) {
 }
 
 }  // namespace
-}  // namespace glocal::relation_table_test
+}  // namespace glocal::ransam::relation_table_test

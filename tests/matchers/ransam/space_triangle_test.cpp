@@ -11,7 +11,7 @@
 
 #include "glocal/rng.hpp"
 
-namespace glocal::space_triangle_test {
+namespace glocal::ransam::space_triangle_test {
 namespace {
 
 constexpr TriangleRule rule{.cell = 0.1, .min_side = 0.3, .min_height = 0.2, .max_side = 20.0};
@@ -165,4 +165,4 @@ TEST(SpaceTriangle, NormalsTellMirrorImagesApart) {
 }
 
 }  // namespace
-}  // namespace glocal::space_triangle_test
+}  // namespace glocal::ransam::space_triangle_test

@@ -11,7 +11,7 @@
 #include "matchers/surfels/hall_map.hpp"
 #include "matchers/surfels/scanned_hall.hpp"
 
-namespace glocal::triangle_ransam_test {
+namespace glocal::ransam::triangle_ransam_test {
 namespace {
 
 LocalMap local_at(const Pose3& map_from_robot) {
@@ -89,4 +89,4 @@ TEST(TriangleRansam, RefusesMapsWithoutSurfaces) {
 }
 
 }  // namespace
-}  // namespace glocal::triangle_ransam_test
+}  // namespace glocal::ransam::triangle_ransam_test

@@ -15,7 +15,7 @@
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 
-namespace glocal::surfel_ransam_test {
+namespace glocal::surfel_ransam::surfel_ransam_test {
 namespace {
 
 /// A box along the axes, m.
@@ -447,4 +447,4 @@ TEST(SurfelRansam, FindsScansOfABuilding) {
 }
 
 }  // namespace
-}  // namespace glocal::surfel_ransam_test
+}  // namespace glocal::surfel_ransam::surfel_ransam_test

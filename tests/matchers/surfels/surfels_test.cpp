@@ -14,6 +14,8 @@
 namespace glocal::test::surfels_test {
 namespace {
 
+using namespace surfels;
+
 constexpr float voxel = 0.2F;
 const Pose3 place({5.0, 4.5, 1.2}, exponential({0.2, -0.1, 0.7}));
 

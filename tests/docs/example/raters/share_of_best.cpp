@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace glocal {
+namespace glocal::raters {
 
 void describe(ParamVisitor& v, ShareOfBest::Params& p) {
   v.field(
@@ -19,4 +19,4 @@ void ShareOfBest::update(const std::vector<Hypothesis>& hypotheses) {
   best_ = hypotheses.empty() ? 0.0 : hypotheses.front().score;
 }
 
-}  // namespace glocal
+}  // namespace glocal::raters

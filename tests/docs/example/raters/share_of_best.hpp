@@ -3,7 +3,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::raters {
 
 /// Omega_max is a share of the best score of the last step. After a step without hypotheses it is `least`.
 class ShareOfBest final : public ThresholdPolicy {
@@ -24,4 +24,4 @@ class ShareOfBest final : public ThresholdPolicy {
 };
 void describe(ParamVisitor& v, ShareOfBest::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::raters
