@@ -13,7 +13,7 @@ CELLS = pathlib.Path(__file__).parent / "cells.py"
 def test_the_program_knows_them_as_its_own(program, room):
     assert "cells " in program("list", "clusterer", "--plugin", CELLS).stdout
     described = program("describe", "cells", "--plugin", CELLS).stdout
-    assert described.startswith("cells (clusterer, from cells.py)\nJoins hypotheses whose")
+    assert described.startswith("cells (clusterer, from cells.py, experimental)\nJoins hypotheses whose")
     assert "side: number (> 0 m), default 0.5" in described
     wrong = program("check", room, "--plugin", CELLS, "--set", "localizer.clusterer.cells.side=-1", "--set",
                     "localizer.clusterer.cells.angle_dge=5")

@@ -287,7 +287,7 @@ def test_parameters_of_every_type_are_keys(room, tmp_path):
             return np.zeros(len(hypotheses), int)
 
     described = glocal.describe("full")
-    for text in ["Has a parameter of every type.", "full (clusterer, from Python)", "count: whole number (>= 1), default 3", "(fast, good)", "A file."]:
+    for text in ["Has a parameter of every type.", "full (clusterer, from Python, experimental)", "count: whole number (>= 1), default 3", "(fast, good)", "A file."]:
         assert text in described
     assert "And more" not in described
 
@@ -482,7 +482,7 @@ CELLS = pathlib.Path(__file__).parent / "cells.py"
 
 def test_a_plugin_file_is_named_by_results_and_read_again(room, tmp_path):
     glocal.load_plugin(CELLS)
-    assert "(clusterer, from cells.py)" in glocal.describe("cells")
+    assert "(clusterer, from cells.py, experimental)" in glocal.describe("cells")
     results = run(room, tmp_path, **{"localizer.clusterer": "cells"})
     assert f'plugins: ["{CELLS}"]' in (results.folder / "effective.yaml").read_text()
 

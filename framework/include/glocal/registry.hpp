@@ -18,8 +18,8 @@ namespace glocal {
 
 /// What of a strategy can be relied on. One that says nothing is experimental.
 struct Standing {
-  bool is_stable =
-      false;  ///< Names and answers stay, or the changelog says why not; others may change or go.
+  /// Names and answers stay, or the changelog says why not; others may change or go.
+  bool is_stable = false;
   std::string since = {};  ///< The version that brought it; empty if that is not said.
 };
 [[nodiscard]] Standing stable_since(std::string version);
@@ -98,10 +98,8 @@ class Registry final : public RegistryBase {
  public:
   using RegistryBase::RegistryBase;
 
-  /// T has a described struct T::Params and is constructible from (Params) or (Params, const Setup&). A T
-  /// that is of another class for some setups has a static make(Params, const Setup&), which is asked
-  /// instead. `defaults` are given where they hold what only the registering function has at hand: another
-  /// registry.
+  /// T has a described struct T::Params and is constructible from (Params) or (Params, const Setup&).
+  /// `defaults` are given where they hold what only the registering function has at hand: another registry.
   template <std::derived_from<Interface> T>
   void add(std::string name, std::string doc, Standing standing = {}, typename T::Params defaults = {}) {
     using Params = typename T::Params;
@@ -112,9 +110,7 @@ class Registry final : public RegistryBase {
     });
     makers_[std::move(name)] = [](const AnyParams& any, const Setup& setup) -> std::unique_ptr<Interface> {
       const Params& params = dynamic_cast<const ParamsOf<Params>&>(any).value;
-      if constexpr (requires { T::make(params, setup); }) {
-        return T::make(params, setup);
-      } else if constexpr (std::is_constructible_v<T, const Params&, const Setup&>) {
+      if constexpr (std::is_constructible_v<T, const Params&, const Setup&>) {
         return std::make_unique<T>(params, setup);
       } else {
         return std::make_unique<T>(params);
