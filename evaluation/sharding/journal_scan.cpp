@@ -145,13 +145,14 @@ void JournalScan::read(std::size_t journal) {
   if (journals_[journal].is_closed) update_index(journal);
 }
 
-/// False if there is no index that is as its journal: what was changed since is read.
+/// False if there is no index that is as its journal: what was changed since is read. Times of files go by
+/// ticks, so one of the same tick may have been changed after it.
 bool JournalScan::take_index(std::size_t journal) {
   const fs::path& file = journals_[journal].file;
   const fs::path index = index_of(file);
   std::error_code error;
   const fs::file_time_type written = fs::last_write_time(index, error);
-  if (error || !journals_[journal].is_closed || written < fs::last_write_time(file, error)) return false;
+  if (error || !journals_[journal].is_closed || written <= fs::last_write_time(file, error)) return false;
   const std::string text = content_of(index);
   const auto content = checked_content(text);
   if (!content) return false;
