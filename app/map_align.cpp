@@ -28,7 +28,7 @@ std::optional<Alignment> align_maps(const GlobalMap& map, const Points& other, M
   Rng rng(seed);
   // Maps of one place may have little in common: furniture, rooms behind doors.
   for (const double omega_max : {0.6, 0.4, 0.25}) {
-    const MatchResult result = matcher.match(local, {}, omega_max, rng);
+    const MatchResult result = matcher.match({local, {}, omega_max}, rng);
     if (result.hypotheses.empty()) continue;
     const Pose2 other_from_middle = middle(other);
     Points centred;

@@ -29,7 +29,7 @@ void match(benchmark::State& state, const Scene& s, const typename Kind::Params&
   for ([[maybe_unused]] auto _ : state) {
     for (const LocalMap& local : locals) {
       matcher.reset();
-      benchmark::DoNotOptimize(matcher.match(local, {}, omega_max, rng));
+      benchmark::DoNotOptimize(matcher.match({local, {}, omega_max}, rng));
     }
   }
   state.counters["per_match"] = time_per_item(static_cast<double>(locals.size()));

@@ -70,7 +70,7 @@ void match(benchmark::State& state, const Scene& s) {
   const std::vector<PlacedMap> maps = local_maps(s, static_cast<std::size_t>(state.range(0)));
   Rng rng(1);
   for ([[maybe_unused]] auto _ : state) {
-    for (const PlacedMap& map : maps) benchmark::DoNotOptimize(matcher.match(map.local, {}, 0.1, rng));
+    for (const PlacedMap& map : maps) benchmark::DoNotOptimize(matcher.match({map.local, {}, 0.1}, rng));
   }
   state.counters["per_match"] = time_per_item(static_cast<double>(maps.size()));
 }

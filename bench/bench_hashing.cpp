@@ -297,7 +297,7 @@ void match(benchmark::State& state) {
   std::size_t proposals = 0;
   std::size_t right = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const MatchResult result = ransam.match(local, {}, omega_max, rng);
+    const MatchResult result = ransam.match({local, {}, omega_max}, rng);
     proposals += result.proposals;
     for (const Hypothesis& h : result.hypotheses) {
       if (is_right(seen_from_above(h.map_from_local), robot, truth)) ++right;

@@ -125,7 +125,7 @@ void first_match(benchmark::State& state, const Scene& s) {
   for ([[maybe_unused]] auto _ : state) {
     for (const LocalMap& local : locals) {
       matcher.reset();
-      benchmark::DoNotOptimize(matcher.match(local, {}, 0.1, rng));
+      benchmark::DoNotOptimize(matcher.match({local, {}, 0.1}, rng));
     }
   }
   state.counters["per_match"] = time_per_item(static_cast<double>(locals.size()));

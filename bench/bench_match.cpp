@@ -25,7 +25,7 @@ void match(benchmark::State& state, const std::shared_ptr<const GlobalMap>& map,
   MatchResult result;
   std::size_t proposals = 0;
   for ([[maybe_unused]] auto _ : state) {
-    result = matcher->match(local, {}, step == 0 ? first_omega_max : late_omega_max, rng);
+    result = matcher->match({local, {}, step == 0 ? first_omega_max : late_omega_max}, rng);
     proposals += result.proposals;
   }
   state.counters["map_points"] = static_cast<double>(map->points().size());
@@ -65,7 +65,8 @@ void separate_tables(benchmark::State& state) {
   Rng rng(1);
   std::size_t proposals = 0;
   for ([[maybe_unused]] auto _ : state) {
-    for (int i = 0; i < partitions; ++i) proposals += ransam.match(local, {}, late_omega_max, rng).proposals;
+    for (int i = 0; i < partitions; ++i)
+      proposals += ransam.match({local, {}, late_omega_max}, rng).proposals;
   }
   state.counters["proposals"] = per_iteration(proposals);
 }

@@ -25,7 +25,7 @@ void first_step(benchmark::State& state, const Scene& s, const std::string& mode
   Rng rng(1);
   for ([[maybe_unused]] auto _ : state) {
     matcher.reset();
-    benchmark::DoNotOptimize(matcher.match(local, first_observation(s), 0.0, rng));
+    benchmark::DoNotOptimize(matcher.match({local, first_observation(s), 0.0}, rng));
   }
   state.counters["per_particle"] = time_per_item(40000);
 }

@@ -49,7 +49,7 @@ void peer(benchmark::State& state, const StrategyChoice& choice, const Catalog& 
   for ([[maybe_unused]] auto _ : state) {
     right = 0;
     for (const Task& task : all) {
-      if (is_right(matcher->match(task.local, {}, omega_max, rng), task, s.experiment.evaluation)) ++right;
+      if (is_right(matcher->match({task.local, {}, omega_max}, rng), task, s.experiment.evaluation)) ++right;
     }
   }
   state.counters["right"] = static_cast<double>(right);

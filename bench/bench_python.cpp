@@ -65,7 +65,7 @@ void match(benchmark::State& state) {
   local.ends = {2000};
   const Observation latest;
   Rng rng(1);
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(matcher->match(local, latest, 0.5, rng));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(matcher->match({local, latest, 0.5}, rng));
 }
 
 /// What the core does with labels, in which a clusterer in C++ is no faster: to be taken off `cluster`.

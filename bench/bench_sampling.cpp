@@ -50,7 +50,7 @@ void match_after_20_steps(benchmark::State& state) {
   std::size_t proposals = 0;
   std::size_t hypotheses = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const MatchResult result = ransam.match(local, {}, omega_max, rng);
+    const MatchResult result = ransam.match({local, {}, omega_max}, rng);
     proposals += result.proposals;
     hypotheses += result.hypotheses.size();
   }

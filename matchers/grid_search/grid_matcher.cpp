@@ -66,14 +66,15 @@ GridMatcher::GridMatcher(const GridMatching& params, const StageSetup& setup,
       refiner_(static_cast<std::size_t>(params.grid.max_poses), params.refinement,
                distance_field(*setup.map, setup.threads), contact_) {}
 
-MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
-                               Rng& rng) {
+MatchResult GridMatcher::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
   MatchResult result;
   if (local.points.empty()) return result;
   const Points sample = sample_of(local.points, params_.grid.most_points(), rng);
   const Pose2 local_from_robot = seen_from_above(local.local_from_robot);
   const BoxSearchResult search_result =
-      search(sample, local.local_from_robot, params_.grid.search_rule(omega_max, sample.size(), gate_));
+      search(sample, local.local_from_robot,
+             params_.grid.search_rule(request.omega_max, sample.size(), request.gate));
   result.proposals = search_result.tested;
   result.points_tested = search_result.looks;
   std::vector<Candidate> candidates;
@@ -88,7 +89,7 @@ MatchResult GridMatcher::match(const LocalMap& local, const Observation& /*lates
     candidates = refiner_.refined(std::move(candidates), local_from_robot, sample, local.points);
   }
   for (const Candidate& candidate : candidates) {
-    if (candidate.quality < omega_max) break;
+    if (candidate.quality < request.omega_max) break;
     result.hypotheses.push_back(
         {.map_from_local = candidate.map_from_local,
          .quality = contact_->share(local.points, Transform(candidate.map_from_local)),

@@ -49,9 +49,7 @@ class GridMatcher : public Matcher {
   GridMatcher(const GridMatching& params, const StageSetup& setup,
               std::shared_ptr<const ContactIndex> contact);
 
-  void restrict_to(const PoseGate& gate) final { gate_ = gate; }
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) final;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) final;
   void reset() final {}
 
  private:
@@ -61,7 +59,6 @@ class GridMatcher : public Matcher {
   GridMatching params_;
   std::shared_ptr<const ContactIndex> contact_;
   CandidateRefiner refiner_;
-  PoseGate gate_;
 };
 
 }  // namespace glocal

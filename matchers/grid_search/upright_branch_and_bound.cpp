@@ -13,14 +13,14 @@ UprightBranchAndBound::UprightBranchAndBound(const Params& params, const StageSe
       pyramid_(box_pyramid(BoxPyramid::Of::pose_grid, *setup.map, params.cell,
                            setup.epsilon(params.contact_epsilon), setup.motion, setup.threads)) {}
 
-MatchResult UprightBranchAndBound::match(const LocalMap& local, const Observation& /*latest*/,
-                                         double omega_max, Rng& rng) {
+MatchResult UprightBranchAndBound::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
   MatchResult result;
   if (local.points.empty()) return result;
   const Points sample = sample_of(local.points, params_.most_points(), rng);
-  const BoxSearchResult search_result =
-      search_boxes(*pyramid_, sample, local.local_from_robot,
-                   params_.search_rule(omega_max, sample.size(), gate_), std::nullopt, threads_);
+  const BoxSearchResult search_result = search_boxes(
+      *pyramid_, sample, local.local_from_robot,
+      params_.search_rule(request.omega_max, sample.size(), request.gate), std::nullopt, threads_);
   result.proposals = search_result.tested;
   result.points_tested = search_result.looks;
   for (const BoxSearchResult::FoundPose& pose : search_result.poses) {

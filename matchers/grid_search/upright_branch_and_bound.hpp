@@ -23,9 +23,7 @@ class UprightBranchAndBound final : public Matcher {
   /// Throws ConfigError where the map is too large for a contact grid or a pyramid.
   UprightBranchAndBound(const Params& params, const StageSetup& setup);
 
-  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   void reset() override {}
 
  private:
@@ -33,7 +31,6 @@ class UprightBranchAndBound final : public Matcher {
   int threads_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const BoxPyramid> pyramid_;
-  PoseGate gate_;
 };
 
 }  // namespace glocal

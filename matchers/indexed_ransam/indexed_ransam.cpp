@@ -154,26 +154,27 @@ void IndexedRansam::reset() {
   steps_ = 0;
 }
 
-MatchResult IndexedRansam::match(const LocalMap& local, const Observation& latest, double omega_max,
-                                 Rng& rng) {
+MatchResult IndexedRansam::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
   MatchResult result;
   if (local.points.empty()) return result;
   if (local.epoch != epoch_) reset();
   epoch_ = local.epoch;
-  judge_.take_in(local, latest.scan);
+  judge_.take_in(local, request.latest.scan);
   const Points sample = sample_of(local.points, contact_points, rng);
 
   constexpr std::size_t proposals_per_candidate = 10;  // as many lie near each other
   StepCandidates candidates(*contact_, sample, params_.min_contact,
-                            proposals_per_candidate * static_cast<std::size_t>(params_.candidates), gate_);
+                            proposals_per_candidate * static_cast<std::size_t>(params_.candidates),
+                            request.gate);
   for (const Pose2& pose : carried_) candidates.add(pose);
   propose(*index_, relation_, local, draws_of_step(), rng,
           [&](const MotionBatch& poses, std::size_t size) { candidates.test(poses, size); });
   std::vector<Hypothesis> best = settled(candidates, local, sample, result);
   if (exact_search_.is_due(best)) {
     const Points searched = sample_of(local.points, exact_search_.points(), rng);
-    result.points_tested += exact_search_.search(searched, seen_from_above(local.local_from_robot), gate_,
-                                                 best, [&](const std::vector<Pose2>& poses) {
+    result.points_tested += exact_search_.search(searched, seen_from_above(local.local_from_robot),
+                                                 request.gate, best, [&](const std::vector<Pose2>& poses) {
                                                    for (const Pose2& pose : poses) candidates.add(pose);
                                                    result.proposals += poses.size();
                                                    return best = settled(candidates, local, sample, result);
@@ -186,7 +187,7 @@ MatchResult IndexedRansam::match(const LocalMap& local, const Observation& lates
   for (const Hypothesis& h : best) {
     if (carried_.size() < static_cast<std::size_t>(params_.carried))
       carried_.push_back(seen_from_above(h.map_from_local));
-    if (h.score >= omega_max) result.hypotheses.push_back(judge_.to_hypothesis(h, local, sample));
+    if (h.score >= request.omega_max) result.hypotheses.push_back(judge_.to_hypothesis(h, local, sample));
   }
   return result;
 }

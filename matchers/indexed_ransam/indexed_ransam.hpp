@@ -59,9 +59,7 @@ class IndexedRansam final : public Matcher {
   /// `iterations`.
   [[nodiscard]] static std::size_t draws_on(std::size_t points, int iterations);
 
-  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                 const LocalMap& local) override;
   void reset() override;
@@ -82,7 +80,6 @@ class IndexedRansam final : public Matcher {
   CandidateRefiner refiner_;
   PoseJudge judge_;
   ExactSearch exact_search_;
-  PoseGate gate_;
   std::vector<Pose2> carried_;  ///< map_from_local of the last step's best.
   int epoch_ = 0;               ///< Of the local map in whose frame they are.
   int steps_ = 0;               ///< In that frame.

@@ -122,7 +122,8 @@ IRansac::IRansac(const Params& params, const StageSetup& setup)
   map_index_ = {index_->oriented_points().size(), index_->memory_bytes(), took.count()};
 }
 
-MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/, double omega_max, Rng& rng) {
+MatchResult IRansac::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
   if (local.epoch != epoch_) pool_.clear();
   epoch_ = local.epoch;
   MatchResult result;
@@ -146,7 +147,8 @@ MatchResult IRansac::match(const LocalMap& local, const Observation& /*latest*/,
     const auto n = static_cast<double>(local.points.size());
     pool_.push_back({candidate.map_from_local, static_cast<std::size_t>(std::lround(candidate.quality * n)),
                      local.points.size()});
-    if (candidate.quality < omega_max || result.hypotheses.size() == static_cast<std::size_t>(params_.best))
+    if (candidate.quality < request.omega_max ||
+        result.hypotheses.size() == static_cast<std::size_t>(params_.best))
       continue;
     result.hypotheses.push_back(Hypothesis::by_contact(candidate.map_from_local, candidate.quality));
   }

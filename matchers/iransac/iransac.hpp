@@ -46,8 +46,7 @@ class IRansac final : public Matcher {
   /// Throws ConfigError where the map is too large for a contact grid or a distance field.
   IRansac(const Params& params, const StageSetup& setup);
 
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   void reset() override { pool_.clear(); }
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override { return map_index_; }
 

@@ -73,7 +73,8 @@ void Mcl::reset() {
   averages_.reset();
 }
 
-MatchResult Mcl::match(const LocalMap& local, const Observation& latest, double omega_max, Rng& rng) {
+MatchResult Mcl::match(const MatchRequest& request, Rng& rng) {
+  const Observation& latest = request.latest;
   MatchResult result;
   if (latest.scan.hits.empty()) return result;
   if (particles_.poses.empty()) begin(rng);
@@ -87,9 +88,9 @@ MatchResult Mcl::match(const LocalMap& local, const Observation& latest, double 
     odom_from_last_ = odom_from_robot;
     moved = {};
   }
-  if (local.points.empty()) return result;
-  result.hypotheses =
-      hypotheses_of(particles_, moved, params_.merging, *contact_, local, latest.scan, omega_max);
+  if (request.local.points.empty()) return result;
+  result.hypotheses = hypotheses_of(particles_, moved, params_.merging, *contact_, request.local, latest.scan,
+                                    request.omega_max);
   return result;
 }
 

@@ -69,9 +69,10 @@ Ransac::Ransac(const Params& params, const StageSetup& setup)
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       field_(distance_field(*setup.map, setup.threads)) {}
 
-MatchResult Ransac::match(const LocalMap& local, const Observation& /*latest*/, double omega_max, Rng& rng) {
+MatchResult Ransac::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
   if (local.points.empty()) return {};
-  const QualityTest quality(local.points, contact_, ExtrapolationRule{}, omega_max, rng);
+  const QualityTest quality(local.points, contact_, ExtrapolationRule{}, request.omega_max, rng);
   const Rng draws(rng.next());
   const auto iterations = static_cast<std::size_t>(params_.iterations);
   std::vector<MatchResult> chunks((iterations + iterations_per_chunk - 1) / iterations_per_chunk);
@@ -81,7 +82,7 @@ MatchResult Ransac::match(const LocalMap& local, const Observation& /*latest*/, 
   });
   MatchResult result =
       joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.max_hypotheses));
-  if (params_.refinement.iterations > 0) refine_all(local, omega_max, result, rng);
+  if (params_.refinement.iterations > 0) refine_all(local, request.omega_max, result, rng);
   return result;
 }
 

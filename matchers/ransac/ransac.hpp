@@ -41,8 +41,7 @@ class Ransac final : public Matcher {
   /// Throws ConfigError where the map is too large for a contact grid or a distance field.
   Ransac(const Params& params, const StageSetup& setup);
 
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   void reset() override {}
 
  private:

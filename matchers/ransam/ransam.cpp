@@ -33,11 +33,13 @@ Ransam::Ransam(const Params& params, const StageSetup& setup)
   if (params.beams.weight > 0.0) clearance_ = clearance_grid(*setup.map);
 }
 
-MatchResult Ransam::match(const LocalMap& local, const Observation& latest, double omega_max, Rng& rng) {
+MatchResult Ransam::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
   if (local.points.empty()) return {};
-  if (clearance_) beams_.add(local, latest.scan);
+  if (clearance_) beams_.add(local, request.latest.scan);
   const TripleMatching::Draws draws{rng.next(), rng.next()};
-  const QualityTest quality(local.points, contact_, extrapolation_rule(params_.triples), omega_max, rng);
+  const QualityTest quality(local.points, contact_, extrapolation_rule(params_.triples), request.omega_max,
+                            rng);
   // A triangle of the map that is larger than the whole local map has no partner there.
   const TriangleRule rule{.cell = params_.triples.relation_cell,
                           .min_side = params_.triples.min_side,
@@ -46,18 +48,19 @@ MatchResult Ransam::match(const LocalMap& local, const Observation& latest, doub
                                                largest_side(params_.triples.relation_cell))};
   const std::vector<MatchResult> chunks = matching_.match(
       local.points, rule, draws, [&](const TripleBatch& local_triples, const TripleBatch& map_triples) {
-        MatchResult found = test_hypotheses(local, quality, local_triples, map_triples);
-        if (clearance_) ask_beams(found.hypotheses, omega_max);
+        MatchResult found = test_hypotheses(request, quality, local_triples, map_triples);
+        if (clearance_) ask_beams(found.hypotheses, request.omega_max);
         return found;
       });
   return joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.triples.max_hypotheses));
 }
 
-MatchResult Ransam::test_hypotheses(const LocalMap& local, const QualityTest& quality,
+MatchResult Ransam::test_hypotheses(const MatchRequest& request, const QualityTest& quality,
                                     const TripleBatch& local_triples, const TripleBatch& map_triples) const {
   MotionBatch poses;
   ContactIndex::BatchColumn starts;
-  least_squares_motions(local.points, local_triples, setup_.map->points(), map_triples, poses);  // eq. 3
+  least_squares_motions(request.local.points, local_triples, setup_.map->points(), map_triples,
+                        poses);  // eq. 3
   for (std::size_t i = 0; i < local_triples.size; ++i) {
     starts[i] = static_cast<std::uint32_t>(mix64(local_triples.numbers[i]));
   }
@@ -66,7 +69,7 @@ MatchResult Ransam::test_hypotheses(const LocalMap& local, const QualityTest& qu
       .hypotheses = {}, .proposals = local_triples.size, .points_tested = outcome.points_tested};
   for (const auto& [i, omega] : outcome.passed) {
     const Hypothesis h = Hypothesis::by_contact(poses[i].pose(), omega);
-    if (gate_.allows(h.map_from_local)) found.hypotheses.push_back(h);
+    if (request.gate.allows(h.map_from_local)) found.hypotheses.push_back(h);
   }
   return found;
 }

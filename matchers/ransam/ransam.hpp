@@ -30,14 +30,12 @@ class Ransam final : public Matcher {
   /// Throws ConfigError where the map is too large for a contact grid.
   Ransam(const Params& params, const StageSetup& setup);
 
-  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   void reset() override { beams_.clear(); }
 
  private:
   /// Tests the hypotheses of pairs of triples.
-  [[nodiscard]] MatchResult test_hypotheses(const LocalMap& local, const QualityTest& quality,
+  [[nodiscard]] MatchResult test_hypotheses(const MatchRequest& request, const QualityTest& quality,
                                             const TripleBatch& local_triples,
                                             const TripleBatch& map_triples) const;
   void ask_beams(std::vector<Hypothesis>& hypotheses, double omega_max) const;
@@ -46,7 +44,6 @@ class Ransam final : public Matcher {
   StageSetup setup_;
   std::shared_ptr<const ContactIndex> contact_;
   TripleMatching matching_;
-  PoseGate gate_;
   BeamEvidence beams_;
   std::shared_ptr<const ClearanceGrid> clearance_;  ///< Null where beams are not asked.
 };

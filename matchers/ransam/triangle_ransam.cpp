@@ -92,11 +92,11 @@ TriangleRansam::TriangleRansam(const Params& params, const StageSetup& setup)
       map_(surfaces_of(*setup.map, voxel_size_)),
       matching_(map_->points, find_relations_in_space, matching_rule(params), setup.threads) {}
 
-MatchResult TriangleRansam::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
-                                  Rng& rng) {
+MatchResult TriangleRansam::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
   if (local.points.empty()) return {};
   const TripleMatching::Draws draws{rng.next(), rng.next()};
-  const QualityTest quality(local.points, contact_, extrapolation_rule(params_), omega_max, rng);
+  const QualityTest quality(local.points, contact_, extrapolation_rule(params_), request.omega_max, rng);
   const SurfacePoints surfaces(local.points, spread_evenly(local.points, voxel_size_), voxel_size_);
   if (surfaces.points.empty()) return {};
   // A triangle of the map that is larger than the whole local map has no partner there.
@@ -107,13 +107,13 @@ MatchResult TriangleRansam::match(const LocalMap& local, const Observation& /*la
                                                largest_side(params_.relation_cell))};
   const std::vector<MatchResult> chunks = matching_.match(
       surfaces.points, rule, draws, [&](const TripleBatch& local_triples, const TripleBatch& map_triples) {
-        return test_hypotheses(surfaces, quality, local_triples, map_triples);
+        return test_hypotheses(surfaces, request.gate, quality, local_triples, map_triples);
       });
   return joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.max_hypotheses));
 }
 
-MatchResult TriangleRansam::test_hypotheses(const SurfacePoints& local, const QualityTest& quality,
-                                            const TripleBatch& local_triples,
+MatchResult TriangleRansam::test_hypotheses(const SurfacePoints& local, const PoseGate& gate,
+                                            const QualityTest& quality, const TripleBatch& local_triples,
                                             const TripleBatch& map_triples) const {
   MatchResult found;
   found.proposals = local_triples.size;
@@ -131,7 +131,7 @@ MatchResult TriangleRansam::test_hypotheses(const SurfacePoints& local, const Qu
       motion = *upright;
       pose = motion.pose();
     }
-    if (!gate_.allows(pose)) continue;
+    if (!gate.allows(pose)) continue;
     const auto start = static_cast<std::uint32_t>(mix64(local_triples.numbers[i]));
     const QualityTest::Judged judged = quality.test(motion, start, memory);
     found.points_tested += judged.points_tested;

@@ -35,14 +35,12 @@ class TriangleRansam final : public Matcher {
   /// Throws ConfigError where the map is too large for a contact grid or has no surfaces.
   TriangleRansam(const Params& params, const StageSetup& setup);
 
-  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   void reset() override {}
 
  private:
-  [[nodiscard]] MatchResult test_hypotheses(const SurfacePoints& local, const QualityTest& quality,
-                                            const TripleBatch& local_triples,
+  [[nodiscard]] MatchResult test_hypotheses(const SurfacePoints& local, const PoseGate& gate,
+                                            const QualityTest& quality, const TripleBatch& local_triples,
                                             const TripleBatch& map_triples) const;
 
   Params params_;
@@ -51,7 +49,6 @@ class TriangleRansam final : public Matcher {
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const SurfacePoints> map_;
   TripleMatching matching_;
-  PoseGate gate_;
 };
 
 }  // namespace glocal::ransam

@@ -123,7 +123,7 @@ std::optional<MapIndexInfo> SurfelRansam::map_index() const {
   return MapIndexInfo{index_->pairs.size(), index_->memory_bytes(), index_->build_ms};
 }
 
-surfels::PoseSearchParams SurfelRansam::search_params() const {
+surfels::PoseSearchParams SurfelRansam::search_params(const PoseGate& gate) const {
   return {.rounds = static_cast<std::size_t>(carried_.empty() ? params_.first_rounds : params_.rounds),
           .draws = static_cast<std::size_t>(params_.draws),
           .partners = static_cast<std::size_t>(params_.partners),
@@ -132,7 +132,7 @@ surfels::PoseSearchParams SurfelRansam::search_params() const {
           .seen_through_weight = params_.seen_through_weight,
           .free_space_weight = params_.free_space_weight,
           .upright = upright_,
-          .gate = gate_};
+          .gate = gate};
 }
 
 double SurfelRansam::free_space_violation(const Points& points, const Pose3& map_from_points) const {
@@ -169,22 +169,22 @@ Hypothesis SurfelRansam::to_hypothesis(const surfels::FoundPose& pose, const Loc
   return h;
 }
 
-MatchResult SurfelRansam::match(const LocalMap& local, const Observation& latest, double omega_max,
-                                Rng& rng) {
+MatchResult SurfelRansam::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
   MatchResult result;
   if (local.points.empty()) return result;
   if (local.epoch != epoch_) reset();
   epoch_ = local.epoch;
-  prepared_.emplace(prepared(local, latest.scan, rule_.voxel_size));
+  prepared_.emplace(prepared(local, request.latest.scan, rule_.voxel_size));
   surfels::SearchEffort effort;
-  std::vector<surfels::FoundPose> found = find(local, search_params(), carried_, rng, effort);
+  std::vector<surfels::FoundPose> found = find(local, search_params(request.gate), carried_, rng, effort);
   found.resize(std::min(found.size(), static_cast<std::size_t>(params_.best)));
 
   carried_.clear();
   for (const surfels::FoundPose& pose : found) {
     if (carried_.size() < static_cast<std::size_t>(params_.carried))
       carried_.push_back(pose.target_from_source);
-    if (pose.score < omega_max) continue;
+    if (pose.score < request.omega_max) continue;
     result.hypotheses.push_back(to_hypothesis(pose, local));
     effort.points_tested += local.points.size();
   }
@@ -197,7 +197,7 @@ MatchResult SurfelRansam::match(const LocalMap& local, const Observation& latest
 std::vector<Hypothesis> SurfelRansam::rescore(std::vector<Hypothesis> found, const LocalMap& local) {
   std::vector<RigidMotion> known;
   for (const Hypothesis& h : found) known.emplace_back(h.map_from_local);
-  surfels::PoseSearchParams params = search_params();
+  surfels::PoseSearchParams params = search_params({});
   params.rounds = 0;
   surfels::SearchEffort effort;
   Rng rng(local.points.size());

@@ -47,16 +47,14 @@ class SurfelRansam final : public Matcher {
   /// Throws ConfigError where the map is too large, or has hardly any surfaces.
   SurfelRansam(const Params& params, const StageSetup& setup);
 
-  void restrict_to(const PoseGate& gate) override { gate_ = gate; }
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                 const LocalMap& local) override;
   void reset() override { carried_.clear(); }
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override;
 
  private:
-  [[nodiscard]] surfels::PoseSearchParams search_params() const;
+  [[nodiscard]] surfels::PoseSearchParams search_params(const PoseGate& gate) const;
   /// Poses of the prepared local map beside the known ones, judged; the points tested are added to.
   [[nodiscard]] std::vector<surfels::FoundPose> find(const LocalMap& local,
                                                      const surfels::PoseSearchParams& params,
@@ -72,7 +70,6 @@ class SurfelRansam final : public Matcher {
   SurfelIndexRule rule_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const SurfelIndex> index_;
-  PoseGate gate_;
   std::optional<surfels::PreparedCloud> prepared_;  ///< The local map of the last match().
   std::vector<RigidMotion> carried_;                ///< map_from_local of the last step's best.
   int epoch_ = 0;                                   ///< Of the local map in whose frame they are.

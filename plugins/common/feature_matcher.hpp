@@ -65,8 +65,8 @@ class FeatureMatcher final : public Matcher {
         map_(features_of(*setup.map, voxel_size_)),
         contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))) {}
 
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
-                                  Rng& rng) override {
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override {
+    const LocalMap& local = request.local;
     MatchResult result;
     if (local.points.empty()) return result;
     const Cloud source(local.points, voxel_size_, local.local_from_robot.translation());
@@ -78,7 +78,8 @@ class FeatureMatcher final : public Matcher {
       if (upright_ && map_from_local.tilt() > most_tilt) continue;
       const double omega = contact_->share(local.points, map_from_local);
       result.points_tested += local.points.size();
-      if (omega >= omega_max) result.hypotheses.push_back(Hypothesis::by_contact(map_from_local, omega));
+      if (omega >= request.omega_max)
+        result.hypotheses.push_back(Hypothesis::by_contact(map_from_local, omega));
     }
     std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
                      [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });

@@ -52,7 +52,9 @@ void MrptMcl::reset() {
   odom_from_last_.reset();
 }
 
-MatchResult MrptMcl::match(const LocalMap& local, const Observation& latest, double omega_max, Rng& rng) {
+MatchResult MrptMcl::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
+  const Observation& latest = request.latest;
   MatchResult result;
   if (latest.scan.hits.empty()) return result;
   renew_generator(rng);
@@ -65,7 +67,7 @@ MatchResult MrptMcl::match(const LocalMap& local, const Observation& latest, dou
   result.points_tested = result.proposals * ends;
   if (local.points.empty()) return result;
   result.hypotheses =
-      hypotheses_of(particles(), {}, params_.merging, *contact_, local, latest.scan, omega_max);
+      hypotheses_of(particles(), {}, params_.merging, *contact_, local, latest.scan, request.omega_max);
   return result;
 }
 

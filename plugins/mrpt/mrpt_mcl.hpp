@@ -46,8 +46,7 @@ class MrptMcl final : public Matcher {
   /// Throws ConfigError where the map has no free cell, or is too large.
   MrptMcl(const Params& params, const StageSetup& setup);
 
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   void reset() override;
 
  private:

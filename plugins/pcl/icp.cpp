@@ -105,8 +105,8 @@ PclIcp::PclIcp(const Params& params, const StageSetup& setup)
         "smaller spacing, or a map with free space"}});
 }
 
-MatchResult PclIcp::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
-                          Rng& /*rng*/) {
+MatchResult PclIcp::match(const MatchRequest& request, Rng& /*rng*/) {
+  const LocalMap& local = request.local;
   if (local.points.empty()) return {};
   const Pose2 robot_from_local = inverse(seen_from_above(local.local_from_robot));
   std::vector<Pose2> starts;
@@ -120,8 +120,8 @@ MatchResult PclIcp::match(const LocalMap& local, const Observation& /*latest*/, 
   for (const Hypothesis& h : coarse) promising.push_back(seen_from_above(h.map_from_local));
 
   MatchResult result;
-  result.hypotheses =
-      rated(aligner_.align(local.points, promising, params_.fine, threads_), local, *contact_, omega_max);
+  result.hypotheses = rated(aligner_.align(local.points, promising, params_.fine, threads_), local, *contact_,
+                            request.omega_max);
   result.proposals = starts.size();
   result.points_tested = (starts.size() + promising.size()) * local.points.size();
   return result;

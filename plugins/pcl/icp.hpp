@@ -60,8 +60,7 @@ class PclIcp final : public Matcher {
   /// Throws ConfigError if no start has free space in the map.
   PclIcp(const Params& params, const StageSetup& setup);
 
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   void reset() override {}
 
  private:

@@ -71,8 +71,8 @@ PclPrerejective::PclPrerejective(const Params& params, const StageSetup& setup)
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
       aligner_(setup.map->points()) {}
 
-MatchResult PclPrerejective::match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
-                                   Rng& rng) {
+MatchResult PclPrerejective::match(const MatchRequest& request, Rng& rng) {
+  const LocalMap& local = request.local;
   if (local.points.size() < points_drawn) return {};
   const OwnRandomNumbers random_numbers(rng.next());
   const Cloud::Ptr source = cloud(local.points);
@@ -93,7 +93,7 @@ MatchResult PclPrerejective::match(const LocalMap& local, const Observation& /*l
   }
   const std::vector<Pose2> refined = aligner_.align(local.points, found, params_.refinement, 1);
   MatchResult result;
-  result.hypotheses = rated(refined, local, *contact_, omega_max);
+  result.hypotheses = rated(refined, local, *contact_, request.omega_max);
   result.proposals = refined.size();
   result.points_tested = refined.size() * local.points.size();
   return result;

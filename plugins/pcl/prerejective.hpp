@@ -34,8 +34,7 @@ class PclPrerejective final : public Matcher {
 
   PclPrerejective(const Params& params, const StageSetup& setup);
 
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   void reset() override {}
 
  private:

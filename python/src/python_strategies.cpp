@@ -128,8 +128,8 @@ class PythonLocalMapper final : public LocalMapper {
 class PythonMatcher final : public Matcher {
  public:
   explicit PythonMatcher(py::object object) : object_(std::move(object)) {}
-  void restrict_to(const PoseGate& gate) override { restrict_to_(nothing, gate); }
-  MatchResult match(const LocalMap& local, const Observation& latest, double omega_max, Rng& rng) override {
+  MatchResult match(const MatchRequest& request, Rng& rng) override {
+    if (!request.gate.is_open()) restrict_to_(nothing, request.gate);
     const Loan loan;
     return match_(
         [](const py::object& found) {
@@ -138,7 +138,7 @@ class PythonMatcher final : public Matcher {
               seen<std::vector<Hypothesis>>(found, "match() returns Hypotheses or a MatchResult");
           return MatchResult{*hypotheses, hypotheses->size(), 0};
         },
-        Seen(local, loan), Seen(latest, loan), omega_max, rng);
+        Seen(request.local, loan), Seen(request.latest, loan), request.omega_max, rng);
   }
   std::vector<Hypothesis> rescore(std::vector<Hypothesis> found, const LocalMap& local) override {
     const Loan loan;

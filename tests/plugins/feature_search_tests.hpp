@@ -102,7 +102,7 @@ TEST_P(FeatureSearch, FindsAScanInAMap) {
   local.local_from_robot = Pose3({0.4, -0.3, 0.2}, exponential({0.0, 0.1, 0.2}));
   local.points = moved(scan_of(hall(), here), local.local_from_robot);
   Rng rng(1);
-  const MatchResult result = matcher->match(local, {}, 0.3, rng);
+  const MatchResult result = matcher->match({local, {}, 0.3}, rng);
   ASSERT_FALSE(result.hypotheses.empty());
   const Hypothesis& best = result.hypotheses.front();
   EXPECT_LT(distance(best.map_from_local * local.local_from_robot, here), 0.45);
@@ -112,7 +112,7 @@ TEST_P(FeatureSearch, FindsAScanInAMap) {
   EXPECT_EQ(result.proposals, 1U);
 
   Rng same(1);
-  const MatchResult again = matcher->match(local, {}, 0.3, same);
+  const MatchResult again = matcher->match({local, {}, 0.3}, same);
   ASSERT_FALSE(again.hypotheses.empty());
   EXPECT_EQ(again.hypotheses.front().map_from_local, best.map_from_local);
 }
@@ -121,19 +121,19 @@ TEST_P(FeatureSearch, WhereTheMotionIsUprightPosesThatTiltAreDropped) {
   LocalMap tilted;
   tilted.points = moved(scan_of(hall(), here), Pose3({}, exponential({0.6, 0.0, 0.0})));
   Rng rng(1);
-  EXPECT_TRUE(matcher(Motion::upright)->match(tilted, {}, 0.0, rng).hypotheses.empty());
+  EXPECT_TRUE(matcher(Motion::upright)->match({tilted, {}, 0.0}, rng).hypotheses.empty());
   LocalMap upright;
   upright.points = scan_of(hall(), here);
-  EXPECT_FALSE(matcher(Motion::upright)->match(upright, {}, 0.0, rng).hypotheses.empty());
+  EXPECT_FALSE(matcher(Motion::upright)->match({upright, {}, 0.0}, rng).hypotheses.empty());
 }
 
 TEST_P(FeatureSearch, ALocalMapWithFewPointsHasNoHypotheses) {
   const auto matcher = this->matcher();
   LocalMap local;
   Rng rng(1);
-  EXPECT_TRUE(matcher->match(local, {}, 0.0, rng).hypotheses.empty());
+  EXPECT_TRUE(matcher->match({local, {}, 0.0}, rng).hypotheses.empty());
   local.points = few_points();
-  EXPECT_TRUE(matcher->match(local, {}, 0.0, rng).hypotheses.empty());
+  EXPECT_TRUE(matcher->match({local, {}, 0.0}, rng).hypotheses.empty());
 }
 
 TEST_P(FeatureSearch, AMapWithFewPointsIsRefused) {

@@ -153,7 +153,7 @@ class Mrpt : public testing::Test {
       observation.scan = scan_from(pose, sensor, max_range);
       observation.odom_from_robot = Pose2{40.0, -3.0, 2.0} * pose;
       Rng rng(step++);
-      const MatchResult result = matcher.match(local_map_of(observation.scan), observation, 0.0, rng);
+      const MatchResult result = matcher.match({local_map_of(observation.scan), observation, 0.0}, rng);
       answer.proposals.push_back(result.proposals);
       // Where nothing is in reach there is no answer.
       if (result.hypotheses.empty()) continue;
@@ -233,7 +233,7 @@ TEST_F(Mrpt, WhatIsUnknownIsNoWall) {
   std::vector<Hypothesis> found;
   for (std::uint64_t step = 0; step < 10; ++step) {
     Rng rng(step);
-    found = made->match(local_map_of(observation.scan), observation, 0.0, rng).hypotheses;
+    found = made->match({local_map_of(observation.scan), observation, 0.0}, rng).hypotheses;
   }
   std::size_t near_the_wall = 0;
   std::size_t all = 0;
@@ -257,7 +257,7 @@ TEST_F(Mrpt, ParticlesBeginWhereTheMapIsFree) {
   Observation observation;
   observation.scan = scan_from({4.0, 2.0, 0.5}, {}, 10.0);
   Rng rng(1);
-  const auto found = made->match(local_map_of(observation.scan), observation, 0.0, rng).hypotheses;
+  const auto found = made->match({local_map_of(observation.scan), observation, 0.0}, rng).hypotheses;
   ASSERT_FALSE(found.empty());
   const Pose2 centre = map_from_world * Pose2{4.0, 2.0, 0.0};
   // A cell of 0.1 m, which MRPT takes twice as large, and its least noise.
@@ -277,7 +277,7 @@ TEST_F(Mrpt, EachParticleErrsByItself) {
     Observation observation;
     observation.scan.hits.push_back({1.0F, 0.0F, 0.0F});
     Rng rng(1);
-    const auto found = made->match(local_map_of(observation.scan), observation, 0.0, rng).hypotheses;
+    const auto found = made->match({local_map_of(observation.scan), observation, 0.0}, rng).hypotheses;
     // Thousands of draws from one place: their spread is the noise.
     double n = 0.0;
     double sum = 0.0;
@@ -308,7 +308,7 @@ TEST_F(Mrpt, WhatIsNoPointOfAScanChangesNothing) {
       observation.scan.free_ends.push_back({infinite, nan, 0.0F});
     }
     Rng rng(1);
-    return made->match(local, observation, 0.0, rng).hypotheses;
+    return made->match({local, observation, 0.0}, rng).hypotheses;
   };
   const auto plain = answer(false);
   const auto more = answer(true);
@@ -334,7 +334,7 @@ TEST_F(Mrpt, ScansMayHaveAnyNumberOfBeams) {
     }
     observation.odom_from_robot = pose;
     Rng rng(step++);
-    result = made->match(local_map_of(whole), observation, 0.0, rng);
+    result = made->match({local_map_of(whole), observation, 0.0}, rng);
     EXPECT_EQ(result.hypotheses.empty(), observation.scan.hits.empty());
     if (step == 24) break;
   }

@@ -24,7 +24,7 @@ class Pcl : public ::testing::Test {
     const auto matcher =
         catalog_.matchers.make(catalog_.matchers.choose(name), {glocal::test::small_world(), 1});
     Rng rng(seed);
-    return matcher->match(local, {}, 0.7, rng);
+    return matcher->match({local, {}, 0.7}, rng);
   }
 
   TemporaryFolder folder_;
@@ -83,7 +83,7 @@ TEST_F(Pcl, RansamTakesPclsKdTree) {
   const auto matcher = catalog_.matchers.make(choice, {glocal::test::small_world(), 1});
   const Pose2 truth{5.5, 2.5, 0.7};
   Rng rng(1);
-  const MatchResult result = matcher->match(glocal::test::local_map_at(truth, reach), {}, 0.8, rng);
+  const MatchResult result = matcher->match({glocal::test::local_map_at(truth, reach), {}, 0.8}, rng);
   ASSERT_FALSE(result.hypotheses.empty());
   EXPECT_LT(distance(result.hypotheses.front().map_from_local, truth), 0.1);
 }

@@ -74,6 +74,16 @@ class LocalMapper {
   [[nodiscard]] virtual std::vector<MapFile> files() const { return {}; }
 };
 
+/// What a matcher is asked in one step.
+struct MatchRequest {
+  const LocalMap& local;
+  const Observation& latest;
+  double omega_max = 0.0;  ///< In [0, 1].
+  /// All other poses of the local map are dropped afterwards, so a matcher that answers with its best few
+  /// must not spend them there.
+  PoseGate gate{};
+};
+
 /// What a matcher found in one step.
 struct MatchResult {
   /// All with score >= omega_max, falling score; map_from_robot is not yet set.
@@ -96,12 +106,7 @@ struct MapIndexInfo {
 class Matcher {
  public:
   virtual ~Matcher() = default;
-  /// Says which poses of the local map count in match() from now on; called before each where a prior is
-  /// given. All others are dropped after it, so a matcher that answers with its best few must not spend them
-  /// there.
-  virtual void restrict_to(const PoseGate& /*gate*/) {}
-  [[nodiscard]] virtual MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                          Rng& rng) = 0;
+  [[nodiscard]] virtual MatchResult match(const MatchRequest& request, Rng& rng) = 0;
   /// Scores poses of the local map of the last match() that a verifier has found by contact, as match()
   /// scores its own, and carries them on to the next step, where it does either; here it does neither.
   /// Falling score.

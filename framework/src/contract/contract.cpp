@@ -123,7 +123,7 @@ void try_matcher(const Made<Matcher>& make, double epsilon, const TrialRoom& roo
   const Observation latest = room.latest();
   const auto answer = [&](Matcher& matcher) {
     Rng rng(1);
-    MatchResult found = matcher.match(local, latest, omega_max, rng);
+    MatchResult found = matcher.match({local, latest, omega_max}, rng);
     check_match(found, omega_max, room.motion());
     return found;
   };
@@ -141,7 +141,7 @@ void try_matcher(const Made<Matcher>& make, double epsilon, const TrialRoom& roo
   });
   findings.check("an empty local map", [&] {
     Rng rng(1);
-    const auto found = make(1)->match({}, {}, 0.0, rng).hypotheses;
+    const auto found = make(1)->match({{}, {}, 0.0}, rng).hypotheses;
     expect(found.empty(), "there are {} hypotheses; there is none", found.size());
   });
   const auto expect_same = [&](const MatchResult& a, const MatchResult& b, const char* why) {

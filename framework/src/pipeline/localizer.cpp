@@ -152,8 +152,9 @@ void Localizer::match(const LocalMap& local, const Observation& latest, StepResu
   in_stage(stages_.matcher, result.step, [&] {
     Rng rng = rng_.stream({result.step, matching});
     MatchResult match;
-    if (!gate_.is_open()) matcher_->restrict_to(gate_);
-    timed(&StageTimes::match, result, [&] { match = matcher_->match(local, latest, result.omega_max, rng); });
+    timed(&StageTimes::match, result, [&] {
+      match = matcher_->match({local, latest, result.omega_max, gate_}, rng);
+    });
     check_match(match, result.omega_max, motion_);
     result.hypotheses = std::move(match.hypotheses);
     std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return !gate_.allows(h.map_from_local); });

@@ -74,9 +74,10 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
     for (Hypothesis& h : found.rivals) h.map_from_robot = h.map_from_local * local.local_from_robot;
     check_hypotheses(found.rivals, 0.0, motion_);
   });
-  // A matcher that refines what it rescores may have come back to the declared pose.
-  std::erase_if(found.rivals,
-                [&](const Hypothesis& h) { return found.near.are_near(h.map_from_robot, declared); });
+  // A matcher that refines what it rescores may have come back to the declared pose, or left the prior.
+  std::erase_if(found.rivals, [&](const Hypothesis& h) {
+    return found.near.are_near(h.map_from_robot, declared) || !gate_.allows(h.map_from_local);
+  });
   found.score = score_near(declared, found.near, result);
   settle(found, result.verdict);
   is_verified_ = !found.is_refuted;

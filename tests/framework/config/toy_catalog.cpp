@@ -6,10 +6,7 @@ namespace {
 struct ToyIndexed final : Matcher {
   using Params = Nothing;
   explicit ToyIndexed(const Params& /*params*/) {}
-  MatchResult match(const LocalMap& /*local*/, const Observation& /*latest*/, double /*omega_max*/,
-                    Rng& /*rng*/) override {
-    return {};
-  }
+  MatchResult match(const MatchRequest& /*request*/, Rng& /*rng*/) override { return {}; }
   void reset() override {}
 };
 
@@ -60,8 +57,7 @@ std::optional<Sample> ToyDrive::next() {
 }
 
 ToyMatcher::ToyMatcher(const Params& /*params*/) {}
-MatchResult ToyMatcher::match(const LocalMap& /*local*/, const Observation& /*latest*/, double /*omega_max*/,
-                              Rng& /*rng*/) {
+MatchResult ToyMatcher::match(const MatchRequest& /*request*/, Rng& /*rng*/) {
   return {};
 }
 void ToyMatcher::reset() {}

@@ -60,8 +60,7 @@ struct ToyMatcher final : Matcher {
     std::optional<double> patience = {};
   };
   explicit ToyMatcher(const Params& params);
-  [[nodiscard]] MatchResult match(const LocalMap& local, const Observation& latest, double omega_max,
-                                  Rng& rng) override;
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   void reset() override;
 };
 void describe(ParamVisitor& v, ToyMatcher::Params& p);

@@ -34,8 +34,8 @@ struct ToyMatcher final : Matcher {
   using Params = Wrong;
   ToyMatcher(const Params& params, const StageSetup& setup)
       : wrong(params.wrong), threads(setup.threads), contact(setup.map->points(), setup.contact_epsilon) {}
-  MatchResult match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
-                    Rng& rng) override {
+  MatchResult match(const MatchRequest& request, Rng& rng) override {
+    const LocalMap& local = request.local;
     MatchResult result;
     if (local.points.empty() && wrong != "empty map") return result;
     ++asked;
@@ -47,7 +47,7 @@ struct ToyMatcher final : Matcher {
     if (wrong == "memory") pose.x += 1e-6 * asked;
     const double omega = contact.share(local.points, pose);
     result.hypotheses.push_back(Hypothesis::by_contact(pose, wrong == "quality" ? 1.0 - omega / 2.0 : omega));
-    if (wrong == "threshold") result.hypotheses.back().score = omega_max / 2.0;
+    if (wrong == "threshold") result.hypotheses.back().score = request.omega_max / 2.0;
     if (wrong == "throws") throw std::runtime_error("no luck");
     return result;
   }

@@ -56,14 +56,10 @@ struct FakeMapper final : Fake<LocalMapper> {
 
 struct FakeMatcher final : Fake<Matcher> {
   using Fake::Fake;
-  void restrict_to(const PoseGate& gate) override {
-    note("restrict");
-    script_->gate = gate;
-  }
-  [[nodiscard]] MatchResult match(const LocalMap& /*local*/, const Observation& /*latest*/, double omega_max,
-                                  Rng& rng) override {
+  [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override {
     note("match");
-    return script_->match(omega_max, rng);
+    script_->gate = request.gate;
+    return script_->match(request.omega_max, rng);
   }
   [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                 const LocalMap& /*local*/) override {

@@ -21,7 +21,7 @@ MatchResult match(const BranchAndBound::Params& params, const LocalMap& local, d
                   std::shared_ptr<const GlobalMap> map = test::small_world(), int threads = 1) {
   BranchAndBound matcher(params, {std::move(map), threads});
   Rng rng(1);
-  return matcher.match(local, {}, omega_max, rng);
+  return matcher.match({local, {}, omega_max}, rng);
 }
 
 std::shared_ptr<const GlobalMap> map_of(Points points) {

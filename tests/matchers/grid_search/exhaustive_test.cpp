@@ -21,7 +21,7 @@ MatchResult match(const typename Kind::Params& params, const LocalMap& local, do
                   std::shared_ptr<const GlobalMap> map, int threads = 1) {
   Kind matcher(params, {std::move(map), threads});
   Rng rng(1);
-  return matcher.match(local, {}, omega_max, rng);
+  return matcher.match({local, {}, omega_max}, rng);
 }
 
 std::shared_ptr<const GlobalMap> map_of(Points points) {

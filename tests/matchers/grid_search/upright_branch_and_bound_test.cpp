@@ -228,7 +228,7 @@ MatchResult match(const LocalMap& local, int threads = 1) {
   UprightBranchAndBound matcher(coarse,
                                 {.map = test::hall_map(), .threads = threads, .motion = Motion::upright});
   Rng rng(1);
-  return matcher.match(local, {}, 0.3, rng);
+  return matcher.match({local, {}, 0.3}, rng);
 }
 
 /// A local map whose frame is not the robot's.

@@ -19,7 +19,7 @@ using test::local_map_at;
 MatchResult match(const IndexedRansam::Params& params, const LocalMap& local, std::uint64_t seed = 1) {
   IndexedRansam matcher(params, {test::small_world(), 1});
   Rng rng(seed);
-  return matcher.match(local, {}, 0.1, rng);
+  return matcher.match({local, {}, 0.1}, rng);
 }
 
 TEST(IndexedRansam, FindsThePoseFromAnywhereWithFewDraws) {
@@ -90,7 +90,7 @@ TEST(IndexedRansam, BlockedBeamsLowerTheScoreAndLeaveTheQuality) {
   const auto best = [&](const Observation& latest) {
     IndexedRansam matcher({.beams = {.weight = 0.25}}, {map, 1});
     Rng rng(1);
-    return matcher.match(local, latest, 0.1, rng).hypotheses.front();
+    return matcher.match({local, latest, 0.1}, rng).hypotheses.front();
   };
   const Hypothesis free = best({});
   const Hypothesis blocked = best(through_the_wall);
@@ -106,20 +106,20 @@ TEST(IndexedRansam, TheBestPosesAreCarriedToTheNextStep) {
   IndexedRansam matcher({.iterations = 0}, {test::small_world(), 1});
   Rng rng(1);
   for (int i = 0; i < 4; ++i) {
-    const MatchResult drawn = matcher.match(local, {}, 0.1, rng);
+    const MatchResult drawn = matcher.match({local, {}, 0.1}, rng);
     EXPECT_GT(drawn.proposals, 0U);
     ASSERT_FALSE(drawn.hypotheses.empty());
   }
-  const MatchResult fifth = matcher.match(local, {}, 0.1, rng);
+  const MatchResult fifth = matcher.match({local, {}, 0.1}, rng);
   EXPECT_EQ(fifth.proposals, 0U);
   ASSERT_FALSE(fifth.hypotheses.empty());
   EXPECT_LT(distance(fifth.hypotheses.front().map_from_local, truth), 0.05);
   // Another local frame, or a reset: nothing to carry. The first step comes again, with its draws.
   LocalMap restarted = local;
   restarted.epoch = 1;
-  EXPECT_GT(matcher.match(restarted, {}, 0.1, rng).proposals, 0U);
+  EXPECT_GT(matcher.match({restarted, {}, 0.1}, rng).proposals, 0U);
   matcher.reset();
-  EXPECT_GT(matcher.match(local, {}, 0.1, rng).proposals, 0U);
+  EXPECT_GT(matcher.match({local, {}, 0.1}, rng).proposals, 0U);
 }
 
 /// The same room twelve times, 20 m apart: as many right poses.
@@ -144,10 +144,9 @@ TEST(IndexedRansam, LookAlikesOutsideOfAPriorTakeNoPlaceOfTheRightPose) {
     const Pose2 start = truth * local_from_start;
     const PoseGate gate({.region = {start.x + 1.0, start.y, 2.0}, .heading = {}}, local_from_start);
     IndexedRansam matcher({.candidates = 4, .best = 2, .carried = 2}, {twelve_worlds(), 1});
-    matcher.restrict_to(gate);
     Rng rng(3);
     for (int step = 0; step < 6; ++step) {
-      const auto found = matcher.match(local, {}, 0.1, rng).hypotheses;
+      const auto found = matcher.match({local, {}, 0.1, gate}, rng).hypotheses;
       for (const Hypothesis& h : found) EXPECT_TRUE(gate.allows(h.map_from_local));
       if (step < 4) continue;
       ASSERT_FALSE(found.empty());
@@ -162,9 +161,8 @@ TEST(IndexedRansam, TheExactSearchKeepsToThePrior) {
   IndexedRansam::Params params{.iterations = 0, .first_iterations = 0, .best = 2};
   params.exact_search = {.after_steps = 1, .max_poses = 4};
   IndexedRansam matcher(params, {twelve_worlds(), 1});
-  matcher.restrict_to(gate);
   Rng rng(3);
-  const auto found = matcher.match(local, {}, 0.1, rng).hypotheses;
+  const auto found = matcher.match({local, {}, 0.1, gate}, rng).hypotheses;
   ASSERT_FALSE(found.empty());
   EXPECT_LT(distance(found.front().map_from_local, Pose2{145.5, 2.5, 0.7}), 0.05);
 }
@@ -223,7 +221,7 @@ TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWherePairsCannot) {
     const auto answer = [&](const char* relation, int threads) {
       IndexedRansam matcher({.relation = relation}, {map, threads});
       Rng draws(static_cast<std::uint64_t>(place));
-      return matcher.match(local, {}, 0.5, draws).hypotheses;
+      return matcher.match({local, {}, 0.5}, draws).hypotheses;
     };
     for (const char* relation : {"triangle", "auto"}) {
       const std::vector<Hypothesis> found = answer(relation, 1);
@@ -250,7 +248,7 @@ TEST(IndexedRansam, AnExactSearchFindsWhatDrawsDoNot) {
   params.exact_search = {.after_steps = 2, .margin = 1.0};
   IndexedRansam matcher(params, {test::small_world(), 1});
   Rng rng(1);
-  const auto match = [&](const LocalMap& map) { return matcher.match(map, {}, 0.1, rng).hypotheses; };
+  const auto match = [&](const LocalMap& map) { return matcher.match({map, {}, 0.1}, rng).hypotheses; };
   EXPECT_TRUE(match(local).empty());
   const auto found = match(local);
   ASSERT_FALSE(found.empty());
@@ -270,9 +268,9 @@ TEST(IndexedRansam, AClearBestPoseNeedsNoExactSearch) {
   params.exact_search = {.after_steps = 1, .margin = 0.0};
   IndexedRansam matcher(params, {test::small_world(), 1});
   Rng rng(1);
-  for (int i = 0; i < 3; ++i) (void)matcher.match(local, {}, 0.1, rng);
-  (void)matcher.match(local, {}, 0.1, rng);
-  EXPECT_EQ(matcher.match(local, {}, 0.1, rng).proposals, 0U);
+  for (int i = 0; i < 3; ++i) (void)matcher.match({local, {}, 0.1}, rng);
+  (void)matcher.match({local, {}, 0.1}, rng);
+  EXPECT_EQ(matcher.match({local, {}, 0.1}, rng).proposals, 0U);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST_P(IRansacWithOrWithoutHashing, FindsThePose) {
   for (int i = 0; i < places; ++i) {
     const Pose2 truth = test::somewhere_in_small_world(i, rng);
     matcher.reset();
-    right += is_right(matcher.match(local_map_at(truth, 5.0), {}, 0.5, rng), truth) ? 1 : 0;
+    right += is_right(matcher.match({local_map_at(truth, 5.0), {}, 0.5}, rng), truth) ? 1 : 0;
   }
   EXPECT_GE(right, places - 1);
 }
@@ -43,7 +43,8 @@ TEST_P(IRansacWithOrWithoutHashing, AnswersAlikeForAnyNumberOfThreads) {
   Rng rng_of_two(1);
   for (const double reach : {3.0, 4.0, 5.0}) {
     const LocalMap local = local_map_at({5.5, 2.5, 0.7}, reach);
-    test::expect_same_answer(one.match(local, {}, 0.2, rng_of_one), two.match(local, {}, 0.2, rng_of_two));
+    test::expect_same_answer(one.match({local, {}, 0.2}, rng_of_one),
+                             two.match({local, {}, 0.2}, rng_of_two));
   }
 }
 
@@ -57,7 +58,7 @@ class IRansacPool : public ::testing::Test {
     IRansac matcher({}, {test::small_world(), 1});
     Rng rng(2);
     LocalMap local = local_map_at(truth_, 5.0);
-    EXPECT_TRUE(is_right(matcher.match(local, {}, 0.5, rng), truth_));
+    EXPECT_TRUE(is_right(matcher.match({local, {}, 0.5}, rng), truth_));
     if (reset_between) matcher.reset();
     local.epoch = epoch;
     local.local_from_robot = Pose2{0.3, 0.0, 0.1};  // the robot has moved on in its local map
@@ -66,7 +67,7 @@ class IRansacPool : public ::testing::Test {
     for (std::size_t i = 0; i < 3; ++i) few.push_back(local.points[i * local.points.size() / 3]);
     local.points = few;
     local.ends = {few.size()};
-    return matcher.match(local, {}, 0.5, rng);
+    return matcher.match({local, {}, 0.5}, rng);
   }
   const Pose2 truth_{2.0, 2.5, 0.5};
 };
@@ -87,7 +88,7 @@ TEST_F(IRansacPool, IsForgottenByAResetAndInANewFrame) {
 TEST(IRansac, AnEmptyLocalMapFitsNowhere) {
   IRansac matcher({}, {test::small_world(), 1});
   Rng rng(1);
-  EXPECT_TRUE(matcher.match(LocalMap{}, {}, 0.0, rng).hypotheses.empty());
+  EXPECT_TRUE(matcher.match({LocalMap{}, {}, 0.0}, rng).hypotheses.empty());
 }
 
 }  // namespace

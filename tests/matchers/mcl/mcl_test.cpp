@@ -85,7 +85,7 @@ TEST_P(MclModels, ConvergesFromAnywhereAndTracks) {
     truth = pose;
     const Observation observation = observation_at(pose);
     Rng rng(step++);
-    result = matcher.match(local_map_of(observation), observation, 0.0, rng);
+    result = matcher.match({local_map_of(observation), observation, 0.0}, rng);
     EXPECT_TRUE(step > 1 || result.proposals == 8000U);
   }
   ASSERT_FALSE(result.hypotheses.empty());
@@ -106,7 +106,7 @@ TEST(Mcl, HypothesesAreTheParticlesInTheFrameOfTheLocalMap) {
   local.local_from_robot = Pose2{1.0, -2.0, 0.8};
   Mcl matcher(many_particles("likelihood_field"), {walled_world(), 1});
   Rng rng(1);
-  const auto found = matcher.match(local, observation, 0.0, rng).hypotheses;
+  const auto found = matcher.match({local, observation, 0.0}, rng).hypotheses;
   ASSERT_EQ(found.size(), 1000U);
   const auto contact = contact_index(*walled_world(), "kd_tree", 0.1);
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -126,8 +126,8 @@ TEST(Mcl, SupportAddsUpToTheParticles) {
   Mcl matcher(params, {walled_world(), 1});
   const Observation observation = observation_at({2.0, 2.0, 0.5});
   Rng rng(1);
-  (void)matcher.match(local_map_of(observation), observation, 0.0, rng);
-  const MatchResult second = matcher.match(local_map_of(observation), observation, 0.0, rng);
+  (void)matcher.match({local_map_of(observation), observation, 0.0}, rng);
+  const MatchResult second = matcher.match({local_map_of(observation), observation, 0.0}, rng);
   // `proposals` are those before resampling; as the world is small, there may be fewer after it.
   EXPECT_LE(total_support(second.hypotheses), second.proposals);
   EXPECT_GE(total_support(second.hypotheses), 500U);
@@ -146,7 +146,7 @@ TEST(Mcl, WithoutAScanThereIsNoAnswerButTheMotionCounts) {
     const LocalMap local = local_map_of(observation);
     if (!sees) observation.scan.hits.clear();
     Rng rng(1);
-    return matcher.match(local, observation, 0.0, rng).hypotheses;
+    return matcher.match({local, observation, 0.0}, rng).hypotheses;
   };
   const auto first = match(start, true);
   ASSERT_EQ(first.size(), 1U);
@@ -168,7 +168,7 @@ TEST(Mcl, ASmallMotionMovesTheAnswerButIsNoUpdate) {
   const auto match = [&](const Pose2& pose) {
     const Observation observation = observation_at(pose);
     Rng rng(1);
-    return matcher.match(local_map_of(observation), observation, 0.0, rng);
+    return matcher.match({local_map_of(observation), observation, 0.0}, rng);
   };
   const Pose3 before = heaviest(match(start).hypotheses).map_from_local;
   const MatchResult result = match(start * little);
@@ -198,7 +198,7 @@ TEST(Mcl, FindsAKidnappedRobotAgainOnlyWithNewParticles) {
     std::vector<Hypothesis> found;
     const auto observe = [&](const Observation& observation) {
       Rng rng(step++);
-      found = matcher.match(local_map_of(observation), observation, 0.0, rng).hypotheses;
+      found = matcher.match({local_map_of(observation), observation, 0.0}, rng).hypotheses;
     };
     const auto way = way_through_small_world();
     for (const Pose2& pose : way) observe(observation_at(pose));
@@ -224,8 +224,8 @@ TEST(Mcl, AnswersAlikeForAnyNumberOfThreads) {
     const Observation observation = observation_at(pose);
     Rng rng(step);
     Rng same(step++);
-    test::expect_same_answer(one.match(local_map_of(observation), observation, 0.0, rng),
-                             two.match(local_map_of(observation), observation, 0.0, same));
+    test::expect_same_answer(one.match({local_map_of(observation), observation, 0.0}, rng),
+                             two.match({local_map_of(observation), observation, 0.0}, same));
   }
 }
 

@@ -17,7 +17,7 @@ MatchResult match(const Ransac::Params& params, const LocalMap& local, double om
                   std::uint64_t seed = 1, int threads = 1) {
   Ransac matcher(params, {test::small_world(), threads});
   Rng rng(seed);
-  return matcher.match(local, {}, omega_max, rng);
+  return matcher.match({local, {}, omega_max}, rng);
 }
 
 TEST(PointPair, IsLaidMiddleOnMiddle) {

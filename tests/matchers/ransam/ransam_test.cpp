@@ -19,7 +19,7 @@ MatchResult match(const TripleSearch& triples, const LocalMap& local, double ome
                   std::uint64_t seed = 1) {
   Ransam ransam({.triples = triples}, {test::small_world(), threads});
   Rng rng(seed);
-  return ransam.match(local, {}, omega_max, rng);
+  return ransam.match({local, {}, omega_max}, rng);
 }
 
 double brute_force_quality(const Points& local, const Pose3& map_from_local, double epsilon) {
@@ -48,17 +48,16 @@ TEST(Ransam, APriorLeavesThoseHypothesesThatItAllows) {
   const LocalMap local = local_map_at({2.0, 6.0, -1.0}, 2.5);
   const PoseGate gate({.region = {2.5, 6.0, 1.0}, .heading = {-40.0, 60.0}}, {});
   Ransam ransam({.triples = {.iterations = 50000, .max_hypotheses = 1000000}}, {test::small_world(), 1});
-  const auto match_again = [&] {
+  const auto match_within = [&](const PoseGate& allowed) {
     Rng rng(1);
-    return ransam.match(local, {}, 0.6, rng).hypotheses;
+    return ransam.match({local, {}, 0.6, allowed}, rng).hypotheses;
   };
-  std::vector<Hypothesis> all = match_again();
+  std::vector<Hypothesis> all = match_within({});
   const std::size_t everywhere = all.size();
   std::erase_if(all, [&](const Hypothesis& h) { return !gate.allows(h.map_from_local); });
   ASSERT_GT(all.size(), 10U);
   ASSERT_LT(all.size(), everywhere);
-  ransam.restrict_to(gate);
-  const std::vector<Hypothesis> left = match_again();
+  const std::vector<Hypothesis> left = match_within(gate);
   ASSERT_EQ(left.size(), all.size());
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(left[i].map_from_local, all[i].map_from_local);
 }
@@ -136,9 +135,9 @@ TEST(Ransam, ASecondMatchDoesNotDependOnTheFirst) {
   const TripleSearch triples{.iterations = 20000};
   Ransam used({.triples = triples}, {test::small_world(), 1});
   Rng other(99);
-  (void)used.match(local_map_at({5.5, 2.5, 0.7}, 3.0), {}, 0.5, other);
+  (void)used.match({local_map_at({5.5, 2.5, 0.7}, 3.0), {}, 0.5}, other);
   Rng rng(1);
-  const MatchResult second = used.match(local, {}, 0.6, rng);
+  const MatchResult second = used.match({local, {}, 0.6}, rng);
   const MatchResult fresh = match(triples, local, 0.6);
   EXPECT_EQ(second.proposals, fresh.proposals);
   ASSERT_EQ(second.hypotheses.size(), fresh.hypotheses.size());
@@ -161,7 +160,7 @@ TEST(Ransam, LocalDrawsGiveMoreCorrectHypothesesOnALargeMap) {
   const auto correct = [&](double local_radius) {
     Ransam ransam({.triples = {.iterations = 50000, .local_radius = local_radius}}, {map, 1});
     Rng match_rng(1);
-    const MatchResult result = ransam.match(local_map_at(truth, 3.0), {}, 0.7, match_rng);
+    const MatchResult result = ransam.match({local_map_at(truth, 3.0), {}, 0.7}, match_rng);
     return std::count_if(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
       return distance(h.map_from_local, truth) < 0.3 && rotation_between(h.map_from_local, truth) < 0.2;
     });
@@ -251,7 +250,7 @@ MatchResult match_in_three_rooms(double blocked_weight, const Observation& lates
   Ransam ransam({.triples = {.iterations = 100000}, .beams = {.weight = blocked_weight}},
                 {three_rooms(), threads});
   Rng rng(1);
-  return ransam.match(local_map_at(in_first_room, 3.0), latest, 0.8, rng);
+  return ransam.match({local_map_at(in_first_room, 3.0), latest, 0.8}, rng);
 }
 
 /// How many hypotheses lie at the robot's place in a room, 0 to 2.
@@ -322,7 +321,7 @@ TEST(Ransam, BeamsOfEarlierStepsCountUntilTheLocalFrameChanges) {
   LocalMap local = local_map_at(in_first_room, 3.0);
   const auto wrong_room = [&](const Observation& latest) {
     Rng rng(1);
-    return in_room(1, ransam.match(local, latest, 0.8, rng));
+    return in_room(1, ransam.match({local, latest, 0.8}, rng));
   };
   EXPECT_GT(wrong_room({}), 0);
   EXPECT_EQ(wrong_room(three_beams_of_four()), 0);

@@ -27,7 +27,7 @@ const TriangleRansam::Params params{
 MatchResult match(Motion motion, const LocalMap& local, double omega_max, int threads = 1) {
   TriangleRansam ransam(params, {.map = test::hall_map(), .threads = threads, .motion = motion});
   Rng rng(1);
-  return ransam.match(local, {}, omega_max, rng);
+  return ransam.match({local, {}, omega_max}, rng);
 }
 
 TEST(TriangleRansam, FindsThePoseOfATiltedSensor) {

@@ -133,7 +133,7 @@ TEST(SurfelRansam, FindsASensorThatIsHeldAnyWayUnlessItMaySlide) {
     const Pose3 truth = somewhere(rng, false);
     const Seen seen(truth);
     Rng draws(i);
-    const auto found = matcher(Motion::free).match(seen.local, seen.latest, 0.1, draws).hypotheses;
+    const auto found = matcher(Motion::free).match({seen.local, seen.latest, 0.1}, draws).hypotheses;
     ASSERT_GE(found.size(), 2U);
     const bool may_slide = found[1].score > found[0].score - 0.005;
     const bool is_right = is_near(found[0].map_from_local, truth);
@@ -150,7 +150,7 @@ TEST(SurfelRansam, UprightPosesTurnAboutZAlone) {
     const Pose3 truth = somewhere(rng, true);
     const Seen seen(truth);
     Rng draws(i);
-    const auto found = matcher(Motion::upright).match(seen.local, seen.latest, 0.0, draws).hypotheses;
+    const auto found = matcher(Motion::upright).match({seen.local, seen.latest, 0.0}, draws).hypotheses;
     ASSERT_FALSE(found.empty());
     for (const Hypothesis& h : found) {
       EXPECT_EQ(h.map_from_local.rotation.x, 0.0);
@@ -167,7 +167,7 @@ TEST(SurfelRansam, TheQualityIsTheContactOfTheLocalMap) {
   const KdTreeContact surely(furnished()->points(), 0.8 * 0.1);
   const KdTreeContact perhaps(furnished()->points(), 1.2 * 0.1);
   Rng rng(1);
-  const auto found = matcher(Motion::free).match(seen.local, seen.latest, 0.0, rng).hypotheses;
+  const auto found = matcher(Motion::free).match({seen.local, seen.latest, 0.0}, rng).hypotheses;
   ASSERT_FALSE(found.empty());
   double last = 1.0;
   for (const Hypothesis& h : found) {
@@ -186,7 +186,7 @@ TEST(SurfelRansam, FindsTheRobotInWhateverFrameTheLocalMapIs) {
   seen.local.local_from_robot = {{4.0, -7.0, 1.0}, exponential({0.5, 0.1, -1.0})};
   seen.local.points = moved(seen.local.points, seen.local.local_from_robot);
   Rng rng(3);
-  const auto found = matcher(Motion::free).match(seen.local, seen.latest, 0.1, rng).hypotheses;
+  const auto found = matcher(Motion::free).match({seen.local, seen.latest, 0.1}, rng).hypotheses;
   ASSERT_FALSE(found.empty());
   EXPECT_TRUE(is_near(found.front().map_from_local * seen.local.local_from_robot, truth));
 }
@@ -205,10 +205,9 @@ TEST(SurfelRansam, OfTwoPosesThatAreAlikeItFindsTheOneThatThePriorAllows) {
   for (const Pose3& wanted : {truth, alike}) {
     const PoseGate gate({.region = {wanted.x + 1.0, wanted.y, 2.0}, .heading = {}}, {});
     SurfelRansam one({.best = 1, .carried = 1, .pairs = 100000}, {.map = empty, .motion = Motion::upright});
-    one.restrict_to(gate);
     Rng rng(5);
     for (int step = 0; step < 2; ++step) {
-      const auto found = one.match(seen.local, seen.latest, 0.1, rng).hypotheses;
+      const auto found = one.match({seen.local, seen.latest, 0.1, gate}, rng).hypotheses;
       ASSERT_EQ(found.size(), 1U);
       EXPECT_TRUE(is_near(found.front().map_from_local, wanted)) << step;
     }
@@ -228,7 +227,7 @@ TEST(SurfelRansam, WhatTheLatestScanLookedThroughSpeaksAgainstAPose) {
       Rng rng(1);
       const Observation latest = i == 0 ? Observation{} : seen.latest;
       const auto found =
-          matcher(Motion::upright, {.pairs = 100000}, map).match(seen.local, latest, 0.1, rng).hypotheses;
+          matcher(Motion::upright, {.pairs = 100000}, map).match({seen.local, latest, 0.1}, rng).hypotheses;
       EXPECT_TRUE(is_near(found.at(0).map_from_local, truth));
       scores[i] = found.at(0).score;
     }
@@ -278,7 +277,7 @@ TEST(SurfelRansam, PointsWhereTheMapIsFreeSpeakAgainstAPose) {
     const SurfelRansam::Params params{
         .pairs = 100000, .seen_through_weight = 0.0, .free_space_weight = weight};
     SurfelRansam made = matcher(Motion::upright, params, before_the_furniture(is_known));
-    return made.match(seen.local, seen.latest, 0.0, rng).hypotheses.at(0);
+    return made.match({seen.local, seen.latest, 0.0}, rng).hypotheses.at(0);
   };
   const Hypothesis unknown = best(false, 1.0);
   EXPECT_FALSE(unknown.free_space_violation);
@@ -330,7 +329,7 @@ TEST(SurfelRansam, OfTwoHallsThatLookAlikeItTakesTheOneWhereNothingIsKnownToBeFr
     Rng rng(1);
     SurfelRansam made = matcher(Motion::upright, {.pairs = 100000, .free_space_weight = weight}, map);
     std::array<double, 2> found{};
-    for (const Hypothesis& h : made.match(seen.local, seen.latest, 0.0, rng).hypotheses) {
+    for (const Hypothesis& h : made.match({seen.local, seen.latest, 0.0}, rng).hypotheses) {
       if (is_near(h.map_from_local, truth)) found[0] = h.score;
       if (is_near(h.map_from_local, other)) found[1] = h.score;
     }
@@ -348,30 +347,29 @@ TEST(SurfelRansam, TheBestPosesAreCarriedToTheNextStep) {
   Seen seen(truth);
   SurfelRansam carrying = matcher(Motion::upright, {.pairs = 100000, .rounds = 0});
   Rng rng(1);
-  EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
-  const MatchResult second = carrying.match(seen.local, seen.latest, 0.1, rng);
+  EXPECT_GT(carrying.match({seen.local, seen.latest, 0.1}, rng).proposals, 0U);
+  const MatchResult second = carrying.match({seen.local, seen.latest, 0.1}, rng);
   EXPECT_EQ(second.proposals, 0U);
   ASSERT_FALSE(second.hypotheses.empty());
   EXPECT_TRUE(is_near(second.hypotheses.front().map_from_local, truth));
   // Poses in another local frame mean nothing, nor do they after a reset.
   seen.local.epoch = 1;
-  EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
+  EXPECT_GT(carrying.match({seen.local, seen.latest, 0.1}, rng).proposals, 0U);
   carrying.reset();
-  EXPECT_GT(carrying.match(seen.local, seen.latest, 0.1, rng).proposals, 0U);
+  EXPECT_GT(carrying.match({seen.local, seen.latest, 0.1}, rng).proposals, 0U);
 }
 
 TEST(SurfelRansam, PosesThatAVerifierHasFoundAreJudgedAsItsOwnAndCarriedOn) {
   const Pose3 truth{{3.0, 2.5, 1.0}, turn_about_z(-2.0)};
   const Seen seen(truth);
   Rng rng(1);
-  const MatchResult own = matcher(Motion::upright).match(seen.local, seen.latest, 0.1, rng);
+  const MatchResult own = matcher(Motion::upright).match({seen.local, seen.latest, 0.1}, rng);
   ASSERT_TRUE(is_near(own.hypotheses.at(0).map_from_local, truth));
 
   // One that has looked elsewhere.
   SurfelRansam misled = matcher(Motion::upright, {.pairs = 100000, .rounds = 0});
-  misled.restrict_to(PoseGate({.region = {9.0, 6.0, 1.5}, .heading = {}}, {}));
-  (void)misled.match(seen.local, seen.latest, 0.0, rng);
-  misled.restrict_to({});
+  const PoseGate elsewhere({.region = {9.0, 6.0, 1.5}, .heading = {}}, {});
+  (void)misled.match({seen.local, seen.latest, 0.0, elsewhere}, rng);
   const Pose3 beside{truth.translation() + Vector3{0.08, -0.06, 0.05}, turn_about_z(0.03) * truth.rotation};
   const Pose3 wrong{{6.0, 4.0, 1.0}, turn_about_z(0.5)};
   const auto taken_up =
@@ -382,7 +380,7 @@ TEST(SurfelRansam, PosesThatAVerifierHasFoundAreJudgedAsItsOwnAndCarriedOn) {
   EXPECT_NEAR(taken_up[0].quality, own.hypotheses.front().quality, 0.02);
   EXPECT_GE(taken_up[1].score, 0.0);
   EXPECT_LT(taken_up[1].score, taken_up[0].score - 0.2);
-  const MatchResult next = misled.match(seen.local, seen.latest, 0.1, rng);
+  const MatchResult next = misled.match({seen.local, seen.latest, 0.1}, rng);
   EXPECT_EQ(next.proposals, 0U);
   ASSERT_FALSE(next.hypotheses.empty());
   EXPECT_TRUE(is_near(next.hypotheses.front().map_from_local, truth));
@@ -394,7 +392,7 @@ TEST(SurfelRansam, AnswersAlikeAfterAReset) {
   const auto answer = [&] {
     same.reset();
     Rng rng(4);
-    return same.match(seen.local, seen.latest, 0.0, rng);
+    return same.match({seen.local, seen.latest, 0.0}, rng);
   };
   const MatchResult first = answer();
   const MatchResult again = answer();
@@ -409,7 +407,7 @@ TEST(SurfelRansam, AnswersAlikeAfterAReset) {
 
 TEST(SurfelRansam, FindsNothingForAnEmptyLocalMap) {
   Rng rng(1);
-  EXPECT_TRUE(matcher(Motion::free).match({}, {}, 0.0, rng).hypotheses.empty());
+  EXPECT_TRUE(matcher(Motion::free).match({{}, {}, 0.0}, rng).hypotheses.empty());
 }
 
 TEST(SurfelRansam, AMapWithoutSurfacesIsAnError) {
@@ -439,7 +437,7 @@ TEST(SurfelRansam, FindsScansOfABuilding) {
     local.ends = {local.points.size()};
     in_building.reset();
     Rng rng(i);
-    const auto found = in_building.match(local, sample->observation, 0.1, rng).hypotheses;
+    const auto found = in_building.match({local, sample->observation, 0.1}, rng).hypotheses;
     ASSERT_FALSE(found.empty());
     EXPECT_LT(distance(found.front().map_from_local, *sample->map_from_robot), 0.3);
     EXPECT_LT(rotation_between(found.front().map_from_local, *sample->map_from_robot), radians(3.0));

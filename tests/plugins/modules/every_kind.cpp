@@ -75,11 +75,10 @@ class Oracle final : public Matcher {
  public:
   using Params = NoParams;
   explicit Oracle(const Params& /*params*/) {}
-  MatchResult match(const LocalMap& local, const Observation& /*latest*/, double omega_max,
-                    Rng& /*rng*/) override {
-    if (local.points.empty() || omega_max > 1.0) return {};
+  MatchResult match(const MatchRequest& request, Rng& /*rng*/) override {
+    if (request.local.points.empty() || request.omega_max > 1.0) return {};
     const Pose2 pose{4.0, 4.0, 0.0};
-    return {{Hypothesis::by_contact(pose, 1.0)}, 1, local.points.size()};
+    return {{Hypothesis::by_contact(pose, 1.0)}, 1, request.local.points.size()};
   }
   void reset() override {}
 };

@@ -27,9 +27,8 @@ class IllBehaved final : public Matcher {
   };
   explicit IllBehaved(const Params& params) : params_(params), how_(params.how) {}
 
-  MatchResult match(const LocalMap& /*local*/, const Observation& latest, double /*omega_max*/,
-                    Rng& /*rng*/) override {
-    if (params_.stamp >= 0.0 && latest.stamp != params_.stamp) return {};
+  MatchResult match(const MatchRequest& request, Rng& /*rng*/) override {
+    if (params_.stamp >= 0.0 && request.latest.stamp != params_.stamp) return {};
     if (!params_.once.empty()) {
       if (std::filesystem::exists(params_.once)) return {};
       const std::ofstream mark(params_.once);
