@@ -48,13 +48,14 @@ Pose farthest_from(const Pose& pose, std::span<const Item<Pose>> items, const Me
 /// in order. Seeds are far apart: the item farthest from the mean, and the one farthest from that. Returns
 /// the size of the first half; all of them if they coincide.
 template <class Pose>
-std::size_t split(std::span<Item<Pose>> items, const Pose& mean, const Metric& metric, int max_iterations) {
+std::size_t split(std::span<Item<Pose>> items, const Pose& mean, const Metric& metric) {
+  constexpr int most_rounds = 20;  // of assignment; most splits end by themselves after a few
   std::array<Pose, 2> centres;
   centres[0] = farthest_from<Pose>(mean, items, metric);
   centres[1] = farthest_from<Pose>(centres[0], items, metric);
   std::vector<char> in_second(items.size(), 0);
   std::vector<char> next(items.size());
-  for (int round = 0; round <= max_iterations; ++round) {
+  for (int round = 0; round <= most_rounds; ++round) {
     std::array sums{Sums<Pose>(centres[0]), Sums<Pose>(centres[1])};
     for (std::size_t i = 0; i < items.size(); ++i) {
       const Pose& pose = items[i].pose;
@@ -92,7 +93,7 @@ struct Limits {
 
 /// Splits all that is wider than the limits.
 template <class Pose>
-std::vector<Cluster> split_all(std::vector<Item<Pose>> items, const Limits& limits, int max_iterations) {
+std::vector<Cluster> split_all(std::vector<Item<Pose>> items, const Limits& limits) {
   const Metric metric{1.0 / limits.translation, 1.0 / limits.rotation};
   std::vector<Cluster> done;
   std::vector<std::span<Item<Pose>>> open{items};
@@ -101,7 +102,7 @@ std::vector<Cluster> split_all(std::vector<Item<Pose>> items, const Limits& limi
     open.pop_back();
     Cluster cluster = moments(part);
     if (!limits.hold(cluster)) {
-      const std::size_t first = split(part, pose_as<Pose>(cluster.map_from_robot), metric, max_iterations);
+      const std::size_t first = split(part, pose_as<Pose>(cluster.map_from_robot), metric);
       open.push_back(part.subspan(first));
       open.push_back(part.first(first));
       continue;
@@ -126,10 +127,6 @@ void describe(ParamVisitor& v, HierarchicalKmeans::Params& p) {
        .unit = "deg^2",
        .above = 0.0,
        .audience = Audience::tuner});
-  v.field("max_iterations", p.max_iterations,
-          {.doc = "Rounds of assignment in each split; most end by themselves after a few.",
-           .min = 1,
-           .audience = Audience::expert});
 }
 
 std::vector<Cluster> HierarchicalKmeans::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
@@ -138,8 +135,8 @@ std::vector<Cluster> HierarchicalKmeans::cluster(const std::vector<Hypothesis>& 
   const Limits limits{params_.max_variance_translation, params_.max_variance_rotation_deg2 * degree * degree};
   std::vector<std::size_t> all(hypotheses.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return are_planar(hypotheses) ? split_all(items_of<Pose2>(hypotheses, all), limits, params_.max_iterations)
-                                : split_all(items_of<Pose3>(hypotheses, all), limits, params_.max_iterations);
+  return are_planar(hypotheses) ? split_all(items_of<Pose2>(hypotheses, all), limits)
+                                : split_all(items_of<Pose3>(hypotheses, all), limits);
 }
 
 }  // namespace glocal::clustering

@@ -15,7 +15,6 @@ class HierarchicalKmeans final : public Clusterer {
   struct Params {
     double max_variance_translation = 0.0030;
     double max_variance_rotation_deg2 = 50.0;
-    int max_iterations = 20;
   };
 
   explicit HierarchicalKmeans(const Params& params) : params_(params) {}

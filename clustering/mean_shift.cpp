@@ -169,12 +169,13 @@ Shift<Pose> mean_shift(const Pose& pose, const Climbers<Pose>& all, const Surrou
 
 /// Where each climber ends.
 template <class Pose>
-std::vector<Pose> modes_of(const Climbers<Pose>& climbers, const Kernel& kernel, int max_iterations) {
-  constexpr double still = 1e-3;  // bandwidths
+std::vector<Pose> modes_of(const Climbers<Pose>& climbers, const Kernel& kernel) {
+  constexpr double still = 1e-3;   // bandwidths
+  constexpr int most_steps = 100;  // most climbs end by themselves before
   const Surroundings<Pose> surroundings(climbers.poses, kernel);
   std::vector<Pose> modes = climbers.poses;
   for (Pose& mode : modes) {
-    for (int i = 0; i < max_iterations; ++i) {
+    for (int i = 0; i < most_steps; ++i) {
       const Shift<Pose> shift = mean_shift(mode, climbers, surroundings, kernel);
       mode = shift.from(mode);
       if (shift.squared(kernel.bandwidth) < still * still) break;
@@ -186,10 +187,9 @@ std::vector<Pose> modes_of(const Climbers<Pose>& climbers, const Kernel& kernel,
 /// For each pose a number of its cluster, the same for all of them.
 template <class Pose, class Together>
 std::vector<std::size_t> labels_of(const Together& together, std::span<const Pose> poses,
-                                   std::span<const double> weights, const Kernel& kernel,
-                                   int max_iterations) {
+                                   std::span<const double> weights, const Kernel& kernel) {
   const Climbers<Pose> climbers = gather(together, poses, weights);
-  const std::vector<Pose> modes = modes_of(climbers, kernel, max_iterations);
+  const std::vector<Pose> modes = modes_of(climbers, kernel);
   // Without a least weight, poses near each other are simply linked.
   const std::vector<std::size_t> ends = density_labels(modes, climbers.weights, kernel.bandwidth, 0.0);
   std::vector<std::size_t> labels(poses.size());
@@ -220,11 +220,6 @@ void describe(ParamVisitor& v, MeanShift::Params& p) {
            .min = 0.01,
            .max = 60.0,
            .audience = Audience::tuner});
-  v.field("max_iterations", p.max_iterations,
-          {.doc = "Steps of a climb; most end by themselves before.",
-           .min = 1,
-           .max = 100000,
-           .audience = Audience::expert});
 }
 
 std::vector<Cluster> MeanShift::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
@@ -232,7 +227,7 @@ std::vector<Cluster> MeanShift::cluster(const std::vector<Hypothesis>& hypothese
   const PoseRadius near{0.25 * kernel.bandwidth.translation, 0.25 * kernel.bandwidth.rotation};
   const std::vector<double> weights = supports(hypotheses);
   const auto labels = [&](const auto& together, const auto& poses) {
-    return labels_of(together, std::span(poses), std::span(weights), kernel, params_.max_iterations);
+    return labels_of(together, std::span(poses), std::span(weights), kernel);
   };
   if (are_planar(hypotheses)) {
     const std::vector<Pose2> poses = robot_poses<Pose2>(hypotheses);

@@ -23,7 +23,6 @@ class MeanShift final : public Clusterer {
     std::string kernel = "gaussian";
     double bandwidth = 0.15;
     double bandwidth_rotation_deg = 8.0;
-    int max_iterations = 100;
   };
 
   explicit MeanShift(const Params& params) : params_(params) {}

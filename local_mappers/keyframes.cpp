@@ -3,6 +3,12 @@
 #include <cmath>
 
 namespace glocal::local_mappers {
+namespace {
+
+/// A hit lies on the map if a point of the map is at most this far away, m.
+constexpr double overlap_distance = 0.1;
+
+}  // namespace
 
 void describe(ParamVisitor& v, Keyframes::Params& p) {
   v.field("distance", p.distance,
@@ -21,15 +27,7 @@ void describe(ParamVisitor& v, Keyframes::Params& p) {
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::expert});
-  v.field("overlap_distance", p.overlap_distance,
-          {.doc = "A hit lies on the map if a point of the map is at most this far away; at most the gate of "
-                  "the refinement.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
   describe(v, p.matching);
-  v.require(p.overlap_distance <= p.matching.refinement.match_distance, "overlap_distance",
-            "must be at most refinement's gate");
 }
 
 void Keyframes::reset() {
@@ -64,7 +62,7 @@ double Keyframes::overlap(const Points& hits) const {
     const int found = matching_.grid().nearest(hits.x[i], hits.y[i]);
     if (found == PointGrid::none) continue;
     const Point p = map().points[static_cast<std::size_t>(found)];
-    if (std::hypot(p.x - hits.x[i], p.y - hits.y[i]) <= params_.overlap_distance) ++near;
+    if (std::hypot(p.x - hits.x[i], p.y - hits.y[i]) <= overlap_distance) ++near;
   }
   return static_cast<double>(near) / static_cast<double>(hits.size());
 }

@@ -19,7 +19,6 @@ class Keyframes final : public LocalMapper {
     double distance = 0.5;
     double angle_deg = 20.0;
     double overlap = 0.6;
-    double overlap_distance = 0.1;
     ScanMatching::Params matching = {};
   };
 

@@ -3,14 +3,15 @@
 #include <algorithm>
 
 namespace glocal::local_mappers {
+namespace {
+
+/// Standard deviation of a hit around a point of the map, in the search, m.
+constexpr double likelihood_sigma = 0.1;
+
+}  // namespace
 
 void describe(ParamVisitor& v, ScanMatching::Params& p) {
   describe(v, p.voxels);
-  v.field("likelihood_sigma", p.likelihood_sigma,
-          {.doc = "Standard deviation of a hit around a point of the map, in the search.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
   v.field("normals", p.normals, {.doc = "Normals of a scan.", .audience = Audience::expert});
   v.field("search", p.search, {.doc = "Search around odometry.", .audience = Audience::expert});
   v.field("wide_search", p.wide_search,
@@ -48,7 +49,7 @@ ScanMatching::ScanMatching(const Params& params)
       map_(params.voxels,
            std::min(cells_in(params.refinement.match_distance, params.voxels.resolution),
                     PointGrid::max_reach),
-           params.likelihood_sigma) {}
+           likelihood_sigma) {}
 
 void ScanMatching::reset() {
   map_.reset();

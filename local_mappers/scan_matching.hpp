@@ -23,7 +23,6 @@ class ScanMatching final : public LocalMapper {
  public:
   struct Params {
     VoxelParams voxels;
-    double likelihood_sigma = 0.1;
     ScanNormalParams normals;
     CorrelativeSearchParams search;
     CorrelativeSearchParams wide_search{.translation = 0.75, .rotation_deg = 86.0};

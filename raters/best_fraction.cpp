@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace glocal::raters {
+namespace {
+
+/// What a step without hypotheses leaves of the best score and of Omega_max.
+constexpr double empty_share = 0.9;
+
+}  // namespace
 
 void describe(ParamVisitor& v, BestFraction::Params& p) {
   v.field("fraction", p.fraction,
@@ -13,19 +19,14 @@ void describe(ParamVisitor& v, BestFraction::Params& p) {
   v.field("best", p.best,
           {.doc = "Which score is the best: that of the last step, or the best so far.",
            .choices = {"last_step", "so_far"}});
-  v.field("empty_share", p.empty_share,
-          {.doc = "A step without hypotheses leaves this share of the best score and of Omega_max.",
-           .min = 0.0,
-           .max = 0.999,
-           .audience = Audience::expert});
   v.field("initial", p.initial,
           {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0, .audience = Audience::tuner});
 }
 
 void BestFraction::update(const std::vector<Hypothesis>& hypotheses) {
   if (hypotheses.empty()) {
-    best_ *= params_.empty_share;
-    omega_max_ *= params_.empty_share;
+    best_ *= empty_share;
+    omega_max_ *= empty_share;
     return;
   }
   const double score = std::clamp(hypotheses.front().score, 0.0, 1.0);

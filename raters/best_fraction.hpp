@@ -17,7 +17,6 @@ class BestFraction final : public ThresholdPolicy {
   struct Params {
     double fraction = 0.8;
     std::string best = "last_step";
-    double empty_share = 0.9;
     double initial = 0.5;
   };
 

@@ -5,6 +5,9 @@
 namespace glocal::raters {
 namespace {
 
+/// What a step without hypotheses leaves of Omega_max.
+constexpr double share_left_by_nothing = 0.9;
+
 /// The least score such that hypotheses of at most that score have a share `quantile` of all support.
 /// They come in falling score, and are not empty.
 double score_at(double quantile, const std::vector<Hypothesis>& hypotheses) {
@@ -27,17 +30,12 @@ void describe(ParamVisitor& v, QuantileThreshold::Params& p) {
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::tuner});
-  v.field("empty_share", p.empty_share,
-          {.doc = "A step without hypotheses leaves this share of Omega_max.",
-           .min = 0.0,
-           .max = 0.999,
-           .audience = Audience::expert});
   v.field("initial", p.initial,
           {.doc = "Omega_max before the first step.", .min = 0.0, .max = 1.0, .audience = Audience::tuner});
 }
 
 void QuantileThreshold::update(const std::vector<Hypothesis>& hypotheses) {
-  omega_max_ = hypotheses.empty() ? params_.empty_share * omega_max_
+  omega_max_ = hypotheses.empty() ? share_left_by_nothing * omega_max_
                                   : std::clamp(score_at(params_.quantile, hypotheses), 0.0, 1.0);
 }
 

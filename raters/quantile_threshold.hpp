@@ -14,7 +14,6 @@ class QuantileThreshold final : public ThresholdPolicy {
 
   struct Params {
     double quantile = 0.25;
-    double empty_share = 0.9;
     double initial = 0.5;
   };
 

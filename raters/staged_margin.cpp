@@ -17,6 +17,8 @@ constexpr int steady_steps = 3;
 
 /// Poses that are not near each other are rivals.
 constexpr PoseTolerance near;
+/// The verdict is ambiguous if the score of a rival is within this of the best one.
+constexpr double candidate_margin = 0.10;
 
 /// The probability that the best pose is right: logistic in its margin and in the logarithm of the steps in
 /// which it has been the same. Fitted to starts in simulated worlds (docs/method.md). Never 1, however clear
@@ -97,11 +99,6 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
        .min = 0.0,
        .max = 1.0,
        .audience = Audience::tuner});
-  v.field("candidate_margin", p.candidate_margin,
-          {.doc = "The verdict is ambiguous if the score of a rival is within this of the best one.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::tuner});
 }
 
 StagedMargin::StagedMargin(const Params& params, const StageSetup& setup)
@@ -244,7 +241,7 @@ bool StagedMargin::continues(const StepResult& step) const {
 std::vector<Pose3> StagedMargin::candidates(const StepResult& step) const {
   std::vector<Pose3> poses;
   for (const Hypothesis& h : step.hypotheses) {
-    if (h.score < step.hypotheses.front().score - params_.candidate_margin) break;
+    if (h.score < step.hypotheses.front().score - candidate_margin) break;
     const bool repeats = std::any_of(poses.begin(), poses.end(), [&](const Pose3& other) {
       return near.are_near(h.map_from_robot, other);
     });

@@ -37,7 +37,6 @@ class StagedMargin final : public VerdictRule {
     double max_turn_rate_deg = 60.0;
     double max_free_space_violation = 0.4;
     double min_scan_contact = 0.75;
-    double candidate_margin = 0.10;
   };
 
   StagedMargin(const Params& params, const StageSetup& setup);

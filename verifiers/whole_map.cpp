@@ -11,8 +11,8 @@
 namespace glocal {
 namespace {
 
-/// m; as matchers have it, so that they share the field.
-
+/// That are judged: those with the most contact.
+constexpr std::size_t most_rivals = 10;
 /// How many more points a search in space looks at: there are heights, too, and scans have many points.
 constexpr double more_looks_in_space = 10.0;
 
@@ -53,11 +53,6 @@ void describe(ParamVisitor& v, WholeMap::Params& p) {
            .audience = Audience::expert});
   v.require(!p.contact_epsilon || !p.cell || *p.cell <= *p.contact_epsilon, "cell",
             "must be at most contact_epsilon");
-  v.field("max_rivals", p.max_rivals,
-          {.doc = "Number of rivals that are judged: those with the most contact.",
-           .min = 1,
-           .max = 10000,
-           .audience = Audience::expert});
   v.field("max_looks", p.max_looks,
           {.doc = "A search that looks at more points is given up, and nothing is declared in this step; on "
                   "maps of more than 2 hectares it may look at as many more as they are larger, and in space "
@@ -86,7 +81,7 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
   const double contact = contact_of(local.points, map_from_local);
   const double least = std::max(1.0, std::ceil((contact - params_.margin) * points));
   const BoxSearchRule rule{.least = static_cast<std::size_t>(least),
-                           .most_places = static_cast<std::size_t>(params_.max_rivals),
+                           .most_places = most_rivals,
                            .most_looks = most_looks_,
                            .gate = gate};
   const Exclusion declared{map_from_local * local.local_from_robot,

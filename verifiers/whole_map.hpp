@@ -29,7 +29,6 @@ class WholeMap final : public Verifier {
     double rotation_deg = PoseTolerance::default_rotation_deg;
     std::optional<double> contact_epsilon = {};
     std::optional<double> cell = {};
-    int max_rivals = 10;
     int max_looks = 40'000'000;
   };
 

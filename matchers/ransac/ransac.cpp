@@ -17,6 +17,12 @@ namespace {
 /// Iterations handled together by one thread. Fixed, so that the answer does not depend on the number of
 /// threads.
 constexpr std::size_t iterations_per_chunk = 65536;
+/// Local points nearer to each other give poor headings, m.
+constexpr float min_distance = 1.0F;
+/// Of more, those that mean nearly the same pose become one, which counts as many.
+constexpr std::size_t most_hypotheses = 1000;
+/// Used to refine a pose.
+constexpr std::size_t refinement_points = 50;
 
 Point draw_point(const Points& points, Rng& rng) {
   return points[rng.below(static_cast<std::uint32_t>(points.size()))];
@@ -46,18 +52,6 @@ void describe(ParamVisitor& v, Ransac::Params& p) {
            .unit = "m",
            .above = 0.0,
            .audience = Audience::tuner});
-  v.field("min_distance", p.min_distance,
-          {.doc = "Local points nearer to each other give poor headings and are skipped.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("max_hypotheses", p.max_hypotheses,
-          {.doc = "Of more hypotheses than this, those that mean nearly the same pose become one, which "
-                  "counts as many.",
-           .min = 100,
-           .audience = Audience::expert});
-  v.field("refinement_points", p.refinement_points,
-          {.doc = "Points used to refine a pose.", .min = 3, .audience = Audience::expert});
   v.field("refinement", p.refinement,
           {.doc = "How hypotheses are fitted to all points at the end; not without iterations.",
            .audience = Audience::expert});
@@ -80,8 +74,7 @@ MatchResult Ransac::match(const MatchRequest& request, Rng& rng) {
     const std::size_t begin = i * iterations_per_chunk;
     chunks[i] = draw(local, quality, std::min(iterations_per_chunk, iterations - begin), draws.stream({i}));
   });
-  MatchResult result =
-      joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.max_hypotheses));
+  MatchResult result = joined(chunks, local.local_from_robot, most_hypotheses);
   if (params_.refinement.iterations > 0) refine_all(local, request.omega_max, result, rng);
   return result;
 }
@@ -105,7 +98,7 @@ MatchResult Ransac::draw(const LocalMap& local, const QualityTest& quality, std:
   for (std::size_t i = 0; i < iterations; ++i) {
     const PointPair pair{draw_point(local.points, rng), draw_point(local.points, rng)};
     const float length = distance_between(pair[0], pair[1]);
-    if (length < params_.min_distance) continue;
+    if (length < min_distance) continue;
     const Point first = draw_point(map, rng);
     for (int k = 0; k < params_.tries; ++k) {
       const Point second = draw_point(map, rng);
@@ -121,7 +114,7 @@ MatchResult Ransac::draw(const LocalMap& local, const QualityTest& quality, std:
 }
 
 void Ransac::refine_all(const LocalMap& local, double omega_max, MatchResult& result, Rng& rng) const {
-  const Points anchors = sample_of(local.points, static_cast<std::size_t>(params_.refinement_points), rng);
+  const Points anchors = sample_of(local.points, refinement_points, rng);
   parallel_for(setup_.threads, result.hypotheses.size(), [&](std::size_t i) {
     Hypothesis& h = result.hypotheses[i];
     const Pose2 refined =

@@ -32,9 +32,6 @@ class Ransac final : public Matcher {
     int tries = 1;
     std::optional<double> contact_epsilon = {};
     double tolerance = 0.10;
-    double min_distance = 1.0;
-    int max_hypotheses = 1000;
-    int refinement_points = 50;
     PoseRefinement refinement = {};
   };
 

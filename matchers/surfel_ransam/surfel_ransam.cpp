@@ -80,11 +80,6 @@ void describe(ParamVisitor& v, SurfelRansam::Params& p) {
            .min = 1,
            .max = 10000,
            .audience = Audience::expert});
-  v.field("looked_at", p.looked_at,
-          {.doc = "Poses of a round that are refined a little.",
-           .min = 1,
-           .max = 1e6,
-           .audience = Audience::expert});
   v.field("refined", p.refined,
           {.doc = "Distinct poses of a round that are refined and judged by all surfels.",
            .min = 1,
@@ -127,7 +122,6 @@ surfels::PoseSearchParams SurfelRansam::search_params(const PoseGate& gate) cons
   return {.rounds = static_cast<std::size_t>(carried_.empty() ? params_.first_rounds : params_.rounds),
           .draws = static_cast<std::size_t>(params_.draws),
           .partners = static_cast<std::size_t>(params_.partners),
-          .looked_at = static_cast<std::size_t>(params_.looked_at),
           .refined = static_cast<std::size_t>(params_.refined),
           .seen_through_weight = params_.seen_through_weight,
           .free_space_weight = params_.free_space_weight,

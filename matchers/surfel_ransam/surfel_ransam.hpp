@@ -38,7 +38,6 @@ class SurfelRansam final : public Matcher {
     int rounds = 4;
     int draws = 600;
     int partners = 8;
-    int looked_at = 400;
     int refined = 12;
     double seen_through_weight = 1.0;
     double free_space_weight = 1.0;

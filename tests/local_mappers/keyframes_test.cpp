@@ -35,7 +35,7 @@ TEST(Keyframes, RegistersWhenTheRobotHasTurnedEnough) {
 }
 
 TEST(Keyframes, RegistersWhatTheMapDoesNotShow) {
-  Keyframes mapper({.distance = 10.0, .angle_deg = 170.0, .overlap = 0.5, .overlap_distance = 0.1});
+  Keyframes mapper({.distance = 10.0, .angle_deg = 170.0, .overlap = 0.5});
   mapper.add(at(0.0, {{1, 0, 0}, {1, 1, 0}, {1, 2, 0}, {1, 3, 0}}));
   // Two of four within 10 cm of a point, one 15 cm away, one far from all: just enough.
   mapper.add(at(0.0, {{1.08F, 0, 0}, {1, 1.08F, 0}, {1, 2.15F, 0}, {5, 5, 0}}));

@@ -19,16 +19,16 @@ TEST(BestFraction, OfTheLastStep) {
 }
 
 TEST(BestFraction, OfTheBestSoFar) {
-  BestFraction threshold({.fraction = 0.5, .best = "so_far", .empty_share = 0.5, .initial = 0.45});
+  BestFraction threshold({.fraction = 0.5, .best = "so_far", .initial = 0.45});
   threshold.update(with_scores({0.8, 0.6}));
   threshold.update(with_scores({0.6}));
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.4);
-  threshold.update({});  // 0.8 counts as 0.4 now
-  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.2);
-  threshold.update(with_scores({0.3}));
-  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.2);
-  threshold.update(with_scores({0.5}));
-  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.25);
+  threshold.update({});  // 0.8 counts as 0.72 now
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.36);
+  threshold.update(with_scores({0.7}));
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.36);
+  threshold.update(with_scores({0.75}));
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.375);
   threshold.reset();
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.45);
   threshold.update(with_scores({0.1}));
@@ -36,7 +36,7 @@ TEST(BestFraction, OfTheBestSoFar) {
 }
 
 TEST(BestFraction, EmptyStepsLetItFallFromTheStart) {
-  BestFraction threshold({.empty_share = 0.9, .initial = 0.5});
+  BestFraction threshold({.initial = 0.5});
   threshold.update({});
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.45);
 }

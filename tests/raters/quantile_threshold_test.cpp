@@ -34,14 +34,14 @@ TEST(QuantileThreshold, SupportCounts) {
 }
 
 TEST(QuantileThreshold, OnlyTheLastStepCountsAndEmptyOnesLetItFall) {
-  QuantileThreshold threshold({.quantile = 0.5, .empty_share = 0.5, .initial = 0.4});
+  QuantileThreshold threshold({.quantile = 0.5, .initial = 0.4});
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.4);
   threshold.update(with_scores({0.9, 0.8}));
   threshold.update(with_scores({0.6}));
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.6);
   threshold.update({});
   threshold.update({});
-  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.15);
+  EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.486);
   threshold.reset();
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.4);
 }
