@@ -7,6 +7,8 @@
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/clouds/cloud_drive_map.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
+#include "sources/disturbed/disturbed_drive.hpp"
+#include "sources/disturbed/disturbed_map.hpp"
 #include "sources/ros_map/ros_map.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/random_scans.hpp"
@@ -31,6 +33,9 @@ void register_sources(Catalog& catalog) {
       "office", "A drive through a simulated office of any size.", stable_since("0.1.0"));
   catalog.observation_sources.add<RandomScans>("random_scans", "Single scans at random places of a ROS map.",
                                                experimental_since("0.1.0"));
+  catalog.observation_sources.add<disturbed::DisturbedDrive>(
+      "disturbed", "Another source, with what goes wrong on real robots.", experimental_since("0.1.0"),
+      {.sources = &catalog.observation_sources});
   catalog.map_sources.add<BagMap>("bag_map", "A map recorded as a message: ROS bag or MCAP.",
                                   experimental_since("0.1.0"));
   catalog.map_sources.add<LogMap>("log_map", "A map from the reference poses of a CARMEN log.",
@@ -42,6 +47,9 @@ void register_sources(Catalog& catalog) {
   catalog.map_sources.add<PointCloudMap>(
       "point_cloud", "A cloud of points: PCD, PLY, KITTI, or OctoMap's .bt.", stable_since("0.1.0"));
   catalog.map_sources.add<SimulatedMap>("simulation", "The map of a simulated world.", stable_since("0.1.0"));
+  catalog.map_sources.add<disturbed::DisturbedMap>(
+      "disturbed", "Another map, with what has changed in the world since it was made.",
+      experimental_since("0.1.0"), {.sources = &catalog.map_sources});
   catalog.map_sources.add<sites::OfficeMap>("office", "The map of a simulated office of any size.",
                                             stable_since("0.1.0"));
 }

@@ -1,0 +1,97 @@
+#include "sources/disturbed/drive_disturbances.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace glocal::disturbed {
+namespace {
+
+std::size_t whole(double amount) {
+  return static_cast<std::size_t>(std::lround(amount));
+}
+
+}  // namespace
+
+std::optional<Sample> DroppedScans::disturb(Sample sample, Rng rng) {
+  if (rng.uniform() < share_) return std::nullopt;
+  return sample;
+}
+
+LateScans::LateScans(double samples, Rng /*rng*/) : samples_(whole(samples)) {}
+
+std::optional<Sample> LateScans::disturb(Sample sample, Rng /*rng*/) {
+  if (sample.segment != segment_) on_the_way_.clear();
+  segment_ = sample.segment;
+  on_the_way_.push_back(std::move(sample.observation.scan));
+  if (on_the_way_.size() <= samples_) return std::nullopt;
+  sample.observation.scan = std::move(on_the_way_.front());
+  on_the_way_.pop_front();
+  return sample;
+}
+
+RepeatedScans::RepeatedScans(double samples, Rng /*rng*/) : samples_(whole(samples)) {}
+
+std::optional<Sample> RepeatedScans::disturb(Sample sample, Rng /*rng*/) {
+  if (left_ == 0) {
+    scan_ = std::move(sample.observation.scan);
+    left_ = samples_;
+  }
+  --left_;
+  sample.observation.scan = scan_;
+  return sample;
+}
+
+std::optional<Sample> MountAngle::disturb(Sample sample, Rng /*rng*/) {
+  Scan& scan = sample.observation.scan;
+  // What the sensor sees ahead lies to its left: it is put to the right.
+  const Transform turn(Pose2{0.0, 0.0, -radians(angle_deg_)});
+  const auto turned = [&](const Point& p) {
+    const Point q = turn({p.x - scan.origin.x, p.y - scan.origin.y, p.z});
+    return Point{q.x + scan.origin.x, q.y + scan.origin.y, q.z};
+  };
+  for (Points* points : {&scan.hits, &scan.free_ends}) {
+    for (std::size_t i = 0; i < points->size(); ++i) points->set(i, turned((*points)[i]));
+  }
+  return sample;
+}
+
+std::optional<Sample> UpsideDown::disturb(Sample sample, Rng /*rng*/) {
+  Scan& scan = sample.observation.scan;
+  for (Points* points : {&scan.hits, &scan.free_ends}) {
+    for (float& y : points->y) y = 2.0F * scan.origin.y - y;
+  }
+  return sample;
+}
+
+std::optional<Sample> Odometry::disturb(Sample sample, Rng rng) {
+  Pose3& odom_from_robot = sample.observation.odom_from_robot;
+  const Pose3 as_it_was = odom_from_robot;
+  if (last_) {
+    const Pose3 motion = inverse(last_->odom_from_robot) * as_it_was;
+    odom_from_robot = last_->disturbed_from_robot * measured(motion, rng);
+  }
+  last_ = {as_it_was, odom_from_robot};
+  return sample;
+}
+
+Pose3 StretchedWays::measured(const Pose3& motion, Rng& /*rng*/) const {
+  return {(1.0 + excess_) * motion.translation(), motion.rotation};
+}
+
+Pose3 PulledAside::measured(const Pose3& motion, Rng& /*rng*/) const {
+  const double turn = radians(deg_per_m_) * norm(motion.translation());
+  return {motion.translation(), turn_about_z(-turn) * motion.rotation};
+}
+
+Pose3 SpinningWheels::measured(const Pose3& motion, Rng& rng) const {
+  const bool spins = rng.uniform() < share_;
+  const double excess = rng.uniform();
+  if (!spins) return motion;
+  return {(1.0 + excess) * motion.translation(), turn_about_z(excess * motion.heading()) * motion.rotation};
+}
+
+Pose3 LostMotions::measured(const Pose3& motion, Rng& rng) const {
+  return rng.uniform() < share_ ? Pose3{} : motion;
+}
+
+}  // namespace glocal::disturbed

@@ -1,0 +1,38 @@
+// What goes wrong around the robot: things that stay where they are, or walk about.
+#pragma once
+
+#include <vector>
+
+#include "sources/disturbed/disturbance.hpp"
+
+namespace glocal::disturbed {
+
+/// This share of all places is of glass. What the laser meets there is behind it: 0.5 to 3 m farther away,
+/// always the same at one place, or nothing.
+class Glass final : public Disturbance {
+ public:
+  Glass(double share, Rng rng) : share_(share), rng_(rng) {}
+  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
+
+ private:
+  double share_;
+  Rng rng_;
+};
+
+/// So many people walk within 8 m of the robot, and stand before what the sensor would meet.
+class People final : public Disturbance {
+ public:
+  People(double people, Rng rng);
+  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
+
+ private:
+  struct Person {
+    Pose2 odom_from_person;  ///< He walks along its x axis.
+  };
+  void walk(Person& person, const Pose2& odom_from_robot, Rng& rng) const;
+
+  std::vector<Person> people_;
+  bool are_placed_ = false;
+};
+
+}  // namespace glocal::disturbed
