@@ -1,4 +1,4 @@
-// Which folder may include which: docs/architecture.md says why.
+// Which folder may include which: docs/architecture.md says why. And that folders say what is in them.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -84,14 +84,20 @@ std::optional<fs::path> resolved(const fs::path& file, const std::string& name) 
   return std::nullopt;
 }
 
-std::vector<fs::path> files_in(const std::string& folder, const std::set<std::string>& extensions) {
+std::vector<fs::path> files_in(const std::string& folder) {
   std::vector<fs::path> files;
   for (auto entry = fs::recursive_directory_iterator(root / folder);
        entry != fs::recursive_directory_iterator(); ++entry) {
-    if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
-    if (entry->is_regular_file() && extensions.contains(entry->path().extension()))
-      files.push_back(fs::relative(entry->path(), root));
+    const fs::path name = entry->path().filename();
+    if (name == "node_modules" || name == "__pycache__") entry.disable_recursion_pending();
+    if (entry->is_regular_file()) files.push_back(fs::relative(entry->path(), root));
   }
+  return files;
+}
+
+std::vector<fs::path> files_in(const std::string& folder, const std::set<std::string>& extensions) {
+  std::vector<fs::path> files = files_in(folder);
+  std::erase_if(files, [&](const fs::path& file) { return !extensions.contains(file.extension()); });
   return files;
 }
 
@@ -208,6 +214,34 @@ TEST(Layers, TheFrameworkIsAtMostAThirdOfTheCode) {
   fmt::print("framework: {} of {} lines of code outside of tests, {:.1f} %\n", framework, all, 100.0 * share);
   EXPECT_GT(framework, 1000U);
   EXPECT_LE(share, 1.0 / 3.0);
+}
+
+/// Whether a file is explained elsewhere: data, and tests in folders that mirror those of the sources.
+bool needs_no_readme(const fs::path& file) {
+  const fs::path folder = file.parent_path();
+  if (folder == "bench/results" || folder == "docs/images" || folder.parent_path() == "tests/fuzz/corpus")
+    return true;
+  const std::string mirrored = folder_at(file, 0) == "tests" ? folder_at(file, 1) : "";
+  return !mirrored.empty() && fs::exists(root / mirrored);
+}
+
+TEST(Layers, AFolderOfManyFilesBeginsWithAReadme) {
+  std::set<std::string> folders = {"bench",    "cmake",   "configs", "docs",
+                                   "examples", "plugins", "scripts", "tests"};
+  folders.insert(strategy_folders.begin(), strategy_folders.end());
+  for (const auto& [layer, below] : layers_below) folders.insert(layer);
+  std::map<fs::path, std::size_t> files;
+  for (const std::string& folder : folders) {
+    for (const fs::path& file : files_in(folder)) files[file.parent_path()] += needs_no_readme(file) ? 0 : 1;
+  }
+  std::size_t checked = 0;
+  for (const auto& [folder, count] : files) {
+    if (count <= 5) continue;
+    ++checked;
+    EXPECT_TRUE(fs::exists(root / folder / "README.md"))
+        << folder << " has " << count << " files: say what lives there, and what to read first";
+  }
+  EXPECT_GT(checked, 40U);
 }
 
 }  // namespace
