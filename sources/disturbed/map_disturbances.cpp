@@ -217,7 +217,7 @@ void stretch_map(MapData& map, double per_mille, Rng& /*rng*/) {
   map.grid.resolution *= factor;
 }
 
-constexpr std::array kinds = {
+constexpr std::array map_kinds = {
     MapDisturbanceKind{{"taken",
                         "share of the furniture that the map has lost",
                         "",
@@ -288,7 +288,7 @@ constexpr std::array kinds = {
 }  // namespace
 
 std::span<const MapDisturbanceKind> map_disturbance_kinds() {
-  return kinds;
+  return map_kinds;
 }
 
 }  // namespace glocal::disturbed

@@ -84,7 +84,7 @@ TEST_F(Stages, MatchersFindTheRobotInWhateverFrameTheLocalMapIs) {
   for_each(catalog_.matchers, [&](const StrategyChoice& choice) {
     const auto matcher = catalog_.matchers.make(choice, setup());
     Rng rng(1);
-    const auto found = matcher->match(local, observation(seen_by_robot()), 0.5, rng).hypotheses;
+    const auto found = matcher->match({local, observation(seen_by_robot()), 0.5}, rng).hypotheses;
     ASSERT_FALSE(found.empty());
     const Pose3 best = found.front().map_from_local * local.local_from_robot;
     EXPECT_LT(distance(best, map_from_robot), 0.4);

@@ -1,0 +1,210 @@
+// Sources that disturb others: in which order, by which levels, and what is refused.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/text_file.hpp"
+#include "glocal/error.hpp"
+#include "sources/disturbed/disturbed_drive.hpp"
+#include "sources/disturbed/disturbed_map.hpp"
+#include "sources/disturbed/map_disturbances.hpp"
+
+namespace glocal::disturbed::disturbed_test {
+namespace {
+
+using testing::HasSubstr;
+
+/// Samples of a robot that stands, with one hit 4 m ahead in each.
+class Standing final : public ObservationSource {
+ public:
+  using Params = NoParams;
+  explicit Standing(const Params& /*params*/) {}
+  std::optional<Sample> next() override {
+    if (count_ == 1000) return std::nullopt;
+    Sample sample;
+    sample.observation.stamp = count_++;
+    sample.observation.scan.hits.push_back({4.0F, 0.0F, 0.0F});
+    return sample;
+  }
+
+ private:
+  int count_ = 0;
+};
+
+/// A room of 10 m × 4 m in cells of 0.5 m: its walls, a box of 1 m × 1 m in its middle, and free floor.
+class Room final : public MapSource {
+ public:
+  using Params = NoParams;
+  explicit Room(const Params& /*params*/) {}
+  MapData load() override {
+    MapData map;
+    map.grid = {.map_from_grid = {}, .resolution = 0.5, .width = 20, .height = 8, .cells = {}};
+    map.grid.cells.assign(160, Cell::free);
+    for (int column = 0; column < 20; ++column) {
+      for (const int row : {0, 7}) map.grid.cell(column, row) = Cell::occupied;
+    }
+    for (int row = 0; row < 8; ++row) {
+      for (const int column : {0, 19}) map.grid.cell(column, row) = Cell::occupied;
+    }
+    for (const int column : {9, 10}) {
+      for (const int row : {3, 4}) map.grid.cell(column, row) = Cell::occupied;
+    }
+    map.points = occupied_centres(map.grid);
+    return map;
+  }
+};
+
+class Disturbed : public testing::Test {
+ protected:
+  Disturbed() {
+    drives_.add<Standing>("standing", "A robot that stands.");
+    maps_.add<Room>("room", "A room.");
+  }
+
+  std::vector<Sample> drive(std::vector<ChosenDisturbance> by, std::uint64_t seed = 1) const {
+    DisturbedDrive source({&drives_, drives_.choose("standing"), std::move(by)}, {.seed = seed});
+    std::vector<Sample> samples;
+    while (auto sample = source.next()) samples.push_back(*std::move(sample));
+    EXPECT_FALSE(source.next());
+    return samples;
+  }
+  MapData map(std::vector<ChosenMapDisturbance> by, std::uint64_t seed = 1) const {
+    return DisturbedMap({&maps_, maps_.choose("room"), std::move(by)}, {.seed = seed}).load();
+  }
+  static std::size_t occupied(const MapData& map) {
+    return static_cast<std::size_t>(std::count(map.grid.cells.begin(), map.grid.cells.end(), Cell::occupied));
+  }
+
+  Registry<ObservationSource, SourceSetup> drives_{"observation_source"};
+  Registry<MapSource, SourceSetup> maps_{"map_source"};
+};
+
+TEST_F(Disturbed, OneThingAfterTheOther) {
+  // Bias, then stretch: 1.1 (4 + 0.5); the other way round 1.1 · 4 + 0.5.
+  EXPECT_NEAR(drive({{{"bias", 0, 0.5}}, {{"stretch", 0, 0.1}}})[0].observation.scan.hits.x[0], 4.95, 1e-5);
+  EXPECT_NEAR(drive({{{"stretch", 5, {}}}, {{"bias", 5, {}}}})[0].observation.scan.hits.x[0], 4.9, 1e-5);
+}
+
+TEST_F(Disturbed, TheSameSeedIsTheSameDrive) {
+  const auto ranges = [&](std::uint64_t seed) {
+    std::vector<float> all;
+    for (const Sample& s : drive({{{"dropped_scans", 3, {}}}, {{"noise", 3, {}}}}, seed))
+      all.push_back(s.observation.scan.hits.x[0]);
+    return all;
+  };
+  EXPECT_EQ(ranges(1), ranges(1));
+  EXPECT_NE(ranges(1), ranges(2));
+  EXPECT_NEAR(static_cast<double>(ranges(1).size()), 500.0, 70.0);
+}
+
+TEST_F(Disturbed, ADriveOfWhichNothingIsLeftIsRefused) {
+  const std::vector<ChosenDisturbance> by = {{{"short_range", 5, {}}}};
+  DisturbedDrive source({&drives_, drives_.choose("standing"), by}, {});
+  try {
+    while (source.next()) {
+    }
+    FAIL() << "it is not refused";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("nothing of what the source has measured is left"));
+  }
+}
+
+TEST_F(Disturbed, FurnitureIsTakenOrMovedAndWallsStay) {
+  const MapData as_it_is = map({{{"taken", 0, 1e-9}}});
+  ASSERT_EQ(occupied(as_it_is), 20U * 2 + 6 * 2 + 4);
+  const MapData taken = map({{{"taken", 5, {}}}});
+  EXPECT_EQ(occupied(taken), 52U);
+  EXPECT_EQ(taken.grid.at(4.75, 1.75), Cell::free);
+  EXPECT_EQ(taken.points, occupied_centres(taken.grid));
+  const MapData moved = map({{{"moved", 5, {}}}}, 3);
+  EXPECT_NE(moved.grid.cells, as_it_is.grid.cells);
+  EXPECT_NE(moved.grid.cells, taken.grid.cells);
+  EXPECT_LE(occupied(moved), 56U);
+}
+
+TEST_F(Disturbed, BoxesAreBroughtByTheFloor) {
+  // 16 on 100 square metres of 26 free ones: 4 boxes of 1 to 2 cells along each side.
+  const std::size_t more = occupied(map({{{"brought", 5, {}}}})) - 56;
+  EXPECT_GE(more, 2U);
+  EXPECT_LE(more, 16U);
+}
+
+TEST_F(Disturbed, WallsAreMissingByTheBlock) {
+  const MapData left = map({{{"missing_walls", 0, 0.5}}}, 5);
+  EXPECT_EQ(left.points.size(), occupied(left));
+  EXPECT_GT(occupied(left), 10U);
+  EXPECT_LT(occupied(left), 46U);
+  // Cells of one block go together: those of the lower wall are in pairs.
+  for (int column = 0; column < 20; column += 2)
+    EXPECT_EQ(left.grid.cell(column, 0), left.grid.cell(column + 1, 0)) << column;
+}
+
+TEST_F(Disturbed, WhatIsCutOffIsUnknown) {
+  const MapData left = map({{{"cut_off", 0, 0.5}}});
+  EXPECT_EQ(left.grid.at(2.25, 2.25), Cell::free);
+  EXPECT_EQ(left.grid.at(7.25, 2.25), Cell::unknown);
+  EXPECT_EQ(left.grid.at(9.75, 2.25), Cell::unknown);
+  for (const float x : left.points.x) EXPECT_LE(x, 5.0F);
+}
+
+TEST_F(Disturbed, BlurMovesPointsAndCoarseCellsJoinThem) {
+  const MapData blurred = map({{{"blurred", 0, 0.05}}});
+  const MapData sharp = map({{{"taken", 0, 1e-9}}});
+  double squares = 0.0;
+  for (std::size_t i = 0; i < sharp.points.size(); ++i)
+    squares +=
+        std::pow(blurred.points.x[i] - sharp.points.x[i], 2) / static_cast<double>(sharp.points.size());
+  EXPECT_NEAR(std::sqrt(squares), 0.05, 0.02);
+  const MapData coarse = map({{{"coarse", 1, {}}}});
+  EXPECT_EQ(coarse.grid.resolution, 1.0);
+  EXPECT_EQ(coarse.grid.width, 10);
+  EXPECT_EQ(coarse.grid.at(4.5, 1.75), Cell::occupied) << "the box's left half is in it";
+  EXPECT_EQ(coarse.grid.at(2.5, 1.75), Cell::free);
+}
+
+TEST_F(Disturbed, AStretchedMapKeepsItsMiddle) {
+  // Points from 0.25 to 9.75 m: the middle is 5 m.
+  const MapData stretched = map({{{"stretched", 0, 100.0}}});
+  EXPECT_NEAR(*std::max_element(stretched.points.x.begin(), stretched.points.x.end()), 5.0 + 1.1 * 4.75,
+              1e-5);
+  EXPECT_EQ(stretched.grid.at(5.0, 2.0), Cell::occupied);
+  EXPECT_NEAR(stretched.grid.resolution, 0.55, 1e-12);
+}
+
+/// Amounts rise with the level, or fall.
+template <class Kinds>
+void expect_levels_in_order(const Kinds& kinds) {
+  for (const auto& kind : kinds) {
+    const bool is_constant = kind.levels.front() == kind.levels.back();
+    EXPECT_TRUE(is_constant || std::is_sorted(kind.levels.begin(), kind.levels.end()) ||
+                std::is_sorted(kind.levels.rbegin(), kind.levels.rend()))
+        << kind.name;
+    for (const double level : kind.levels) EXPECT_LE(level, kind.most) << kind.name;
+  }
+}
+
+template <class Kinds>
+std::string table_of(const Kinds& kinds) {
+  std::string table;
+  for (const auto& kind : kinds) {
+    std::string levels;
+    for (const double level : kind.levels) levels += (levels.empty() ? "" : ", ") + fmt::format("{}", level);
+    table +=
+        fmt::format("| `{}` | {} | {} | {} | {} |\n", kind.name, kind.amount, kind.unit, levels, kind.reason);
+  }
+  return table;
+}
+
+TEST(DisturbanceLevels, AreInOrderAndOnTheirPage) {
+  expect_levels_in_order(disturbance_kinds());
+  expect_levels_in_order(map_disturbance_kinds());
+  const std::string page = read_text_file(std::filesystem::path(GLOCAL_SOURCE_DIR) / "docs/disturbances.md");
+  EXPECT_THAT(page, HasSubstr(table_of(disturbance_kinds())));
+  EXPECT_THAT(page, HasSubstr(table_of(map_disturbance_kinds())));
+}
+
+}  // namespace
+}  // namespace glocal::disturbed::disturbed_test
