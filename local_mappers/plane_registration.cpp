@@ -1,8 +1,6 @@
 #include "local_mappers/plane_registration.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
 
@@ -29,7 +27,7 @@ class SpatialNormalEquations {
   explicit SpatialNormalEquations(double kernel) : kernel_squared_(kernel * kernel) {}
 
   /// One residual (m), the distance along `direction` of a hit that is at `lever` from the robot.
-  void add(double residual, const Eigen::Vector3d& direction, const Eigen::Vector3d& lever, double weight) {
+  void add(double residual, const Vector3& direction, const Vector3& lever, double weight) {
     const double share = kernel_squared_ / (kernel_squared_ + residual * residual);
     const double w = weight * share * share;
     Vector6 derivative;
@@ -49,10 +47,6 @@ class SpatialNormalEquations {
   Vector6 gradient_ = Vector6::Zero();
 };
 
-Eigen::Vector3d vector_of(const Point& p) {
-  return {p.x, p.y, p.z};
-}
-
 }  // namespace
 
 PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, const Point& sensor,
@@ -63,21 +57,20 @@ PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, 
   for (int iteration = 0; iteration < StepRules::most; ++iteration) {
     Pose3& pose = result.local_from_robot;
     const Points placed = moved(hits, pose);
-    const Vector3 sensor_in_local = pose * as_vector(sensor);
-    const Eigen::Vector3d eye(sensor_in_local.x, sensor_in_local.y, sensor_in_local.z);
-    const Eigen::Vector3d robot(pose.x, pose.y, pose.z);
+    const Vector3 eye = pose * as_vector(sensor);
+    const Vector3 robot = pose.translation();
     SpatialNormalEquations equations(limits.kernel);
     result.matches = 0;
     for (std::size_t i = 0; i < placed.size(); ++i) {
       const std::optional<std::size_t> found = map.nearest(placed[i], limits.match_distance);
       if (!found) continue;
-      const Eigen::Vector3d hit = vector_of(placed[i]);
-      const Eigen::Vector3d offset = hit - vector_of(points[*found]);
+      const Vector3 hit = as_vector(placed[i]);
+      const Vector3 offset = hit - as_vector(points[*found]);
       if (normals[*found] == Point{}) {
         for (int axis = 0; axis < 3; ++axis)
-          equations.add(offset[axis], Eigen::Vector3d::Unit(axis), hit - robot, StepRules::pointwise_weight);
+          equations.add(offset[axis], Vector3::Unit(axis), hit - robot, StepRules::pointwise_weight);
       } else {
-        const Eigen::Vector3d normal = vector_of(normals[*found]);
+        const Vector3 normal = as_vector(normals[*found]);
         if (normal.dot(eye - hit) < 0.0) continue;
         equations.add(normal.dot(offset), normal, hit - robot, 1.0);
       }
@@ -85,8 +78,7 @@ PlaneRegistration register_to_planes(const SurfaceMap& map, const Points& hits, 
     }
     if (result.matches == 0) return result;
     const Vector6 step = equations.step(result.matches);
-    pose = {{pose.x + step[0], pose.y + step[1], pose.z + step[2]},
-            exponential({step[3], step[4], step[5]}) * pose.rotation};
+    pose = {robot + step.head<3>(), composed(exponential(step.tail<3>()), pose.rotation)};
     if (step.head<3>().norm() < small_step_m && step.tail<3>().norm() < small_step_rad) break;
   }
   return result;

@@ -8,10 +8,7 @@ namespace glocal::local_mappers {
 namespace {
 
 float squared_distance(const Point& a, const Point& b) {
-  const float x = a.x - b.x;
-  const float y = a.y - b.y;
-  const float z = a.z - b.z;
-  return x * x + y * y + z * z;
+  return dot(a - b, a - b);
 }
 
 /// How far a coordinate is from the block `block`, m.

@@ -67,8 +67,7 @@ RigidMotion refined(const RigidMotion& target_from_source, const SurfelSample& s
       equations.add(p - motion.translation, plane.normal, residual, root * root, upright);
     }
     const Vector6 x = equations.solution();
-    const Quaternion turn = exponential({x[0], x[1], x[2]});
-    pose = Pose3(pose.translation() + Vector3{x[3], x[4], x[5]}, turn * pose.rotation);
+    pose = {pose.translation() + x.tail<3>(), composed(exponential(x.head<3>()), pose.rotation)};
   }
   return RigidMotion(pose);
 }
