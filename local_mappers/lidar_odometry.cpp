@@ -14,10 +14,7 @@ namespace {
 double farthest_range(const Scan& scan) {
   double most = 0.0;
   for (std::size_t i = 0; i < scan.hits.size(); ++i) {
-    const Point p = scan.hits[i];
-    most = std::max(
-        most, Vector3(double{p.x} - scan.origin.x, double{p.y} - scan.origin.y, double{p.z} - scan.origin.z)
-                  .norm());
+    most = std::max(most, (as_vector(scan.hits[i]) - as_vector(scan.origin)).norm());
   }
   return most;
 }

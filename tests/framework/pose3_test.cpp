@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "glocal/motion_equations.hpp"
 #include "glocal/rng.hpp"
 
 namespace glocal::pose3_test {
@@ -79,6 +80,24 @@ TEST(Pose3, PlanarPosesStayPlanarAndAreThoseOfPose2) {
   EXPECT_NEAR(in_space.y, planar.y, 1e-9);
   EXPECT_NEAR(wrap_angle(seen_from_above(in_space).theta - planar.theta), 0.0, 1e-9);
   EXPECT_NEAR(seen_from_above(Pose3(Pose2{0.0, 0.0, pi})).theta, pi, 1e-15);
+}
+
+TEST(MotionEquations, AStepUndoesASmallMotion) {
+  const Pose3 there({0.02, -0.01, 0.03}, exponential({0.01, -0.02, 0.015}));
+  const Pose3 start(Vector3{5.0, 1.0, -2.0});
+  Rng rng(5);
+  const auto draw = [&] { return Vector3(rng.normal(1.0), rng.normal(1.0), rng.normal(1.0)); };
+  MotionEquations<double> equations;
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 arm = 3.0 * draw();
+    const Vector3 n = draw().normalized();
+    const Vector3 turn = arm.cross(n);
+    const double residual = n.dot(start * arm - start * (there * arm));
+    equations.add({turn.x(), turn.y(), turn.z(), n.x(), n.y(), n.z()}, residual, 1.0);
+  }
+  const Pose3 found = stepped(start, equations.step(1e-9));
+  EXPECT_LT(distance(found, start * there), 1e-3);
+  EXPECT_LT(rotation_between(found, start * there), 1e-3);
 }
 
 }  // namespace
