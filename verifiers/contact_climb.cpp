@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "matchers/box_search/pose_boxes.hpp"
+#include "glocal/extent.hpp"
 
 namespace glocal {
 namespace {
@@ -28,7 +28,7 @@ struct Climber {
 Pose3 climbed_pose(const ContactIndex& contact, const Points& points, const Pose3& map_from_points,
                    double step) {
   constexpr int halvings = 2;
-  const Pose3 points_from_middle(Vector3{middle_of(points.x), middle_of(points.y), 0.0});
+  const Pose3 points_from_middle(Vector3{extent_of(points.x).middle(), extent_of(points.y).middle(), 0.0});
   const Pose3 middle_from_points = inverse(points_from_middle);
   const double radius = radius_about(points_from_middle.translation(), points);
   const auto at = [&](const Pose3& map_from_middle) {
