@@ -2,6 +2,8 @@
 #pragma once
 
 #include <httplib.h>
+// A macro of <resolv.h>, which httplib brings, and a name of Eigen's.
+#undef _res
 
 #include <chrono>
 #include <condition_variable>

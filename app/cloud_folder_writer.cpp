@@ -38,11 +38,11 @@ void CloudFolderWriter::write(const DriveScan& scan) {
 }
 
 std::string mount_yaml(const Pose3& robot_from_sensor) {
-  const std::array<double, 9> m = matrix_of(robot_from_sensor.rotation);
+  const Eigen::Matrix3d m = robot_from_sensor.rotation.toRotationMatrix();
   return fmt::format(
       "{{x: {:.6g}, y: {:.6g}, z: {:.6g}, roll_deg: {:.6g}, pitch_deg: {:.6g}, yaw_deg: {:.6g}}}",
-      robot_from_sensor.x, robot_from_sensor.y, robot_from_sensor.z, degrees(std::atan2(m[7], m[8])),
-      degrees(std::asin(std::clamp(0.0 - m[6], -1.0, 1.0))), degrees(std::atan2(m[3], m[0])));
+      robot_from_sensor.x, robot_from_sensor.y, robot_from_sensor.z, degrees(std::atan2(m(2, 1), m(2, 2))),
+      degrees(std::asin(std::clamp(0.0 - m(2, 0), -1.0, 1.0))), degrees(std::atan2(m(1, 0), m(0, 0))));
 }
 
 }  // namespace glocal::app

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <string_view>
 
 #include "config/text_file.hpp"
@@ -148,11 +147,8 @@ std::vector<CloudPair> read_cloud_pairs(const std::filesystem::path& file) {
 
 bool is_right_pose(const Pose3& found, const Pose3& truth, const Points& source, double translation) {
   constexpr double rotation_deg = 5.0;
-  const auto mean = [&](const std::vector<float>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  };
-  const Vector3 middle{mean(source.x), mean(source.y), mean(source.z)};
-  return norm(found * middle - truth * middle) <= translation &&
+  const Vector3 middle = centroid(source);
+  return (found * middle - truth * middle).norm() <= translation &&
          degrees(rotation_between(found, truth)) <= rotation_deg;
 }
 
@@ -189,7 +185,7 @@ std::string json_line(const PairOutcome& outcome) {
     const Pose3& pose = *r.target_from_source;
     const Quaternion& q = pose.rotation;
     json["target_from_source"] = {{"translation", {pose.x, pose.y, pose.z}},
-                                  {"quaternion", {q.x, q.y, q.z, q.w}}};
+                                  {"quaternion", {q.x(), q.y(), q.z(), q.w()}}};
   }
   json["verdict"] = r.is_match ? "match" : "no_match";
   json["why"] = r.why;

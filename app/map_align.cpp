@@ -1,24 +1,12 @@
 // glocal map align: where one map lies in another.
 #include "app/map_align.hpp"
 
-#include <numeric>
 #include <optional>
 
 #include "glocal/contact.hpp"
 #include "glocal/distance_field.hpp"
 
 namespace glocal::app {
-namespace {
-
-/// About the middle of the points, so that turning them does not move them.
-Pose2 middle(const Points& points) {
-  const auto mean = [&](const std::vector<float>& v) {
-    return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
-  };
-  return {mean(points.x), mean(points.y), 0.0};
-}
-
-}  // namespace
 
 std::optional<Alignment> align_maps(const GlobalMap& map, const Points& other, Matcher& matcher,
                                     double contact_epsilon, std::uint64_t seed) {
@@ -30,7 +18,9 @@ std::optional<Alignment> align_maps(const GlobalMap& map, const Points& other, M
   for (const double omega_max : {0.6, 0.4, 0.25}) {
     const MatchResult result = matcher.match({local, {}, omega_max}, rng);
     if (result.hypotheses.empty()) continue;
-    const Pose2 other_from_middle = middle(other);
+    // About the middle of the points, so that turning them does not move them.
+    const Vector3 middle = centroid(other);
+    const Pose2 other_from_middle{middle.x(), middle.y(), 0.0};
     Points centred;
     const Transform to_middle(inverse(other_from_middle));
     for (std::size_t i = 0; i < other.size(); ++i) centred.push_back(to_middle(other[i]));

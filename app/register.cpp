@@ -114,16 +114,15 @@ std::string text_of(const PairOutcome& outcome) {
   text += fmt::format("{}: {}\n", r.is_match ? "match" : "no match", r.why);
   if (!r.target_from_source) return text;
   const Pose3& pose = *r.target_from_source;
-  const std::array<double, 9> m = matrix_of(pose.rotation);
+  const Eigen::Matrix3d m = pose.rotation.toRotationMatrix();
   const Quaternion& q = pose.rotation;
   text += r.is_match ? "target_from_source:\n" : "target_from_source, not to be trusted:\n";
-  const std::array translation = {pose.x, pose.y, pose.z};
-  for (std::size_t row = 0; row < 3; ++row) {
-    text += fmt::format("  {:10.6f} {:10.6f} {:10.6f} {:12.4f}\n", m[3 * row], m[3 * row + 1], m[3 * row + 2],
-                        translation[row]);
+  for (int row = 0; row < 3; ++row) {
+    text += fmt::format("  {:10.6f} {:10.6f} {:10.6f} {:12.4f}\n", m(row, 0), m(row, 1), m(row, 2),
+                        pose.translation()[row]);
   }
   text += fmt::format("  {:10.6f} {:10.6f} {:10.6f} {:12.4f}\n", 0.0, 0.0, 0.0, 1.0);
-  text += fmt::format("quaternion x y z w  {:.6f} {:.6f} {:.6f} {:.6f}\n", q.x, q.y, q.z, q.w);
+  text += fmt::format("quaternion x y z w  {:.6f} {:.6f} {:.6f} {:.6f}\n", q.x(), q.y(), q.z(), q.w());
   text += fmt::format("turned by           {:.2f} deg\n", degrees(angle_of(q)));
   text += fmt::format("overlap             {:.0f} %\n", 100.0 * r.overlap);
   text += fmt::format("RMSE of inliers     {:.3f} m\n", r.rmse);

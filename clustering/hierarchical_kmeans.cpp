@@ -26,7 +26,7 @@ struct Metric {
   [[nodiscard]] double squared(const Pose3& a, const Pose3& b) const {
     const Vector3 off = a.translation() - b.translation();
     const double angle = rotation_between(a, b);
-    return (off.x * off.x + off.y * off.y + off.z * off.z) * per_m2 + angle * angle * per_rad2;
+    return off.squaredNorm() * per_m2 + angle * angle * per_rad2;
   }
 };
 

@@ -58,27 +58,28 @@ struct Shift<Pose2> {
 
 template <>
 struct Shift<Pose3> {
-  Vector3 way, turn;
+  Vector3 way = Vector3::Zero(), turn = Vector3::Zero();
 
   Shift() = default;
   Shift(const Pose3& from, const Pose3& to)
-      : way(to.translation() - from.translation()), turn(logarithm(to.rotation * inverse(from.rotation))) {}
+      : way(to.translation() - from.translation()),
+        turn(logarithm(composed(to.rotation, from.rotation.conjugate()))) {}
 
   [[nodiscard]] double squared(const PoseRadius& unit) const {
-    const double translation = norm(way) / unit.translation;
-    const double rotation = norm(turn) / unit.rotation;
+    const double translation = way.norm() / unit.translation;
+    const double rotation = turn.norm() / unit.rotation;
     return translation * translation + rotation * rotation;
   }
   void add(const Shift& other, double weight) {
-    way = way + weight * other.way;
-    turn = turn + weight * other.turn;
+    way += weight * other.way;
+    turn += weight * other.turn;
   }
   void divide(double by) {
-    way = (1.0 / by) * way;
-    turn = (1.0 / by) * turn;
+    way *= 1.0 / by;
+    turn *= 1.0 / by;
   }
   [[nodiscard]] Pose3 from(const Pose3& pose) const {
-    return {pose.translation() + way, exponential(turn) * pose.rotation};
+    return {pose.translation() + way, composed(exponential(turn), pose.rotation)};
   }
 };
 

@@ -36,7 +36,7 @@ set_target_properties(glocal_app PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bi
 
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/glocalConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/glocalConfig.cmake
-  "include(\${CMAKE_CURRENT_LIST_DIR}/glocalTargets.cmake)\ninclude(\${CMAKE_CURRENT_LIST_DIR}/glocal_add_plugin.cmake)\n")
+  "include(CMakeFindDependencyMacro)\nfind_dependency(Eigen3 3.4)\ninclude(\${CMAKE_CURRENT_LIST_DIR}/glocalTargets.cmake)\ninclude(\${CMAKE_CURRENT_LIST_DIR}/glocal_add_plugin.cmake)\n")
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glocalConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/glocalConfigVersion.cmake
   DESTINATION ${package_dir})
 

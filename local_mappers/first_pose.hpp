@@ -10,7 +10,7 @@ namespace glocal::local_mappers {
 /// has, so that up is up in the local frame. The heading is 0 then.
 [[nodiscard]] inline Pose3 first_pose(const Pose3& odom_from_robot, Motion motion) {
   if (motion != Motion::upright) return {};
-  return {{}, turn_about_z(-odom_from_robot.heading()) * odom_from_robot.rotation};
+  return Pose3(composed(turn_about_z(-odom_from_robot.heading()), odom_from_robot.rotation));
 }
 
 }  // namespace glocal::local_mappers

@@ -14,9 +14,7 @@ namespace {
 double farthest_range(const Scan& scan) {
   double most = 0.0;
   for (std::size_t i = 0; i < scan.hits.size(); ++i) {
-    const Point p = scan.hits[i];
-    most = std::max(
-        most, norm({double{p.x} - scan.origin.x, double{p.y} - scan.origin.y, double{p.z} - scan.origin.z}));
+    most = std::max(most, (as_vector(scan.hits[i]) - as_vector(scan.origin)).norm());
   }
   return most;
 }
@@ -74,7 +72,7 @@ double AdaptiveThreshold::sigma() const {
 
 void AdaptiveThreshold::note(const Pose3& correction, double range) {
   const double delta =
-      norm(correction.translation()) + 2.0 * range * std::sin(angle_of(correction.rotation) / 2.0);
+      correction.translation().norm() + 2.0 * range * std::sin(angle_of(correction.rotation) / 2.0);
   if (delta <= least_) return;
   sum_ += delta * delta;
   corrections_ += 1.0;
@@ -108,14 +106,14 @@ void LidarOdometry::add(const Observation& observation) {
     map_.move_robot(match(scan, predicted(odom_from_robot)));
     last_from_robot_ = inverse(local_from_last) * map().local_from_robot;
     last_step_seconds_ = observation.stamp - last_stamp_;
-    travelled_ += norm(last_from_robot_.translation());
+    travelled_ += last_from_robot_.translation().norm();
   } else {
     map_.move_robot(first_pose(odom_from_robot, motion_));
   }
   odom_from_last_ = odom_from_robot;
   last_stamp_ = observation.stamp;
   if (misfits_ >= params_.restart_after ||
-      norm(map().local_from_robot.translation()) > SurfaceMap::reach / 2) {
+      map().local_from_robot.translation().norm() > SurfaceMap::reach / 2) {
     map_.start_over();
     map_.move_robot(first_pose(odom_from_robot, motion_));
     misfits_ = 0;

@@ -1,17 +1,15 @@
 #include "local_mappers/surface_map.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "glocal/point_spread.hpp"
 
 namespace glocal::local_mappers {
 namespace {
 
 float squared_distance(const Point& a, const Point& b) {
-  const float x = a.x - b.x;
-  const float y = a.y - b.y;
-  const float z = a.z - b.z;
-  return x * x + y * y + z * z;
+  return dot(a - b, a - b);
 }
 
 /// How far a coordinate is from the block `block`, m.
@@ -19,20 +17,6 @@ float gap(float value, std::int32_t block, float side) {
   const float low = static_cast<float>(block) * side;
   return std::max({low - value, value - (low + side), 0.0F});
 }
-
-/// Second moments of points, relative to one that is near to them.
-struct SurfaceMoments {
-  double n = 0.0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-
-  void add(const Eigen::Vector3d& offset) {
-    n += 1.0;
-    sum += offset;
-    products.noalias() += offset * offset.transpose();
-  }
-  [[nodiscard]] Eigen::Matrix3d covariance() const { return (products - sum * sum.transpose() / n) / n; }
-};
 
 }  // namespace
 
@@ -64,38 +48,6 @@ void describe(ParamVisitor& v, SurfaceMapParams& p) {
   v.require(p.normal_radius <= 100.0 * p.resolution, "normal_radius", "must be at most 100 times resolution");
 }
 
-std::size_t BlockNumbers::slot_of(const Block& block) const {
-  std::uint64_t hash = 0;
-  for (const std::int32_t index : block)
-    hash = (hash ^ static_cast<std::uint32_t>(index)) * 0x9E3779B97F4A7C15U;
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = (hash >> 32U) & mask;  // The upper bits of a product are the well mixed ones.
-  while (slots_[slot] != none && blocks_[slots_[slot]] != block) slot = (slot + 1) & mask;
-  return slot;
-}
-
-std::uint32_t BlockNumbers::find(const Block& block) const {
-  return slots_[slot_of(block)];
-}
-
-std::uint32_t BlockNumbers::find_or_add(const Block& block) {
-  const std::size_t slot = slot_of(block);
-  if (slots_[slot] != none) return slots_[slot];
-  const auto number = static_cast<std::uint32_t>(blocks_.size());
-  slots_[slot] = number;
-  blocks_.push_back(block);
-  if (2 * blocks_.size() > slots_.size()) {
-    slots_.assign(2 * slots_.size(), none);
-    for (std::uint32_t i = 0; i < blocks_.size(); ++i) slots_[slot_of(blocks_[i])] = i;
-  }
-  return number;
-}
-
-void BlockNumbers::clear() {
-  std::fill(slots_.begin(), slots_.end(), none);
-  blocks_.clear();
-}
-
 SurfaceMap::SurfaceMap(const SurfaceMapParams& params)
     : params_(params),
       cells_in_block_(static_cast<std::int32_t>(std::ceil(params.normal_radius / params.resolution - 1e-9))),
@@ -108,7 +60,7 @@ SurfaceMap::Cell SurfaceMap::cell_of(const Point& p) const {
   return {cell(p.x), cell(p.y), cell(p.z)};
 }
 
-BlockNumbers::Block SurfaceMap::block_of(const Cell& cell) const {
+SurfaceMap::Block SurfaceMap::block_of(const Cell& cell) const {
   const auto block = [&](std::int32_t index) {
     return (index >= 0 ? index : index - cells_in_block_ + 1) / cells_in_block_;
   };
@@ -206,11 +158,11 @@ void SurfaceMap::reset() {
 }
 
 std::optional<std::size_t> SurfaceMap::nearest(const Point& p, double within) const {
-  const BlockNumbers::Block centre = block_of(cell_of(p));
+  const Block centre = block_of(cell_of(p));
   const auto blocks = static_cast<std::int32_t>(std::ceil(within / block_side_));
   auto least = static_cast<float>(within * within);
   std::optional<std::size_t> found;
-  const auto look_into = [&](const BlockNumbers::Block& block) {
+  const auto look_into = [&](const Block& block) {
     const std::uint32_t number = numbers_.find(block);
     if (number == BlockNumbers::none) return;
     for (const std::uint32_t index : blocks_[number]) {
@@ -230,7 +182,7 @@ std::optional<std::size_t> SurfaceMap::nearest(const Point& p, double within) co
       if (dx * dx + dy * dy > least) continue;
       for (std::int32_t z = centre[2] - blocks; z <= centre[2] + blocks; ++z) {
         const float dz = gap(p.z, z, block_side_);
-        const BlockNumbers::Block block{x, y, z};
+        const Block block{x, y, z};
         if (dx * dx + dy * dy + dz * dz <= least && block != centre) look_into(block);
       }
     }
@@ -260,7 +212,7 @@ void SurfaceMap::update_normals(const std::vector<std::size_t>& points, const Po
 }
 
 Points SurfaceMap::points_around(std::uint32_t index) const {
-  const BlockNumbers::Block centre = block_of(cell_of(map_.points[index]));
+  const Block centre = block_of(cell_of(map_.points[index]));
   Points around;
   for (std::int32_t x = centre[0] - 1; x <= centre[0] + 1; ++x) {
     for (std::int32_t y = centre[1] - 1; y <= centre[1] + 1; ++y) {
@@ -277,21 +229,16 @@ Points SurfaceMap::points_around(std::uint32_t index) const {
 Point SurfaceMap::normal_at(const Point& p, const Points& around) const {
   constexpr double fewest = 6.0;
   // Points of a single ring are on a line: that says little.
-  constexpr double thinnest = 0.05;
+  constexpr double thinnest_width = 0.05;
   const auto radius_squared = static_cast<float>(params_.normal_radius * params_.normal_radius);
-  SurfaceMoments moments;
+  PointSums<double> sums;
   for (std::size_t i = 0; i < around.size(); ++i) {
     const Point q = around[i];
     if (squared_distance(p, q) > radius_squared) continue;
-    moments.add({double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z});
+    sums.add(double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z);
   }
-  if (moments.n < fewest) return {};
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(moments.covariance());
-  const Eigen::Vector3d spread = solver.eigenvalues();
-  if (spread[1] < thinnest * spread[2] || spread[0] > params_.max_roughness * spread[1]) return {};
-  const Eigen::Vector3f normal = solver.eigenvectors().col(0).normalized().cast<float>();
-  return {normal.x(), normal.y(), normal.z()};
+  if (sums.size() < fewest) return {};
+  return sums.plane_normal(thinnest_width, params_.max_roughness).value_or(Point{});
 }
 
 }  // namespace glocal::local_mappers

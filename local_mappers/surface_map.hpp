@@ -10,6 +10,7 @@
 #include "glocal/local_map.hpp"
 #include "glocal/params.hpp"
 #include "glocal/points.hpp"
+#include "glocal/voxel_numbers.hpp"
 
 namespace glocal::local_mappers {
 
@@ -20,24 +21,6 @@ struct SurfaceMapParams {
   double max_roughness = 0.2;
 };
 void describe(ParamVisitor& v, SurfaceMapParams& p);
-
-/// Cubes of space with a number each, by an open-addressed hash table.
-class BlockNumbers {
- public:
-  using Block = std::array<std::int32_t, 3>;
-  static constexpr std::uint32_t none = 0xffffffff;
-
-  [[nodiscard]] std::uint32_t find(const Block& block) const;
-  /// Numbers count from 0.
-  [[nodiscard]] std::uint32_t find_or_add(const Block& block);
-  void clear();
-
- private:
-  [[nodiscard]] std::size_t slot_of(const Block& block) const;
-
-  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(1024, none);
-  std::vector<Block> blocks_;
-};
 
 /// A local map downsampled to cubes of `resolution`; a cube's point is the mean of its first `cell_hits`
 /// hits. A normal is the direction in which the points within `normal_radius` spread least, where they lie in
@@ -73,9 +56,11 @@ class SurfaceMap {
     double way = 0.0;      ///< m
   };
   using Cell = std::array<std::int32_t, 3>;
+  using BlockNumbers = VoxelNumbers<std::int32_t>;
+  using Block = BlockNumbers::Voxel;
 
   [[nodiscard]] Cell cell_of(const Point& p) const;
-  [[nodiscard]] BlockNumbers::Block block_of(const Cell& cell) const;
+  [[nodiscard]] Block block_of(const Cell& cell) const;
   /// The point that has the hit's cell now.
   std::size_t add_hit(const Point& p);
   void index_point(std::size_t index);

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "matchers/box_search/pose_boxes.hpp"
+#include "glocal/extent.hpp"
 
 namespace glocal {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 double radius_about(const Vector3& middle, const Points& points) {
   double radius = 0.5;
   for (std::size_t i = 0; i < points.size(); ++i)
-    radius = std::max(radius, std::hypot(points.x[i] - middle.x, points.y[i] - middle.y));
+    radius = std::max(radius, std::hypot(points.x[i] - middle.x(), points.y[i] - middle.y()));
   return radius;
 }
 
@@ -28,7 +28,7 @@ struct Climber {
 Pose3 climbed_pose(const ContactIndex& contact, const Points& points, const Pose3& map_from_points,
                    double step) {
   constexpr int halvings = 2;
-  const Pose3 points_from_middle({middle_of(points.x), middle_of(points.y), 0.0}, {});
+  const Pose3 points_from_middle(Vector3{extent_of(points.x).middle(), extent_of(points.y).middle(), 0.0});
   const Pose3 middle_from_points = inverse(points_from_middle);
   const double radius = radius_about(points_from_middle.translation(), points);
   const auto at = [&](const Pose3& map_from_middle) {
@@ -40,8 +40,8 @@ Pose3 climbed_pose(const ContactIndex& contact, const Points& points, const Pose
       goes_on = false;
       const Pose3 from = best.map_from_middle;
       for (const double way : {step, -step}) {
-        const std::array<Pose3, 4> moves{Pose3({way, 0.0, 0.0}, {}), Pose3({0.0, way, 0.0}, {}),
-                                         Pose3({0.0, 0.0, way}, {}), Pose3({}, turn_about_z(way / radius))};
+        const std::array<Pose3, 4> moves{Pose3(Vector3{way, 0.0, 0.0}), Pose3(Vector3{0.0, way, 0.0}),
+                                         Pose3(Vector3{0.0, 0.0, way}), Pose3(turn_about_z(way / radius))};
         for (const Pose3& move : moves) {
           const Climber neighbour = at(from * move);
           if (neighbour.contact <= best.contact) continue;

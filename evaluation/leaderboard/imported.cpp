@@ -107,15 +107,15 @@ class PosesReader {
   Pose3 pose() {
     if (!in_space_)
       return Pose2{number<double>("x"), number<double>("y"), wrap_angle(radians(number<double>("yaw_deg")))};
-    Quaternion q{number<double>("qw"), number<double>("qx"), number<double>("qy"), number<double>("qz")};
-    const double length = std::hypot(std::hypot(q.w, q.x), std::hypot(q.y, q.z));
+    const Quaternion q{number<double>("qw"), number<double>("qx"), number<double>("qy"),
+                       number<double>("qz")};
+    const double length = q.norm();
     constexpr double rounding_of_text = 1e-3;
     if (!(std::abs(length - 1.0) <= rounding_of_text)) {
       refuse("qx, qy, qz, qw: are no rotation, as their squares do not add up to 1");
       return {};
     }
-    q = {q.w / length, q.x / length, q.y / length, q.z / length};
-    return {Vector3{number<double>("x"), number<double>("y"), number<double>("z")}, q};
+    return {Vector3{number<double>("x"), number<double>("y"), number<double>("z")}, q.normalized()};
   }
 
   void read_row(const std::vector<std::string>& cells) {

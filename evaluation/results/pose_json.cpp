@@ -10,7 +10,7 @@ namespace {
 
 /// Of the two quaternions that are the same rotation, the one whose w is not negative.
 Quaternion with_positive_w(const Quaternion& q) {
-  return q.w < 0.0 ? Quaternion{-q.w, -q.x, -q.y, -q.z} : q;
+  return q.w() < 0.0 ? Quaternion(-q.coeffs()) : q;
 }
 
 }  // namespace
@@ -18,24 +18,25 @@ Quaternion with_positive_w(const Quaternion& q) {
 nlohmann::ordered_json to_json(const Pose3& pose, Motion motion) {
   if (motion == Motion::planar) return {{"x", pose.x}, {"y", pose.y}, {"theta", pose.heading()}};
   const Quaternion q = with_positive_w(pose.rotation);
-  return {{"x", pose.x}, {"y", pose.y}, {"z", pose.z}, {"qx", q.x},
-          {"qy", q.y},   {"qz", q.z},   {"qw", q.w},   {"theta", pose.heading()}};
+  return {{"x", pose.x}, {"y", pose.y}, {"z", pose.z}, {"qx", q.x()},
+          {"qy", q.y()}, {"qz", q.z()}, {"qw", q.w()}, {"theta", pose.heading()}};
 }
 
 Pose3 pose_of(const nlohmann::ordered_json& json) {
-  if (!json.contains("qw")) return Pose2{json.at("x"), json.at("y"), json.at("theta")};
-  const Quaternion rotation{json.at("qw"), json.at("qx"), json.at("qy"), json.at("qz")};
+  const auto number = [&](const char* name) { return json.at(name).get<double>(); };
+  if (!json.contains("qw")) return Pose2{number("x"), number("y"), number("theta")};
+  const Quaternion rotation{number("qw"), number("qx"), number("qy"), number("qz")};
   constexpr double rounding = 1e-6;
-  const double length = std::hypot(std::hypot(rotation.w, rotation.x), std::hypot(rotation.y, rotation.z));
+  const double length = rotation.norm();
   if (!(std::abs(length - 1.0) <= rounding)) throw std::invalid_argument("qx, qy, qz and qw are no rotation");
-  return {Vector3{json.at("x"), json.at("y"), json.at("z")}, rotation};
+  return {{number("x"), number("y"), number("z")}, rotation};
 }
 
 std::string tum_text(const Pose3& pose) {
   const Quaternion q = with_positive_w(pose.rotation);
-  if (pose.is_planar()) return fmt::format("{:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}", pose.x, pose.y, q.z, q.w);
-  return fmt::format("{:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}", pose.x, pose.y, pose.z, q.x, q.y,
-                     q.z, q.w);
+  if (pose.is_planar()) return fmt::format("{:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}", pose.x, pose.y, q.z(), q.w());
+  return fmt::format("{:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}", pose.x, pose.y, pose.z, q.x(), q.y(),
+                     q.z(), q.w());
 }
 
 }  // namespace glocal

@@ -46,17 +46,17 @@ Cluster moments(std::span<const Item<Pose3>> items) {
   }
   Cluster cluster;
   cluster.map_from_robot = mean;
-  const Quaternion from_mean = inverse(mean.rotation);
+  const Quaternion from_mean = mean.rotation.conjugate();
   for (const Item<Pose3>& item : items) {
     const double share = item.weight / sums.weight();
     const Vector3 off = item.pose.translation() - mean.translation();
-    const Vector3 turn = logarithm(item.pose.rotation * from_mean);
-    cluster.variance_x += share * off.x * off.x;
-    cluster.variance_y += share * off.y * off.y;
-    cluster.variance_z += share * off.z * off.z;
-    cluster.variance_about_x += share * turn.x * turn.x;
-    cluster.variance_about_y += share * turn.y * turn.y;
-    cluster.variance_theta += share * turn.z * turn.z;
+    const Vector3 turn = logarithm(composed(item.pose.rotation, from_mean));
+    cluster.variance_x += share * off.x() * off.x();
+    cluster.variance_y += share * off.y() * off.y();
+    cluster.variance_z += share * off.z() * off.z();
+    cluster.variance_about_x += share * turn.x() * turn.x();
+    cluster.variance_about_y += share * turn.y() * turn.y();
+    cluster.variance_theta += share * turn.z() * turn.z();
   }
   return cluster;
 }

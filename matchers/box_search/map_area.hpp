@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "glocal/extent.hpp"
 #include "glocal/global_map.hpp"
 
 namespace glocal {
@@ -12,15 +13,9 @@ namespace glocal {
 constexpr double large_area = 2e4;  ///< m^2
 constexpr double huge_area = 25e4;  ///< m^2
 
-/// From the lowest to the highest of some coordinates, m.
-[[nodiscard]] inline double extent(const std::vector<float>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return double{*high} - double{*low};
-}
-
 /// Of the rectangle about all points, seen from above, m^2.
 [[nodiscard]] inline double area_of(const GlobalMap& map) {
-  return extent(map.points().x) * extent(map.points().y);
+  return extent_of(map.points().x).length() * extent_of(map.points().y).length();
 }
 
 /// Side of the smallest boxes of poses, m: small ones bound more tightly, and take memory and time by the
@@ -35,7 +30,7 @@ constexpr double huge_area = 25e4;  ///< m^2
 [[nodiscard]] inline double automatic_box_cell_in_space(const GlobalMap& map, double epsilon) {
   constexpr double many_cells = 4e8;
   const double half = epsilon / 2.0;
-  const double cells = area_of(map) * extent(map.points().z) / (half * half * half);
+  const double cells = area_of(map) * extent_of(map.points().z).length() / (half * half * half);
   return cells > many_cells ? epsilon : half;
 }
 

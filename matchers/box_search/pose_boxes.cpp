@@ -6,17 +6,13 @@
 #include <numbers>
 #include <utility>
 
+#include "glocal/extent.hpp"
 #include "matchers/common/squares.hpp"
 
 namespace glocal {
 
-double middle_of(const std::vector<float>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return 0.5 * (double{*low} + double{*high});
-}
-
 PoseBoxes::PoseBoxes(const Points& points, const CellFrame& frame)
-    : frame_(frame), middle_x_(middle_of(points.x)), middle_y_(middle_of(points.y)) {}
+    : frame_(frame), middle_x_(extent_of(points.x).middle()), middle_y_(extent_of(points.y).middle()) {}
 
 Pose2 PoseBoxes::pose(int level, std::size_t rotation, double column, double row) const {
   const Pose2 moved{frame_.min_x + frame_.cell * column, frame_.min_y + frame_.cell * row,

@@ -13,9 +13,6 @@
 
 namespace glocal {
 
-/// Half way between the least and the largest.
-[[nodiscard]] double middle_of(const std::vector<float>& values);
-
 /// Translations by whole cells and, in space, layers of them, from the first to the last.
 struct Translations {
   int first_column, last_column;

@@ -101,9 +101,9 @@ class WantedBoxes {
     const auto farther = [](double low, double size, double excluded) {
       return std::max(std::abs(low - excluded), std::abs(low + size - excluded));
     };
-    return std::hypot(farther(robot_at_zero_.x + cell_ * tile.column, cell_ * columns, excluded_->x),
-                      farther(robot_at_zero_.y + cell_ * tile.row, cell_ * rows, excluded_->y),
-                      farther(height_at_zero_ + layer_height_ * tile.layer, box_height_, excluded_->z)) <=
+    return std::hypot(farther(robot_at_zero_.x + cell_ * tile.column, cell_ * columns, excluded_->x()),
+                      farther(robot_at_zero_.y + cell_ * tile.row, cell_ * rows, excluded_->y()),
+                      farther(height_at_zero_ + layer_height_ * tile.layer, box_height_, excluded_->z())) <=
            near_;
   }
 

@@ -62,8 +62,8 @@ std::vector<Hypothesis> merged_in_space(const std::vector<Hypothesis>& hypothese
     const auto part = [scale](double value, double width) {
       return static_cast<std::int64_t>(std::floor(value / (scale * width) + 0.5));
     };
-    return SpatialCell{part(robot.x, first_side), part(robot.y, first_side), part(robot.z, first_side),
-                       part(turn.x, first_turn),  part(turn.y, first_turn),  part(turn.z, first_turn)};
+    return SpatialCell{part(robot.x, first_side),  part(robot.y, first_side),  part(robot.z, first_side),
+                       part(turn.x(), first_turn), part(turn.y(), first_turn), part(turn.z(), first_turn)};
   });
 }
 

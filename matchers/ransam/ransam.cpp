@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glocal/extent.hpp"
 #include "matchers/common/merge.hpp"
 
 namespace glocal::ransam {
 namespace {
 
 double diameter_bound(const Points& points) {
-  const auto extent = [](const std::vector<float>& values) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return static_cast<double>(*high) - static_cast<double>(*low);
-  };
-  return std::hypot(extent(points.x), extent(points.y));
+  return std::hypot(extent_of(points.x).length(), extent_of(points.y).length());
 }
 
 }  // namespace

@@ -53,14 +53,6 @@ Relation relation_of(Relation a, Relation b, Relation c) {
   return a << 2 * relation_side_bits | b << relation_side_bits | c;
 }
 
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double dot(const Vector3& a, const Vector3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 Vector3 centroid(const Triangle& t) {
   return 1.0 / 3.0 * (t[0] + t[1] + t[2]);
 }
@@ -69,10 +61,9 @@ Vector3 centroid(const Triangle& t) {
 struct Axes {
   explicit Axes(const Triangle& t) {
     const Vector3 side = t[1] - t[0];
-    const Vector3 upright = cross(side, t[2] - t[0]);
-    u = 1.0 / norm(side) * side;
-    normal = 1.0 / norm(upright) * upright;
-    v = cross(normal, u);
+    u = side.normalized();
+    normal = side.cross(t[2] - t[0]).normalized();
+    v = normal.cross(u);
   }
   Vector3 u, v, normal;
 };
@@ -131,26 +122,21 @@ Pose3 least_squares_motion(const Triangle& from, const Triangle& to) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3 p = from[i] - from_middle;
     const Vector3 q = to[i] - to_middle;
-    const double px = dot(p, f.u);
-    const double py = dot(p, f.v);
-    const double qx = dot(q, t.u);
-    const double qy = dot(q, t.v);
+    const double px = p.dot(f.u);
+    const double py = p.dot(f.v);
+    const double qx = q.dot(t.u);
+    const double qy = q.dot(t.v);
     cosine += px * qx + py * qy;
     sine += px * qy - py * qx;
   }
   const double length = std::hypot(cosine, sine);
   const double c = length > 0.0 ? cosine / length : 1.0;
   const double s = length > 0.0 ? sine / length : 0.0;
-  const Vector3 u = c * t.u + s * t.v;  // where f.u comes to lie
-  const Vector3 v = c * t.v - s * t.u;
-  const auto row = [&](double along_u, double along_v, double along_normal) {
-    return along_u * f.u + along_v * f.v + along_normal * f.normal;
-  };
-  const Vector3 x = row(u.x, v.x, t.normal.x);
-  const Vector3 y = row(u.y, v.y, t.normal.y);
-  const Vector3 z = row(u.z, v.z, t.normal.z);
-  const Quaternion turn = quaternion_of({x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z});
-  return {to_middle - rotated(turn, from_middle), turn};
+  Eigen::Matrix3d from_axes, to_axes;
+  from_axes << f.u, f.v, f.normal;
+  to_axes << c * t.u + s * t.v, c * t.v - s * t.u, t.normal;  // where the first come to lie
+  const Quaternion turn = Quaternion(to_axes * from_axes.transpose()).normalized();
+  return {to_middle - turn * from_middle, turn};
 }
 
 bool surfaces_agree(const RigidMotion& motion, const Normals& from, const Normals& to) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "glocal/error.hpp"
+#include "glocal/extent.hpp"
 #include "glocal/voxel_filter.hpp"
 #include "matchers/common/merge.hpp"
 #include "matchers/ransam/space_triangle.hpp"
@@ -30,11 +31,7 @@ Points spread_evenly(const Points& points, double side) {
 }
 
 double diagonal(const Points& points) {
-  const auto extent = [](const std::vector<float>& values) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return static_cast<double>(*high) - static_cast<double>(*low);
-  };
-  return std::hypot(extent(points.x), extent(points.y), extent(points.z));
+  return std::hypot(extent_of(points.x).length(), extent_of(points.y).length(), extent_of(points.z).length());
 }
 
 Triangle triangle_of(const Points& points, const Triple& triple) {

@@ -2,41 +2,24 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "glocal/points.hpp"
 #include "glocal/pose3.hpp"
 
 namespace glocal {
 
-[[nodiscard]] inline Point operator+(const Point& a, const Point& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-[[nodiscard]] inline Point operator-(const Point& a, const Point& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-[[nodiscard]] inline Point operator*(float factor, const Point& p) {
-  return {factor * p.x, factor * p.y, factor * p.z};
-}
-[[nodiscard]] inline float dot(const Point& a, const Point& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-[[nodiscard]] inline Point cross(const Point& a, const Point& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-[[nodiscard]] inline float length(const Point& p) {
-  return std::sqrt(dot(p, p));
-}
-
 /// A pose with the matrix of its rotation at hand (row by row), for moving many points.
 struct RigidMotion {
+  using Rows = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
+
   std::array<float, 9> rotation{1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F};
   Point translation;
 
   RigidMotion() = default;
   explicit RigidMotion(const Pose3& target_from_source)
       : translation(as_point(target_from_source.translation())) {
-    const std::array<double, 9> matrix = matrix_of(target_from_source.rotation);
-    for (std::size_t i = 0; i < 9; ++i) rotation[i] = static_cast<float>(matrix[i]);
+    Eigen::Map<Rows>(rotation.data()) = target_from_source.rotation.toRotationMatrix().cast<float>();
   }
 
   /// A direction, turned.
@@ -54,9 +37,8 @@ struct RigidMotion {
   [[nodiscard]] Point operator()(const Point& p) const { return turned(p) + translation; }
 
   [[nodiscard]] Pose3 pose() const {
-    std::array<double, 9> matrix{};
-    for (std::size_t i = 0; i < 9; ++i) matrix[i] = static_cast<double>(rotation[i]);
-    return {as_vector(translation), quaternion_of(matrix)};
+    const Eigen::Map<const Rows> matrix(rotation.data());
+    return {as_vector(translation), Quaternion(matrix.cast<double>()).normalized()};
   }
 };
 

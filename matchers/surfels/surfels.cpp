@@ -1,10 +1,10 @@
 #include "matchers/surfels/surfels.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "glocal/point_spread.hpp"
 #include "matchers/surfels/rigid_motion.hpp"
 #include "matchers/surfels/voxel_table.hpp"
 
@@ -36,64 +36,27 @@ FilledVoxels filled_voxels(const Points& cloud, float side, int margin) {
   return filled;
 }
 
-/// Sums over points, relative to one that is near to them.
-struct Moments {
-  float n = 0.0F;
-  float x = 0.0F, y = 0.0F, z = 0.0F;
-  float xx = 0.0F, xy = 0.0F, xz = 0.0F, yy = 0.0F, yz = 0.0F, zz = 0.0F;
-
-  void add(const Point& p) {
-    n += 1.0F;
-    x += p.x;
-    y += p.y;
-    z += p.z;
-    xx += p.x * p.x;
-    xy += p.x * p.y;
-    xz += p.x * p.z;
-    yy += p.y * p.y;
-    yz += p.y * p.z;
-    zz += p.z * p.z;
-  }
-};
-
-/// The normal of points that lie in a plane: thin, and wide in two directions.
-std::optional<Point> plane_normal(const Moments& m) {
-  constexpr float fewest = 5.0F;
-  constexpr float thinnest_width = 0.04F;
-  constexpr float thickest = 0.35F;
-  if (m.n < fewest) return std::nullopt;
-  const float scale = 1.0F / m.n;
-  const auto moment = [&](float product, float a, float b) { return scale * (product - scale * a * b); };
-  Eigen::Matrix3f covariance;
-  covariance << moment(m.xx, m.x, m.x), moment(m.xy, m.x, m.y), moment(m.xz, m.x, m.z),
-      moment(m.xy, m.x, m.y), moment(m.yy, m.y, m.y), moment(m.yz, m.y, m.z), moment(m.xz, m.x, m.z),
-      moment(m.yz, m.y, m.z), moment(m.zz, m.z, m.z);
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
-  solver.computeDirect(covariance);
-  const Eigen::Vector3f spread = solver.eigenvalues();
-  if (spread[1] < thinnest_width * spread[2] || spread[0] > thickest * spread[1]) return std::nullopt;
-  const Eigen::Vector3f normal = solver.eigenvectors().col(0);
-  return Point{normal.x(), normal.y(), normal.z()};
-}
-
 /// The normal at a voxel from the means within so many voxels.
 std::optional<Point> normal_within(const FilledVoxels& filled, std::size_t k, float voxels) {
   const Point p = filled.means[k];
   const Voxel centre = filled.numbers.voxel_of(p);
   const auto reach = static_cast<std::int32_t>(std::ceil(voxels));
   const float radius = voxels * filled.numbers.side();
-  Moments moments;
+  constexpr float fewest = 5.0F;
+  constexpr float thinnest_width = 0.04F;
+  constexpr float thickest = 0.35F;
+  PointSums<float> sums;
   for (std::int32_t z = centre.z - reach; z <= centre.z + reach; ++z) {
     for (std::int32_t y = centre.y - reach; y <= centre.y + reach; ++y) {
       for (std::int32_t x = centre.x - reach; x <= centre.x + reach; ++x) {
         const std::uint32_t neighbour = filled.numbers.at(Voxel{x, y, z});
         if (neighbour == VoxelTable::none) continue;
         const Point offset = filled.means[neighbour] - p;
-        if (dot(offset, offset) <= radius * radius) moments.add(offset);
+        if (dot(offset, offset) <= radius * radius) sums.add(offset.x, offset.y, offset.z);
       }
     }
   }
-  return plane_normal(moments);
+  return sums.size() < fewest ? std::nullopt : sums.plane_normal(thinnest_width, thickest);
 }
 
 /// The mean of a voxel's points, moved along the normal to the mean of the voxels around it: where voxels cut

@@ -2,45 +2,33 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/extent.hpp"
 
 namespace glocal::surfels {
-namespace {
-
-/// Smallest and largest value; (0, 0) of none.
-std::pair<float, float> range_of(const std::vector<float>& values) {
-  if (values.empty()) return {0.0F, 0.0F};
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return {*least, *most};
-}
-
-}  // namespace
 
 VoxelRegion::VoxelRegion(const Points& points, float side, int margin) : side_(side), scale_(1.0F / side) {
   constexpr double most_bricks = 134'217'728.0;
-  const std::array<std::pair<float, float>, 3> ranges = {range_of(points.x), range_of(points.y),
-                                                         range_of(points.z)};
+  const std::array<Extent, 3> extents = {extent_of(points.x), extent_of(points.y), extent_of(points.z)};
   std::array<double, 3> bricks{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [least, most] = ranges[axis];
-    bricks[axis] = std::ceil((static_cast<double>(most - least) / side + 2.0 * margin + 2.0) / 8.0);
+    const auto [low, high] = extents[axis];
+    bricks[axis] = std::ceil((static_cast<double>(high - low) / side + 2.0 * margin + 2.0) / 8.0);
   }
   if (bricks[0] * bricks[1] * bricks[2] > most_bricks)
     throw ConfigError({{"", 0, 0,
                         fmt::format("points reach over {:.0f} m x {:.0f} m x {:.0f} m, too far for voxels of "
                                     "{} m; remove far points, or take larger voxels",
-                                    ranges[0].second - ranges[0].first, ranges[1].second - ranges[1].first,
-                                    ranges[2].second - ranges[2].first, side)}});
+                                    extents[0].length(), extents[1].length(), extents[2].length(), side)}});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     size_[axis] = static_cast<std::uint32_t>(8.0 * bricks[axis]);
     most_[axis] = static_cast<float>(size_[axis]);
   }
   const float around = static_cast<float>(margin) * side;
-  min_ = {ranges[0].first - around, ranges[1].first - around, ranges[2].first - around};
+  min_ = {extents[0].low - around, extents[1].low - around, extents[2].low - around};
   brick_columns_ = static_cast<std::size_t>(bricks[0]);
   brick_rows_ = static_cast<std::size_t>(bricks[1]);
   brick_layers_ = static_cast<std::size_t>(bricks[2]);

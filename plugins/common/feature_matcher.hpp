@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -101,19 +100,12 @@ class FeatureMatcher final : public Matcher {
 
   static constexpr double most_tilt = radians(15.0);
 
-  /// Features need a side for each normal. Where a map was seen from is not known: its middle is taken.
-  static Vector3 middle_of(const Points& points) {
-    const auto mean = [&](const std::vector<float>& values) {
-      return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    };
-    return {mean(points.x), mean(points.y), mean(points.z)};
-  }
-
   /// Made once for all who share the map.
   static std::shared_ptr<const MapFeatures> features_of(const GlobalMap& map, double voxel_size) {
     const auto result = map.index<MapFeatures>(fmt::format("{}", voxel_size), [&] {
       const auto start = std::chrono::steady_clock::now();
-      MapFeatures made{Cloud(map.points(), voxel_size, middle_of(map.points()))};
+      // Features need a side for each normal. Where a map was seen from is not known: its middle is taken.
+      MapFeatures made{Cloud(map.points(), voxel_size, centroid(map.points()))};
       const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
       made.build_ms = time.count();
       return made;

@@ -46,8 +46,7 @@ class OwnRandomNumbers {
 };
 
 Pose3 pose_of(const Eigen::Matrix4d& matrix) {
-  const Eigen::Quaterniond q = Eigen::Quaterniond(matrix.topLeftCorner<3, 3>()).normalized();
-  return {{matrix(0, 3), matrix(1, 3), matrix(2, 3)}, {q.w(), q.x(), q.y(), q.z()}};
+  return {matrix.topRightCorner<3, 1>(), Quaternion(matrix.topLeftCorner<3, 3>()).normalized()};
 }
 
 /// The same measure for every search.
@@ -75,7 +74,7 @@ Open3dCloud::Open3dCloud(const Points& all, double voxel_size, const Vector3& no
   const SingleThread single_thread;
   points.EstimateNormals(
       open3d::geometry::KDTreeSearchParamHybrid(normal_voxels * voxel_size, normal_neighbours));
-  points.OrientNormalsTowardsCameraLocation({normals_towards.x, normals_towards.y, normals_towards.z});
+  points.OrientNormalsTowardsCameraLocation(normals_towards);
   features = *registration::ComputeFPFHFeature(
       points, open3d::geometry::KDTreeSearchParamHybrid(feature_voxels * voxel_size, feature_neighbours));
 }

@@ -55,8 +55,9 @@ FpfhCloud::FpfhCloud(const Points& all, double voxel_size, const Vector3& normal
   normal_estimation.setInputCloud(means);
   normal_estimation.setSearchMethod(std::make_shared<Tree>());
   normal_estimation.setRadiusSearch(normal_voxels * voxel_size);
-  normal_estimation.setViewPoint(static_cast<float>(normals_towards.x), static_cast<float>(normals_towards.y),
-                                 static_cast<float>(normals_towards.z));
+  normal_estimation.setViewPoint(static_cast<float>(normals_towards.x()),
+                                 static_cast<float>(normals_towards.y()),
+                                 static_cast<float>(normals_towards.z()));
   pcl::PointCloud<pcl::Normal> all_normals;
   normal_estimation.compute(all_normals);
   const auto normals = std::make_shared<pcl::PointCloud<pcl::Normal>>();

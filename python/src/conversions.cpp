@@ -32,7 +32,7 @@ Pose3 planar(const double* row) {
 
 Pose3 in_space(const double* row) {
   const Quaternion q{row[3], row[4], row[5], row[6]};
-  const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  const double length = q.norm();
   // So near to one that rounding explains it.
   constexpr double tolerance = 1e-6;
   if (!(std::abs(length - 1.0) < tolerance))
@@ -43,7 +43,8 @@ Pose3 in_space(const double* row) {
 
 /// Of a matrix, row by row.
 Pose3 of_matrix(const double* m) {
-  return {{m[3], m[7], m[11]}, quaternion_of({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]})};
+  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(m);
+  return {matrix.topRightCorner<3, 1>(), Quaternion(matrix.topLeftCorner<3, 3>()).normalized()};
 }
 
 constexpr py::ssize_t planar_numbers = 3;

@@ -45,16 +45,11 @@ SeenHypotheses make_hypotheses(const py::object& map_from_local, const py::objec
   return SeenHypotheses(std::move(hypotheses));
 }
 
-/// A member of each struct: `first` gives that of one.
+/// A number in each struct: `first` gives that of one.
 template <class Struct, class First>
-py::array column_of(const Seen<std::vector<Struct>>& rows, py::ssize_t columns, First first) {
+py::array column_of(const Seen<std::vector<Struct>>& rows, First first) {
   static const Struct none{};
-  return column(*rows, first(rows->empty() ? none : rows->front()), columns, rows.owner());
-}
-
-template <class Struct>
-const double* pose_numbers_of(const Pose3 Struct::*member, const Struct& row) {
-  return &(row.*member).x;
+  return column(*rows, first(rows->empty() ? none : rows->front()), rows.owner());
 }
 
 void bind_list_of_hypotheses(py::module_& module) {
@@ -72,20 +67,10 @@ void bind_list_of_hypotheses(py::module_& module) {
            "proposals each stands for. They are sorted by falling score.")
       .def("__len__", [](const Bound& h) { return h->size(); })
       .def_property_readonly(
-          "map_from_local",
-          [](const Bound& h) {
-            return column_of(h, pose_numbers, [](const Hypothesis& x) {
-              return pose_numbers_of(&Hypothesis::map_from_local, x);
-            });
-          },
+          "map_from_local", [](const Bound& h) { return array_of_poses(*h, &Hypothesis::map_from_local); },
           "N x 7")
       .def_property_readonly(
-          "map_from_robot",
-          [](const Bound& h) {
-            return column_of(h, pose_numbers, [](const Hypothesis& x) {
-              return pose_numbers_of(&Hypothesis::map_from_robot, x);
-            });
-          },
+          "map_from_robot", [](const Bound& h) { return array_of_poses(*h, &Hypothesis::map_from_robot); },
           "N x 7; set by the localizer.")
       .def_property_readonly(
           "heading",
@@ -98,15 +83,14 @@ void bind_list_of_hypotheses(py::module_& module) {
           "Of map_from_robot, rad, in (-pi, pi]; N numbers, computed.")
       .def_property_readonly(
           "quality",
-          [](const Bound& h) { return column_of(h, 0, [](const Hypothesis& x) { return &x.quality; }); },
+          [](const Bound& h) { return column_of(h, [](const Hypothesis& x) { return &x.quality; }); },
           "Omega (eq. 4), in [0, 1].")
       .def_property_readonly(
-          "score",
-          [](const Bound& h) { return column_of(h, 0, [](const Hypothesis& x) { return &x.score; }); },
+          "score", [](const Bound& h) { return column_of(h, [](const Hypothesis& x) { return &x.score; }); },
           "What the matcher ranks by, in [0, 1].")
       .def_property_readonly(
           "support",
-          [](const Bound& h) { return column_of(h, 0, [](const Hypothesis& x) { return &x.support; }); },
+          [](const Bound& h) { return column_of(h, [](const Hypothesis& x) { return &x.support; }); },
           "How many proposals each stands for.")
       .def("__repr__", [](const Bound& h) { return fmt::format("<Hypotheses: {}>", h->size()); });
 }
@@ -138,11 +122,7 @@ void bind_clusters(py::module_& module) {
           },
           py::arg("index"))
       .def_property_readonly(
-          "map_from_robot",
-          [](const Clusters& c) {
-            return column_of(c, pose_numbers,
-                             [](const Cluster& x) { return pose_numbers_of(&Cluster::map_from_robot, x); });
-          },
+          "map_from_robot", [](const Clusters& c) { return array_of_poses(*c, &Cluster::map_from_robot); },
           "The mean poses, N x 7 (x, y, z, qw, qx, qy, qz).")
       .def_property_readonly(
           "sizes",
@@ -156,11 +136,11 @@ void bind_clusters(py::module_& module) {
   py::class_<Ratings>(module, "Ratings", "How much each cluster deserves trust.")
       .def("__len__", [](const Ratings& r) { return r->size(); })
       .def_property_readonly(
-          "r", [](const Ratings& r) { return column_of(r, 0, [](const Rating& x) { return &x.r; }); },
+          "r", [](const Ratings& r) { return column_of(r, [](const Rating& x) { return &x.r; }); },
           "Of eq. 7, in [0, 1].")
       .def_property_readonly(
           "r_normalised",
-          [](const Ratings& r) { return column_of(r, 0, [](const Rating& x) { return &x.r_normalised; }); },
+          [](const Ratings& r) { return column_of(r, [](const Rating& x) { return &x.r_normalised; }); },
           "Of eq. 8; they add up to 1.");
 }
 

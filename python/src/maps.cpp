@@ -127,11 +127,7 @@ void bind_maps(py::module_& module) {
           "grid", [part](const Map& map) { return part(map, map->grid()); },
           "Free, occupied and unknown cells; 0 x 0 of a map of points alone.")
       .def_property_readonly(
-          "path",
-          [](const Map& map) {
-            const auto* first = reinterpret_cast<const double*>(map->path().data());
-            return column(map->path(), first, pose_numbers, map);
-          },
+          "path", [](const Map& map) { return array_of_poses(map->path(), std::identity()); },
           "Poses of the robot that made the map, P x 7 (x, y, z, qw, qx, qy, qz).")
       .def_property_readonly(
           "resolution", [](const Map& map) { return map->resolution(); },

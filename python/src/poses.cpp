@@ -10,19 +10,9 @@ namespace glocal::python {
 namespace {
 
 py::array matrix(const Pose3& pose) {
-  const auto r = matrix_of(pose.rotation);
   py::array_t<double> array({4, 4});
-  auto m = array.mutable_unchecked<2>();
-  const Vector3 t = pose.translation();
-  const std::array<double, 3> translation{t.x, t.y, t.z};
-  for (py::ssize_t row = 0; row < 3; ++row) {
-    const auto i = static_cast<std::size_t>(row);
-    for (py::ssize_t column = 0; column < 3; ++column)
-      m(row, column) = r[3 * i + static_cast<std::size_t>(column)];
-    m(row, 3) = translation[i];
-    m(3, row) = 0.0;
-  }
-  m(3, 3) = 1.0;
+  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> m(array.mutable_data());
+  m << pose.rotation.toRotationMatrix(), pose.translation(), Eigen::RowVector4d::UnitW();
   return array;
 }
 
@@ -30,7 +20,7 @@ std::string text_of(const Pose3& pose) {
   if (pose.is_planar()) return fmt::format("Pose({:.6g}, {:.6g}, {:.6g})", pose.x, pose.y, pose.heading());
   const Quaternion& q = pose.rotation;
   return fmt::format("Pose([{:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}])", pose.x, pose.y, pose.z,
-                     q.w, q.x, q.y, q.z);
+                     q.w(), q.x(), q.y(), q.z());
 }
 
 /// One number, or an array of that many.
@@ -95,7 +85,7 @@ void bind_poses(py::module_& module) {
       .def_property_readonly(
           "quaternion",
           [](const Pose3& p) {
-            return py::make_tuple(p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z);
+            return py::make_tuple(p.rotation.w(), p.rotation.x(), p.rotation.y(), p.rotation.z());
           },
           "The rotation as (w, x, y, z).")
       .def_property_readonly("is_planar", &Pose3::is_planar, "Whether z is 0 and nothing tilts.")
@@ -127,12 +117,13 @@ void bind_poses(py::module_& module) {
       .def("__hash__",
            [](const Pose3& p) {
              const Quaternion& q = p.rotation;
-             return py::hash(py::make_tuple(p.x, p.y, p.z, q.w, q.x, q.y, q.z));
+             return py::hash(py::make_tuple(p.x, p.y, p.z, q.w(), q.x(), q.y(), q.z()));
            })
       .def("__repr__", &text_of)
       .def(py::pickle(
           [](const Pose3& p) {
-            return py::make_tuple(p.x, p.y, p.z, p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z);
+            return py::make_tuple(p.x, p.y, p.z, p.rotation.w(), p.rotation.x(), p.rotation.y(),
+                                  p.rotation.z());
           },
           [](const py::tuple& state) { return pose_of(state); }));
   bind_rng(module);

@@ -92,13 +92,10 @@ template <class T>
   return numbers(values.data(), {{static_cast<py::ssize_t>(values.size())}, {sizeof(T)}}, owner);
 }
 
-/// A member of each struct of a list, which is `columns` numbers long.
+/// A member of each struct of a list.
 template <class Number, class Struct>
-[[nodiscard]] py::array column(const std::vector<Struct>& rows, const Number* of_first, py::ssize_t columns,
-                               const Owner& owner) {
-  const auto n = static_cast<py::ssize_t>(rows.size());
-  if (columns == 0) return numbers(of_first, {{n}, {sizeof(Struct)}}, owner);
-  return numbers(of_first, {{n, columns}, {sizeof(Struct), sizeof(Number)}}, owner);
+[[nodiscard]] py::array column(const std::vector<Struct>& rows, const Number* of_first, const Owner& owner) {
+  return numbers(of_first, {{static_cast<py::ssize_t>(rows.size())}, {sizeof(Struct)}}, owner);
 }
 
 }  // namespace glocal::python

@@ -392,8 +392,8 @@ bool BagDrive::add(const bags::SensorScan& rays, const bags::Header& header, con
   };
   const auto place = [&](const Point& end, double time, Points& ends) {
     const Vector3 p = mover->moved(end, time);
-    if (!is_wanted(p.z)) return false;
-    ends.push_back(as_point({p.x, p.y, is_planar_ ? 0.0 : p.z}));
+    if (!is_wanted(p.z())) return false;
+    ends.push_back(as_point({p.x(), p.y(), is_planar_ ? 0.0 : p.z()}));
     return true;
   };
   const bool several = contents_.scans.size() > 1;
@@ -408,7 +408,8 @@ bool BagDrive::add(const bags::SensorScan& rays, const bags::Header& header, con
     place(rays.free_ends[i], rays.free_times.empty() ? 0.0 : rays.free_times[i], scan.free_ends);
   // Of several sensors the rays begin halfway between them.
   const Vector3 share = (1.0 / static_cast<double>(frame.scans)) * mover->moved({}, 0.0);
-  scan.origin = as_point(as_vector(scan.origin) + Vector3{share.x, share.y, is_planar_ ? 0.0 : share.z});
+  scan.origin =
+      as_point(as_vector(scan.origin) + Vector3{share.x(), share.y(), is_planar_ ? 0.0 : share.z()});
   return true;
 }
 

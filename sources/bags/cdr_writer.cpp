@@ -98,7 +98,7 @@ CdrWriter& CdrWriter::header(const Header& header) {
 
 CdrWriter& CdrWriter::rigid_motion(const Pose3& motion) {
   const Quaternion& q = motion.rotation;
-  for (const double value : {motion.x, motion.y, motion.z, q.x, q.y, q.z, q.w}) number(value);
+  for (const double value : {motion.x, motion.y, motion.z, q.x(), q.y(), q.z(), q.w()}) number(value);
   return *this;
 }
 

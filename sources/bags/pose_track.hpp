@@ -17,11 +17,11 @@ class EvenMotion {
   EvenMotion(const Pose3& from, const Pose3& to)
       : from_(from),
         way_(to.translation() - from.translation()),
-        turn_(logarithm(inverse(from.rotation) * to.rotation)) {}
+        turn_(logarithm(composed(from.rotation.conjugate(), to.rotation))) {}
 
   /// The pose after a share of it.
   [[nodiscard]] Pose3 at(double share) const {
-    return {from_.translation() + share * way_, from_.rotation * exponential(share * turn_)};
+    return {from_.translation() + share * way_, composed(from_.rotation, exponential(share * turn_))};
   }
 
  private:

@@ -110,15 +110,15 @@ void CloudBuilder::add(const PointValues& values, int line) {
 
 /// Programs that could not tell a normal write zeros or NaN.
 void CloudBuilder::add_normal(const Vector3& normal) {
-  const double length = norm(normal);
+  const double length = normal.norm();
   constexpr double shortest = 1e-3, longest = 1e3;
   if (!(length > shortest && length < longest)) {
     has_normals_ = false;
     cloud_.normals.clear();
     return;
   }
-  cloud_.normals.push_back({static_cast<float>(normal.x / length), static_cast<float>(normal.y / length),
-                            static_cast<float>(normal.z / length)});
+  cloud_.normals.push_back({static_cast<float>(normal.x() / length), static_cast<float>(normal.y() / length),
+                            static_cast<float>(normal.z() / length)});
 }
 
 Cloud CloudBuilder::finish() {

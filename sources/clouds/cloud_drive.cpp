@@ -22,7 +22,7 @@ void describe(ParamVisitor& v, SensorMount& p) {
 Pose3 robot_from_sensor(const SensorMount& mount) {
   const Quaternion roll = exponential({radians(mount.roll_deg), 0.0, 0.0});
   const Quaternion pitch = exponential({0.0, radians(mount.pitch_deg), 0.0});
-  return {{mount.x, mount.y, mount.z}, turn_about_z(radians(mount.yaw_deg)) * pitch * roll};
+  return {{mount.x, mount.y, mount.z}, composed(composed(turn_about_z(radians(mount.yaw_deg)), pitch), roll)};
 }
 
 void describe(ParamVisitor& v, CloudDrive::Params& p) {

@@ -1,16 +1,14 @@
 #include "sources/clouds/cloud_drive_map.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "glocal/error.hpp"
 #include "glocal/limits.hpp"
-#include "glocal/rng.hpp"
+#include "glocal/voxel_numbers.hpp"
 
 namespace glocal {
 namespace {
@@ -37,14 +35,6 @@ class CubeSums {
   }
 
  private:
-  using Cube = std::array<std::int32_t, 3>;
-  struct Hash {
-    std::size_t operator()(const Cube& cube) const {
-      std::uint64_t hash = 0;
-      for (const std::int32_t number : cube) hash = mix64(hash + static_cast<std::uint32_t>(number));
-      return hash;
-    }
-  };
   struct Sum {
     double x = 0.0, y = 0.0, z = 0.0;  ///< m
     double points = 0.0;
@@ -54,10 +44,9 @@ class CubeSums {
 
   void add(const Point& p) {
     const auto number = [this](double place) { return static_cast<std::int32_t>(std::floor(place / side_)); };
-    const auto [entry, is_new] =
-        cubes_.try_emplace(Cube{number(p.x), number(p.y), number(p.z)}, sums_.size());
-    if (is_new) sums_.emplace_back();
-    Sum& sum = sums_[entry->second];
+    const std::uint32_t cube = cubes_.find_or_add({number(p.x), number(p.y), number(p.z)});
+    if (cube == sums_.size()) sums_.emplace_back();
+    Sum& sum = sums_[cube];
     sum.x += p.x;
     sum.y += p.y;
     sum.z += p.z;
@@ -68,7 +57,7 @@ class CubeSums {
   double side_;
   int clouds_ = 0;
   std::vector<Sum> sums_;
-  std::unordered_map<Cube, std::size_t, Hash> cubes_;
+  VoxelNumbers<std::int32_t> cubes_;
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "glocal/extent.hpp"
+#include "glocal/point_spread.hpp"
 #include "sources/clouds/kitti_reader.hpp"
 #include "sources/clouds/octree_reader.hpp"
 #include "sources/clouds/pcd_reader.hpp"
@@ -20,15 +22,6 @@ std::string cloud_extension(std::filesystem::path file) {
   const std::string last = file.extension().string();
   if (last == ".gz" || last == ".bz2" || last == ".xz") file.replace_extension();
   return file.extension().string();
-}
-
-struct Interval {
-  float low = 0.0F, high = 0.0F;
-};
-
-Interval interval_of(const std::vector<float>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {*low, *high};
 }
 
 }  // namespace
@@ -55,17 +48,14 @@ Cloud read_cloud(const std::filesystem::path& file, const CloudOptions& options)
 }
 
 std::array<double, 3> principal_spreads(const Points& points) {
-  const auto n = static_cast<double>(points.size());
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i)
-    mean += Eigen::Vector3d(points.x[i], points.y[i], points.z[i]) / n;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  const Vector3 middle = centroid(points);
+  PointSums<double> sums;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d d = Eigen::Vector3d(points.x[i], points.y[i], points.z[i]) - mean;
-    covariance += d * d.transpose() / n;
+    const Vector3 d = as_vector(points[i]) - middle;
+    sums.add(d.x(), d.y(), d.z());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d variances = solver.eigenvalues().cwiseMax(0.0).reverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sums.covariance(), Eigen::EigenvaluesOnly);
+  const Vector3 variances = solver.eigenvalues().cwiseMax(0.0).reverse();
   return {std::sqrt(variances[0]), std::sqrt(variances[1]), std::sqrt(variances[2])};
 }
 
@@ -77,7 +67,7 @@ std::vector<std::string> cloud_remarks(const Cloud& cloud) {
   double extent = 0.0;
   float reach = 0.0F;
   for (const auto* axis : {&cloud.points.x, &cloud.points.y, &cloud.points.z}) {
-    const auto [low, high] = interval_of(*axis);
+    const auto [low, high] = extent_of(*axis);
     extent = std::max(extent, static_cast<double>(high) - static_cast<double>(low));
     reach = std::max({reach, std::abs(low), std::abs(high)});
   }

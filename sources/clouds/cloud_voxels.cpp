@@ -71,7 +71,7 @@ bool CloudVoxels::is_occupied(const Vector3& place) const {
 
 std::array<double, 3> CloudVoxels::in_cubes(const Vector3& place) const {
   const Vector3 from_corner = place - corner_;
-  return {from_corner.x / side_, from_corner.y / side_, from_corner.z / side_};
+  return {from_corner.x() / side_, from_corner.y() / side_, from_corner.z() / side_};
 }
 
 bool CloudVoxels::holds(const Cube& cube) const {

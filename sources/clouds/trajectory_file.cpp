@@ -45,19 +45,19 @@ class PoseLines {
   [[nodiscard]] Pose3 tum_pose() const {
     const auto& v = values_;
     const Quaternion q{v[7], v[4], v[5], v[6]};
-    const double length = length_of(q);
+    const double length = q.norm();
     if (std::abs(length - 1.0) > rounding)
       refuse(fmt::format("the quaternion has a length of {:.4g} instead of 1; its order is qx qy qz qw",
                          length));
-    return {place(v[1], v[2], v[3]), scaled(q, 1.0 / length)};
+    return {place(v[1], v[2], v[3]), q.normalized()};
   }
 
   [[nodiscard]] Pose3 kitti_pose() const {
     const auto& v = values_;
-    const std::array<double, 9> matrix = {v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]};
+    Eigen::Matrix3d matrix;
+    matrix << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
     if (!is_rotation(matrix)) refuse("the first three columns are no rotation matrix; get a fresh copy");
-    const Quaternion q = quaternion_of(matrix);
-    return {place(v[3], v[7], v[11]), scaled(q, 1.0 / length_of(q))};
+    return {place(v[3], v[7], v[11]), Quaternion(matrix).normalized()};
   }
 
   [[noreturn]] void refuse(std::string message) const {
@@ -84,27 +84,10 @@ class PoseLines {
     }
   }
 
-  static double length_of(const Quaternion& q) {
-    return std::hypot(std::hypot(q.w, q.x), std::hypot(q.y, q.z));
-  }
-  static Quaternion scaled(const Quaternion& q, double factor) {
-    return {factor * q.w, factor * q.x, factor * q.y, factor * q.z};
-  }
-
   /// Whether columns have length 1, right angles between them, and no mirror.
-  static bool is_rotation(const std::array<double, 9>& m) {
-    std::array<Vector3, 3> column;
-    for (std::size_t i = 0; i < 3; ++i) column.at(i) = {m.at(i), m.at(3 + i), m.at(6 + i)};
-    const auto dot = [](const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        const double expected = i == j ? 1.0 : 0.0;
-        if (!(std::abs(dot(column.at(i), column.at(j)) - expected) <= rounding)) return false;
-      }
-    }
-    const auto& [a, b, c] = column;
-    const Vector3 cross{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    return dot(cross, c) > 0.0;
+  static bool is_rotation(const Eigen::Matrix3d& m) {
+    const Eigen::Matrix3d off = m.transpose() * m - Eigen::Matrix3d::Identity();
+    return (off.array().abs() <= rounding).all() && m.determinant() > 0.0;
   }
 
   const std::string& file_;

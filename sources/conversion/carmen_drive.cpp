@@ -47,7 +47,7 @@ LevelPose level_pose(const DriveScan& scan, const std::string& topic, const std:
           fmt::format("the sensor of {} is tilted by {:.1f} deg, and lasers of a CARMEN log are "
                       "level; convert to MCAP, or choose another topic with --scans",
                       shown(topic), tilt_deg)}});
-  const Pose3 half_turn({}, {0.0, 1.0, 0.0, 0.0});  // About x.
+  const Pose3 half_turn(Quaternion{0.0, 1.0, 0.0, 0.0});  // About x.
   return {seen_from_above(pose * half_turn), true};
 }
 

@@ -102,7 +102,7 @@ double peak_of_parabola(double before, double middle, double after) {
 
 Pose3 pose_of(const std::array<double, 6>& v) {
   const Quaternion roll = exponential({v[3], 0.0, 0.0}), pitch = exponential({0.0, v[4], 0.0});
-  return {{v[0], v[1], v[2]}, turn_about_z(v[5]) * pitch * roll};
+  return {{v[0], v[1], v[2]}, composed(composed(turn_about_z(v[5]), pitch), roll)};
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ std::vector<ReferenceJump> reference_jumps(const std::vector<TrackedScan>& scans
     const Pose3 by_reference = inverse(*before->map_from_robot) * *scan.map_from_robot;
     const double way = distance(by_odometry, by_reference);
     const double turn = rotation_between(by_odometry, by_reference);
-    if (way > least_m + share * norm(by_odometry.translation()) ||
+    if (way > least_m + share * by_odometry.translation().norm() ||
         turn > least_rad + share * angle_of(by_odometry.rotation))
       jumps.push_back({scan.stamp_ns, way, turn});
   }

@@ -69,7 +69,7 @@ Scan lidar_scan(const LidarParams& lidar, const LidarPath& map_from_lidar,
       const double elevation = radians(first_deg + beam * step_deg);
       const Vector3 direction{std::cos(elevation) * std::cos(azimuth),
                               std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
-      double range = ray_distance(pose.translation(), rotated(pose.rotation, direction));
+      double range = ray_distance(pose.translation(), pose.rotation * direction);
       // All numbers are drawn for every ray, so that what one of them meets changes no other.
       range += rng.normal(lidar.noise);
       const bool is_outlier = rng.uniform() < lidar.outliers;
@@ -101,7 +101,7 @@ Quaternion Swaying::at(double steps) const {
     for (const Wave& wave : waves) angle += wave.size * std::sin(wave.frequency * steps + wave.phase);
     return angle;
   };
-  return exponential({0.0, sum(pitch_), 0.0}) * exponential({sum(roll_), 0.0, 0.0});
+  return composed(exponential({0.0, sum(pitch_), 0.0}), exponential({sum(roll_), 0.0, 0.0}));
 }
 
 }  // namespace glocal

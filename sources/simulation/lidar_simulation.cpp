@@ -54,7 +54,7 @@ Pose3 LidarSimulation::pose_at(const DriveStep& step, double time) const {
   const Pose2 above = step.map_from_last ? between(*step.map_from_last, step.map_from_robot, 1.0 + share)
                                          : step.map_from_robot;
   return {{above.x, above.y, world_.floor + lidar_.height},
-          turn_about_z(above.theta) * swaying_.at(static_cast<double>(step.number) + share)};
+          composed(turn_about_z(above.theta), swaying_.at(static_cast<double>(step.number) + share))};
 }
 
 Pose3 LidarSimulation::odometry(const DriveStep& step) const {
@@ -63,8 +63,8 @@ Pose3 LidarSimulation::odometry(const DriveStep& step) const {
   const double pitch = rng.normal(radians(lidar_.tilt_noise_deg));
   const Pose2& planar = step.odom_from_robot;
   return {{planar.x, planar.y, 0.0},
-          turn_about_z(planar.theta) * swaying_.at(static_cast<double>(step.number)) *
-              exponential({roll, pitch, 0.0})};
+          composed(composed(turn_about_z(planar.theta), swaying_.at(static_cast<double>(step.number))),
+                   exponential({roll, pitch, 0.0}))};
 }
 
 void LidarSimulation::check_height() const {

@@ -30,11 +30,11 @@ void Scene::look_around(const Position& place, double reach, double time) {
 }
 
 double Scene::ray_distance(const Vector3& origin, const Vector3& direction) const {
-  const Vector3 over_floor{origin.x, origin.y, origin.z - world_.floor};
+  const Vector3 over_floor = origin - world_.floor * Vector3::UnitZ();
   double nearest = ray_distance_in_space(near_, over_floor, direction);
   if (world_.ceiling > 0.0)
-    nearest = std::min(nearest, distance_to_level(world_.ceiling, over_floor.z, direction.z));
-  if (!cloud_) return std::min(nearest, distance_to_level(0.0, over_floor.z, direction.z));
+    nearest = std::min(nearest, distance_to_level(world_.ceiling, over_floor.z(), direction.z()));
+  if (!cloud_) return std::min(nearest, distance_to_level(0.0, over_floor.z(), direction.z()));
   return std::min(nearest, cloud_distance(origin, direction, std::min(reach_, nearest)));
 }
 

@@ -56,12 +56,12 @@ double distance_to(const Circle& circle, const Position& place) {
 /// A ray in space and what is seen of it from above.
 struct SpatialRay {
   SpatialRay(const Vector3& from, const Vector3& direction)
-      : origin{from.x, from.y},
-        run(std::hypot(direction.x, direction.y)),
+      : origin{from.x(), from.y()},
+        run(std::hypot(direction.x(), direction.y())),
         // Straight up or down it has no direction in the plane; any will do.
-        level{run > 0.0 ? direction.x / run : 1.0, run > 0.0 ? direction.y / run : 0.0},
-        z(from.z),
-        rise(direction.z) {}
+        level{run > 0.0 ? direction.x() / run : 1.0, run > 0.0 ? direction.y() / run : 0.0},
+        z(from.z()),
+        rise(direction.z()) {}
 
   /// Where the ray meets an upright thing that it meets at `level_distance` when seen from above.
   [[nodiscard]] double distance_to_side(double level_distance, double height) const {

@@ -151,7 +151,7 @@ Raster raster_around(const std::vector<Position>& places, const CloudVoxels& clo
                       "m; leave out boxes and people, drive less far, or take larger voxels",
                       side)}});
   const Vector3 first = cloud.centre_near({low[0], low[1], 0.0});
-  return {{first.x, first.y}, high, side};
+  return {{first.x(), first.y()}, high, side};
 }
 
 enum class Ground { none, floor, thing };
@@ -161,10 +161,10 @@ Ground ground_at(const Position& place, const CloudVoxels& cloud, double floor) 
   const double margin = floor_tolerance + cloud.side() / 2.0;  // of a voxel's centre
   const double top = floor + headroom + cloud.side() / 2.0;
   Ground ground = Ground::none;
-  for (Vector3 at = cloud.centre_near({place[0], place[1], floor - margin}); at.z < top;
-       at.z += cloud.side()) {
-    if (at.z < floor - margin || !cloud.is_occupied(at)) continue;
-    if (at.z > floor + margin) return Ground::thing;
+  for (Vector3 at = cloud.centre_near({place[0], place[1], floor - margin}); at.z() < top;
+       at.z() += cloud.side()) {
+    if (at.z() < floor - margin || !cloud.is_occupied(at)) continue;
+    if (at.z() > floor + margin) return Ground::thing;
     ground = Ground::floor;
   }
   return ground;

@@ -46,7 +46,7 @@ class PrepareCommand : public CommandLine {
     for (std::int64_t stamp = first; stamp <= last; stamp += step_ns) {
       const Pose3 pose = *track.at(stamp, last);
       out << fmt::format("{:.6f} {} {} 0 0 0 {} {}\n", static_cast<double>(stamp) * 1e-9 + late_s, pose.x,
-                         pose.y, pose.rotation.z, pose.rotation.w);
+                         pose.y, pose.rotation.z(), pose.rotation.w());
     }
   }
 

@@ -30,7 +30,8 @@ class RegisterCommand : public CommandLine {
     const Pose3 pose = inverse(here) * there;
     const Quaternion& q = pose.rotation;
     std::ostringstream text;
-    text << pose.x << ',' << pose.y << ',' << pose.z << ',' << q.x << ',' << q.y << ',' << q.z << ',' << q.w;
+    text << pose.x << ',' << pose.y << ',' << pose.z << ',' << q.x() << ',' << q.y() << ',' << q.z() << ','
+         << q.w();
     return text.str();
   }
 };
@@ -47,10 +48,10 @@ TEST_F(RegisterCommand, SaysThePoseAndJoinsTheClouds) {
   // The source's points lie in the hall, as the target's do.
   for (std::size_t i = n; i < both.size(); i += 97) {
     const Vector3 p = here * Vector3{both.x[i], both.y[i], both.z[i]};
-    EXPECT_GT(p.z, -0.1);
-    EXPECT_LT(p.z, 4.1);
-    EXPECT_GT(p.x, -0.1);
-    EXPECT_LT(p.x, 14.1);
+    EXPECT_GT(p.z(), -0.1);
+    EXPECT_LT(p.z(), 4.1);
+    EXPECT_GT(p.x(), -0.1);
+    EXPECT_LT(p.x(), 14.1);
   }
   const Answer again =
       run("register " + file("source.pcd") + " " + file("target.pcd") + " -o " + file("both.pcd"));

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <httplib.h>
+// A macro of <resolv.h>, which httplib brings, and a name of Eigen's.
+#undef _res
 #include <sys/socket.h>
 #include <unistd.h>
 

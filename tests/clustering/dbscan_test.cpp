@@ -46,8 +46,7 @@ class AsPublished {
     for (std::size_t j = 0; j < hypotheses_.size(); ++j) {
       const Pose3& a = hypotheses_[i].map_from_robot;
       const Pose3& b = hypotheses_[j].map_from_robot;
-      const Quaternion &p = a.rotation, &q = b.rotation;
-      const double cosine = std::abs(p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z);
+      const double cosine = std::abs(a.rotation.dot(b.rotation));
       const double turn = 2.0 * std::acos(std::min(1.0, cosine));
       if (std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) <= params_.radius &&
           turn <= params_.radius_rotation_deg * std::numbers::pi / 180.0) {

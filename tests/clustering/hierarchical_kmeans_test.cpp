@@ -22,7 +22,7 @@ std::vector<Cluster> cluster(const std::vector<Hypothesis>& hypotheses,
 }
 
 Hypothesis turned(const Vector3& turn) {
-  return {{}, Pose3({}, exponential(turn)), 0.7};
+  return {{}, Pose3(exponential(turn)), 0.7};
 }
 
 TEST(HierarchicalKmeans, NothingGivesNothing) {
@@ -93,7 +93,7 @@ TEST(HierarchicalKmeans, KeepsKnownGroupsApart) {
 }
 
 TEST(HierarchicalKmeans, SplitsInSpaceExactlyWhereAVarianceIsTooLarge) {
-  const auto raised = [](double z) { return Hypothesis{{}, Pose3({0, 0, z}, {}), 0.7}; };
+  const auto raised = [](double z) { return Hypothesis{{}, Pose3(Vector3{0, 0, z}), 0.7}; };
   EXPECT_EQ(cluster({raised(-0.0547), raised(0.0547)}).size(), 1U);
   EXPECT_EQ(cluster({raised(-0.0548), raised(0.0548)}).size(), 2U);
   for (const Vector3& axis : {Vector3{1, 0, 0}, Vector3{0, 1, 0}}) {

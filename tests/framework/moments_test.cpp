@@ -44,7 +44,7 @@ TEST(Moments, InSpaceByHand) {
       {at(Pose3({1, 2, 3}, exponential({0, 0.1, 0})), 3), at(Pose3({1, 2, 7}, exponential({0, 0.5, 0})))},
       {0, 1});
   EXPECT_NEAR(c.map_from_robot.z, 4.0, 1e-12);
-  EXPECT_NEAR(rotation_between(c.map_from_robot, Pose3({}, exponential({0, 0.2, 0}))), 0.0, 1e-9);
+  EXPECT_NEAR(rotation_between(c.map_from_robot, Pose3(exponential({0, 0.2, 0}))), 0.0, 1e-9);
   EXPECT_NEAR(c.variance_z, 0.75 * 1.0 + 0.25 * 9.0, 1e-12);
   EXPECT_NEAR(c.variance_about_y, 0.75 * 0.01 + 0.25 * 0.09, 1e-9);
   EXPECT_NEAR(c.variance_x, 0.0, 1e-12);
@@ -56,31 +56,30 @@ TEST(Moments, InSpaceByHand) {
 TEST(Moments, TheMeanRotationHasTheLeastSumOfSquaredAngles) {
   Rng rng(3);
   const auto direction = [&] {
-    return Eigen::Vector3d(rng.normal(1.0), rng.normal(1.0), rng.normal(1.0)).normalized();
+    return Vector3(rng.normal(1.0), rng.normal(1.0), rng.normal(1.0)).normalized();
   };
-  const Eigen::Quaterniond centre(Eigen::AngleAxisd(2.5, direction()));
-  std::vector<Eigen::Quaterniond> rotations;
+  const Quaternion centre(Eigen::AngleAxisd(2.5, direction()));
+  std::vector<Quaternion> rotations;
   std::vector<Hypothesis> hypotheses;
   std::vector<std::size_t> members;
   for (std::size_t i = 0; i < 30; ++i) {
-    rotations.push_back(centre * Eigen::Quaterniond(Eigen::AngleAxisd(rng.normal(0.4), direction())));
-    const Eigen::Quaterniond& q = rotations.back();
+    rotations.push_back(centre * Quaternion(Eigen::AngleAxisd(rng.normal(0.4), direction())));
+    const Quaternion& q = rotations.back();
     // q and -q are the same rotation.
     const double sign = i % 2 == 0 ? 1.0 : -1.0;
-    hypotheses.push_back(at(Pose3({}, {sign * q.w(), sign * q.x(), sign * q.y(), sign * q.z()})));
+    hypotheses.push_back(at(Pose3(Quaternion(sign * q.coeffs()))));
     members.push_back(i);
   }
   const Cluster c = make_cluster(hypotheses, members);
-  const Quaternion& m = c.map_from_robot.rotation;
-  const Eigen::Quaterniond mean(m.w, m.x, m.y, m.z);
-  const auto sum_of_squares = [&](const Eigen::Quaterniond& from) {
+  const Quaternion& mean = c.map_from_robot.rotation;
+  const auto sum_of_squares = [&](const Quaternion& from) {
     double sum = 0.0;
-    for (const Eigen::Quaterniond& q : rotations) sum += std::pow(from.angularDistance(q), 2);
+    for (const Quaternion& q : rotations) sum += std::pow(from.angularDistance(q), 2);
     return sum;
   };
   const double least = sum_of_squares(mean);
   for (int i = 0; i < 50; ++i)
-    EXPECT_LT(least, sum_of_squares(mean * Eigen::Quaterniond(Eigen::AngleAxisd(0.01, direction()))));
+    EXPECT_LT(least, sum_of_squares(mean * Quaternion(Eigen::AngleAxisd(0.01, direction()))));
   // The variances about the axes are that sum, cut in three.
   EXPECT_NEAR(c.variance_about_x + c.variance_about_y + c.variance_theta, least / 30.0, 1e-9);
 }
@@ -89,8 +88,7 @@ TEST(Moments, VariancesOfRotationAreAboutTheMapsAxes) {
   // A robot that looks along the map's y and rolls to both sides turns about that axis.
   const Quaternion left = turn_about_z(pi / 2);
   const Cluster c = make_cluster(
-      {at(Pose3({}, left * exponential({0.2, 0, 0}))), at(Pose3({}, left * exponential({-0.2, 0, 0})))},
-      {0, 1});
+      {at(Pose3(left * exponential({0.2, 0, 0}))), at(Pose3(left * exponential({-0.2, 0, 0})))}, {0, 1});
   EXPECT_NEAR(c.variance_about_y, 0.04, 1e-9);
   EXPECT_NEAR(c.variance_about_x, 0.0, 1e-9);
   EXPECT_NEAR(c.map_from_robot.heading(), pi / 2, 1e-9);

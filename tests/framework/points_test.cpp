@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "glocal/extent.hpp"
+#include "glocal/point_spread.hpp"
 #include "glocal/pose3.hpp"
 #include "glocal/rng.hpp"
 
@@ -35,6 +37,36 @@ TEST(Moved, IsWhatEigenComputes) {
 
 TEST(Moved, NothingIsMovedToNothing) {
   EXPECT_TRUE(moved({}, Pose2{1, 2, 3}).empty());
+}
+
+TEST(Extent, IsFromTheLowestToTheHighest) {
+  const Extent extent = extent_of({1.0F, -2.0F, 0.5F});
+  EXPECT_EQ(extent.low, -2.0F);
+  EXPECT_EQ(extent.high, 1.0F);
+  EXPECT_EQ(extent.length(), 3.0);
+  EXPECT_EQ(extent.middle(), -0.5);
+  EXPECT_EQ(extent_of({}).length(), 0.0);
+}
+
+TEST(PointSums, FindTheNormalOfAPlaneButNoneOfALineOrABall) {
+  const Quaternion turn = exponential({0.3, -0.4, 0.5});
+  Rng rng(1);
+  PointSums<double> plane, line, ball;
+  for (int i = 0; i < 1000; ++i) {
+    const double x = rng.normal(1.0), y = rng.normal(1.0), z = rng.normal(1.0);
+    const auto add = [&](PointSums<double>& sums, const Vector3& v) {
+      const Vector3 p = turn * v;
+      sums.add(p.x(), p.y(), p.z());
+    };
+    add(plane, {x, y, 0.01 * z});
+    add(line, {x, 0.01 * y, 0.01 * z});
+    add(ball, {x, y, z});
+  }
+  const auto normal = plane.plane_normal(0.05, 0.2);
+  ASSERT_TRUE(normal.has_value());
+  EXPECT_NEAR(std::abs(as_vector(*normal).dot(turn * Vector3::UnitZ())), 1.0, 1e-3);
+  EXPECT_FALSE(line.plane_normal(0.05, 0.2).has_value());
+  EXPECT_FALSE(ball.plane_normal(0.05, 0.2).has_value());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ void check_trajectory(const Trajectory& trajectory) {
     last = stamp;
     for (const double v : {pose.x, pose.y, pose.z}) must_hold(std::abs(v) <= farthest_m, "a place is none");
     const Quaternion& q = pose.rotation;
-    const double length = std::hypot(std::hypot(q.w, q.x), std::hypot(q.y, q.z));
+    const double length = std::hypot(std::hypot(q.w(), q.x()), std::hypot(q.y(), q.z()));
     must_hold(std::abs(length - 1.0) < 1e-12, "quaternions have length 1");
   }
 }

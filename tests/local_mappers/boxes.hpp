@@ -31,8 +31,8 @@ inline std::vector<Box> furnished_hall() {
 
 /// Distance along a ray to the first face in its way, by the slabs between opposite faces.
 inline std::optional<double> ray_length(const Vector3& origin, const Vector3& direction, const Box& box) {
-  const std::array<double, 3> from{origin.x, origin.y, origin.z};
-  const std::array<double, 3> along{direction.x, direction.y, direction.z};
+  const std::array<double, 3> from{origin.x(), origin.y(), origin.z()};
+  const std::array<double, 3> along{direction.x(), direction.y(), direction.z()};
   double enter = -std::numeric_limits<double>::infinity();
   double leave = std::numeric_limits<double>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -55,12 +55,12 @@ inline Scan ring_scan(const std::vector<Box>& boxes, const Pose3& map_from_robot
       const double azimuth = radians(2.0 * ray + 0.1);
       const Vector3 direction{std::cos(elevation) * std::cos(azimuth),
                               std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
-      const Vector3 in_map = rotated(map_from_robot.rotation, direction);
+      const Vector3 in_map = map_from_robot.rotation * direction;
       double range = std::numeric_limits<double>::infinity();
       for (const Box& box : boxes)
         range = std::min(range, ray_length(map_from_robot.translation(), in_map, box).value_or(range));
       const Vector3 hit = (range + rng.normal(noise)) * direction;
-      scan.hits.push_back({static_cast<float>(hit.x), static_cast<float>(hit.y), static_cast<float>(hit.z)});
+      scan.hits.push_back(as_point(hit));
     }
   }
   return scan;
@@ -87,7 +87,7 @@ inline SpatialDrive drive_around_table(int steps) {
       odom = {{2, 1, 0}, exponential(tilt)};
     } else {
       const Pose3 step = inverse(drive.map_from_robot.back()) * pose;
-      const double way = norm(step.translation());
+      const double way = step.translation().norm();
       const Vector3 fault{rng.normal(0.002), rng.normal(0.002), radians(1.5) * way};
       odom = odom * Pose3(0.97 * step.translation(), step.rotation * exponential(fault));
     }

@@ -97,9 +97,9 @@ TEST_F(FastDrive, PointsAreWhereTheyWouldBeSeenFromTheLastPose) {
       const Point p = still->hits[k];
       const Point raw = scan.hits[k];
       const Vector3 expected = then * Vector3{raw.x, raw.y, raw.z};
-      ASSERT_LT(norm(pose * Vector3{p.x, p.y, p.z} - expected), 1e-4) << "observation " << i;
+      ASSERT_LT((pose * Vector3{p.x, p.y, p.z} - expected).norm(), 1e-4) << "observation " << i;
       ++hits;
-      far_off += norm(pose * Vector3{raw.x, raw.y, raw.z} - expected) > 0.05 ? 1U : 0U;
+      far_off += (pose * Vector3{raw.x, raw.y, raw.z} - expected).norm() > 0.05 ? 1U : 0U;
     }
   }
   EXPECT_GT(far_off, hits / 2);
@@ -135,7 +135,7 @@ TEST(Deskewed, LeavesAloneWhatItKnowsTooLittleOf) {
   Scan scan;
   scan.hits.push_back({1.0F, 0.0F, 0.0F});
   scan.hits.push_back({2.0F, 0.0F, 0.0F});
-  const SteadyMotion motion{{{1.0, 0.0, 0.0}, {}}, 0.2};
+  const SteadyMotion motion{Pose3(Vector3{1.0, 0.0, 0.0}), 0.2};
   EXPECT_FALSE(deskewed(scan, motion)) << "no times";
   scan.times = {-0.1F, 0.0F};
   EXPECT_FALSE(deskewed(scan, {motion.last_from_now, 0.0})) << "stamps stand still";

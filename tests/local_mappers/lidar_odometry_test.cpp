@@ -101,7 +101,7 @@ TEST(LidarOdometry, KeepsPointsInOrderAndHasUnitNormals) {
     for (std::size_t i = 0; i < before.size(); ++i) {
       const Vector3 moved_by{map.points.x[i] - before.x[i], map.points.y[i] - before.y[i],
                              map.points.z[i] - before.z[i]};
-      ASSERT_LE(norm(moved_by), std::sqrt(3.0) * SurfaceMapParams{}.resolution);
+      ASSERT_LE(moved_by.norm(), std::sqrt(3.0) * SurfaceMapParams{}.resolution);
     }
     before = map.points;
   }
@@ -110,7 +110,7 @@ TEST(LidarOdometry, KeepsPointsInOrderAndHasUnitNormals) {
     const Point n = mapper.map().normals[i];
     if (n == Point{}) continue;
     ++with_normal;
-    ASSERT_NEAR(norm({n.x, n.y, n.z}), 1.0, 1e-5);
+    ASSERT_NEAR(Vector3(n.x, n.y, n.z).norm(), 1.0, 1e-5);
   }
   EXPECT_GT(with_normal, before.size() / 2);
 }
@@ -120,7 +120,7 @@ TEST(LidarOdometry, HasUpWhereOdometryHasIt) {
   mapper.add(drive().observations.front());
   const Pose3& odom = drive().observations.front().odom_from_robot;
   EXPECT_GT(odom.tilt(), radians(0.5));
-  EXPECT_EQ(mapper.map().local_from_robot.translation(), Vector3{});
+  EXPECT_EQ(mapper.map().local_from_robot.translation(), Vector3::Zero());
   EXPECT_NEAR(mapper.map().local_from_robot.heading(), 0.0, 1e-9);
   EXPECT_NEAR(mapper.map().local_from_robot.tilt(), odom.tilt(), 1e-9);
 }
@@ -200,7 +200,7 @@ TEST(LidarOdometry, HalvesTheDriftOfARecordedDrive) {
 TEST(AdaptiveThreshold, IsTheRootMeanSquareOfCorrections) {
   AdaptiveThreshold threshold(0.3, 0.05);
   EXPECT_DOUBLE_EQ(threshold.sigma(), 0.3);
-  threshold.note({{0.04, 0.0, 0.0}, {}}, 10.0);
+  threshold.note(Pose3(Vector3{0.04, 0.0, 0.0}), 10.0);
   EXPECT_DOUBLE_EQ(threshold.sigma(), 0.3) << "too small to count";
   threshold.note({{0.0, 0.1, 0.0}, exponential({0.0, 0.0, 0.1})}, 10.0);
   const double delta = 0.1 + 20.0 * std::sin(0.05);

@@ -89,9 +89,9 @@ TEST(Odometry, FollowsOdometryInSpace) {
   ASSERT_THAT(map.ends, ElementsAre(1U, 2U));
   EXPECT_EQ(map.points[0], (Point{0.0F, 0.0F, 1.0F}));
   const Vector3 hit = step * Vector3{0, 0, 1};
-  EXPECT_NEAR(map.points.x[1], hit.x, 1e-6);
-  EXPECT_NEAR(map.points.y[1], hit.y, 1e-6);
-  EXPECT_NEAR(map.points.z[1], hit.z, 1e-6);
+  EXPECT_NEAR(map.points.x[1], hit.x(), 1e-6);
+  EXPECT_NEAR(map.points.y[1], hit.y(), 1e-6);
+  EXPECT_NEAR(map.points.z[1], hit.z(), 1e-6);
   EXPECT_TRUE(map.normals.empty());
 }
 
@@ -100,12 +100,12 @@ TEST(Odometry, KeepsWhatIsUpWhereTheMotionIsUpright) {
   const Pose3 first({1, 2, 3}, turn_about_z(0.7) * exponential({0.1, 0.2, 0.0}));
   const Pose3 second({2, 2, 3}, turn_about_z(0.9) * exponential({-0.1, 0.1, 0.0}));
   mapper.add(tilted(first));
-  EXPECT_EQ(mapper.map().local_from_robot.translation(), Vector3{});
+  EXPECT_EQ(mapper.map().local_from_robot.translation(), Vector3::Zero());
   EXPECT_NEAR(mapper.map().local_from_robot.heading(), 0.0, 1e-12);
   EXPECT_NEAR(mapper.map().local_from_robot.tilt(), first.tilt(), 1e-12);
   mapper.add(tilted(second));
   EXPECT_NEAR(mapper.map().local_from_robot.tilt(), second.tilt(), 1e-12);
-  EXPECT_NEAR(norm(mapper.map().local_from_robot.translation()), 1.0, 1e-12);
+  EXPECT_NEAR(mapper.map().local_from_robot.translation().norm(), 1.0, 1e-12);
   EXPECT_NEAR(mapper.map().local_from_robot.z, 0.0, 1e-12);
 }
 

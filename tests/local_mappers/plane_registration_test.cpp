@@ -14,7 +14,7 @@ class PlaneRegistrationTest : public testing::Test {
   /// A map in the frame of the hall, from scans made around `place`.
   PlaneRegistrationTest() {
     for (int i = 0; i < 10; ++i) {
-      const Pose3 pose = Pose3(Pose2{5.0, 1.5, 0.3 * i}) * Pose3({0.0, 0.0, 0.9 + 0.05 * i}, {});
+      const Pose3 pose = Pose3(Pose2{5.0, 1.5, 0.3 * i}) * Pose3(Vector3{0.0, 0.0, 0.9 + 0.05 * i});
       const Scan scan = test::ring_scan(test::furnished_hall(), pose, 0.0, rng_);
       map_.add(moved(scan.hits, pose), at(pose), 0.0);
     }
@@ -38,8 +38,8 @@ TEST_F(PlaneRegistrationTest, FindsAllSixOfAPose) {
 }
 
 TEST_F(PlaneRegistrationTest, StaysWhereNothingIsNear) {
-  const Pose3 start({200.0, 0.0, 0.0}, {});
-  const Scan scan = test::ring_scan(test::furnished_hall(), {{5.0, 1.5, 1.0}, {}}, 0.0, rng_);
+  const Pose3 start(Vector3{200.0, 0.0, 0.0});
+  const Scan scan = test::ring_scan(test::furnished_hall(), Pose3(Vector3{5.0, 1.5, 1.0}), 0.0, rng_);
   const PlaneRegistration found = register_to_planes(map_, scan.hits, {}, start, limits);
   EXPECT_EQ(found.local_from_robot, start);
   EXPECT_EQ(found.matches, 0U);

@@ -24,7 +24,7 @@ Points random_points(int n, double half, Rng& rng) {
 }
 
 double apart(const Point& a, const Point& b) {
-  return norm({double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z});
+  return Vector3(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z).norm();
 }
 
 /// A level square of 2 m around (0, 0, z), a hit every 10 cm.

@@ -119,7 +119,7 @@ TEST_P(FeatureSearch, FindsAScanInAMap) {
 
 TEST_P(FeatureSearch, WhereTheMotionIsUprightPosesThatTiltAreDropped) {
   LocalMap tilted;
-  tilted.points = moved(scan_of(hall(), here), Pose3({}, exponential({0.6, 0.0, 0.0})));
+  tilted.points = moved(scan_of(hall(), here), Pose3(exponential({0.6, 0.0, 0.0})));
   Rng rng(1);
   EXPECT_TRUE(matcher(Motion::upright)->match({tilted, {}, 0.0}, rng).hypotheses.empty());
   LocalMap upright;

@@ -90,21 +90,21 @@ class Sums<Pose2> {
 template <>
 class Sums<Pose3> {
  public:
-  explicit Sums(const Pose3& near) : near_(near.rotation), from_near_(inverse(near.rotation)) {}
+  explicit Sums(const Pose3& near) : near_(near.rotation), from_near_(near.rotation.conjugate()) {}
   void add(const Item<Pose3>& item) {
     weight_ += item.weight;
-    places_ = places_ + item.weight * item.pose.translation();
-    turns_ = turns_ + item.weight * logarithm(item.pose.rotation * from_near_);
+    places_ += item.weight * item.pose.translation();
+    turns_ += item.weight * logarithm(composed(item.pose.rotation, from_near_));
   }
   [[nodiscard]] double weight() const { return weight_; }
   [[nodiscard]] Pose3 mean() const {
-    return {(1.0 / weight_) * places_, exponential((1.0 / weight_) * turns_) * near_};
+    return {(1.0 / weight_) * places_, composed(exponential((1.0 / weight_) * turns_), near_)};
   }
 
  private:
   Quaternion near_, from_near_;
   double weight_ = 0.0;
-  Vector3 places_, turns_;
+  Vector3 places_ = Vector3::Zero(), turns_ = Vector3::Zero();
 };
 
 /// Mean and variances of some items, at least one (eq. 6, diagonal only); members are left empty. In space

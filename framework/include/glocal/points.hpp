@@ -19,6 +19,25 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
+[[nodiscard]] inline Point operator+(const Point& a, const Point& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+[[nodiscard]] inline Point operator-(const Point& a, const Point& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+[[nodiscard]] inline Point operator*(float factor, const Point& p) {
+  return {factor * p.x, factor * p.y, factor * p.z};
+}
+[[nodiscard]] inline float dot(const Point& a, const Point& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+[[nodiscard]] inline Point cross(const Point& a, const Point& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+[[nodiscard]] inline float length(const Point& p) {
+  return std::sqrt(dot(p, p));
+}
+
 /// N points in metres; x, y and z always have the same length. A planar laser has z = 0.
 struct Points {
   std::vector<float> x;
@@ -56,12 +75,15 @@ struct Points {
 /// The points as they are in the target's frame.
 [[nodiscard]] Points moved(const Points& points, const Pose3& target_from_source);
 
+/// Their mean; there is at least one.
+[[nodiscard]] Vector3 centroid(const Points& points);
+
 [[nodiscard]] inline Vector3 as_vector(const Point& p) {
   return {p.x, p.y, p.z};
 }
 /// In single precision.
 [[nodiscard]] inline Point as_point(const Vector3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
 /// A pose in the plane with its sine and cosine at hand, for moving many points. Heights stay as they are.

@@ -92,7 +92,7 @@ Observation TrialRoom::latest() const {
 Observation TrialRoom::along_wall(double way, double odometry_x) const {
   Observation observation;
   const double z = motion_ == Motion::planar ? 0.0 : 1.2;
-  observation.scan.hits = seen_from({{2.0 + way, 2.0, z}, {}});
+  observation.scan.hits = seen_from(Pose3(Vector3{2.0 + way, 2.0, z}));
   observation.odom_from_robot.x = odometry_x;
   observation.stamp = way;
   return observation;

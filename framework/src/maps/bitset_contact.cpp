@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 
 #include "glocal/contact.hpp"
 #include "glocal/error.hpp"
+#include "glocal/extent.hpp"
 #include "maps/count_contacts.hpp"
 
 namespace glocal {
@@ -18,16 +18,6 @@ constexpr std::size_t voxels_per_word = 32;
 /// Rows of the coarse bits are whole words too.
 constexpr double columns_step = voxels_per_word << VoxelGrid::coarse_shift;
 
-struct Range {
-  double low;
-  double high;
-};
-
-Range range_of(const std::vector<float>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {*low, *high};
-}
-
 /// The voxels along an axis: where the first one begins, and how many there are.
 struct VoxelAxis {
   float begin;
@@ -36,7 +26,7 @@ struct VoxelAxis {
 
 /// Those that are within `epsilon` of the points and one more to either side. Far from the origin single
 /// precision may round by more than a voxel: what is not there at all would then be marked.
-VoxelAxis axis_of(const Range& range, double epsilon, double scale) {
+VoxelAxis axis_of(const Extent& range, double epsilon, double scale) {
   const double margin = epsilon + 1.0 / scale;
   auto begin = static_cast<float>(range.low - margin);
   while (begin > range.low - epsilon) begin = std::nextafter(begin, -std::numeric_limits<float>::infinity());
@@ -52,9 +42,9 @@ BitsetContact::BitsetContact(const Points& points, double epsilon) {
     return;
   }
   scale_ = static_cast<float>(voxels_per_epsilon / epsilon);
-  const Range x = range_of(points.x);
-  const Range y = range_of(points.y);
-  const Range z = range_of(points.z);
+  const Extent x = extent_of(points.x);
+  const Extent y = extent_of(points.y);
+  const Extent z = extent_of(points.z);
   const bool planar = z.low == z.high;
   const VoxelAxis along_x = axis_of(x, epsilon, scale_), along_y = axis_of(y, epsilon, scale_);
   const VoxelAxis along_z =

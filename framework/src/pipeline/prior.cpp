@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "glocal/extent.hpp"
+
 namespace glocal {
 namespace {
 
@@ -41,8 +43,8 @@ std::string text_of(const StartRegion& region) {
 }
 
 std::string range_of(const std::vector<float>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return fmt::format("from {:.1f} m to {:.1f} m", *low, *high);
+  const Extent extent = extent_of(values);
+  return fmt::format("from {:.1f} m to {:.1f} m", extent.low, extent.high);
 }
 
 }  // namespace

@@ -21,19 +21,18 @@ bool is_share(double value) {
 }
 
 bool is_near(const Vector3& place) {
-  return std::abs(place.x) <= farthest_m && std::abs(place.y) <= farthest_m &&
-         std::abs(place.z) <= farthest_m;
+  return (place.array().abs() <= farthest_m).all();
 }
 
 bool is_rotation(const Quaternion& q) {
   constexpr double rounding = 1e-6;
-  return std::abs(std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z) - 1.0) <= rounding;
+  return std::abs(q.norm() - 1.0) <= rounding;
 }
 
 std::string text_of(const Pose3& pose) {
   if (pose.is_planar()) return fmt::format("({}, {}, {})", pose.x, pose.y, pose.heading());
   const Quaternion& q = pose.rotation;
-  return fmt::format("({}, {}, {}; {}, {}, {}, {})", pose.x, pose.y, pose.z, q.x, q.y, q.z, q.w);
+  return fmt::format("({}, {}, {}; {}, {}, {}, {})", pose.x, pose.y, pose.z, q.x(), q.y(), q.z(), q.w());
 }
 
 /// What is wrong with a pose; empty if nothing is.

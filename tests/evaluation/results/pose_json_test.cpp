@@ -30,7 +30,7 @@ TEST(PoseJson, InSpaceHasAllKeysEvenWhereThePoseIsPlanar) {
 }
 
 TEST(PoseJson, OfTheTwoQuaternionsTheOneWithPositiveWIsWritten) {
-  const Pose3 pose({}, {-0.5, 0.5, -0.5, 0.5});
+  const Pose3 pose(Quaternion{-0.5, 0.5, -0.5, 0.5});
   const Json json = to_json(pose, Motion::free);
   EXPECT_EQ(json.at("qw"), 0.5);
   EXPECT_EQ(json.at("qx"), -0.5);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "glocal/rng.hpp"
+#include "glocal/voxel_numbers.hpp"
 
 namespace glocal::voxel_filter_test {
 namespace {
@@ -59,6 +60,16 @@ TEST(VoxelFilter, GroupsAsATreeOfVoxelsDoes) {
     ASSERT_EQ(groups.of_point[i], at.first->second);
   }
   EXPECT_EQ(groups.count, numbers.size());
+}
+
+TEST(VoxelNumbers, CountInTheOrderInWhichVoxelsCome) {
+  VoxelNumbers<int> numbers(1);  // Grows.
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(numbers.find_or_add({i % 500 - 250, 3, -i % 500}), i % 500);
+  EXPECT_EQ(numbers.size(), 500U);
+  EXPECT_EQ(numbers.find({-250, 3, 0}), 0U);
+  EXPECT_EQ(numbers.find({-250, 3, 1}), VoxelNumbers<int>::none);
+  numbers.clear();
+  EXPECT_EQ(numbers.find({-250, 3, 0}), VoxelNumbers<int>::none);
 }
 
 }  // namespace

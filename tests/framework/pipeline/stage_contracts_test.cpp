@@ -185,13 +185,13 @@ TEST(StageContracts, PosesInSpaceHavePlacesAndRotations) {
   };
   const Pose3 tilted({1, 2, 3}, exponential({0.1, -0.2, 0.3}));
   EXPECT_NO_THROW(check(tilted));
-  EXPECT_THROW(check({{1, 2, not_a_number}, {}}), BrokenContract);
-  EXPECT_THROW(check({{1, 2, 1.1e7}, {}}), BrokenContract);
-  EXPECT_NO_THROW(check({{1, 2, -1e7}, {}}));
-  EXPECT_NO_THROW(check({{}, {1.0 + 0.9e-6, 0, 0, 0}}));
-  EXPECT_THROW(check({{}, {1.0 + 1.1e-6, 0, 0, 0}}), BrokenContract);
-  EXPECT_THROW(check({{}, {0, 0, 0, 0}}), BrokenContract);
-  EXPECT_THROW(check({{}, {1, 0, not_a_number, 0}}), BrokenContract);
+  EXPECT_THROW(check(Pose3(Vector3{1, 2, not_a_number})), BrokenContract);
+  EXPECT_THROW(check(Pose3(Vector3{1, 2, 1.1e7})), BrokenContract);
+  EXPECT_NO_THROW(check(Pose3(Vector3{1, 2, -1e7})));
+  EXPECT_NO_THROW(check(Pose3(Quaternion{1.0 + 0.9e-6, 0, 0, 0})));
+  EXPECT_THROW(check(Pose3(Quaternion{1.0 + 1.1e-6, 0, 0, 0})), BrokenContract);
+  EXPECT_THROW(check(Pose3(Quaternion{0, 0, 0, 0})), BrokenContract);
+  EXPECT_THROW(check(Pose3(Quaternion{1, 0, not_a_number, 0})), BrokenContract);
 }
 
 TEST(StageContracts, WhereTheMotionIsPlanarSoAreAllPoses) {
@@ -203,7 +203,7 @@ TEST(StageContracts, WhereTheMotionIsPlanarSoAreAllPoses) {
     }
     return std::string();
   };
-  const Pose3 raised({1, 2, 0.5}, {});
+  const Pose3 raised(Vector3{1, 2, 0.5});
   const Pose3 tilted({1, 2, 0}, exponential({0, 0.1, 0}));
   EXPECT_EQ(
       broken(raised, Motion::planar),

@@ -22,9 +22,9 @@ std::size_t brute_count(const Points& map, const Points& points, const Pose3& ma
     const Vector3 p = map_from_local * Vector3{points.x[i], points.y[i], points.z[i]};
     bool found = false;
     for (std::size_t k = 0; k < map.size() && !found; ++k) {
-      const double dx = map.x[k] - p.x;
-      const double dy = map.y[k] - p.y;
-      const double dz = map.z[k] - p.z;
+      const double dx = map.x[k] - p.x();
+      const double dy = map.y[k] - p.y();
+      const double dz = map.z[k] - p.z();
       found = dx * dx + dy * dy + dz * dz <= near * near;
     }
     n += found ? 1 : 0;
@@ -172,7 +172,7 @@ TEST(SearchBoxesInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
     const Pose3 near = found.poses[rng.below(static_cast<std::uint32_t>(found.poses.size()))].upright();
     look_at({near.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}, turn(0.05) * near.rotation});
     const Vector3 way{up_to(1.0), up_to(1.0), up_to(1.0)};
-    const Pose3 robot({declared.translation() + (rng.uniform(1.0, 1.1) / norm(way)) * way},
+    const Pose3 robot({declared.translation() + (rng.uniform(1.0, 1.1) / way.norm()) * way},
                       turn(0.05) * declared.rotation);
     look_at(robot * inverse(local_from_robot));
     const Pose3 turned({declared.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}},

@@ -51,8 +51,8 @@ TEST(QualityTest, PosesInSpaceAreJudgedAsThoseInThePlane) {
   const QualityTest test(points_with_contact(40, 30), contact_of_world(), {}, 0.7, rng);
   Points memory;
   // Turned over about the wall that the points in contact lie along: these stay where they are.
-  const RigidMotion over(Pose3({}, exponential({radians(180.0), 0.0, 0.0})));
-  const RigidMotion away(Pose3({-5.0, 0.0, 0.0}, {}));
+  const RigidMotion over(Pose3(exponential({radians(180.0), 0.0, 0.0})));
+  const RigidMotion away(Pose3(Vector3{-5.0, 0.0, 0.0}));
   for (std::uint32_t start = 0; start < 100; ++start) {
     const auto judged = test.test(over, start << 25U, memory);
     ASSERT_TRUE(judged.quality);

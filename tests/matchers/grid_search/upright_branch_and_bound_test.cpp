@@ -250,8 +250,8 @@ TEST(UprightBranchAndBound, FindsThePose) {
   EXPECT_LT(rotation_between(robot, truth), radians(4.0));
   double last = 1.0;
   for (const Hypothesis& h : result.hypotheses) {
-    EXPECT_EQ(h.map_from_local.rotation.x, 0.0);
-    EXPECT_EQ(h.map_from_local.rotation.y, 0.0);
+    EXPECT_EQ(h.map_from_local.rotation.x(), 0.0);
+    EXPECT_EQ(h.map_from_local.rotation.y(), 0.0);
     EXPECT_GE(h.score, 0.3);
     EXPECT_LE(h.score, last);
     last = h.score;

@@ -43,8 +43,8 @@ TEST(TriangleRansam, UprightPosesTurnAboutZAlone) {
   const MatchResult result = match(Motion::upright, local_at(truth), 0.4);
   ASSERT_FALSE(result.hypotheses.empty());
   for (const Hypothesis& h : result.hypotheses) {
-    EXPECT_EQ(h.map_from_local.rotation.x, 0.0);
-    EXPECT_EQ(h.map_from_local.rotation.y, 0.0);
+    EXPECT_EQ(h.map_from_local.rotation.x(), 0.0);
+    EXPECT_EQ(h.map_from_local.rotation.y(), 0.0);
   }
   EXPECT_LT(distance(result.hypotheses.front().map_from_local, truth), 0.3);
   EXPECT_LT(rotation_between(result.hypotheses.front().map_from_local, truth), radians(4.0));

@@ -64,8 +64,8 @@ const std::shared_ptr<const GlobalMap>& furnished() {
 
 /// Where a ray that starts at `from` enters and leaves a box.
 std::array<double, 2> crossing(const Box& box, const Vector3& from, const Vector3& direction) {
-  const std::array<double, 3> o = {from.x, from.y, from.z};
-  const std::array<double, 3> d = {direction.x, direction.y, direction.z};
+  const std::array<double, 3> o = {from.x(), from.y(), from.z()};
+  const std::array<double, 3> d = {direction.x(), direction.y(), direction.z()};
   std::array<double, 2> t = {-std::numeric_limits<double>::infinity(),
                              std::numeric_limits<double>::infinity()};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -85,14 +85,14 @@ Points scan_at(const Pose3& map_from_robot) {
       const double up = radians(-15.0 + 2.0 * ring);
       const double turn = radians(step + 0.01);
       const Vector3 ray{std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up)};
-      const Vector3 in_map = rotated(map_from_robot.rotation, ray);
+      const Vector3 in_map = map_from_robot.rotation * ray;
       double range = crossing(hall, map_from_robot.translation(), in_map)[1];
       for (const Box& box : furniture) {
         const auto [enters, leaves] = crossing(box, map_from_robot.translation(), in_map);
         if (enters > 0.0 && enters < leaves) range = std::min(range, enters);
       }
       const Vector3 hit = (range + rng.normal(0.01)) * ray;
-      hits.push_back({static_cast<float>(hit.x), static_cast<float>(hit.y), static_cast<float>(hit.z)});
+      hits.push_back(as_point(hit));
     }
   }
   return hits;
@@ -153,8 +153,8 @@ TEST(SurfelRansam, UprightPosesTurnAboutZAlone) {
     const auto found = matcher(Motion::upright).match({seen.local, seen.latest, 0.0}, draws).hypotheses;
     ASSERT_FALSE(found.empty());
     for (const Hypothesis& h : found) {
-      EXPECT_EQ(h.map_from_local.rotation.x, 0.0);
-      EXPECT_EQ(h.map_from_local.rotation.y, 0.0);
+      EXPECT_EQ(h.map_from_local.rotation.x(), 0.0);
+      EXPECT_EQ(h.map_from_local.rotation.y(), 0.0);
     }
     if (is_near(found.front().map_from_local, truth)) ++right;
   }
@@ -294,7 +294,7 @@ TEST(SurfelRansam, PointsWhereTheMapIsFreeSpeakAgainstAPose) {
   std::size_t violating = 0;
   for (std::size_t i = 0; i < in_map.size(); ++i) {
     const Vector3 p = as_vector(in_map[i]);
-    const std::array<double, 3> at = {p.x, p.y, p.z};
+    const std::array<double, 3> at = {p.x(), p.y(), p.z()};
     Box smaller = hall;
     Box larger = furniture[0];
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -318,7 +318,7 @@ TEST(SurfelRansam, OfTwoHallsThatLookAlikeItTakesTheOneWhereNothingIsKnownToBeFr
   const Points once = data.points;
   for (std::size_t i = 0; i < once.size(); ++i) {
     const Point p = once[i];
-    data.points.push_back({p.x + static_cast<float>(farther.x), p.y, p.z});
+    data.points.push_back({p.x + static_cast<float>(farther.x()), p.y, p.z});
   }
   data.free_voxels = free_around(first);
   const auto map = std::make_shared<const GlobalMap>(std::move(data));

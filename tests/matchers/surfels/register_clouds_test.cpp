@@ -62,7 +62,7 @@ TEST(RegisterClouds, WorksWhereTheSensorsPlacesAreNotKnown) {
       const Pose3 frame_from_scan = inverse(frame) * pose;
       for (std::size_t i = 0; i < scan.size(); ++i) {
         const Vector3 p = frame_from_scan * Vector3{scan.x[i], scan.y[i], scan.z[i]};
-        all.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        all.push_back(as_point(p));
       }
     }
     return all;
@@ -76,7 +76,7 @@ TEST(RegisterClouds, WorksWhereTheSensorsPlacesAreNotKnown) {
   const Pose3 truth = inverse(other_corner) * corner;
   EXPECT_LT(degrees(rotation_between(*result.target_from_source, truth)), 1.0);
   const Vector3 middle = inverse(corner) * Vector3{7.0, 4.5, 2.0};
-  EXPECT_LT(norm(*result.target_from_source * middle - truth * middle), 0.1);
+  EXPECT_LT((*result.target_from_source * middle - truth * middle).norm(), 0.1);
 }
 
 TEST(RegisterClouds, CloudsThatReachTooFarAreRefused) {

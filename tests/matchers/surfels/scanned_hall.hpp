@@ -27,12 +27,12 @@ inline std::vector<Box> hall() {
 
 /// How far a ray reaches, m: from inside the first box, and outside all others.
 inline double range_of_ray(const std::vector<Box>& boxes, const Vector3& from, const Vector3& direction) {
-  const std::array<double, 3> o = {from.x, from.y, from.z};
-  const std::array<double, 3> d = {direction.x, direction.y, direction.z};
+  const std::array<double, 3> o = {from.x(), from.y(), from.z()};
+  const std::array<double, 3> d = {direction.x(), direction.y(), direction.z()};
   double range = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const std::array<double, 3> least = {boxes[i].least.x, boxes[i].least.y, boxes[i].least.z};
-    const std::array<double, 3> most = {boxes[i].most.x, boxes[i].most.y, boxes[i].most.z};
+    const std::array<double, 3> least = {boxes[i].least.x(), boxes[i].least.y(), boxes[i].least.z()};
+    const std::array<double, 3> most = {boxes[i].most.x(), boxes[i].most.y(), boxes[i].most.z()};
     double enter = -range;
     double leave = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -59,10 +59,9 @@ inline Points scan_of(const std::vector<Box>& boxes, const Pose3& hall_from_lida
       const double up = radians(2.0 * beam + 1.013);
       const double around = radians(azimuth + 0.517);
       const Vector3 ray{std::cos(up) * std::cos(around), std::cos(up) * std::sin(around), std::sin(up)};
-      const double range =
-          range_of_ray(boxes, hall_from_lidar.translation(), rotated(hall_from_lidar.rotation, ray));
+      const double range = range_of_ray(boxes, hall_from_lidar.translation(), hall_from_lidar.rotation * ray);
       const Vector3 hit = range * ray;
-      cloud.push_back({static_cast<float>(hit.x), static_cast<float>(hit.y), static_cast<float>(hit.z)});
+      cloud.push_back(as_point(hit));
     }
   }
   return cloud;

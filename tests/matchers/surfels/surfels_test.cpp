@@ -42,8 +42,8 @@ TEST(Surfels, NormalsOfAHallAreThoseOfItsSidesAndPointToTheSensor) {
     const Point n = surfels.normals[i];
     EXPECT_NEAR(length(n), 1.0F, 1e-3F);
     EXPECT_LE(dot(n, surfels.points[i]), 0.0F);
-    const Vector3 in_hall = rotated(place.rotation, {n.x, n.y, n.z});
-    const double largest = std::max({std::abs(in_hall.x), std::abs(in_hall.y), std::abs(in_hall.z)});
+    const Vector3 in_hall = place.rotation * Vector3{n.x, n.y, n.z};
+    const double largest = std::max({std::abs(in_hall.x()), std::abs(in_hall.y()), std::abs(in_hall.z())});
     if (largest > std::cos(radians(10.0))) ++along_an_axis;
   }
   EXPECT_GT(along_an_axis, surfels.size() * 8 / 10);  // the others are at edges
@@ -66,9 +66,9 @@ TEST(PreparedCloud, AWallInFrontOfWhatWasSeenIsSeenThrough) {
   const Pose3 lidar_from_hall = inverse(place);
   for (int i = 0; i < 20; ++i) {
     const Vector3 p = lidar_from_hall * Vector3{5.0, 2.5, 0.5 + 0.05 * i};
-    const Vector3 n = rotated(lidar_from_hall.rotation, {0.0, 1.0, 0.0});
-    wall.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-    wall.normals.push_back({static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)});
+    const Vector3 n = lidar_from_hall.rotation * Vector3{0.0, 1.0, 0.0};
+    wall.points.push_back(as_point(p));
+    wall.normals.push_back(as_point(n));
     wall.weights.push_back(1.0F);
   }
   const Agreement agreement = agreement_of(wall, RigidMotion(), cloud);

@@ -146,7 +146,7 @@ class Ahead final : public CloudRegistrar {
     Registration result;
     result.is_match = true;
     result.why = "all clouds are alike";
-    result.target_from_source = Pose3{{by_, 0.0, 0.0}, {}};
+    result.target_from_source = Pose3{Vector3{by_, 0.0, 0.0}};
     result.voxel_size = 0.1;
     return result;
   }

@@ -277,7 +277,7 @@ TEST_F(Bags, ScansMayChangeTheirNumberOfBeams) {
 
 TEST_F(Bags, CloudsAreCutAtHeightsForThePlane) {
   drive(0.0, 0.0, 1);
-  mount(Pose3({0.0, 0.0, 1.0}, {}));
+  mount(Pose3(Vector3{0.0, 0.0, 1.0}));
   recording_.cloud("/points", 500 * ms, "laser", {{1.0, 0.0, -1.0}, {2.0, 0.0, -0.5}, {3.0, 0.0, 2.0}});
   EXPECT_THAT(fault(), HasSubstr("has clouds, and the motion is planar: set heights"));
   params_.heights = {0.2, 1.5};
@@ -289,7 +289,7 @@ TEST_F(Bags, CloudsAreCutAtHeightsForThePlane) {
 
 TEST_F(Bags, InSpaceCloudsKeepTheirHeightsAndOdometryItsTilt) {
   recording_.transform("odom", "base_link", 0, Pose3({0.0, 0.0, 0.5}, exponential({0.1, 0.0, 0.0})));
-  mount(Pose3({0.0, 0.0, 1.0}, {}));
+  mount(Pose3(Vector3{0.0, 0.0, 1.0}));
   recording_.cloud("/points", 500 * ms, "laser", {{1.0, 0.0, -1.5}});
   const Observation o = read(Motion::upright).at(0).observation;
   EXPECT_NEAR(o.odom_from_robot.tilt(), 0.1, 1e-9);

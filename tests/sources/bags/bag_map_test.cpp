@@ -69,7 +69,7 @@ TEST_F(BagMaps, WhatIsNoMapIsRefused) {
   EXPECT_THAT(fault(), HasSubstr("has no map (nav_msgs/OccupancyGrid)"));
   recording_.grid("/map", 0, 1.0F, 2, {0, -1});
   EXPECT_THAT(fault(), HasSubstr("the map of /map has no occupied cell"));
-  recording_.grid("/map", 1, 1.0F, 1, {100}, {{}, exponential({0.5, 0.0, 0.0})});
+  recording_.grid("/map", 1, 1.0F, 1, {100}, Pose3(exponential({0.5, 0.0, 0.0})));
   EXPECT_THAT(fault(), HasSubstr("the map of /map is tilted"));
 }
 

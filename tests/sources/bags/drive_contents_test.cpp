@@ -118,7 +118,7 @@ TEST_F(DriveOf, OneOfSeveralOdometriesIsToBeNamed) {
 TEST_F(DriveOf, MessagesThatCannotBeReadAreCounted) {
   add_robot("base_link");
   for (const int s : {3, 4})
-    recording_.transform("odom", "base_link", s * second, {{}, {0.0, 0.0, 0.0, 0.0}});
+    recording_.transform("odom", "base_link", s * second, Pose3(Quaternion{0.0, 0.0, 0.0, 0.0}));
   recording_.scan("/scan", 0, {.ranges = {1.0F}});
   EXPECT_FALSE(read().odometry_at(3 * second, second));
   EXPECT_THAT(remarks_, ElementsAre(HasSubstr("2 messages of /tf are left out; the first: ")));

@@ -46,7 +46,7 @@ class Writer {
   }
   Writer& pose(const Pose3& p = {{1.0, 2.0, 3.0}, {0.8, 0.0, 0.0, 0.6}}) {
     const Quaternion& q = p.rotation;
-    for (const double v : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) number(v);
+    for (const double v : {p.x, p.y, p.z, q.x(), q.y(), q.z(), q.w()}) number(v);
     return *this;
   }
   [[nodiscard]] std::string bytes() const {
@@ -101,7 +101,7 @@ class RobotRecording {
     w.number<std::uint8_t>(0).number(offset).number(row);
     std::string data;
     for (const Vector3& p : points) {
-      for (const double v : {p.x, p.y, p.z}) data += le(static_cast<float>(v));
+      for (const double v : {p.x(), p.y(), p.z()}) data += le(static_cast<float>(v));
     }
     add(topic, "sensor_msgs/msg/PointCloud2", stamp_ns, w.raw(data).number<std::uint8_t>(1));
   }

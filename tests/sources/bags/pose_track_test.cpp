@@ -63,7 +63,7 @@ TEST(EvenMotion, InSpaceTurnsAboutOneAxis) {
   const Pose3 half = EvenMotion(Pose3(), Pose3({0.0, 0.0, 2.0}, quarter_about_x)).at(0.5);
   EXPECT_NEAR(half.z, 1.0, 1e-12);
   EXPECT_NEAR(angle_of(half.rotation), std::numbers::pi / 4.0, 1e-12);
-  EXPECT_NEAR(half.rotation.y, 0.0, 1e-12);
+  EXPECT_NEAR(half.rotation.y(), 0.0, 1e-12);
 }
 
 }  // namespace

@@ -125,9 +125,9 @@ TEST_F(CloudDriveTest, TurnsTheSensorByRollPitchAndYaw) {
   const Pose3 mount = robot_from_sensor({.roll_deg = 90.0, .pitch_deg = 30.0, .yaw_deg = 90.0});
   // Forward is to the left and down; left is up, leaning forward (seen along y).
   const Vector3 forward = mount * Vector3{1.0, 0.0, 0.0};
-  EXPECT_NEAR(forward.y, std::cos(std::numbers::pi / 6), 1e-12);
-  EXPECT_NEAR(forward.z, -0.5, 1e-12);
-  EXPECT_NEAR((mount * Vector3{0.0, 1.0, 0.0}).z, std::cos(std::numbers::pi / 6), 1e-12);
+  EXPECT_NEAR(forward.y(), std::cos(std::numbers::pi / 6), 1e-12);
+  EXPECT_NEAR(forward.z(), -0.5, 1e-12);
+  EXPECT_NEAR((mount * Vector3{0.0, 1.0, 0.0}).z(), std::cos(std::numbers::pi / 6), 1e-12);
 }
 
 TEST_F(CloudDriveTest, NeedsAFolder) {
@@ -167,7 +167,7 @@ TEST_F(CloudDriveTest, OfTheDatasetsLiesOnItsMap) {
     const Vector3 p = *sample.map_from_robot * Vector3{hit.x, hit.y, hit.z};
     bool found = false;
     for (std::size_t j = 0; j < map.size() && !found; ++j)
-      found = norm(p - Vector3{map.x[j], map.y[j], map.z[j]}) < 0.1;
+      found = (p - Vector3{map.x[j], map.y[j], map.z[j]}).norm() < 0.1;
     near += found ? 1U : 0U;
   }
   EXPECT_GT(static_cast<double>(near), 0.95 * static_cast<double>(tested));

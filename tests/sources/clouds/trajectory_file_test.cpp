@@ -33,7 +33,7 @@ TEST(TrajectoryFile, ReadsPosesOfKitti) {
   ASSERT_EQ(t.poses.size(), 2U);
   EXPECT_FALSE(t.has_stamps);
   EXPECT_EQ(t.poses[1].stamp, 1.0);
-  EXPECT_EQ(t.poses[0].pose, Pose3({4.0, 5.0, 6.0}, {}));
+  EXPECT_EQ(t.poses[0].pose, Pose3(Vector3{4.0, 5.0, 6.0}));
   EXPECT_NEAR(t.poses[1].pose.heading(), std::numbers::pi / 2, 1e-12);
 }
 

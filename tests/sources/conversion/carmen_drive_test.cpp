@@ -192,10 +192,10 @@ TEST_F(Conversion, LogsHaveLevelLasersOnly) {
   const auto fault = [&](const DriveScan& scan) {
     return config_error(folder_.path(), [&] { static_cast<void>(carmen_scan(scan, "a.bag")); });
   };
-  EXPECT_EQ(fault(drive_scan({{}, exponential({0.0, radians(20.0), 0.0})})),
+  EXPECT_EQ(fault(drive_scan(Pose3(exponential({0.0, radians(20.0), 0.0})))),
             "a.bag: error: the sensor of laser is tilted by 20.0 deg, and lasers of a CARMEN log are level; "
             "convert to MCAP, or choose another topic with --scans");
-  EXPECT_EQ(fault(drive_scan({{}, exponential({radians(0.5), 0.0, 0.0})})), "");
+  EXPECT_EQ(fault(drive_scan(Pose3(exponential({radians(0.5), 0.0, 0.0})))), "");
   DriveScan cloud = drive_scan({});
   cloud.rays = bags::PointCloud{};
   EXPECT_THAT(fault(cloud),

@@ -60,7 +60,7 @@ TEST_F(Clouds, AreReadBackFromMcap) {
   EXPECT_THAT(first->observation.scan.hits.z, ElementsAre(3.0F, 6.0F));
   EXPECT_THAT(first->observation.scan.times, ElementsAre(0.0F, 0.125F));
   EXPECT_EQ(second->observation.odom_from_robot, Pose3({1.0, 0.0, 0.5}, {0.8, 0.6, 0.0, 0.0}));
-  EXPECT_EQ(second->map_from_robot, Pose3({7.0, 8.0, 9.0}, {}));
+  EXPECT_EQ(second->map_from_robot, Pose3(Vector3{7.0, 8.0, 9.0}));
 }
 
 TEST_F(Clouds, NeedOdometry) {

@@ -80,8 +80,8 @@ class LidarDrive : public testing::Test {
 
 /// How far a place is from the nearest of the room's six faces, m.
 double off_the_room(const Vector3& p) {
-  return std::min({std::abs(p.x), std::abs(p.x - 6.0), std::abs(p.y), std::abs(p.y - 4.0), std::abs(p.z),
-                   std::abs(p.z - 2.5)});
+  return std::min({std::abs(p.x()), std::abs(p.x() - 6.0), std::abs(p.y()), std::abs(p.y() - 4.0),
+                   std::abs(p.z()), std::abs(p.z() - 2.5)});
 }
 
 Vector3 hit(const Scan& scan, std::size_t i) {
@@ -93,7 +93,7 @@ TEST_F(LidarDrive, MeetsWallsFloorAndCeiling) {
   const Sample sample = read_all()[0];
   // From (1, 1, 1), looking along x: behind 1 m, to the right 1 m, ahead 5 m, to the left 3 m. At 45 degrees
   // the floor is 1 m below and 1 m away, the ceiling 1.5 m above.
-  const Pose3 expected({1.0, 1.0, 1.0}, {});
+  const Pose3 expected(Vector3{1.0, 1.0, 1.0});
   EXPECT_EQ(sample.map_from_robot, expected);
   const Scan& scan = sample.observation.scan;
   ASSERT_EQ(scan.hits.size(), 12U);
@@ -101,7 +101,7 @@ TEST_F(LidarDrive, MeetsWallsFloorAndCeiling) {
                                   {0, -1, 0},    {0, -1, 1}, {1, 0, -1}, {5, 0, 0},
                                   {1.5, 0, 1.5}, {0, 1, -1}, {0, 3, 0},  {0, 1.5, 1.5}};
   for (std::size_t i = 0; i < hits.size(); ++i)
-    EXPECT_NEAR(norm(hit(scan, i) - hits[i]), 0.0, 1e-5) << "ray " << i;
+    EXPECT_NEAR((hit(scan, i) - hits[i]).norm(), 0.0, 1e-5) << "ray " << i;
   EXPECT_EQ(scan.origin, Point{});
   EXPECT_TRUE(scan.times.empty());
   EXPECT_TRUE(scan.free_ends.empty());
@@ -182,8 +182,8 @@ TEST_F(LidarDrive, HasNoiseOutliersAndGaps) {
   scene.look_around({3.0, 2.0}, 30.0, 0.0);
   const auto off = [&](const Sample& sample, std::size_t i) {
     const Vector3 ray = hit(sample.observation.scan, i);
-    const Vector3 direction = rotated(sample.map_from_robot->rotation, 1.0 / norm(ray) * ray);
-    return norm(ray) - scene.ray_distance(sample.map_from_robot->translation(), direction);
+    const Vector3 direction = sample.map_from_robot->rotation * (1.0 / ray.norm() * ray);
+    return ray.norm() - scene.ray_distance(sample.map_from_robot->translation(), direction);
   };
   for (const Sample& sample : read_all()) {
     rays += 16.0 * 360.0;
@@ -286,20 +286,20 @@ TEST_F(LidarDrive, MeetsThingsAndPeopleInAnOctree) {
   };
   const Scan walls = hits_of("");
   ASSERT_EQ(walls.hits.size(), 4U);
-  EXPECT_NEAR(norm(hit(walls, 0) - Vector3{5.0, 0.0, -5.0 * slope}), 0.0, 1e-5);
-  EXPECT_NEAR(norm(hit(walls, 1) - Vector3{5.0, 0.0, 0.0}), 0.0, 1e-5);
-  EXPECT_NEAR(norm(hit(walls, 2) - Vector3{0.0, 4.0, -4.0 * slope}), 0.0, 1e-5);
-  EXPECT_NEAR(norm(hit(walls, 3) - Vector3{0.0, 4.0, 0.0}), 0.0, 1e-5);
+  EXPECT_NEAR((hit(walls, 0) - Vector3{5.0, 0.0, -5.0 * slope}).norm(), 0.0, 1e-5);
+  EXPECT_NEAR((hit(walls, 1) - Vector3{5.0, 0.0, 0.0}).norm(), 0.0, 1e-5);
+  EXPECT_NEAR((hit(walls, 2) - Vector3{0.0, 4.0, -4.0 * slope}).norm(), 0.0, 1e-5);
+  EXPECT_NEAR((hit(walls, 3) - Vector3{0.0, 4.0, 0.0}).norm(), 0.0, 1e-5);
   // A box of 0.8 m from x = 3 m on, which the level ray passes over, and somebody of a radius of 0.2 m whose
   // middle is at y = 5.5 m.
   const Scan things = hits_of(
       "rectangles: [{centre: [3.5, 3], size: [1, 1], height: 0.8, on_map: false}]\n"
       "people: [{points: [[1, 5.5]]}]\n");
   ASSERT_EQ(things.hits.size(), 4U);
-  EXPECT_NEAR(norm(hit(things, 0) - Vector3{2.0, 0.0, -2.0 * slope}), 0.0, 1e-5);
-  EXPECT_NEAR(norm(hit(things, 1) - Vector3{5.0, 0.0, 0.0}), 0.0, 1e-5);
-  EXPECT_NEAR(norm(hit(things, 2) - Vector3{0.0, 2.3, -2.3 * slope}), 0.0, 1e-5);
-  EXPECT_NEAR(norm(hit(things, 3) - Vector3{0.0, 2.3, 0.0}), 0.0, 1e-5);
+  EXPECT_NEAR((hit(things, 0) - Vector3{2.0, 0.0, -2.0 * slope}).norm(), 0.0, 1e-5);
+  EXPECT_NEAR((hit(things, 1) - Vector3{5.0, 0.0, 0.0}).norm(), 0.0, 1e-5);
+  EXPECT_NEAR((hit(things, 2) - Vector3{0.0, 2.3, -2.3 * slope}).norm(), 0.0, 1e-5);
+  EXPECT_NEAR((hit(things, 3) - Vector3{0.0, 2.3, 0.0}).norm(), 0.0, 1e-5);
 }
 
 TEST_F(LidarDrive, SaysWhatIsWrong) {
@@ -364,7 +364,7 @@ TEST(SimulatedMapInSpace, ShowsWhatIsOnTheMapOnly) {
     std::size_t n = 0;
     for (std::size_t i = 0; i < map.points.size(); ++i) {
       const Point p = map.points[i];
-      n += norm(Vector3{p.x, p.y, p.z} - place) < reach ? 1U : 0U;
+      n += (Vector3{p.x, p.y, p.z} - place).norm() < reach ? 1U : 0U;
     }
     return n;
   };

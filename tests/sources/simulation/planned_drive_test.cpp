@@ -254,7 +254,7 @@ TEST(PlannedDrive, ShowsBoxesToALidar) {
     const Scan& scan = sample->observation.scan;
     for (std::size_t i = 0; i < scan.hits.size(); ++i) {
       const Vector3 hit = *sample->map_from_robot * Vector3{scan.hits.x[i], scan.hits.y[i], scan.hits.z[i]};
-      on_boxes += hit.z > 0.05 && clearance(boxes, {hit.x, hit.y}) < 1e-4 ? 1U : 0U;
+      on_boxes += hit.z() > 0.05 && clearance(boxes, {hit.x(), hit.y()}) < 1e-4 ? 1U : 0U;
     }
   }
   EXPECT_GT(on_boxes, 500U);
@@ -293,32 +293,32 @@ class OctreeHall : public testing::Test {
 double distance_to_box(const Rectangle& box, double floor, const Vector3& origin, const Vector3& direction) {
   const Pose3 map_from_box({box.centre[0], box.centre[1], floor}, turn_about_z(radians(box.angle_deg)));
   const Vector3 from = inverse(map_from_box) * origin;
-  const Vector3 along = rotated(inverse(map_from_box).rotation, direction);
+  const Vector3 along = inverse(map_from_box).rotation * direction;
   double enter = 0.0;
   double leave = 1e9;
   const auto cut = [&](double low, double high, double at, double step) {
     enter = std::max(enter, std::min((low - at) / step, (high - at) / step));
     leave = std::min(leave, std::max((low - at) / step, (high - at) / step));
   };
-  cut(-box.size[0] / 2.0, box.size[0] / 2.0, from.x, along.x);
-  cut(-box.size[1] / 2.0, box.size[1] / 2.0, from.y, along.y);
-  cut(0.0, box.height, from.z, along.z);
+  cut(-box.size[0] / 2.0, box.size[0] / 2.0, from.x(), along.x());
+  cut(-box.size[1] / 2.0, box.size[1] / 2.0, from.y(), along.y());
+  cut(0.0, box.height, from.z(), along.z());
   return enter < leave ? enter : std::numeric_limits<double>::infinity();
 }
 
 /// The same of a column that is met from outside, by its side or its top.
 double distance_to_column(const Circle& column, double floor, const Vector3& origin,
                           const Vector3& direction) {
-  const double dx = origin.x - column.centre[0];
-  const double dy = origin.y - column.centre[1];
-  const double a = direction.x * direction.x + direction.y * direction.y;
-  const double b = dx * direction.x + dy * direction.y;
+  const double dx = origin.x() - column.centre[0];
+  const double dy = origin.y() - column.centre[1];
+  const double a = direction.x() * direction.x() + direction.y() * direction.y();
+  const double b = dx * direction.x() + dy * direction.y();
   const double root = std::sqrt(b * b - a * (dx * dx + dy * dy - column.radius * column.radius));
-  const double to_top = (floor + column.height - origin.z) / direction.z;
-  const double at_side = origin.z + (-b - root) / a * direction.z - floor;
+  const double to_top = (floor + column.height - origin.z()) / direction.z();
+  const double at_side = origin.z() + (-b - root) / a * direction.z() - floor;
   if (at_side >= 0.0 && at_side <= column.height && b < 0.0) return (-b - root) / a;
   const bool is_on_top =
-      to_top > 0.0 && std::hypot(dx + to_top * direction.x, dy + to_top * direction.y) < column.radius;
+      to_top > 0.0 && std::hypot(dx + to_top * direction.x(), dy + to_top * direction.y()) < column.radius;
   return is_on_top ? to_top : std::numeric_limits<double>::infinity();
 }
 

@@ -1,0 +1,23 @@
+// How far coordinates reach.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace glocal {
+
+/// From the lowest to the highest of some coordinates; (0, 0) of none.
+struct Extent {
+  float low = 0.0F, high = 0.0F;
+
+  [[nodiscard]] double length() const { return double{high} - double{low}; }
+  [[nodiscard]] double middle() const { return 0.5 * (double{low} + double{high}); }
+};
+
+[[nodiscard]] inline Extent extent_of(const std::vector<float>& values) {
+  if (values.empty()) return {};
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return {*low, *high};
+}
+
+}  // namespace glocal
