@@ -3,19 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
+#include "evaluation/results/number_text.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "glocal/error.hpp"
 
@@ -53,9 +52,8 @@ void add_trial(const Json& trial, Findings& findings) {
 double limit(const StoredRun& run, const std::string& path) {
   const auto setting = run.settings.find(path);
   const std::string text = setting == run.settings.end() ? "" : setting->second.text;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !(value > 0.0)) {
+  const double value = number_of<double>(text).value_or(0.0);
+  if (!(value > 0.0)) {
     throw ConfigError({{(run.folder / "effective.yaml").string(), 0, 0,
                         fmt::format("{} is no positive number; run the experiment again", path)}});
   }

@@ -4,9 +4,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -16,7 +16,8 @@
 #include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/shard_plan.hpp"
-#include "evaluation/sharding/journal_scan.hpp"
+#include "evaluation/results/journal_scan.hpp"
+#include "evaluation/results/number_text.hpp"
 #include "evaluation/sharding/run_shard.hpp"
 #include "glocal/error.hpp"
 
@@ -25,14 +26,6 @@ namespace {
 
 constexpr std::size_t most_shards = 1'000'000;
 constexpr int incomplete = 3;
-
-std::optional<std::size_t> number_of(std::string_view text) {
-  std::size_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || last != end || text.empty()) return std::nullopt;
-  return number;
-}
 
 /// Keeps children at work until all trials of a share have come to an end.
 class Supervisor {
@@ -61,16 +54,16 @@ class Supervisor {
   };
 
   [[nodiscard]] TrialId id(const PlannedTrial& place) const {
-    return id_of(manifest_.variants[place.variant], place.trial,
-                 manifest_.starts_of(place.variant)[place.trial]);
+    return manifest_.id_of(place.variant, place.trial);
   }
   [[nodiscard]] std::size_t crashes_of(const PlannedTrial& place) const;
   [[nodiscard]] Open open() const;
   [[nodiscard]] bool any_failed() const;
   std::optional<int> run_process(const std::vector<PlannedTrial>& trials);
-  int work(const std::vector<PlannedTrial>& trials, ShardJournal& journal);
-  void note_death(const ChildEnd& end, const std::vector<PlannedTrial>& trials, ShardJournal& journal);
-  void note_crash(const ChildEnd& end, const std::vector<PlannedTrial>& suspects, ShardJournal& journal);
+  int work(const std::vector<PlannedTrial>& trials, Journal& journal);
+  void note_death(const ChildEnd& end, const std::vector<PlannedTrial>& trials,
+                  const std::filesystem::path& journal);
+  void note_crash(const ChildEnd& end, const std::vector<PlannedTrial>& running);
   void note_kill(const std::string& cause);
 
   std::vector<Variant> variants_;
@@ -124,20 +117,18 @@ int Supervisor::run() {
 
 /// None if there may be more to do.
 std::optional<int> Supervisor::run_process(const std::vector<PlannedTrial>& trials) {
-  ShardJournal journal(journals_folder(options_.out), shard_, options_.jobs);
+  Journal journal(journals_folder(options_.out), shard_, options_.jobs);
   const ChildEnd end = run_in_child([&] { return work(trials, journal); }, [&] { journal.touch(); });
-  journal.drop_torn_line();
-  scan_.update();
-  if (!end.exit_code) note_death(end, trials, journal);
   journal.close();
   scan_.update();
+  if (!end.exit_code) note_death(end, trials, journal.file());
   if (is_interrupted()) return incomplete;
   if (end.exit_code.value_or(0) != 0) return end.exit_code;
   return std::nullopt;
 }
 
 /// In the child.
-int Supervisor::work(const std::vector<PlannedTrial>& trials, ShardJournal& journal) {
+int Supervisor::work(const std::vector<PlannedTrial>& trials, Journal& journal) {
   Waiting waiting(quiet_);
   return run_shard_trials(variants_, manifest_, trials, context_.catalog, options_, journal,
                           waiting.callbacks())
@@ -146,43 +137,44 @@ int Supervisor::work(const std::vector<PlannedTrial>& trials, ShardJournal& jour
 }
 
 void Supervisor::note_death(const ChildEnd& end, const std::vector<PlannedTrial>& trials,
-                            ShardJournal& journal) {
+                            const std::filesystem::path& journal) {
   std::vector<PlannedTrial> running;
   for (const PlannedTrial& place : trials) {
     const auto begun = scan_.begun().find(id(place));
-    if (begun != scan_.begun().end() && scan_.journals()[begun->second.journal].file == journal.file())
+    if (begun != scan_.begun().end() && scan_.journals()[begun->second.journal].file == journal)
       running.push_back(place);
   }
   if (end.is_own_fault) {
-    note_crash(end, running, journal);
+    note_crash(end, running);
   } else {
     note_kill(end.cause);
   }
 }
 
 /// Where the crash says which trial it was, those beside it are not to blame.
-void Supervisor::note_crash(const ChildEnd& end, const std::vector<PlannedTrial>& running,
-                            ShardJournal& journal) {
+void Supervisor::note_crash(const ChildEnd& end, const std::vector<PlannedTrial>& running) {
   const auto is_named = [&](const PlannedTrial& place) {
     return end.crash && end.crash->trial == place.trial;
   };
   const bool any_named = std::any_of(running.begin(), running.end(), is_named);
   const Crash crash{end.cause, end.crash ? end.crash->where : ""};
-  bool any = false;
+  if (running.empty())
+    throw RunError(
+        fmt::format("the process crashed ({}) before it began with a trial: while it was loading map and "
+                    "drive, or while strategies were made",
+                    crash.signal));
+  // That of the process may end in half a line.
+  Journal journal(journals_folder(options_.out), shard_, 1);
   for (const PlannedTrial& place : running) {
     if (any_named && !is_named(place)) continue;
-    any = true;
     journal.add_crash(id(place), crash);
     const std::string& variant = manifest_.variants[place.variant].name;
     spdlog::error("{}{}trial {} has crashed ({}); {}", variant, variant.empty() ? "" : ", ", place.trial,
                   crash.signal,
                   crashes_of(place) + 1 < most_crashes ? "it is tried once more, alone" : "it is given up");
   }
-  if (!any)
-    throw RunError(
-        fmt::format("the process crashed ({}) before it began with a trial: while it was loading map and "
-                    "drive, or while strategies were made",
-                    crash.signal));
+  journal.close();
+  scan_.update();
 }
 
 /// Somebody has ended the process: its trials are not to blame. Whoever ends it may be about to end this one.
@@ -204,9 +196,10 @@ void Supervisor::note_kill(const std::string& cause) {
 
 Shard shard_of(const std::string& text) {
   const std::size_t slash = text.find('/');
-  const auto number = number_of(std::string_view(text).substr(0, slash));
-  const auto of =
-      slash == std::string::npos ? std::nullopt : number_of(std::string_view(text).substr(slash + 1));
+  const auto number = number_of<std::size_t>(std::string_view(text).substr(0, slash));
+  const auto of = slash == std::string::npos
+                      ? std::nullopt
+                      : number_of<std::size_t>(std::string_view(text).substr(slash + 1));
   if (!number || !of || *number < 1 || *number > *of || *of > most_shards)
     throw ConfigError({{"--shard " + text, 0, 0,
                         fmt::format("is no shard; give its number and how many there are, from 1/1 to "

@@ -169,8 +169,7 @@ struct Script {
 void write_scripts(const fs::path& folder, const std::vector<Script>& scripts) {
   // Jobs do not start where the folder of their output is missing.
   std::vector<fs::path> changed;
-  if (const auto error = make_folders(folder / logs_folder, changed))
-    throw RunError(fmt::format("{}: cannot write: {}", (folder / logs_folder).string(), reason_of(error)));
+  check_written(make_folders(folder / logs_folder, changed), folder / logs_folder);
   AtomicFiles files(true);
   for (const Script& script : scripts) files.add(script.file, script.text);
   files.commit();

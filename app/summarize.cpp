@@ -1,7 +1,7 @@
 // glocal summarize: what runs have come to, a row for each.
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -12,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
+#include "evaluation/results/number_text.hpp"
 #include "evaluation/results/stored_figures.hpp"
 
 namespace glocal::app {
@@ -37,22 +38,17 @@ struct Row {
   std::vector<TrialFigures> trials = {};
 };
 
-[[noreturn]] void refuse_range(const std::string& text) {
-  throw ConfigError(
-      {{"--steps " + text, 0, 0,
-        "is no range of steps; give the first one and the one behind the last, as in 100:200"}});
-}
-
 /// "100:200".
 StepRange range_of(const std::string& text) {
-  StepRange range;
-  if (text.empty()) return range;
-  const char* const end = text.data() + text.size();
-  const auto from = std::from_chars(text.data(), end, range.from);
-  if (from.ec != std::errc{} || from.ptr == end || *from.ptr != ':') refuse_range(text);
-  const auto to = std::from_chars(from.ptr + 1, end, range.to);
-  if (to.ec != std::errc{} || to.ptr != end || range.to <= range.from) refuse_range(text);
-  return range;
+  if (text.empty()) return {};
+  const std::size_t colon = std::min(text.find(':'), text.size() - 1);
+  const auto from = number_of<std::size_t>(text.substr(0, colon));
+  const auto to = number_of<std::size_t>(text.substr(colon + 1));
+  if (!from || !to || *to <= *from)
+    throw ConfigError(
+        {{"--steps " + text, 0, 0,
+          "is no range of steps; give the first one and the one behind the last, as in 100:200"}});
+  return {*from, *to};
 }
 
 std::vector<Row> rows_of(const SummarizeOptions& options) {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "evaluation/results/journal_scan.hpp"
 #include "evaluation/results/summary.hpp"
 #include "evaluation/results/writers.hpp"
-#include "evaluation/sharding/journal_scan.hpp"
 #include "evaluation/sharding/manifest.hpp"
 #include "evaluation/sharding/merge.hpp"
 #include "evaluation/sharding/status.hpp"
@@ -84,14 +84,14 @@ nlohmann::ordered_json description() {
 void write_journals(const fs::path& folder, const Manifest& manifest) {
   const auto steps = steps_of(manifest);
   for (std::size_t k = 1; k <= shards; ++k) {
-    ShardJournal journal(journals_folder(folder), {k, shards}, 1);
+    Journal journal(journals_folder(folder), {k, shards}, 1);
     std::size_t variant = variants;
     for (const PlannedTrial& place : share_of(steps, {k, shards})) {
       const PlannedVariant& planned = manifest.variants[place.variant];
       if (place.variant != variant) journal.add_variant(planned.identity, description());
       variant = place.variant;
       const TrialOutput output = output_of_trial(place.trial);
-      const TrialId id = id_of(planned, place.trial, manifest.starts_of(variant)[place.trial]);
+      const TrialId id = manifest.id_of(variant, place.trial);
       journal.begin(id, {{"sample", place.trial}});
       journal.finish(id, 20.0, output);
     }
@@ -144,7 +144,7 @@ BENCHMARK(merge_all)->Name("sharding/merge/trials")->Apply(many_trials);
 /// With the wait for the disk, beside the same bytes without it.
 void note_trial(benchmark::State& state) {
   const Folder folder;
-  ShardJournal journal(folder.path(), {1, 1}, 1);
+  Journal journal(folder.path(), {1, 1}, 1);
   const TrialOutput output = output_of_trial(1);
   for ([[maybe_unused]] auto _ : state) journal.finish({1, 2}, 20.0, output);
 }
@@ -152,7 +152,7 @@ BENCHMARK(note_trial)->Name("sharding/note_trial")->Unit(benchmark::kMicrosecond
 
 void text_of_trial(benchmark::State& state) {
   const TrialOutput output = output_of_trial(1);
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(output_text(output));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(to_json(output.entry).dump());
 }
 BENCHMARK(text_of_trial)->Name("sharding/text_of_trial")->Unit(benchmark::kMicrosecond);
 

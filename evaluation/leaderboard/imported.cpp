@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "config/nearest.hpp"
 #include "config/text_file.hpp"
 #include "evaluation/results/file_io.hpp"
+#include "evaluation/results/number_text.hpp"
 #include "glocal/words.hpp"
 
 namespace glocal {
@@ -34,14 +34,6 @@ std::vector<std::string> cells_of(std::string line) {
     if (comma == line.size()) return cells;
     begin = comma + 1;
   }
-}
-
-template <class Number>
-std::optional<Number> whole_text_as(const std::string& text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
 }
 
 /// Reads one file, row by row.
@@ -95,7 +87,7 @@ class PosesReader {
   template <class Number>
   Number number(const char* column) {
     const std::string& text = cells_->at(columns_.at(column));
-    const std::optional<Number> value = whole_text_as<Number>(text);
+    const std::optional<Number> value = number_of<Number>(text);
     bool is_good = value.has_value();
     if constexpr (std::is_floating_point_v<Number>) is_good = is_good && std::isfinite(*value);
     if (is_good) return *value;

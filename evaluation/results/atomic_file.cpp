@@ -9,15 +9,8 @@
 #include "glocal/error.hpp"
 
 namespace glocal {
-namespace {
 
 namespace fs = std::filesystem;
-
-void check(const std::error_code& error, const fs::path& file) {
-  if (error) throw RunError(fmt::format("{}: cannot write: {}", file.string(), reason_of(error)));
-}
-
-}  // namespace
 
 AtomicFiles::~AtomicFiles() {
   std::error_code ignored;
@@ -35,8 +28,8 @@ void AtomicFiles::add(const fs::path& file, std::string_view content) {
         {{file.string(), 0, 0, "the file exists; choose another name, or replace it with --force"}});
   }
   std::vector<fs::path> changed;
-  check(make_folders(target.parent_path(), changed), file);
-  for (const fs::path& folder : changed) check(sync_to_disk(folder), file);
+  check_written(make_folders(target.parent_path(), changed), file);
+  for (const fs::path& folder : changed) check_written(sync_to_disk(folder), file);
   const fs::path temporary =
       target.parent_path() / fmt::format(".{}.{}.unfinished", target.filename().string(), ::getpid());
   fs::remove(temporary, error);
@@ -46,17 +39,18 @@ void AtomicFiles::add(const fs::path& file, std::string_view content) {
 
 void AtomicFiles::append(std::string_view content) {
   const Pending& last = pending_.back();
-  check(append_to_file(last.temporary, content), last.file);
+  check_written(append_to_file(last.temporary, content), last.file);
 }
 
 void AtomicFiles::commit() {
   std::error_code error;
-  for (const Pending& pending : pending_) check(sync_to_disk(pending.temporary), pending.file);
+  for (const Pending& pending : pending_) check_written(sync_to_disk(pending.temporary), pending.file);
   for (const Pending& pending : pending_) {
     fs::rename(pending.temporary, pending.file, error);
-    check(error, pending.file);
+    check_written(error, pending.file);
   }
-  for (const Pending& pending : pending_) check(sync_to_disk(pending.file.parent_path()), pending.file);
+  for (const Pending& pending : pending_)
+    check_written(sync_to_disk(pending.file.parent_path()), pending.file);
   pending_.clear();
 }
 

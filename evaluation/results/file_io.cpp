@@ -1,6 +1,7 @@
 #include "evaluation/results/file_io.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,10 +15,6 @@ namespace glocal {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::error_code last_error() {
-  return {errno, std::generic_category()};
-}
 
 /// Closes a file descriptor.
 class Descriptor {
@@ -50,6 +47,10 @@ fs::path follow(const fs::path& path, int& links) {
 }
 
 }  // namespace
+
+std::error_code last_error() {
+  return {errno, std::generic_category()};
+}
 
 std::string content_of(const fs::path& file) {
   std::ostringstream content;
@@ -95,6 +96,10 @@ std::error_code sync_file_system(const fs::path& folder) {
 std::string reason_of(const std::error_code& error) {
   const bool limited = error == std::errc::file_too_large;
   return error.message() + (limited ? " (for the limit that the shell or the system sets: ulimit -f)" : "");
+}
+
+void check_written(const std::error_code& error, const fs::path& file) {
+  if (error) throw RunError(fmt::format("{}: cannot write: {}", file.string(), reason_of(error)));
 }
 
 fs::path without_links(const fs::path& path) {

@@ -28,8 +28,14 @@ namespace glocal {
 /// Waits until all is on the disk that was written to the file system of this folder, by any program.
 [[nodiscard]] std::error_code sync_file_system(const std::filesystem::path& folder);
 
+/// That of the system call that has failed just now.
+[[nodiscard]] std::error_code last_error();
+
 /// Why a file could not be written, for a message.
 [[nodiscard]] std::string reason_of(const std::error_code& error);
+
+/// Throws RunError with the file and the reason if it could not be written.
+void check_written(const std::error_code& error, const std::filesystem::path& file);
 
 /// Where this is once all symbolic links are followed, also where nothing is there yet. Throws ConfigError if
 /// links lead in a circle.

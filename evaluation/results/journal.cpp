@@ -1,95 +1,105 @@
 #include "evaluation/results/journal.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <libdeflate.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <system_error>
+#include <vector>
 
-#include "config/text_file.hpp"
 #include "evaluation/results/file_io.hpp"
-#include "evaluation/results/json_text.hpp"
-#include "evaluation/results/pose_json.hpp"
+#include "evaluation/results/number_text.hpp"
+#include "evaluation/results/provenance.hpp"
+#include "evaluation/results/valid_text.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Json to_json(const PoseError& error) {
-  return {error.translation_m, error.rotation_rad};
+void check_kept(const std::error_code& error, const fs::path& file) {
+  if (error)
+    throw RunError(
+        fmt::format("{}: cannot write: {}; finished trials are kept: give the same command again when the "
+                    "cause is mended",
+                    file.string(), reason_of(error)));
 }
 
-PoseError error_of(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>()};
+std::uint64_t hexadecimal(std::string_view digits) {
+  const auto value = number_of<std::uint64_t>(digits, 16);
+  if (!value) throw std::invalid_argument("no hexadecimal number");
+  return *value;
 }
 
-Json to_json(const Declaration& declaration) {
-  return {{"at_m", declaration.at_m},
-          {"segment", declaration.segment},
-          {"map_from_robot", to_json(declaration.map_from_robot, Motion::free)},
-          {"odom_from_robot", to_json(declaration.odom_from_robot, Motion::free)}};
-}
-
-Declaration declaration_of(const Json& json) {
-  return {json.at("at_m"), static_cast<int>(whole_number(json, "segment")),
-          pose_of(json.at("map_from_robot")), pose_of(json.at("odom_from_robot"))};
-}
-
-Json to_json(const TrialFigures& figures) {
-  Json step_ms = Json::array();
-  for (const StageTimes& ms : figures.step_ms)
-    step_ms.push_back({ms.local_map, ms.match, ms.cluster, ms.rate, ms.verify});
-  Json later_errors = Json::array();
-  for (const PoseError& error : figures.later_errors) later_errors.push_back(to_json(error));
-  Json json = {{"outcome", to_string(figures.outcome)}, {"steps", figures.steps},
-               {"distance_m", figures.distance_m},      {"error", to_json(figures.error)},
-               {"step_ms", std::move(step_ms)},         {"later_errors", std::move(later_errors)}};
-  if (figures.declaration) json["declaration"] = to_json(*figures.declaration);
-  return json;
-}
-
-TrialFigures figures_of(const Json& json) {
-  TrialFigures figures;
-  figures.outcome = outcome_of(json.at("outcome"));
-  figures.steps = json.at("steps");
-  figures.distance_m = json.at("distance_m");
-  figures.error = error_of(json.at("error"));
-  for (const Json& ms : json.at("step_ms"))
-    figures.step_ms.push_back({ms.at(0), ms.at(1), ms.at(2), ms.at(3), ms.at(4)});
-  for (const Json& error : json.at("later_errors")) figures.later_errors.push_back(error_of(error));
-  if (json.contains("declaration")) figures.declaration = declaration_of(json.at("declaration"));
-  return figures;
-}
-
-[[noreturn]] void refuse_entry(const std::filesystem::path& file, const std::string& why) {
-  throw RunError(fmt::format("{}:1: {}", file.string(), why));
-}
-
-void check_files(const JournalEntry& entry, const std::filesystem::path& folder,
-                 const std::filesystem::path& file) {
-  for (const auto& [name, sum] : entry.files) {
-    if (why_unreadable(folder / name)) refuse_entry(file, fmt::format("the trial's {} is missing", name));
-    if (checksum(content_of(folder / name)) != sum)
-      refuse_entry(file, fmt::format("the trial's {} is damaged: its checksum is another one", name));
+/// Any bytes, without the end of a line.
+std::string in_one_line(std::string_view bytes) {
+  std::string text;
+  text.reserve(bytes.size() + bytes.size() / 64);
+  for (const char c : bytes) {
+    if (c == '\n' || c == '\\') text += '\\';
+    text += c == '\n' ? 'n' : c;
   }
+  return text;
+}
+
+std::string out_of_one_line(std::string_view text) {
+  std::string bytes;
+  bytes.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_escaped = text[i] == '\\' && ++i < text.size();
+    bytes += is_escaped && text[i] == 'n' ? '\n' : text.at(i);
+  }
+  return bytes;
+}
+
+/// The name of a file of a trial. Throws std::invalid_argument if it leads out of the results.
+std::string name_inside(std::string name) {
+  const fs::path path(name);
+  const bool leads_out = std::find(path.begin(), path.end(), "..") != path.end();
+  if (path.is_absolute() || leads_out || !path.has_parent_path())
+    throw std::invalid_argument("no file of a trial: " + name);
+  return name;
+}
+
+/// What may stand in a file name.
+std::string in_file_name(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; }, '-');
+  return text;
+}
+
+/// Names tell apart what several processes of several machines write, one after the other or at once.
+std::string unique_name(const Shard& shard) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return fmt::format("shard-{:04}-of-{:04}_{}_{}_{:x}{}", shard.number, shard.of, in_file_name(host_name()),
+                     ::getpid(), std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(),
+                     unfinished_journal_end);
 }
 
 }  // namespace
 
-Json to_json(const JournalEntry& entry) {
-  return {{"trial", entry.trial},
-          {"figures", to_json(entry.figures)},
-          {"trial_line", entry.trial_line},
-          {"step_lines", entry.step_lines},
-          {"files", entry.files}};
+std::string to_string(const TrialId& id) {
+  return fmt::format("{:016x}{:016x}", id.high, id.low);
 }
 
-JournalEntry entry_of(const Json& json) {
-  return {whole_number(json, "trial"), figures_of(json.at("figures")), json.at("trial_line"),
-          json.at("step_lines"), json.at("files")};
+TrialId trial_id_of(std::string_view text) {
+  if (text.size() != 32) throw std::invalid_argument("no identity of a trial");
+  return {hexadecimal(text.substr(0, 16)), hexadecimal(text.substr(16))};
+}
+
+TrialId trial_id(const std::string& variant, std::size_t trial, std::size_t sample) {
+  const std::string hash = sha256_of_text(fmt::format("{}/{}/{}", variant, trial, sample));
+  return trial_id_of(std::string_view(hash).substr(0, 32));
 }
 
 std::string checksum(std::string_view bytes) {
@@ -102,31 +112,88 @@ std::optional<std::string_view> checked_content(std::string_view text) {
   return content;
 }
 
-std::filesystem::path entry_name(std::size_t trial) {
-  return std::filesystem::path(journal_folder) / fmt::format("trial_{:04}.json", trial);
+std::pair<std::string, std::string> file_of_line(std::string_view text) {
+  std::string content = out_of_one_line(text);
+  const std::size_t end = content.find('\0');
+  if (end == std::string::npos) throw std::invalid_argument("a file has no name");
+  std::string name = name_inside(content.substr(0, end));
+  content.erase(0, end + 1);
+  return {std::move(name), std::move(content)};
 }
 
-void write_entry(OutputFolder& folder, const JournalEntry& entry) {
-  const std::string text = to_json(entry).dump() + "\n";
-  folder.write_for_good(entry_name(entry.trial), checksum(text) + " " + text);
+Journal::Journal(const fs::path& folder, const Shard& shard, int jobs) : file_(folder / unique_name(shard)) {
+  std::vector<fs::path> changed;
+  check_kept(make_folders(folder, changed), file_);
+  fd_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
+  if (fd_ < 0) check_kept(last_error(), file_);
+  changed.push_back(folder);
+  for (const fs::path& above : changed) check_kept(sync_to_disk(above), file_);
+  const Json json = {{"shard", shard.number},
+                     {"of", shard.of},
+                     {"host", valid_utf8(host_name())},
+                     {"process", ::getpid()},
+                     {"jobs", jobs}};
+  add_line(journal_words::shard, json.dump(), false);
 }
 
-std::optional<JournalEntry> read_entry(const std::filesystem::path& folder, std::size_t trial) {
-  const std::filesystem::path file = folder / entry_name(trial);
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return std::nullopt;
-  const std::string line = content_of(file);
-  const auto text = checked_content(line);
-  if (!text) refuse_entry(file, "the entry is damaged: its checksum is another one");
-  JournalEntry entry;
-  try {
-    entry = entry_of(parse_json(std::string(*text)));
-  } catch (const std::exception&) {
-    refuse_entry(file, "the entry is not as glocal run leaves it");
+Journal::~Journal() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+void Journal::add_variant(const std::string& identity, const Json& description) {
+  add_line(journal_words::variant,
+           identity + " " + description.dump(-1, ' ', false, Json::error_handler_t::replace), true);
+}
+
+void Journal::begin(const TrialId& id, const Json& start) {
+  add_line(journal_words::begin, to_string(id) + " " + start.dump(), false);
+}
+
+void Journal::finish(const TrialId& id, double ms, const TrialOutput& output) {
+  const std::string of_trial = to_string(id);
+  for (const auto& [name, content] : output.files)
+    add_line(journal_words::file, of_trial + " " + in_one_line(name + '\0' + content), false);
+  add_line(journal_words::trial,
+           fmt::format("{} {:.0f} {} {} {}", of_trial, ms, to_string(output.entry.figures.outcome),
+                       output.files.size(), to_json(output.entry).dump()),
+           true);
+}
+
+void Journal::add_crash(const TrialId& id, const Crash& crash) {
+  const Json json = {{"signal", crash.signal}, {"where", valid_utf8(crash.where)}};
+  add_line(journal_words::crash, to_string(id) + " " + json.dump(), true);
+}
+
+void Journal::touch() const {
+  // Where this fails, writing will, too, and tell.
+  static_cast<void>(::futimens(fd_, nullptr));
+}
+
+void Journal::close() {
+  fs::path name = file_;
+  name.replace_extension();  // Without .part.
+  std::error_code error = ::fsync(fd_) != 0 ? last_error() : std::error_code();
+  if (!error) fs::rename(file_, name, error);
+  if (!error) error = sync_to_disk(name.parent_path());
+  check_kept(error, file_);
+  ::close(fd_);
+  fd_ = -1;
+  file_ = std::move(name);
+}
+
+void Journal::add_line(std::string_view word, std::string_view text, bool for_good) {
+  constexpr std::size_t head = 9;  // Checksum and space.
+  std::string line = fmt::format("{:{}}{} {}", "", head, word, text);
+  line.replace(0, head - 1, checksum(std::string_view(line).substr(head)));
+  line += '\n';
+  const std::lock_guard lock(mutex_);
+  const off_t before = ::lseek(fd_, 0, SEEK_END);
+  if (const auto error = write_all(fd_, line)) {
+    // Other threads may still have something to say, which must not stand behind half a line.
+    static_cast<void>(::ftruncate(fd_, before) == 0);
+    check_kept(error, file_);
   }
-  if (entry.trial != trial) refuse_entry(file, fmt::format("the entry is of trial {}", entry.trial));
-  check_files(entry, folder, file);
-  return entry;
+  if (for_good && ::fdatasync(fd_) != 0) check_kept(last_error(), file_);
 }
 
 }  // namespace glocal

@@ -1,35 +1,42 @@
-// What is kept of each finished trial until the run is over, so that a run that is killed can be gone on
-// with.
+// What one process has done, line by line: docs/file-formats.md says what is in them.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <map>
+#include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
-#include "evaluation/results/output_folder.hpp"
-#include "evaluation/results/summary.hpp"
+#include "evaluation/results/trial_output.hpp"
+#include "evaluation/sharding/shares.hpp"
 
 namespace glocal {
 
-/// A finished trial, as it goes into the files of the whole run.
-struct JournalEntry {
-  std::size_t trial = 0;
-  TrialFigures figures;
-  std::string trial_line;                         ///< Of trials.jsonl.
-  std::string step_lines;                         ///< Of steps.jsonl; empty if they are not written.
-  std::map<std::string, std::string> files = {};  ///< What the trial left in files of its own: checksums.
+/// Which trial it is, wherever and whenever it is run: 128 bits of a hash.
+struct TrialId {
+  std::uint64_t high = 0, low = 0;
+  friend bool operator==(const TrialId&, const TrialId&) = default;
+};
+struct TrialIdHash {
+  std::size_t operator()(const TrialId& id) const { return id.low; }
 };
 
-/// As an object of JSON, and back. The latter throws a std::exception where it is not as the former makes it.
-[[nodiscard]] nlohmann::ordered_json to_json(const JournalEntry& entry);
-[[nodiscard]] JournalEntry entry_of(const nlohmann::ordered_json& json);
+/// 32 hexadecimal digits, and back. The latter throws std::invalid_argument for other text.
+[[nodiscard]] std::string to_string(const TrialId& id);
+[[nodiscard]] TrialId trial_id_of(std::string_view text);
 
-/// Where a results folder has the journal.
-inline constexpr const char* journal_folder = "journal";
+/// Of a trial by its number and the sample it starts at; `variant` is as identity_of() tells.
+[[nodiscard]] TrialId trial_id(const std::string& variant, std::size_t trial, std::size_t sample);
+
+/// A process that a trial has ended.
+struct Crash {
+  std::string signal;  ///< "SIGSEGV"
+  std::string where;   ///< "matcher 'ransam', step 3"; empty if it is not known.
+};
 
 /// CRC-32 as 8 hexadecimal digits, as gzip and zip have it.
 [[nodiscard]] std::string checksum(std::string_view bytes);
@@ -37,14 +44,50 @@ inline constexpr const char* journal_folder = "journal";
 /// What stands behind its checksum and a space; none if the checksum is another one's.
 [[nodiscard]] std::optional<std::string_view> checked_content(std::string_view text);
 
-/// Where the entry of a trial is, in a results folder.
-[[nodiscard]] std::filesystem::path entry_name(std::size_t trial);
+/// The words that lines begin with, behind their checksums.
+namespace journal_words {
+inline constexpr std::string_view shard = "shard", variant = "variant", begin = "begin", file = "file",
+                                  trial = "trial", crash = "crash";
+}
 
-/// Adds a file to the journal. When this returns, the trial is on the disk for good, with its own files.
-void write_entry(OutputFolder& folder, const JournalEntry& entry);
+/// What a line has of a file of a trial: its name, relative to the results folder, and its content. Throws a
+/// std::exception where it is not as a journal makes it, or leads out of the results.
+[[nodiscard]] std::pair<std::string, std::string> file_of_line(std::string_view text);
 
-/// None if the trial is not in the journal of this folder. Throws RunError with file and line if its entry
-/// is damaged, or if a file of its own is not there as it was.
-[[nodiscard]] std::optional<JournalEntry> read_entry(const std::filesystem::path& folder, std::size_t trial);
+/// Ends of the names of journals: of those that are still written, and of all others.
+inline constexpr std::string_view journal_end = ".jsonl", unfinished_journal_end = ".jsonl.part";
+
+/// A file that no other process writes: its name tells shard, host, process and time. It is renamed when its
+/// writer is done. Calls may come from several threads. Every failure throws RunError.
+class Journal {
+ public:
+  /// Makes the file in this folder, which is made if there is none. `jobs` trials run side by side.
+  Journal(const std::filesystem::path& folder, const Shard& shard, int jobs);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+  /// What the files of a variant need besides its trials.
+  void add_variant(const std::string& identity, const nlohmann::ordered_json& description);
+  /// A trial that is about to run, with its line `start`.
+  void begin(const TrialId& id, const nlohmann::ordered_json& start);
+  /// A trial that is over. When this returns, it is on the disk for good.
+  void finish(const TrialId& id, double ms, const TrialOutput& output);
+  void add_crash(const TrialId& id, const Crash& crash);
+
+  /// Says that the writer is alive, by the clock of the file's server.
+  void touch() const;
+  /// Renames the file: nothing more will come.
+  void close();
+
+ private:
+  void add_line(std::string_view word, std::string_view text, bool for_good);
+
+  std::filesystem::path file_;
+  int fd_ = -1;
+  std::mutex mutex_;
+};
 
 }  // namespace glocal

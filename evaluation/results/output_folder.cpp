@@ -122,9 +122,10 @@ void OutputFolder::take_up_or_begin(const TakesUp& takes_up) {
   check(error);
   keeps_ = keeps_ || goes_on;
   make_folder(places_.unfinished, {});
-  note_unsynced(places_.path.parent_path());
-  note_unsynced(places_.unfinished);
-  for (const auto& entry : fs::recursive_directory_iterator(places_.unfinished)) note_unsynced(entry.path());
+  unsynced_.insert(places_.path.parent_path());
+  unsynced_.insert(places_.unfinished);
+  for (const auto& entry : fs::recursive_directory_iterator(places_.unfinished))
+    unsynced_.insert(entry.path());
 }
 
 OutputFolder::~OutputFolder() {
@@ -137,44 +138,25 @@ void OutputFolder::append(const fs::path& name, std::string_view content) {
   const fs::path file = places_.unfinished / name;
   make_folder(file.parent_path(), name);
   check(append_to_file(file, content), name);
-  note_unsynced(file.parent_path());
-  note_unsynced(file);
+  unsynced_.insert(file.parent_path());
+  unsynced_.insert(file);
 }
 
 void OutputFolder::write(const fs::path& name, std::string_view content) {
-  const fs::path part = write_part(name, content);
-  name_part(part, name);
-  note_unsynced(places_.unfinished / name);
-}
-
-void OutputFolder::write_for_good(const fs::path& name, std::string_view content) {
-  const fs::path part = write_part(name, content);
-  sync();
-  check(sync_to_disk(part), name);
-  name_part(part, name);
-  sync();
-}
-
-fs::path OutputFolder::write_part(const fs::path& name, std::string_view content) {
   process_.end_copies();
-  fs::path part = (places_.unfinished / name).string() + ".part";
-  std::error_code ignored;
-  fs::remove(part, ignored);
+  const fs::path file = places_.unfinished / name;
+  const fs::path part = file.string() + ".part";
+  std::error_code error;
+  fs::remove(part, error);
   make_folder(part.parent_path(), name);
   check(append_to_file(part, content), name);
-  return part;
-}
-
-void OutputFolder::name_part(const fs::path& part, const fs::path& name) {
-  std::error_code error;
-  fs::rename(part, places_.unfinished / name, error);
+  fs::rename(part, file, error);
   check(error, name);
-  note_unsynced(part.parent_path());
+  unsynced_.insert(part.parent_path());
+  unsynced_.insert(file);
 }
 
 void OutputFolder::sync() {
-  // Held to the end: whoever waits here may have what he has written synced by another thread.
-  const std::lock_guard lock(mutex_);
   // Each call waits for the disk. With many files it is quicker to wait once, for all that any program
   // writes.
   constexpr std::size_t many = 16;
@@ -233,12 +215,7 @@ void OutputFolder::remove_replaced() const {
 void OutputFolder::make_folder(const fs::path& folder, const fs::path& name) {
   std::vector<fs::path> changed;
   check(make_folders(folder, changed), name);
-  for (const fs::path& above : changed) note_unsynced(above);
-}
-
-void OutputFolder::note_unsynced(const fs::path& path) {
-  const std::lock_guard lock(mutex_);
-  unsynced_.insert(path);
+  for (const fs::path& above : changed) unsynced_.insert(above);
 }
 
 /// Files have their final place only at the end, so the message names the folder that was asked for, and

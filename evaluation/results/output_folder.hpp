@@ -4,7 +4,6 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -52,9 +51,8 @@ class OutputFolder {
   void append(const std::filesystem::path& name, std::string_view content);
   /// Writes a file, in place of one that may be there: half of it is never to be seen under its name.
   void write(const std::filesystem::path& name, std::string_view content);
-  /// Writes a file when all that was written before is on the disk, and waits until it is there, too: whoever
-  /// sees it, also after a power failure, can rely on the others.
-  void write_for_good(const std::filesystem::path& name, std::string_view content);
+  /// Waits until all is on the disk that was written before.
+  void sync();
 
   /// From now on the files stay, whatever happens, for a later run to take up.
   void keep_unfinished() { keeps_ = true; }
@@ -68,12 +66,8 @@ class OutputFolder {
   };
 
   void restore_replaced() const;
-  std::filesystem::path write_part(const std::filesystem::path& name, std::string_view content);
-  void name_part(const std::filesystem::path& part, const std::filesystem::path& name);
-  void sync();
   void take_up_or_begin(const TakesUp& takes_up);
   void make_folder(const std::filesystem::path& folder, const std::filesystem::path& name);
-  void note_unsynced(const std::filesystem::path& path);
   void check(const std::error_code& error, const std::filesystem::path& name = {}) const;
   void remove_replaced() const;
 
@@ -81,7 +75,6 @@ class OutputFolder {
   bool replace_;
   std::atomic<bool> keeps_ = false;  ///< Trials end in several threads.
   bool committed_ = false;
-  std::mutex mutex_;  ///< For what is to be synced.
   std::set<std::filesystem::path> unsynced_;
   std::optional<FileLock> lock_;
   ProcessMark process_;  ///< That which may write.

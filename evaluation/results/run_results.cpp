@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/results/summary.hpp"
-#include "glocal/error.hpp"
+#include "evaluation/results/writers.hpp"
 
 namespace glocal {
 namespace {
@@ -36,31 +38,39 @@ class LineFile {
   std::string waiting_;
 };
 
+/// What a run of one machine has crashed in: the last word is the last process's.
+JournalEntry crashed_entry(std::size_t trial, const Json& start, const std::vector<Crash>& crashes) {
+  const Crash& last = crashes.back();
+  const std::string why = fmt::format("crashed ({}){}{}, in each of {} processes", last.signal,
+                                      last.where.empty() ? "" : " in ", last.where, crashes.size());
+  return {trial, {.outcome = Outcome::failed}, failed_trial_line(trial, start, why), ""};
+}
+
 }  // namespace
 
-std::vector<std::size_t> missing_trials(const OutputFolder& folder, std::size_t trials,
-                                        const std::function<void(const std::string&)>& warn) {
+std::vector<std::size_t> JournaledTrials::missing() const {
   std::vector<std::size_t> missing;
-  for (std::size_t trial = 0; trial < trials; ++trial) {
-    try {
-      if (read_entry(folder.unfinished(), trial)) continue;
-    } catch (const RunError& damage) {
-      warn(fmt::format("{}; trial {} runs again", damage.what(), trial));
-      std::error_code ignored;
-      std::filesystem::remove(folder.unfinished() / entry_name(trial), ignored);
-    }
-    missing.push_back(trial);
+  for (std::size_t trial = 0; trial < samples_.size(); ++trial) {
+    if (!scan_.finished().contains(id(trial)) && !scan_.is_given_up(id(trial))) missing.push_back(trial);
   }
   return missing;
 }
 
-void keep_trial(OutputFolder& folder, TrialOutput output) {
-  for (const auto& [name, content] : output.files) {
-    folder.write(name, content);
-    output.entry.files[name] = checksum(content);
+std::optional<JournalEntry> JournaledTrials::take(std::size_t trial, OutputFolder& folder) const {
+  const TrialId of_trial = id(trial);
+  if (const auto finished = scan_.finished().find(of_trial); finished != scan_.finished().end()) {
+    JournalEntry entry = entry_of(parse_json(scan_.text_at(finished->second.entry)));
+    if (entry.trial != trial)
+      throw std::invalid_argument(fmt::format("trial {} is where trial {} belongs", entry.trial, trial));
+    for (const JournalScan::Place& file : finished->second.files) {
+      const auto [name, content] = file_of_line(scan_.text_at(file));
+      folder.write(name, content);
+    }
+    return entry;
   }
-  write_entry(folder, output.entry);
-  folder.keep_unfinished();
+  const auto start = scan_.begun().find(of_trial);
+  if (!scan_.is_given_up(of_trial) || start == scan_.begun().end()) return std::nullopt;
+  return crashed_entry(trial, parse_json(scan_.text_at(start->second)), scan_.crashes().at(of_trial));
 }
 
 void write_origin(OutputFolder& folder, const Json& description) {
@@ -70,14 +80,14 @@ void write_origin(OutputFolder& folder, const Json& description) {
                description.at("provenance").dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-Json put_together(OutputFolder& folder, const Json& description, std::size_t trials, bool complete,
-                  const std::function<std::optional<JournalEntry>(std::size_t trial)>& entry_of) {
+Json put_together(OutputFolder& folder, const Json& description, const JournaledTrials& trials,
+                  bool complete) {
   Summary sum;
   LineFile trial_lines(folder, "trials.jsonl");
   std::optional<LineFile> step_lines;
   if (description.at("steps")) step_lines.emplace(folder, "steps.jsonl");
-  for (std::size_t trial = 0; trial < trials; ++trial) {
-    const auto entry = entry_of(trial);
+  for (std::size_t trial = 0; trial < trials.count(); ++trial) {
+    const auto entry = trials.take(trial, folder);
     if (!entry) continue;
     trial_lines.add(entry->trial_line);
     if (step_lines) step_lines->add(entry->step_lines);
@@ -87,7 +97,9 @@ Json put_together(OutputFolder& folder, const Json& description, std::size_t tri
   if (step_lines) step_lines->flush();
   Json summary = sum.to_json(description, complete);
   // It comes last: a later run takes its word that all is there.
-  folder.write_for_good("summary.json", summary.dump(2) + "\n");
+  folder.sync();
+  folder.write("summary.json", summary.dump(2) + "\n");
+  folder.sync();
   return summary;
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "evaluation/results/journal.hpp"
+#include "evaluation/results/journal_entry.hpp"
 #include "glocal/experiment.hpp"
 #include "glocal/observation.hpp"
 

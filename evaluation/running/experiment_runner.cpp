@@ -14,12 +14,17 @@
 #include "evaluation/results/summary.hpp"
 #include "evaluation/results/variant_order.hpp"
 #include "evaluation/running/others_load.hpp"
+#include "evaluation/sharding/manifest.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+/// Where a results folder has the journals of processes, until all trials have come to an end.
+constexpr const char* journal_folder = "journal";
 
 std::vector<std::string> names_of(const std::vector<Variant>& variants) {
   std::vector<std::string> names;
@@ -33,16 +38,15 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 /// Whether an earlier run has left something to go on with. A folder in its place is one of a finished run,
 /// unless it says otherwise.
-bool is_unfinished(const std::filesystem::path& folder, bool is_final) {
-  if (std::filesystem::exists(folder / journal_folder)) return true;
+bool is_unfinished(const fs::path& folder, bool is_final) {
+  if (fs::exists(folder / journal_folder)) return true;
   const std::optional<bool> complete = is_complete(folder);
   return is_final ? complete == false : complete.has_value();
 }
 
 }  // namespace
 
-VariantResult result_of_variant(const std::string& name, const std::filesystem::path& folder,
-                                const Json& summary) {
+VariantResult result_of_variant(const std::string& name, const fs::path& folder, const Json& summary) {
   const Json& trials = summary.at("trials");
   return {.name = name,
           .folder = folder,
@@ -56,15 +60,14 @@ VariantResult result_of_variant(const std::string& name, const std::filesystem::
           .failed = trials.value("failed", std::size_t{0})};
 }
 
-ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const std::filesystem::path& file,
+ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const fs::path& file,
                                    const Catalog& catalog, RunOptions options, RunnerCallbacks callbacks)
     : variants_(std::move(variants)),
-      file_(file.empty() ? file : std::filesystem::absolute(file)),
+      file_(file.empty() ? file : fs::absolute(file)),
       catalog_(catalog),
       options_(std::move(options)),
       callbacks_(std::move(callbacks)),
-      out_(options_.out.empty() ? std::filesystem::path("results") / variants_.front().experiment.name
-                                : options_.out),
+      out_(options_.out.empty() ? fs::path("results") / variants_.front().experiment.name : options_.out),
       loader_(catalog, callbacks_.warn, callbacks_.progress) {}
 
 RunResult ExperimentRunner::run() {
@@ -118,7 +121,7 @@ void ExperimentRunner::take_finished() {
                 "output: the folder has results of a run without variants; choose another one with --out"});
   }
   std::erase_if(variants_, [&](Variant& variant) {
-    const std::filesystem::path folder = folder_of(variant.name);
+    const fs::path folder = folder_of(variant.name);
     if (!is_results_folder(folder)) return false;
     const auto why = why_other(folder, variant);
     if (why && !options_.force) {
@@ -145,7 +148,7 @@ void ExperimentRunner::check_outputs() {
   for (Variant& variant : variants_) {
     faults.collect([&] {
       OutputFolder::check(folder_of(variant.name), options_.force,
-                          [&](const std::filesystem::path& earlier, bool is_final) {
+                          [&](const fs::path& earlier, bool is_final) {
                             return is_unfinished(earlier, is_final) && !why_other(earlier, variant);
                           });
     });
@@ -162,21 +165,19 @@ void ExperimentRunner::note_trials() const {
   }
 }
 
-std::optional<std::string> ExperimentRunner::why_other(const std::filesystem::path& folder,
-                                                       Variant& variant) {
+std::optional<std::string> ExperimentRunner::why_other(const fs::path& folder, Variant& variant) {
   return why_other_run(folder, effective_yaml(variant.experiment, catalog_), origin_json(variant), file_,
                        loader_.hashes());
 }
 
 void ExperimentRunner::run_one(Variant& variant) {
   VariantRun run(variant, loader_, file_, options_);
-  const std::size_t trials = run.loaded().starts.size();
   if (const auto why = why_never_declared(variant.experiment, run.loaded(), run.localizer()))
     callbacks_.warn(*why);
 
   // Nothing is written before everything is known to be in order.
   std::optional<std::string> declined;
-  const auto takes_up = [&](const std::filesystem::path& earlier, bool is_final) {
+  const auto takes_up = [&](const fs::path& earlier, bool is_final) {
     if (!is_unfinished(earlier, is_final)) return false;
     declined = why_other(earlier, variant);
     return !declined;
@@ -187,29 +188,41 @@ void ExperimentRunner::run_one(Variant& variant) {
         fmt::format("{}: starts afresh: what an earlier run has left unfinished is dropped, as {}",
                     folder.path().string(), *declined));
   if (is_complete(folder.unfinished()) == true) {
-    begin(variant, folder, run, trials);
+    begin(variant, folder, run, run.loaded().starts.size());
     put_in_place(folder, variant.name, Json::parse(content_of(folder.unfinished() / "summary.json")));
     return;
   }
-  const std::vector<std::size_t> to_run = missing_trials(folder, trials, callbacks_.warn);
+  const std::string identity =
+      identity_of(variant.experiment, run.loaded().inputs, options_.plugins, loader_);
+  const fs::path journals = folder.unfinished() / journal_folder;
+  JournalScan scan(journals, callbacks_.warn);
+  const JournaledTrials trials(scan, identity, run.loaded().starts);
+  const std::vector<std::size_t> to_run = trials.missing();
   Json description = run.description();
   write_origin(folder, description);
   if (variant.experiment.output.maps != "none") {
     for (const auto& [name, content] : map_files(*run.loaded().map)) folder.write(name, content);
   }
-  begin(variant, folder, run, trials - to_run.size());
+  // Without these nobody could tell whose trials the journal has.
+  folder.sync();
+  begin(variant, folder, run, trials.count() - to_run.size());
 
-  TrialKeeper keeper;
-  keeper.finish = [&](TrialOutput output, double /*ms*/) { keep_trial(folder, std::move(output)); };
+  RunCallbacks callbacks = callbacks_.trials;
+  callbacks.done = [&](const TrialRecord& record) {
+    folder.keep_unfinished();
+    callbacks_.trials.done(record);
+  };
   const OthersLoad others_load;
-  const bool complete = run.run(to_run, keeper, callbacks_.trials);
+  Journal journal(journals, {}, options_.jobs);
+  const bool complete = run.run(identity, to_run, journal, callbacks, false);
+  journal.close();
+  scan.update();
   description["peak_rss_mb"] = peak_rss_mb();
   if (const auto mean = others_load.mean()) description["others_load"] = *mean;
-  const auto entry_of = [&](std::size_t trial) { return read_entry(folder.unfinished(), trial); };
-  put_in_place(folder, variant.name, put_together(folder, description, trials, complete, entry_of));
+  put_in_place(folder, variant.name, put_together(folder, description, trials, complete));
   if (!complete)
-    callbacks_.warn(
-        fmt::format("interrupted: {} of {} trials were finished and kept", results_.back().trials, trials));
+    callbacks_.warn(fmt::format("interrupted: {} of {} trials were finished and kept", results_.back().trials,
+                                trials.count()));
 }
 
 void ExperimentRunner::begin(const Variant& variant, const OutputFolder& folder, const VariantRun& run,
@@ -218,13 +231,13 @@ void ExperimentRunner::begin(const Variant& variant, const OutputFolder& folder,
     callbacks_.note(fmt::format("{}: goes on where an earlier run has stopped: {} of {} trials are finished",
                                 folder.path().string(), finished, run.loaded().starts.size()));
   std::map<std::string, std::string> inputs;
-  for (const std::filesystem::path& input : run.inputs()) inputs[input.string()] = loader_.hashes().of(input);
+  for (const fs::path& input : run.inputs()) inputs[input.string()] = loader_.hashes().of(input);
   callbacks_.begin({variant.name, folder.path(), variant.experiment, run.loaded(),
                     read_settings(folder.unfinished(), inputs), finished});
 }
 
 void ExperimentRunner::put_in_place(OutputFolder& folder, const std::string& variant, const Json& summary) {
-  if (summary.at("complete")) std::filesystem::remove_all(folder.unfinished() / journal_folder);
+  if (summary.at("complete")) fs::remove_all(folder.unfinished() / journal_folder);
   folder.commit();
   add_result(variant, summary);
 }

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "evaluation/results/map_files.hpp"
 #include "evaluation/results/summary.hpp"
+#include "evaluation/results/writers.hpp"
 #include "evaluation/running/elapsed.hpp"
 
 namespace glocal {
@@ -49,18 +51,21 @@ Json VariantRun::description() const {
       {"peak_rss_mb", peak_rss_mb()}};
 }
 
-bool VariantRun::run(const std::vector<std::size_t>& trials, const TrialKeeper& keeper,
-                     const RunCallbacks& callbacks) {
+bool VariantRun::run(const std::string& identity, const std::vector<std::size_t>& trials, Journal& journal,
+                     const RunCallbacks& callbacks, bool with_map) {
   const Experiment& experiment = variant_.experiment;
   const auto jobs = static_cast<std::size_t>(std::max(options_.jobs, 1));
   while (localizers_.size() < std::min(jobs, trials.size()))
     localizers_.push_back(make_localizer(experiment, loader_.catalog(), loaded_));
   TrialCollector collector(experiment.output);
   std::vector<Clock::time_point> begun(loaded_.starts.size());
+  const auto id = [&](std::size_t trial) { return trial_id(identity, trial, loaded_.starts[trial]); };
   RunCallbacks run;
   run.stop = callbacks.stop;
   run.begin = [&](std::size_t trial) {
-    keeper.begin(begun_trial(loaded_.drive, experiment.localizer.motion, trial, loaded_.starts[trial]));
+    const TrialRecord record =
+        begun_trial(loaded_.drive, experiment.localizer.motion, trial, loaded_.starts[trial]);
+    journal.begin(id(trial), start_json(record));
     begun[trial] = Clock::now();
   };
   run.step = [&](std::size_t trial, const StepRecord& record, const Localizer& now) {
@@ -69,7 +74,11 @@ bool VariantRun::run(const std::vector<std::size_t>& trials, const TrialKeeper& 
     callbacks.step(trial, record, now);
   };
   run.done = [&](const TrialRecord& record) {
-    keeper.finish(collector.finish(record), ms_since(begun[record.trial]));
+    TrialOutput output = collector.finish(record);
+    if (with_map && record.trial == 0 && experiment.output.maps != "none") {
+      for (auto& file : map_files(*loaded_.map)) output.files.push_back(std::move(file));
+    }
+    journal.finish(id(record.trial), ms_since(begun[record.trial]), output);
     callbacks.done(record);
   };
   return run_trials(localizers_, experiment, loaded_, trials, run);

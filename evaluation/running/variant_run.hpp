@@ -6,21 +6,14 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <set>
+#include <string>
 #include <vector>
 
-#include "evaluation/results/trial_output.hpp"
+#include "evaluation/results/journal.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "glocal/run_experiment.hpp"
 
 namespace glocal {
-
-/// Who keeps what trials leave. Calls come from several threads at once, those about one trial from one.
-struct TrialKeeper {
-  /// A trial that is about to run, as begun_trial() makes it.
-  std::function<void(const TrialRecord&)> begin = [](const TrialRecord&) {};
-  /// One that is over, and how long it took: it need not be run again from here on, whatever happens.
-  std::function<void(TrialOutput, double ms)> finish;
-};
 
 class VariantRun {
  public:
@@ -37,8 +30,11 @@ class VariantRun {
   /// steps are written, and `name`, `seed`, `map` and `peak_rss_mb` (so far) are as summary.json has them.
   [[nodiscard]] nlohmann::ordered_json description() const;
 
-  /// Runs these trials, as many at once as the options say; false if stopped before the last.
-  bool run(const std::vector<std::size_t>& trials, const TrialKeeper& keeper, const RunCallbacks& callbacks);
+  /// Runs these trials, as many at once as the options say, and leaves in the journal what they come to;
+  /// false if stopped before the last. `identity` is as identity_of() tells. `with_map`: the first
+  /// trial of the variant leaves the files of the map, too, if maps are asked for.
+  bool run(const std::string& identity, const std::vector<std::size_t>& trials, Journal& journal,
+           const RunCallbacks& callbacks, bool with_map);
 
  private:
   Variant& variant_;

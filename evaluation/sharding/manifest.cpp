@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <string_view>
 #include <utility>
 
 #include "config/text_file.hpp"
@@ -21,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int manifest_format = 1;
+constexpr int manifest_format = 2;
 
 using Values = std::map<std::string, std::string>;
 
@@ -108,7 +107,6 @@ Json to_json(const Manifest& manifest) {
 }
 
 Manifest manifest_of(const Json& json) {
-  if (json.at("format") != manifest_format) throw std::invalid_argument("it is of another version");
   Manifest manifest{json.at("experiment"),
                     json.at("file"),
                     json.at("program"),
@@ -210,11 +208,6 @@ fs::path journals_folder(const fs::path& shared) {
 bool is_shared_folder(const fs::path& folder) {
   std::error_code unreachable;
   return fs::exists(manifest_file(folder), unreachable);
-}
-
-TrialId id_of(const PlannedVariant& variant, std::size_t trial, const PlannedStart& start) {
-  const std::string hash = sha256_of_text(fmt::format("{}/{}/{}", variant.identity, trial, start.sample));
-  return trial_id_of(std::string_view(hash).substr(0, 32));
 }
 
 std::string identity_of(const Experiment& experiment, const std::set<fs::path>& inputs,
@@ -332,11 +325,13 @@ Manifest read_manifest(const fs::path& shared) {
            "'glocal run --shard' was given with --out");
   if (const auto why = why_unreadable(file)) refuse(file, "cannot be read: " + *why);
   try {
-    return manifest_of(parse_json(content_of(file)));
+    const Json json = parse_json(content_of(file));
+    if (json.at("format") == manifest_format) return manifest_of(json);
   } catch (const std::exception& error) {
     refuse(file, fmt::format("is damaged ({}); remove it and run a shard again, which writes it anew",
                              reason(error)));
   }
+  refuse(file, "is of another version of glocal; give shards of this one another folder");
   return {};
 }
 

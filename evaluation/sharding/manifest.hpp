@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/results/journal.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/running/experiment_loader.hpp"
-#include "evaluation/sharding/shard_journal.hpp"
 #include "glocal/catalog.hpp"
 #include "glocal/error.hpp"
 #include "glocal/experiment.hpp"
@@ -48,6 +48,9 @@ struct Manifest {
   [[nodiscard]] const std::vector<PlannedStart>& starts_of(std::size_t variant) const {
     return starts[variants[variant].starts];
   }
+  [[nodiscard]] TrialId id_of(std::size_t variant, std::size_t trial) const {
+    return trial_id(variants[variant].identity, trial, starts_of(variant)[trial].sample);
+  }
   [[nodiscard]] std::size_t count_trials() const;
 };
 
@@ -64,8 +67,6 @@ inline constexpr const char* shards_folder = ".shards";
 
 /// Whether shards share this folder.
 [[nodiscard]] bool is_shared_folder(const std::filesystem::path& folder);
-
-[[nodiscard]] TrialId id_of(const PlannedVariant& variant, std::size_t trial, const PlannedStart& start);
 
 /// The hash that PlannedVariant::identity is. Throws RunError if a file cannot be read.
 [[nodiscard]] std::string identity_of(const Experiment& experiment,

@@ -17,7 +17,6 @@
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/results/run_results.hpp"
 #include "evaluation/results/variant_order.hpp"
-#include "evaluation/results/writers.hpp"
 #include "evaluation/running/experiment_runner.hpp"
 #include "glocal/error.hpp"
 
@@ -27,12 +26,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// What a run of one machine has crashed in: the last word is the last process's.
-JournalEntry crashed_entry(std::size_t trial, const Json& start, const std::vector<Crash>& crashes) {
-  const Crash& last = crashes.back();
-  const std::string why = fmt::format("crashed ({}){}{}, in each of {} processes", last.signal,
-                                      last.where.empty() ? "" : " in ", last.where, crashes.size());
-  return {trial, {.outcome = Outcome::failed}, failed_trial_line(trial, start, why), ""};
+std::vector<std::size_t> samples_of(const std::vector<PlannedStart>& starts) {
+  std::vector<std::size_t> samples;
+  for (const PlannedStart& start : starts) samples.push_back(start.sample);
+  return samples;
 }
 
 /// One variant, or the experiment without variants.
@@ -41,7 +38,7 @@ class VariantMerge {
   VariantMerge(const Manifest& manifest, std::size_t place, const JournalScan& scan,
                const MergeOptions& options)
       : planned_(manifest.variants[place]),
-        starts_(manifest.starts_of(place)),
+        trials_(scan, planned_.identity, samples_of(manifest.starts_of(place))),
         scan_(scan),
         options_(options),
         folder_(options.out / planned_.name) {
@@ -51,8 +48,7 @@ class VariantMerge {
     first_ = parse_json(scan.text_at(places_->front()));
   }
 
-  [[nodiscard]] std::size_t trials() const { return starts_.size(); }
-  [[nodiscard]] MissingTrials missing() const;
+  [[nodiscard]] const JournaledTrials& trials() const { return trials_; }
   /// No shard has begun with it.
   [[nodiscard]] bool is_empty() const { return places_ == nullptr; }
   /// The summary of results that are there already, and complete. Throws ConfigError for those of other runs.
@@ -62,28 +58,17 @@ class VariantMerge {
   [[nodiscard]] const std::string& name() const { return planned_.name; }
 
  private:
-  [[nodiscard]] TrialId id(std::size_t trial) const { return id_of(planned_, trial, starts_[trial]); }
-  [[nodiscard]] std::optional<JournalEntry> take(OutputFolder& folder, std::size_t trial) const;
   [[nodiscard]] Json description() const;
   void move_up(const fs::path& merged) const;
 
   const PlannedVariant& planned_;
-  const std::vector<PlannedStart>& starts_;
+  JournaledTrials trials_;
   const JournalScan& scan_;
   const MergeOptions& options_;
   fs::path folder_;
   const std::vector<JournalScan::Place>* places_ = nullptr;  ///< Of descriptions; null if there are none.
   Json first_;                                               ///< The first of these.
 };
-
-MissingTrials VariantMerge::missing() const {
-  MissingTrials missing{planned_.name, {}};
-  for (std::size_t trial = 0; trial < starts_.size(); ++trial) {
-    const TrialId of_trial = id(trial);
-    if (!scan_.finished().contains(of_trial) && !scan_.is_given_up(of_trial)) missing.trials.push_back(trial);
-  }
-  return missing;
-}
 
 std::optional<Json> VariantMerge::kept() const {
   if (!is_results_folder(folder_) || is_complete(folder_) != true) return std::nullopt;
@@ -99,23 +84,6 @@ std::optional<Json> VariantMerge::kept() const {
                         "output: the folder has results of another run; remove them, or replace them with "
                         "--force"}});
   return std::nullopt;
-}
-
-/// What a trial has left; its own files are written.
-std::optional<JournalEntry> VariantMerge::take(OutputFolder& folder, std::size_t trial) const {
-  const TrialId of_trial = id(trial);
-  if (const auto finished = scan_.finished().find(of_trial); finished != scan_.finished().end()) {
-    TrialOutput output = output_of(scan_.text_at(finished->second.output));
-    if (output.entry.trial != trial)
-      throw std::invalid_argument(
-          fmt::format("trial {} is where trial {} belongs", output.entry.trial, trial));
-    for (const auto& [name, content] : output.files) folder.write(name, content);
-    return std::move(output.entry);
-  }
-  if (!scan_.is_given_up(of_trial)) return std::nullopt;
-  const auto start = scan_.begun().find(of_trial);
-  if (start == scan_.begun().end()) return std::nullopt;
-  return crashed_entry(trial, parse_json(scan_.text_at(start->second)), scan_.crashes().at(of_trial));
 }
 
 /// What journals say besides trials. Machines that have taken part are all named; memory is that of the
@@ -147,8 +115,7 @@ Json VariantMerge::write(bool is_complete) const {
   OutputFolder folder(place, true);
   const Json described = description();
   write_origin(folder, described);
-  Json summary = put_together(folder, described, starts_.size(), is_complete,
-                              [&](std::size_t trial) { return take(folder, trial); });
+  Json summary = put_together(folder, described, trials_, is_complete);
   folder.commit();
   if (is_beside) move_up(place);
   return summary;
@@ -157,11 +124,8 @@ Json VariantMerge::write(bool is_complete) const {
 /// The summary goes first and comes last: readers take its word that all is there.
 void VariantMerge::move_up(const fs::path& merged) const {
   std::error_code error;
-  const auto check = [&](const fs::path& file) {
-    if (error) throw RunError(fmt::format("{}: cannot write: {}", file.string(), error.message()));
-  };
   fs::remove(folder_ / "summary.json", error);
-  check(folder_ / "summary.json");
+  check_written(error, folder_ / "summary.json");
   std::vector<fs::path> names;
   for (const auto& entry : fs::directory_iterator(merged)) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end(), [](const fs::path& a, const fs::path& b) {
@@ -170,13 +134,13 @@ void VariantMerge::move_up(const fs::path& merged) const {
   for (const fs::path& name : names) {
     std::error_code none;
     if (fs::is_directory(folder_ / name, none)) fs::remove_all(folder_ / name, error);
-    check(folder_ / name);
+    check_written(error, folder_ / name);
     fs::rename(merged / name, folder_ / name, error);
-    check(folder_ / name);
+    check_written(error, folder_ / name);
   }
   fs::remove(merged, error);
   if (!error) error = sync_to_disk(folder_);
-  check(folder_);
+  check_written(error, folder_);
 }
 
 /// What journals say is what their checksums are of, but may come from another version.
@@ -226,9 +190,9 @@ MergeResult merge_shards(const Manifest& manifest, const JournalScan& scan, cons
   });
   faults.report();
   for_each([&](std::size_t i, const VariantMerge& merge) {
-    MissingTrials missing = merge.missing();
+    MissingTrials missing{merge.name(), merge.trials().missing()};
     const bool is_complete = missing.trials.empty();
-    if (merge.is_empty() && missing.trials.size() < merge.trials())
+    if (merge.is_empty() && missing.trials.size() < merge.trials().count())
       throw std::invalid_argument("no journal describes it");
     if (!is_complete) result.missing.push_back(std::move(missing));
     if (merge.is_empty()) return;

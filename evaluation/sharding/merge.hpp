@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/sharding/journal_scan.hpp"
+#include "evaluation/results/journal_scan.hpp"
 #include "evaluation/sharding/manifest.hpp"
 #include "glocal/run_experiment.hpp"
 

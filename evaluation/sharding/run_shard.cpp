@@ -4,9 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "evaluation/results/map_files.hpp"
 #include "evaluation/results/summary.hpp"
-#include "evaluation/results/writers.hpp"
 #include "evaluation/running/variant_run.hpp"
 #include "glocal/error.hpp"
 
@@ -30,26 +28,11 @@ void check_inputs(const Manifest& manifest, const PlannedVariant& planned, const
   throw ConfigError(std::move(faults));
 }
 
-/// Leaves in the journal what trials of the variant at this place of the manifest come to.
-TrialKeeper keeper_of(ShardJournal& journal, const Manifest& manifest, std::size_t place,
-                      const OutputConfig& output, const GlobalMap& map) {
-  const auto id = [&manifest, place](std::size_t trial) {
-    return id_of(manifest.variants[place], trial, manifest.starts_of(place)[trial]);
-  };
-  return {[&journal, id](const TrialRecord& trial) { journal.begin(id(trial.trial), start_json(trial)); },
-          [&journal, &output, &map, id](TrialOutput left, double ms) {
-            if (left.entry.trial == 0 && output.maps != "none") {
-              for (auto& file : map_files(map)) left.files.push_back(std::move(file));
-            }
-            journal.finish(id(left.entry.trial), ms, left);
-          }};
-}
-
 }  // namespace
 
 bool run_shard_trials(std::vector<Variant>& variants, const Manifest& manifest,
                       const std::vector<PlannedTrial>& trials, const Catalog& catalog,
-                      const RunOptions& options, ShardJournal& journal, const RunnerCallbacks& callbacks) {
+                      const RunOptions& options, Journal& journal, const RunnerCallbacks& callbacks) {
   std::map<std::size_t, std::vector<std::size_t>> of_variants;
   for (const PlannedTrial& place : trials) of_variants[place.variant].push_back(place.trial);
   callbacks.counted(trials.size());
@@ -67,9 +50,7 @@ bool run_shard_trials(std::vector<Variant>& variants, const Manifest& manifest,
     nlohmann::ordered_json description = run.description();
     journal.add_variant(planned.identity, description);
     callbacks.begin({planned.name, {}, variant.experiment, run.loaded(), {}, 0});
-    const TrialKeeper keeper =
-        keeper_of(journal, manifest, place, variant.experiment.output, *run.loaded().map);
-    const bool complete = run.run(of_variant->second, keeper, callbacks.trials);
+    const bool complete = run.run(planned.identity, of_variant->second, journal, callbacks.trials, true);
     // Once more, as memory has grown.
     description["peak_rss_mb"] = peak_rss_mb();
     journal.add_variant(planned.identity, description);

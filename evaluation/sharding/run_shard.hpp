@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "evaluation/results/journal.hpp"
 #include "evaluation/running/experiment_runner.hpp"
 #include "evaluation/sharding/manifest.hpp"
-#include "evaluation/sharding/shard_journal.hpp"
 #include "evaluation/sharding/shares.hpp"
 
 namespace glocal {
@@ -15,6 +15,6 @@ namespace glocal {
 /// not what it was when the manifest was made, and RunError if the journal cannot be written.
 bool run_shard_trials(std::vector<Variant>& variants, const Manifest& manifest,
                       const std::vector<PlannedTrial>& trials, const Catalog& catalog,
-                      const RunOptions& options, ShardJournal& journal, const RunnerCallbacks& callbacks);
+                      const RunOptions& options, Journal& journal, const RunnerCallbacks& callbacks);
 
 }  // namespace glocal

@@ -62,7 +62,7 @@ SharedStatus status_of(const Manifest& manifest, const JournalScan& scan) {
     const auto& starts = manifest.starts_of(v);
     VariantStatus variant{manifest.variants[v].name, starts.size()};
     for (std::size_t trial = 0; trial < starts.size(); ++trial) {
-      const TrialId id = id_of(manifest.variants[v], trial, starts[trial]);
+      const TrialId id = manifest.id_of(v, trial);
       const auto finished = scan.finished().find(id);
       const auto begun = scan.begun().find(id);
       if (finished != scan.finished().end()) {

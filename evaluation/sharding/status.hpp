@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/sharding/journal_scan.hpp"
+#include "evaluation/results/journal_scan.hpp"
 #include "evaluation/sharding/manifest.hpp"
 
 namespace glocal {

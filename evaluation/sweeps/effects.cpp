@@ -3,22 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
 #include "config/variants.hpp"
+#include "evaluation/results/number_text.hpp"
 #include "evaluation/statistics/ranks.hpp"
 
 namespace glocal {
 namespace {
-
-std::optional<double> number_of(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// The values of one parameter: for each setting, if it has one.
 struct Column {
@@ -41,7 +34,7 @@ std::vector<Column> columns_of(const std::vector<TriedSetting>& settings) {
         column = columns.end() - 1;
       }
       column->texts[i] = value;
-      column->numbers[i] = number_of(value);
+      column->numbers[i] = number_of<double>(value);
       column->is_numeric &= column->numbers[i].has_value();
     }
   }

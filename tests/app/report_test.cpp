@@ -115,7 +115,7 @@ Millimetres points_of(const std::string& file) {
   return rounded;
 }
 
-TEST_F(ReportCommand, HasEveryLineOfTheRun) {
+TEST_F(ReportCommand, HasEveryLineMapAndScanOfTheRun) {
   write_experiment("trials: {every_scan: 6, max_steps: 5}\n", "output: {maps: all}\n");
   ASSERT_EQ(run_room("a").exit_code, 0);
   ASSERT_EQ(run_room("b", "--quiet --set localizer.verdict_rule=staged_margin").exit_code, 0);
@@ -147,13 +147,7 @@ TEST_F(ReportCommand, HasEveryLineOfTheRun) {
     for (std::size_t trial = 0; trial < n; ++trial)
       EXPECT_EQ(run["trials"][trial]["columns"]["step"].size(), seen[trial]);
   }
-}
 
-TEST_F(ReportCommand, HasTheMapsAndScansOfEveryStep) {
-  write_experiment("trials: {every_scan: 6, max_steps: 5}\n", "output: {maps: all}\n");
-  ASSERT_EQ(run_room("a").exit_code, 0);
-  ASSERT_EQ(report(file("a")).exit_code, 0);
-  const Json data = data_of("report.html");
   Millimetres map;
   for (std::size_t i = 0; i < data["maps"][0]["x"].size(); ++i)
     map.emplace(data["maps"][0]["x"][i], data["maps"][0]["y"][i]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -72,6 +73,21 @@ class Room : public CommandLine {
     std::string text;
     for (const Json& line : json_lines(file(name))) text += without_times(line).dump() + "\n";
     return text;
+  }
+
+  /// What the journals of a folder have of finished trials: the rest of each line, by the trial's identity.
+  [[nodiscard]] std::multimap<std::string, std::string> finished_trials(const std::string& journals) const {
+    std::multimap<std::string, std::string> trials;
+    std::error_code none;
+    for (const auto& journal : fs::directory_iterator(file(journals), none)) {
+      if (journal.path().extension() == ".index") continue;
+      std::ifstream in(journal.path());
+      for (std::string line; std::getline(in, line);) {
+        // Half a line at the end does not count.
+        if (!in.eof() && line.find(" trial ") == 8) trials.emplace(line.substr(15, 32), line.substr(48));
+      }
+    }
+    return trials;
   }
 
   void expect_same_results(const std::string& a, const std::string& b) const {

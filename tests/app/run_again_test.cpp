@@ -3,7 +3,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <map>
@@ -45,23 +44,18 @@ class RunAgain : public Room {
     waitpid(child, &status, 0);
   }
 
-  /// The journal's files of an unfinished run, with their bytes.
-  [[nodiscard]] std::map<std::string, std::string> journal(const std::string& folder) const {
-    std::map<std::string, std::string> files;
-    if (!fs::exists(file(folder + "/journal"))) return files;
-    for (const auto& entry : fs::directory_iterator(file(folder + "/journal"))) {
-      if (entry.path().extension() == ".json") files[entry.path().filename()] = content(entry.path());
-    }
-    return files;
+  [[nodiscard]] std::multimap<std::string, std::string> journal(const std::string& folder) const {
+    return finished_trials(folder + "/journal");
   }
 
   /// Lines as they are, with their times: a trial that was run twice has others.
-  void expect_steps_of(const std::map<std::string, std::string>& journal, const std::string& results) const {
+  void expect_steps_of(const std::multimap<std::string, std::string>& journal,
+                       const std::string& results) const {
     const std::string steps = content(file(results + "/steps.jsonl"));
-    for (const auto& [name, text] : journal) {
-      const std::string of_trial = Json::parse(text.substr(text.find(' ')))["step_lines"];
+    for (const auto& [id, text] : journal) {
+      const std::string of_trial = Json::parse(text.substr(text.find('{')))["step_lines"];
       EXPECT_FALSE(of_trial.empty());
-      EXPECT_NE(steps.find(of_trial), std::string::npos) << name;
+      EXPECT_NE(steps.find(of_trial), std::string::npos) << id;
     }
   }
 };
@@ -104,16 +98,25 @@ TEST_F(RunAgain, AKilledVariantIsGoneOnWith) {
             without_times(json("whole/iterations-20000/summary.json")));
 }
 
-TEST_F(RunAgain, ADamagedEntryIsRunAgain) {
+TEST_F(RunAgain, WhatIsDamagedIsRunAgain) {
   kill_run("a", SIGKILL, [&] { return journal(".a.unfinished").size() >= 3; });
   const auto before = journal(".a.unfinished");
-  const std::string first = file(".a.unfinished/journal/trial_0000.json");
-  fs::resize_file(first, fs::file_size(first) / 2);
-  fs::resize_file(file(".a.unfinished/trajectories/trial_0001_estimate.tum"), 0);
+  const fs::path file_of_journal = fs::directory_iterator(file(".a.unfinished/journal"))->path();
+  std::string text = content(file_of_journal);
+  // One of the two lines is a whole trial, the other one has a file of another trial.
+  for (const std::string& id : {before.begin()->first, before.rbegin()->first}) {
+    const bool whole = id == before.begin()->first;
+    const std::size_t line = text.find((whole ? " trial " : " file ") + id);
+    ASSERT_NE(line, std::string::npos);
+    text[line + 50] ^= 1;
+  }
+  std::ofstream(file_of_journal) << text;
   const Answer answer = run_room("a", "");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.err, AllOf(HasSubstr("stopped: " + std::to_string(before.size() - 2) + " of "),
-                                HasSubstr("warning: " + first + ":1: the entry is damaged")));
+                                HasSubstr("warning: " + file_of_journal.string() + ": byte "),
+                                HasSubstr("the line is damaged (its checksum is another one)"),
+                                HasSubstr("the line is damaged (a file of the trial is missing)")));
   ASSERT_EQ(run_room("whole").exit_code, 0);
   expect_same_results("whole", "a");
 }

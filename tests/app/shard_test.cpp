@@ -45,12 +45,7 @@ class Shards : public Room {
   /// Identities of finished trials, as often as they are there.
   [[nodiscard]] std::multiset<std::string> finished() const {
     std::multiset<std::string> trials;
-    for (const fs::path& journal : journals()) {
-      std::ifstream in(journal);
-      for (std::string line; std::getline(in, line);) {
-        if (!in.eof() && line.find(" trial ") == 8) trials.insert(line.substr(15, 32));
-      }
-    }
+    for (const auto& [id, rest] : finished_trials("shared/.shards/journals")) trials.insert(id);
     return trials;
   }
 
@@ -67,7 +62,7 @@ class Shards : public Room {
       _exit(127);
     }
     for (int ms = 0; ms < 30'000; ++ms) {
-      if (fs::exists(file("shared/.shards/journals")) && finished().size() >= 3) break;
+      if (finished().size() >= 3) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     kill(all ? -child : child, signal);

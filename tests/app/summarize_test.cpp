@@ -32,7 +32,8 @@ class SummarizeCommand : public Room {
  protected:
   /// a: right after 2 steps and after 1, one wrong, one failed. b: right after 1 step, one undecided.
   SummarizeCommand() {
-    for (const char* folder : {"runs/a", "runs/b"}) EXPECT_EQ(run_room(folder).exit_code, 0);
+    EXPECT_EQ(run_room("runs/a").exit_code, 0);
+    fs::copy(file("runs/a"), file("runs/b"), fs::copy_options::recursive);
     replace_lines(file("runs/a"),
                   {right(2, 1.0, 0.02, 0.2),
                    right(1, 3.0, 0.04, 0.4),

@@ -1,6 +1,6 @@
 // Real runs of the program, and what they leave, read by nobody's code but this.
 import { execFileSync, spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
@@ -23,6 +23,13 @@ export function runExperiment(name, out, ...parameters) {
   return out;
 }
 
+/** How many trials the journals of an unfinished run have. */
+function finishedTrials(unfinished) {
+  const journals = join(unfinished, "journal");
+  const names = existsSync(journals) ? readdirSync(journals).filter((name) => name.includes(".jsonl")) : [];
+  return names.map((name) => (readFileSync(join(journals, name), "latin1").match(/^.{8} trial .*\n/gm) ?? []).length).reduce((sum, n) => sum + n, 0);
+}
+
 /** Stops a run as Ctrl-C does, once so many trials are finished. */
 export async function interruptedRun(name, out, trials, ...parameters) {
   const run = spawn(program, ["run", join(experiments, `${name}.yaml`), "--out", out, "--quiet", ...parameters], {
@@ -31,9 +38,8 @@ export async function interruptedRun(name, out, trials, ...parameters) {
   const ended = new Promise((resolve) => run.on("exit", resolve));
   const slash = out.lastIndexOf("/");
   const unfinished = join(out.slice(0, slash), `.${out.slice(slash + 1)}.unfinished`);
-  const entry = `trial_${String(trials - 1).padStart(4, "0")}.json`;
-  const last = trials > 0 ? join(unfinished, "journal", entry) : join(unfinished, "maps");
-  while (!existsSync(last) && run.exitCode === null) await new Promise((resolve) => setTimeout(resolve, 5));
+  while (!(existsSync(join(unfinished, "maps")) && finishedTrials(unfinished) >= trials) && run.exitCode === null)
+    await new Promise((resolve) => setTimeout(resolve, 5));
   run.kill("SIGINT");
   return ended;
 }

@@ -172,21 +172,21 @@ std::vector<std::string> split(const std::string& line) {
   return words;
 }
 
-/// How many trials are finished, as far as calls tell: with one job, when a later trial writes its first
-/// file.
+/// How many trials are finished: those whose line in the journal was synced.
 class FinishedTrials {
  public:
   void see(const std::vector<std::string>& words) {
-    const bool names_entry = words[0] == "rename" && words[2].find("/journal/trial_") != std::string::npos;
-    if (names_entry) ++entries_;
-    if (words[0] == "create" && words[1].find("/trajectories/trial_") != std::string::npos) count_ = entries_;
+    const bool is_journal = words[1].find("/journal/") != std::string::npos;
+    // Behind the checksum.
+    if (is_journal && words[0] == "write" && bytes(words[3]).find(" trial ") == 8) ++lines_;
+    if (is_journal && words[0] == "sync") count_ = lines_;
     // The run is over, and later trials are of another variant.
-    if (words[0] == "rename" && words[1].ends_with(".unfinished")) entries_ = count_ = 0;
+    if (words[0] == "rename" && words[1].ends_with(".unfinished")) lines_ = count_ = 0;
   }
   [[nodiscard]] std::size_t count() const { return count_; }
 
  private:
-  std::size_t entries_ = 0, count_ = 0;
+  std::size_t lines_ = 0, count_ = 0;
 };
 
 /// States that differ from each other.

@@ -120,8 +120,7 @@ TEST_F(ManifestTest, TheSameTrialHasTheSameIdentityWhereverItsFilesLie) {
   write("variants: {list: {other_name: {}}}\nseeds: [1]\n", elsewhere);
   const Manifest there = planned(variants({{"threads", "3"}}, elsewhere));
   EXPECT_EQ(there.variants[0].identity, here.variants[0].identity);
-  EXPECT_EQ(id_of(there.variants[0], 2, there.starts_of(0)[2]),
-            id_of(here.variants[0], 2, here.starts_of(0)[2]));
+  EXPECT_EQ(there.id_of(0, 2), here.id_of(0, 2));
 
   write_world(elsewhere, "# a change\n");
   EXPECT_NE(planned(variants({}, elsewhere)).variants[0].identity, here.variants[0].identity);
@@ -134,9 +133,9 @@ TEST_F(ManifestTest, WhateverResultsFollowFromMakesAnotherIdentity) {
   EXPECT_THAT(identities, SizeIs(4));
   const Manifest other = planned(variants({{"evaluation.max_translation_error", "0.4"}}));
   EXPECT_FALSE(identities.contains(other.variants[0].identity));
-  const PlannedVariant& a = manifest.variants[0];
-  EXPECT_NE(id_of(a, 0, {0, 3}), id_of(a, 1, {0, 3})) << "trials have random numbers of their own";
-  EXPECT_NE(id_of(a, 0, {0, 3}), id_of(a, 0, {4, 3}));
+  const std::string& a = manifest.variants[0].identity;
+  EXPECT_NE(trial_id(a, 0, 0), trial_id(a, 1, 0)) << "trials have random numbers of their own";
+  EXPECT_NE(trial_id(a, 0, 0), trial_id(a, 0, 4));
 }
 
 TEST_F(ManifestTest, DifferencesAreNamed) {

@@ -1,4 +1,4 @@
-#include "evaluation/sharding/journal_scan.hpp"
+#include "evaluation/results/journal_scan.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,7 @@
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
+#include "evaluation/results/number_text.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "glocal/error.hpp"
 
@@ -53,11 +53,10 @@ std::string_view next_word(std::string_view& text) {
 }
 
 template <class Number>
-Number number_of(std::string_view word) {
-  Number value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) throw std::invalid_argument("no number");
-  return value;
+Number expect_number(std::string_view word) {
+  const auto number = number_of<Number>(word);
+  if (!number) throw std::invalid_argument("no number");
+  return *number;
 }
 
 /// Where the index of a closed journal is.
@@ -199,7 +198,8 @@ void JournalScan::take_content(std::size_t journal, std::optional<std::uint64_t>
   std::optional<Place> placed;
   const auto place = [&] {
     if (!offset)
-      return Place{journal, number_of<std::uint64_t>(next_word(rest)), number_of<std::uint64_t>(rest)};
+      return Place{journal, expect_number<std::uint64_t>(next_word(rest)),
+                   expect_number<std::uint64_t>(rest)};
     placed = Place{journal, *offset + (content.size() - rest.size()), rest.size()};
     return *placed;
   };
@@ -214,11 +214,22 @@ void JournalScan::take_content(std::size_t journal, std::optional<std::uint64_t>
     const TrialId id = trial_id_of(next_word(rest));
     const Place at = place();
     if (!finished_.contains(id)) begun_[id] = at;
+  } else if (word == journal_words::file) {
+    const TrialId id = trial_id_of(next_word(rest));
+    const Place at = place();
+    if (!finished_.contains(id)) files_[id].push_back(at);
   } else if (word == journal_words::trial) {
     const TrialId id = trial_id_of(next_word(rest));
-    const auto ms = number_of<double>(next_word(rest));
+    const auto ms = expect_number<double>(next_word(rest));
     const Outcome outcome = outcome_of(std::string(next_word(rest)));
-    finished_.try_emplace(id, Finished{place(), ms, outcome});
+    const auto files = expect_number<std::size_t>(next_word(rest));
+    Finished finished{place(), ms, outcome, std::move(files_[id])};
+    files_.erase(id);
+    // A process that was ended before has left some in a journal of its own.
+    std::erase_if(finished.files, [&](const Place& file) { return file.journal != journal; });
+    if (!finished_.contains(id) && finished.files.size() != files)
+      throw std::invalid_argument("a file of the trial is missing");
+    finished_.try_emplace(id, std::move(finished));
     begun_.erase(id);
   } else if (word == journal_words::crash) {
     const TrialId id = trial_id_of(next_word(rest));

@@ -1,5 +1,5 @@
-// Journals of shards: what is written is read, also while it is written, and also when it is damaged.
-#include "evaluation/sharding/journal_scan.hpp"
+// Journals: what is written is read, also while it is written, and also when it is damaged.
+#include "evaluation/results/journal_scan.hpp"
 
 #include <gmock/gmock.h>
 
@@ -14,6 +14,8 @@ namespace glocal::test::journal_scan_test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
@@ -23,8 +25,19 @@ constexpr TrialId first{1, 2}, second{3, 0xfedcba9876543210}, third{5, 6};
 TrialOutput output(std::size_t trial) {
   TrialOutput output{{trial, {Outcome::right, 2.0, 1.0 / 3.0}, "a line\n", "some \"steps\"\n"}, {}};
   output.entry.figures.step_ms = {{0.1, 1e-17, 2.0 / 3.0, 4.0, 0.0}};
-  output.files = {{"maps/a.bin", std::string("\0\xff\n\x80", 4)}, {"trajectories/b.tum", "1 2 3\n"}};
+  output.files = {{"maps/a.bin", std::string("\0\xff\n\\\x80n\\n\\", 8)}, {"trajectories/b.tum", "1 2 3\n"}};
   return output;
+}
+
+JournalEntry entry(const JournalScan& scan, const TrialId& id) {
+  return entry_of(nlohmann::ordered_json::parse(scan.text_at(scan.finished().at(id).entry)));
+}
+
+NamedContents files(const JournalScan& scan, const TrialId& id) {
+  NamedContents files;
+  for (const JournalScan::Place& file : scan.finished().at(id).files)
+    files.push_back(file_of_line(scan.text_at(file)));
+  return files;
 }
 
 class JournalScanTest : public testing::Test {
@@ -39,6 +52,11 @@ class JournalScanTest : public testing::Test {
   std::vector<std::string> warnings_;
 };
 
+TEST(Checksum, IsTheOneOfGzip) {
+  EXPECT_EQ(checksum("123456789"), "cbf43926");
+  EXPECT_EQ(checksum(""), "00000000");
+}
+
 TEST(TrialIds, AreWrittenAsHexadecimalDigits) {
   EXPECT_EQ(to_string(second), "0000000000000003fedcba9876543210");
   EXPECT_EQ(trial_id_of(to_string(second)), second);
@@ -47,7 +65,7 @@ TEST(TrialIds, AreWrittenAsHexadecimalDigits) {
 }
 
 TEST_F(JournalScanTest, WhatAShardWritesIsRead) {
-  ShardJournal journal(folder_.path(), {3, 64}, 2);
+  Journal journal(folder_.path(), {3, 64}, 2);
   journal.add_variant("v", {{"key", "value"}});
   journal.begin(first, {{"sample", 7}});
   journal.begin(second, {{"sample", 8}});
@@ -61,13 +79,13 @@ TEST_F(JournalScanTest, WhatAShardWritesIsRead) {
   ASSERT_TRUE(read.finished().contains(first));
   EXPECT_EQ(read.finished().at(first).ms, 12.0);
   EXPECT_EQ(read.finished().at(first).outcome, Outcome::right);
-  const TrialOutput found = output_of(read.text_at(read.finished().at(first).output));
-  EXPECT_EQ(found.entry.trial, 7U);
-  EXPECT_EQ(found.entry.trial_line, "a line\n");
-  EXPECT_EQ(found.entry.step_lines, "some \"steps\"\n");
-  EXPECT_EQ(found.entry.figures.distance_m, 1.0 / 3.0);
-  EXPECT_EQ(found.entry.figures.step_ms[0].match, 1e-17);
-  EXPECT_EQ(found.files, output(7).files) << "bytes that are no text, too";
+  const JournalEntry found = entry(read, first);
+  EXPECT_EQ(found.trial, 7U);
+  EXPECT_EQ(found.trial_line, "a line\n");
+  EXPECT_EQ(found.step_lines, "some \"steps\"\n");
+  EXPECT_EQ(found.figures.distance_m, 1.0 / 3.0);
+  EXPECT_EQ(found.figures.step_ms[0].match, 1e-17);
+  EXPECT_EQ(files(read, first), output(7).files) << "bytes that are no text, too";
   ASSERT_THAT(read.begun(), SizeIs(1));
   EXPECT_EQ(read.text_at(read.begun().at(second)), "{\"sample\":8}");
   ASSERT_THAT(read.crashes().at(second), SizeIs(1));
@@ -77,53 +95,40 @@ TEST_F(JournalScanTest, WhatAShardWritesIsRead) {
 }
 
 TEST_F(JournalScanTest, WhatIsAddedIsReadWhereItWasLeft) {
-  ShardJournal journal(folder_.path(), {1, 1}, 1);
+  Journal journal(folder_.path(), {1, 1}, 1);
   JournalScan read = scan();
   EXPECT_THAT(read.finished(), IsEmpty());
   journal.finish(first, 1.0, output(0));
   read.update();
   EXPECT_THAT(read.finished(), SizeIs(1));
   journal.finish(second, 1.0, output(1));
-  ShardJournal other(folder_.path(), {2, 2}, 1);
+  Journal other(folder_.path(), {2, 2}, 1);
   other.finish(third, 1.0, output(2));
   journal.close();
   read.update();
   EXPECT_THAT(read.finished(), SizeIs(3));
   EXPECT_THAT(read.journals(), SizeIs(2));
-  EXPECT_EQ(read.text_at(read.finished().at(first).output), output_text(output(0))) << "under its new name";
+  EXPECT_EQ(entry(read, first).trial, 0U) << "under its new name";
   EXPECT_EQ(std::count_if(read.journals().begin(), read.journals().end(),
                           [](const JournalScan::Journal& j) { return j.is_closed; }),
             1);
 }
 
 TEST_F(JournalScanTest, HalfALineAtTheEndIsNotRead) {
-  ShardJournal journal(folder_.path(), {1, 1}, 1);
+  Journal journal(folder_.path(), {1, 1}, 1);
   journal.finish(first, 1.0, output(0));
   journal.finish(second, 1.0, output(1));
   const std::string whole = content_of(only_file());
-  for (const std::size_t cut : {std::size_t{1}, std::size_t{20}, output_text(output(1)).size()}) {
+  for (const std::size_t cut : {std::size_t{1}, std::size_t{20}, to_json(output(1).entry).dump().size()}) {
     fs::resize_file(only_file(), whole.size() - cut);
     EXPECT_THAT(scan().finished(), SizeIs(1)) << cut;
     EXPECT_THAT(warnings_, IsEmpty()) << "it may still be written";
   }
-  journal.drop_torn_line();
-  EXPECT_EQ(content_of(only_file()), whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1));
-  journal.finish(third, 1.0, output(2));
-  EXPECT_THAT(scan().finished(), SizeIs(2));
-  EXPECT_THAT(warnings_, IsEmpty());
-}
-
-TEST_F(JournalScanTest, ATornLineLongerThanAnyBufferIsDropped) {
-  ShardJournal journal(folder_.path(), {1, 1}, 1);
-  const std::string head = content_of(only_file());
-  std::ofstream(only_file(), std::ios::app) << std::string(200'000, 'x');
-  journal.drop_torn_line();
-  EXPECT_EQ(content_of(only_file()), head);
 }
 
 TEST_F(JournalScanTest, EveryDamagedByteIsFound) {
   {
-    ShardJournal journal(folder_.path(), {1, 1}, 1);
+    Journal journal(folder_.path(), {1, 1}, 1);
     journal.finish(first, 1.0, output(0));
     journal.close();
   }
@@ -140,7 +145,7 @@ TEST_F(JournalScanTest, EveryDamagedByteIsFound) {
 }
 
 TEST_F(JournalScanTest, AClosedJournalIsReadOnceAndThenItsIndex) {
-  ShardJournal journal(folder_.path(), {1, 1}, 1);
+  Journal journal(folder_.path(), {1, 1}, 1);
   journal.add_variant("v", {{"key", "value"}});
   journal.begin(first, {{"sample", 7}});
   journal.finish(first, 12.4, output(7));
@@ -148,7 +153,7 @@ TEST_F(JournalScanTest, AClosedJournalIsReadOnceAndThenItsIndex) {
   journal.add_crash(second, {"SIGSEGV", "matcher 'a', step 1"});
   journal.close();
   const auto expect_all = [&](const JournalScan& read) {
-    EXPECT_EQ(output_of(read.text_at(read.finished().at(first).output)).files, output(7).files);
+    EXPECT_EQ(files(read, first), output(7).files);
     EXPECT_EQ(read.text_at(read.begun().at(second)), "{\"sample\":8}");
     EXPECT_THAT(read.crashes().at(second), SizeIs(1));
     EXPECT_EQ(read.text_at(read.variants().at("v")[0]), "{\"key\":\"value\"}");
@@ -185,9 +190,39 @@ TEST_F(JournalScanTest, AClosedJournalIsReadOnceAndThenItsIndex) {
   EXPECT_THAT(warnings_, Not(IsEmpty()));
 }
 
+TEST_F(JournalScanTest, FilesAreThoseOfTheProcessThatFinishedTheTrial) {
+  const fs::path first_file = [&] {
+    Journal killed(folder_.path(), {1, 1}, 1);
+    killed.finish(first, 1.0, output(0));
+    return killed.file();
+  }();
+  const std::string whole = content_of(first_file);
+  // Before the trial's own line was written.
+  fs::resize_file(first_file, whole.rfind('\n', whole.size() - 2) + 1);
+  EXPECT_THAT(scan().finished(), IsEmpty());
+  Journal next(folder_.path(), {1, 1}, 1);
+  next.finish(first, 1.0, output(0));
+  EXPECT_EQ(files(scan(), first), output(0).files);
+  EXPECT_THAT(warnings_, IsEmpty());
+
+  // A damaged file of a trial is as bad as a damaged trial.
+  const std::string text = content_of(next.file());
+  std::ofstream(next.file()) << std::string(text).replace(text.find("1 2 3"), 5, "1 2 4");
+  EXPECT_THAT(scan().finished(), IsEmpty());
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("its checksum is another one"),
+                                     HasSubstr("a file of the trial is missing")));
+}
+
+TEST_F(JournalScanTest, NoFileLeadsOutOfTheResults) {
+  using std::string_literals::operator""s;
+  EXPECT_EQ(file_of_line("maps/a\0b"s).second, "b");
+  for (const std::string& text : {"maps/a"s, "/maps/a\0b"s, "maps/../../a\0b"s, "a\0b"s, "maps/a\0b\\"s})
+    EXPECT_ANY_THROW(static_cast<void>(file_of_line(text))) << text;
+}
+
 TEST_F(JournalScanTest, LongLinesAndManyOfThem) {
   {
-    ShardJournal journal(folder_.path(), {1, 1}, 1);
+    Journal journal(folder_.path(), {1, 1}, 1);
     for (std::uint64_t i = 0; i < 300; ++i) {
       TrialOutput long_one = output(i);
       long_one.entry.step_lines.assign(i * 200, 's');
@@ -197,14 +232,14 @@ TEST_F(JournalScanTest, LongLinesAndManyOfThem) {
   const JournalScan read = scan();
   ASSERT_THAT(read.finished(), SizeIs(300));
   for (std::uint64_t i = 0; i < 300; ++i) {
-    const TrialOutput found = output_of(read.text_at(read.finished().at({i, i}).output));
-    EXPECT_EQ(found.entry.trial, i);
-    EXPECT_EQ(found.entry.step_lines.size(), i * 200);
+    const JournalEntry found = entry(read, {i, i});
+    EXPECT_EQ(found.trial, i);
+    EXPECT_EQ(found.step_lines.size(), i * 200);
   }
 }
 
 TEST_F(JournalScanTest, AWriterIsAliveAsLongAsItTouchesItsFile) {
-  const ShardJournal journal(folder_.path(), {1, 1}, 1);
+  const Journal journal(folder_.path(), {1, 1}, 1);
   EXPECT_EQ(scan().count_live(), 1U);
   fs::last_write_time(only_file(), fs::last_write_time(only_file()) - std::chrono::minutes(3));
   EXPECT_EQ(scan().count_live(), 0U);
@@ -221,8 +256,8 @@ TEST_F(JournalScanTest, AFolderThatIsNotThereHasNoJournals) {
 }
 
 TEST_F(JournalScanTest, FilesOfTwoWritersHaveDifferentNames) {
-  const ShardJournal one(folder_.path(), {1, 1}, 1);
-  const ShardJournal other(folder_.path(), {1, 1}, 1);
+  const Journal one(folder_.path(), {1, 1}, 1);
+  const Journal other(folder_.path(), {1, 1}, 1);
   EXPECT_NE(one.file(), other.file());
 }
 

@@ -1,4 +1,4 @@
-// What all shards have done so far.
+// What all processes have done so far that have left a journal in a folder.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "evaluation/sharding/shard_journal.hpp"
+#include "evaluation/results/journal.hpp"
 
 namespace glocal {
 
@@ -38,9 +38,10 @@ class JournalScan {
     std::uint64_t offset = 0, size = 0;
   };
   struct Finished {
-    Place output;  ///< Text for output_of().
+    Place entry;  ///< JSON for entry_of().
     double ms = 0.0;
     Outcome outcome = Outcome::undecided;
+    std::vector<Place> files;  ///< Texts for file_of_line().
   };
 
   /// What is read of a journal whose writer is done: all of it, or an index beside it. Who reads indexes
@@ -96,6 +97,7 @@ class JournalScan {
   std::map<std::string, std::size_t> known_;  ///< By the name that a file has when it is closed.
   std::unordered_map<TrialId, Finished, TrialIdHash> finished_;
   std::unordered_map<TrialId, Place, TrialIdHash> begun_;
+  std::unordered_map<TrialId, std::vector<Place>, TrialIdHash> files_;  ///< Of trials that are not finished.
   std::unordered_map<TrialId, std::vector<Crash>, TrialIdHash> crashes_;
   std::map<std::string, std::vector<Place>> variants_;
   mutable std::map<std::size_t, int> open_;  ///< Some of the files.
