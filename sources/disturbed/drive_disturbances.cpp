@@ -79,15 +79,16 @@ Pose3 StretchedWays::measured(const Pose3& motion, Rng& /*rng*/) const {
 }
 
 Pose3 PulledAside::measured(const Pose3& motion, Rng& /*rng*/) const {
-  const double turn = radians(deg_per_m_) * norm(motion.translation());
-  return {motion.translation(), turn_about_z(-turn) * motion.rotation};
+  const double turn = radians(deg_per_m_) * motion.translation().norm();
+  return {motion.translation(), composed(turn_about_z(-turn), motion.rotation)};
 }
 
 Pose3 SpinningWheels::measured(const Pose3& motion, Rng& rng) const {
   const bool spins = rng.uniform() < share_;
   const double excess = rng.uniform();
   if (!spins) return motion;
-  return {(1.0 + excess) * motion.translation(), turn_about_z(excess * motion.heading()) * motion.rotation};
+  return {(1.0 + excess) * motion.translation(),
+          composed(turn_about_z(excess * motion.heading()), motion.rotation)};
 }
 
 Pose3 LostMotions::measured(const Pose3& motion, Rng& rng) const {

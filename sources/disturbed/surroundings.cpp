@@ -43,7 +43,7 @@ std::optional<Sample> Glass::disturb(Sample sample, Rng /*rng*/) {
   for (Reading& reading : readings.all()) {
     if (!reading.is_hit) continue;
     const Vector3 place = odom_from_robot * as_vector(reading.end);
-    Rng of_pane = rng_.stream({cell_of(place.x), cell_of(place.y)});
+    Rng of_pane = rng_.stream({cell_of(place.x()), cell_of(place.y())});
     if (of_pane.uniform() >= share_) continue;
     reading.is_hit = of_pane.uniform() >= nothing_behind;
     readings.set_range(reading,

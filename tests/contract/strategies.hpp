@@ -23,6 +23,8 @@
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/clouds/cloud_drive_map.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
+#include "sources/disturbed/disturbed_drive.hpp"
+#include "sources/disturbed/disturbed_map.hpp"
 #include "sources/ros_map/ros_map.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/random_scans.hpp"
@@ -61,6 +63,16 @@ class Contract : public ::testing::Test {
     };
     fill<sites::OfficeDrive::Params>("observation_source/office", make_small);
     fill<sites::OfficeMap::Params>("map_source/office", make_small);
+    fill<disturbed::DisturbedDrive::Params>("observation_source/disturbed", [&](auto& p) {
+      p.source = catalog_.observation_sources.choose("office");
+      fillers_.at("observation_source/office")(*p.source.params);
+      p.by = {{{"people", 3, {}}}, {{"spinning_wheels", 3, {}}}};
+    });
+    fill<disturbed::DisturbedMap::Params>("map_source/disturbed", [&](auto& p) {
+      p.source = catalog_.map_sources.choose("office");
+      fillers_.at("map_source/office")(*p.source.params);
+      p.by = {{{"brought", 3, {}}}};
+    });
     fill<LogParams>("observation_source/carmen_log", [&](auto& p) { p.path = log_; });
     fill<RandomScans::Params>("observation_source/random_scans", [&](auto& p) {
       p.map.path = ros_map_;

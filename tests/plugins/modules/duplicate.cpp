@@ -7,8 +7,7 @@ class Nothing final : public glocal::Matcher {
  public:
   struct Params {};
   explicit Nothing(const Params& /*params*/) {}
-  glocal::MatchResult match(const glocal::LocalMap& /*local*/, const glocal::Observation& /*latest*/,
-                            double /*omega_max*/, glocal::Rng& /*rng*/) override {
+  glocal::MatchResult match(const glocal::MatchRequest& /*request*/, glocal::Rng& /*rng*/) override {
     return {};
   }
   void reset() override {}

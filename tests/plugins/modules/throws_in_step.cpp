@@ -9,8 +9,7 @@ class Moody final : public glocal::Matcher {
  public:
   struct Params {};
   explicit Moody(const Params& /*params*/) {}
-  glocal::MatchResult match(const glocal::LocalMap& /*local*/, const glocal::Observation& /*latest*/,
-                            double /*omega_max*/, glocal::Rng& /*rng*/) override {
+  glocal::MatchResult match(const glocal::MatchRequest& /*request*/, glocal::Rng& /*rng*/) override {
     if (trial_ == 2 && ++step_ == 3) throw std::runtime_error("out of mood");
     return {};
   }

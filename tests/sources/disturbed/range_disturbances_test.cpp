@@ -127,13 +127,13 @@ TEST(RangeDisturbances, WhatIsOutOfRangeIsFreeUpToThere) {
 }
 
 TEST(RangeDisturbances, TheViewIsAroundTheFront) {
-  const Scan cut = changed(circle(1.0), cut_view, 60.0);
+  const Scan cut = changed(circle(1.0), cut_view, 61.0);
   EXPECT_EQ(cut.hits.size(), 61U);
   for (const float x : cut.hits.x) EXPECT_GE(x, 1.0 + 4.0 * std::cos(30.5 * pi / 180.0));
 }
 
 TEST(RangeDisturbances, SomebodyStandsBefore) {
-  const std::vector<double> ranges = ranges_of(changed(circle(1.0), stand_before, 90.0));
+  const std::vector<double> ranges = ranges_of(changed(circle(1.0), stand_before, 91.0));
   EXPECT_EQ(std::count_if(ranges.begin(), ranges.end(), [](double r) { return std::abs(r - 0.6) < 1e-5; }),
             91);
   EXPECT_EQ(std::count_if(ranges.begin(), ranges.end(), [](double r) { return std::abs(r - 4.0) < 1e-5; }),
