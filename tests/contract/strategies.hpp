@@ -64,13 +64,13 @@ class Contract : public ::testing::Test {
     fill<sites::OfficeDrive::Params>("observation_source/office", make_small);
     fill<sites::OfficeMap::Params>("map_source/office", make_small);
     fill<disturbed::DisturbedDrive::Params>("observation_source/disturbed", [&](auto& p) {
-      p.source = catalog_.observation_sources.choose("office");
-      fillers_.at("observation_source/office")(*p.source.params);
+      p.source = catalog_.observation_sources.choose("carmen_log");
+      fillers_.at("observation_source/carmen_log")(*p.source.params);
       p.by = {{{"people", 3, {}}}, {{"spinning_wheels", 3, {}}}};
     });
     fill<disturbed::DisturbedMap::Params>("map_source/disturbed", [&](auto& p) {
-      p.source = catalog_.map_sources.choose("office");
-      fillers_.at("map_source/office")(*p.source.params);
+      p.source = catalog_.map_sources.choose("ros_map");
+      fillers_.at("map_source/ros_map")(*p.source.params);
       p.by = {{{"brought", 3, {}}}};
     });
     fill<LogParams>("observation_source/carmen_log", [&](auto& p) { p.path = log_; });

@@ -192,8 +192,8 @@ std::string table_of(const Kinds& kinds) {
   for (const auto& kind : kinds) {
     std::string levels;
     for (const double level : kind.levels) levels += (levels.empty() ? "" : ", ") + fmt::format("{}", level);
-    table +=
-        fmt::format("| `{}` | {} | {} | {} | {} |\n", kind.name, kind.amount, kind.unit, levels, kind.reason);
+    table += fmt::format("| `{}` | {} | {} | `{}` | {} |\n", kind.name, kind.amount, kind.unit, levels,
+                         kind.reason);
   }
   return table;
 }
