@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "config/builtin_parts.hpp"
+#include "config/disturbed_cases.hpp"
 #include "config/nearest.hpp"
 #include "config/overrides.hpp"
 #include "config/reader.hpp"
@@ -247,6 +248,8 @@ std::optional<YamlNode> take_suite(YamlNode& experiment, Products& products, std
     experiment.entries.push_back({"name", named->place, std::move(name)});
   }
   experiment.entries.push_back({"seeds", named->place, std::move(read->seeds)});
+  if (read->disturbances.kind != NodeKind::null)
+    experiment.entries.push_back({disturbances_key, named->place, std::move(read->disturbances)});
   products.suite = std::make_shared<const Suite>(std::move(read->suite));
   return std::move(read->cases);
 }
@@ -328,13 +331,13 @@ std::optional<fs::path> part_file(PartKind kind, const YamlNode& value, std::vec
 }
 
 bool is_key_of_suite(std::string_view key) {
-  constexpr std::array<std::string_view, 3> others = {"seeds", "choose_on", "judge_on"};
+  constexpr std::array<std::string_view, 4> others = {"seeds", "choose_on", "judge_on", disturbances_key};
   return has(of_cases, key) || has(others, key);
 }
 
 bool names_parts(std::string_view path) {
-  constexpr std::array<std::string_view, 6> keys = {"methods",  "cases", "choose_on",
-                                                    "judge_on", "suite", "share"};
+  constexpr std::array<std::string_view, 7> keys = {"methods",        "cases", "choose_on", "judge_on",
+                                                    disturbances_key, "suite", "share"};
   return has(keys, path.substr(0, path.find('.')));
 }
 
@@ -350,9 +353,14 @@ Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Faul
   if (const auto methods = take(experiment, "methods"))
     add(PartKind::method, "methods", *methods, CaseRole::none);
   const auto cases = take(experiment, "cases");
+  const auto disturbances = take(experiment, disturbances_key);
+  const auto disturb = [&] {
+    if (disturbances) add_disturbed_cases(*disturbances, products.cases, faults);
+  };
   if (of_suite) {
     const std::size_t before = faults.size();
     add(PartKind::the_case, "cases", *of_suite, CaseRole::none);
+    disturb();
     if (faults.size() == before) products.suite = with_values(*products.suite, products.cases, faults);
     if (cases) choose_cases(*cases, *products.suite, products.cases, faults);
   } else if (cases) {
@@ -369,6 +377,7 @@ Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Faul
                                              key)));
     add(PartKind::the_case, key, *named, role);
   }
+  if (!of_suite) disturb();
   if (!products.cases.empty() && products.cases.front().role == CaseRole::judge)
     faults.push_back(fault_at(products.cases.front().place,
                               "judge_on: there is no choose_on; say there by which cases to choose what is "

@@ -59,14 +59,17 @@ class SuiteReader {
         read_.seeds = entry.value;
       } else if (entry.key == "cases") {
         read_.cases = entry.value;
+      } else if (entry.key == "disturbances") {
+        read_.disturbances = entry.value;
       } else if (entry.key == "pinned") {
         read_pinned(entry.value);
       } else if (entry.key == "published") {
         for_each_entry(entry.value, [&](const YamlEntry& of_case) { read_published(of_case); });
       } else {
         refuse(entry.place,
-               fmt::format("unknown key '{}'; a suite has version, cases, seeds, published and pinned",
-                           shown(entry.key)));
+               fmt::format(
+                   "unknown key '{}'; a suite has version, cases, seeds, disturbances, published and pinned",
+                   shown(entry.key)));
       }
     }
     if (read_.seeds.kind == NodeKind::null) {

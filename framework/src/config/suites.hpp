@@ -63,7 +63,7 @@ struct Suite {
 /// A suite's file, read: the suite without the values of its cases, and what an experiment is given of it.
 struct SuiteFile {
   Suite suite;
-  YamlNode cases, seeds;  ///< As an experiment has them.
+  YamlNode cases, seeds, disturbances;  ///< As an experiment has them.
 };
 
 /// Reads the suite that `value` names: NAME, NAME@VERSION, or a file with or without @VERSION. Appends what

@@ -37,6 +37,7 @@ struct Variations {
   PartList cases;
   PartList choose_on;
   PartList judge_on;
+  NamedChanges disturbances;
   std::string suite;
   double share = 1.0;
   VariantsSection variants;
@@ -104,6 +105,9 @@ struct Expansion {
 
 /// The seeds that are written, in their order.
 [[nodiscard]] std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& faults);
+/// The same of other numbers that are written so; faults call them `what`.
+[[nodiscard]] std::vector<std::uint64_t> numbers_of(const SeedList& list, const char* what,
+                                                    std::vector<Fault>& faults);
 
 /// Adds a fault for each name that fits no folder, with the longest seed behind it.
 void check_full_names(const Expansion& all, std::vector<Fault>& faults);

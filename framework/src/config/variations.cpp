@@ -16,24 +16,24 @@
 namespace glocal {
 namespace {
 
-constexpr std::array<std::string_view, 8> variation_keys = {"methods", "cases", "choose_on", "judge_on",
-                                                            "suite",   "share", "variants",  "seeds"};
+constexpr std::array<std::string_view, 9> variation_keys = {
+    "methods", "cases", "choose_on", "judge_on", "disturbances", "suite", "share", "variants", "seeds"};
 
-/// One end of a range of seeds.
-std::optional<std::uint64_t> end_of_range(const YamlNode& range, const std::string& text,
+/// One end of a range of numbers.
+std::optional<std::uint64_t> end_of_range(const YamlNode& range, const std::string& text, const char* what,
                                           std::vector<Fault>& faults) {
   std::uint64_t seed = 0;
   YamlNode node = make_node(NodeKind::scalar, range.place);
   node.text = text;
   const Refusal refusal = text.empty() ? Refusal("one end is missing") : take_value(node, {.doc = ""}, seed);
   if (!refusal) return seed;
-  faults.push_back(
-      fault_at(range.place, fmt::format("seeds: '{}' is no range such as 1..30: {}", range.text, *refusal)));
+  faults.push_back(fault_at(
+      range.place, fmt::format("{}: '{}' is no range such as 1..30: {}", what, range.text, *refusal)));
   return std::nullopt;
 }
 
-/// First and last seed of an item: a number, or a range of them.
-std::optional<std::pair<std::uint64_t, std::uint64_t>> range_of(const YamlNode& item,
+/// First and last number of an item: a number, or a range of them.
+std::optional<std::pair<std::uint64_t, std::uint64_t>> range_of(const YamlNode& item, const char* what,
                                                                 std::vector<Fault>& faults) {
   const std::size_t dots =
       item.kind == NodeKind::scalar && !item.quoted ? item.text.find("..") : std::string::npos;
@@ -41,16 +41,16 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> range_of(const YamlNode& 
     std::uint64_t seed = 0;
     const Refusal refusal = take_value(item, {.doc = ""}, seed);
     if (!refusal) return std::pair(seed, seed);
-    faults.push_back(fault_at(item.place, "seeds: " + *refusal + "; a range is written as 1..30"));
+    faults.push_back(fault_at(item.place, what + (": " + *refusal) + "; a range is written as 1..30"));
     return std::nullopt;
   }
-  const auto first = end_of_range(item, item.text.substr(0, dots), faults);
+  const auto first = end_of_range(item, item.text.substr(0, dots), what, faults);
   if (!first) return std::nullopt;
-  const auto last = end_of_range(item, item.text.substr(dots + 2), faults);
+  const auto last = end_of_range(item, item.text.substr(dots + 2), what, faults);
   if (!last) return std::nullopt;
   if (*first <= *last) return std::pair(*first, *last);
   faults.push_back(
-      fault_at(item.place, fmt::format("seeds: {0}..{1} runs backwards; write {1}..{0}", *first, *last)));
+      fault_at(item.place, fmt::format("{2}: {0}..{1} runs backwards; write {1}..{0}", *first, *last, what)));
   return std::nullopt;
 }
 
@@ -67,6 +67,10 @@ void check_seed_changes(const std::vector<VariantChanges>& variants, std::vector
 }  // namespace
 
 std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& faults) {
+  return numbers_of(list, "seeds", faults);
+}
+
+std::vector<std::uint64_t> numbers_of(const SeedList& list, const char* what, std::vector<Fault>& faults) {
   std::vector<std::uint64_t> seeds;
   if (!list.written || list.written->kind == NodeKind::null || list.written->kind == NodeKind::invalid)
     return seeds;
@@ -74,12 +78,12 @@ std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& fa
   std::set<std::uint64_t> seen;
   for (const YamlNode& item : written.kind == NodeKind::list ? written.items : std::vector{written}) {
     if (item.kind == NodeKind::invalid) continue;
-    const auto range = range_of(item, faults);
+    const auto range = range_of(item, what, faults);
     if (!range) continue;
     const auto [first, last] = *range;
     if (last - first >= most_variants - seeds.size()) {
       faults.push_back(
-          fault_at(item.place, fmt::format("seeds: more than {} seeds; leave some out", most_variants)));
+          fault_at(item.place, fmt::format("{0}: more than {1} {0}; leave some out", what, most_variants)));
       return {};
     }
     for (std::uint64_t k = 0; k <= last - first; ++k) {
@@ -87,7 +91,7 @@ std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& fa
         seeds.push_back(first + k);
       } else {
         faults.push_back(
-            fault_at(item.place, fmt::format("seeds: {} is there twice; give each seed once", first + k)));
+            fault_at(item.place, fmt::format("{}: {} is there twice; give each once", what, first + k)));
         break;
       }
     }
@@ -107,6 +111,10 @@ void describe(ParamVisitor& v, Variations& s) {
   v.field("choose_on", s.choose_on, {.doc = "Cases in place of `cases`, by which the best is chosen."});
   v.field("judge_on", s.judge_on,
           {.doc = "Further cases, by which what was chosen is judged; nothing is chosen by them."});
+  v.field(
+      "disturbances", s.disturbances,
+      {.doc = "Each case is run as it is, and with each of these: `observations: {KIND: levels}` and `map: "
+              "{KIND: levels}`, kinds and levels as the sources `disturbed` have them."});
   v.field(
       "suite", s.suite,
       {.doc =
