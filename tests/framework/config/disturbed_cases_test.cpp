@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "config/writer.hpp"
 #include "config/yaml_parser.hpp"
@@ -16,15 +17,20 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-YamlNode tree_of(const std::string& text, const char* file = "e.yaml") {
+YamlNode tree_of(const std::string& text) {
   std::vector<Fault> faults;
-  return *parse_yaml(text, std::make_shared<const Origin>(Origin{file, "."}), faults);
+  return *parse_yaml(text, std::make_shared<const Origin>(Origin{"e.yaml", "."}), faults);
+}
+
+ExperimentPart part_of(const std::string& name, const std::string& text, CaseRole role) {
+  YamlNode tree = tree_of(text);
+  const Place place = tree.place;
+  return {name, place, std::move(tree), role, true};
 }
 
 std::vector<ExperimentPart> rooms() {
   const char* const room = "map: plan\nobservations: {drive: {speed: 2}}\ntrials: {every_m: 6}\n";
-  return {{"room", {}, tree_of(room, "room.yaml"), CaseRole::choose},
-          {"hall", {}, tree_of(room, "hall.yaml"), CaseRole::judge, true}};
+  return {part_of("room", room, CaseRole::choose), part_of("hall", room, CaseRole::judge)};
 }
 
 std::string faults_of(const std::string& written, std::vector<ExperimentPart> cases = rooms()) {
@@ -61,13 +67,13 @@ TEST(DisturbedCases, FaultsAreSaidWhereTheyStand) {
       faults_of("people: 3\n"),
       HasSubstr("e.yaml:1:1: error: disturbances: unknown key 'people'; there are map and observations"));
   EXPECT_THAT(faults_of("[people]\n"), HasSubstr("disturbances: expected `map: {KIND: levels}`"));
-  EXPECT_THAT(faults_of("map: taken\n"), HasSubstr("disturbances: map: expected {KIND: levels}, got text"));
+  EXPECT_THAT(faults_of("map: taken\n"),
+              HasSubstr("disturbances: map: expected {KIND: levels}, got 'taken'"));
   EXPECT_THAT(faults_of("map: {taken: much}\n"), HasSubstr("e.yaml:1:14: error: disturbances: "));
   EXPECT_THAT(faults_of("map: {taken: 3..1}\n"), HasSubstr("disturbances: 3..1 runs backwards; write 1..3"));
   EXPECT_THAT(faults_of("map: {taken: 3}\n", {}), HasSubstr("there are no cases to disturb"));
-  EXPECT_THAT(
-      faults_of("map: {taken: 3}\n", {{"room", {}, tree_of("observations: drive\n"), CaseRole::none}}),
-      HasSubstr("the case room has no map of its own"));
+  EXPECT_THAT(faults_of("map: {taken: 3}\n", {part_of("room", "observations: drive\n", CaseRole::none)}),
+              HasSubstr("the case room has no map of its own"));
 }
 
 }  // namespace

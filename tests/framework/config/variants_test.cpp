@@ -323,7 +323,7 @@ TEST_F(VariantsTest, BadSeedsAreRefusedAtTheirPlace) {
           "range is written as 1..30",
           "e.yaml:7:46: error: seeds: 1.5 is not a whole number; write it without point and exponent; a "
           "range is written as 1..30",
-          "e.yaml:7:54: error: seeds: 4 is there twice; give each seed once",
+          "e.yaml:7:54: error: seeds: 4 is there twice; give each once",
           "e.yaml:7:60: error: seeds: expected a whole number, got a map; a range is written as 1..30",
           "e.yaml:7:64: error: seeds: '1..2..3' is no range such as 1..30: expected a whole number, got "
           "'2..3'"));
