@@ -1,8 +1,28 @@
 #include "local_mappers/bounded.hpp"
 
+#include <cstddef>
 #include <utility>
+#include <vector>
+
+#include "local_mappers/lone_hits.hpp"
 
 namespace glocal::local_mappers {
+namespace {
+
+/// A scan without the hits that stand alone in it: in a map of many scans they would be more than all others.
+LocalScan without_lone_hits(const LocalScan& scan, const Scan& as_measured) {
+  if (scan.hits.empty()) return {};
+  const std::vector<bool> is_lone = lone_hits(as_measured.hits, as_measured.origin);
+  LocalScan rest;
+  for (std::size_t i = 0; i < is_lone.size(); ++i) {
+    if (is_lone[i]) continue;
+    rest.hits.push_back(scan.hits[i]);
+    rest.normals.push_back(scan.normals[i]);
+  }
+  return rest;
+}
+
+}  // namespace
 
 void describe(ParamVisitor& v, Bounded::Params& p) {
   v.field("scans", p.scans,
@@ -27,7 +47,7 @@ void Bounded::reset() {
 void Bounded::add(const Observation& observation) {
   const int epoch = map().epoch;
   const Pose2 last = matching_.robot();
-  LocalScan scan = matching_.place(observation);
+  LocalScan scan = without_lone_hits(matching_.place(observation), observation.scan);
   if (map().epoch != epoch) window_.clear();
   const double way = window_.empty() ? 0.0 : window_.back().way + distance(last, matching_.robot());
   window_.push_back({std::move(scan), way});

@@ -20,11 +20,33 @@ constexpr PoseTolerance near;
 /// The verdict is ambiguous if the score of a rival is within this of the best one.
 constexpr double candidate_margin = 0.10;
 
-/// The probability that the best pose is right: logistic in its margin and in the logarithm of the steps in
-/// which it has been the same. Fitted to starts in simulated worlds (docs/method.md). Never 1, however clear
-/// the margin is: a place off the map has no hypothesis.
-double confidence_of(double margin, int steps) {
-  return 0.998 / (1.0 + std::exp(-(-1.5 + 28.5 * margin + 0.45 * std::log(steps))));
+/// A declared pose stays declared while its confidence is at least this.
+constexpr double confidence_to_stay = 0.9;
+/// A scan has lost the best pose if it has a smaller share of the contact that scans have had there so far.
+constexpr double least_of_usual_contact = 0.7;
+/// Steps in which the best pose has been the same before a confidence is enough.
+constexpr int first_steps_to_be_sure = 2;
+
+/// The probability that the best pose is right: logistic in its margin, in the logarithm of the steps in
+/// which it has been the same, and in how much more beams say for it than for any rival. Fitted to starts in
+/// disturbed worlds, on wrong maps and off the map; without beams, to starts in clean worlds
+/// (docs/method.md). Never 1, however clear the margin is: a place off the map has no hypothesis.
+double confidence_of(double margin, int steps, const std::optional<double>& beam_lead) {
+  const double log_odds = beam_lead ? -1.94 + 15.5 * margin + 0.64 * std::log(steps) + 0.51 * *beam_lead
+                                    : -1.5 + 28.5 * margin + 0.45 * std::log(steps);
+  return 0.998 / (1.0 + std::exp(-log_odds));
+}
+
+/// How much more beams say for the best pose than for any rival; 0 without a rival.
+std::optional<double> beam_lead(const std::vector<Hypothesis>& hypotheses) {
+  const Hypothesis& best = hypotheses.front();
+  if (!best.beam_evidence) return std::nullopt;
+  double lead = std::numeric_limits<double>::infinity();
+  for (const Hypothesis& h : hypotheses) {
+    if (h.beam_evidence && !near.are_near(h.map_from_robot, best.map_from_robot))
+      lead = std::min(lead, *best.beam_evidence - *h.beam_evidence);
+  }
+  return std::isfinite(lead) ? lead : 0.0;
 }
 
 /// The best hypothesis' own, and the spread of those near it that are about as good.
@@ -99,18 +121,28 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
        .min = 0.0,
        .max = 1.0,
        .audience = Audience::tuner});
+  v.field(
+      "min_confidence", p.min_confidence,
+      {.doc = "A pose is declared, too, once its confidence is at least this, where the matcher tells what "
+              "beams say and localizer.verifier looks for rivals; 1 is never reached.",
+       .min = 0.0,
+       .max = 1.0,
+       .audience = Audience::tuner});
 }
 
 StagedMargin::StagedMargin(const Params& params, const StageSetup& setup)
     : params_(params),
       stages_(params.stages),
-      certified_stages_(setup.has_verifier ? params.certified_stages : std::vector<Stage>{}) {}
+      certified_stages_(setup.has_verifier ? params.certified_stages : std::vector<Stage>{}),
+      is_verified_(setup.has_verifier),
+      steps_to_be_sure_(first_steps_to_be_sure) {}
 
 /// A rival that was not known of was there all the time, so no margin has been kept. Without one there is
 /// another chance to be certified once a stage is reached anew.
 void StagedMargin::refute(const Verification& verification) {
   certified_stages_.begin_anew();
   is_declared_ = false;
+  steps_to_be_sure_ *= 2;
   const bool has_rival =
       !verification.rivals.empty() && verification.is_about_as_good(verification.rivals.front());
   if (has_rival || !verification.certificate) begin_anew();
@@ -120,14 +152,20 @@ void StagedMargin::reset() {
   begin_anew();
   best_.reset();
   since_turn_.reset();
+  steps_to_be_sure_ = first_steps_to_be_sure;
 }
 
 void StagedMargin::begin_anew() {
-  stages_.begin_anew();
-  certified_stages_.begin_anew();
+  begin_stages_anew();
   steps_ = 0;
   distance_ = 0.0;
+  sum_of_contact_ = 0.0;
   is_declared_ = false;
+}
+
+void StagedMargin::begin_stages_anew() {
+  stages_.begin_anew();
+  certified_stages_.begin_anew();
 }
 
 Verdict StagedMargin::judge(const StepResult& step) {
@@ -139,31 +177,42 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const double turn_rate_deg = best_ ? degrees(best_->turn_rate_to(step)) : 0.0;
   const bool goes_on = continues(step);
   const double driven = goes_on ? distance(best_->local_from_robot, step.local_from_robot) : 0.0;
-  const bool scan_fits = step.omega_scan.value_or(1.0) >= params_.min_scan_contact;
-  if (!goes_on || !scan_fits) begin_anew();
+  const double contact = step.omega_scan.value_or(1.0);
+  const bool scan_fits = contact >= params_.min_scan_contact;
+  const bool is_usual = scan_fits || contact * steps_ >= least_of_usual_contact * sum_of_contact_;
+  if (!goes_on || !is_usual) begin_anew();
+  if (!scan_fits) begin_stages_anew();
   const Pose3& pose = step.hypotheses.front().map_from_robot;
   best_ = FollowedPose::of(step, pose);
   ++steps_;
   distance_ += driven;
+  sum_of_contact_ += contact;
 
   const double margin = margin_of(step);
   const bool is_clear = scan_fits && stages_.is_reached(margin, driven);
   const bool is_clear_if_certified = scan_fits && certified_stages_.is_reached(margin, driven);
   const std::optional<double>& violation = step.hypotheses.front().free_space_violation;
   const bool is_consistent = !violation || *violation <= params_.max_free_space_violation;
-  const bool may_be_declared = is_steady(turn_rate_deg) && is_consistent;
-  if (may_be_declared && (is_clear || is_clear_if_certified)) is_declared_ = true;
-  if (stages_.is_lost() && certified_stages_.is_lost()) is_declared_ = false;
+  const std::optional<double> lead = beam_lead(step.hypotheses);
+  const double confidence = confidence_of(margin, steps_, lead);
+  const bool is_steady_now = is_steady(turn_rate_deg);
+  const bool is_sure = is_steady_now && is_verified_ && lead && steps_ >= steps_to_be_sure_ &&
+                       confidence >= params_.min_confidence;
+  const bool may_be_declared = is_steady_now && is_consistent;
+  if (is_sure || (may_be_declared && (is_clear || is_clear_if_certified))) is_declared_ = true;
+  const bool is_lost = stages_.is_lost() && certified_stages_.is_lost();
+  if (is_lost && !(lead && confidence >= confidence_to_stay)) is_declared_ = false;
   Verdict verdict = is_declared_ ? localized(step, margin) : undecided(step, margin);
-  if (!scan_fits)
+  if (!scan_fits && !is_declared_)
     verdict.why = fmt::format("only {:.0f} % of the last scan fits the best pose", 100.0 * *step.omega_scan);
-  verdict.needs_certificate = is_declared_ && !(may_be_declared && is_clear);
-  verdict.estimate = {pose, confidence_of(margin, steps_), covariance(step.hypotheses)};
+  verdict.needs_certificate = is_declared_ && !is_sure && !(may_be_declared && is_clear);
+  verdict.estimate = {pose, confidence, covariance(step.hypotheses)};
   verdict.evidence = {{"margin", margin},
                       {"steps", static_cast<double>(steps_)},
                       {"distance_m", distance_},
                       {"turn_rate_deg", turn_rate_deg}};
   if (violation) verdict.evidence.push_back({"free_space_violation", *violation});
+  if (lead) verdict.evidence.push_back({"beam_lead", *lead});
   return verdict;
 }
 

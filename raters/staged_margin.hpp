@@ -19,6 +19,9 @@ namespace glocal::raters {
 /// That, or a margin below every stage's, takes the verdict back. Where declarations are verified, there are
 /// lower stages, too, for poses that the verifier certifies to have no more contact anywhere else.
 ///
+/// Where the matcher tells what beams say, and declarations are verified, a confidence of `min_confidence` is
+/// enough, too, however little of the scan is on the map.
+///
 /// Believes in the best hypothesis, with a confidence by a logistic model and the covariance of the matcher,
 /// widened by hypotheses near it that are about as good.
 class StagedMargin final : public VerdictRule {
@@ -37,6 +40,7 @@ class StagedMargin final : public VerdictRule {
     double max_turn_rate_deg = 60.0;
     double max_free_space_violation = 0.4;
     double min_scan_contact = 0.75;
+    double min_confidence = 0.98;
   };
 
   StagedMargin(const Params& params, const StageSetup& setup);
@@ -68,6 +72,7 @@ class StagedMargin final : public VerdictRule {
     std::vector<Kept> kept_;
   };
   void begin_anew();
+  void begin_stages_anew();
   [[nodiscard]] double margin_of(const StepResult& step) const;
   [[nodiscard]] bool is_steady(double turn_rate_deg);
   [[nodiscard]] Verdict localized(const StepResult& step, double margin) const;
@@ -78,10 +83,13 @@ class StagedMargin final : public VerdictRule {
   Params params_;
   Stages stages_;
   Stages certified_stages_;  ///< None where nothing is verified.
+  bool is_verified_;         ///< What is declared.
   std::optional<FollowedPose> best_;
-  int steps_ = 0;             ///< In which the best pose has been the same.
-  double distance_ = 0.0;     ///< m; driven in these.
-  bool is_declared_ = false;  ///< In one of them.
+  int steps_ = 0;                ///< In which the best pose has been the same.
+  double distance_ = 0.0;        ///< m; driven in these.
+  bool is_declared_ = false;     ///< In one of them.
+  double sum_of_contact_ = 0.0;  ///< Of the latest scan at the best pose, in each of them.
+  int steps_to_be_sure_;         ///< Of them; twice as many after each refutation.
   /// Steps since the robot last turned fast; none while it has not.
   std::optional<int> since_turn_;
 };

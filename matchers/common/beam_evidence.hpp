@@ -1,4 +1,4 @@
-// What beams say against a pose: a beam cannot have passed through a wall.
+// What beams say of a pose: one that ends at a wall speaks for it, and none can have passed through a wall.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "glocal/clearance_grid.hpp"
+#include "glocal/contact.hpp"
 #include "glocal/local_map.hpp"
 #include "glocal/observation.hpp"
 #include "glocal/params.hpp"
@@ -30,7 +31,7 @@ class BeamEvidence {
 
   /// Takes in a scan, made where the robot is now.
   void add(const LocalMap& local, const Scan& scan);
-  void clear() { scans_.clear(); }
+  void clear();
 
   /// What blocked beams take off the score of a pose. Where that is more than `most`, beams need not all be
   /// looked at: the answer is then above `most` too.
@@ -45,14 +46,24 @@ class BeamEvidence {
   [[nodiscard]] double blocked_share(const ClearanceGrid& grid, const Pose2& map_from_local,
                                      double most = 1.0) const;
 
+  /// What scans of different places say for a pose: the share of a scan's beams that end at the map, less
+  /// twice that of beams through occupied cells, summed over scans. A beam that ends before the map does has
+  /// met something new, and says nothing. Scans of a robot that stands still say the same again, and count
+  /// once.
+  [[nodiscard]] double support(const ContactIndex& contact, const ClearanceGrid& grid,
+                               const Pose2& map_from_local) const;
+
  private:
   struct Beams {
+    Pose2 local_from_robot;
     Point origin;
     Points ends;
+    std::size_t hits = 0;  ///< The first ones of `ends` met something there.
   };
   BeamRule rule_;
-  std::deque<Beams> scans_;
-  int epoch_ = 0;  ///< Of the local map whose frame they are in.
+  std::deque<Beams> scans_;   ///< The latest ones.
+  std::deque<Beams> places_;  ///< The latest one, and before it one for each place.
+  int epoch_ = 0;             ///< Of the local map whose frame they are in.
 };
 
 }  // namespace glocal

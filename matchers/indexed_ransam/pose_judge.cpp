@@ -52,6 +52,7 @@ Hypothesis PoseJudge::to_hypothesis(Hypothesis judged, const LocalMap& local, co
   judged.covariance =
       pose_covariance(*field_, sample, map_from_local, map_from_robot, rule_.kernel, rule_.uncertainty);
   judged.free_space_violation = evidence_at(map_from_local, sample).in_free_space;
+  judged.beam_evidence = beams_.support(*contact_, *clearance_, map_from_local);
   return judged;
 }
 

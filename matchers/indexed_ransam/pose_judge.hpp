@@ -47,8 +47,8 @@ class PoseJudge {
   [[nodiscard]] std::vector<Hypothesis> best_of(const std::vector<Candidate>& candidates,
                                                 const LocalMap& local, const Points& sample) const;
 
-  /// What a matcher tells of a pose: a score of at most 1, how uncertain the pose is, and how much of the
-  /// local map lies in space known to be free.
+  /// What a matcher tells of a pose: a score of at most 1, how uncertain the pose is, how much of the local
+  /// map lies in space known to be free, and what beams say for it.
   [[nodiscard]] Hypothesis to_hypothesis(Hypothesis judged, const LocalMap& local,
                                          const Points& sample) const;
 

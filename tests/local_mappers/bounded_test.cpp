@@ -98,6 +98,13 @@ TEST(Bounded, KeepsSoManyMetresOfWay) {
   EXPECT_LE(mapper.map().ends.size(), 7U);
 }
 
+TEST(Bounded, HitsThatStandAloneAreNotRegistered) {
+  Bounded mapper({});
+  mapper.add(at(0.0, {{3.01F, 0.01F, 0}, {3.01F, 0.11F, 0}, {1.01F, 0.11F, 0}, {3.01F, 0.21F, 0}}));
+  EXPECT_EQ(mapper.map().points.size(), 3U);
+  EXPECT_EQ(mapper.map().normals.size(), 3U);
+}
+
 TEST(Bounded, TheStricterLimitHolds) {
   Bounded mapper({.scans = 3, .distance = 1.5});
   for (int k = 0; k < 6; ++k) mapper.add(at(0.1 * k, {{1.01F, 0.01F, 0}}));

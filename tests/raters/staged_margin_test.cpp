@@ -166,6 +166,64 @@ TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
   EXPECT_EQ(rule.judge({}).estimate, std::nullopt);
 }
 
+/// A step that only a confidence can declare: little of its scan is on the map, and much of it is in free
+/// space. Log odds of the second one: -1.94 + 15.5 * 0.2 + 0.64 ln 2 + 0.51 * 6.
+StepResult cluttered(double omega_scan = 0.5) {
+  StepResult result = step(0.5, 0.3);
+  result.omega_scan = omega_scan;
+  result.hypotheses[0].free_space_violation = 0.6;
+  result.hypotheses[0].beam_evidence = 7.5;
+  result.hypotheses[1].beam_evidence = 1.5;
+  return result;
+}
+
+StageSetup with_verifier() {
+  StageSetup setup;
+  setup.has_verifier = true;
+  return setup;
+}
+
+TEST(StagedMargin, WhatBeamsSayMakesAConfidenceThatIsEnough) {
+  StagedMargin rule({.min_confidence = 0.98}, with_verifier());
+  EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::searching);
+  const Verdict verdict = rule.judge(cluttered());
+  EXPECT_EQ(verdict.kind, VerdictKind::localized);
+  EXPECT_FALSE(verdict.needs_certificate);
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9906, 1e-4);
+
+  StagedMargin surer({.min_confidence = 0.99}, with_verifier());
+  StagedMargin unverified({.min_confidence = 0.98}, {});
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(surer.judge(cluttered()).kind, VerdictKind::searching) << i;
+    EXPECT_EQ(unverified.judge(cluttered()).kind, VerdictKind::searching) << i;
+  }
+}
+
+TEST(StagedMargin, WithoutARivalBeamsSayNothing) {
+  StagedMargin rule({}, with_verifier());
+  StepResult alone = cluttered();
+  alone.hypotheses.pop_back();
+  const Verdict verdict = rule.judge(alone);
+  // Log odds -1.94 + 15.5 * (0.5 - 0.1).
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.986071, 1e-6);
+}
+
+TEST(StagedMargin, AScanWithMuchLessContactThanUsualBeginsAnew) {
+  StagedMargin rule({}, with_verifier());
+  for (int i = 0; i < 3; ++i) (void)rule.judge(cluttered());
+  EXPECT_EQ(rule.judge(cluttered(0.36)).kind, VerdictKind::localized);  // 0.7 * 0.5 and a little more
+  EXPECT_EQ(rule.judge(cluttered(0.32)).kind, VerdictKind::searching);
+}
+
+TEST(StagedMargin, ARefutedConfidenceMustLastTwiceAsLong) {
+  StagedMargin rule({}, with_verifier());
+  (void)rule.judge(cluttered());
+  ASSERT_EQ(rule.judge(cluttered()).kind, VerdictKind::localized);
+  rule.refute({});
+  for (int i = 1; i < 4; ++i) EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::searching) << i;
+  EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::localized);
+}
+
 TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
   const PoseCovariance own{.xx = 0.01, .yy = 0.04, .tt = 0.001};
   StagedMargin rule({}, {});

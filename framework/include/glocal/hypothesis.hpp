@@ -27,6 +27,9 @@ struct Hypothesis {
   /// Share of the points that lie where the map is known to be free, away from anything; where the matcher
   /// knows it.
   std::optional<double> free_space_violation = {};
+  /// What beams of scans at different places say for it: a sum over scans, of at most 1 each; where the
+  /// matcher knows it. Only differences between poses mean something.
+  std::optional<double> beam_evidence = {};
 
   /// Ranked by contact alone, as in the paper.
   [[nodiscard]] static Hypothesis by_contact(const Pose3& map_from_local, double omega) {

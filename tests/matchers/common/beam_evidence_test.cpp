@@ -110,5 +110,37 @@ TEST(BeamEvidence, ThePenaltyIsTheWeightedShareUpToTheCap) {
   EXPECT_EQ(penalty({.weight = 0.0}), 0.0);
 }
 
+TEST(BeamEvidence, WhatEndsAtTheWallSupportsAndWhatGoesThroughItSpeaksAgainst) {
+  Points wall;
+  for (int row = 0; row < 40; ++row) wall.push_back({2.05F, 0.05F + 0.1F * static_cast<float>(row), 0.0F});
+  const BitsetContact contact(wall, 0.1);
+  const ClearanceGrid grid = grid_with_a_wall();
+  const Pose2 pose{1.0, 1.05, 0.0};
+  // Ten of thirty beams end at the wall, ten before it, ten well behind it.
+  std::vector<float> ranges(30, 1.05F);
+  std::fill(ranges.begin() + 10, ranges.begin() + 20, 0.5F);
+  std::fill(ranges.begin() + 20, ranges.end(), 1.9F);
+  BeamEvidence evidence(BeamRule{});
+  LocalMap local;
+  evidence.add(local, beams_along_x(ranges));
+  EXPECT_NEAR(evidence.support(contact, grid, pose), (10.0 - 2.0 * 10.0) / 30.0, 1e-12);
+
+  // Ten beams alone are a third of a scan. Made where the last one was made, they take its place; those
+  // before are of places of their own.
+  const Scan ten = beams_along_x(std::vector<float>(10, 1.05F));
+  for (int i = 0; i < 4; ++i) evidence.add(local, ten);
+  EXPECT_NEAR(evidence.support(contact, grid, pose), (10.0 - 2.0 * 10.0) / 30.0 + 10.0 / 30.0, 1e-12);
+  // 0.6 m to the side, from where the wall is as far, is another place.
+  local.local_from_robot = Pose2{0.0, 0.6, 0.0};
+  evidence.add(local, ten);
+  EXPECT_NEAR(evidence.support(contact, grid, pose), (10.0 - 2.0 * 10.0) / 30.0 + 20.0 / 30.0, 1e-12);
+  // A ray that met nothing cannot have passed through the wall, and ends at nothing.
+  Scan free;
+  free.free_ends.assign({Point{1.05F, 0.0F, 0.0F}, Point{1.9F, 0.0F, 0.0F}});
+  BeamEvidence of_rays(BeamRule{});
+  of_rays.add({}, free);
+  EXPECT_NEAR(of_rays.support(contact, grid, pose), -2.0 / 30.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace glocal::beam_evidence_test
