@@ -46,6 +46,14 @@ std::string judged(const TrialRecord& trial) {
                      trial.error->translation_m, degrees(trial.error->rotation_rad));
 }
 
+/// What was found wrong last with the robot's set-up, perhaps after the declaration; nothing if all is well.
+std::string fault_of_setup(const TrialRecord& trial) {
+  for (auto step = trial.records.rbegin(); step != trial.records.rend(); ++step) {
+    if (step->result.setup && step->result.setup->fault) return step->result.setup->why();
+  }
+  return "";
+}
+
 /// Tells what is found while it is found.
 class Narrator {
  public:
@@ -98,6 +106,8 @@ class Narrator {
       answer("{}not localized in {} steps, {:.2f} m: {}{}\n", from, trial.steps, trial.distance_m, trial.why,
              guess ? "; the best guess is " + text_of(*guess, motion_) : "");
     }
+    const std::string fault = fault_of_setup(trial);
+    if (!fault.empty()) spdlog::warn("{}{}", from, fault);
   }
 
   ReadingBar bar_;

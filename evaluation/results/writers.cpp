@@ -68,6 +68,18 @@ Json to_json(const StageTimes& ms, bool is_verified) {
   return json;
 }
 
+Json to_json(const SetupCheck& setup) {
+  Json json = {{"agreement", setup.agreement}, {"way_m", setup.way_m}};
+  if (setup.mount_angle_deg) {
+    json["mount_angle_deg"] = *setup.mount_angle_deg;
+    json["mount_angle_sd_deg"] = setup.mount_angle_sd_deg;
+  }
+  if (setup.late_by) json["late_by"] = *setup.late_by;
+  if (setup.fault) json["fault"] = to_string(*setup.fault);
+  json["in_doubt"] = setup.is_in_doubt;
+  return json;
+}
+
 std::string tum_line(double stamp, const Pose3& pose) {
   return fmt::format("{:.6f} {}\n", stamp, tum_text(pose));
 }
@@ -101,6 +113,7 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
     json["candidates"] = std::move(candidates);
   }
   if (step.verification) json["verification"] = to_json(*step.verification, step.motion);
+  if (step.setup) json["setup"] = to_json(*step.setup);
   for (const Evidence& e : step.verdict.evidence) json["evidence"][e.name] = e.value;
   json["local_from_robot"] = to_json(step.local_from_robot, step.motion);
   if (const auto estimate = step.estimate()) json["estimate"] = to_json(*estimate, step.motion);

@@ -11,6 +11,7 @@
 #include "glocal/params.hpp"
 #include "glocal/prior.hpp"
 #include "glocal/running_stage.hpp"
+#include "glocal/setup_check.hpp"
 #include "glocal/unknown_place.hpp"
 
 namespace glocal {
@@ -29,6 +30,7 @@ struct LocalizerConfig {
   StrategyChoice verdict_rule;
   StrategyChoice verifier;
   UnknownPlaceParams unknown_place;
+  SetupCheckParams setup_check;
 };
 
 /// What a stage of the localizer must not be because of how the robot moves: a sentence with the motions that
@@ -84,6 +86,8 @@ class Localizer {
   void cluster(StepResult& result);
   void rate(StepResult& result);
   void judge(StepResult& result);
+  /// Takes back what the verdict rule declares where the set-up of the robot is wrong, or in doubt.
+  void check_setup(const Observation& observation, const LocalMap& local, StepResult& result);
   /// Lets the verifier look for rivals of a pose when it is declared: with one, it is not.
   void verify(const LocalMap& local, StepResult& result);
 
@@ -98,7 +102,8 @@ class Localizer {
   std::unique_ptr<Verifier> verifier_;  ///< None where declarations stand as they are.
   Stages stages_;
   UnknownPlaceMonitor unknown_place_;
-  StartInLocalMap start_;  ///< Followed where a prior is given.
+  std::optional<SetupMonitor> setup_;  ///< None where the set-up is not checked.
+  StartInLocalMap start_;              ///< Followed where a prior is given.
   PoseGate gate_;
   bool is_verified_ = false;  ///< What is declared since some steps.
   Rng seed_;

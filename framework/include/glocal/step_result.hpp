@@ -74,6 +74,36 @@ struct Verdict {
   bool needs_certificate = false;
 };
 
+/// How a robot can be set up wrongly.
+enum class SetupFault {
+  repeated_scans,  ///< One and the same scan comes again and again.
+  upside_down,     ///< The scans turn the other way than odometry.
+  mount_angle,     ///< The sensor looks elsewhere than it is said to.
+  late_scans,      ///< The scans tell what odometry told some observations before.
+};
+
+/// The name used in YAML, JSON and messages.
+[[nodiscard]] const char* to_string(SetupFault fault);
+
+/// What the motions that scans and odometry tell say of the robot's set-up.
+struct SetupCheck {
+  /// Logarithm of how much more likely these motions are if scans and odometry are of one robot and one time
+  /// than if they are not; in [-10, 5], as what was long ago counts less.
+  double agreement = 0.0;
+  double way_m = 0.0;  ///< Driven in the steps of which both tell the motion, in the last 40.
+  /// By which the sensor looks too far to the left; none before something was driven.
+  std::optional<double> mount_angle_deg = {};
+  /// Of that: a standard deviation, deg.
+  double mount_angle_sd_deg = 0.0;
+  std::optional<std::size_t> late_by = {};  ///< Observations; where the scans are late.
+  std::optional<SetupFault> fault = {};     ///< As long as it stands, nothing is declared.
+  /// Something speaks against the set-up, or too little for it: nothing is declared yet.
+  bool is_in_doubt = false;
+
+  /// The likely cause, and what to do about it; empty without a fault.
+  [[nodiscard]] std::string why() const;
+};
+
 /// Time of each stage, ms.
 struct StageTimes {
   double local_map = 0.0;
@@ -109,6 +139,7 @@ struct StepResult {
   std::vector<Rating> ratings;         ///< One for each cluster.
   Verdict verdict;
   std::optional<Verification> verification;  ///< Of a pose that was declared, or would have been.
+  std::optional<SetupCheck> setup;           ///< None where it is not checked: in space.
   StageTimes stage_ms;                       ///< On the wall.
   StageTimes stage_cpu_ms;                   ///< Of all processors that worked for it.
 

@@ -79,6 +79,8 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
               {.doc = "Looks on the whole map for rivals of a pose that is about to be declared."});
   v.field("unknown_place", c.unknown_place,
           {.doc = "When the robot counts as somewhere the map does not show."});
+  v.field("setup_check", c.setup_check,
+          {.doc = "Whether the set-up of the robot is checked by the motions that scans and odometry tell."});
 }
 
 /// The section as a struct of its own.
@@ -483,7 +485,8 @@ Experiment default_experiment() {
                  .threshold_policy = {"sliding_window"},
                  .verdict_rule = {"consecutive_rating"},
                  .verifier = {"none"},
-                 .unknown_place = {}};
+                 .unknown_place = {},
+                 .setup_check = {}};
   return e;
 }
 

@@ -82,6 +82,7 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
       rng_(seed_.stream({0})) {
   if (const auto why = why_nowhere(prior_, *setup.map))
     throw ConfigError({{"", 0, 0, "localizer.prior.region: " + *why}});
+  if (config.setup_check.enabled && motion_ == Motion::planar) setup_.emplace(config.setup_check);
   setup.contact_epsilon = contact_epsilon_on(*setup.map, config);
   setup.motion = motion_;
   const auto make = [&](const auto& registry, const StrategyChoice& choice, RunningStage& stage) {
@@ -118,6 +119,7 @@ StepResult Localizer::step(const Observation& observation) {
   cluster(result);
   rate(result);
   judge(result);
+  check_setup(observation, local, result);
   verify(local, result);
   if (!gate_.is_open()) add_prior(result.verdict, prior_);
   return result;
@@ -201,11 +203,25 @@ void Localizer::judge(StepResult& result) {
   }
 }
 
+void Localizer::check_setup(const Observation& observation, const LocalMap& local, StepResult& result) {
+  if (!setup_) return;
+  result.setup = setup_->update(observation, local);
+  const bool is_localized = result.verdict.kind == VerdictKind::localized;
+  if (!result.setup->fault && !(result.setup->is_in_doubt && is_localized)) return;
+  result.verdict.kind = VerdictKind::searching;
+  result.verdict.map_from_robot.reset();
+  result.verdict.candidates.clear();
+  result.verdict.why = result.setup->fault ? result.setup->why()
+                                           : "the best pose is not declared as long as scans and odometry do "
+                                             "not tell the same motion clearly enough";
+}
+
 void Localizer::reset(std::uint64_t trial) {
   trial_ = trial;
   rng_ = seed_.stream({trial});
   step_ = 0;
   unknown_place_.reset();
+  if (setup_) setup_->reset();
   start_.reset();
   is_verified_ = false;
   const auto reset = [&](RunningStage& stage, auto& strategy) {

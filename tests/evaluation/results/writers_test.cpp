@@ -103,6 +103,18 @@ TEST(StepLine, TellsWhatTheVerdictRestsOn) {
   EXPECT_EQ(json["estimate"], Json::parse(R"({"x": 1.0, "y": 2.0, "theta": 0.5})"));  // what is believed
 }
 
+TEST(StepLine, TellsHowTheRobotIsSetUp) {
+  StepRecord record = step_record(3, {1.5, -2.0, 0.25});
+  record.result.setup = SetupCheck{.agreement = -7.5, .way_m = 2.0, .is_in_doubt = true};
+  EXPECT_EQ(parse_line(step_line(7, record))["setup"],
+            Json::parse(R"({"agreement": -7.5, "way_m": 2.0, "in_doubt": true})"));
+  record.result.setup = SetupCheck{
+      .mount_angle_deg = 3.0, .mount_angle_sd_deg = 1.25, .late_by = 4, .fault = SetupFault::late_scans};
+  EXPECT_EQ(parse_line(step_line(7, record))["setup"], Json::parse(R"({
+      "agreement": 0.0, "way_m": 0.0, "mount_angle_deg": 3.0, "mount_angle_sd_deg": 1.25, "late_by": 4,
+      "fault": "late_scans", "in_doubt": false})"));
+}
+
 TEST(StepLine, LeavesOutWhatIsNotKnown) {
   StepRecord record = step_record(0, {});
   record.result.clusters.clear();
@@ -111,7 +123,7 @@ TEST(StepLine, LeavesOutWhatIsNotKnown) {
   record.result.omega_scan.reset();
   const Json json = parse_line(step_line(0, record));
   for (const char* key :
-       {"estimate", "omega_place", "omega_scan", "reference", "translation_error_m", "candidates"}) {
+       {"estimate", "omega_place", "omega_scan", "reference", "translation_error_m", "candidates", "setup"}) {
     EXPECT_FALSE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["clusters"], 0);

@@ -161,7 +161,8 @@ inline void register_fake_stages(Catalog& catalog) {
   catalog.verifiers.add_none("none", "Verifies nothing.", {});
 }
 
-/// All stages follow one script, the verifier only if there is to be one; no place is unknown.
+/// All stages follow one script, the verifier only if there is to be one; no place is unknown, and the
+/// set-up is not checked.
 inline LocalizerConfig follow(const std::shared_ptr<Script>& script, bool is_verified = false) {
   const auto stage = [&] {
     auto params = std::make_unique<ParamsOf<FakeParams>>();
@@ -176,7 +177,8 @@ inline LocalizerConfig follow(const std::shared_ptr<Script>& script, bool is_ver
           .threshold_policy = stage(),
           .verdict_rule = stage(),
           .verifier = is_verified ? stage() : StrategyChoice{"none", {}},
-          .unknown_place = {.max_contact = 0.0}};
+          .unknown_place = {.max_contact = 0.0},
+          .setup_check = {.enabled = false}};
 }
 
 /// A map with one point, at the origin, and no grid.

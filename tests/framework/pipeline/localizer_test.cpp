@@ -492,5 +492,28 @@ TEST_F(LocalizerTest, StagesKnowWhetherThereIsAVerifier) {
   EXPECT_TRUE(is_known(true));
 }
 
+TEST_F(LocalizerTest, DeclaresNothingWhileTheSetUpIsWrong) {
+  script_->judge = [](const StepResult&) {
+    return Verdict{VerdictKind::localized, Pose2{1.0, 2.0, 0.0}, {}, "sure"};
+  };
+  LocalizerConfig config = follow(script_);
+  config.setup_check.enabled = true;
+  Localizer localizer(config, catalog_, {map_of_one_point(), 1}, 1);
+  Observation observation;
+  for (int i = 0; i < 20; ++i) observation.scan.hits.push_back({static_cast<float>(i), 1.0F, 0.0F});
+  EXPECT_EQ(localizer.step(observation).verdict.kind, VerdictKind::localized);
+  StepResult step;
+  for (int i = 0; i < 3; ++i) {  // The same scan, and odometry goes on.
+    observation.odom_from_robot.x += 0.3;
+    step = localizer.step(observation);
+    EXPECT_EQ(step.verdict.kind, VerdictKind::searching);
+    EXPECT_EQ(step.verdict.map_from_robot, std::nullopt);
+  }
+  EXPECT_EQ(step.setup.value().fault, SetupFault::repeated_scans);
+  EXPECT_THAT(step.verdict.why, testing::HasSubstr("the same scan"));
+  localizer.reset(1);
+  EXPECT_EQ(localizer.step(observation).verdict.kind, VerdictKind::localized);
+}
+
 }  // namespace
 }  // namespace glocal::test::localizer_test

@@ -1,0 +1,158 @@
+// Robots whose scans and odometry tell motions that are given: 0.3 m ahead, or a turn of 10 degrees.
+#include "glocal/setup_check.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <vector>
+
+namespace glocal::test::setup_check_test {
+namespace {
+
+constexpr Pose2 ahead{0.3, 0.0, 0.0};
+constexpr Pose2 left{0.0, 0.0, radians(10.0)};
+constexpr Pose2 right{0.0, 0.0, radians(-10.0)};
+/// What the scans tell is never odometry's to the last bit.
+constexpr Pose2 of_scans(const Pose2& motion) {
+  return {motion.x + 0.001, motion.y, motion.theta};
+}
+/// Right turns, with ways of other lengths between them: it looks like itself at no other time.
+constexpr std::array<int, 10> steps_to_turns = {1, 3, 1, 2, 4, 1, 1, 3, 2, 5};
+std::vector<Pose2> drive_to_the_right() {
+  std::vector<Pose2> motions;
+  for (const int steps : steps_to_turns) {
+    motions.insert(motions.end(), static_cast<std::size_t>(steps), ahead);
+    motions.push_back(right);
+  }
+  return motions;
+}
+
+class Robot {
+ public:
+  explicit Robot(const SetupCheckParams& params = {}) : monitor_(params) { observe(); }
+
+  /// Another scan after motions by odometry and by the scans.
+  SetupCheck move(const Pose2& by_odometry, const Pose2& by_scans) {
+    ++scan_;
+    return move_without_scan(by_odometry, by_scans);
+  }
+  /// The last scan again.
+  SetupCheck move_without_scan(const Pose2& by_odometry, const Pose2& by_scans) {
+    odom_from_robot_ = odom_from_robot_ * by_odometry;
+    local_.local_from_robot = seen_from_above(local_.local_from_robot) * by_scans;
+    return observe();
+  }
+
+ private:
+  SetupCheck observe() {
+    Observation observation;
+    observation.odom_from_robot = odom_from_robot_;
+    for (int i = 0; i < 20; ++i)
+      observation.scan.hits.push_back({static_cast<float>(i), static_cast<float>(scan_), 0.0F});
+    return monitor_.update(observation, local_);
+  }
+
+  SetupMonitor monitor_;
+  Pose2 odom_from_robot_;
+  LocalMap local_;
+  int scan_ = 0;
+};
+
+TEST(SetupCheck, AgreementOfGoodRobotsGrows) {
+  Robot robot;
+  EXPECT_DOUBLE_EQ(robot.move(ahead, of_scans(ahead)).agreement, 0.5);
+  const SetupCheck check = robot.move(left, of_scans(left));
+  EXPECT_DOUBLE_EQ(check.agreement, 2.0);
+  EXPECT_DOUBLE_EQ(check.way_m, 0.3);
+  EXPECT_FALSE(check.is_in_doubt);
+  EXPECT_EQ(check.fault, std::nullopt);
+  EXPECT_EQ(check.why(), "");
+}
+
+TEST(SetupCheck, WaitsForTheAgreementThatIsAskedFor) {
+  Robot robot({.min_agreement = 1.0});
+  EXPECT_TRUE(robot.move(ahead, of_scans(ahead)).is_in_doubt);
+  EXPECT_FALSE(robot.move(ahead, of_scans(ahead)).is_in_doubt);
+}
+
+TEST(SetupCheck, WaitsForAWayButNotForEver) {
+  Robot robot;
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(robot.move(left, of_scans(left)).is_in_doubt);
+  EXPECT_FALSE(robot.move(left, of_scans(left)).is_in_doubt);
+}
+
+TEST(SetupCheck, SensorUpsideDownTurnsTheOtherWay) {
+  Robot robot;
+  static_cast<void>(robot.move(ahead, of_scans(ahead)));
+  // Each turn differs by 20 degrees: one is a doubt, three are a fault.
+  const SetupCheck doubt = robot.move(left, of_scans(right));
+  EXPECT_TRUE(doubt.is_in_doubt);
+  EXPECT_EQ(doubt.fault, std::nullopt);
+  static_cast<void>(robot.move(left, of_scans(right)));
+  const SetupCheck check = robot.move(right, of_scans(left));
+  EXPECT_EQ(check.fault, SetupFault::upside_down);
+  EXPECT_THAT(check.why(), testing::HasSubstr("upside down"));
+}
+
+TEST(SetupCheck, SensorThatLooksTooFarToTheLeftMovesToTheRight) {
+  Robot robot;
+  const Pose2 aside{0.3 * std::cos(radians(15.0)), -0.3 * std::sin(radians(15.0)), 0.0};
+  EXPECT_TRUE(robot.move(ahead, aside).is_in_doubt);
+  static_cast<void>(robot.move(ahead, aside));
+  static_cast<void>(robot.move(ahead, aside));
+  const SetupCheck check = robot.move(ahead, aside);
+  EXPECT_NEAR(check.mount_angle_deg.value_or(0.0), 15.0, 1e-9);
+  EXPECT_NEAR(check.mount_angle_sd_deg, 1.25, 1e-9);  // 2.5 degrees by the root of 4.
+  EXPECT_EQ(check.fault, SetupFault::mount_angle);
+  EXPECT_THAT(check.why(), testing::HasSubstr("15 deg too far to the left"));
+}
+
+TEST(SetupCheck, ScanThatComesAgainIsAFaultOnceItCameThrice) {
+  Robot robot;
+  EXPECT_TRUE(robot.move_without_scan(ahead, {}).is_in_doubt);
+  EXPECT_EQ(robot.move_without_scan(ahead, {}).fault, std::nullopt);
+  EXPECT_EQ(robot.move_without_scan(ahead, {}).fault, SetupFault::repeated_scans);
+}
+
+TEST(SetupCheck, RobotThatHoldsStillSeesTheSame) {
+  Robot robot;
+  SetupCheck check;
+  for (int i = 0; i < 10; ++i) check = robot.move_without_scan({0.01, 0.0, 0.0}, {});
+  EXPECT_EQ(check.fault, std::nullopt);
+  EXPECT_FALSE(check.is_in_doubt);
+}
+
+TEST(SetupCheck, LateScansTellWhatOdometryToldBefore) {
+  Robot robot;
+  SetupCheck check;
+  constexpr std::size_t late_by = 3;
+  const std::vector<Pose2> motions = drive_to_the_right();
+  for (std::size_t i = 0; i + late_by < motions.size(); ++i)
+    check = robot.move(motions[i + late_by], of_scans(motions[i]));
+  EXPECT_EQ(check.fault, SetupFault::late_scans);
+  EXPECT_EQ(check.late_by, late_by);
+  EXPECT_THAT(check.why(), testing::HasSubstr("3 observations before"));
+}
+
+TEST(SetupCheck, WheelsThatSpinAndOdometryThatStandsAreNoMatterOfTheSetUp) {
+  Robot robot;
+  SetupCheck check = robot.move(ahead, of_scans(ahead));
+  for (int i = 0; i < 20; ++i) check = robot.move({0.6, 0.0, radians(20.0)}, {0.3, 0.0, radians(10.0)});
+  EXPECT_DOUBLE_EQ(check.agreement, 0.5);
+  for (int i = 0; i < 20; ++i) check = robot.move({}, left);
+  EXPECT_DOUBLE_EQ(check.agreement, 0.5);
+  EXPECT_FALSE(check.is_in_doubt);
+}
+
+TEST(SetupCheck, ScansThatDoNotFitSayNothing) {
+  // The local map moves the robot by odometry then.
+  Robot robot;
+  SetupCheck check;
+  for (int i = 0; i < 5; ++i) check = robot.move(ahead, ahead);
+  EXPECT_DOUBLE_EQ(check.agreement, 0.0);
+  EXPECT_DOUBLE_EQ(check.way_m, 0.0);
+  EXPECT_EQ(check.mount_angle_deg, std::nullopt);
+}
+
+}  // namespace
+}  // namespace glocal::test::setup_check_test
