@@ -25,7 +25,7 @@ void ExperimentOptions::add_products_to(CLI::App& command) {
   command.add_option("--seeds", seeds, "Run all with each of these seeds: 1..3, or [1, 5, 9]");
   CLI::Option* of_suite = command.add_option(
       "--suite", suite,
-      "Cases and seeds: those of a suite, as planar@2 (glocal list suites), or of its file");
+      "Cases and seeds: those of a suite, as planar@1 (glocal list suites), or of its file");
   command.add_option("--share", share, "Run a fixed share of the suite's starts: 0.05")->needs(of_suite);
 }
 

@@ -20,7 +20,7 @@ struct ExperimentOptions {
   std::optional<std::string> seed, threads;
   std::vector<std::string> methods, cases;  ///< Names or files.
   std::string seeds;                        ///< "1..3"; empty: those of the file.
-  std::string suite, share;                 ///< "planar@2", "0.05"; empty: none, and all.
+  std::string suite, share;                 ///< "planar@1", "0.05"; empty: none, and all.
 
   /// Adds FILE, --method, --case, --seeds, --suite, --share, --set, --seed and --threads. FILE may be left
   /// out where a method and a case or a suite are given. This object must live as long as the command.

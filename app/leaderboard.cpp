@@ -38,7 +38,7 @@ namespace fs = std::filesystem;
 
 struct BoardOptions {
   std::string board;  ///< Folder; empty: that of glocal.
-  std::string suite;  ///< "planar@2", or its file; empty: all.
+  std::string suite;  ///< "planar@1", or its file; empty: all.
   std::vector<std::string> methods, cases;
   bool by_case = false, markdown = false, force = false;
   std::string share = "0.01";
@@ -301,7 +301,7 @@ void add_cases_to(CLI::App& command, BoardOptions& options) {
 }
 
 void add_suite_to(CLI::App& command, BoardOptions& options) {
-  command.add_option("SUITE", options.suite, "Suite, as planar@2 (glocal list suites), or its file")
+  command.add_option("SUITE", options.suite, "Suite, as planar@1 (glocal list suites), or its file")
       ->required();
 }
 
@@ -311,7 +311,7 @@ void add_leaderboard(CLI::App& app, Context& context) {
   auto options = std::make_shared<BoardOptions>();
   CLI::App* board = app.add_subcommand(
       "leaderboard", "Show what methods have come to on suites, or add, check, import and export results.");
-  board->add_option("SUITE", options->suite, "Suite, as planar@2 (glocal list suites); all without it");
+  board->add_option("SUITE", options->suite, "Suite, as planar@1 (glocal list suites); all without it");
   add_methods_to(*board, *options);
   add_cases_to(*board, *options);
   CLI::Option* by_case = board->add_flag("--cases", options->by_case, "A line for each case");
@@ -349,7 +349,7 @@ void add_leaderboard(CLI::App& app, Context& context) {
 
   CLI::App* check_command = board->add_subcommand(
       "check", "Run a fixed share anew, and say which starts end otherwise than they are stored.");
-  check_command->add_option("SUITE", options->suite, "Suite, as planar@2; all without it");
+  check_command->add_option("SUITE", options->suite, "Suite, as planar@1; all without it");
   check_command->add_option("--share", options->share, "Share of the starts")->capture_default_str();
   add_methods_to(*check_command, *options);
   add_cases_to(*check_command, *options);
@@ -367,7 +367,7 @@ void add_leaderboard(CLI::App& app, Context& context) {
   CLI::App* import_command =
       board->add_subcommand("import", "Judge poses that another program has found, and keep the results.");
   import_command->add_option("FILE", options->poses, "Table of poses (CSV)")->required();
-  import_command->add_option("--suite", options->suite, "Suite, as planar@2, or its file")->required();
+  import_command->add_option("--suite", options->suite, "Suite, as planar@1, or its file")->required();
   import_command->add_option("--method", options->methods, "Name of the method")->required()->expected(1);
   add_board_to(*import_command);
   add_force_to(*import_command);

@@ -53,7 +53,7 @@ struct CaseResult {
                                                         double share, std::size_t n);
 
 struct BoardEntry {
-  std::string suite, method;  ///< "planar@2", "indexed".
+  std::string suite, method;  ///< "planar@1", "indexed".
   double share = 1.0;         ///< Of the suite's starts: is_in_share().
   /// Where it comes from: version, revision, date, command, and more where it is known.
   nlohmann::ordered_json provenance = nlohmann::ordered_json::object();

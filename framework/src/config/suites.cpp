@@ -28,7 +28,7 @@ std::uint64_t fnv1a(std::string_view text) {
   return hash;
 }
 
-/// "planar@2" as name and version; none where it has none.
+/// "planar@1" as name and version; none where it has none.
 std::pair<std::string, std::string> split(const std::string& text) {
   const std::size_t at = text.rfind('@');
   const bool is_version = at != std::string::npos && at + 1 < text.size() &&

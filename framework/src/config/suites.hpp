@@ -40,7 +40,7 @@ struct Suite {
   std::map<std::string, std::string> inputs;
   std::vector<PublishedFigures> published;
 
-  /// "planar@2".
+  /// "planar@1".
   [[nodiscard]] std::string id() const;
   [[nodiscard]] const SuiteCase* find_case(std::string_view case_name) const;
 };

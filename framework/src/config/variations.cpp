@@ -118,7 +118,7 @@ void describe(ParamVisitor& v, Variations& s) {
   v.field(
       "suite", s.suite,
       {.doc =
-           "A suite in place of cases and seeds: its name and version (`glocal list suites`), as planar@2, "
+           "A suite in place of cases and seeds: its name and version (`glocal list suites`), as planar@1, "
            "or its file. `cases` then chooses some of its cases."});
   v.field("share", s.share,
           {.doc = "Which share of the suite's starts is run: the same ones for all methods.",
