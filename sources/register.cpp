@@ -6,6 +6,7 @@
 #include "sources/carmen/log_map.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/clouds/cloud_drive_map.hpp"
+#include "sources/clouds/cloud_pair.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 #include "sources/disturbed/disturbed_drive.hpp"
 #include "sources/disturbed/disturbed_map.hpp"
@@ -24,6 +25,8 @@ void register_sources(Catalog& catalog) {
                                              stable_since("0.1.0"));
   catalog.observation_sources.add<CloudDrive>("cloud_drive", "A drive recorded as clouds of points.",
                                               stable_since("0.1.0"));
+  catalog.observation_sources.add<CloudPairScan>("cloud_pair", "The source of a pair of clouds from a list.",
+                                                 experimental_since("0.1.0"));
   catalog.observation_sources.add<Simulation>(
       "simulation", "A drive through a simulated world, or through a ROS map, with a planar laser.",
       stable_since("0.1.0"));
@@ -42,6 +45,8 @@ void register_sources(Catalog& catalog) {
                                   stable_since("0.1.0"));
   catalog.map_sources.add<CloudDriveMap>(
       "cloud_drive", "A map in space from the reference poses of a drive of clouds.", stable_since("0.1.0"));
+  catalog.map_sources.add<CloudPairMap>("cloud_pair", "The target of a pair of clouds from a list.",
+                                        experimental_since("0.1.0"));
   catalog.map_sources.add<RosMap>("ros_map", "A map of the ROS map server: a YAML file and an image.",
                                   stable_since("0.1.0"));
   catalog.map_sources.add<PointCloudMap>(

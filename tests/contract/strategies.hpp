@@ -22,6 +22,7 @@
 #include "sources/carmen/log_map.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/clouds/cloud_drive_map.hpp"
+#include "sources/clouds/cloud_pair.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 #include "sources/disturbed/disturbed_drive.hpp"
 #include "sources/disturbed/disturbed_map.hpp"
@@ -98,6 +99,10 @@ class Contract : public ::testing::Test {
       p.drive.folder = file_path(folder_ / "clouds");
       p.drive.reference = poses;
     });
+    const FilePath pairs =
+        file_path(folder_.write("pairs.csv", "source,target\nclouds/0.ply,clouds/1.ply\n"));
+    fill<CloudPairMap::Params>("map_source/cloud_pair", [pairs](auto& p) { p.list = pairs; });
+    fill<CloudPairScan::Params>("observation_source/cloud_pair", [pairs](auto& p) { p.list = pairs; });
     fill<PointCloudMap::Params>("map_source/point_cloud",
                                 [&](auto& p) { p.path = file_path(folder_ / "clouds/0.ply"); });
     fill<Exhaustive::Params>("matcher/exhaustive", [](auto& p) {
