@@ -136,7 +136,8 @@ TEST(BeamEvidence, WhatEndsAtTheWallSupportsAndWhatGoesThroughItSpeaksAgainst) {
   EXPECT_NEAR(evidence.support(contact, grid, pose), (10.0 - 2.0 * 10.0) / 30.0 + 20.0 / 30.0, 1e-12);
   // A ray that met nothing cannot have passed through the wall, and ends at nothing.
   Scan free;
-  free.free_ends.assign({Point{1.05F, 0.0F, 0.0F}, Point{1.9F, 0.0F, 0.0F}});
+  free.free_ends.push_back({1.05F, 0.0F, 0.0F});
+  free.free_ends.push_back({1.9F, 0.0F, 0.0F});
   BeamEvidence of_rays(BeamRule{});
   of_rays.add({}, free);
   EXPECT_NEAR(of_rays.support(contact, grid, pose), -2.0 / 30.0, 1e-12);
