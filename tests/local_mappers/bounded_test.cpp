@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "local_mappers/drives.hpp"
+#include "local_mappers/lone_hits.hpp"
 
 namespace glocal::local_mappers::bounded_test {
 namespace {
@@ -21,14 +22,17 @@ using test::Drive;
 using test::drive;
 using ::testing::ElementsAre;
 
+/// Two hits that confirm each other, and make one point.
+const std::vector<Point> one_place(2, {1.01F, 0.01F, 0.0F});
+
 /// Points of a map and how many there are after each observation.
 struct Thinned {
   std::vector<std::array<double, 2>> points;
   std::vector<std::size_t> ends;
 };
 
-/// What some observations make of a map at given poses: the mean of the first three hits in each cell, cells
-/// in the order in which they were first hit.
+/// What hits that do not stand alone make of a map at given poses: the mean of the first three hits in each
+/// cell, cells in the order in which they were first hit.
 Thinned thin(const std::vector<Observation>& observations, const std::vector<Pose2>& local_from_robot,
              std::size_t first) {
   const PointGrid grid(0.05, 0, 0.1, 1);  // only to name cells as the mapper does
@@ -37,7 +41,9 @@ Thinned thin(const std::vector<Observation>& observations, const std::vector<Pos
   Thinned result;
   for (std::size_t k = first; k < local_from_robot.size(); ++k) {
     const Transform transform(local_from_robot[k]);
+    const std::vector<bool> is_lone = lone_hits(observations[k].scan.hits, observations[k].scan.origin);
     for (std::size_t i = 0; i < observations[k].scan.hits.size(); ++i) {
+      if (is_lone[i]) continue;
       const Point p = transform(observations[k].scan.hits[i]);
       const GridCell cell = grid.cell(p.x, p.y);
       const auto [entry, is_new] = index.try_emplace({cell.column, cell.row}, hits.size());
@@ -107,9 +113,9 @@ TEST(Bounded, HitsThatStandAloneAreNotRegistered) {
 
 TEST(Bounded, TheStricterLimitHolds) {
   Bounded mapper({.scans = 3, .distance = 1.5});
-  for (int k = 0; k < 6; ++k) mapper.add(at(0.1 * k, {{1.01F, 0.01F, 0}}));
+  for (int k = 0; k < 6; ++k) mapper.add(at(0.1 * k, one_place));
   EXPECT_EQ(mapper.map().ends.size(), 3U);
-  mapper.add(at(1.95, {{1.01F, 0.01F, 0}}));  // 1.45 m farther
+  mapper.add(at(1.95, one_place));  // 1.45 m farther
   EXPECT_EQ(mapper.map().ends.size(), 2U);
 }
 
@@ -117,7 +123,13 @@ TEST(Bounded, IsScanMatchingWhileNothingFallsOut) {
   const Drive noisy = drive(test::furnished_room(), circle(40), {.noise = 0.02}, bad_odometry);
   Bounded bounded({.scans = 40, .distance = 0.0});
   ScanMatching all({});
-  for (const Observation& observation : noisy.observations) {
+  for (Observation observation : noisy.observations) {
+    const Points hits = observation.scan.hits;
+    const std::vector<bool> is_lone = lone_hits(hits, observation.scan.origin);
+    observation.scan.hits = {};
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      if (!is_lone[i]) observation.scan.hits.push_back(hits[i]);
+    }
     bounded.add(observation);
     all.add(observation);
   }
@@ -141,13 +153,13 @@ TEST(Bounded, WhatIsStillSeenStays) {
 
 TEST(Bounded, ObservationsWithoutHitsCountToo) {
   Bounded mapper({.scans = 2, .distance = 0.0});
-  mapper.add(at(0.0, {{1.01F, 0.01F, 0}}));
+  mapper.add(at(0.0, one_place));
   mapper.add(at(1.0, {}));
   EXPECT_THAT(mapper.map().ends, ElementsAre(1U, 1U));
   mapper.add(at(2.0, {}));
   EXPECT_THAT(mapper.map().ends, ElementsAre(0U, 0U));
   EXPECT_NEAR(mapper.map().local_from_robot.x, 2.0, 1e-12);
-  mapper.add(at(3.0, {{1.01F, 0.01F, 0}}));
+  mapper.add(at(3.0, one_place));
   EXPECT_THAT(mapper.map().ends, ElementsAre(0U, 1U));
   EXPECT_NEAR(mapper.map().points.x[0], 4.01F, 1e-5F);
   EXPECT_EQ(mapper.map().epoch, 0);
@@ -160,7 +172,7 @@ TEST(Bounded, ForgetsTheWindowWithTheMap) {
   EXPECT_EQ(mapper.map().epoch, 1);
   EXPECT_EQ(mapper.map().ends.size(), 3U);
   mapper.reset();
-  mapper.add(at(5.0, {{1.01F, 0.01F, 0}}));
+  mapper.add(at(5.0, one_place));
   EXPECT_EQ(mapper.map().epoch, 0);
   EXPECT_THAT(mapper.map().ends, ElementsAre(1U));
 }

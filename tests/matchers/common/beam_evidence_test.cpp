@@ -130,9 +130,11 @@ TEST(BeamEvidence, WhatEndsAtTheWallSupportsAndWhatGoesThroughItSpeaksAgainst) {
   const Scan ten = beams_along_x(std::vector<float>(10, 1.05F));
   for (int i = 0; i < 4; ++i) evidence.add(local, ten);
   EXPECT_NEAR(evidence.support(contact, grid, pose), (10.0 - 2.0 * 10.0) / 30.0 + 10.0 / 30.0, 1e-12);
-  // 0.6 m to the side, from where the wall is as far, is another place.
-  local.local_from_robot = Pose2{0.0, 0.6, 0.0};
-  evidence.add(local, ten);
+  // 0.6 m to the side, from where the wall is as far, is another place; with the next one both are kept.
+  for (const double aside : {0.6, 1.2}) {
+    local.local_from_robot = Pose2{0.0, aside, 0.0};
+    evidence.add(local, ten);
+  }
   EXPECT_NEAR(evidence.support(contact, grid, pose), (10.0 - 2.0 * 10.0) / 30.0 + 20.0 / 30.0, 1e-12);
   // A ray that met nothing cannot have passed through the wall, and ends at nothing.
   Scan free;
