@@ -12,8 +12,8 @@ namespace glocal::local_mappers {
 /// Matches scans as scan_matching does, against a map of the last `scans` observations or `distance` metres
 /// of way, whichever is less. The map is what these observations alone would give, registered where they were
 /// placed: points that only older ones hit are gone, and a cell's point belongs to the first observation that
-/// is left of those that hit it. Hits that stand alone in their scan (lone_hits.hpp) are not registered. Frame
-/// and epoch stay.
+/// is left of those that hit it. Hits that stand alone in their scan (lone_hits.hpp) are not registered.
+/// Frame and epoch stay.
 ///
 /// Time and memory for an observation depend on what the window holds, not on the drive before it.
 class Bounded final : public LocalMapper {
