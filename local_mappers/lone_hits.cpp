@@ -33,9 +33,7 @@ std::vector<bool> lone_hits(const Points& hits, const Point& sensor) {
   std::vector<bool> lone(n, true);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < std::min(n, i + 1 + neighbours); ++j) {
-      if (lone[i] || lone[j]) {
-        if (are_joined(hits, i, j, sensor)) lone[i] = lone[j] = false;
-      }
+      if ((lone[i] || lone[j]) && are_joined(hits, i, j, sensor)) lone[i] = lone[j] = false;
     }
   }
   return lone;

@@ -26,6 +26,8 @@ constexpr double confidence_to_stay = 0.9;
 constexpr double least_of_usual_contact = 0.7;
 /// Steps in which the best pose has been the same before a confidence is enough.
 constexpr int first_steps_to_be_sure = 2;
+/// No refutation asks for more.
+constexpr int most_steps_to_be_sure = 1024;
 
 /// The probability that the best pose is right: logistic in its margin, in the logarithm of the steps in
 /// which it has been the same, and in how much more beams say for it than for any rival. Fitted to starts in
@@ -134,7 +136,7 @@ StagedMargin::StagedMargin(const Params& params, const StageSetup& setup)
     : params_(params),
       stages_(params.stages),
       certified_stages_(setup.has_verifier ? params.certified_stages : std::vector<Stage>{}),
-      is_verified_(setup.has_verifier),
+      has_verifier_(setup.has_verifier),
       steps_to_be_sure_(first_steps_to_be_sure) {}
 
 /// A rival that was not known of was there all the time, so no margin has been kept. Without one there is
@@ -142,7 +144,7 @@ StagedMargin::StagedMargin(const Params& params, const StageSetup& setup)
 void StagedMargin::refute(const Verification& verification) {
   certified_stages_.begin_anew();
   is_declared_ = false;
-  steps_to_be_sure_ *= 2;
+  steps_to_be_sure_ = std::min(2 * steps_to_be_sure_, most_steps_to_be_sure);
   const bool has_rival =
       !verification.rivals.empty() && verification.is_about_as_good(verification.rivals.front());
   if (has_rival || !verification.certificate) begin_anew();
@@ -196,7 +198,7 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const std::optional<double> lead = beam_lead(step.hypotheses);
   const double confidence = confidence_of(margin, steps_, lead);
   const bool is_steady_now = is_steady(turn_rate_deg);
-  const bool is_sure = is_steady_now && is_verified_ && lead && steps_ >= steps_to_be_sure_ &&
+  const bool is_sure = is_steady_now && has_verifier_ && lead && steps_ >= steps_to_be_sure_ &&
                        confidence >= params_.min_confidence;
   const bool may_be_declared = is_steady_now && is_consistent;
   if (is_sure || (may_be_declared && (is_clear || is_clear_if_certified))) is_declared_ = true;

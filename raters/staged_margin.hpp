@@ -15,9 +15,10 @@ namespace glocal::raters {
 
 /// Localized once the best hypothesis has been clearly better than every rival, a pose far from it, for long
 /// enough: the clearer, the sooner. The best hypothesis must stay the same, moved by the local motion;
-/// another best one, a step without any, another local map, or a scan that does not fit there begins anew.
-/// That, or a margin below every stage's, takes the verdict back. Where declarations are verified, there are
-/// lower stages, too, for poses that the verifier certifies to have no more contact anywhere else.
+/// another best one, a step without any, another local map, or a scan with less contact there than usual
+/// begins anew, and a scan with less than `min_scan_contact` lets the stages begin anew. That, or a margin
+/// below every stage's, takes the verdict back. Where declarations are verified, there are lower stages, too,
+/// for poses that the verifier certifies to have no more contact anywhere else.
 ///
 /// Where the matcher tells what beams say, and declarations are verified, a confidence of `min_confidence` is
 /// enough, too, however little of the scan is on the map.
@@ -83,7 +84,7 @@ class StagedMargin final : public VerdictRule {
   Params params_;
   Stages stages_;
   Stages certified_stages_;  ///< None where nothing is verified.
-  bool is_verified_;         ///< What is declared.
+  bool has_verifier_;
   std::optional<FollowedPose> best_;
   int steps_ = 0;                ///< In which the best pose has been the same.
   double distance_ = 0.0;        ///< m; driven in these.

@@ -222,6 +222,11 @@ TEST(StagedMargin, ARefutedConfidenceMustLastTwiceAsLong) {
   rule.refute({});
   for (int i = 1; i < 4; ++i) EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::searching) << i;
   EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::localized);
+  // However often it was refuted, it can be sure again.
+  for (int i = 0; i < 100; ++i) rule.refute({});
+  EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::searching);
+  for (int i = 1; i < 1023; ++i) (void)rule.judge(cluttered());
+  EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::localized);
 }
 
 TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
