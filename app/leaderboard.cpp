@@ -40,7 +40,7 @@ struct BoardOptions {
   std::string board;  ///< Folder; empty: that of glocal.
   std::string suite;  ///< "planar@1", or its file; empty: all.
   std::vector<std::string> methods, cases;
-  bool by_case = false, markdown = false, force = false;
+  bool by_case = false, by_kind = false, markdown = false, force = false;
   std::string share = "0.01";
   std::string results, poses, out, revision;
   std::string page;  ///< File; empty: tables are printed.
@@ -109,7 +109,8 @@ void show(const BoardOptions& options) {
     check_case_names(options, suites.front());
     const std::vector<BoardEntry> entries = entries_of(options, suites.front());
     if (entries.empty()) refuse_empty(options);
-    report = board_tables(suites.front(), entries, {options.by_case, options.cases});
+    report = options.by_kind ? kinds_table(suites.front(), entries)
+                             : board_tables(suites.front(), entries, {options.by_case, options.cases});
   }
   answer(options.markdown ? as_markdown(report) : as_text(report));
 }
@@ -315,11 +316,19 @@ void add_leaderboard(CLI::App& app, Context& context) {
   add_methods_to(*board, *options);
   add_cases_to(*board, *options);
   CLI::Option* by_case = board->add_flag("--cases", options->by_case, "A line for each case");
+  CLI::Option* by_kind =
+      board
+          ->add_flag("--kinds", options->by_kind,
+                     "A line for each kind of disturbance: the success that is kept at each level")
+          ->needs(board->get_option("SUITE"))
+          ->excludes(by_case)
+          ->excludes(board->get_option("--case"));
   CLI::Option* markdown = board->add_flag("--markdown", options->markdown, "Print tables as Markdown");
   board
       ->add_option("-o,--out", options->page,
                    "Write a page for a browser in place of tables, with all starts and how methods changed")
       ->excludes(by_case)
+      ->excludes(by_kind)
       ->excludes(markdown)
       ->excludes(board->get_option("--case"));
   const auto add_board_to = [&](CLI::App& command) {

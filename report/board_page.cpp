@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "evaluation/comparison/comparison.hpp"
+#include "evaluation/leaderboard/kept_success.hpp"
 #include "evaluation/results/proportions.hpp"
 #include "report/report_data.hpp"
 
@@ -63,6 +64,20 @@ BoardJson json_of_renewals(const BoardEntry& entry, const std::vector<Renewal>& 
   return renewals;
 }
 
+/// The success that is kept with each kind of disturbance, from level 1 on; null where it is unknown.
+BoardJson json_of_kept(const BoardEntry& entry, const std::vector<DisturbedKind>& kinds) {
+  BoardJson kept = BoardJson::array();
+  for (const DisturbedKind& kind : kinds) {
+    BoardJson levels = BoardJson::array();
+    for (int level = 1; level <= worst_level; ++level) {
+      const auto share = kept_success(entry, of_level(kind.cases, level)).share;
+      levels.push_back(share ? BoardJson(*share) : BoardJson());
+    }
+    kept.push_back(std::move(levels));
+  }
+  return kept;
+}
+
 BoardJson json_of_entry(const BoardEntry& entry, const Suite& suite, const std::vector<Renewal>& history) {
   BoardJson cases = BoardJson::array();
   std::vector<const CaseResult*> all;
@@ -82,6 +97,7 @@ BoardJson json_of_entry(const BoardEntry& entry, const Suite& suite, const std::
                     {"all", json_of_counts(counts_of(entry))},
                     {"cases", std::move(cases)},
                     {"results", json_of_results(entry)},
+                    {"kept", json_of_kept(entry, disturbed_kinds(suite))},
                     {"renewals", json_of_renewals(entry, history)}};
   if (const auto ms = median_step_ms(all)) json["step_ms"] = *ms;
   return json;
@@ -113,8 +129,12 @@ PageData board_page(const std::vector<SuiteBoard>& boards, const std::vector<Ren
     std::stable_sort(best_first.begin(), best_first.end(), [](const BoardEntry* a, const BoardEntry* b) {
       return counts_of(*a).score() > counts_of(*b).score();
     });
-    BoardJson json = {{"suite", suite.id()}, {"cases", BoardJson::array()}, {"entries", BoardJson::array()}};
+    BoardJson json = {{"suite", suite.id()},
+                      {"cases", BoardJson::array()},
+                      {"disturbances", BoardJson::array()},
+                      {"entries", BoardJson::array()}};
     for (const SuiteCase& one : suite.cases) json["cases"].push_back(one.name);
+    for (const DisturbedKind& kind : disturbed_kinds(suite)) json["disturbances"].push_back(kind.name);
     for (const BoardEntry* entry : best_first)
       json["entries"].push_back(json_of_entry(*entry, suite, history));
     page.head["suites"].push_back(std::move(json));

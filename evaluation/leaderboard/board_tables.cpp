@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "evaluation/leaderboard/kept_success.hpp"
 #include "evaluation/statistics/statistics.hpp"
+#include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
@@ -91,6 +93,22 @@ std::vector<std::string> drive_row_of(const Line& line, const PublishedFigures* 
           span_of(last)};
 }
 
+/// What is kept of an entry's success in these cases, by levels and over all of them.
+std::vector<std::string> kept_row_of(std::string name, const BoardEntry& entry,
+                                     const std::vector<DisturbedCase>& cases) {
+  const auto percent = [](const KeptSuccess& kept) {
+    return kept.share ? fmt::format("{:.0f} %", 100.0 * *kept.share) : "–";
+  };
+  std::vector<std::string> row = {std::move(name)};
+  for (int level = 1; level <= worst_level; ++level)
+    row.push_back(percent(kept_success(entry, of_level(cases, level))));
+  const KeptSuccess all = kept_success(entry, cases);
+  row.push_back(percent(all));
+  row.push_back(std::to_string(all.counts.starts));
+  row.push_back(with_interval(all.counts.wrong, all.counts.starts));
+  return row;
+}
+
 bool is_wanted(const BoardTable& table, const std::string& case_name) {
   return table.cases.empty() ||
          std::find(table.cases.begin(), table.cases.end(), case_name) != table.cases.end();
@@ -157,6 +175,34 @@ Report board_tables(const Suite& suite, const std::vector<BoardEntry>& entries, 
                            "–"});
   report.emplace_back(std::move(drives));
   return report;
+}
+
+Report kinds_table(const Suite& suite, const std::vector<BoardEntry>& entries) {
+  const std::vector<DisturbedKind> kinds = disturbed_kinds(suite);
+  if (kinds.empty())
+    throw ConfigError(
+        {{suite.file.string(), 0, 0, fmt::format("{} has no disturbances; leave --kinds out", suite.id())}});
+  std::vector<DisturbedCase> all;
+  for (const DisturbedKind& kind : kinds) all.insert(all.end(), kind.cases.begin(), kind.cases.end());
+  std::vector<const BoardEntry*> best_first;
+  for (const BoardEntry& entry : entries) best_first.push_back(&entry);
+  std::stable_sort(best_first.begin(), best_first.end(), [&](const BoardEntry* a, const BoardEntry* b) {
+    return kept_success(*a, all).share.value_or(0.0) > kept_success(*b, all).share.value_or(0.0);
+  });
+  Table over_all{{"method"}, {}}, by_kind{{"disturbance, method"}, {}};
+  for (Table* table : {&over_all, &by_kind}) {
+    for (int level = 1; level <= worst_level; ++level)
+      table->header.push_back(fmt::format("level {}", level));
+    for (const char* name : {"success kept", "starts", "wrong, 95 %"}) table->header.emplace_back(name);
+  }
+  for (const BoardEntry* entry : best_first)
+    over_all.rows.push_back(kept_row_of(entry->label(), *entry, all));
+  for (const DisturbedKind& kind : kinds) {
+    for (const BoardEntry* entry : best_first)
+      by_kind.rows.push_back(kept_row_of(entries.size() > 1 ? kind.name + ", " + entry->label() : kind.name,
+                                         *entry, kind.cases));
+  }
+  return {std::move(over_all), std::move(by_kind)};
 }
 
 Report board_overview(const std::vector<std::string>& suites, const std::vector<BoardEntry>& entries) {

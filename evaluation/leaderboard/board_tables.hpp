@@ -19,6 +19,10 @@ struct BoardTable {
 [[nodiscard]] Report board_tables(const Suite& suite, const std::vector<BoardEntry>& entries,
                                   const BoardTable& table);
 
+/// The success that is kept at each level of disturbances, and wrong starts: a line for each method, best
+/// first, then one for each kind and method. Throws ConfigError where the suite has no disturbances.
+[[nodiscard]] Report kinds_table(const Suite& suite, const std::vector<BoardEntry>& entries);
+
 /// All methods on all suites: wrong and right of all starts.
 [[nodiscard]] Report board_overview(const std::vector<std::string>& suites,
                                     const std::vector<BoardEntry>& entries);

@@ -7,7 +7,7 @@ import { DataTable, type Column } from "./data_table";
 import { append, el, replace, section, type Child } from "./elements";
 import { count, fixed, percent, proportion } from "./numbers";
 import { startPage, themeButton } from "./page_frame";
-import { IntervalChart, ShareChart, type Mark } from "./share_chart";
+import { IntervalChart, LevelChart, ShareChart, type Mark } from "./share_chart";
 import { showMeanings } from "./words";
 
 const mostRows = 30;
@@ -68,7 +68,7 @@ interface SuitePart {
 function suitePart(board: Board, suite: BoardSuite, i: number): SuitePart {
   const { entries } = suite;
   const indexOf = ({ method }: Entry): number => board.methods.indexOf(method);
-  const charts = [bySteps(suite, indexOf), ...byTime(suite, indexOf), ...entries.filter(({ renewals }) => renewals.length > 1).map((entry) => overRenewals(suite, entry))];
+  const charts = [bySteps(suite, indexOf), ...byTime(suite, indexOf), ...byLevel(suite, indexOf), ...entries.filter(({ renewals }) => renewals.length > 1).map((entry) => overRenewals(suite, entry))];
   const cpus = [...new Set(entries.flatMap(({ step_ms, cpu }) => (step_ms !== undefined && cpu ? [cpu] : [])))];
   const element = section(
     `suite-${i}`,
@@ -100,6 +100,13 @@ function byTime({ suite, entries }: BoardSuite, indexOf: (entry: Entry) => numbe
   const powers = marks.map(({ x }) => Math.log10(x));
   const xRange: [number, number] = [10 ** (Math.ceil(Math.min(...powers)) - 1), 10 ** (Math.floor(Math.max(...powers)) + 1)];
   return [new IntervalChart("time", `${suite}: right, by CPU time of a step`, marks, { xLabel: "CPU time of a step, ms (logarithmic)", label: "share of starts declared right", logX: true, xRange })];
+}
+
+function byLevel({ disturbances, entries }: BoardSuite, indexOf: (entry: Entry) => number): LevelChart[] {
+  return disturbances.map((kind, i) => {
+    const samples = entries.map((entry) => ({ label: entry.label, index: indexOf(entry), values: entry.kept[i] }));
+    return new LevelChart(`kept-${kind}`, `${kind}: success kept`, samples, { xLabel: "level", label: "share of the undisturbed success", range: [0, 1.1], whole: true });
+  });
 }
 
 function byCase(all: BoardSuite): HTMLElement {

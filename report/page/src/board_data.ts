@@ -43,6 +43,8 @@ export interface Entry {
   /** In the order of the suite's. */
   cases: Counts[];
   results: Result[];
+  /** Of each kind of disturbance of the suite, from level 1 on: right starts, as a share of those without it. */
+  kept: (number | null)[][];
   renewals: Renewal[];
   /** CPU time of a step. */
   step_ms?: number;
@@ -51,6 +53,7 @@ export interface Entry {
 export interface BoardSuite {
   suite: string;
   cases: string[];
+  disturbances: string[];
   /** The best first. */
   entries: Entry[];
 }

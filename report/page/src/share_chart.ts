@@ -64,6 +64,23 @@ export class ShareChart extends SharePanel {
   }
 }
 
+/** Shares at 1, 2 and so on. */
+export class LevelChart extends SharePanel {
+  constructor(
+    id: string,
+    title: string,
+    private readonly samples: { label: string; index: number; values: (number | null)[] }[],
+    axes: Partial<ChartOptions>,
+  ) {
+    super(id, title, axes);
+  }
+
+  protected content(): Pick<ChartOptions, "x" | "lines"> {
+    const x = Array.from({ length: Math.max(...this.samples.map(({ values }) => values.length)) }, (_, i) => i + 1);
+    return { x, lines: this.samples.map(({ label, index, values }): Line => ({ label, ...runLine(index), values })) };
+  }
+}
+
 /** A share with its interval. */
 export interface Mark {
   x: number;
