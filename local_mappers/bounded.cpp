@@ -1,25 +1,48 @@
 #include "local_mappers/bounded.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "local_mappers/free_space_check.hpp"
 #include "local_mappers/lone_hits.hpp"
 
 namespace glocal::local_mappers {
 namespace {
 
-/// A scan without the hits that stand alone in it: in a map of many scans they would be more than all others.
-LocalScan without_lone_hits(const LocalScan& scan, const Scan& as_measured) {
-  if (scan.hits.empty()) return {};
-  const std::vector<bool> is_lone = lone_hits(as_measured.hits, as_measured.origin);
+/// Scans that a new one looks at: older ones lie behind the robot, as a rule.
+constexpr std::size_t scans_looked_at = 12;
+/// Later scans that look through a hit, at least, before it is taken out.
+constexpr std::uint8_t scans_to_be_gone = 2;
+
+/// The hits that are to stay.
+LocalScan chosen(const LocalScan& scan, const std::vector<bool>& stays) {
   LocalScan rest;
-  for (std::size_t i = 0; i < is_lone.size(); ++i) {
-    if (is_lone[i]) continue;
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    if (!stays[i]) continue;
     rest.hits.push_back(scan.hits[i]);
     rest.normals.push_back(scan.normals[i]);
   }
   return rest;
+}
+
+/// What a robot sees of the place where it is.
+Observation without_moving_along(const Observation& observation, const std::vector<bool>& moves_along) {
+  Observation rest = observation;
+  rest.scan.hits.clear();
+  for (std::size_t i = 0; i < moves_along.size(); ++i) {
+    if (!moves_along[i]) rest.scan.hits.push_back(observation.scan.hits[i]);
+  }
+  return rest;
+}
+
+/// A scan without the hits that stand alone in it: in a map of many scans they would be more than all others.
+LocalScan without_lone_hits(const LocalScan& scan, const Scan& as_measured) {
+  if (scan.hits.empty()) return {};
+  std::vector<bool> stays = lone_hits(as_measured.hits, as_measured.origin);
+  stays.flip();
+  return chosen(scan, stays);
 }
 
 }  // namespace
@@ -41,23 +64,48 @@ void describe(ParamVisitor& v, Bounded::Params& p) {
 
 void Bounded::reset() {
   matching_.reset();
+  moving_along_.reset();
   window_.clear();
 }
 
-void Bounded::add(const Observation& observation) {
+void Bounded::add(const Observation& as_measured) {
+  const Observation observation = without_moving_along(as_measured, moving_along_.update(as_measured));
   const int epoch = map().epoch;
   const Pose2 last = matching_.robot();
-  LocalScan scan = without_lone_hits(matching_.place(observation), observation.scan);
+  const LocalScan placed = matching_.place(observation);
   if (map().epoch != epoch) window_.clear();
+  bool is_changed = !placed.hits.empty() && take_out_gone(observation.scan);
   const double way = window_.empty() ? 0.0 : window_.back().way + distance(last, matching_.robot());
-  window_.push_back({std::move(scan), way});
-  if (!is_too_long()) {
-    matching_.insert(window_.back().scan);
-    return;
-  }
-  while (is_too_long()) window_.pop_front();
+  LocalScan scan = without_lone_hits(placed, observation.scan);
+  const std::size_t n = scan.hits.size();
+  window_.push_back({std::move(scan), way, std::vector<std::uint8_t>(n, 0)});
+  for (; is_too_long(); is_changed = true) window_.pop_front();
+  if (!is_changed) return matching_.insert(window_.back().scan);
   matching_.clear();
-  for (const Placed& placed : window_) matching_.insert(placed.scan);
+  for (const Placed& before : window_) matching_.insert(before.scan);
+}
+
+bool Bounded::take_out_gone(const Scan& scan) {
+  const RangeProfile now(scan);
+  const Transform robot_from_local(inverse(matching_.robot()));
+  const std::size_t looked_at = std::min(window_.size(), scans_looked_at);
+  bool is_any = false;
+  for (auto before = window_.end() - static_cast<std::ptrdiff_t>(looked_at); before != window_.end();
+       ++before) {
+    std::vector<bool> stays(before->gone.size(), true);
+    for (std::size_t i = 0; i < stays.size(); ++i) {
+      const RangeProfile::View view = now.view_of(robot_from_local(before->scan.hits[i]));
+      std::uint8_t& gone = before->gone[i];
+      if (view == RangeProfile::View::passed) ++gone;
+      if (view == RangeProfile::View::met && gone > 0) --gone;
+      stays[i] = gone < scans_to_be_gone;
+    }
+    if (std::find(stays.begin(), stays.end(), false) == stays.end()) continue;
+    before->scan = chosen(before->scan, stays);
+    std::erase(before->gone, scans_to_be_gone);
+    is_any = true;
+  }
+  return is_any;
 }
 
 bool Bounded::is_too_long() const {

@@ -1,10 +1,13 @@
 // A local map of what was seen last: it forgets, and so neither grows nor drags old drift along.
 #pragma once
 
+#include <cstdint>
 #include <deque>
+#include <vector>
 
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
+#include "local_mappers/moving_along.hpp"
 #include "local_mappers/scan_matching.hpp"
 
 namespace glocal::local_mappers {
@@ -12,8 +15,9 @@ namespace glocal::local_mappers {
 /// Matches scans as scan_matching does, against a map of the last `scans` observations or `distance` metres
 /// of way, whichever is less. The map is what these observations alone would give, registered where they were
 /// placed: points that only older ones hit are gone, and a cell's point belongs to the first observation that
-/// is left of those that hit it. Hits that stand alone in their scan (lone_hits.hpp) are not registered.
-/// Frame and epoch stay.
+/// is left of those that hit it. Hits that stand alone in their scan (lone_hits.hpp), and those on what
+/// moves along with the robot (moving_along.hpp), are not registered, and those that two later scans have
+/// looked through are taken out: what was there has gone, or never was. Frame and epoch stay.
 ///
 /// Time and memory for an observation depend on what the window holds, not on the drive before it.
 class Bounded final : public LocalMapper {
@@ -38,11 +42,16 @@ class Bounded final : public LocalMapper {
   struct Placed {
     LocalScan scan;
     double way = 0.0;  ///< Driven up to here, m.
+    std::vector<std::uint8_t>
+        gone;  ///< For each hit, later scans that looked through it, less those that met it.
   };
+  /// Takes out what a scan, made where the robot is, shows to be gone. Whether that was anything.
+  bool take_out_gone(const Scan& scan);
   [[nodiscard]] bool is_too_long() const;
 
   Params params_;
   ScanMatching matching_;
+  MovingAlong moving_along_;
   std::deque<Placed> window_;  ///< All observations of the map, oldest first.
 };
 void describe(ParamVisitor& v, Bounded::Params& p);

@@ -39,21 +39,29 @@ RangeProfile::RangeProfile(const Scan& scan) : origin_(scan.origin), ranges_(dir
   }
 }
 
+float RangeProfile::range_towards(const Point& p) const {
+  return ranges_[direction(p.x - origin_.x, p.y - origin_.y)];
+}
+
+RangeProfile::View RangeProfile::view_of(const Point& p) const {
+  const float x = p.x - origin_.x;
+  const float y = p.y - origin_.y;
+  const std::size_t d = direction(x, y);
+  // Neighbours have their say, too: at the edge of a thing the beam may go past it, or not.
+  const std::array around{ranges_[(d + directions - 1) % directions], ranges_[d],
+                          ranges_[(d + 1) % directions]};
+  const auto [nearest, farthest] = std::minmax_element(around.begin(), around.end());
+  const float range = std::hypot(x, y);
+  if (*nearest == 0.0F || range > *farthest + margin) return View::none;
+  return range < *nearest - margin ? View::passed : View::met;
+}
+
 RangeProfile::Seen RangeProfile::look_at(const Points& hits, const Pose2& here_from_hits) const {
   const Transform transform(here_from_hits);
   Seen seen;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const Point p = transform(hits[i]);
-    const float x = p.x - origin_.x;
-    const float y = p.y - origin_.y;
-    const std::size_t d = direction(x, y);
-    // Neighbours have their say, too: at the edge of a thing the beam may go past it, or not.
-    const std::array around{ranges_[(d + directions - 1) % directions], ranges_[d],
-                            ranges_[(d + 1) % directions]};
-    const auto [nearest, farthest] = std::minmax_element(around.begin(), around.end());
-    const float range = std::hypot(x, y);
-    if (*nearest == 0.0F || range > *farthest + margin) continue;
-    ++(range < *nearest - margin ? seen.violation : seen.met);
+    const View view = view_of(transform(hits[i]));
+    if (view != View::none) ++(view == View::passed ? seen.violation : seen.met);
   }
   return seen;
 }

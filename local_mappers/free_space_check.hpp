@@ -17,6 +17,15 @@ class RangeProfile {
   /// A beam that went on for less than this behind a hit may have met the same thing, m.
   static constexpr float margin = 0.3F;
 
+  /// How far it saw towards a point, from its sensor, m; 0 if no beam went there.
+  [[nodiscard]] float range_towards(const Point& p) const;
+
+  /// What this scan says of a place: its beams did not come there, met something there, or passed through and
+  /// met nothing for `margin` more.
+  enum class View { none, met, passed };
+  /// `p`: in the frame of this scan's robot.
+  [[nodiscard]] View view_of(const Point& p) const;
+
   /// Hits of another scan, counted by what this one says of them; those it could not see are in neither.
   struct Seen {
     std::size_t met = 0;        ///< Beams met something there, too.
