@@ -62,7 +62,7 @@ Json empty_columns() {
   add(std::array{"step", "step_ms", "match_ms"});
   add(numbers);
   add(optional_numbers);
-  add(std::array{"verdict", "why"});
+  add(std::array{"verdict", "why", "hits"});
   for (const char* pose : poses) {
     for (const char* coordinate : coordinates) columns[pose][coordinate] = Json::array();
   }
@@ -83,6 +83,7 @@ void StepColumns::add(const Json& line) {
   add_numbers(line);
   columns_["verdict"].push_back(line.at("verdict").get<std::string>());
   add_sentence(line.at("why"));
+  columns_["hits"].push_back(line.value("hits", ""));
   if (steps_ == 0 && is_in_space(line)) go_to_space();
   add_poses(line);
   add_verification(line);

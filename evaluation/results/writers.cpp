@@ -80,6 +80,13 @@ Json to_json(const SetupCheck& setup) {
   return json;
 }
 
+/// One letter a hit.
+std::string letters_of(const std::vector<HitKind>& hits) {
+  std::string letters;
+  for (const HitKind hit : hits) letters += "mnbu"[static_cast<std::size_t>(hit)];
+  return letters;
+}
+
 std::string tum_line(double stamp, const Pose3& pose) {
   return fmt::format("{:.6f} {}\n", stamp, tum_text(pose));
 }
@@ -100,6 +107,7 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
                {"omega_max", step.omega_max}};
   if (step.omega_place) json["omega_place"] = *step.omega_place;
   if (step.omega_scan) json["omega_scan"] = *step.omega_scan;
+  if (!step.hit_kinds.empty()) json["hits"] = letters_of(step.hit_kinds);
   json["proposals"] = step.proposals;
   json["points_tested"] = step.points_tested;
   json["hypotheses"] = record.hypotheses;

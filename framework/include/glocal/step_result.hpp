@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "glocal/beams.hpp"
 #include "glocal/hypothesis.hpp"
 #include "glocal/motion.hpp"
 #include "glocal/pose3.hpp"
@@ -131,8 +132,9 @@ struct StepResult {
   /// Share of the latest scan's own points in contact at the best hypothesis, of those in known cells; only
   /// in the plane, and none without such a point.
   std::optional<double> omega_scan;
-  std::size_t proposals = 0;      ///< Relations found on both sides: poses before any of them was judged.
-  std::size_t points_tested = 0;  ///< Single points tested for contact.
+  std::vector<HitKind> hit_kinds;  ///< Of these points, in beam order; empty in space.
+  std::size_t proposals = 0;       ///< Relations found on both sides: poses before any of them was judged.
+  std::size_t points_tested = 0;   ///< Single points tested for contact.
 
   std::vector<Hypothesis> hypotheses;  ///< Falling score.
   std::vector<Cluster> clusters;       ///< Falling rating.

@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "glocal/beams.hpp"
+#include "glocal/clearance_grid.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/hypothesis.hpp"
 #include "glocal/local_map.hpp"
@@ -32,9 +34,8 @@ class UnknownPlaceMonitor {
   [[nodiscard]] std::optional<double> update(const LocalMap& local,
                                              const std::vector<Hypothesis>& hypotheses);
 
-  /// Share of a scan's points (m, robot frame) in contact where the robot is at a pose, of those of which the
-  /// map can tell: points in unknown cells do not count. None without any such point.
-  [[nodiscard]] std::optional<double> share_of(const Points& scan, const Pose2& map_from_robot) const;
+  /// What each hit of a scan (m, robot frame) says where the robot is at a pose.
+  [[nodiscard]] std::vector<HitKind> kinds_of(const Scan& scan, const Pose2& map_from_robot) const;
 
   [[nodiscard]] bool is_unknown(std::optional<double> omega_place) const {
     return omega_place.has_value() && *omega_place < params_.max_contact;
@@ -50,6 +51,7 @@ class UnknownPlaceMonitor {
   UnknownPlaceParams params_;
   std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
+  std::shared_ptr<const ClearanceGrid> clearance_;
   std::optional<Best> best_;
 };
 

@@ -42,6 +42,28 @@ void add_prior(Verdict& verdict, const Prior& prior) {
                   verdict.kind == VerdictKind::unknown_place ? ": the robot is perhaps outside" : "");
 }
 
+double count_of(HitKind kind, const std::vector<HitKind>& hits) {
+  return static_cast<double>(std::count(hits.begin(), hits.end(), kind));
+}
+
+/// Of those of which the map can tell.
+std::optional<double> share_on_map(const std::vector<HitKind>& hits) {
+  const double known = static_cast<double>(hits.size()) - count_of(HitKind::unknown, hits);
+  return known == 0.0 ? std::nullopt : std::optional(count_of(HitKind::on_map, hits) / known);
+}
+
+/// Where nothing is declared, and the scan does not fit well: how it differs from the map.
+void add_misfit(StepResult& result) {
+  constexpr double worth_telling = 0.15;
+  const auto all = static_cast<double>(result.hit_kinds.size());
+  const double unmapped = count_of(HitKind::unmapped, result.hit_kinds);
+  const double beyond = count_of(HitKind::beyond, result.hit_kinds);
+  if (result.verdict.kind == VerdictKind::localized || unmapped + beyond <= worth_telling * all) return;
+  result.verdict.why +=
+      fmt::format("{}the map lacks {:.0f} % of the last scan, and {:.0f} % went through what it shows",
+                  result.verdict.why.empty() ? "" : "; ", 100.0 * unmapped / all, 100.0 * beyond / all);
+}
+
 }  // namespace
 
 std::string text_of(const RunningStage& stage, const char* what) {
@@ -113,14 +135,17 @@ StepResult Localizer::step(const Observation& observation) {
   const LocalMap& local = add(observation, result);
   match(local, observation, result);
   result.omega_place = unknown_place_.update(local, result.hypotheses);
-  if (!result.hypotheses.empty() && motion_ == Motion::planar)
-    result.omega_scan = unknown_place_.share_of(observation.scan.hits,
-                                                seen_from_above(result.hypotheses.front().map_from_robot));
+  if (!result.hypotheses.empty() && motion_ == Motion::planar) {
+    result.hit_kinds =
+        unknown_place_.kinds_of(observation.scan, seen_from_above(result.hypotheses.front().map_from_robot));
+    result.omega_scan = share_on_map(result.hit_kinds);
+  }
   cluster(result);
   rate(result);
   judge(result);
   check_setup(observation, local, result);
   verify(local, result);
+  add_misfit(result);
   if (!gate_.is_open()) add_prior(result.verdict, prior_);
   return result;
 }

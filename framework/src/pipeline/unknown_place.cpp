@@ -3,6 +3,12 @@
 #include <utility>
 
 namespace glocal {
+namespace {
+
+/// The last part of a beam before its hit, where a wall of the map may well be, m.
+constexpr double blur = 0.3;
+
+}  // namespace
 
 void describe(ParamVisitor& v, UnknownPlaceParams& p) {
   v.field("window", p.window,
@@ -21,7 +27,8 @@ UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params,
                                          std::shared_ptr<const GlobalMap> map, double contact_epsilon)
     : params_(params),
       map_(std::move(map)),
-      contact_(contact_index(*map_, "bitset", params.contact_epsilon.value_or(contact_epsilon))) {}
+      contact_(contact_index(*map_, "bitset", params.contact_epsilon.value_or(contact_epsilon))),
+      clearance_(clearance_grid(*map_)) {}
 
 std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
                                                   const std::vector<Hypothesis>& hypotheses) {
@@ -47,17 +54,20 @@ std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
   return observations == 0 ? std::nullopt : std::optional(sum_of_shares / observations);
 }
 
-std::optional<double> UnknownPlaceMonitor::share_of(const Points& scan, const Pose2& map_from_robot) const {
+std::vector<HitKind> UnknownPlaceMonitor::kinds_of(const Scan& scan, const Pose2& map_from_robot) const {
   const Transform transform(map_from_robot);
   const CellsUnder cell_under(map_->grid(), map_from_robot);
-  std::size_t in_contact = 0, told = 0;
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (cell_under(scan[i]) == Cell::unknown) continue;
-    ++told;
-    in_contact += contact_->count(scan, i, 1, transform);
-  }
-  if (told == 0) return std::nullopt;
-  return static_cast<double>(in_contact) / static_cast<double>(told);
+  const Point sensor = transform(scan.origin);
+  const auto kind_of = [&](std::size_t i) {
+    if (cell_under(scan.hits[i]) == Cell::unknown) return HitKind::unknown;
+    if (contact_->count(scan.hits, i, 1, transform) > 0) return HitKind::on_map;
+    return clearance_->is_blocked(sensor, transform(scan.hits[i]), blur) ? HitKind::beyond
+                                                                         : HitKind::unmapped;
+  };
+  std::vector<HitKind> kinds;
+  kinds.reserve(scan.hits.size());
+  for (std::size_t i = 0; i < scan.hits.size(); ++i) kinds.push_back(kind_of(i));
+  return kinds;
 }
 
 }  // namespace glocal

@@ -66,6 +66,8 @@ export interface Steps {
   /** Indexes into `sentences`. */
   why: number[];
   sentences: string[];
+  /** A letter for each hit of the scan: n new, b beyond what the map shows. */
+  hits: string[];
   translation_error_m: Column;
   rotation_error_deg: Column;
   confidence: Column;

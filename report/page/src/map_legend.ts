@@ -12,6 +12,8 @@ const layers = {
   map: "global map",
   local_map: "local map",
   scan: "scan",
+  unmapped: "new",
+  beyond: "gone",
   view: "field of view",
   clusters: "clusters",
   candidates: "candidates",

@@ -300,6 +300,12 @@ export class MapView implements Linked {
       if (scans.steps[frame] !== step) return;
       const points = { x: scans.x, y: scans.y, begin: scans.first[frame], end: scans.first[frame + 1] };
       layer.draw(points, robot, size, 1.5 * least, themeColour("scan"));
+      // What hits are is known for the estimate alone.
+      const hits = this.store.selected.hypothesis === "estimate" ? (columns?.hits[step] ?? "") : "";
+      for (const [kind, letter] of [["unmapped", "n"], ["beyond", "b"]] as const) {
+        const isShown = (i: number): boolean => hits[i - points.begin] === letter;
+        if (this.legend.shown[kind]) layer.draw({ ...points, isShown }, robot, size, 2 * least, themeColour(kind));
+      }
     }
   }
 

@@ -39,6 +39,8 @@ export const ofGlossary: Record<string, string> = {
 
 /** What the glossary has no word for. */
 const ofPage: Record<string, string> = {
+  new: "Hits of the scan where the map shows nothing, nor on the way, seen from the estimate: what the map lacks.",
+  gone: "Hits of the scan beyond what the map shows on the way, seen from the estimate: something is gone, or the pose is wrong.",
   error: "How far the estimate is from the reference pose, and turned against it.",
   "angle error": "How far the estimate is turned against the reference pose: the median of right trials, at the declaration.",
   "error at declaration": "How far the estimate is from the reference pose: the median of right trials, at the declaration.",

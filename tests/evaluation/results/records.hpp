@@ -17,6 +17,7 @@ inline StepRecord step_record(std::size_t step, const Pose2& pose) {
   record.result.score_best = 0.625;
   record.result.omega_place = 0.875;
   record.result.omega_scan = 0.8125;
+  record.result.hit_kinds = {HitKind::on_map, HitKind::unmapped, HitKind::beyond, HitKind::unknown};
   record.result.proposals = 60;
   record.result.points_tested = 700;
   record.result.clusters = {{{0, 2, 3}, pose}, {{1}, Pose2{9.0, 9.0, 0.0}}};

@@ -33,9 +33,9 @@ TEST(StepLine, HasTheKeysOfTheContract) {
   EXPECT_THAT(keys(json),
               ::testing::UnorderedElementsAre(
                   "trial", "step", "stamp", "stage_ms", "stage_cpu_ms", "local_map_points", "omega_best",
-                  "score_best", "omega_max", "omega_place", "omega_scan", "proposals", "points_tested",
-                  "hypotheses", "clusters", "best", "verdict", "why", "local_from_robot", "estimate",
-                  "reference", "on_map", "translation_error_m", "rotation_error_deg"));
+                  "score_best", "omega_max", "omega_place", "omega_scan", "hits", "proposals",
+                  "points_tested", "hypotheses", "clusters", "best", "verdict", "why", "local_from_robot",
+                  "estimate", "reference", "on_map", "translation_error_m", "rotation_error_deg"));
   EXPECT_EQ(json["trial"], 7);
   EXPECT_EQ(json["step"], 3);
   EXPECT_EQ(json["stamp"], 101.5);
@@ -48,6 +48,7 @@ TEST(StepLine, HasTheKeysOfTheContract) {
   EXPECT_EQ(json["omega_max"], 0.5);
   EXPECT_EQ(json["omega_place"], 0.875);
   EXPECT_EQ(json["omega_scan"], 0.8125);
+  EXPECT_EQ(json["hits"], "mnbu");
   EXPECT_EQ(json["proposals"], 60);
   EXPECT_EQ(json["points_tested"], 700);
   EXPECT_EQ(json["hypotheses"], 4);
@@ -121,9 +122,10 @@ TEST(StepLine, LeavesOutWhatIsNotKnown) {
   record.result.ratings.clear();
   record.result.omega_place.reset();
   record.result.omega_scan.reset();
+  record.result.hit_kinds.clear();
   const Json json = parse_line(step_line(0, record));
-  for (const char* key :
-       {"estimate", "omega_place", "omega_scan", "reference", "translation_error_m", "candidates", "setup"}) {
+  for (const char* key : {"estimate", "omega_place", "omega_scan", "hits", "reference", "translation_error_m",
+                          "candidates", "setup"}) {
     EXPECT_FALSE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["clusters"], 0);

@@ -1,12 +1,16 @@
 // Eq. 10 on a map of four points, a metre apart.
 #include "glocal/unknown_place.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 namespace glocal::test::unknown_place_test {
 namespace {
+
+using ::testing::Each;
+using ::testing::ElementsAre;
 
 std::shared_ptr<const GlobalMap> four_points() {
   MapData data;
@@ -111,24 +115,29 @@ TEST(UnknownPlace, IsUnknownBelowTheLimitOnly) {
   EXPECT_FALSE(off_switched.is_unknown(0.0));
 }
 
-TEST(UnknownPlace, TheShareOfAScanIsOfWhatTheMapKnows) {
+TEST(UnknownPlace, AHitIsOnTheMapUnmappedBeyondItOrUnknown) {
   MapData data;
   data.points.push_back({0.5F, 0.5F, 0.0F});
-  data.grid = {{}, 1.0, 3, 1, {Cell::occupied, Cell::free, Cell::unknown}};
+  data.grid = {{}, 1.0, 4, 1, {Cell::occupied, Cell::free, Cell::unknown, Cell::free}};
   const UnknownPlaceMonitor monitor({}, std::make_shared<const GlobalMap>(std::move(data)), 0.1);
-  Points scan;
-  scan.push_back({0.5F, 0.52F, 0.0F});  // in contact
-  scan.push_back({1.5F, 0.5F, 0.0F});   // in a free cell
-  scan.push_back({0.9F, 0.5F, 0.0F});   // in an occupied cell, too far from its centre
-  scan.push_back({2.5F, 0.5F, 0.0F});   // in an unknown cell
-  scan.push_back({0.5F, 3.0F, 0.0F});   // off the grid
-  EXPECT_DOUBLE_EQ(monitor.share_of(scan, {}).value(), 1.0 / 3.0);
+  Scan scan;
+  scan.origin = {1.6F, 0.5F, 0.0F};
+  scan.hits.push_back({0.5F, 0.52F, 0.0F});  // in contact
+  scan.hits.push_back({1.5F, 0.5F, 0.0F});   // in a free cell
+  scan.hits.push_back({0.9F, 0.5F, 0.0F});   // in an occupied cell, too far from its centre
+  scan.hits.push_back({2.5F, 0.5F, 0.0F});   // in an unknown cell
+  scan.hits.push_back({0.5F, 3.0F, 0.0F});   // off the grid
+  using enum HitKind;
+  EXPECT_THAT(monitor.kinds_of(scan, {}), ElementsAre(on_map, unmapped, unmapped, unknown, unknown));
+  // Through the occupied cell into a free one, from where the grid does not reach.
+  scan.origin = {-1.0F, 0.5F, 0.0F};
+  EXPECT_THAT(monitor.kinds_of(scan, {}), ElementsAre(on_map, beyond, unmapped, unknown, unknown));
   // Turned and moved: (x, y) is at (1 - y, x).
-  Points turned;
-  turned.push_back({0.5F, 0.5F, 0.0F});
-  EXPECT_EQ(monitor.share_of(turned, {1.0, 0.0, std::numbers::pi / 2.0}), 1.0);
-  EXPECT_EQ(monitor.share_of(scan, {10.0, 10.0, 0.0}), std::nullopt);
-  EXPECT_EQ(UnknownPlaceMonitor({}, four_points(), 0.1).share_of(scan, {}), std::nullopt);
+  Scan turned;
+  turned.hits.push_back({0.5F, 0.5F, 0.0F});
+  EXPECT_THAT(monitor.kinds_of(turned, {1.0, 0.0, std::numbers::pi / 2.0}), ElementsAre(on_map));
+  EXPECT_THAT(monitor.kinds_of(scan, {10.0, 10.0, 0.0}), Each(unknown));
+  EXPECT_THAT(UnknownPlaceMonitor({}, four_points(), 0.1).kinds_of(scan, {}), Each(unknown));
 }
 
 }  // namespace
