@@ -150,13 +150,18 @@ std::string rank_text(const Items& items, std::ptrdiff_t at, const Pose3& truth)
                      degrees(rotation_between(pose, truth)));
 }
 
+/// The pose of a step's local map, relative to the map's origin, where the robot has this one in the map.
+Pose3 place_of_local(const Replayed& step, const Pose3& map_from_robot, const GlobalMap& map) {
+  return map.relative(map_from_robot) * inverse(step.local.local_from_robot);
+}
+
 /// The robot pose near the truth at which the local map fits best; the truth itself where it is not planar.
 Pose3 best_fit(const Replayed& step, const GlobalMap& map) {
-  const Pose3 map_from_local = step.map_from_robot * inverse(step.local.local_from_robot);
+  const Pose3 map_from_local = place_of_local(step, step.map_from_robot, map);
   if (!map_from_local.is_planar()) return step.map_from_robot;
-  return refined_pose(DistanceField(map.points()), step.local.points, seen_from_above(map_from_local),
-                      {.iterations = 30}) *
-         step.local.local_from_robot;
+  const Pose3 refined = refined_pose(DistanceField(map.points()), step.local.points,
+                                     seen_from_above(map_from_local), {.iterations = 30});
+  return shifted(refined * step.local.local_from_robot, map.origin());
 }
 
 /// Index of the first that agrees with the truth, or one behind the last.
@@ -172,11 +177,11 @@ Fit fit_of(const Replayed& step, const LoadedExperiment& loaded, const Experimen
   const GlobalMap& map = *loaded.map;
   const auto contact = contact_index(map, "bitset", contact_epsilon_on(map, experiment.localizer));
   const auto at = [&](const Pose3& map_from_robot) {
-    return contact->share(step.local.points, map_from_robot * inverse(step.local.local_from_robot));
+    return contact->share(step.local.points, place_of_local(step, map_from_robot, map));
   };
   Fit fit{.at_truth = at(step.map_from_robot),
           .best = best_fit(step, map),
-          .of_scan = contact->share(step.scan, step.map_from_robot)};
+          .of_scan = contact->share(step.scan, map.relative(step.map_from_robot))};
   fit.at_best = at(fit.best);
   return fit;
 }
@@ -231,13 +236,15 @@ std::string rivals_elsewhere(const Replayed& step, const LoadedExperiment& loade
   if (!best || step.local.points.empty()) return "not looked for: there is no best pose";
   StageSetup setup{loaded.map};
   setup.contact_epsilon = contact_epsilon_on(*loaded.map, experiment.localizer);
-  const Verification found =
-      catalog.verifiers.make({"whole_map"}, setup)
-          ->verify(step.local, *best * inverse(step.local.local_from_robot), step.gate);
+  const Verification found = catalog.verifiers.make({"whole_map"}, setup)
+                                 ->verify(step.local, place_of_local(step, *best, *loaded.map), step.gate);
   if (!found.certificate) return "unknown: the search of the whole map was given up";
   const std::vector<Hypothesis>& hypotheses = step.result.hypotheses;
+  const auto robot_at = [&](const Hypothesis& rival) {
+    return shifted(rival.map_from_local * step.local.local_from_robot, loaded.map->origin());
+  };
   const auto missing = std::find_if(found.rivals.begin(), found.rivals.end(), [&](const Hypothesis& rival) {
-    const Pose3 robot = rival.map_from_local * step.local.local_from_robot;
+    const Pose3 robot = robot_at(rival);
     return rival.quality >= found.certificate->contact - found.margin &&
            std::none_of(hypotheses.begin(), hypotheses.end(),
                         [&](const Hypothesis& h) { return agree(h.map_from_robot, robot, limits); });
@@ -247,7 +254,7 @@ std::string rivals_elsewhere(const Replayed& step, const LoadedExperiment& loade
                   100.0 * found.certificate->contact, 100.0 * found.certificate->at_most);
   if (missing == found.rivals.end()) return "none is missing: " + bound;
   return fmt::format("missing: {:.0f} % contact at {}, where no hypothesis is; {}", 100.0 * missing->quality,
-                     text_of(missing->map_from_local * step.local.local_from_robot), bound);
+                     text_of(robot_at(*missing)), bound);
 }
 
 /// What is asked for of a run, all of whose files must be in order.
@@ -289,9 +296,9 @@ void explain(const ExplainOptions& options, Context& context) {
     if (declared && agree(*result.verdict.map_from_robot, truth, limits))
       return "nowhere: declared, and right";
     if (hypothesis < std::ssize(result.hypotheses)) return lost_after_matcher(result, cluster);
-    if (!step.gate.allows(truth * inverse(step.local.local_from_robot)))
+    if (!step.gate.allows(place_of_local(step, truth, *loaded.map)))
       return fmt::format("excluded: localizer.prior leaves only {}, and the reference is none of these",
-                         to_string(step.gate.prior()));
+                         to_string(experiment.localizer.prior));
     if (const auto why = why_unfit(step, fit, limits)) return *why;
     const Replayed open = replay(options.folder, run, context.catalog, loaded, Threshold::none);
     return lost_by_matcher(open.result.hypotheses, step, limits);

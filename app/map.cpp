@@ -72,21 +72,21 @@ void write(const MapData& map, const MapOptions& options) {
   const std::filesystem::path out(options.out);
   AtomicFiles files(options.force);
   if (out.extension() == ".pcd") {
-    files.add(out, pcd(map.points));
+    files.add(out, pcd(map.points, map.origin));
   } else if (out.extension() == ".yaml") {
     const ByteImage image = trinary_image(map.grid);
     const std::filesystem::path image_file = std::filesystem::path(out).replace_extension(options.image);
     files.add(image_file, options.image == "png" ? png(image) : pgm(image));
-    files.add(out, ros_map_yaml(map.grid, image_file.filename().string()));
+    files.add(out, ros_map_yaml(map.grid, image_file.filename().string(), map.origin));
   } else {
     throw ConfigError({{options.out, 0, 0, "the name must end in .yaml (ROS map) or .pcd (points)"}});
   }
   files.commit();
 }
 
-std::string range_of(const std::vector<float>& values) {
+std::string range_of(const std::vector<float>& values, double origin) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return fmt::format("{:.2f} to {:.2f}", *low, *high);
+  return fmt::format("{:.2f} to {:.2f}", origin + *low, origin + *high);
 }
 
 void show(const MapData& map) {
@@ -94,13 +94,13 @@ void show(const MapData& map) {
   const auto cells = [&](Cell kind) { return std::count(grid.cells.begin(), grid.cells.end(), kind); };
   answer("cells       {} x {} of {} m: {:.2f} m x {:.2f} m\n", grid.width, grid.height, grid.resolution,
          grid.width * grid.resolution, grid.height * grid.resolution);
-  answer("origin      x {:.3f} m, y {:.3f} m, yaw {:.2f} deg\n", grid.map_from_grid.x, grid.map_from_grid.y,
-         degrees(grid.map_from_grid.theta));
+  answer("origin      x {:.3f} m, y {:.3f} m, yaw {:.2f} deg\n", map.origin.x() + grid.map_from_grid.x,
+         map.origin.y() + grid.map_from_grid.y, degrees(grid.map_from_grid.theta));
   answer("occupied    {}\nfree        {} ({:.1f} m^2)\nunknown     {}\n", cells(Cell::occupied),
          cells(Cell::free), static_cast<double>(cells(Cell::free)) * grid.resolution * grid.resolution,
          cells(Cell::unknown));
-  answer("points      {}: x {} m, y {} m\n", map.points.size(), range_of(map.points.x),
-         range_of(map.points.y));
+  answer("points      {}: x {} m, y {} m\n", map.points.size(), range_of(map.points.x, map.origin.x()),
+         range_of(map.points.y, map.origin.y()));
   answer("path        {} poses\n", map.path.size());
 }
 
@@ -135,9 +135,9 @@ void align(const AlignOptions& options, Context& context) {
         "{} does not fit into {}: no pose brings a quarter of its points within {} m of the map's",
         options.other.file, options.map.file, options.contact_epsilon));
   }
-  const Pose2& p = found->map_from_other;
-  answer("pose        [{:.3f}, {:.3f}, {:.3f}]: x, y (m), yaw (deg) of {} in {}\n", p.x, p.y,
-         degrees(p.theta), options.other.file, options.map.file);
+  const Pose2 p = found->map_from_other * Pose2{-other.origin.x(), -other.origin.y(), 0.0};
+  answer("pose        [{:.3f}, {:.3f}, {:.3f}]: x, y (m), yaw (deg) of {} in {}\n", map->origin().x() + p.x,
+         map->origin().y() + p.y, degrees(p.theta), options.other.file, options.map.file);
   answer("contact     {:.1f} % of its points within {} m\n", 100.0 * found->in_contact,
          options.contact_epsilon);
 }

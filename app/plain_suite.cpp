@@ -43,10 +43,10 @@ std::vector<std::int64_t> stamps_of(const Drive& drive) {
 }
 
 void write_plain_map(OutputFolder& folder, const fs::path& below, const GlobalMap& map) {
-  folder.append(below / "map.pcd", pcd(map.points()));
+  folder.append(below / "map.pcd", pcd(map.points(), map.origin()));
   if (map.grid().cells.empty()) return;
   write_trinary_pgm(map.grid(), [&](std::string_view piece) { folder.append(below / "map.pgm", piece); });
-  folder.append(below / "map.yaml", ros_map_yaml(map.grid(), "map.pgm"));
+  folder.append(below / "map.yaml", ros_map_yaml(map.grid(), "map.pgm", map.origin()));
 }
 
 /// Both forms of the drive. Points are in the robot's frame.

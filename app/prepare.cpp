@@ -197,7 +197,8 @@ Drive mapped_part(const LoadedExperiment& loaded) {
   const std::vector<Pose3>& path = loaded.map->path();
   std::erase_if(part.samples, [&](const Sample& sample) {
     return std::none_of(path.begin(), path.end(), [&](const Pose3& place) {
-      return sample.map_from_robot && distance(place, *sample.map_from_robot) <= near_map_m;
+      return sample.map_from_robot &&
+             distance(place, loaded.map->relative(*sample.map_from_robot)) <= near_map_m;
     });
   });
   return part;
@@ -230,9 +231,9 @@ ScanShift scan_shift_of(const Drive& run, const ReferencePoses& references, cons
 }
 
 void write_map(const MapData& map, bool has_clouds, OutputFolder& folder) {
-  if (has_clouds) return folder.append("map.pcd", pcd(map.points));
+  if (has_clouds) return folder.append("map.pcd", pcd(map.points, map.origin));
   folder.append("map.pgm", pgm(trinary_image(map.grid)));
-  folder.append("map.yaml", ros_map_yaml(map.grid, "map.pgm"));
+  folder.append("map.yaml", ros_map_yaml(map.grid, "map.pgm", map.origin));
 }
 
 void prepare(const PrepareOptions& options, Context& context) {

@@ -58,7 +58,8 @@ SimulatedFiles simulated_experiment(const ExperimentOptions& options, Context& c
                                     "written to files",
                                     experiment.observations.name)}});
   }
-  SimulatedFiles files{std::move(*drive), load_map(experiment, catalog, setup).grid, {}, experiment.threads};
+  MapData map = load_map(experiment, catalog, setup);
+  SimulatedFiles files{std::move(*drive), std::move(map.grid), {}, experiment.threads, map.origin};
   experiment.map = recorded_map();
   experiment.observations = std::move(files.drive.source);
   files.experiment = effective_yaml(experiment, catalog);
@@ -83,7 +84,7 @@ void simulate(const SimulateOptions& options, Context& context) {
   OutputFolder folder(options.out, options.force);
   folder.append(files.drive.file_name, files.drive.content);
   write_trinary_pgm(files.grid, [&](std::string_view piece) { folder.append("map.pgm", piece); });
-  folder.append("map.yaml", ros_map_yaml(files.grid, "map.pgm"));
+  folder.append("map.yaml", ros_map_yaml(files.grid, "map.pgm", files.origin));
   folder.append("experiment.yaml", files.experiment);
   FileHashes hashes;
   folder.append("provenance.json", provenance(context.catalog, files.threads, inputs, hashes).dump(2) + "\n");

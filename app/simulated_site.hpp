@@ -15,8 +15,9 @@ namespace glocal::app {
 struct SimulatedFiles {
   Recording drive;
   OccupancyGrid grid;
-  std::string experiment;  ///< YAML, which names the files of both.
-  int threads = 1;         ///< Of the experiment.
+  std::string experiment;            ///< YAML, which names the files of both.
+  int threads = 1;                   ///< Of the experiment.
+  Vector3 origin = Vector3::Zero();  ///< That the grid is relative to, m.
 };
 
 struct SiteOptions {

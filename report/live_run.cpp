@@ -54,8 +54,9 @@ TrialRecord started(std::size_t trial, const LoadedExperiment& loaded) {
 
 void LiveRun::begin(const std::string& variant, const std::filesystem::path& folder,
                     const std::map<std::string, Setting>& settings, const LoadedExperiment& loaded) {
-  Json shown = map_points(loaded.map->points());
-  if (const OccupancyGrid& grid = loaded.map->grid(); !grid.cells.empty()) shown["grid"] = grid_json(grid);
+  const GlobalMap& global = *loaded.map;
+  Json shown = map_points(global.points(), global.origin());
+  if (!global.grid().cells.empty()) shown["grid"] = grid_json(global.grid(), global.origin());
   auto map = std::make_shared<const Json>(std::move(shown));
   Json values = to_json(settings);
   const std::lock_guard lock(mutex_);

@@ -47,15 +47,18 @@ double spacing_of(const std::vector<GridPoint>& points) {
 
 }  // namespace
 
-nlohmann::ordered_json map_points(const Points& points) {
+nlohmann::ordered_json map_points(const Points& points, const Vector3& origin) {
   std::vector<GridPoint> grid_points = in_millimetres(thinned_in_space(points, most_in_space));
   std::sort(grid_points.begin(), grid_points.end());
   grid_points.erase(std::unique(grid_points.begin(), grid_points.end()), grid_points.end());
-  std::vector<int> x, y, z;
+  const auto in_map = [](int millimetres, double metres) {
+    return std::llround(1000.0 * metres) + millimetres;
+  };
+  std::vector<std::int64_t> x, y, z;
   for (const GridPoint& point : grid_points) {
-    x.push_back(point.x);
-    y.push_back(point.y);
-    z.push_back(point.z);
+    x.push_back(in_map(point.x, origin.x()));
+    y.push_back(in_map(point.y, origin.y()));
+    z.push_back(in_map(point.z, origin.z()));
   }
   nlohmann::ordered_json json = {{"x", x}, {"y", y}, {"spacing_m", short_number(spacing_of(grid_points))}};
   if (has_heights(z)) json["z"] = z;

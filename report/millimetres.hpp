@@ -31,8 +31,9 @@ struct GridPoint {
 }
 
 /// False for what a planar laser has seen.
-[[nodiscard]] inline bool has_heights(const std::vector<int>& z) {
-  return std::any_of(z.begin(), z.end(), [](int height) { return height != 0; });
+template <class Heights>
+[[nodiscard]] bool has_heights(const Heights& z) {
+  return std::any_of(z.begin(), z.end(), [](auto height) { return height != 0; });
 }
 
 }  // namespace glocal

@@ -30,7 +30,12 @@ Json rounded(double value, double per_unit) {
 }
 
 Json with_short_numbers(Json json, const char* but_of) {
-  if (json.is_number_float()) return short_number(json.get<double>());
+  if (json.is_number_float()) {
+    const auto value = json.get<double>();
+    constexpr double largest = 1.0e10;
+    const bool is_long = std::abs(value) >= 1.0e4 && std::abs(value) < largest;
+    return is_long ? rounded(value, 1e3) : short_number(value);
+  }
   if (json.is_array()) {
     for (Json& item : json) item = with_short_numbers(std::move(item), but_of);
   }

@@ -113,7 +113,8 @@ void ReportData::read_map(Run& run, FaultCollector& faults) {
   std::error_code unreachable;
   if (!fs::exists(points, unreachable)) return;
   faults.collect([&] {
-    Json map = map_points(read_pcd(points));
+    const MapPoints global = read_map_pcd(points);
+    Json map = map_points(global.points, global.origin);
     if (fs::exists(grid, unreachable)) map["grid"] = read_grid(grid);
     const auto same = std::find(maps_.begin(), maps_.end(), map);
     run.map = static_cast<std::size_t>(same - maps_.begin());

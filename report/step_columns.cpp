@@ -40,8 +40,8 @@ Json number_or_null(const Json& line, const char* key) {
   return line.contains(key) ? number(line.at(key)) : Json(nullptr);
 }
 
-float number_of_cluster(const Json& value) {
-  return value.is_null() ? std::numeric_limits<float>::quiet_NaN() : value.get<float>();
+double number_of_cluster(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
 /// One number of a pose: m, rad, or of a unit quaternion.
@@ -176,7 +176,7 @@ Json StepColumns::best_to_json() const {
       json[key] = Json::array();
       const auto column = best_.find(key);
       if (column == best_.end()) continue;
-      for (const float value : column->second) json[key].push_back(shown(key, double{value}));
+      for (const double value : column->second) json[key].push_back(shown(key, value));
     }
   };
   add(coordinates, pose_number);

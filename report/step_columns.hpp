@@ -46,8 +46,8 @@ class StepColumns {
   nlohmann::ordered_json columns_;
   std::vector<float> step_ms_;
   nlohmann::ordered_json evidence_ = nlohmann::ordered_json::object();
-  std::vector<std::size_t> first_best_ = {0};            ///< Of each step, and one more.
-  std::map<std::string, std::vector<float>> best_ = {};  ///< By what they are: most of all numbers.
+  std::vector<std::size_t> first_best_ = {0};             ///< Of each step, and one more.
+  std::map<std::string, std::vector<double>> best_ = {};  ///< By what they are: most of all numbers.
   nlohmann::ordered_json sentences_ = nlohmann::ordered_json::array();
   std::map<std::string, std::size_t> sentence_numbers_;
 };

@@ -56,7 +56,7 @@ bool is_grid(const Json& grid) {
 
 }  // namespace
 
-Json grid_json(const OccupancyGrid& grid) {
+Json grid_json(const OccupancyGrid& grid, const Vector3& origin) {
   std::string runs;
   for (std::size_t begin = 0; begin < grid.cells.size();) {
     std::size_t end = begin;
@@ -64,9 +64,9 @@ Json grid_json(const OccupancyGrid& grid) {
     runs += fmt::format("{}{}", end - begin, cell_letters[static_cast<std::size_t>(grid.cells[begin])]);
     begin = end;
   }
-  const Pose2& origin = grid.map_from_grid;
+  const Pose2& corner = grid.map_from_grid;
   return {{"resolution", grid.resolution},
-          {"origin", {{"x", origin.x}, {"y", origin.y}, {"theta", origin.theta}}},
+          {"origin", {{"x", origin.x() + corner.x}, {"y", origin.y() + corner.y}, {"theta", corner.theta}}},
           {"width", grid.width},
           {"height", grid.height},
           {"cells", runs}};
@@ -83,9 +83,10 @@ Json read_grid(const std::filesystem::path& file) {
 }
 
 std::vector<std::pair<std::string, std::string>> map_files(const GlobalMap& map) {
-  std::vector<std::pair<std::string, std::string>> files = {{map_points_file().string(), pcd(map.points())}};
+  std::vector<std::pair<std::string, std::string>> files = {
+      {map_points_file().string(), pcd(map.points(), map.origin())}};
   if (!map.grid().cells.empty())
-    files.emplace_back(map_grid_file().string(), grid_json(map.grid()).dump() + "\n");
+    files.emplace_back(map_grid_file().string(), grid_json(map.grid(), map.origin()).dump() + "\n");
   return files;
 }
 

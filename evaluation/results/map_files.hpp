@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "glocal/global_map.hpp"
+#include "glocal/pose3.hpp"
 
 namespace glocal {
 
@@ -22,8 +23,10 @@ namespace glocal {
 }
 
 /// A grid with its cells as run lengths: "12u3f" is 12 unknown cells and then 3 free ones ('o': occupied),
-/// row by row as in OccupancyGrid, runs going on in the next row.
-[[nodiscard]] nlohmann::ordered_json grid_json(const OccupancyGrid& grid);
+/// row by row as in OccupancyGrid, runs going on in the next row. Its corner is in the map's frame, while the
+/// grid is relative to the map's origin.
+[[nodiscard]] nlohmann::ordered_json grid_json(const OccupancyGrid& grid,
+                                               const Vector3& origin = Vector3::Zero());
 
 /// A file as grid_json() makes it. Throws ConfigError for any other, and where the cells are not as many as
 /// width and height say.

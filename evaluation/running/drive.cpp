@@ -40,7 +40,7 @@ bool near_free_cell(const Pose3& pose, const OccupancyGrid& grid, double reach) 
   return false;
 }
 
-/// Whether the map has a point within `reach` of the pose.
+/// Whether the map has a point within `reach` of the pose, which is relative to its origin.
 bool near_point(const Pose3& pose, const GlobalMap& map, double reach) {
   Points place;
   place.push_back(as_point(pose.translation()));
@@ -51,7 +51,7 @@ bool near_point(const Pose3& pose, const GlobalMap& map, double reach) {
 /// points alone is known near these.
 bool within_map(const Sample& sample, const GlobalMap& map, double reach) {
   if (reach <= 0.0 || !has_reference(sample)) return true;
-  const Pose3& pose = *sample.map_from_robot;
+  const Pose3 pose = map.relative(*sample.map_from_robot);
   if (!map.path().empty()) return distance_to_path(pose, map.path()) <= reach;
   return map.grid().cells.empty() ? near_point(pose, map, reach) : near_free_cell(pose, map.grid(), reach);
 }

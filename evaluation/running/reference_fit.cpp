@@ -36,7 +36,7 @@ std::optional<double> reference_fit(const Drive& drive, const GlobalMap& map, do
   if (judged.empty()) return std::nullopt;
   Points ends;
   for (const std::size_t i : evenly(judged.size(), scans))
-    place_hits(judged[i]->observation.scan, *judged[i]->map_from_robot, hits_of_scan, ends);
+    place_hits(judged[i]->observation.scan, map.relative(*judged[i]->map_from_robot), hits_of_scan, ends);
   // Not one of the map's indexes, whose time to build is counted when a strategy asks for them.
   return KdTreeContact(map.points(), epsilon).share(ends, Transform(Pose2{}));
 }
@@ -47,11 +47,14 @@ std::optional<double> fit_among_scans(const Drive& drive,
   constexpr std::size_t scans = 400, hits_of_scan = 100;
   Points ends, others;
   std::size_t placed = 0;
+  Vector3 origin = Vector3::Zero();
   const std::vector<std::size_t> picked = evenly(drive.samples.size(), scans);
   for (const std::size_t i : picked) {
     const Observation& observation = drive.samples[i].observation;
     const auto pose = reference_at(observation.stamp);
-    if (pose) place_hits(observation.scan, *pose, hits_of_scan, ++placed % 2 == 0 ? others : ends);
+    if (!pose) continue;
+    if (placed == 0) origin = origin_near(pose->translation());
+    place_hits(observation.scan, shifted(*pose, -origin), hits_of_scan, ++placed % 2 == 0 ? others : ends);
   }
   if (ends.empty() || others.empty() || 2 * placed < picked.size()) return std::nullopt;
   return KdTreeContact(others, epsilon).share(ends, Transform(Pose2{}));

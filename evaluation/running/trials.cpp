@@ -77,7 +77,8 @@ PoseError pose_error(const Pose3& estimate, const Pose3& reference) {
 }
 
 bool is_on_map(const Pose3& reference, const GlobalMap& map) {
-  return map.grid().cells.empty() || map.grid().at(reference.x, reference.y) != Cell::unknown;
+  const Pose3 place = map.relative(reference);
+  return map.grid().cells.empty() || map.grid().at(place.x, place.y) != Cell::unknown;
 }
 
 Outcome judge(const std::optional<PoseError>& error, const EvaluationConfig& limits) {

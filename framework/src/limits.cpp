@@ -19,11 +19,15 @@ std::string stamp_fault(double seconds) {
       seconds, latest_stamp_s);
 }
 
-double farthest_of(const Points& points) {
-  float farthest = 0.0F;
-  for (const auto* values : {&points.x, &points.y, &points.z}) {
-    for (const float value : *values) farthest = std::max(farthest, std::abs(value));
-  }
+/// The largest distance of points from the origin along an axis, where they are `by` farther.
+double farthest_of(const Points& points, const Vector3& by) {
+  double farthest = 0.0;
+  const auto look_along = [&](const std::vector<float>& values, double more) {
+    for (const float value : values) farthest = std::max(farthest, std::abs(more + value));
+  };
+  look_along(points.x, by.x());
+  look_along(points.y, by.y());
+  look_along(points.z, by.z());
   return farthest;
 }
 
@@ -69,20 +73,23 @@ std::string fault_of_map(const MapData& map) {
   if (cells > max_grid_cells)
     return fmt::format("{} x {} cells are more than {:g}; take a coarser resolution, or cut the map",
                        map.grid.width, map.grid.height, max_grid_cells);
-  const double farthest = farthest_of(map.points);
-  if (farthest > farthest_m)
+  const double in_frame = farthest_of(map.points, map.origin);
+  if (in_frame > farthest_m)
     return fmt::format("a place {:g} m from the origin, at most {:g} m are allowed; correct it, or the unit",
-                       farthest, farthest_m);
+                       in_frame, farthest_m);
   const double resolution = map.grid.resolution > 0.0 ? map.grid.resolution : map.resolution;
   if (resolution == 0.0) return "";
   if (std::string fault = fault_of_resolution(resolution); !fault.empty()) return fault;
   constexpr double spacings_per_cell = 8.0;
+  const double farthest = farthest_of(map.points, Vector3::Zero());
   const double spacing = spacing_at(farthest);
   if (spacing * spacings_per_cell <= resolution) return "";
+  const bool is_far = !map.origin.isZero(0.0);
   return fmt::format(
-      "places {:.0f} m from the origin, where single precision is good to {:.2g} m, are too far for a map of "
-      "{:g} m resolution; move the map (and reference poses) nearer to its origin",
-      farthest, spacing, resolution);
+      "places {:.0f} m from {}, where single precision is good to {:.2g} m, are too far for a map of {:g} m "
+      "resolution; {}",
+      farthest, is_far ? "its own origin" : "the origin", spacing, resolution,
+      is_far ? "cut the map" : "move the map (and reference poses) nearer to its origin, or cut it");
 }
 
 }  // namespace glocal

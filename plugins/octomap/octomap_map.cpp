@@ -104,7 +104,8 @@ MapData OctomapMap::load() {
 
   MapData map;
   OccupancyGrid& grid = map.grid;
-  const Pose2 map_from_tree{params_.tree_pose[0], params_.tree_pose[1],
+  map.origin = origin_near({params_.tree_pose[0], params_.tree_pose[1], 0.0});
+  const Pose2 map_from_tree{params_.tree_pose[0] - map.origin.x(), params_.tree_pose[1] - map.origin.y(),
                             wrap_angle(radians(params_.tree_pose[2]))};
   const double side = tree->getResolution();
   const auto corner = [&](int key) {

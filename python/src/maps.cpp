@@ -83,11 +83,18 @@ void bind_grid(py::module_& module) {
           "Outer corner of cell (0, 0) in the map, and the direction of the columns.");
 }
 
+Vector3 origin_of(const py::object& origin) {
+  const std::vector<double> p = doubles_of(origin, "x, y and z (m) of the map's origin");
+  if (p.size() != 3) throw py::value_error("x, y and z (m) of the map's origin are wanted");
+  return {p[0], p[1], p[2]};
+}
+
 using Map = std::shared_ptr<GlobalMap>;
 
 Map make_map(const py::object& points, const py::object& grid, const py::object& normals,
-             const py::object& path, double resolution) {
+             const py::object& path, double resolution, const py::object& origin) {
   MapData data;
+  if (!origin.is_none()) data.origin = origin_of(origin);
   if (!grid.is_none()) data.grid = *seen<OccupancyGrid>(grid, "the grid of a map is an OccupancyGrid");
   data.points = points.is_none() ? occupied_centres(data.grid) : points_of(points);
   if (data.points.empty())
@@ -112,14 +119,26 @@ void bind_maps(py::module_& module) {
       "The known map. Nothing changes it; all who work with it share it, and what they build of it.")
       .def(py::init(&make_map), py::arg("points") = py::none(), py::arg("grid") = py::none(),
            py::arg("normals") = py::none(), py::arg("path") = py::none(), py::arg("resolution") = 0.0,
+           py::arg("origin") = py::none(),
            "From points (N x 2 or N x 3, m) or, without any, from the centres of a grid's occupied cells. "
            "normals: a unit "
            "vector for each point. path: poses of the robot that made the map. resolution: distance of "
            "neighbouring "
-           "points (m) of a map without a grid; 0 if not known.")
+           "points (m) of a map without a grid; 0 if not known. origin: (x, y, z), m, what is to be added to "
+           "places of points, grid and path: that of a map far away, whose single precision would be coarse.")
       .def_property_readonly(
           "points", [part](const Map& map) { return part(map, map->points()); },
-          "Occupied places, m, in the map's frame.")
+          "Occupied places, m, relative to the origin.")
+      .def_property_readonly(
+          "origin",
+          [](const Map& map) {
+            const Vector3& p = map->origin();
+            return py::make_tuple(p.x(), p.y(), p.z());
+          },
+          "(x, y, z), m: what is to be added to places of points, grid and path for the map's frame; 0 of "
+          "maps "
+          "up to 1 km away. "
+          "Stages see poses relative to it, too; results of steps are in the map's frame.")
       .def_property_readonly(
           "normals", [part](const Map& map) { return part(map, map->normals()); },
           "Unit normals of the points, or none at all.")

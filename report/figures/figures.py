@@ -178,15 +178,16 @@ def read_steps(file, trial, needed):
 
 
 def read_points(file):
-    """x, y, z, x, ... of a binary PCD file with three floats a point."""
+    """x, y, z, x, ... of a binary PCD file with three numbers a point, in single or double precision."""
     if not file.exists():
         raise LeftOut(f"there is no {file}; run the experiment with --set output.maps=all")
     header, _, body = file.read_bytes().partition(b"DATA binary\n")
     points = re.search(rb"\nPOINTS (\d+)\n", header)
-    if not points or len(body) != 12 * int(points[1]):
+    kind = "d" if b"\nSIZE 8 8 8\n" in header else "f"
+    if not points or len(body) != 3 * array.array(kind).itemsize * int(points[1]):
         why = "is no point cloud as glocal writes them, or a part of one; run the experiment again"
         raise FiguresError(f"{file}: {why}")
-    return array.array("f", body)
+    return array.array(kind, body)
 
 
 def read_pcd(file):

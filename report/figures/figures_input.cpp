@@ -74,7 +74,7 @@ void check_point_clouds(const fs::path& folder, std::size_t trial, FaultCollecto
     if (entry.path().extension() == ".pcd") files.push_back(entry.path());
   }
   for (const fs::path& file : files) {
-    faults.collect([&] { static_cast<void>(read_pcd(file)); });
+    faults.collect([&] { static_cast<void>(read_map_pcd(file)); });
   }
 }
 

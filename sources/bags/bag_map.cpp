@@ -91,8 +91,11 @@ MapData BagMap::load() {
     fail(params_,
          fmt::format("the map of {} is tilted against its frame; only level maps can be used", name));
   MapData map;
-  map.grid = {seen_from_above(grid.frame_from_grid), grid.resolution, static_cast<int>(grid.width),
-              static_cast<int>(grid.height), std::vector<Cell>(grid.cells.size())};
+  const Vector3 corner = grid.frame_from_grid.translation();
+  map.origin = origin_near({corner.x(), corner.y(), 0.0});
+  map.grid = {seen_from_above(shifted(grid.frame_from_grid, -map.origin)), grid.resolution,
+              static_cast<int>(grid.width), static_cast<int>(grid.height),
+              std::vector<Cell>(grid.cells.size())};
   std::transform(grid.cells.begin(), grid.cells.end(), map.grid.cells.begin(),
                  [&](std::int8_t percent) { return cell_of(percent, params_); });
   map.points = occupied_centres(map.grid);

@@ -56,6 +56,18 @@ std::vector<PlacedScan> placed_scans(const LogDrive& drive, const LogMap::Params
   return placed;
 }
 
+/// Makes the places of scans relative to an origin near the first one, and answers it.
+Vector3 take_origin_from(std::vector<PlacedScan>& placed) {
+  if (placed.empty()) return Vector3::Zero();
+  const Pose2 first = placed.front().map_from_robot;
+  const Vector3 origin = origin_near({first.x, first.y, 0.0});
+  for (PlacedScan& p : placed) {
+    p.map_from_robot.x -= origin.x();
+    p.map_from_robot.y -= origin.y();
+  }
+  return origin;
+}
+
 Box extent(const std::vector<PlacedScan>& placed) {
   Box box;
   for (const PlacedScan& p : placed) {
@@ -186,8 +198,9 @@ LogMap::LogMap(const Params& params, const SourceSetup& setup) : params_(params)
 
 MapData LogMap::load() {
   const std::string file = params_.log.path.resolved.string();
-  const std::vector<PlacedScan> placed = placed_scans(read_log_drive(params_.log), params_);
+  std::vector<PlacedScan> placed = placed_scans(read_log_drive(params_.log), params_);
   MapData map;
+  map.origin = take_origin_from(placed);
   map.grid = make_grid(extent(placed), params_.resolution, file);
   Counter counter(map.grid);
   for (const PlacedScan& p : placed) counter.add(p);

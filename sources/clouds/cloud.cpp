@@ -85,25 +85,26 @@ CloudBuilder::CloudBuilder(std::string file, const CloudOptions& options, const 
     : file_(std::move(file)),
       unit_(options.unit),
       time_unit_(time_unit),
+      map_motion_(options.map_motion),
       has_normals_(columns[index_of(Channel::normal_x)].has_value()),
       has_times_(columns[index_of(Channel::time)].has_value()) {}
 
 void CloudBuilder::add(const PointValues& values, int line) {
   const std::size_t number = points_++;
-  const std::array<double, 3> place = {unit_ * values[0], unit_ * values[1], unit_ * values[2]};
+  const Vector3 place{unit_ * values[0], unit_ * values[1], unit_ * values[2]};
   const double time = has_times_ ? values[index_of(Channel::time)] : 0.0;
-  if (!std::isfinite(place[0] + place[1] + place[2] + time)) {
+  if (!std::isfinite(place.sum() + time)) {
     ++cloud_.not_finite;
     return;
   }
-  const double reach = std::max({std::abs(place[0]), std::abs(place[1]), std::abs(place[2])});
+  const double reach = place.lpNorm<Eigen::Infinity>();
   if (reach > farthest_m)
     refuse_cloud(file_, line,
                  fmt::format("point {} (from 0) has a coordinate of {:g} m, at most {:g} are allowed; if "
                              "the file is not in metres, give its unit, else get a fresh copy",
                              number, reach, farthest_m));
-  cloud_.points.push_back(
-      {static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2])});
+  if (map_motion_ && cloud_.points.empty()) cloud_.origin = origin_near(place, *map_motion_);
+  cloud_.points.push_back(as_point(place - cloud_.origin));
   if (has_times_) cloud_.times.push_back(time_unit_ * time);
   if (has_normals_) add_normal({values[3], values[4], values[5]});
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "glocal/global_map.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose3.hpp"
 #include "sources/compressed_file.hpp"
@@ -16,9 +17,10 @@ namespace glocal {
 
 /// What a file says of its points. Points with a coordinate or time that is no finite number are left out.
 struct Cloud {
-  Points points;               ///< m, in the file's frame. Never empty.
-  Points normals;              ///< Unit normals, one for each point; empty unless all points have one.
-  std::vector<double> times;   ///< s since the earliest point, one for each point; empty if not known.
+  Points points;                     ///< m, in the file's frame less `origin`. Never empty.
+  Vector3 origin = Vector3::Zero();  ///< m; other than 0 only of a map's cloud.
+  Points normals;                    ///< Unit normals, one for each point; empty unless all points have one.
+  std::vector<double> times;         ///< s since the earliest point, one for each point; empty if not known.
   Pose3 viewpoint;             ///< Where a PCD file says the sensor was, m; the identity if nothing is said.
   double voxel_size = 0.0;     ///< Side of the cubes whose centres the points of an octree are, m; else 0.
   std::size_t not_finite = 0;  ///< Points left out.
@@ -28,6 +30,8 @@ struct Cloud {
 struct CloudOptions {
   double unit = 1.0;  ///< Length of the file's unit, m.
   double max_size_gb = default_max_size_gb;
+  /// Of a map, what of poses is looked for in it: points are relative to an origin_near() the first one.
+  std::optional<Motion> map_motion = {};
 };
 
 /// The field that says `unit`, for everything that reads clouds.
@@ -68,6 +72,7 @@ class CloudBuilder {
 
   std::string file_;
   double unit_, time_unit_;
+  std::optional<Motion> map_motion_;
   bool has_normals_, has_times_;
   std::size_t points_ = 0;  ///< Added, of any kind.
   Cloud cloud_;

@@ -88,13 +88,14 @@ CloudDriveMap::CloudDriveMap(const Params& params, const SourceSetup& setup)
 MapData CloudDriveMap::load() {
   CloudDrive drive(params_.drive, setup_);
   CubeSums sums(params_.resolution);
+  MapData map;
   std::vector<Pose3> path;
   while (const auto sample = drive.next()) {
     if (!sample->map_from_robot) continue;
-    sums.add(moved(sample->observation.scan.hits, *sample->map_from_robot));
-    path.push_back(*sample->map_from_robot);
+    if (path.empty()) map.origin = origin_near(sample->map_from_robot->translation(), setup_.motion);
+    path.push_back(shifted(*sample->map_from_robot, -map.origin));
+    sums.add(moved(sample->observation.scan.hits, path.back()));
   }
-  MapData map;
   map.points = sums.means(params_.min_clouds);
   map.resolution = params_.resolution;
   map.path = sparse_path(path);

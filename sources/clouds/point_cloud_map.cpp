@@ -56,16 +56,17 @@ void describe(ParamVisitor& v, PointCloudMap::Params& p) {
 }
 
 PointCloudMap::PointCloudMap(const Params& params, const SourceSetup& setup)
-    : params_(params), warn_(setup.warn) {
+    : params_(params), motion_(setup.motion), warn_(setup.warn) {
   setup.note_input(params.path.resolved);
   if (!params.trajectory.text.empty()) setup.note_input(params.trajectory.resolved);
 }
 
 MapData PointCloudMap::load() {
-  Cloud cloud = read_cloud(params_.path.resolved, {params_.unit, params_.max_size_gb});
+  Cloud cloud = read_cloud(params_.path.resolved, {params_.unit, params_.max_size_gb, motion_});
   for (const std::string& remark : cloud_remarks(cloud))
     warn_(params_.path.resolved.string() + ": " + remark);
   MapData map;
+  map.origin = cloud.origin;
   if (params_.voxel_size > 0.0) {
     const VoxelGroups groups = voxel_groups(cloud.points, params_.voxel_size);
     map.points = means_of_groups(cloud.points, groups);
@@ -81,7 +82,7 @@ MapData PointCloudMap::load() {
   }
   if (!params_.trajectory.text.empty()) {
     for (const StampedPose& pose : read_trajectory(params_.trajectory.resolved, params_.max_size_gb).poses)
-      map.path.push_back(pose.pose);
+      map.path.push_back(shifted(pose.pose, -map.origin));
   }
   return map;
 }

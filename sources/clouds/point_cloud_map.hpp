@@ -27,6 +27,7 @@ class PointCloudMap final : public MapSource {
 
  private:
   Params params_;
+  Motion motion_;
   Warn warn_;
 };
 void describe(ParamVisitor& v, PointCloudMap::Params& p);

@@ -60,8 +60,10 @@ bool is_same_pixel(const ImageRow& row, std::size_t a, std::size_t b) {
   return row.grey[a] == row.grey[b] && (row.opacity.empty() || row.opacity[a] == row.opacity[b]);
 }
 
-OccupancyGrid grid_of(const RosMapFile& file, double max_size_gb) {
-  OccupancyGrid grid{{file.origin[0], file.origin[1], wrap_angle(file.origin[2])}, file.resolution, 0, 0, {}};
+/// Its corner is at the file's origin less that of the map.
+OccupancyGrid grid_of(const RosMapFile& file, const Vector3& origin, double max_size_gb) {
+  const Pose2 corner{file.origin[0] - origin.x(), file.origin[1] - origin.y(), wrap_angle(file.origin[2])};
+  OccupancyGrid grid{corner, file.resolution, 0, 0, {}};
   const auto take = [&](const ImageRow& row) {
     if (row.row == 0) {
       grid.width = row.width;
@@ -126,7 +128,8 @@ RosMap::RosMap(const Params& params, const SourceSetup& setup)
 
 MapData RosMap::load() {
   MapData map;
-  map.grid = grid_of(file_, max_size_gb_);
+  map.origin = origin_near({file_.origin[0], file_.origin[1], 0.0});
+  map.grid = grid_of(file_, map.origin, max_size_gb_);
   map.points = occupied_centres(map.grid);
   if (map.points.empty()) {
     throw ConfigError(

@@ -45,8 +45,8 @@ void write_trinary_pgm(const OccupancyGrid& grid, const std::function<void(std::
   }
 }
 
-std::string ros_map_yaml(const OccupancyGrid& grid, const std::string& image_name) {
-  const Pose2& origin = grid.map_from_grid;
+std::string ros_map_yaml(const OccupancyGrid& grid, const std::string& image_name, const Vector3& origin) {
+  const Pose2& corner = grid.map_from_grid;
   return fmt::format(
       "image: \"{}\"\n"
       "mode: trinary\n"
@@ -55,7 +55,7 @@ std::string ros_map_yaml(const OccupancyGrid& grid, const std::string& image_nam
       "negate: 0\n"
       "occupied_thresh: 0.65\n"
       "free_thresh: 0.196\n",
-      image_name, grid.resolution, origin.x, origin.y, origin.theta);
+      image_name, grid.resolution, origin.x() + corner.x, origin.y() + corner.y, corner.theta);
 }
 
 }  // namespace glocal

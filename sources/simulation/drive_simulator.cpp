@@ -54,6 +54,7 @@ DriveSimulator::DriveSimulator(const LaserDriveParams& params, std::uint64_t see
       max_unknown_(params.max_unknown),
       world_(std::move(drive.world)),
       map_(std::move(drive.map)),
+      origin_(drive.origin),
       reality_(shapes_in_reality(world_)),
       robot_(std::move(drive.route), params, seed) {}
 
@@ -63,6 +64,8 @@ std::optional<CarmenScan> DriveSimulator::next() {
   CarmenScan scan = measure(*step);
   scan.stamp = step->stamp;
   scan.odom_from_robot = step->odom_from_robot;
+  scan.map_from_robot->x += origin_.x();
+  scan.map_from_robot->y += origin_.y();
   return scan;
 }
 

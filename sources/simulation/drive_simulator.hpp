@@ -66,6 +66,7 @@ class DriveSimulator {
   double max_unknown_;
   World world_;
   std::optional<OccupancyGrid> map_;
+  Vector3 origin_;  ///< What all places but those of scans are relative to.
   NearShapes reality_;
   DrivingRobot robot_;
 };

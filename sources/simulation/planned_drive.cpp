@@ -137,14 +137,27 @@ PlannedDrive drive_in_world(const DriveParams& params, const SourceSetup& setup,
   return drive;
 }
 
+/// The places that a drive is told.
+void make_relative(LaserDriveParams& params, const Vector3& origin) {
+  const auto make_place_relative = [&](auto& place) {
+    place[0] -= origin.x();
+    place[1] -= origin.y();
+  };
+  for (Position& place : params.way_points) make_place_relative(place);
+  for (Kidnapping& kidnapping : params.kidnappings) make_place_relative(kidnapping.to);
+}
+
 PlannedDrive drive_in_map(LaserDriveParams params, const SourceSetup& setup) {
   params.world = params.map;  // Where it drives, as faults tell.
-  PlannedDrive drive{{}, RosMap({params.map}, setup).load().grid, {}, {}};
+  MapData map = RosMap({params.map}, setup).load();
+  make_relative(params, map.origin);
+  PlannedDrive drive{{}, std::move(map.grid), {}, {}, map.origin};
   const OccupancyGrid& grid = *drive.map;
   const Rng rng = stream_of(DriveStream::tour, setup.seed);
-  const MapWays ways = params.way_points.empty()
-                           ? MapWays(grid, params.clearance, params.tour_legs, rng, file_of(params))
-                           : MapWays(grid, params.clearance, params.way_points, file_of(params));
+  const MapWays ways =
+      params.way_points.empty()
+          ? MapWays(grid, params.clearance, params.tour_legs, rng, file_of(params), map.origin)
+          : MapWays(grid, params.clearance, params.way_points, file_of(params), map.origin);
   drive.route = route_of(ways, params, rng);
   add_things(drive, grid, ways.region(), params, setup.seed);
   return drive;

@@ -35,6 +35,7 @@ struct PlannedDrive {
   std::optional<OccupancyGrid> map;  ///< That the robot drives in, if it is one.
   Route route;
   std::optional<CloudVoxels> cloud;  ///< Of the world, if it has one that somebody asks for.
+  Vector3 origin = Vector3::Zero();  ///< Of the map: all places are relative to it.
 };
 
 /// Along the way points of a world, with nothing in it but what the world has. Throws ConfigError where

@@ -40,8 +40,8 @@ void describe(ParamVisitor& v, RandomScans::Params& p) {
 
 RandomScans::RandomScans(const Params& params, const SourceSetup& setup)
     : params_(params),
-      grid_(RosMap(params.map, setup).load().grid),
-      clear_cells_(marked(clear_cells(grid_, params.clearance))),
+      map_(RosMap(params.map, setup).load()),
+      clear_cells_(marked(clear_cells(map_.grid, params.clearance))),
       scan_limits_(scan_limits(params.laser)),
       rng_(setup.seed) {
   if (!clear_cells_.empty()) return;
@@ -54,25 +54,26 @@ RandomScans::RandomScans(const Params& params, const SourceSetup& setup)
 Pose2 RandomScans::draw_pose() const {
   Rng rng = rng_.stream({pose_stream, next_});
   const std::size_t cell = clear_cells_[rng.below(static_cast<std::uint32_t>(clear_cells_.size()))];
-  const std::size_t column = cell % static_cast<std::size_t>(grid_.width);
-  const std::size_t row = cell / static_cast<std::size_t>(grid_.width);
-  const double x = (static_cast<double>(column) + rng.uniform()) * grid_.resolution;
-  const double y = (static_cast<double>(row) + rng.uniform()) * grid_.resolution;
-  return grid_.map_from_grid * Pose2{x, y, rng.uniform(-std::numbers::pi, std::numbers::pi)};
+  const OccupancyGrid& grid = map_.grid;
+  const std::size_t column = cell % static_cast<std::size_t>(grid.width);
+  const std::size_t row = cell / static_cast<std::size_t>(grid.width);
+  const double x = (static_cast<double>(column) + rng.uniform()) * grid.resolution;
+  const double y = (static_cast<double>(row) + rng.uniform()) * grid.resolution;
+  return grid.map_from_grid * Pose2{x, y, rng.uniform(-std::numbers::pi, std::numbers::pi)};
 }
 
 std::optional<Sample> RandomScans::next() {
   if (next_ == static_cast<std::size_t>(params_.count)) return std::nullopt;
-  const Pose2 map_from_robot = draw_pose();
+  const Pose2 map_from_robot = draw_pose();  // Relative to the map's origin.
   // Looked at from beyond the last cell that matters, as rays stop before the cell they end in.
-  const double reach = params_.laser.max_range + 2.0 * grid_.resolution;
+  const double reach = params_.laser.max_range + 2.0 * map_.grid.resolution;
   const auto distance_to_cells = [&](const Position& origin, const Position& direction) {
-    return ray_distance(grid_, origin, direction, reach, params_.max_unknown);
+    return ray_distance(map_.grid, origin, direction, reach, params_.max_unknown);
   };
   const CarmenScan scan =
       simulated_scan(params_.laser, map_from_robot, distance_to_cells, rng_.stream({laser_stream, next_}));
   const Observation observation{static_cast<double>(next_), robot_scan(scan, scan_limits_), {}};
-  return Sample{observation, map_from_robot, static_cast<int>(next_++)};
+  return Sample{observation, shifted(map_from_robot, map_.origin), static_cast<int>(next_++)};
 }
 
 }  // namespace glocal

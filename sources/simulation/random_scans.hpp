@@ -35,7 +35,7 @@ class RandomScans final : public ObservationSource {
   [[nodiscard]] Pose2 draw_pose() const;
 
   Params params_;
-  OccupancyGrid grid_;
+  MapData map_;
   std::vector<std::size_t> clear_cells_;  ///< Indexes of the cells a pose may lie in.
   LogParams scan_limits_;
   Rng rng_;

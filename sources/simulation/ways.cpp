@@ -38,8 +38,9 @@ std::string WorldWays::obstacle_from(const Position& place) const {
 }
 
 MapWays::MapWays(const OccupancyGrid& grid, double clearance, const std::vector<Position>& way_points,
-                 const std::string& file)
+                 const std::string& file, const Vector3& origin)
     : grid_(grid),
+      origin_(origin),
       clearance_(clearance),
       is_clear_(clear_cells(grid, clearance)),
       region_(ClearRegion::around(way_points.front(), grid, is_clear_)),
@@ -54,8 +55,10 @@ MapWays::MapWays(const OccupancyGrid& grid, double clearance, const std::vector<
   if (!faults.empty()) throw ConfigError(std::move(faults));
 }
 
-MapWays::MapWays(const OccupancyGrid& grid, double clearance, int legs, Rng rng, const std::string& file)
+MapWays::MapWays(const OccupancyGrid& grid, double clearance, int legs, Rng rng, const std::string& file,
+                 const Vector3& origin)
     : grid_(grid),
+      origin_(origin),
       clearance_(clearance),
       is_clear_(clear_cells(grid, clearance)),
       region_(checked_region(ClearRegion::largest(grid, is_clear_), clearance, file)),
@@ -82,7 +85,7 @@ void MapWays::go_on_from(const Position& /*place*/, Itinerary& itinerary) const 
 
 std::string MapWays::obstacle_from(const Position& place) const {
   if (region_.holds(place)) return "";
-  const std::string where = fmt::format("[{}, {}]", place[0], place[1]);
+  const std::string where = text_of(place);
   if (grid_.at(place[0], place[1]) != Cell::free)
     return where + " lies in no free cell of the map; move it onto free space";
   if (is_clear_[*cell_under(place, grid_)] == 0) {
@@ -90,10 +93,12 @@ std::string MapWays::obstacle_from(const Position& place) const {
                        where, clearance_);
   }
   if (region_.size() == 0) return "";  // the first place is at fault
-  const Position& first = places_.front();
-  return fmt::format(
-      "{} cannot be reached from [{}, {}] with a clearance of {} m; move it, or lower clearance", where,
-      first[0], first[1], clearance_);
+  return fmt::format("{} cannot be reached from {} with a clearance of {} m; move it, or lower clearance",
+                     where, text_of(places_.front()), clearance_);
+}
+
+std::string MapWays::text_of(const Position& place) const {
+  return fmt::format("[{}, {}]", origin_.x() + place[0], origin_.y() + place[1]);
 }
 
 ClearRegion checked_region(ClearRegion region, double clearance, const std::string& file) {

@@ -46,16 +46,18 @@ class WorldWays final : public Ways {
 };
 
 /// Shortest ways through the free cells of a map, a clearance (m) away from all others. A robot that was
-/// carried away goes on to where it was going. The grid must outlive the ways.
+/// carried away goes on to where it was going. All places are relative to the map's origin, which messages
+/// add. The grid must outlive the ways.
 class MapWays final : public Ways {
  public:
   /// Between given places. Throws ConfigError at `file` for places that are not clear, that cannot be reached
   /// from the first, or that follow equal ones.
   MapWays(const OccupancyGrid& grid, double clearance, const std::vector<Position>& way_points,
-          const std::string& file);
+          const std::string& file, const Vector3& origin = Vector3::Zero());
   /// Between `legs` + 1 places drawn in the largest region. Throws ConfigError at `file` for a map without
   /// two clear cells side by side.
-  MapWays(const OccupancyGrid& grid, double clearance, int legs, Rng rng, const std::string& file);
+  MapWays(const OccupancyGrid& grid, double clearance, int legs, Rng rng, const std::string& file,
+          const Vector3& origin = Vector3::Zero());
 
   [[nodiscard]] const ClearRegion& region() const { return region_; }
 
@@ -66,7 +68,10 @@ class MapWays final : public Ways {
   [[nodiscard]] std::string obstacle_from(const Position& place) const override;
 
  private:
+  [[nodiscard]] std::string text_of(const Position& place) const;
+
   const OccupancyGrid& grid_;
+  Vector3 origin_;
   double clearance_;
   std::vector<char> is_clear_;
   ClearRegion region_;

@@ -121,6 +121,40 @@ TEST_F(ExplainCommand, NotOnTheMap) {
   EXPECT_THAT(text, HasSubstr("local map   0.00 m and 0.0 deg off the reference")) << "it has just begun";
 }
 
+// The simulated lab's map with its corner at the origin, and far away.
+TEST_F(ExplainCommand, SaysTheSameOnAMapFarAway) {
+  ASSERT_EQ(run("map convert " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml -o " +
+                file("map.yaml"))
+                .exit_code,
+            0);
+  const auto explained_with = [&](const std::string& corner, const std::string& region) {
+    std::string map = content(file("map.yaml"));
+    const std::size_t origin = map.find("origin: [");
+    map.replace(origin, map.find(']', origin) + 1 - origin, "origin: [" + corner + ", 0]");
+    std::ofstream(file("map.yaml")) << map;
+    std::ofstream(file("lab.yaml")) << "schema: 1\nname: lab\nmap: {ros_map: {path: map.yaml}}\n"
+                                       "observations: {simulation: {map: map.yaml, tour_legs: 2}}\n"
+                                       "trials: {starts_m: [0], max_steps: 4}\n"
+                                       "localizer:\n"
+                                       "  matcher: {ransam: {iterations: 20000}}\n"
+                                       "  verifier: whole_map\n"
+                                    << region;
+    const Answer answer = run("run " + file("lab.yaml") + " --quiet --force --out " + folder());
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    std::string text = explained(3);
+    const std::size_t reference = text.find("  reference");
+    return text.erase(reference, text.find('\n', reference) - reference);
+  };
+  const std::string near = explained_with("0, 0", "");
+  EXPECT_EQ(explained_with("500000, 4649776", ""), near);
+  EXPECT_GT(number_before(near, "% at the reference"), 50.0);
+  EXPECT_THAT(
+      explained_with(
+          "500000, 4649776",
+          "  prior: {region: {x: 500005, y: 4649780, radius: 0.5}, heading: {deg: 0, width_deg: 1}}\n"),
+      HasSubstr("excluded: localizer.prior leaves only starts within 0.5 m of x 500005, y 4649780"));
+}
+
 TEST_F(ExplainCommand, TakesTheLastStepUnlessOneIsNamed) {
   run_lab();
   const auto steps = json::parse(content(folder() + "/trials.jsonl"))["steps"].get<int>();

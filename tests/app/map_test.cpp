@@ -66,6 +66,39 @@ TEST_F(MapCommand, AlignsAMapWithACopyInAnotherFrame) {
   EXPECT_EQ(run("map align " + file("lab.yaml") + " " + experiment + " --epsilon 0").exit_code, 2);
 }
 
+TEST_F(MapCommand, KeepsTheFrameOfAMapFarAway) {
+  std::ofstream(file("far.pgm")) << "P2 2 2 255\n0 255\n255 0\n";
+  std::ofstream(file("far.yaml")) << "image: far.pgm\nresolution: 0.5\norigin: [500000.25, 4649776, 0]\n";
+  const Answer info = run("map info " + file("far.yaml"));
+  EXPECT_THAT(info.out, HasSubstr("origin      x 500000.250 m, y 4649776.000 m, yaw 0.00 deg\n"));
+  EXPECT_THAT(info.out,
+              HasSubstr("points      2: x 500000.50 to 500001.00 m, y 4649776.25 to 4649776.75 m\n"));
+  ASSERT_EQ(run("map convert " + file("far.yaml") + " -o " + file("again.yaml")).exit_code, 0);
+  EXPECT_THAT(content(file("again.yaml")), HasSubstr("origin: [500000.25, 4649776, 0]\n"));
+  ASSERT_EQ(run("map convert " + file("far.yaml") + " -o " + file("far.pcd")).exit_code, 0);
+  EXPECT_THAT(content(file("far.pcd")), HasSubstr("SIZE 8 8 8\n"));
+  std::ofstream(file("cloud.yaml")) << "schema: 1\nname: cloud\nmap: {point_cloud: {path: far.pcd}}\n"
+                                       "observations: {carmen_log: {path: drive.log}}\n"
+                                       "trials: {whole: true}\n";
+  EXPECT_THAT(run("map info " + file("cloud.yaml")).out,
+              HasSubstr("points      2: x 500000.50 to 500001.00 m, y 4649776.25 to 4649776.75 m\n"));
+}
+
+TEST_F(MapCommand, AlignsAMapWithOneFarAway) {
+  const std::string experiment = std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml";
+  ASSERT_EQ(run("map convert " + experiment + " -o " + file("lab.yaml")).exit_code, 0);
+  std::string moved = content(file("lab.yaml"));
+  const std::size_t origin = moved.find("origin: [");
+  moved.replace(origin, moved.find(']', origin) + 1 - origin, "origin: [500000, 4649776, 0]");
+  std::ofstream(file("far.yaml")) << moved;
+  const Answer answer = run("map align " + file("far.yaml") + " " + file("lab.yaml") + " --epsilon 0.1");
+  double x = 0.0, y = 0.0, yaw = 0.0;
+  ASSERT_EQ(std::sscanf(answer.out.c_str(), "pose [%lf, %lf, %lf]", &x, &y, &yaw), 3) << answer.out;
+  EXPECT_NEAR(x, 500'000.015, 0.02);
+  EXPECT_NEAR(y, 4'649'776.015, 0.02);
+  EXPECT_NEAR(yaw, 0.0, 0.06);
+}
+
 TEST_F(MapCommand, SaysWhereMapsDoNotFit) {
   ASSERT_EQ(
       run("map build " + file("drive.log") + " -o " + file("tiny.yaml") + " --set resolution=0.5").exit_code,

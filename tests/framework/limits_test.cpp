@@ -71,5 +71,22 @@ TEST(Limits, OfMapsCells) {
   EXPECT_THAT(fault_of_map(map), HasSubstr("a resolution of 1e-06 m is out of range"));
 }
 
+TEST(Limits, OfMapsWithAnOriginOfTheirOwn) {
+  // 4,649,776 m away there are 0.5 m between neighbouring numbers, and 8 mm 66 km away.
+  MapData map = map_at(10.0F, 0.05);
+  map.origin = {500'000.0, 4'649'776.0, 0.0};
+  EXPECT_THAT(fault_of_map(map), IsEmpty());
+  map.points.x[0] = 66'000.0F;
+  EXPECT_THAT(fault_of_map(map), HasSubstr("places 66000 m from its own origin, where single precision is "
+                                           "good to 0.0078 m, are too far for a map of 0.05 m resolution; "
+                                           "cut the map"));
+  // Along y it is the point at 1 m that counts.
+  map = map_at(10.0F, 0.05);
+  map.origin = {9'999'990.0, 0.0, 0.0};
+  EXPECT_THAT(fault_of_map(map), IsEmpty());
+  map.origin.x() += 1.0;
+  EXPECT_THAT(fault_of_map(map), HasSubstr("at most 1e+07 m are allowed"));
+}
+
 }  // namespace
 }  // namespace glocal::test::limits_test

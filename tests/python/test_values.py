@@ -122,6 +122,15 @@ def test_the_path_of_a_map_has_its_poses():
     assert np.allclose(made.path, [[1, 2, 0, 0, 0, 0, 1], [3, 4, 5, 0.5, 0.5, 0.5, 0.5]])
 
 
+def test_a_map_far_away_has_an_origin():
+    made = glocal.GlobalMap([[1, 2]], resolution=0.1, origin=(500000, 4649776.5, 0))
+    assert made.origin == (500000, 4649776.5, 0)
+    assert np.asarray(made.points).tolist() == [[1, 2, 0]]
+    assert small_map()[0].origin == (0, 0, 0)
+    with pytest.raises(ValueError, match="x, y and z .m. of the map's origin are wanted"):
+        glocal.GlobalMap([[1, 2]], origin=(500000, 4649776.5))
+
+
 def test_a_map_needs_points():
     with pytest.raises(ValueError, match="without any point"):
         glocal.GlobalMap(grid=glocal.OccupancyGrid(np.ones((2, 2)), 0.1))

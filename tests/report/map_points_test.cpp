@@ -44,6 +44,11 @@ TEST(MapPoints, AnywhereLieTheMedianDistanceApart) {
   EXPECT_NEAR(map_points(points_at(at))["spacing_m"].get<double>(), nearest[150], 1e-6);
 }
 
+TEST(MapPoints, FarAwayAreToTheMillimetreToo) {
+  EXPECT_EQ(map_points(points_at({{2, 0}, {1, 0.5F}}), {500'000.0, 4'649'776.0, 0.0}).dump(),
+            R"({"x":[500001000,500002000],"y":[4649776500,4649776000],"spacing_m":1.118034})");
+}
+
 TEST(MapPoints, InSpaceHaveHeights) {
   Points points;
   points.push_back({1.0F, 2.0F, 0.5F});

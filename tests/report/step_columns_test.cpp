@@ -52,6 +52,11 @@ TEST(ShortNumbers, AreAllButThoseOfAKey) {
     "at": {"x": 1.234568, "stamp": 2.3456789123}, "n": [1, 0.1234568, "0.1234567891"]})"));
 }
 
+TEST(ShortNumbers, KeepMillimetresFarAway) {
+  EXPECT_EQ(with_short_numbers(Json{4649776.12345, -12345.67891, 9999.87654}, "").dump(),
+            "[4649776.123,-12345.679,9999.877]");
+}
+
 TEST(ShortNumber, HasSevenDigitsAndNoPointWhereItIsWhole) {
   EXPECT_EQ(short_number(0.30000000000000004).dump(), "0.3");
   EXPECT_EQ(short_number(-17.956381234).dump(), "-17.95638");
@@ -105,6 +110,14 @@ TEST(StepColumns, HaveHeightsAndRotationsInSpace) {
   EXPECT_EQ(columns["candidates_in_space"], Json::parse("[[3, 0.6, 0, 0, 0.8, 0, 0, 0, 0, 1]]"));
   EXPECT_EQ(columns["best"]["z"], Json::parse("[3]"));
   EXPECT_EQ(columns["best"]["qx"], Json::parse("[0.6]"));
+}
+
+TEST(StepColumns, HaveClustersFarAwayToTheMillimetre) {
+  StepRecord record = step_record(0, {});
+  record.result.clusters[0].map_from_robot = Pose2{500'000.1234, 4'649'776.4321, 0.0};
+  const Json columns = columns_of({record}, 1);
+  EXPECT_EQ(columns["best"]["x"].dump(), "[500000.123]");
+  EXPECT_EQ(columns["best"]["y"].dump(), "[4649776.432]");
 }
 
 TEST(StepColumns, HaveTheVerificationsOfTheStepsThatWereVerified) {

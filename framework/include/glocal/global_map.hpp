@@ -11,15 +11,17 @@
 #include <vector>
 
 #include "glocal/free_voxels.hpp"
+#include "glocal/motion.hpp"
 #include "glocal/occupancy_grid.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose3.hpp"
 
 namespace glocal {
 
-/// What a MapSource delivers.
+/// What a MapSource delivers. Where the map lies far from the origin of its frame, all places are held
+/// relative to an `origin` near them, as single precision is coarse far away.
 struct MapData {
-  Points points;            ///< Occupied places, m, in the map's frame. Never empty.
+  Points points;            ///< Occupied places, m. Never empty.
   Points normals;           ///< Unit normals of `points`, or empty.
   OccupancyGrid grid;       ///< Free, occupied and unknown cells.
   std::vector<Pose3> path;  ///< Robot poses the map was made from, in order; empty if not known.
@@ -27,7 +29,13 @@ struct MapData {
   double resolution = 0.0;
   /// Of a map of points in space: what it knows to be free there; empty if it knows of none.
   FreeVoxels free_voxels = {};
+  /// m, in the map's frame: what is to be added to places of points, grid, path and voxels.
+  Vector3 origin = Vector3::Zero();
 };
+
+/// The origin of a map that has this place (m): along each axis 0 where that is up to 1 km, and beyond it the
+/// place, in whole metres; in the plane without a height.
+[[nodiscard]] Vector3 origin_near(const Vector3& place, Motion motion = Motion::planar);
 
 /// The known map, immutable, with indexes that are built once for all who ask.
 class GlobalMap {
@@ -40,6 +48,11 @@ class GlobalMap {
   [[nodiscard]] const OccupancyGrid& grid() const { return data_.grid; }
   [[nodiscard]] const FreeVoxels& free_voxels() const { return data_.free_voxels; }
   [[nodiscard]] const std::vector<Pose3>& path() const { return data_.path; }
+  [[nodiscard]] const Vector3& origin() const { return data_.origin; }
+  /// A pose in the map's frame, relative to the origin as points, grid and path are.
+  [[nodiscard]] Pose3 relative(const Pose3& map_from_robot) const {
+    return shifted(map_from_robot, -data_.origin);
+  }
   /// m; the side of the grid's cells, or else as the source says; 0 if not known.
   [[nodiscard]] double resolution() const {
     return data_.grid.resolution > 0.0 ? data_.grid.resolution : data_.resolution;

@@ -25,8 +25,9 @@ inline constexpr double longest_scan_s = 1000.0;
 [[nodiscard]] std::string fault_of_stamp_ns(std::int64_t ns);
 /// Times of a scan's first and last reading, after its stamp or by the driver's own clock.
 [[nodiscard]] std::string fault_of_scan_times(double first_s, double last_s);
-/// A map as it was loaded: its resolution, number of cells, and distance from its origin, where single
-/// precision must still tell places apart that are an eighth of the resolution from each other.
+/// A map as it was loaded: its resolution, number of cells, and distance from the origin of its frame; and
+/// from MapData::origin, where single precision must still tell places apart that are an eighth of the
+/// resolution from each other.
 [[nodiscard]] std::string fault_of_map(const MapData& map);
 
 }  // namespace glocal

@@ -53,6 +53,7 @@ class Localizer {
   /// From now on this policy says which score is asked for, and not the configured one.
   void use(std::unique_ptr<ThresholdPolicy> threshold_policy);
 
+  /// All poses of the result are in the map's frame, while stages see them relative to the map's origin.
   /// Throws StrategyError if a strategy throws an exception or breaks its contract (strategies.hpp); only
   /// reset() makes it good again.
   [[nodiscard]] StepResult step(const Observation& observation);
@@ -64,7 +65,7 @@ class Localizer {
   /// The local map after the last step.
   [[nodiscard]] const LocalMap& local_map() const { return local_mapper_->map(); }
   [[nodiscard]] std::vector<MapFile> local_map_files() const { return local_mapper_->files(); }
-  /// Which poses of the local map counted in the last step.
+  /// Which poses of the local map, relative to the map's origin, counted in the last step.
   [[nodiscard]] const PoseGate& gate() const { return gate_; }
   /// In which step of a trial a pose can be declared at the earliest, counted from 1.
   [[nodiscard]] std::size_t least_steps() const { return verdict_rule_->least_steps(); }
@@ -92,7 +93,8 @@ class Localizer {
   void verify(const LocalMap& local, StepResult& result);
 
   Motion motion_;
-  Prior prior_;
+  Vector3 origin_;  ///< The map's; in the plane without a height.
+  Prior prior_;     ///< In the map's frame.
   std::unique_ptr<LocalMapper> local_mapper_;
   std::unique_ptr<Matcher> matcher_;
   std::unique_ptr<Clusterer> clusterer_;

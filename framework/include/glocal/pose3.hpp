@@ -98,6 +98,12 @@ struct Pose3 {
   return {back * -pose.translation(), back};
 }
 
+/// The same motion where the target's places are `by` farther: in a frame of the same axes whose origin lies
+/// at -`by`.
+[[nodiscard]] inline Pose3 shifted(const Pose3& pose, const Vector3& by) {
+  return {pose.translation() + by, pose.rotation};
+}
+
 /// Distance between two origins, m; of equal heights to the last bit as in the plane.
 [[nodiscard]] inline double distance(const Pose3& a, const Pose3& b) {
   return std::hypot(std::hypot(a.x - b.x, a.y - b.y), a.z - b.z);

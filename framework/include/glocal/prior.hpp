@@ -42,6 +42,9 @@ struct Prior {
 };
 void describe(ParamVisitor& v, Prior& p);
 
+/// The same where places of the map are `by` (m) farther.
+[[nodiscard]] Prior shifted(Prior prior, const Vector3& by);
+
 /// "starts within 5 m of x 3, y 4 with headings of 90 ± 20 deg"; something is given.
 [[nodiscard]] std::string to_string(const Prior& prior);
 

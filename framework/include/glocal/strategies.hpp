@@ -4,9 +4,10 @@
 // All of them: the same calls with the same random state give the same answers, bit for bit. Setting up may
 // throw ConfigError; a step answers with a value ("no pose" is an answer, not an error). reset() forgets all
 // earlier steps. Poses are finite, and at most `farthest_m` from the origin along x, y and z; where the
-// motion is planar, so are they. A stage that works with other motions than the planar one says so: with a
-// member `static constexpr Motions motions` (motion.hpp). The localizer checks each answer: one that breaks a
-// contract fails the trial, with the strategy's name.
+// motion is planar, so are they. Poses in the map are relative to its origin (MapData::origin), as its points
+// are; the localizer brings them to the map's frame. A stage that works with other motions than the planar
+// one says so: with a member `static constexpr Motions motions` (motion.hpp). The localizer checks each
+// answer: one that breaks a contract fails the trial, with the strategy's name.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,14 @@
 #include "glocal/global_map.hpp"
 
+#include <cmath>
+
 namespace glocal {
+
+Vector3 origin_near(const Vector3& place, Motion motion) {
+  constexpr double near_m = 1000.0;  // There single precision is good to 0.06 mm.
+  const auto along = [](double value) { return std::abs(value) > near_m ? std::round(value) : 0.0; };
+  return {along(place.x()), along(place.y()), motion == Motion::planar ? 0.0 : along(place.z())};
+}
 
 std::shared_ptr<const void> GlobalMap::shared_index(
     std::type_index type, const std::string& key,

@@ -35,6 +35,23 @@ void sort_by_rating(std::vector<Cluster>& clusters, std::vector<Rating>& ratings
   ratings = std::move(sorted_ratings);
 }
 
+/// Takes all poses of a step from places relative to the map's origin to the map's frame.
+void add_origin(StepResult& result, const Vector3& origin) {
+  const auto add_to = [&](Pose3& pose) { pose = shifted(pose, origin); };
+  const auto add_to_both = [&](Hypothesis& h) {
+    add_to(h.map_from_local);
+    add_to(h.map_from_robot);
+  };
+  for (Hypothesis& h : result.hypotheses) add_to_both(h);
+  for (Cluster& cluster : result.clusters) add_to(cluster.map_from_robot);
+  Verdict& verdict = result.verdict;
+  if (verdict.map_from_robot) add_to(*verdict.map_from_robot);
+  for (Pose3& candidate : verdict.candidates) add_to(candidate);
+  if (verdict.estimate) add_to(verdict.estimate->map_from_robot);
+  if (!result.verification) return;
+  for (Hypothesis& rival : result.verification->rivals) add_to_both(rival);
+}
+
 /// Says what the verdict leaves out of account.
 void add_prior(Verdict& verdict, const Prior& prior) {
   verdict.why +=
@@ -98,12 +115,14 @@ std::optional<std::string> why_unfit(const StrategyChoice& choice, const Registr
 Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup,
                      std::uint64_t seed)
     : motion_(config.motion),
+      origin_(setup.map->origin()),
       prior_(config.prior),
       unknown_place_(config.unknown_place, setup.map, contact_epsilon_on(*setup.map, config)),
       seed_(seed),
       rng_(seed_.stream({0})) {
   if (const auto why = why_nowhere(prior_, *setup.map))
     throw ConfigError({{"", 0, 0, "localizer.prior.region: " + *why}});
+  if (motion_ == Motion::planar) origin_.z() = 0.0;
   if (config.setup_check.enabled && motion_ == Motion::planar) setup_.emplace(config.setup_check);
   setup.contact_epsilon = contact_epsilon_on(*setup.map, config);
   setup.motion = motion_;
@@ -147,6 +166,7 @@ StepResult Localizer::step(const Observation& observation) {
   verify(local, result);
   add_misfit(result);
   if (!gate_.is_open()) add_prior(result.verdict, prior_);
+  if (!origin_.isZero(0.0)) add_origin(result, origin_);
   return result;
 }
 
@@ -166,7 +186,7 @@ const LocalMap& Localizer::add(const Observation& observation, StepResult& resul
   result.local_map_points = local.points.size();
   if (prior_.is_given()) {
     start_.follow(local, observation.odom_from_robot);
-    gate_ = PoseGate(prior_, start_.local_from_start());
+    gate_ = PoseGate(shifted(prior_, -origin_), start_.local_from_start());
   }
   return local;
 }

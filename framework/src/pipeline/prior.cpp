@@ -39,12 +39,12 @@ bool has_point(const Points& points, const StartRegion& region, double reach) {
 }
 
 std::string text_of(const StartRegion& region) {
-  return fmt::format("within {:g} m of x {:g}, y {:g}", *region.radius, *region.x, *region.y);
+  return fmt::format("within {:g} m of x {:.10g}, y {:.10g}", *region.radius, *region.x, *region.y);
 }
 
-std::string range_of(const std::vector<float>& values) {
+std::string range_of(const std::vector<float>& values, double origin) {
   const Extent extent = extent_of(values);
-  return fmt::format("from {:.1f} m to {:.1f} m", extent.low, extent.high);
+  return fmt::format("from {:.1f} m to {:.1f} m", origin + extent.low, origin + extent.high);
 }
 
 }  // namespace
@@ -100,6 +100,13 @@ bool Prior::allows(const Pose3& map_from_start) const {
   return degrees(turned) <= *heading.width_deg / 2.0;
 }
 
+Prior shifted(Prior prior, const Vector3& by) {
+  if (!prior.region.is_given()) return prior;
+  *prior.region.x += by.x();
+  *prior.region.y += by.y();
+  return prior;
+}
+
 std::string to_string(const Prior& prior) {
   std::string text = "starts";
   if (prior.region.is_given()) text += " " + text_of(prior.region);
@@ -113,13 +120,14 @@ std::string to_string(const Prior& prior) {
 std::optional<std::string> why_nowhere(const Prior& prior, const GlobalMap& map) {
   constexpr double reach = 100.0;  // m
   if (!prior.region.is_given()) return std::nullopt;
+  const StartRegion region = shifted(prior, -map.origin()).region;
   const bool has_cells = !map.grid().cells.empty();
-  if (has_cells ? has_free_cell(map.grid(), prior.region) : has_point(map.points(), prior.region, reach))
+  if (has_cells ? has_free_cell(map.grid(), region) : has_point(map.points(), region, reach))
     return std::nullopt;
   return fmt::format("the map has nothing {}: {}; its points have x {} and y {}, so move the region there",
                      text_of(prior.region),
                      has_cells ? "no free cell" : fmt::format("no point is nearer than {:g} m", reach),
-                     range_of(map.points().x), range_of(map.points().y));
+                     range_of(map.points().x, map.origin().x()), range_of(map.points().y, map.origin().y()));
 }
 
 void StartInLocalMap::follow(const LocalMap& local, const Pose3& odom_from_robot) {

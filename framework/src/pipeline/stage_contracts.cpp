@@ -82,6 +82,10 @@ void check_normals(const Points& normals, const Points& points) {
 
 void check_map(const MapData& map, Motion motion) {
   require(!map.points.empty(), "the map has no points");
+  require(is_near(map.origin), "the origin is not finite, or farther than {} m from that of the map's frame",
+          farthest_m);
+  require(motion != Motion::planar || map.origin.z() == 0.0,
+          "the origin has the height {} m; where the motion is planar, it is 0", map.origin.z());
   check_points(map.points, "points");
   check_normals(map.normals, map.points);
   const OccupancyGrid& grid = map.grid;

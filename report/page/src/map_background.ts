@@ -122,7 +122,7 @@ export function drawGridLines(pen: Pen, screen: Screen): void {
 /** The metres of the lines, along the lower and the right edge. */
 export function drawGridNumbers(pen: Pen, screen: Screen): void {
   const { step, across, up } = linesOf(screen);
-  const told = (value: number): string => (Math.abs(value) < step / 2 ? "0" : String(Number(significant(value, 6)))).replace("-", "−");
+  const told = (value: number): string => (Math.abs(value) < step / 2 ? "0" : String(Number(significant(value, 9)))).replace("-", "−");
   pen.save();
   pen.fillStyle = themeColour("soft");
   pen.font = "10px system-ui, sans-serif";

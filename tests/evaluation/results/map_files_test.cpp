@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "evaluation/results/pcd.hpp"
 #include "files.hpp"
 #include "glocal/error.hpp"
 
@@ -21,6 +22,21 @@ OccupancyGrid small_grid() {
 TEST(MapFiles, GridHasItsCellsAsRunLengths) {
   EXPECT_EQ(grid_json(small_grid()), Json::parse(R"({"resolution": 0.25, "origin": {"x": 1.0, "y": -2.0,
     "theta": 0.5}, "width": 3, "height": 2, "cells": "1u2f2o1u"})"));
+}
+
+TEST(MapFiles, AreInTheFrameOfAMapFarAway) {
+  MapData data;
+  data.points.push_back({0.25F, 0.5F, 0.0F});
+  data.grid = small_grid();
+  data.origin = {500'000.0, 4'649'776.0, 0.0};
+  const TemporaryFolder folder;
+  const auto files = map_files(GlobalMap(std::move(data)));
+  ASSERT_EQ(files.size(), 2U);
+  const MapPoints points = read_map_pcd(folder.write("global.pcd", files[0].second));
+  EXPECT_EQ(points.origin, Vector3(500'000, 4'649'777, 0)) << "halves are rounded away from 0";
+  EXPECT_EQ(points.points[0], (Point{0.25F, -0.5F, 0.0F}));
+  EXPECT_EQ(Json::parse(files[1].second)["origin"],
+            Json::parse(R"({"x": 500001.0, "y": 4649774.0, "theta": 0.5})"));
 }
 
 class ReadGrid : public testing::Test {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <limits>
 
 #include "files.hpp"
@@ -106,6 +108,31 @@ TEST_F(ReadPcd, RefusesCoordinatesThatAreNoLengths) {
     points.y[1] = bad;
     EXPECT_THAT(fault(pcd(points)), HasSubstr("no length within 2000 km, in point 1"));
   }
+}
+
+TEST(Pcd, WithAnOriginHasDoublePrecision) {
+  const std::string text = pcd(two_points(), {500'000.0, 4'649'776.0, 0.0});
+  std::string header = header_of_two;
+  header.replace(header.find("4 4 4"), 5, "8 8 8");
+  ASSERT_EQ(text.substr(0, header.size()), header);
+  ASSERT_EQ(text.size(), header.size() + 2 * 3 * sizeof(double));
+  std::array<double, 6> numbers{};
+  std::memcpy(numbers.data(), text.data() + header.size(), sizeof numbers);
+  EXPECT_THAT(numbers, testing::ElementsAre(500'001.0, 4'649'774.0, 0.5, 500'000.0, 4'649'780.0, 0.0));
+}
+
+TEST_F(ReadPcd, TakesDoublePrecisionRelativeToAnOrigin) {
+  const Vector3 origin{500'000.0, 4'649'776.0, 0.0};
+  const MapPoints map = read_map_pcd(folder_.write("far.pcd", pcd(two_points(), origin)));
+  EXPECT_EQ(map.origin, Vector3(500'001, 4'649'774, 0));
+  EXPECT_EQ(map.points[0], (Point{0.0F, 0.0F, 0.5F}));
+  EXPECT_EQ(map.points[1], (Point{-1.0F, 6.0F, 0.0F}));
+  const std::string whole = pcd(two_points(), origin);
+  EXPECT_THAT(fault(whole.substr(0, whole.size() - 1)), HasSubstr("announces 2 points of 24 bytes"));
+  Points points = two_points();
+  points.x[1] = 1.0e7F;
+  EXPECT_THAT(fault(pcd(points, origin)), HasSubstr("no length within 2000 km, in point 1"));
+  EXPECT_EQ(read_map_pcd(folder_.write("near.pcd", pcd(two_points()))).origin, Vector3(0, 0, 0));
 }
 
 }  // namespace

@@ -129,6 +129,24 @@ TEST(TrialStarts, LieNearFreeCellsWhereThePathIsNotKnown) {
               ElementsAre(1, 2, 3));
 }
 
+TEST(TrialStarts, AreLookedForInTheFrameOfAMapFarAway) {
+  Drive drive = straight(11);
+  for (Sample& sample : drive.samples)
+    sample.map_from_robot = shifted(*sample.map_from_robot, {500'000.0, 4'000'000.0, 0.0});
+  const auto starts_on = [&](MapData data) {
+    data.origin = {500'000.0, 4'000'000.0, 0.0};
+    return starts({.starts_m = {}, .every_scan = 1, .within_map_m = 1.0}, drive, GlobalMap(std::move(data)));
+  };
+  MapData data;
+  data.points.push_back({4.0F, 0.5F, 0.0F});
+  EXPECT_THAT(starts_on(data), ElementsAre(4)) << "near points";
+  data.grid = {{-0.5, -0.5, 0.0}, 1.0, 11, 1, std::vector<Cell>(11, Cell::unknown)};
+  data.grid.cell(2, 0) = Cell::free;
+  EXPECT_THAT(starts_on(data), ElementsAre(1, 2, 3)) << "near free cells";
+  data.path = {Pose2{8, 1, 0}};
+  EXPECT_THAT(starts_on(data), ElementsAre(8)) << "near the path";
+}
+
 TEST(TrialStarts, SayWhyThereAreNone) {
   EXPECT_EQ(fault({.starts_m = {}, .whole = true}, drive_of({})),
             "error: observations: the drive has no observation; check the source and its segments");

@@ -66,6 +66,24 @@ TEST(ReferenceFit, ScansFitEachOtherWhereTheyWereMade) {
   EXPECT_FALSE(fit_among_scans(along, nowhere, 0.05));
 }
 
+TEST(ReferenceFit, FarAwayNothingIsRounded) {
+  MapData data = wall().data();
+  data.origin = {500'000.0, 4'649'776.0, 0.0};
+  const GlobalMap map(std::move(data));
+  const auto fit = [&](double error) {
+    return *reference_fit(drive(10, {500'000.0 + error, 4'649'776.0, 0.0}), map, 0.01);
+  };
+  EXPECT_DOUBLE_EQ(fit(0.009), 1.0);
+  EXPECT_DOUBLE_EQ(fit(0.012), 0.0);
+  const auto at = [](double stamp) -> std::optional<Pose3> {
+    return Pose2{500'000.0 + stamp, 4'649'776.0, 0.0};
+  };
+  Drive along = drive(10, {});
+  for (std::size_t i = 0; i < along.samples.size(); ++i)
+    along.samples[i].observation.stamp = static_cast<double>(i);
+  EXPECT_DOUBLE_EQ(*fit_among_scans(along, at, 0.001), 1.0);
+}
+
 TEST(ReferenceFit, OnlyReferencesOfAnotherFrameAreDoubted) {
   EXPECT_FALSE(doubt_of_references(drive(2, {}), wall(), 0.1));
   const auto doubt = doubt_of_references(drive(10, {0.0, 0.0, std::numbers::pi}), wall(), 0.1);

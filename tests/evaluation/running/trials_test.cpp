@@ -201,6 +201,17 @@ TEST(Outcome, IsFoundByItsName) {
   EXPECT_THROW(static_cast<void>(outcome_of("")), std::invalid_argument);
 }
 
+TEST(IsOnMap, LooksInTheFrameOfAMapFarAway) {
+  MapData data;
+  data.points.push_back({});
+  data.grid = {{0.0, 0.0, 0.0}, 1.0, 2, 1, {Cell::free, Cell::unknown}};
+  data.origin = {500'000.0, 4'000'000.0, 0.0};
+  const GlobalMap map(std::move(data));
+  EXPECT_TRUE(is_on_map(Pose2{500'000.5, 4'000'000.5, 0}, map));
+  EXPECT_FALSE(is_on_map(Pose2{500'001.5, 4'000'000.5, 0}, map));
+  EXPECT_FALSE(is_on_map(Pose2{0.5, 0.5, 0}, map));
+}
+
 TEST(PoseError, InSpaceIsDistanceAndAngle) {
   const PoseError error = pose_error(Pose3({2, 3, 6}, exponential({0.3, 0, 0})), Pose3());
   EXPECT_DOUBLE_EQ(error.translation_m, 7.0);

@@ -515,5 +515,91 @@ TEST_F(LocalizerTest, DeclaresNothingWhileTheSetUpIsWrong) {
   EXPECT_EQ(localizer.step(observation).verdict.kind, VerdictKind::localized);
 }
 
+/// A map of the point (500000, 4649776, 2000).
+std::shared_ptr<const GlobalMap> far_map() {
+  MapData data;
+  data.points.push_back({});
+  data.origin = {500'000.0, 4'649'776.0, 2000.0};
+  return std::make_shared<const GlobalMap>(std::move(data));
+}
+
+class OnAFarMap : public LocalizerTest {
+ protected:
+  OnAFarMap() {
+    give({Hypothesis::by_contact(Pose2{3, 4, 0.5}, 0.9), Hypothesis::by_contact(Pose2{-7, 1, 0}, 0.8)},
+         {0.5, 0.4});
+    script_->local.local_from_robot = Pose2{2, 0, 0};
+  }
+  [[nodiscard]] Localizer make_with(const LocalizerConfig& config) {
+    return {config, catalog_, {far_map(), 1}, 1};
+  }
+};
+
+TEST_F(OnAFarMap, StagesSeePosesRelativeToTheOriginAndResultsAreInTheMapsFrame) {
+  std::optional<StepResult> seen;
+  script_->judge = [&](const StepResult& step) {
+    seen = step;
+    Verdict verdict{VerdictKind::ambiguous, std::nullopt, {Pose2{3, 4, 0}, Pose2{1, -2, 0}}, "two"};
+    verdict.estimate = {Pose2{3, 4, 0}, 0.5};
+    return verdict;
+  };
+  const StepResult result = make_with(follow(script_)).step({});
+  EXPECT_EQ(seen->hypotheses[1].map_from_robot, (Pose2{-5, 1, 0}));
+  EXPECT_EQ(seen->clusters[1].map_from_robot, (Pose2{-5, 1, 0}));
+
+  // In the plane nothing has a height.
+  EXPECT_EQ(result.hypotheses[1].map_from_local, (Pose2{499'993, 4'649'777, 0}));
+  EXPECT_EQ(result.hypotheses[1].map_from_robot, (Pose2{499'995, 4'649'777, 0}));
+  EXPECT_EQ(result.hypotheses[0].map_from_local, (Pose2{500'003, 4'649'780, 0.5}));
+  EXPECT_EQ(result.clusters[1].map_from_robot, (Pose2{499'995, 4'649'777, 0}));
+  EXPECT_THAT(result.verdict.candidates,
+              ElementsAre(Pose2{500'003, 4'649'780, 0}, Pose2{500'001, 4'649'774, 0}));
+  EXPECT_EQ(result.estimate(), (Pose2{500'003, 4'649'780, 0}));
+  EXPECT_EQ(result.local_from_robot, (Pose2{2, 0, 0}));
+}
+
+TEST_F(OnAFarMap, ADeclaredPoseAndItsRivalsAreInTheMapsFrame) {
+  script_->local.points.push_back({});
+  script_->judge = [](const StepResult&) {
+    return Verdict{VerdictKind::localized, Pose2{5, 4, 0}, {}, "sure"};
+  };
+  script_->verify = [](const Pose3& map_from_local) {
+    EXPECT_EQ(map_from_local, (Pose2{3, 4, 0}));
+    Verification found;
+    found.near = {.translation = 1.0, .rotation = 0.5};
+    found.rivals = {Hypothesis::by_contact(Pose2{10, 20, 0}, 0.2)};
+    found.certificate = {.contact = 0.9, .at_most = 0.2};
+    return found;
+  };
+  const StepResult result = make_with(follow(script_, true)).step({});
+  EXPECT_EQ(result.verdict.map_from_robot, (Pose2{500'005, 4'649'780, 0}));
+  ASSERT_TRUE(result.verification);
+  ASSERT_EQ(result.verification->rivals.size(), 1U);
+  EXPECT_EQ(result.verification->rivals[0].map_from_local, (Pose2{500'010, 4'649'796, 0}));
+  EXPECT_EQ(result.verification->rivals[0].map_from_robot, (Pose2{500'012, 4'649'796, 0}));
+}
+
+TEST_F(OnAFarMap, InSpaceHeightsAreOfTheMapsFrameToo) {
+  give({Hypothesis::by_contact(Pose3({1, 2, 3}, exponential({0.1, 0.2, 0.3})), 0.9)}, {1.0});
+  LocalizerConfig config = follow(script_);
+  config.motion = Motion::free;
+  const StepResult result = make_with(config).step({});
+  EXPECT_EQ(result.hypotheses[0].map_from_local,
+            Pose3({500'001, 4'649'778, 2003}, exponential({0.1, 0.2, 0.3})));
+}
+
+TEST_F(OnAFarMap, APriorIsInTheMapsFrame) {
+  LocalizerConfig config = follow(script_);
+  config.prior = {.region = {500'003.0, 4'649'780.0, 1.0}, .heading = {}};
+  script_->r = {1.0};
+  script_->local.local_from_robot = {};
+  const StepResult result = make_with(config).step({});
+  ASSERT_EQ(result.hypotheses.size(), 1U);
+  EXPECT_EQ(result.hypotheses[0].map_from_robot, (Pose2{500'003, 4'649'780, 0.5}));
+  EXPECT_EQ(result.verdict.why, "only starts within 1 m of x 500003, y 4649780 were looked at");
+  config.prior.region.x = 3.0;
+  EXPECT_THROW(make_with(config), ConfigError);
+}
+
 }  // namespace
 }  // namespace glocal::test::localizer_test

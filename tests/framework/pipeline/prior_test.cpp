@@ -126,5 +126,15 @@ TEST(Prior, OnAMapOfPointsARegionNeedsOneThatALidarWouldSee) {
       "0.0 m to 2.0 m and y from 0.0 m to 1.0 m, so move the region there");
 }
 
+TEST(Prior, IsInTheFrameOfAMapThatIsHeldRelativeToItsOrigin) {
+  MapData data = map_of_one_free_cell().data();
+  data.origin = {500'000.0, 4'000'000.0, 0.0};
+  const GlobalMap map(std::move(data));
+  EXPECT_EQ(why_nowhere(within(500'011.5, 4'000'020.5, 0.01), map), std::nullopt);
+  EXPECT_EQ(why_nowhere(within(11.5, 20.5, 0.01), map),
+            "the map has nothing within 0.01 m of x 11.5, y 20.5: no free cell; its points have x from "
+            "500010.0 m to 500010.0 m and y from 4000020.0 m to 4000020.0 m, so move the region there");
+}
+
 }  // namespace
 }  // namespace glocal::test::prior_test

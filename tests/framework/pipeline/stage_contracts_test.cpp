@@ -79,6 +79,11 @@ TEST(StageContracts, MapsHavePointsAndAWholeGrid) {
   expect_broken([](MapData& map) { map.grid.resolution = not_a_number; });
   expect_broken([](MapData& map) { map.grid.map_from_grid.x = infinite; });
   expect_broken([](MapData& map) { map.path[0] = Pose2{0, 0, not_a_number}; });
+  expect_broken([](MapData& map) { map.origin.y() = not_a_number; });
+  expect_broken([](MapData& map) { map.origin.x() = 2e7; });
+  expect_broken([](MapData& map) { map.origin.z() = 2000.0; });
+  good.origin = {5e5, 4.6e6, 2000.0};
+  EXPECT_NO_THROW(check_map(good, Motion::upright));
 }
 
 TEST(StageContracts, SamplesArePlaces) {

@@ -48,6 +48,15 @@ TEST_F(BagMaps, CellsLieWhereTheOriginSays) {
   EXPECT_NEAR(map.points.y[0], 21.5, 1e-5);
 }
 
+TEST_F(BagMaps, FarAwayCellsAreHeldRelativeToAnOriginInWholeMetres) {
+  recording_.grid("/map", 0, 1.0F, 2, {0, 100}, Pose2{500'000.25, 4'649'776.0, std::numbers::pi / 2.0});
+  const MapData map = load();
+  EXPECT_EQ(map.origin, Vector3(500'000, 4'649'776, 0));
+  ASSERT_EQ(map.points.size(), 1U);
+  EXPECT_NEAR(map.points.x[0], -0.25, 1e-6);
+  EXPECT_NEAR(map.points.y[0], 1.5, 1e-6);
+}
+
 TEST_F(BagMaps, TheLastMessageCounts) {
   recording_.grid("/map", 0, 1.0F, 2, {100, 100});
   recording_.grid("/map", 5, 1.0F, 2, {0, 100});

@@ -49,6 +49,26 @@ TEST(LogMap, CountsHitsAndFreesTheWay) {
   EXPECT_EQ(LogMap(params, {}).load().points.size(), 2U);
 }
 
+TEST(LogMap, OfADriveFarAwayIsHeldRelativeToAnOriginNearItsFirstPose) {
+  const test::TemporaryFolder folder;
+  const auto load = [&](double x, double y) {
+    return LogMap(params_for(folder.write("a.log", scan_at(x + 0.25, y + 0.25, "2 0.01 1.8") +
+                                                       scan_at(x + 0.75, y + 0.25, "2 0.01 1.3"))),
+                  {})
+        .load();
+  };
+  const MapData near = load(0.0, 0.0);
+  const MapData far = load(500'000.0, 4'649'776.0);
+  EXPECT_EQ(near.origin, Vector3(0, 0, 0));
+  EXPECT_EQ(far.origin, Vector3(500'000, 4'649'776, 0));
+  ASSERT_EQ(near.points.size(), 1U);
+  EXPECT_NEAR(near.points.x[0], 2.05, 1e-6);
+  EXPECT_EQ(far.points, near.points);
+  EXPECT_EQ(far.path, near.path);
+  EXPECT_EQ(far.grid.map_from_grid, near.grid.map_from_grid);
+  EXPECT_EQ(far.grid.cells, near.grid.cells);
+}
+
 TEST(LogMap, ACellThatMostRaysPassIsFree) {
   const test::TemporaryFolder folder;
   std::string log = scan_at(0.25, 0.25, "2 0.01 2") + scan_at(0.25, 0.25, "2 0.01 2");

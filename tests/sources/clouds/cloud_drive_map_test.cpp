@@ -66,6 +66,20 @@ TEST_F(CloudDriveMapTest, HasTheMeanOfWhatEachCubeWasHitBy) {
   EXPECT_THAT(fault(), HasSubstr("its map has no point; lower min_clouds or min_range"));
 }
 
+TEST_F(CloudDriveMapTest, FarAwayIsHeldRelativeToAnOriginNearItsFirstPose) {
+  write_cloud(0, {{2.1F, 0.2F, 1.1F}});
+  write_cloud(1, {{1.0F, 0.0F, 0.0F}});
+  params_.drive.reference =
+      write_poses("poses.tum", "0 500000.25 4649776 1500 0 0 0 1\n1 500010 4649776.125 1499.5 0 0 0 1\n");
+  const MapData map = CloudDriveMap(params_, {.motion = Motion::free}).load();
+  EXPECT_EQ(map.origin, Vector3(500'000, 4'649'776, 1500));
+  EXPECT_THAT(map.points.x, Pointwise(FloatNear(1e-6F), {2.35F, 11.0F}));
+  EXPECT_THAT(map.points.y, Pointwise(FloatNear(1e-6F), {0.2F, 0.125F}));
+  EXPECT_THAT(map.points.z, Pointwise(FloatNear(1e-6F), {1.1F, -0.5F}));
+  ASSERT_EQ(map.path.size(), 2U);
+  EXPECT_EQ(map.path[1], Pose3(Vector3{10, 0.125, -0.5}));
+}
+
 TEST_F(CloudDriveMapTest, TakesTheSegmentsThatItIsGiven) {
   std::string poses;
   for (int i = 0; i <= 10; ++i) {

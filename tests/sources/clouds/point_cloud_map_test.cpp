@@ -28,13 +28,15 @@ Points corner() {
 class PointCloudMapTest : public testing::Test {
  protected:
   MapData load() {
-    const SourceSetup setup{.warn = [&](const std::string& text) { warnings_.push_back(text); },
+    const SourceSetup setup{.motion = motion_,
+                            .warn = [&](const std::string& text) { warnings_.push_back(text); },
                             .note_input = [&](const auto& file) { inputs_.push_back(file.filename()); }};
     return PointCloudMap(params_, setup).load();
   }
 
   test::TemporaryFolder folder_;
   PointCloudMap::Params params_;
+  Motion motion_ = Motion::planar;
   std::vector<std::string> warnings_;
   std::vector<std::string> inputs_;
 };
@@ -48,6 +50,31 @@ TEST_F(PointCloudMapTest, HasThePointsAndTheirSpacing) {
   EXPECT_TRUE(map.path.empty());
   EXPECT_THAT(warnings_, testing::IsEmpty());
   EXPECT_THAT(inputs_, ElementsAre("map.pcd"));
+}
+
+TEST_F(PointCloudMapTest, FarAwayIsHeldRelativeToAnOriginNearItsFirstPoint) {
+  motion_ = Motion::upright;
+  params_.path = test::file_path(
+      folder_.write("map.pcd",
+                    "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH 3\nHEIGHT 1\nDATA ascii\n"
+                    "nan 1 2\n500000.25 -4649776.125 1600.5\n500001.375 -4649775.0625 1601\n"));
+  params_.trajectory = test::file_path(folder_.write("map.tum", "0 500001 -4649775 1600 0 0 0 1\n"));
+  MapData map = load();
+  EXPECT_EQ(map.origin, Vector3(500'000, -4'649'776, 1601)) << "halves are rounded away from 0";
+  EXPECT_THAT(map.points.x, ElementsAre(0.25F, 1.375F));
+  EXPECT_THAT(map.points.y, ElementsAre(-0.125F, 0.9375F));
+  EXPECT_THAT(map.points.z, ElementsAre(-0.5F, 0.0F));
+  ASSERT_EQ(map.path.size(), 1U);
+  EXPECT_EQ(map.path[0], Pose3(Vector3{1, 1, -1}));
+  EXPECT_THAT(warnings_, ElementsAre(testing::HasSubstr("1 of 3 points have no finite coordinates"),
+                                     testing::HasSubstr("all points lie on a line")))
+      << "and nothing is rounded";
+
+  // In the plane heights stay as they are.
+  motion_ = Motion::planar;
+  map = load();
+  EXPECT_EQ(map.origin, Vector3(500'000, -4'649'776, 0));
+  EXPECT_THAT(map.points.z, ElementsAre(1600.5F, 1601.0F));
 }
 
 TEST_F(PointCloudMapTest, TakesOnePointOfEachVoxel) {

@@ -99,6 +99,39 @@ TEST(RosMap, TheLowestRowOfTheImageIsTheLowestY) {
   EXPECT_TRUE(map.path.empty());
 }
 
+TEST(RosMap, FarAwayIsHeldRelativeToAnOriginInWholeMetres) {
+  const test::TemporaryFolder folder;
+  folder.write("map.pgm", "P2 3 1 255\n255 255 0");
+  const auto load = [&](const std::string& origin) {
+    return RosMap({test::file_path(folder.write(
+                      "map.yaml", "image: map.pgm\nresolution: 0.05\norigin: " + origin + "\n"))},
+                  {})
+        .load();
+  };
+  const MapData near = load("[0, 0, 0]");
+  EXPECT_EQ(near.origin, Vector3(0, 0, 0));
+  const MapData far = load("[500000, 4649776, 0]");
+  EXPECT_EQ(far.origin, Vector3(500'000, 4'649'776, 0));
+  EXPECT_EQ(far.points, near.points) << "to the last bit";
+  EXPECT_EQ(far.grid.map_from_grid, near.grid.map_from_grid);
+  // Single precision would make 500,012.6 of 500,012.615 and 4,649,776.5 of 4,649,776.275. The third cell's
+  // centre is at (0.125, 0.025) in the grid.
+  const MapData shifted = load("[500012.49, -4649776.25, 0]");
+  EXPECT_EQ(shifted.origin, Vector3(500'012, -4'649'776, 0));
+  EXPECT_NEAR(shifted.points[0].x, 0.615, 1e-6);
+  EXPECT_NEAR(shifted.points[0].y, -0.225, 1e-6);
+  EXPECT_EQ(shifted.grid.at(0.615, -0.225), o);
+  // Along x it is near.
+  EXPECT_EQ(load("[-12.5, 2000.4, 1]").origin, Vector3(0, 2000, 0));
+  EXPECT_EQ(load("[-12.5, 2000.4, 1]").grid.map_from_grid.x, -12.5);
+}
+
+TEST(RosMap, IsWrittenInItsOwnFrame) {
+  const OccupancyGrid grid{{0.5, -0.25, 1.5}, 0.05, 1, 1, {o}};
+  EXPECT_THAT(ros_map_yaml(grid, "a.pgm", {500'000.0, 4'649'776.0, 0.0}),
+              HasSubstr("origin: [500000.5, 4649775.75, 1.5]\n"));
+}
+
 TEST(RosMap, TurnsWithItsOrigin) {
   const test::TemporaryFolder folder;
   folder.write("map.pgm", "P2 3 1 255\n255 255 0");

@@ -1,5 +1,6 @@
 #include "sources/simulation/planned_drive.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "glocal/yaml.hpp"
 #include "octree_files.hpp"
 #include "sources/plan.hpp"
+#include "sources/simulation/drive_simulator.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/scene.hpp"
 #include "sources/simulation/simulation.hpp"
@@ -110,6 +112,33 @@ TEST(PlannedDrive, ComesByItsWayPoints) {
   // A tour drives the ways between them, there and back again.
   params.tour_legs = 5;
   EXPECT_GT(planned_drive(params, {}).route.poses.size(), 1.5 * static_cast<double>(poses.size()));
+}
+
+TEST(PlannedDrive, InAMapFarAwayIsTheSameFarAway) {
+  const auto read_all = [](const test::Plan& plan, double x, double y) {
+    LaserDriveParams params = params_in(plan);
+    params.tour_legs = 0;
+    params.way_points = {{x + 1.25, y + 1.75}, {x + 14.75, y + 1.75}};
+    params.kidnappings = {{.after_m = 3.0, .to = {x + 1.75, y + 9.25}, .heading_deg = 90.0}};
+    params.boxes = 2;
+    DriveSimulator drive(params, SourceSetup{.seed = 4});
+    std::vector<CarmenScan> scans;
+    while (auto scan = drive.next()) scans.push_back(*std::move(scan));
+    return scans;
+  };
+  const std::vector<CarmenScan> near = read_all(test::Plan(floor_plan, "[0, 0, 0]"), 0.0, 0.0);
+  const std::vector<CarmenScan> far =
+      read_all(test::Plan(floor_plan, "[500000, 4649776, 0]"), 500'000.0, 4'649'776.0);
+  ASSERT_EQ(far.size(), near.size());
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    ASSERT_EQ(far[i].ranges, near[i].ranges);
+    EXPECT_EQ(far[i].odom_from_robot, near[i].odom_from_robot);
+    EXPECT_NEAR(far[i].map_from_robot->x, near[i].map_from_robot->x + 500'000.0, 1e-9);
+    EXPECT_NEAR(far[i].map_from_robot->y, near[i].map_from_robot->y + 4'649'776.0, 1e-9);
+  }
+  const test::Plan plan(floor_plan, "[500000, 4649776, 0]");
+  EXPECT_THAT(test::config_error(plan.folder(), [&] { read_all(plan, 500'005.5, 4'649'776.0); }),
+              testing::HasSubstr("way_points[1]: [500020.25, 4649777.75] lies in no free cell"));
 }
 
 TEST(PlannedDrive, GoesOnToWhereItWasGoing) {

@@ -137,5 +137,16 @@ TEST(RandomScans, SayWhyThereAreNone) {
   EXPECT_NE(fault_of(params, plan).find("missing.yaml"), std::string::npos);
 }
 
+TEST(RandomScans, OfAMapFarAwayAreTheSameFarAway) {
+  const std::vector<Sample> near = read_all(params_of(test::Plan(test::room_plan, "[0, 0, 0]")));
+  const std::vector<Sample> far = read_all(params_of(test::Plan(test::room_plan, "[500000, 4649776, 0]")));
+  ASSERT_EQ(far.size(), near.size());
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    EXPECT_EQ(far[i].observation.scan.hits, near[i].observation.scan.hits);
+    EXPECT_NEAR(far[i].map_from_robot->x, near[i].map_from_robot->x + 500'000.0, 1e-9);
+    EXPECT_NEAR(far[i].map_from_robot->y, near[i].map_from_robot->y + 4'649'776.0, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace glocal::random_scans_test
