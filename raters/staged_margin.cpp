@@ -20,22 +20,26 @@ constexpr PoseTolerance near;
 /// The verdict is ambiguous if the score of a rival is within this of the best one.
 constexpr double candidate_margin = 0.10;
 
+/// A robot that is no farther from where it was stands, and sees the same again.
+constexpr PoseTolerance standing{.translation = 0.05, .rotation = radians(2.0)};
+
 /// A declared pose stays declared while its confidence is at least this.
 constexpr double confidence_to_stay = 0.9;
 /// A scan has lost the best pose if it has a smaller share of the contact that scans have had there so far.
 constexpr double least_of_usual_contact = 0.7;
-/// Steps in which the best pose has been the same before a confidence is enough.
-constexpr int first_steps_to_be_sure = 2;
+/// Steps in which the best pose has been the same and the robot has not stood, before a confidence is enough.
+constexpr int first_views_to_be_sure = 2;
 /// No refutation asks for more.
-constexpr int most_steps_to_be_sure = 1024;
+constexpr int most_views_to_be_sure = 1024;
 
 /// The probability that the best pose is right: logistic in its margin, in the logarithm of the steps in
-/// which it has been the same, and in how much more beams say for it than for any rival. Fitted to starts in
-/// disturbed worlds, on wrong maps and off the map; without beams, to starts in clean worlds
-/// (docs/method.md). Never 1, however clear the margin is: a place off the map has no hypothesis.
-double confidence_of(double margin, int steps, const std::optional<double>& beam_lead) {
-  const double log_odds = beam_lead ? -1.94 + 15.5 * margin + 0.64 * std::log(steps) + 0.51 * *beam_lead
-                                    : -1.5 + 28.5 * margin + 0.45 * std::log(steps);
+/// which it has been the same and the robot has not stood, and in how much more beams say for it than for any
+/// rival. Fitted to starts in disturbed worlds, on wrong maps and off the map; without beams, to starts in
+/// clean worlds (docs/method.md). Never 1, however clear the margin is: a place off the map has no
+/// hypothesis.
+double confidence_of(double margin, int views, const std::optional<double>& beam_lead) {
+  const double log_odds = beam_lead ? -1.94 + 15.5 * margin + 0.64 * std::log(views) + 0.51 * *beam_lead
+                                    : -1.5 + 28.5 * margin + 0.45 * std::log(views);
   return 0.998 / (1.0 + std::exp(-log_odds));
 }
 
@@ -137,14 +141,14 @@ StagedMargin::StagedMargin(const Params& params, const StageSetup& setup)
       stages_(params.stages),
       certified_stages_(setup.has_verifier ? params.certified_stages : std::vector<Stage>{}),
       has_verifier_(setup.has_verifier),
-      steps_to_be_sure_(first_steps_to_be_sure) {}
+      views_to_be_sure_(first_views_to_be_sure) {}
 
 /// A rival that was not known of was there all the time, so no margin has been kept. Without one there is
 /// another chance to be certified once a stage is reached anew.
 void StagedMargin::refute(const Verification& verification) {
   certified_stages_.begin_anew();
   is_declared_ = false;
-  steps_to_be_sure_ = std::min(2 * steps_to_be_sure_, most_steps_to_be_sure);
+  views_to_be_sure_ = std::min(2 * views_to_be_sure_, most_views_to_be_sure);
   const bool has_rival =
       !verification.rivals.empty() && verification.is_about_as_good(verification.rivals.front());
   if (has_rival || !verification.certificate) begin_anew();
@@ -154,12 +158,13 @@ void StagedMargin::reset() {
   begin_anew();
   best_.reset();
   since_turn_.reset();
-  steps_to_be_sure_ = first_steps_to_be_sure;
+  views_to_be_sure_ = first_views_to_be_sure;
 }
 
 void StagedMargin::begin_anew() {
   begin_stages_anew();
   steps_ = 0;
+  views_ = 0;
   distance_ = 0.0;
   sum_of_contact_ = 0.0;
   is_declared_ = false;
@@ -187,6 +192,10 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const Pose3& pose = step.hypotheses.front().map_from_robot;
   best_ = FollowedPose::of(step, pose);
   ++steps_;
+  if (views_ == 0 || !standing.are_near(step.local_from_robot, last_view_)) {
+    ++views_;
+    last_view_ = step.local_from_robot;
+  }
   distance_ += driven;
   sum_of_contact_ += contact;
 
@@ -196,9 +205,9 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const std::optional<double>& violation = step.hypotheses.front().free_space_violation;
   const bool is_consistent = !violation || *violation <= params_.max_free_space_violation;
   const std::optional<double> lead = beam_lead(step.hypotheses);
-  const double confidence = confidence_of(margin, steps_, lead);
+  const double confidence = confidence_of(margin, views_, lead);
   const bool is_steady_now = is_steady(turn_rate_deg);
-  const bool is_sure = is_steady_now && has_verifier_ && lead && steps_ >= steps_to_be_sure_ &&
+  const bool is_sure = is_steady_now && has_verifier_ && lead && views_ >= views_to_be_sure_ &&
                        confidence >= params_.min_confidence;
   const bool may_be_declared = is_steady_now && is_consistent;
   if (is_sure || (may_be_declared && (is_clear || is_clear_if_certified))) is_declared_ = true;

@@ -87,10 +87,12 @@ class StagedMargin final : public VerdictRule {
   bool has_verifier_;
   std::optional<FollowedPose> best_;
   int steps_ = 0;                ///< In which the best pose has been the same.
+  int views_ = 0;                ///< Of these, without those that see the same again.
+  Pose3 last_view_;              ///< local_from_robot of the last one of them.
   double distance_ = 0.0;        ///< m; driven in these.
   bool is_declared_ = false;     ///< In one of them.
   double sum_of_contact_ = 0.0;  ///< Of the latest scan at the best pose, in each of them.
-  int steps_to_be_sure_;         ///< Of them; twice as many after each refutation.
+  int views_to_be_sure_;         ///< Twice as many after each refutation.
   /// Steps since the robot last turned fast; none while it has not.
   std::optional<int> since_turn_;
 };

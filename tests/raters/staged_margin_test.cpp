@@ -161,15 +161,18 @@ TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
   EXPECT_EQ(verdict.estimate->map_from_robot, here);
   // Log odds -1.5 + 28.5 * 0.2 = 4.2, then 4.2 + 0.45 ln 2.
   EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9852260, 1e-6);
-  verdict = rule.judge(step(0.9, 0.7));
+  // A robot that stands sees the same again.
+  verdict = rule.judge(step(0.9, 0.7, 0.04));
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9852260, 1e-6);
+  verdict = rule.judge(step(0.9, 0.7, 0.06));
   EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9891412, 1e-6);
   EXPECT_EQ(rule.judge({}).estimate, std::nullopt);
 }
 
 /// A step that only a confidence can declare: little of its scan is on the map, and much of it is in free
 /// space. Log odds of the second one: -1.94 + 15.5 * 0.2 + 0.64 ln 2 + 0.51 * 6.
-StepResult cluttered(double omega_scan = 0.5) {
-  StepResult result = step(0.5, 0.3);
+StepResult cluttered(double driven, double omega_scan = 0.5) {
+  StepResult result = step(0.5, 0.3, driven);
   result.omega_scan = omega_scan;
   result.hypotheses[0].free_space_violation = 0.6;
   result.hypotheses[0].beam_evidence = 7.5;
@@ -185,8 +188,9 @@ StageSetup with_verifier() {
 
 TEST(StagedMargin, WhatBeamsSayMakesAConfidenceThatIsEnough) {
   StagedMargin rule({.min_confidence = 0.98}, with_verifier());
-  EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::searching);
-  const Verdict verdict = rule.judge(cluttered());
+  EXPECT_EQ(rule.judge(cluttered(0.0)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(cluttered(0.0)).kind, VerdictKind::searching);  // It stands.
+  const Verdict verdict = rule.judge(cluttered(0.1));
   EXPECT_EQ(verdict.kind, VerdictKind::localized);
   EXPECT_FALSE(verdict.needs_certificate);
   EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9906, 1e-4);
@@ -194,14 +198,14 @@ TEST(StagedMargin, WhatBeamsSayMakesAConfidenceThatIsEnough) {
   StagedMargin surer({.min_confidence = 0.99}, with_verifier());
   StagedMargin unverified({.min_confidence = 0.98}, {});
   for (int i = 0; i < 2; ++i) {
-    EXPECT_EQ(surer.judge(cluttered()).kind, VerdictKind::searching) << i;
-    EXPECT_EQ(unverified.judge(cluttered()).kind, VerdictKind::searching) << i;
+    EXPECT_EQ(surer.judge(cluttered(0.1 * i)).kind, VerdictKind::searching) << i;
+    EXPECT_EQ(unverified.judge(cluttered(0.1 * i)).kind, VerdictKind::searching) << i;
   }
 }
 
 TEST(StagedMargin, WithoutARivalBeamsSayNothing) {
   StagedMargin rule({}, with_verifier());
-  StepResult alone = cluttered();
+  StepResult alone = cluttered(0.0);
   alone.hypotheses.pop_back();
   const Verdict verdict = rule.judge(alone);
   // Log odds -1.94 + 15.5 * (0.5 - 0.1).
@@ -210,23 +214,25 @@ TEST(StagedMargin, WithoutARivalBeamsSayNothing) {
 
 TEST(StagedMargin, AScanWithMuchLessContactThanUsualBeginsAnew) {
   StagedMargin rule({}, with_verifier());
-  for (int i = 0; i < 3; ++i) (void)rule.judge(cluttered());
-  EXPECT_EQ(rule.judge(cluttered(0.36)).kind, VerdictKind::localized);  // 0.7 * 0.5 and a little more
-  EXPECT_EQ(rule.judge(cluttered(0.32)).kind, VerdictKind::searching);
+  for (int i = 0; i < 3; ++i) (void)rule.judge(cluttered(0.1 * i));
+  EXPECT_EQ(rule.judge(cluttered(0.3, 0.36)).kind, VerdictKind::localized);  // 0.7 * 0.5 and a little more
+  EXPECT_EQ(rule.judge(cluttered(0.4, 0.32)).kind, VerdictKind::searching);
 }
 
 TEST(StagedMargin, ARefutedConfidenceMustLastTwiceAsLong) {
   StagedMargin rule({}, with_verifier());
-  (void)rule.judge(cluttered());
-  ASSERT_EQ(rule.judge(cluttered()).kind, VerdictKind::localized);
+  double driven = 0.0;
+  const auto go_on = [&] { return rule.judge(cluttered(driven += 0.1)).kind; };
+  (void)go_on();
+  ASSERT_EQ(go_on(), VerdictKind::localized);
   rule.refute({});
-  for (int i = 1; i < 4; ++i) EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::searching) << i;
-  EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::localized);
+  for (int i = 1; i < 4; ++i) EXPECT_EQ(go_on(), VerdictKind::searching) << i;
+  EXPECT_EQ(go_on(), VerdictKind::localized);
   // However often it was refuted, it can be sure again.
   for (int i = 0; i < 100; ++i) rule.refute({});
-  EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::searching);
-  for (int i = 1; i < 1023; ++i) (void)rule.judge(cluttered());
-  EXPECT_EQ(rule.judge(cluttered()).kind, VerdictKind::localized);
+  EXPECT_EQ(go_on(), VerdictKind::searching);
+  for (int i = 1; i < 1023; ++i) (void)go_on();
+  EXPECT_EQ(go_on(), VerdictKind::localized);
 }
 
 TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
