@@ -87,6 +87,7 @@ TEST(StepColumns, HaveAValueForEachStep) {
     "omega_place": [0.875, null, 0.875],
     "translation_error_m": [0.5, null, null], "rotation_error_deg": [2, null, null], "confidence": [null, null, 0.75],
     "verdict": ["searching", "ambiguous", "searching"], "why": [0, 1, 0],
+    "hits": ["mnbu", "mnbu", "mnbu"],
     "estimate": {"x": [1.5, null, 7], "y": [-2, null, 8], "theta": [0.3333, null, 0.5]},
     "reference": {"x": [1, null, null], "y": [-2, null, null], "theta": [0.25, null, null]},
     "local_from_robot": {"x": [1, 1, 1], "y": [2, 2, 2], "theta": [0.5, 0.5, 0.5]},

@@ -129,9 +129,9 @@ TEST(UnknownPlace, AHitIsOnTheMapUnmappedBeyondItOrUnknown) {
   scan.hits.push_back({0.5F, 3.0F, 0.0F});   // off the grid
   using enum HitKind;
   EXPECT_THAT(monitor.kinds_of(scan, {}), ElementsAre(on_map, unmapped, unmapped, unknown, unknown));
-  // Through the occupied cell into a free one, from where the grid does not reach.
+  // From the other side, through the occupied cell.
   scan.origin = {-1.0F, 0.5F, 0.0F};
-  EXPECT_THAT(monitor.kinds_of(scan, {}), ElementsAre(on_map, beyond, unmapped, unknown, unknown));
+  EXPECT_THAT(monitor.kinds_of(scan, {}), ElementsAre(on_map, beyond, beyond, unknown, unknown));
   // Turned and moved: (x, y) is at (1 - y, x).
   Scan turned;
   turned.hits.push_back({0.5F, 0.5F, 0.0F});
