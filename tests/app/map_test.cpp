@@ -20,6 +20,17 @@ class MapCommand : public CommandLine {
       log << "TRUEPOS 0 0 0 0 0 0 " << i << " h 0\nFLASER 2 1 2 0 0 0 0 0 0 " << i << " h 0\n";
     }
   }
+
+  /// Writes the map of the paper's laboratory as lab.yaml, and its image laid elsewhere as `name`.
+  void write_lab(const std::string& name, const std::string& origin) {
+    const std::string experiment = std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml";
+    ASSERT_EQ(run("map convert " + experiment + " -o " + file("lab.yaml")).exit_code, 0);
+    std::string moved = content(file("lab.yaml"));
+    const std::string key = "origin: ";
+    const std::size_t at = moved.find(key + "[") + key.size();
+    moved.replace(at, moved.find(']', at) + 1 - at, origin);
+    std::ofstream(file(name)) << moved;
+  }
 };
 
 TEST_F(MapCommand, BuildsShowsAndConverts) {
@@ -39,14 +50,9 @@ TEST_F(MapCommand, BuildsShowsAndConverts) {
 }
 
 TEST_F(MapCommand, AlignsAMapWithACopyInAnotherFrame) {
-  const std::string experiment = std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml";
-  ASSERT_EQ(run("map convert " + experiment + " -o " + file("lab.yaml")).exit_code, 0);
   // The same image, laid elsewhere: the corner that was at (-0.015, -0.015) is now at (5, -3), and all is
   // turned by 0.3 rad. So the origin comes to (5, -3) + 0.015 (cos 0.3 - sin 0.3, sin 0.3 + cos 0.3).
-  std::string moved = content(file("lab.yaml"));
-  const std::size_t origin = moved.find("origin: [");
-  moved.replace(origin, moved.find(']', origin) + 1 - origin, "origin: [5, -3, 0.3]");
-  std::ofstream(file("moved.yaml")) << moved;
+  write_lab("moved.yaml", "[5, -3, 0.3]");
   const Answer info = run("map info " + file("lab.yaml"));
   ASSERT_THAT(info.out, HasSubstr("origin      x -0.015 m, y -0.015 m, yaw 0.00 deg"));
 
@@ -63,7 +69,7 @@ TEST_F(MapCommand, AlignsAMapWithACopyInAnotherFrame) {
   EXPECT_NEAR(yaw, 17.19, 0.06);  // 0.3 rad
   EXPECT_GT(percent, 99.0);
 
-  EXPECT_EQ(run("map align " + file("lab.yaml") + " " + experiment + " --epsilon 0").exit_code, 2);
+  EXPECT_EQ(run("map align " + file("lab.yaml") + " " + file("moved.yaml") + " --epsilon 0").exit_code, 2);
 }
 
 TEST_F(MapCommand, KeepsTheFrameOfAMapFarAway) {
@@ -85,12 +91,7 @@ TEST_F(MapCommand, KeepsTheFrameOfAMapFarAway) {
 }
 
 TEST_F(MapCommand, AlignsAMapWithOneFarAway) {
-  const std::string experiment = std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml";
-  ASSERT_EQ(run("map convert " + experiment + " -o " + file("lab.yaml")).exit_code, 0);
-  std::string moved = content(file("lab.yaml"));
-  const std::size_t origin = moved.find("origin: [");
-  moved.replace(origin, moved.find(']', origin) + 1 - origin, "origin: [500000, 4649776, 0]");
-  std::ofstream(file("far.yaml")) << moved;
+  write_lab("far.yaml", "[500000, 4649776, 0]");
   const Answer answer = run("map align " + file("far.yaml") + " " + file("lab.yaml") + " --epsilon 0.1");
   double x = 0.0, y = 0.0, yaw = 0.0;
   ASSERT_EQ(std::sscanf(answer.out.c_str(), "pose [%lf, %lf, %lf]", &x, &y, &yaw), 3) << answer.out;
