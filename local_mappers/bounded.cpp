@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "local_mappers/free_space_check.hpp"
+#include "local_mappers/chosen_points.hpp"
 #include "local_mappers/lone_hits.hpp"
 
 namespace glocal::local_mappers {
@@ -16,24 +16,10 @@ constexpr std::size_t scans_looked_at = 12;
 /// Later scans that look through a hit, at least, before it is taken out.
 constexpr std::uint8_t scans_to_be_gone = 2;
 
-/// The hits that are to stay.
 LocalScan chosen(const LocalScan& scan, const std::vector<bool>& stays) {
   LocalScan rest;
-  for (std::size_t i = 0; i < stays.size(); ++i) {
-    if (!stays[i]) continue;
-    rest.hits.push_back(scan.hits[i]);
-    rest.normals.push_back(scan.normals[i]);
-  }
-  return rest;
-}
-
-/// What a robot sees of the place where it is.
-Observation without_moving_along(const Observation& observation, const std::vector<bool>& moves_along) {
-  Observation rest = observation;
-  rest.scan.hits.clear();
-  for (std::size_t i = 0; i < moves_along.size(); ++i) {
-    if (!moves_along[i]) rest.scan.hits.push_back(observation.scan.hits[i]);
-  }
+  rest.hits = chosen_points(scan.hits, stays);
+  rest.normals = chosen_points(scan.normals, stays);
   return rest;
 }
 
@@ -68,13 +54,23 @@ void Bounded::reset() {
   window_.clear();
 }
 
-void Bounded::add(const Observation& as_measured) {
-  const Observation observation = without_moving_along(as_measured, moving_along_.update(as_measured));
+void Bounded::add(const Observation& observation) {
+  std::vector<bool> is_of_place = moving_along_.update(observation);
+  is_of_place.flip();
+  const bool is_all_of_place = std::find(is_of_place.begin(), is_of_place.end(), false) == is_of_place.end();
+  if (is_all_of_place) return add_place(observation);
+  const Scan& scan = observation.scan;
+  add_place({observation.stamp,
+             {chosen_points(scan.hits, is_of_place), scan.free_ends, scan.origin},
+             observation.odom_from_robot});
+}
+
+void Bounded::add_place(const Observation& observation) {
   const int epoch = map().epoch;
   const Pose2 last = matching_.robot();
   const LocalScan placed = matching_.place(observation);
   if (map().epoch != epoch) window_.clear();
-  bool is_changed = !placed.hits.empty() && take_out_gone(observation.scan);
+  bool is_changed = !placed.hits.empty() && take_out_gone(matching_.profile());
   const double way = window_.empty() ? 0.0 : window_.back().way + distance(last, matching_.robot());
   LocalScan scan = without_lone_hits(placed, observation.scan);
   const std::size_t n = scan.hits.size();
@@ -85,8 +81,7 @@ void Bounded::add(const Observation& as_measured) {
   for (const Placed& before : window_) matching_.insert(before.scan);
 }
 
-bool Bounded::take_out_gone(const Scan& scan) {
-  const RangeProfile now(scan);
+bool Bounded::take_out_gone(const RangeProfile& now) {
   const Transform robot_from_local(inverse(matching_.robot()));
   const std::size_t looked_at = std::min(window_.size(), scans_looked_at);
   bool is_any = false;

@@ -42,11 +42,13 @@ class Bounded final : public LocalMapper {
   struct Placed {
     LocalScan scan;
     double way = 0.0;  ///< Driven up to here, m.
-    std::vector<std::uint8_t>
-        gone;  ///< For each hit, later scans that looked through it, less those that met it.
+    /// For each hit, later scans that looked through it, less those that met it.
+    std::vector<std::uint8_t> gone = {};
   };
+  /// Adds what the robot sees of the place where it is.
+  void add_place(const Observation& observation);
   /// Takes out what a scan, made where the robot is, shows to be gone. Whether that was anything.
-  bool take_out_gone(const Scan& scan);
+  bool take_out_gone(const RangeProfile& now);
   [[nodiscard]] bool is_too_long() const;
 
   Params params_;

@@ -1,9 +1,9 @@
 #include "local_mappers/moving_along.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
+
+#include "local_mappers/chosen_points.hpp"
 
 namespace glocal::local_mappers {
 namespace {
@@ -26,33 +26,33 @@ float range_of(const Point& p, const Point& sensor) {
 }
 
 /// What the scan before says of a hit.
-enum class Motion { unknown, stands, moves_along };
+enum class Told { nothing, stands, moves_along };
 
-Motion motion_of(const Point& hit, const Scan& scan, const RangeProfile& before,
-                 const Transform& before_from_now, float way) {
+Told told_of(const Point& hit, const Scan& scan, const RangeProfile& before, const Transform& before_from_now,
+             float way) {
   const Point if_it_stands = before_from_now(hit);
   const float seen_along = before.range_towards(hit);
   const float seen_standing = before.range_towards(if_it_stands);
-  if (seen_along == 0.0F || seen_standing == 0.0F) return Motion::unknown;
+  if (seen_along == 0.0F || seen_standing == 0.0F) return Told::nothing;
   const float along = std::abs(range_of(hit, scan.origin) - seen_along) / way;
   const float standing = std::abs(range_of(if_it_stands, scan.origin) - seen_standing) / way;
-  if (along < most_of_way && standing > least_of_way) return Motion::moves_along;
-  return standing < most_of_way && along > least_of_way ? Motion::stands : Motion::unknown;
+  if (along < most_of_way && standing > least_of_way) return Told::moves_along;
+  return standing < most_of_way && along > least_of_way ? Told::stands : Told::nothing;
 }
 
 /// Whether far hits stand, as odometry says. If its wheels spin, all moves along with the robot.
-bool is_odometry_right(const Scan& scan, const std::vector<Motion>& motions) {
+bool is_odometry_right(const Scan& scan, const std::vector<Told>& told) {
   std::size_t stand = 0, move = 0;
-  for (std::size_t i = 0; i < motions.size(); ++i) {
+  for (std::size_t i = 0; i < told.size(); ++i) {
     if (range_of(scan.hits[i], scan.origin) < near) continue;
-    if (motions[i] == Motion::stands) ++stand;
-    if (motions[i] == Motion::moves_along) ++move;
+    if (told[i] == Told::stands) ++stand;
+    if (told[i] == Told::moves_along) ++move;
   }
   return stand > 2 * move;
 }
 
 /// All hits of near things of which most move along.
-std::vector<bool> of_whole_things(const Scan& scan, const std::vector<Motion>& motions) {
+std::vector<bool> of_whole_things(const Scan& scan, const std::vector<Told>& told) {
   const Points& hits = scan.hits;
   std::vector<bool> moving(hits.size(), false);
   for (std::size_t begin = 0, end = 0; begin < hits.size(); begin = end) {
@@ -60,7 +60,7 @@ std::vector<bool> of_whole_things(const Scan& scan, const std::vector<Motion>& m
     bool is_near = true;
     do {
       is_near = is_near && range_of(hits[end], scan.origin) < near;
-      if (motions[end] == Motion::moves_along) ++move;
+      if (told[end] == Told::moves_along) ++move;
       ++end;
     } while (end < hits.size() &&
              std::hypot(hits.x[end] - hits.x[end - 1], hits.y[end] - hits.y[end - 1]) <= gap);
@@ -69,12 +69,24 @@ std::vector<bool> of_whole_things(const Scan& scan, const std::vector<Motion>& m
   return moving;
 }
 
-RangeProfile profile_of(const Scan& scan, const std::vector<bool>& chosen) {
-  Scan some{.hits = {}, .free_ends = {}, .origin = scan.origin};
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (chosen[i]) some.hits.push_back(scan.hits[i]);
+/// Which hits move along with a robot that has driven since the scan before.
+std::vector<bool> that_moved_along(const Scan& scan, const RangeProfile& before, const Pose2& before_from_now,
+                                   double way) {
+  const Transform transform(before_from_now);
+  std::vector<Told> told;
+  for (std::size_t i = 0; i < scan.hits.size(); ++i)
+    told.push_back(told_of(scan.hits[i], scan, before, transform, static_cast<float>(way)));
+  return is_odometry_right(scan, told) ? of_whole_things(scan, told) : std::vector<bool>(told.size(), false);
+}
+
+/// Which hits are where something moved along before.
+std::vector<bool> that_are_still_there(const Scan& scan, const RangeProfile& moving_along) {
+  std::vector<bool> are_there;
+  for (std::size_t i = 0; i < scan.hits.size(); ++i) {
+    const float before = moving_along.range_towards(scan.hits[i]);
+    are_there.push_back(std::abs(range_of(scan.hits[i], scan.origin) - before) < as_before);
   }
-  return RangeProfile(some);
+  return are_there;
 }
 
 }  // namespace
@@ -86,19 +98,12 @@ std::vector<bool> MovingAlong::update(const Observation& observation) {
   if (before_) {
     const Pose2 before_from_now = inverse(before_->odom_from_robot) * odom_from_robot;
     const double way = std::hypot(before_from_now.x, before_from_now.y);
-    if (way < least_way) {
-      for (std::size_t i = 0; i < moving.size(); ++i)
-        moving[i] = std::abs(range_of(scan.hits[i], scan.origin) -
-                             before_->moving_along.range_towards(scan.hits[i])) < as_before;
-    } else {
-      std::vector<Motion> motions(scan.hits.size());
-      const Transform transform(before_from_now);
-      for (std::size_t i = 0; i < motions.size(); ++i)
-        motions[i] = motion_of(scan.hits[i], scan, before_->all, transform, static_cast<float>(way));
-      if (is_odometry_right(scan, motions)) moving = of_whole_things(scan, motions);
-    }
+    moving = way < least_way ? that_are_still_there(scan, before_->moving_along)
+                             : that_moved_along(scan, before_->all, before_from_now, way);
   }
-  before_ = {odom_from_robot, RangeProfile(scan), profile_of(scan, moving)};
+  before_ = {
+      odom_from_robot, RangeProfile(scan),
+      RangeProfile({.hits = chosen_points(scan.hits, moving), .free_ends = {}, .origin = scan.origin})};
   return moving;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "glocal/observation.hpp"
-#include "local_mappers/free_space_check.hpp"
+#include "local_mappers/range_profile.hpp"
 
 namespace glocal::local_mappers {
 

@@ -48,6 +48,8 @@ class ScanMatching final : public LocalMapper {
 
   /// The map's local_from_robot.
   [[nodiscard]] const Pose2& robot() const { return map_.robot(); }
+  /// How far the last scan saw that fitted; there is one.
+  [[nodiscard]] const RangeProfile& profile() const { return free_space_check_.latest(); }
   /// Index of the points.
   [[nodiscard]] const PointGrid& grid() const { return map_.grid(); }
 

@@ -78,7 +78,8 @@ BoardJson json_of_kept(const BoardEntry& entry, const std::vector<DisturbedKind>
   return kept;
 }
 
-BoardJson json_of_entry(const BoardEntry& entry, const Suite& suite, const std::vector<Renewal>& history) {
+BoardJson json_of_entry(const BoardEntry& entry, const Suite& suite, const std::vector<DisturbedKind>& kinds,
+                        const std::vector<Renewal>& history) {
   BoardJson cases = BoardJson::array();
   std::vector<const CaseResult*> all;
   for (const SuiteCase& one : suite.cases) {
@@ -97,7 +98,7 @@ BoardJson json_of_entry(const BoardEntry& entry, const Suite& suite, const std::
                     {"all", json_of_counts(counts_of(entry))},
                     {"cases", std::move(cases)},
                     {"results", json_of_results(entry)},
-                    {"kept", json_of_kept(entry, disturbed_kinds(suite))},
+                    {"kept", json_of_kept(entry, kinds)},
                     {"renewals", json_of_renewals(entry, history)}};
   if (const auto ms = median_step_ms(all)) json["step_ms"] = *ms;
   return json;
@@ -134,9 +135,10 @@ PageData board_page(const std::vector<SuiteBoard>& boards, const std::vector<Ren
                       {"disturbances", BoardJson::array()},
                       {"entries", BoardJson::array()}};
     for (const SuiteCase& one : suite.cases) json["cases"].push_back(one.name);
-    for (const DisturbedKind& kind : disturbed_kinds(suite)) json["disturbances"].push_back(kind.name);
+    const std::vector<DisturbedKind> kinds = disturbed_kinds(suite);
+    for (const DisturbedKind& kind : kinds) json["disturbances"].push_back(kind.name);
     for (const BoardEntry* entry : best_first)
-      json["entries"].push_back(json_of_entry(*entry, suite, history));
+      json["entries"].push_back(json_of_entry(*entry, suite, kinds, history));
     page.head["suites"].push_back(std::move(json));
   }
   return page;

@@ -12,7 +12,7 @@ namespace glocal {
 
 inline constexpr int worst_level = 5;
 
-/// "intel_people-3" beside "intel": a place, a kind and a level.
+/// "intel_people-3" beside "intel", as add_disturbed_cases() names it: a place, a kind and a level.
 struct DisturbedCase {
   std::string name, place, kind;
   int level = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -61,6 +62,17 @@ inline Scan scan_from(const std::vector<Wall>& walls, const Pose2& map_from_robo
     if (laser.noise > 0.0) range += rng.normal(laser.noise);
     scan.hits.push_back(
         {static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)), 0});
+  }
+  return scan;
+}
+
+/// Beams in every direction, half a degree apart, that all end after `range` m.
+inline Scan circle_around(const Point& origin, float range) {
+  Scan scan;
+  scan.origin = origin;
+  for (int i = 0; i < 720; ++i) {
+    const float angle = static_cast<float>((i + 0.25) * std::numbers::pi / 360.0);
+    scan.hits.push_back({origin.x + range * std::cos(angle), origin.y + range * std::sin(angle), 0.0F});
   }
   return scan;
 }

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "glocal/beams.hpp"
-#include "glocal/clearance_grid.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/hypothesis.hpp"
 #include "glocal/local_map.hpp"
@@ -51,7 +50,6 @@ class UnknownPlaceMonitor {
   UnknownPlaceParams params_;
   std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
-  std::shared_ptr<const ClearanceGrid> clearance_;
   std::optional<Best> best_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "glocal/clearance_grid.hpp"
+
 namespace glocal {
 namespace {
 
@@ -27,8 +29,7 @@ UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params,
                                          std::shared_ptr<const GlobalMap> map, double contact_epsilon)
     : params_(params),
       map_(std::move(map)),
-      contact_(contact_index(*map_, "bitset", params.contact_epsilon.value_or(contact_epsilon))),
-      clearance_(clearance_grid(*map_)) {}
+      contact_(contact_index(*map_, "bitset", params.contact_epsilon.value_or(contact_epsilon))) {}
 
 std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
                                                   const std::vector<Hypothesis>& hypotheses) {
@@ -58,11 +59,12 @@ std::vector<HitKind> UnknownPlaceMonitor::kinds_of(const Scan& scan, const Pose2
   const Transform transform(map_from_robot);
   const CellsUnder cell_under(map_->grid(), map_from_robot);
   const Point sensor = transform(scan.origin);
+  // Made by the first who asks, as many localizers never do: those in space.
+  const auto clearance = clearance_grid(*map_);
   const auto kind_of = [&](std::size_t i) {
     if (cell_under(scan.hits[i]) == Cell::unknown) return HitKind::unknown;
     if (contact_->count(scan.hits, i, 1, transform) > 0) return HitKind::on_map;
-    return clearance_->is_blocked(sensor, transform(scan.hits[i]), blur) ? HitKind::beyond
-                                                                         : HitKind::unmapped;
+    return clearance->is_blocked(sensor, transform(scan.hits[i]), blur) ? HitKind::beyond : HitKind::unmapped;
   };
   std::vector<HitKind> kinds;
   kinds.reserve(scan.hits.size());
