@@ -21,7 +21,7 @@ constexpr std::array stages = {"local_map", "match", "cluster", "rate"};
 constexpr std::array numbers = {"local_map_points", "omega_best", "score_best", "omega_max",
                                 "proposals",        "hypotheses", "clusters"};
 constexpr std::array optional_numbers = {"omega_place", "translation_error_m", "rotation_error_deg",
-                                         "confidence"};
+                                         "confidence",  "contact_epsilon_m",   "range_noise_m"};
 constexpr std::array poses = {"estimate", "reference", "local_from_robot"};
 constexpr std::array coordinates = {"x", "y", "theta"};
 constexpr std::array coordinates_in_space = {"z", "qx", "qy", "qz", "qw"};

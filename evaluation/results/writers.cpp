@@ -102,9 +102,11 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
                {"stage_ms", to_json(step.stage_ms, is_verified)},
                {"stage_cpu_ms", to_json(step.stage_cpu_ms, is_verified)},
                {"local_map_points", step.local_map_points},
+               {"contact_epsilon_m", step.contact_epsilon},
                {"omega_best", step.omega_best},
                {"score_best", step.score_best},
                {"omega_max", step.omega_max}};
+  if (step.range_noise) json["range_noise_m"] = *step.range_noise;
   if (step.omega_place) json["omega_place"] = *step.omega_place;
   if (step.omega_scan) json["omega_scan"] = *step.omega_scan;
   if (!step.hit_kinds.empty()) json["hits"] = letters_of(step.hit_kinds);

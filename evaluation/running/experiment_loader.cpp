@@ -33,15 +33,36 @@ void require_contract(const char* kind, const StrategyChoice& source, Check chec
   }
 }
 
-/// All that map, drive and starts follow from.
-std::string sources_yaml(const Experiment& experiment, const Catalog& catalog) {
+/// What a map follows from, as YAML.
+std::string map_yaml(const Experiment& experiment, const Catalog& catalog) {
   Experiment sources = default_experiment();
   sources.seed = experiment.seed;
   sources.map = experiment.map;
-  sources.observations = experiment.observations;
-  sources.trials = experiment.trials;
   sources.localizer.motion = experiment.localizer.motion;  // Sources must keep to it.
   return effective_yaml(sources, catalog);
+}
+
+/// What a drive follows from.
+std::string drive_yaml(const Experiment& experiment, const Catalog& catalog) {
+  Experiment sources = default_experiment();
+  sources.seed = experiment.seed;
+  sources.observations = experiment.observations;
+  sources.localizer.motion = experiment.localizer.motion;
+  return effective_yaml(sources, catalog);
+}
+
+/// What the indexes of a map follow from.
+std::string localizer_yaml(const Experiment& experiment, const Catalog& catalog) {
+  Experiment stages = default_experiment();
+  stages.localizer = experiment.localizer;
+  return effective_yaml(stages, catalog);
+}
+
+SourceSetup source_setup(std::set<std::filesystem::path>& inputs, const Warn& warn,
+                         const TellProgress& progress) {
+  return {.warn = warn,
+          .note_input = [&inputs](const std::filesystem::path& file) { inputs.insert(file); },
+          .progress = progress};
 }
 
 }  // namespace
@@ -78,36 +99,48 @@ Drive load_drive(const Experiment& experiment, const Catalog& catalog, SourceSet
 
 LoadedExperiment load_experiment(const Experiment& experiment, const Catalog& catalog, const Warn& warn,
                                  const TellProgress& progress) {
-  LoadedExperiment loaded;
-  const SourceSetup setup{
-      .warn = warn,
-      .note_input = [&](const std::filesystem::path& file) { loaded.inputs.insert(file); },
-      .progress = progress};
-  const auto start = std::chrono::steady_clock::now();
-  loaded.map = std::make_shared<const GlobalMap>(load_map(experiment, catalog, setup));
-  loaded.map_build_ms = ms_since(start);
-  loaded.drive = load_drive(experiment, catalog, setup);
-  const auto doubt =
-      doubt_of_references(loaded.drive, *loaded.map, contact_epsilon_on(*loaded.map, experiment.localizer));
-  if (doubt) warn(*doubt);
-  const std::vector<std::size_t> all = trial_starts(experiment.trials, loaded.drive, *loaded.map);
-  loaded.all_starts = all.size();
-  loaded.starts = chosen_starts(experiment.trials, all);
-  return loaded;
+  return std::move(ExperimentLoader(catalog, warn, progress).load(experiment));
 }
 
-LoadedExperiment& ExperimentLoader::load(Experiment& experiment) {
-  std::string wanted = sources_yaml(experiment, catalog_);
-  if (wanted != sources_) {
-    sources_.clear();
-    loaded_ = load_experiment(experiment, catalog_, warn_, progress_);
-    sources_ = std::move(wanted);
-    source_inputs_ = loaded_.inputs;
-  } else {
+LoadedExperiment& ExperimentLoader::load(const Experiment& experiment) {
+  std::string map = map_yaml(experiment, catalog_);
+  std::string drive = drive_yaml(experiment, catalog_);
+  std::string localizer = localizer_yaml(experiment, catalog_);
+  const bool are_new = map != map_ || drive != drive_;
+  if (map != map_) {
+    load_map(experiment);
+  } else if (localizer != localizer_) {
     loaded_.map = std::make_shared<const GlobalMap>(loaded_.map->data());
-    loaded_.inputs = source_inputs_;
   }
+  map_ = std::move(map);
+  localizer_ = std::move(localizer);
+  if (drive != drive_) load_drive(experiment);
+  drive_ = std::move(drive);
+  loaded_.inputs = map_inputs_;
+  loaded_.inputs.insert(drive_inputs_.begin(), drive_inputs_.end());
+  if (are_new) {
+    const double epsilon = contact_epsilon_on(*loaded_.map, experiment.localizer);
+    if (const auto doubt = doubt_of_references(loaded_.drive, *loaded_.map, epsilon)) warn_(*doubt);
+  }
+  const std::vector<std::size_t> all = trial_starts(experiment.trials, loaded_.drive, *loaded_.map);
+  loaded_.all_starts = all.size();
+  loaded_.starts = chosen_starts(experiment.trials, all);
   return loaded_;
+}
+
+void ExperimentLoader::load_map(const Experiment& experiment) {
+  map_.clear();  // Until there is another one, should it be at fault.
+  map_inputs_.clear();
+  const auto start = std::chrono::steady_clock::now();
+  loaded_.map = std::make_shared<const GlobalMap>(
+      glocal::load_map(experiment, catalog_, source_setup(map_inputs_, warn_, progress_)));
+  loaded_.map_build_ms = ms_since(start);
+}
+
+void ExperimentLoader::load_drive(const Experiment& experiment) {
+  drive_.clear();
+  drive_inputs_.clear();
+  loaded_.drive = glocal::load_drive(experiment, catalog_, source_setup(drive_inputs_, warn_, progress_));
 }
 
 Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, LoadedExperiment& loaded) {
@@ -134,10 +167,14 @@ std::optional<std::string> why_never_declared(const Experiment& experiment, cons
 }
 
 std::vector<std::size_t> loading_order(const std::vector<Variant>& variants, const Catalog& catalog) {
-  std::map<std::string, std::size_t> firsts;  // The first variant that has these sources.
-  std::vector<std::size_t> first_of, order;
+  std::map<std::string, std::size_t> firsts;  // The first variant that has this map, or this drive.
+  std::vector<std::pair<std::size_t, std::size_t>> first_of;
+  std::vector<std::size_t> order;
   for (std::size_t i = 0; i < variants.size(); ++i) {
-    first_of.push_back(firsts.try_emplace(sources_yaml(variants[i].experiment, catalog), i).first->second);
+    const Experiment& experiment = variants[i].experiment;
+    const auto first = [&](std::string yaml) { return firsts.try_emplace(std::move(yaml), i).first->second; };
+    first_of.emplace_back(first("map: " + map_yaml(experiment, catalog)),
+                          first("drive: " + drive_yaml(experiment, catalog)));
     order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(),
@@ -145,11 +182,15 @@ std::vector<std::size_t> loading_order(const std::vector<Variant>& variants, con
   return order;
 }
 
-void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
+namespace {
+
+/// Those of the variants that `order` names, one after the other.
+void for_each_loaded(std::vector<Variant>& variants, const std::vector<std::size_t>& order,
+                     ExperimentLoader& loader,
                      const std::function<void(std::size_t variant, LoadedExperiment&)>& work) {
   std::set<Fault> seen;  // Many variants may have the same fault.
   std::vector<Fault> faults;
-  for (const std::size_t i : loading_order(variants, loader.catalog())) {
+  for (const std::size_t i : order) {
     try {
       LoadedExperiment& loaded = loader.load(variants[i].experiment);
       check_pins(variants[i], loaded, loader.hashes());
@@ -166,12 +207,34 @@ void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
   if (!faults.empty()) throw ConfigError(std::move(faults));
 }
 
+/// How many trials a variant has; none where that is not known before it is loaded.
+std::optional<std::size_t> known_trials(const Variant& variant) {
+  if (!variant.suite || !variant.suite->is_pinned) return std::nullopt;
+  const std::vector<double>& only = variant.experiment.trials.only;
+  return only.empty() ? variant.suite->find_case(variant.case_name)->starts : only.size();
+}
+
+}  // namespace
+
+void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
+                     const std::function<void(std::size_t variant, LoadedExperiment&)>& work) {
+  for_each_loaded(variants, loading_order(variants, loader.catalog()), loader, work);
+}
+
 std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader) {
+  const Catalog& catalog = loader.catalog();
   std::vector<std::size_t> trials(variants.size());
-  for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
+  std::vector<std::size_t> order = loading_order(variants, catalog);
+  std::set<std::string> tried;  // Of what is known already, a localizer is made once on each map.
+  std::erase_if(order, [&](std::size_t i) {
+    const Experiment& experiment = variants[i].experiment;
+    const auto known = known_trials(variants[i]);
+    if (known) trials[i] = *known;
+    return known && !tried.insert(map_yaml(experiment, catalog) + localizer_yaml(experiment, catalog)).second;
+  });
+  for_each_loaded(variants, order, loader, [&](std::size_t i, LoadedExperiment& loaded) {
     trials[i] = loaded.starts.size();
-    if (variants.size() > 1)
-      static_cast<void>(make_localizer(variants[i].experiment, loader.catalog(), loaded));
+    if (variants.size() > 1) static_cast<void>(make_localizer(variants[i].experiment, catalog, loaded));
   });
   return trials;
 }

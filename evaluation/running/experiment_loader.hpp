@@ -40,26 +40,29 @@ struct LoadedExperiment {
     const Experiment& experiment, const Catalog& catalog, const Warn& warn,
     const TellProgress& progress = [](double) {});
 
-/// Prepares one experiment after the other: map and drive are loaded again only where seed, map, observations
-/// or trials are others than those of the one before.
+/// Prepares one experiment after the other. The map is loaded again only where it is another one than that of
+/// the experiment before, and so is the drive.
 class ExperimentLoader {
  public:
   ExperimentLoader(
       const Catalog& catalog, Warn warn, TellProgress progress = [](double) {})
       : catalog_(catalog), warn_(std::move(warn)), progress_(std::move(progress)) {}
 
-  /// Good until the next call. The map has no index yet, so that the time to build what the experiment looks
-  /// up in it is its own.
-  LoadedExperiment& load(Experiment& experiment);
+  /// Good until the next call. The map has indexes only if another experiment with the same localizer has
+  /// built them: the time to build what a method looks up is its own. Throws ConfigError.
+  LoadedExperiment& load(const Experiment& experiment);
   [[nodiscard]] const Catalog& catalog() const { return catalog_; }
   [[nodiscard]] FileHashes& hashes() { return hashes_; }
 
  private:
+  void load_map(const Experiment& experiment);
+  void load_drive(const Experiment& experiment);
+
   const Catalog& catalog_;
   Warn warn_;
   TellProgress progress_;
-  std::string sources_;                            ///< What is loaded, as YAML.
-  std::set<std::filesystem::path> source_inputs_;  ///< Without those of the stages.
+  std::string map_, drive_, localizer_;  ///< What they follow from, as YAML; empty before they are loaded.
+  std::set<std::filesystem::path> map_inputs_, drive_inputs_;
   LoadedExperiment loaded_;
   FileHashes hashes_;
 };
@@ -75,8 +78,8 @@ class ExperimentLoader {
                                                             const LoadedExperiment& loaded,
                                                             const Localizer& localizer);
 
-/// Places of variants, in an order in which those with the same map and drive follow each other: these are
-/// loaded once then.
+/// Places of variants, in an order in which those with the same map follow each other, and among them those
+/// with the same drive: these are loaded once then.
 [[nodiscard]] std::vector<std::size_t> loading_order(const std::vector<Variant>& variants,
                                                      const Catalog& catalog);
 
@@ -86,8 +89,8 @@ void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
                      const std::function<void(std::size_t variant, LoadedExperiment&)>& work);
 
 /// Prepares every variant and, if there are several, makes its localizer: whatever one of them cannot work
-/// with shows before the first is run. Tells how many trials each has. Throws ConfigError with the faults of
-/// all.
+/// with shows before the first is run. Of a suite that is pinned, one variant does for all with its map and
+/// its localizer. Tells how many trials each has. Throws ConfigError with the faults of all.
 [[nodiscard]] std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader);
 
 /// What to do while trials run side by side: calls come from several threads at once, those about one trial

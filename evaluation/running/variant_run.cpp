@@ -9,6 +9,7 @@
 #include "evaluation/results/summary.hpp"
 #include "evaluation/results/writers.hpp"
 #include "evaluation/running/elapsed.hpp"
+#include "evaluation/running/pins.hpp"
 
 namespace glocal {
 
@@ -22,6 +23,7 @@ VariantRun::VariantRun(Variant& variant, ExperimentLoader& loader, const std::fi
       file_(file),
       options_(options),
       loaded_(loader.load(variant.experiment)) {
+  check_pins(variant, loaded_, loader.hashes());
   const auto start = Clock::now();
   localizers_.push_back(make_localizer(variant.experiment, loader.catalog(), loaded_));
   map_index_ms_ = ms_since(start);

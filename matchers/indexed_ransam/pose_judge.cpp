@@ -49,8 +49,7 @@ Hypothesis PoseJudge::to_hypothesis(Hypothesis judged, const LocalMap& local, co
   const Pose2 map_from_local = seen_from_above(judged.map_from_local);
   const Pose2 map_from_robot = map_from_local * seen_from_above(local.local_from_robot);
   judged.score = std::min(judged.score, 1.0);
-  judged.covariance =
-      pose_covariance(*field_, sample, map_from_local, map_from_robot, rule_.kernel, rule_.uncertainty);
+  judged.covariance = pose_covariance(*field_, sample, map_from_local, map_from_robot, rule_.kernel);
   judged.free_space_violation = evidence_at(map_from_local, sample).in_free_space;
   judged.beam_evidence = beams_.support(*contact_, *clearance_, map_from_local);
   return judged;

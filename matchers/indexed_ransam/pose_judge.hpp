@@ -25,7 +25,6 @@ struct JudgeRule {
   std::size_t most = 10;     ///< Poses that are left.
   double contact_epsilon = 0.10;
   double kernel = 0.15;  ///< m; of the refinement that led to a pose.
-  PoseUncertainty uncertainty = {};
 };
 
 /// Judges poses by the contact of all points of the local map (Omega, eq. 4), by beams through walls, by what

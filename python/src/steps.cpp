@@ -163,6 +163,9 @@ void bind_steps(py::module_& module) {
              "Quality of the best hypothesis (eq. 4); 0 without any.");
   def_member(bound, "score_best", &StepResult::score_best, "Its score.");
   def_member(bound, "omega_place", &StepResult::omega_place, "Omega' (eq. 10), or None.");
+  def_member(bound, "contact_epsilon", &StepResult::contact_epsilon, "m; epsilon of eq. 4 in this step.");
+  def_member(bound, "range_noise", &StepResult::range_noise,
+             "Standard deviation of the ranges so far, m, or None.");
   def_member(bound, "omega_scan", &StepResult::omega_scan, "Share of the latest scan in contact, or None.");
   def_member(bound, "proposals", &StepResult::proposals, "Poses before any of them was judged.");
   def_member(bound, "points_tested", &StepResult::points_tested, "Single points tested for contact.");

@@ -91,6 +91,23 @@ Pose3 SpinningWheels::measured(const Pose3& motion, Rng& rng) const {
           composed(turn_about_z(excess * motion.heading()), motion.rotation)};
 }
 
+Pose3 ReversedMotions::measured(const Pose3& motion, Rng& rng) const {
+  return rng.uniform() < share_ ? inverse(motion) : motion;
+}
+
+std::optional<Sample> Jitter::disturb(Sample sample, Rng rng) {
+  Pose3& odom_from_robot = sample.observation.odom_from_robot;
+  const Pose3 as_it_was = odom_from_robot;
+  if (last_) {
+    const Pose3 motion = inverse(*last_) * as_it_was;
+    const double share = 1.0 - most_ * rng.uniform();
+    odom_from_robot =
+        *last_ * Pose3{share * motion.translation(), exponential(share * logarithm(motion.rotation))};
+  }
+  last_ = as_it_was;
+  return sample;
+}
+
 Pose3 LostMotions::measured(const Pose3& motion, Rng& rng) const {
   return rng.uniform() < share_ ? Pose3{} : motion;
 }

@@ -107,6 +107,27 @@ class SpinningWheels final : public Odometry {
   double share_;
 };
 
+/// In this share of the samples the wheels count backwards.
+class ReversedMotions final : public Odometry {
+ public:
+  ReversedMotions(double share, Rng /*rng*/) : share_(share) {}
+
+ private:
+  [[nodiscard]] Pose3 measured(const Pose3& motion, Rng& rng) const override;
+  double share_;
+};
+
+/// Odometry is of a moment before its scan: by up to this share of the way since the last sample.
+class Jitter final : public Disturbance {
+ public:
+  Jitter(double most, Rng /*rng*/) : most_(most) {}
+  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
+
+ private:
+  double most_;
+  std::optional<Pose3> last_;  ///< odom_from_robot as it was.
+};
+
 /// In this share of the samples no motion is measured.
 class LostMotions final : public Odometry {
  public:

@@ -163,12 +163,8 @@ void cut_off(MapData& map, double share, Rng& /*rng*/) {
   keep_if(map, Cell::unknown, [&](double x, double /*y*/) { return x <= end; });
 }
 
-/// Each point is measured with a normal error of `sigma` metres; cells follow their points.
-void blur(MapData& map, double sigma, Rng& rng) {
-  for (std::size_t i = 0; i < map.points.size(); ++i) {
-    map.points.x[i] += static_cast<float>(rng.normal(sigma));
-    map.points.y[i] += static_cast<float>(rng.normal(sigma));
-  }
+/// What was occupied is free, but for the cells that points lie in now.
+void take_cells_of_points(MapData& map) {
   OccupancyGrid& grid = map.grid;
   if (grid.cells.empty()) return;
   std::replace(grid.cells.begin(), grid.cells.end(), Cell::occupied, Cell::free);
@@ -180,6 +176,15 @@ void blur(MapData& map, double sigma, Rng& rng) {
     if (column >= 0 && row >= 0 && column < grid.width && row < grid.height)
       grid.cell(column, row) = Cell::occupied;
   }
+}
+
+/// Each point is measured with a normal error of `sigma` metres; cells follow their points.
+void blur(MapData& map, double sigma, Rng& rng) {
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    map.points.x[i] += static_cast<float>(rng.normal(sigma));
+    map.points.y[i] += static_cast<float>(rng.normal(sigma));
+  }
+  take_cells_of_points(map);
 }
 
 /// Cells of `factor` times the side: occupied if one of those within is, unknown if all are.
@@ -202,13 +207,23 @@ void coarsen(MapData& map, double factor, Rng& /*rng*/) {
   take_points_of_cells(map);
 }
 
+double middle_of(const std::vector<float>& along) {
+  const auto [low, high] = std::minmax_element(along.begin(), along.end());
+  return (static_cast<double>(*low) + *high) / 2.0;
+}
+
+/// What lies north of the middle of the points is moved east, by so many parts of a thousand of how far north
+/// it lies; cells follow their points.
+void shear(MapData& map, double per_mille, Rng& /*rng*/) {
+  const double y = middle_of(map.points.y);
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    map.points.x[i] += static_cast<float>(per_mille / 1000.0 * (map.points.y[i] - y));
+  take_cells_of_points(map);
+}
+
 /// The map is longer than the world, by so many parts of a thousand, about the middle of its points.
 void stretch_map(MapData& map, double per_mille, Rng& /*rng*/) {
   const double factor = 1.0 + per_mille / 1000.0;
-  const auto middle_of = [](const std::vector<float>& along) {
-    const auto [low, high] = std::minmax_element(along.begin(), along.end());
-    return (static_cast<double>(*low) + *high) / 2.0;
-  };
   const double x = middle_of(map.points.x), y = middle_of(map.points.y);
   for (float& px : map.points.x) px = static_cast<float>(x + factor * (px - x));
   for (float& py : map.points.y) py = static_cast<float>(y + factor * (py - y));
@@ -283,6 +298,14 @@ constexpr std::array map_kinds = {
                         "long maps cannot be right at level 5"},
                        false,
                        stretch_map},
+    MapDisturbanceKind{{"sheared",
+                        "by which north leans to the east",
+                        "per mille",
+                        500.0,
+                        {1.0, 2.0, 3.0, 5.0, 10.0},
+                        "scanned plans, and loops that closed badly"},
+                       false,
+                       shear},
 };
 
 }  // namespace

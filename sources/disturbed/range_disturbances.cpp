@@ -34,6 +34,19 @@ void draw_outliers(Readings& readings, double share, Rng& rng) {
   }
 }
 
+void cross_talk(Readings& readings, double share, Rng& rng) {
+  constexpr std::size_t in_a_row = 10;
+  const float farthest = readings.farthest();
+  std::vector<Reading>& all = readings.all();
+  for (std::size_t begin = 0; begin < all.size(); begin += in_a_row) {
+    const bool is_hit = rng.uniform() < share;
+    const auto range = static_cast<float>(rng.uniform(0.0, farthest));
+    for (std::size_t i = begin; is_hit && i < std::min(begin + in_a_row, all.size()); ++i) {
+      if (all[i].is_hit) readings.set_range(all[i], range);
+    }
+  }
+}
+
 void raise_dust(Readings& readings, double density, Rng& rng) {
   for (Reading& reading : readings.all()) {
     const auto clear = static_cast<float>(-std::log(1.0 - rng.uniform()) / density);
@@ -64,17 +77,23 @@ void thin_out(Readings& readings, double step_deg, Rng& /*rng*/) {
   // Beams of a lidar's rings lie above each other: each height has bearings of its own.
   std::map<std::pair<int, bool>, float> last;
   readings.lose_if([&](const Reading& reading) {
-    const float across = std::hypot(reading.end.x - readings.origin().x, reading.end.y - readings.origin().y);
-    const float elevation = std::atan2(reading.end.z - readings.origin().z, across);
-    const int ring = static_cast<int>(std::lround(degrees(elevation)));
     const float bearing = readings.bearing(reading);
-    const auto [left, is_first] = last.try_emplace({ring, reading.is_hit}, bearing);
+    const auto [left, is_first] = last.try_emplace({readings.ring(reading), reading.is_hit}, bearing);
     // Bearings come out of single precision, so a step of its own length may be a little short.
     const double least = radians(step_deg) * (1.0 - 1e-4);
     if (!is_first && std::abs(wrap_angle(static_cast<double>(bearing) - left->second)) < least) return true;
     left->second = bearing;
     return false;
   });
+}
+
+void thin_rings(Readings& readings, double step, Rng& /*rng*/) {
+  std::map<int, std::size_t> rings;  // By height, and then their places from below.
+  for (const Reading& reading : readings.all()) rings.try_emplace(readings.ring(reading));
+  std::size_t place = 0;
+  for (auto& [ring, number] : rings) number = place++;
+  const auto every = static_cast<std::size_t>(std::max(std::lround(step), 1L));
+  readings.lose_if([&](const Reading& reading) { return rings.at(readings.ring(reading)) % every != 0; });
 }
 
 void cut_range(Readings& readings, double range, Rng& /*rng*/) {

@@ -18,6 +18,10 @@ void stretch(Readings& readings, double excess, Rng& rng);
 /// This share of the hits is anything between the sensor and the farthest ray.
 void draw_outliers(Readings& readings, double share, Rng& rng);
 
+/// This share of the hits is where another sensor's light arrives: ten rays in a row have one range between
+/// the sensor and the farthest ray.
+void cross_talk(Readings& readings, double share, Rng& rng);
+
 /// Rays end early at what is in the air, `density` times in a metre.
 void raise_dust(Readings& readings, double density, Rng& rng);
 
@@ -30,6 +34,10 @@ void drop_beams(Readings& readings, double share, Rng& rng);
 
 /// Of rays nearer to each other than this, deg seen from above, the first is left, of each height in space.
 void thin_out(Readings& readings, double step_deg, Rng& rng);
+
+/// Of a lidar's rings, rays of one height to a degree, every `step`-th from below is left; of a planar scan
+/// its only one.
+void thin_rings(Readings& readings, double step, Rng& rng);
 
 /// What is farther away than this, m, is not seen: the ray is free up to there.
 void cut_range(Readings& readings, double range, Rng& rng);

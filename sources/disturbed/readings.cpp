@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glocal/pose2.hpp"
+
 namespace glocal::disturbed {
 namespace {
 
@@ -32,6 +34,11 @@ float Readings::farthest() const {
 
 float Readings::bearing(const Reading& reading) const {
   return std::atan2(reading.end.y - origin_.y, reading.end.x - origin_.x);
+}
+
+int Readings::ring(const Reading& reading) const {
+  const float across = std::hypot(reading.end.x - origin_.x, reading.end.y - origin_.y);
+  return static_cast<int>(std::lround(degrees(std::atan2(reading.end.z - origin_.z, across))));
 }
 
 void Readings::set_range(Reading& reading, float range) const {

@@ -27,6 +27,8 @@ class Readings {
   [[nodiscard]] float farthest() const;
   /// The direction of a ray seen from above, rad, in (-pi, pi].
   [[nodiscard]] float bearing(const Reading& reading) const;
+  /// How far a ray looks up, in whole degrees: those of one ring of a lidar have the same.
+  [[nodiscard]] int ring(const Reading& reading) const;
   /// Moves the ray's end along the ray; one that would be before the sensor is at it.
   void set_range(Reading& reading, float range) const;
   /// They are as if they had never been measured.

@@ -34,11 +34,22 @@ nlohmann::json step(int trial, int number, double confidence, double translation
           {"step", number},
           {"confidence", confidence},
           {"translation_error_m", translation_m},
-          {"rotation_error_deg", rotation_deg}};
+          {"rotation_error_deg", rotation_deg},
+          {"verdict", "searching"}};
 }
 
-nlohmann::json declared(const char* outcome, double nees) {
-  return {{"outcome", outcome}, {"confidence", 0.95}, {"nees", nees}};
+nlohmann::json declared(const char* outcome) {
+  return {{"outcome", outcome}, {"confidence", 0.95}};
+}
+
+/// One that declares a pose 0.3 m off along x, with a variance of 0.01 m^2 there.
+nlohmann::json declaring(int trial, int number) {
+  nlohmann::json line = step(trial, number, 0.95, 0.3, 0.0);
+  line["verdict"] = "localized";
+  line["estimate"] = {{"x", 5.3}, {"y", 2.0}, {"theta", 0.5}};
+  line["reference"] = {{"x", 5.0}, {"y", 2.0}, {"theta", 0.5}};
+  line["covariance"] = {0.01, 0.0, 0.0, 0.04, 0.0, 0.001};
+  return line;
 }
 
 TEST_F(ReliabilityCommand, ReadsWhatRunHasLeft) {
@@ -54,10 +65,10 @@ TEST_F(ReliabilityCommand, CountsByConfidence) {
   // Four declared with 0.95, three of them rightly; one undecided. Of trial 0 the first step counts, of trial
   // 1 the second.
   replace_lines(folder(),
-                {declared("right", 2.0),
-                 declared("right", 5.5),
-                 declared("right", 4.5),
-                 declared("wrong", 900.0),
+                {declared("right"),
+                 declared("right"),
+                 declared("right"),
+                 declared("wrong"),
                  {{"outcome", "undecided"}}},
                 {step(0, 0, 0.2, 0.1, 1.0), step(0, 1, 0.8, 9.0, 1.0), step(1, 0, 0.6, 9.0, 1.0),
                  step(1, 1, 0.25, 0.1, 11.0)});
@@ -66,7 +77,22 @@ TEST_F(ReliabilityCommand, CountsByConfidence) {
   EXPECT_THAT(answer.out, HasSubstr("5 trials: 3 right, 1 wrong (20.00 %"));
   EXPECT_THAT(answer.out, HasSubstr("0.90 - 0.97        4  0.950    0.750"));
   EXPECT_THAT(answer.out, HasSubstr("0.10 - 0.30        2  0.225    0.500"));
-  EXPECT_THAT(answer.out, HasSubstr("declarations: 4.00 in the mean"));
+}
+
+TEST_F(ReliabilityCommand, WeighsErrorsByCovarianceAndReference) {
+  run_lab();
+  // Only the first declared step of a trial counts, and only within half a metre and 10 degrees.
+  nlohmann::json wrong = declaring(2, 0);
+  wrong["translation_error_m"] = 3.0;
+  replace_lines(folder(), {declared("right"), declared("right"), declared("wrong")},
+                {step(0, 0, 0.2, 0.1, 1.0), declaring(0, 1), declaring(0, 2), declaring(1, 0), wrong});
+  // 0.3^2 / 0.01 = 9; with 0.1 m of the reference 0.3^2 / (0.01 + 0.01) = 4.5.
+  EXPECT_THAT(run("reliability " + folder()).out,
+              HasSubstr("declarations: 9.00 in the median, 9.00 in the mean; if the covariances are right, "
+                        "0.00 to 5.46 and 0.15 to 5.85 in 9 of 10 cases"));
+  EXPECT_THAT(run("reliability --reference-deviation 0.1 " + folder()).out,
+              HasSubstr("declarations: 4.50 in the median"));
+  EXPECT_EQ(run("reliability --reference-deviation -1 " + folder()).exit_code, 2);
 }
 
 TEST_F(ReliabilityCommand, NeedsStepsAndEachFolderOnce) {

@@ -86,6 +86,7 @@ TEST(StepColumns, HaveAValueForEachStep) {
     "proposals": [60, 60, 60], "hypotheses": [4, 4, 4], "clusters": [2, 0, 2],
     "omega_place": [0.875, null, 0.875],
     "translation_error_m": [0.5, null, null], "rotation_error_deg": [2, null, null], "confidence": [null, null, 0.75],
+    "contact_epsilon_m": [0.1, 0.1, 0.1], "range_noise_m": [0.0125, 0.0125, 0.0125],
     "verdict": ["searching", "ambiguous", "searching"], "why": [0, 1, 0],
     "hits": ["mnbu", "mnbu", "mnbu"],
     "estimate": {"x": [1.5, null, 7], "y": [-2, null, 8], "theta": [0.3333, null, 0.5]},

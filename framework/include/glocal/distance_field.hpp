@@ -103,19 +103,12 @@ void describe(ParamVisitor& v, PoseRefinement& p);
 [[nodiscard]] Pose2 refined_pose(const DistanceField& field, const Points& points,
                                  const Pose2& map_from_points, const PoseRefinement& refinement);
 
-/// What the covariance of a refined pose is made from.
-struct PoseUncertainty {
-  double point_deviation = 0.03;   ///< m; of a point from the map at least, whatever its residual.
-  double correlated_points = 8.0;  ///< So many points err alike, and count as one.
-  double drift = 0.02;             ///< m; of the robot in its local map.
-  double drift_deg = 0.5;          ///< deg; the same of its heading.
-};
-
 /// Covariance of the robot's pose where a pose of the points is the refined one: the Gauss-Newton inverse
-/// Hessian there, times the points' variance, plus the local map's drift. What the points leave open is
-/// taken to be uncertain by a metre and half a radian.
+/// Hessian there, times the points' variance, as their residuals tell it, and what errors they have in
+/// common, plus how far the robot's heading drifts in its local map. What the points leave open is taken to
+/// be uncertain by a metre and half a radian.
 [[nodiscard]] PoseCovariance pose_covariance(const DistanceField& field, const Points& points,
                                              const Pose2& map_from_points, const Pose2& map_from_robot,
-                                             double kernel, const PoseUncertainty& uncertainty);
+                                             double kernel);
 
 }  // namespace glocal

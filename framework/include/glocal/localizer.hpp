@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "glocal/motion.hpp"
 #include "glocal/params.hpp"
 #include "glocal/prior.hpp"
+#include "glocal/range_noise.hpp"
 #include "glocal/running_stage.hpp"
 #include "glocal/setup_check.hpp"
 #include "glocal/unknown_place.hpp"
@@ -19,7 +21,8 @@ namespace glocal {
 /// Which strategy does each stage. Defaults are the paper's method.
 struct LocalizerConfig {
   Motion motion = Motion::planar;  ///< What of the robot's pose is looked for.
-  /// m; epsilon of eq. 4 for all stages without one of their own. None: twice the map's resolution.
+  /// m; epsilon of eq. 4 for all stages without one of their own. None: twice the map's resolution, and more
+  /// where scans are noisier than that.
   std::optional<double> contact_epsilon = {};
   Prior prior = {};  ///< Outside of it nothing is looked for.
   StrategyChoice local_mapper;
@@ -39,7 +42,7 @@ struct LocalizerConfig {
                                                    Motion motion);
 
 /// The epsilon of eq. 4 (m) that the localizer's stages take on this map: as configured, or else twice the
-/// map's resolution.
+/// map's resolution, before any scan was seen.
 [[nodiscard]] double contact_epsilon_on(const GlobalMap& map, const LocalizerConfig& config);
 
 /// Finds out where a robot is, one observation after the other.
@@ -47,7 +50,7 @@ class Localizer {
  public:
   /// `seed` fixes all random numbers; motion and contact_epsilon of the setup are overruled by those of
   /// `config`; throws ConfigError where a strategy cannot work with this motion or this map, or the map has
-  /// nothing where the prior is.
+  /// nothing where the prior is. The catalog must live as long as the localizer.
   Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup, std::uint64_t seed);
 
   /// From now on this policy says which score is asked for, and not the configured one.
@@ -70,18 +73,33 @@ class Localizer {
   /// In which step of a trial a pose can be declared at the earliest, counted from 1.
   [[nodiscard]] std::size_t least_steps() const { return verdict_rule_->least_steps(); }
   /// What the matcher has made of the map.
-  [[nodiscard]] std::optional<MapIndexInfo> map_index() const { return matcher_->map_index(); }
+  [[nodiscard]] std::optional<MapIndexInfo> map_index() const { return by_contact_->matcher->map_index(); }
 
  private:
   /// Those of the strategies below.
   struct Stages {
     RunningStage local_mapper, matcher, clusterer, rater, threshold_policy, verdict_rule, verifier;
   };
+  /// What asks the map for contact, for one epsilon.
+  struct ContactStages {
+    std::unique_ptr<Verifier> verifier;  ///< None where declarations stand as they are.
+    std::unique_ptr<Matcher> matcher;
+    UnknownPlaceMonitor unknown_place;
+  };
+  /// Takes the stages for this epsilon (m), and makes them if there are none. They may remember poses.
+  void use_epsilon(double epsilon);
+  /// Lets all stages forget what they know of poses, but not the local map.
+  void forget_poses(std::size_t step);
+  template <class Strategy>
+  [[nodiscard]] std::unique_ptr<Strategy> make(const Registry<Strategy, StageSetup>& registry,
+                                               const StrategyChoice& choice, RunningStage& stage) const;
   /// Does a strategy's work in this step, and checks it. What either throws becomes a StrategyError.
   template <class Work>
   void in_stage(RunningStage& stage, std::size_t step, Work work) const;
 
   // The stages of a step, in their order.
+  /// Takes in how noisy the scan is. Where epsilon is too small for it, what asks for contact begins anew.
+  void follow_noise(const Scan& scan, StepResult& result);
   const LocalMap& add(const Observation& observation, StepResult& result);
   void match(const LocalMap& local, const Observation& latest, StepResult& result);
   void cluster(StepResult& result);
@@ -92,18 +110,20 @@ class Localizer {
   /// Lets the verifier look for rivals of a pose when it is declared: with one, it is not.
   void verify(const LocalMap& local, StepResult& result);
 
+  LocalizerConfig config_;
+  const Catalog& catalog_;
+  StageSetup stage_setup_;  ///< With the epsilon in use.
   Motion motion_;
   Vector3 origin_;  ///< The map's; in the plane without a height.
-  Prior prior_;     ///< In the map's frame.
   std::unique_ptr<LocalMapper> local_mapper_;
-  std::unique_ptr<Matcher> matcher_;
   std::unique_ptr<Clusterer> clusterer_;
   std::unique_ptr<Rater> rater_;
   std::unique_ptr<ThresholdPolicy> threshold_policy_;
   std::unique_ptr<VerdictRule> verdict_rule_;
-  std::unique_ptr<Verifier> verifier_;  ///< None where declarations stand as they are.
   Stages stages_;
-  UnknownPlaceMonitor unknown_place_;
+  std::map<double, ContactStages> by_epsilon_;  ///< As many as were needed so far.
+  ContactStages* by_contact_;                   ///< That of them which is in use.
+  RangeNoise noise_;
   std::optional<SetupMonitor> setup_;  ///< None where the set-up is not checked.
   StartInLocalMap start_;              ///< Followed where a prior is given.
   PoseGate gate_;

@@ -125,6 +125,10 @@ struct StepResult {
   int local_map_epoch = 0;
   std::size_t local_map_points = 0;
 
+  /// Standard deviation of the ranges so far, m; none in space, or before enough was seen.
+  std::optional<double> range_noise;
+  double contact_epsilon = 0.0;  ///< m; epsilon of eq. 4 in this step.
+
   double omega_max = 0.0;             ///< Threshold applied in this step (eq. 9 gives the next one).
   double omega_best = 0.0;            ///< Quality (Omega) of the best hypothesis; 0 without any.
   double score_best = 0.0;            ///< Its score, which omega_max is asked of; 0 without any.

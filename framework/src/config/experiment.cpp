@@ -57,7 +57,8 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
   v.field(
       "contact_epsilon", c.contact_epsilon,
       {.doc = "Distance at which a point is in contact with the map (epsilon of eq. 4), for all stages that "
-              "have none of their own; auto is twice the map's resolution.",
+              "have none of their own; auto is twice the map's resolution, and in the plane more where scans "
+              "are noisier than that.",
        .unit = "m",
        .above = 0.0,
        .audience = Audience::tuner});

@@ -196,17 +196,18 @@ Pose2 refined_pose(const DistanceField& field, const Points& points, const Pose2
 }
 
 PoseCovariance pose_covariance(const DistanceField& field, const Points& points, const Pose2& map_from_points,
-                               const Pose2& map_from_robot, double kernel,
-                               const PoseUncertainty& uncertainty) {
+                               const Pose2& map_from_robot, double kernel) {
+  // Chosen by the errors of right declarations (docs/tried.md).
+  constexpr double least_deviation = 0.01;   // m; of a point, whatever its residual
+  constexpr double correlated_points = 8.0;  // so many err alike, and count as one
+  constexpr double drift = radians(0.2);
   const NormalEquations e = normal_equations(field, points, map_from_points, map_from_robot, kernel);
-  const double least = uncertainty.point_deviation * uncertainty.point_deviation;
+  const double least = least_deviation * least_deviation;
   const double variance = e.weights > 0.0F ? std::max(least, double{e.squares / e.weights}) : least;
-  Eigen::Matrix3d information = e.h.cast<double>() / (variance * uncertainty.correlated_points);
+  Eigen::Matrix3d information = e.h.cast<double>() / (variance * correlated_points);
   information.diagonal() += Eigen::Vector3d(1.0, 1.0, 4.0);  // a metre and half a radian
   Eigen::Matrix3d c = information.inverse();
-  const double drift = uncertainty.drift * uncertainty.drift;
-  const double turn = radians(uncertainty.drift_deg) * radians(uncertainty.drift_deg);
-  c.diagonal() += Eigen::Vector3d(drift, drift, turn);
+  c(2, 2) += drift * drift;
   return {.xx = c(0, 0), .xy = c(0, 1), .xt = c(0, 2), .yy = c(1, 1), .yt = c(1, 2), .tt = c(2, 2)};
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -57,6 +58,14 @@ void add_prior(Verdict& verdict, const Prior& prior) {
   verdict.why +=
       fmt::format("{}only {} were looked at{}", verdict.why.empty() ? "" : "; ", to_string(prior),
                   verdict.kind == VerdictKind::unknown_place ? ": the robot is perhaps outside" : "");
+}
+
+/// By how much a distance that counts as contact must be larger, in halves, so that most hits of scans with
+/// this noise (m) are within it.
+double epsilon_factor(double range_noise, double epsilon) {
+  constexpr double deviations = 1.25;
+  constexpr double most = 2.0;
+  return std::clamp(std::ceil(2.0 * deviations * range_noise / epsilon) / 2.0, 1.0, most);
 }
 
 double count_of(HitKind kind, const std::vector<HitKind>& hits) {
@@ -114,32 +123,51 @@ std::optional<std::string> why_unfit(const StrategyChoice& choice, const Registr
 
 Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, StageSetup setup,
                      std::uint64_t seed)
-    : motion_(config.motion),
-      origin_(setup.map->origin()),
-      prior_(config.prior),
-      unknown_place_(config.unknown_place, setup.map, contact_epsilon_on(*setup.map, config)),
+    : config_(config),
+      catalog_(catalog),
+      stage_setup_(std::move(setup)),
+      motion_(config.motion),
+      origin_(stage_setup_.map->origin()),
       seed_(seed),
       rng_(seed_.stream({0})) {
-  if (const auto why = why_nowhere(prior_, *setup.map))
+  if (const auto why = why_nowhere(config_.prior, *stage_setup_.map))
     throw ConfigError({{"", 0, 0, "localizer.prior.region: " + *why}});
   if (motion_ == Motion::planar) origin_.z() = 0.0;
   if (config.setup_check.enabled && motion_ == Motion::planar) setup_.emplace(config.setup_check);
-  setup.contact_epsilon = contact_epsilon_on(*setup.map, config);
-  setup.motion = motion_;
-  const auto make = [&](const auto& registry, const StrategyChoice& choice, RunningStage& stage) {
-    if (const auto why = why_unfit(choice, registry, motion_)) throw ConfigError({{"", 0, 0, *why}});
-    stage = {.kind = registry.kind(), .name = choice.name};
-    const StageScope scope(&stage);
-    return registry.make(choice, setup);
-  };
-  verifier_ = make(catalog.verifiers, config.verifier, stages_.verifier);
-  setup.has_verifier = verifier_ != nullptr;
+  stage_setup_.motion = motion_;
+  use_epsilon(contact_epsilon_on(*stage_setup_.map, config));
   local_mapper_ = make(catalog.local_mappers, config.local_mapper, stages_.local_mapper);
-  matcher_ = make(catalog.matchers, config.matcher, stages_.matcher);
   clusterer_ = make(catalog.clusterers, config.clusterer, stages_.clusterer);
   rater_ = make(catalog.raters, config.rater, stages_.rater);
   threshold_policy_ = make(catalog.threshold_policies, config.threshold_policy, stages_.threshold_policy);
   verdict_rule_ = make(catalog.verdict_rules, config.verdict_rule, stages_.verdict_rule);
+  // What is made later reads the same files again.
+  stage_setup_.note_input = [](const std::filesystem::path&) {};
+}
+
+template <class Strategy>
+std::unique_ptr<Strategy> Localizer::make(const Registry<Strategy, StageSetup>& registry,
+                                          const StrategyChoice& choice, RunningStage& stage) const {
+  if (const auto why = why_unfit(choice, registry, motion_)) throw ConfigError({{"", 0, 0, *why}});
+  stage = {.kind = registry.kind(), .name = choice.name};
+  const StageScope scope(&stage);
+  return registry.make(choice, stage_setup_);
+}
+
+void Localizer::use_epsilon(double epsilon) {
+  stage_setup_.contact_epsilon = epsilon;
+  auto found = by_epsilon_.find(epsilon);
+  if (found == by_epsilon_.end()) {
+    auto verifier = make(catalog_.verifiers, config_.verifier, stages_.verifier);
+    stage_setup_.has_verifier = verifier != nullptr;
+    auto matcher = make(catalog_.matchers, config_.matcher, stages_.matcher);
+    UnknownPlaceMonitor unknown_place(config_.unknown_place, stage_setup_.map, epsilon);
+    found = by_epsilon_
+                .emplace(epsilon,
+                         ContactStages{std::move(verifier), std::move(matcher), std::move(unknown_place)})
+                .first;
+  }
+  by_contact_ = &found->second;
 }
 
 void Localizer::use(std::unique_ptr<ThresholdPolicy> threshold_policy) {
@@ -152,11 +180,12 @@ StepResult Localizer::step(const Observation& observation) {
   result.stamp = observation.stamp;
   result.motion = motion_;
   const LocalMap& local = add(observation, result);
+  follow_noise(observation.scan, result);
   match(local, observation, result);
-  result.omega_place = unknown_place_.update(local, result.hypotheses);
+  result.omega_place = by_contact_->unknown_place.update(local, result.hypotheses);
   if (!result.hypotheses.empty() && motion_ == Motion::planar) {
-    result.hit_kinds =
-        unknown_place_.kinds_of(observation.scan, seen_from_above(result.hypotheses.front().map_from_robot));
+    result.hit_kinds = by_contact_->unknown_place.kinds_of(
+        observation.scan, seen_from_above(result.hypotheses.front().map_from_robot));
     result.omega_scan = share_on_map(result.hit_kinds);
   }
   cluster(result);
@@ -165,7 +194,7 @@ StepResult Localizer::step(const Observation& observation) {
   check_setup(observation, local, result);
   verify(local, result);
   add_misfit(result);
-  if (!gate_.is_open()) add_prior(result.verdict, prior_);
+  if (!gate_.is_open()) add_prior(result.verdict, config_.prior);
   if (!origin_.isZero(0.0)) add_origin(result, origin_);
   return result;
 }
@@ -184,11 +213,26 @@ const LocalMap& Localizer::add(const Observation& observation, StepResult& resul
   result.local_from_robot = local.local_from_robot;
   result.local_map_epoch = local.epoch;
   result.local_map_points = local.points.size();
-  if (prior_.is_given()) {
+  if (config_.prior.is_given()) {
     start_.follow(local, observation.odom_from_robot);
-    gate_ = PoseGate(shifted(prior_, -origin_), start_.local_from_start());
+    gate_ = PoseGate(shifted(config_.prior, -origin_), start_.local_from_start());
   }
   return local;
+}
+
+void Localizer::follow_noise(const Scan& scan, StepResult& result) {
+  if (motion_ == Motion::planar) {
+    noise_.take_in(scan);
+    result.range_noise = noise_.deviation();
+  }
+  const double least = by_epsilon_.begin()->first;
+  const double epsilon =
+      config_.contact_epsilon ? least : least * epsilon_factor(result.range_noise.value_or(0.0), least);
+  if (epsilon > stage_setup_.contact_epsilon) {
+    in_stage(stages_.matcher, result.step, [&] { use_epsilon(epsilon); });
+    forget_poses(result.step);
+  }
+  result.contact_epsilon = stage_setup_.contact_epsilon;
 }
 
 void Localizer::match(const LocalMap& local, const Observation& latest, StepResult& result) {
@@ -200,7 +244,7 @@ void Localizer::match(const LocalMap& local, const Observation& latest, StepResu
     Rng rng = rng_.stream({result.step, matching});
     MatchResult match;
     timed(&StageTimes::match, result, [&] {
-      match = matcher_->match({local, latest, result.omega_max, gate_}, rng);
+      match = by_contact_->matcher->match({local, latest, result.omega_max, gate_}, rng);
     });
     check_match(match, result.omega_max, motion_);
     result.hypotheses = std::move(match.hypotheses);
@@ -239,7 +283,7 @@ void Localizer::judge(StepResult& result) {
     result.verdict = verdict_rule_->judge(result);
     check_verdict(result.verdict, motion_);
   });
-  if (unknown_place_.is_unknown(result.omega_place)) {
+  if (by_contact_->unknown_place.is_unknown(result.omega_place)) {
     result.verdict = {
         VerdictKind::unknown_place,
         std::nullopt,
@@ -265,17 +309,20 @@ void Localizer::reset(std::uint64_t trial) {
   trial_ = trial;
   rng_ = seed_.stream({trial});
   step_ = 0;
-  unknown_place_.reset();
   if (setup_) setup_->reset();
   start_.reset();
+  noise_ = {};
+  use_epsilon(by_epsilon_.begin()->first);
+  in_stage(stages_.local_mapper, RunningStage::before_first, [&] { local_mapper_->reset(); });
+  forget_poses(RunningStage::before_first);
+}
+
+void Localizer::forget_poses(std::size_t step) {
+  by_contact_->unknown_place.reset();
   is_verified_ = false;
-  const auto reset = [&](RunningStage& stage, auto& strategy) {
-    in_stage(stage, RunningStage::before_first, [&] { strategy->reset(); });
-  };
-  reset(stages_.local_mapper, local_mapper_);
-  reset(stages_.matcher, matcher_);
-  reset(stages_.threshold_policy, threshold_policy_);
-  reset(stages_.verdict_rule, verdict_rule_);
+  in_stage(stages_.matcher, step, [&] { by_contact_->matcher->reset(); });
+  in_stage(stages_.threshold_policy, step, [&] { threshold_policy_->reset(); });
+  in_stage(stages_.verdict_rule, step, [&] { verdict_rule_->reset(); });
 }
 
 }  // namespace glocal

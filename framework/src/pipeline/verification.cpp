@@ -59,18 +59,20 @@ void settle(Verification& v, Verdict& verdict) {
 
 void Localizer::verify(const LocalMap& local, StepResult& result) {
   if (result.verdict.kind != VerdictKind::localized) is_verified_ = false;
-  if (result.verdict.kind != VerdictKind::localized || is_verified_ || local.points.empty() || !verifier_)
+  if (result.verdict.kind != VerdictKind::localized || is_verified_ || local.points.empty() ||
+      !by_contact_->verifier)
     return;
   const Pose3 declared = *result.verdict.map_from_robot;
   Verification found;
   in_stage(stages_.verifier, result.step, [&] {
-    timed(&StageTimes::verify, result,
-          [&] { found = verifier_->verify(local, declared * inverse(local.local_from_robot), gate_); });
+    timed(&StageTimes::verify, result, [&] {
+      found = by_contact_->verifier->verify(local, declared * inverse(local.local_from_robot), gate_);
+    });
     check_verification(found, motion_);
   });
   in_stage(stages_.matcher, result.step, [&] {
     timed(&StageTimes::verify, result,
-          [&] { found.rivals = matcher_->rescore(std::move(found.rivals), local); });
+          [&] { found.rivals = by_contact_->matcher->rescore(std::move(found.rivals), local); });
     for (Hypothesis& h : found.rivals) h.map_from_robot = h.map_from_local * local.local_from_robot;
     check_hypotheses(found.rivals, 0.0, motion_);
   });

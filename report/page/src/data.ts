@@ -71,6 +71,8 @@ export interface Steps {
   translation_error_m: Column;
   rotation_error_deg: Column;
   confidence: Column;
+  contact_epsilon_m: Column;
+  range_noise_m: Column;
   estimate: PoseColumns;
   reference: PoseColumns;
   local_from_robot: PoseColumns;
@@ -114,6 +116,21 @@ export interface Scans {
   z?: number[];
 }
 
+/** A box along the axes of the map's frame, m, and how many scans tell it. */
+export interface MapChange {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+  views: number;
+}
+
+/** What the map lacks, and what it shows that is gone. */
+export interface MapChanges {
+  new: MapChange[];
+  gone: MapChange[];
+}
+
 export type Outcome = "right" | "wrong" | "undecided" | "declared" | "failed";
 
 export interface Trial {
@@ -136,6 +153,8 @@ export interface Trial {
   columns?: Steps;
   local_map?: PointLives;
   scans?: Scans;
+  /** What the trial has found to differ from the map, where its local maps are kept. */
+  changes?: MapChanges;
 }
 
 export interface Proportion {

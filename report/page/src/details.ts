@@ -129,6 +129,9 @@ function facts(steps: Steps, step: number): HTMLElement {
     ["proposals", count(steps.proposals[step])],
     ["clusters", count(steps.clusters[step])],
     ["local map", `${count(steps.local_map_points[step])} points`],
+    ...(steps.range_noise_m[step] == null
+      ? []
+      : [["ε, range noise", `${significant(steps.contact_epsilon_m[step])} m, ${significant(steps.range_noise_m[step])} m`] as [string, string]]),
     ["time", `${fixed(steps.step_ms[step], 1)} ms, matching ${fixed(steps.match_ms[step], 1)} ms`],
     ...Object.entries(steps.evidence)
       .filter(([, values]) => values[step] != null)

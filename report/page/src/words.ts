@@ -39,8 +39,8 @@ export const ofGlossary: Record<string, string> = {
 
 /** What the glossary has no word for. */
 const ofPage: Record<string, string> = {
-  new: "Hits of the scan where the map shows nothing, nor on the way, seen from the estimate: what the map lacks.",
-  gone: "Hits of the scan beyond what the map shows on the way, seen from the estimate: something is gone, or the pose is wrong.",
+  new: "Hits of the scan where the map shows nothing, nor on the way, seen from the estimate: what the map lacks. Boxes: what three scans of the trial tell.",
+  gone: "Hits of the scan beyond what the map shows on the way, seen from the estimate: something is gone, or the pose is wrong. Boxes: what three scans of the trial pass through.",
   error: "How far the estimate is from the reference pose, and turned against it.",
   "angle error": "How far the estimate is turned against the reference pose: the median of right trials, at the declaration.",
   "error at declaration": "How far the estimate is from the reference pose: the median of right trials, at the declaration.",
@@ -78,6 +78,7 @@ const ofPage: Record<string, string> = {
   "error, °": "How far the declared pose is turned against the reference pose.",
   "contact certified": "How much of the local map is in contact with the map at the declared pose, and how much at most at any pose elsewhere.",
   why: "The sentence of the verdict that the trial ended with, or of what made it fail.",
+  "ε, range noise": "The distance that counts as contact in this step, and the standard deviation of ranges as the scans tell it.",
   evidence: "A number that the verdict rests on.",
   "evidence: steps": "For how many steps the best pose has been the same, moved by the local motion.",
   "evidence: distance_m": "How far the robot drove in these steps.",

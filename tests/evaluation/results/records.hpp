@@ -12,6 +12,8 @@ inline StepRecord step_record(std::size_t step, const Pose2& pose) {
   record.result.stamp = 100.0 + 0.5 * static_cast<double>(step);
   record.result.local_map_points = 40;
   record.result.local_from_robot = Pose2{1.0, 2.0, 0.5};
+  record.result.range_noise = 0.0125;
+  record.result.contact_epsilon = 0.1;
   record.result.omega_max = 0.5;
   record.result.omega_best = 0.75;
   record.result.score_best = 0.625;

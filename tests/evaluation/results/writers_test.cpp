@@ -34,8 +34,9 @@ TEST(StepLine, HasTheKeysOfTheContract) {
               ::testing::UnorderedElementsAre(
                   "trial", "step", "stamp", "stage_ms", "stage_cpu_ms", "local_map_points", "omega_best",
                   "score_best", "omega_max", "omega_place", "omega_scan", "hits", "proposals",
-                  "points_tested", "hypotheses", "clusters", "best", "verdict", "why", "local_from_robot",
-                  "estimate", "reference", "on_map", "translation_error_m", "rotation_error_deg"));
+                  "contact_epsilon_m", "range_noise_m", "points_tested", "hypotheses", "clusters", "best",
+                  "verdict", "why", "local_from_robot", "estimate", "reference", "on_map",
+                  "translation_error_m", "rotation_error_deg"));
   EXPECT_EQ(json["trial"], 7);
   EXPECT_EQ(json["step"], 3);
   EXPECT_EQ(json["stamp"], 101.5);
@@ -43,6 +44,8 @@ TEST(StepLine, HasTheKeysOfTheContract) {
             Json::parse(R"({"local_map": 1.0, "match": 2.0, "cluster": 3.0, "rate": 4.0})"));
   EXPECT_EQ(json["stage_cpu_ms"],
             Json::parse(R"({"local_map": 1.5, "match": 2.5, "cluster": 3.5, "rate": 4.5})"));
+  EXPECT_EQ(json["contact_epsilon_m"], 0.1);
+  EXPECT_EQ(json["range_noise_m"], 0.0125);
   EXPECT_EQ(json["omega_best"], 0.75);
   EXPECT_EQ(json["score_best"], 0.625);
   EXPECT_EQ(json["omega_max"], 0.5);

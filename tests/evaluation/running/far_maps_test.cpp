@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -55,7 +57,8 @@ void expect_same_far_away(const Json& far, const Json& near, const std::string& 
     for (const auto& [name, value] : near.items())
       expect_same_far_away(*of_far++, value, near.is_array() ? key : name);
   } else if (near.is_number_float()) {
-    EXPECT_NEAR(far.get<double>(), near.get<double>(), exact) << key;
+    const double size = std::max(1.0, std::abs(near.get<double>()));
+    EXPECT_NEAR(far.get<double>(), near.get<double>(), exact * size) << key;
   } else {
     EXPECT_EQ(far, near) << key;
   }

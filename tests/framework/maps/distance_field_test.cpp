@@ -122,39 +122,25 @@ TEST(PoseCovariance, IsThatOfALineFitAcrossAWall) {
   const DistanceField field(walls(80, false));
   const Points seen = walls(60, false);  // the wall goes on to both sides
   const Pose2 off{0.0, 0.02, 0.0};
-  const PoseCovariance c =
-      pose_covariance(field, seen, off, off, 0.15,
-                      {.point_deviation = 0.02, .correlated_points = 1.0, .drift = 0.0, .drift_deg = 0.0});
+  const PoseCovariance c = pose_covariance(field, seen, off, off, 0.15);
   EXPECT_GT(c.xx, 0.5);  // along the wall nothing is known
   // Every point is 2 cm off and weighs (15^2 / (15^2 + 2^2))^2. A line through n such points is uncertain by
-  // 0.02^2 / (weight n) across, and by 0.02^2 / (weight sum of x^2) in its direction.
+  // 0.02^2 / (weight n) across, and by 0.02^2 / (weight sum of x^2) in its direction. Eight of them count as
+  // one, and the heading has drifted by 0.2 degrees.
   const double weight = std::pow(0.0225 / (0.0225 + 0.0004), 2.0);
   double squares = 0.0;
   for (std::size_t i = 0; i < seen.size(); ++i) squares += double{seen.x[i]} * seen.x[i];
-  EXPECT_NEAR(c.yy, 0.0004 / (weight * 121.0), 0.05 * c.yy);
-  EXPECT_NEAR(c.tt, 0.0004 / (weight * squares), 0.05 * c.tt);
+  EXPECT_NEAR(c.yy, 8.0 * 0.0004 / (weight * 121.0), 0.05 * c.yy);
+  EXPECT_NEAR(c.tt, 8.0 * 0.0004 / (weight * squares) + std::pow(radians(0.2), 2.0), 0.05 * c.tt);
   EXPECT_NEAR(c.yt, 0.0, 1e-7);
 }
 
 TEST(PoseCovariance, ASecondWallSettlesTheOtherDirection) {
   const Points corner = walls(60, true);
   const Pose2 off{0.02, 0.02, 0.0};
-  const PoseCovariance c = pose_covariance(DistanceField(corner), corner, off, off, 0.15, {});
+  const PoseCovariance c = pose_covariance(DistanceField(corner), corner, off, off, 0.15);
   EXPECT_LT(c.xx, 0.01);
   EXPECT_LT(c.yy, 0.01);
-}
-
-TEST(PoseCovariance, DriftComesOnTop) {
-  const Points corner = walls(60, true);
-  const Pose2 off{0.02, 0.02, 0.0};
-  const DistanceField field(corner);
-  const PoseCovariance without =
-      pose_covariance(field, corner, off, off, 0.15, {.drift = 0.0, .drift_deg = 0.0});
-  const PoseCovariance with =
-      pose_covariance(field, corner, off, off, 0.15, {.drift = 0.1, .drift_deg = 2.0});
-  EXPECT_NEAR(with.xx - without.xx, 0.01, 1e-9);
-  EXPECT_NEAR(with.yy - without.yy, 0.01, 1e-9);
-  EXPECT_NEAR(with.tt - without.tt, radians(2.0) * radians(2.0), 1e-9);
 }
 
 }  // namespace

@@ -22,8 +22,9 @@ struct Script {
   double updated_omega_max = 0.3;  ///< After it.
   std::function<MatchResult(double omega_max, Rng& rng)> match = [](double, Rng&) { return MatchResult{}; };
   std::function<void(Rng& rng)> cluster = [](Rng&) {};
-  std::vector<double> r;  ///< Of the clusters, in the order of their hypotheses.
-  PoseGate gate;          ///< What the matcher was told last.
+  std::vector<double> r;         ///< Of the clusters, in the order of their hypotheses.
+  PoseGate gate;                 ///< What the matcher was told last.
+  std::vector<double> epsilons;  ///< For which a matcher was made.
   std::function<Verdict(const StepResult&)> judge = [](const StepResult&) { return Verdict{}; };
   std::function<Verification(const Pose3& map_from_local)> verify = [](const Pose3&) {
     return Verification{};
@@ -55,7 +56,9 @@ struct FakeMapper final : Fake<LocalMapper> {
 };
 
 struct FakeMatcher final : Fake<Matcher> {
-  using Fake::Fake;
+  FakeMatcher(const Params& params, const StageSetup& setup) : Fake(params) {
+    script_->epsilons.push_back(setup.contact_epsilon);
+  }
   [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override {
     note("match");
     script_->gate = request.gate;

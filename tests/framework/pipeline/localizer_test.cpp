@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -599,6 +600,55 @@ TEST_F(OnAFarMap, APriorIsInTheMapsFrame) {
   EXPECT_EQ(result.verdict.why, "only starts within 1 m of x 500003, y 4649780 were looked at");
   config.prior.region.x = 3.0;
   EXPECT_THROW(make_with(config), ConfigError);
+}
+
+/// A wall 4 m away, as a sensor with this noise sees it.
+Observation noisy_wall(double deviation) {
+  Rng rng(5);
+  Observation observation;
+  for (int i = -40; i <= 40; ++i) {
+    const double angle = radians(i);
+    const double range = 4.0 / std::cos(angle) + rng.normal(deviation);
+    observation.scan.hits.push_back(
+        {static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)), 0.0F});
+  }
+  return observation;
+}
+
+TEST_F(LocalizerTest, NoisyScansAreInContactFromFartherAway) {
+  Localizer localizer = make();  // The map has no resolution: epsilon is 0.1 m.
+  EXPECT_EQ(localizer.step(noisy_wall(0.03)).contact_epsilon, 0.1);
+  script_->calls.clear();
+  localizer.reset(1);
+  script_->calls.clear();
+  const StepResult noisy = localizer.step(noisy_wall(0.14));
+  EXPECT_NEAR(noisy.range_noise.value_or(0.0), 0.14, 0.05);
+  EXPECT_EQ(noisy.contact_epsilon, 0.2);
+  EXPECT_THAT(script_->calls, ElementsAre("add", "reset matcher", "reset threshold", "reset verdict",
+                                          "omega_max", "match", "update", "cluster", "rate", "judge"));
+  EXPECT_THAT(script_->epsilons, ElementsAre(0.1, 0.2));
+  // It stays so for the trial, and no longer.
+  EXPECT_EQ(localizer.step({}).contact_epsilon, 0.2);
+  localizer.reset(2);
+  EXPECT_EQ(localizer.step({}).contact_epsilon, 0.1);
+  static_cast<void>(localizer.step(noisy_wall(0.14)));
+  EXPECT_EQ(script_->epsilons.size(), 2U);  // None is made twice.
+}
+
+TEST_F(LocalizerTest, AnEpsilonThatIsSaidStays) {
+  LocalizerConfig config = follow(script_);
+  config.contact_epsilon = 0.1;
+  Localizer localizer(config, catalog_, {map_of_one_point(), 1}, 1);
+  EXPECT_EQ(localizer.step(noisy_wall(0.14)).contact_epsilon, 0.1);
+}
+
+TEST_F(LocalizerTest, InSpaceNoNoiseIsTold) {
+  LocalizerConfig config = follow(script_);
+  config.motion = Motion::free;
+  Localizer localizer(config, catalog_, {map_of_one_point(), 1}, 1);
+  const StepResult result = localizer.step(noisy_wall(0.14));
+  EXPECT_FALSE(result.range_noise);
+  EXPECT_EQ(result.contact_epsilon, 0.1);
 }
 
 }  // namespace

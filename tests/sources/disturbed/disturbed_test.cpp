@@ -174,6 +174,17 @@ TEST_F(Disturbed, AStretchedMapKeepsItsMiddle) {
   EXPECT_NEAR(stretched.grid.resolution, 0.55, 1e-12);
 }
 
+TEST_F(Disturbed, AShearedMapLeansAboutItsMiddle) {
+  // Points from 0.25 to 3.75 m along y: the middle is 2 m. Half a metre away everything is 5 cm aside.
+  const MapData sheared = map({{{"sheared", 0, 100.0}}});
+  const MapData upright = map({{{"taken", 0, 1e-9}}});
+  ASSERT_EQ(sheared.points.y, upright.points.y);
+  for (std::size_t i = 0; i < upright.points.size(); ++i)
+    EXPECT_NEAR(sheared.points.x[i], upright.points.x[i] + 0.1F * (upright.points.y[i] - 2.0F), 1e-5F);
+  for (std::size_t i = 0; i < sheared.points.size(); ++i)
+    EXPECT_EQ(sheared.grid.at(sheared.points.x[i], sheared.points.y[i]), Cell::occupied);
+}
+
 /// Amounts rise with the level, or fall.
 template <class Kinds>
 void expect_levels_in_order(const Kinds& kinds) {

@@ -172,5 +172,34 @@ TEST(Surroundings, PeopleStandBeforeTheWallAndWalk) {
   EXPECT_LT(covered, 0.35);
 }
 
+TEST(DriveDisturbances, ReversedMotionsTakeTheWayBack) {
+  const auto way = drive(1001);
+  const auto left = disturbed(ReversedMotions(0.2, Rng(1)), way);
+  int reversed = 0;
+  for (std::size_t i = 1; i < left.size(); ++i) {
+    const Pose2 told = motion_before(left, i), was = motion_before(way, i);
+    if (told.theta > 0.0) continue;
+    ++reversed;
+    const Pose2 none = told * was;
+    EXPECT_NEAR(std::hypot(none.x, none.y) + std::abs(none.theta), 0.0, 1e-9);
+  }
+  EXPECT_NEAR(reversed, 200, 40);
+}
+
+TEST(DriveDisturbances, JitterIsWithinTheLastMotionAndNeverAddsUp) {
+  const auto way = drive(1001);
+  const auto left = disturbed(Jitter(0.5, Rng(1)), way);
+  EXPECT_EQ(left[0].observation.odom_from_robot, way[0].observation.odom_from_robot);
+  double sum = 0.0;
+  for (std::size_t i = 1; i < left.size(); ++i) {
+    const Pose2 behind = inverse(seen_from_above(left[i].observation.odom_from_robot)) *
+                         seen_from_above(way[i].observation.odom_from_robot);
+    EXPECT_GE(behind.theta, -1e-9);
+    EXPECT_LE(behind.theta, 0.05 + 1e-9);  // half of 0.1 rad
+    sum += behind.theta;
+  }
+  EXPECT_NEAR(sum / 1000.0, 0.025, 0.002);
+}
+
 }  // namespace
 }  // namespace glocal::disturbed::drive_disturbances_test

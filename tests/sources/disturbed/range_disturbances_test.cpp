@@ -140,5 +140,31 @@ TEST(RangeDisturbances, SomebodyStandsBefore) {
             269);
 }
 
+TEST(RangeDisturbances, CrossTalkComesTenInARow) {
+  const std::vector<double> ranges = ranges_of(changed(circle(0.036), cross_talk, 0.3));
+  EXPECT_NEAR(share_of(ranges, 3.999, 4.001), 0.7, 0.05);
+  for (std::size_t begin = 0; begin < ranges.size(); begin += 10) {
+    for (std::size_t i = begin; i < begin + 10; ++i) EXPECT_NEAR(ranges[i], ranges[begin], 1e-4);
+  }
+}
+
+TEST(RangeDisturbances, OfRingsEveryStepthIsLeft) {
+  // Rings at -30, -10, 10 and 30 degrees, four rays each.
+  Scan scan;
+  for (const double up : {30.0, -10.0, -30.0, 10.0}) {
+    for (const double bearing : {0.0, 90.0, 180.0, 270.0}) {
+      const double flat = 5.0 * std::cos(up * pi / 180.0);
+      scan.hits.push_back({static_cast<float>(flat * std::cos(bearing * pi / 180.0)),
+                           static_cast<float>(flat * std::sin(bearing * pi / 180.0)),
+                           static_cast<float>(5.0 * std::sin(up * pi / 180.0))});
+    }
+  }
+  const Scan left = changed(scan, thin_rings, 2.0);
+  ASSERT_EQ(left.hits.size(), 8U);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(left.hits.z[i], -2.5, 1e-5);  // -30 degrees
+  for (std::size_t i = 4; i < 8; ++i) EXPECT_NEAR(left.hits.z[i], 5.0 * std::sin(pi / 18.0), 1e-5);
+  EXPECT_EQ(changed(circle(1.0), thin_rings, 16.0).hits, circle(1.0).hits);
+}
+
 }  // namespace
 }  // namespace glocal::disturbed::range_disturbances_test
