@@ -173,9 +173,8 @@ std::ptrdiff_t first_right(const Items& items, const Pose3& truth, const Evaluat
   return found - items.begin();
 }
 
-Fit fit_of(const Replayed& step, const LoadedExperiment& loaded, const Experiment& experiment) {
-  const GlobalMap& map = *loaded.map;
-  const auto contact = contact_index(map, "bitset", contact_epsilon_on(map, experiment.localizer));
+Fit fit_of(const Replayed& step, const GlobalMap& map) {
+  const auto contact = contact_index(map, "bitset", step.result.contact_epsilon);
   const auto at = [&](const Pose3& map_from_robot) {
     return contact->share(step.local.points, place_of_local(step, map_from_robot, map));
   };
@@ -184,6 +183,17 @@ Fit fit_of(const Replayed& step, const LoadedExperiment& loaded, const Experimen
           .of_scan = contact->share(step.scan, map.relative(step.map_from_robot))};
   fit.at_best = at(fit.best);
   return fit;
+}
+
+/// What the hits of the latest scan say where the best pose is right.
+std::string text_of(const std::vector<HitKind>& hits) {
+  const auto share = [&](HitKind kind) {
+    return 100.0 * static_cast<double>(std::count(hits.begin(), hits.end(), kind)) /
+           static_cast<double>(hits.size());
+  };
+  return fmt::format(
+      "{:.0f} % on the map, {:.0f} % new, {:.0f} % beyond what it shows, {:.0f} % where it knows nothing",
+      share(HitKind::on_map), share(HitKind::unmapped), share(HitKind::beyond), share(HitKind::unknown));
 }
 
 /// Why no pose near the truth can be found, whatever is drawn; none if the local map fits there well enough.
@@ -229,13 +239,12 @@ std::string lost_after_matcher(const StepResult& result, std::ptrdiff_t cluster)
 }
 
 /// What a search of the whole map finds beside the best pose, and whether the matcher had it.
-std::string rivals_elsewhere(const Replayed& step, const LoadedExperiment& loaded,
-                             const Experiment& experiment, const Catalog& catalog,
+std::string rivals_elsewhere(const Replayed& step, const LoadedExperiment& loaded, const Catalog& catalog,
                              const EvaluationConfig& limits) {
   const std::optional<Pose3> best = step.result.estimate();
   if (!best || step.local.points.empty()) return "not looked for: there is no best pose";
   StageSetup setup{loaded.map};
-  setup.contact_epsilon = contact_epsilon_on(*loaded.map, experiment.localizer);
+  setup.contact_epsilon = step.result.contact_epsilon;
   const Verification found = catalog.verifiers.make({"whole_map"}, setup)
                                  ->verify(step.local, place_of_local(step, *best, *loaded.map), step.gate);
   if (!found.certificate) return "unknown: the search of the whole map was given up";
@@ -287,7 +296,7 @@ void explain(const ExplainOptions& options, Context& context) {
   const Replayed step = replay(options.folder, run, context.catalog, loaded, Threshold::configured);
   const StepResult& result = step.result;
   const Pose3& truth = step.map_from_robot;
-  const Fit fit = fit_of(step, loaded, experiment);
+  const Fit fit = fit_of(step, *loaded.map);
 
   const std::ptrdiff_t hypothesis = first_right(result.hypotheses, truth, limits);
   const std::ptrdiff_t cluster = first_right(result.clusters, truth, limits);
@@ -314,12 +323,13 @@ void explain(const ExplainOptions& options, Context& context) {
   if (step.drift)
     answer("  local map   {:.2f} m and {:.1f} deg off the reference since the trial began\n",
            step.drift->translation_m, degrees(step.drift->rotation_rad));
+  if (!result.hit_kinds.empty()) answer("  hits        {}\n", text_of(result.hit_kinds));
   answer("  threshold   {:.2f}; best {}\n", result.omega_max, worth(result.score_best, result.omega_best));
   answer("  hypothesis  {}\n", rank_text(result.hypotheses, hypothesis, truth));
   answer("  cluster     {}\n", rank_text(result.clusters, cluster, truth));
   answer("  verdict     {}: {}\n", to_string(result.verdict.kind), result.verdict.why);
   if (experiment.localizer.motion == Motion::planar)
-    answer("  rivals      {}\n", rivals_elsewhere(step, loaded, experiment, context.catalog, limits));
+    answer("  rivals      {}\n", rivals_elsewhere(step, loaded, context.catalog, limits));
   answer("  lost        {}\n", lost());
 }
 

@@ -9,6 +9,7 @@
 
 #include "evaluation/comparison/comparison_writers.hpp"
 #include "evaluation/comparison/methods.hpp"
+#include "evaluation/results/map_changes.hpp"
 #include "evaluation/results/map_files.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/sweeps/analysis.hpp"
@@ -122,7 +123,7 @@ void ReportData::read_map(Run& run, FaultCollector& faults) {
   });
 }
 
-/// Local maps and scans of a trial.
+/// Local maps and scans of a trial, and what it has seen of changes.
 void ReportData::read_recordings(Run& run, std::size_t number, FaultCollector& faults) {
   Trial& trial = run.trials.at(number);
   const fs::path folder = run.folder / "maps" / fmt::format("trial_{:04}", number);
@@ -141,6 +142,9 @@ void ReportData::read_recordings(Run& run, std::size_t number, FaultCollector& f
   };
   read("step", trial.local_map, limits_.lives, trials_with_maps_);
   read("scan", trial.scans, limits_.scan_points, trials_with_scans_);
+  std::error_code unreachable;
+  const fs::path changes = run.folder / changes_file(number);
+  if (fs::exists(changes, unreachable)) faults.collect([&] { trial.changes = read_changes(changes); });
 }
 
 void ReportData::share_limits() {
@@ -179,6 +183,7 @@ Json ReportData::chunk_of(const Trial& trial) {
   Json json;
   if (trial.steps) json["columns"] = trial.steps->to_json();
   if (trial.local_map) json["local_map"] = glocal::to_json(*trial.local_map);
+  if (!trial.changes.is_null()) json["changes"] = trial.changes;
   if (trial.scans) json["scans"] = trial.scans->to_json();
   return json;
 }

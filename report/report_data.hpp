@@ -51,6 +51,7 @@ class ReportData {
     std::optional<StepColumns> steps = {};
     std::optional<PointLives> local_map = {};
     std::optional<ScanFrames> scans = {};
+    nlohmann::ordered_json changes = {};  ///< As changes_json() makes them; null without any.
   };
   struct Run {
     std::filesystem::path folder;

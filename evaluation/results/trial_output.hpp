@@ -31,8 +31,10 @@ class TrialCollector {
   void step(std::size_t trial, const StepRecord& record, const Scan& scan, const Localizer& localizer);
   [[nodiscard]] TrialOutput finish(const TrialRecord& trial);
 
- private:
+  /// Whether the local maps of a trial are kept, and what it has seen of changes.
   [[nodiscard]] bool keeps_map(std::size_t trial) const;
+
+ private:
   NamedContents take_maps(std::size_t trial);
 
   const OutputConfig& config_;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "evaluation/results/map_changes.hpp"
 #include "evaluation/results/map_files.hpp"
 #include "evaluation/results/summary.hpp"
 #include "evaluation/results/writers.hpp"
@@ -79,6 +80,10 @@ bool VariantRun::run(const std::string& identity, const std::vector<std::size_t>
     TrialOutput output = collector.finish(record);
     if (with_map && record.trial == 0 && experiment.output.maps != "none") {
       for (auto& file : map_files(*loaded_.map)) output.files.push_back(std::move(file));
+    }
+    if (collector.keeps_map(record.trial)) {
+      if (auto changes = changes_json(record, loaded_.drive, *loaded_.map))
+        output.files.emplace_back(changes_file(record.trial), *std::move(changes));
     }
     journal.finish(id(record.trial), ms_since(begun[record.trial]), output);
     callbacks.done(record);

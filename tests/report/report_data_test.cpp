@@ -205,6 +205,17 @@ TEST_F(ReportDataTest, HasTheCellsOfAMapThatHasSome) {
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("a/maps/global_grid.json: error: is no grid")));
 }
 
+TEST_F(ReportDataTest, HasWhatATrialHasFoundChanged) {
+  const Json changes =
+      Json::parse(R"({"new": [{"x": 1.5, "y": 2.5, "width": 0.4, "height": 0.2, "views": 4}], "gone": []})");
+  write("a/maps/trial_0000/changes.json", changes.dump());
+  EXPECT_EQ(data({"a"})["runs"][0]["trials"][0]["changes"], changes);
+  for (const char* broken : {"{}", "[]", R"({"new": [{"x": 1}], "gone": []})", R"({"new": 1, "gone": []})"}) {
+    write("a/maps/trial_0000/changes.json", broken);
+    EXPECT_THAT(faults(), ElementsAre(HasSubstr("changes.json: error: has no changes"))) << broken;
+  }
+}
+
 TEST_F(ReportDataTest, ComparesRunsOrSaysWhyNot) {
   write_run("b");
   write_run("elsewhere", 2.5);

@@ -1,7 +1,7 @@
 // A step's poses on the map, and the ways that lead to them.
 import { opacityOf, thinnedOut } from "./candidates_shown";
 import { errorColour, ratingColour, themeColour, verdictColours } from "./colours";
-import { frameAt, poseAt, type Pose, type Steps } from "./data";
+import { frameAt, poseAt, type MapChange, type Pose, type Steps } from "./data";
 import { fansOf } from "./field_of_view";
 import { compose } from "./geometry";
 import type { Screen } from "./map_background";
@@ -52,6 +52,9 @@ export class StepDrawing {
     const { step } = this.store.selected;
     if (!steps || steps.step.length === 0) return;
     if (this.shown.view) this.drawFieldOfView(context);
+    const { changes } = this.store.trial ?? {};
+    if (changes && this.shown.unmapped) this.drawChanges(context, changes.new, themeColour("unmapped"));
+    if (changes && this.shown.beyond) this.drawChanges(context, changes.gone, themeColour("beyond"));
     if (this.shown.reference) this.drawReference(context, steps);
     if (this.shown.estimate) this.drawEstimates(context, steps, step);
     if (this.shown.unknown_place) this.drawUnknownPlaces(context, steps, step);
@@ -62,6 +65,19 @@ export class StepDrawing {
     if (reference && this.shown.reference) this.drawRobot(context, reference, themeColour("reference"), true);
     const estimate = poseAt(steps.estimate, step);
     if (estimate && this.shown.estimate) this.drawRobot(context, estimate, themeColour("estimate"), false);
+  }
+
+  /** Boxes around what the trial has found to differ from the map. */
+  private drawChanges(context: Pen, changes: MapChange[], colour: string): void {
+    const { scale } = this.screen;
+    context.strokeStyle = colour;
+    context.lineWidth = 2;
+    for (const { x, y, width, height } of changes) {
+      const corner = this.at(x - width / 2, y + height / 2);
+      context.beginPath();
+      context.rect(corner.x, corner.y, width * scale, height * scale);
+      context.stroke();
+    }
   }
 
   private drawReference(context: Pen, steps: Steps): void {
