@@ -137,7 +137,7 @@ struct FakeVerifier final : Fake<Verifier> {
 };
 
 /// Delivers what it is given.
-class ListedSamples final : public ObservationSource {
+class ListedSamples : public ObservationSource {
  public:
   struct Params {
     std::vector<Sample> samples;
