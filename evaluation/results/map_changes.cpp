@@ -107,8 +107,10 @@ void MapChanges::add_hit(const Pose2& hit, Seen& wide, Seen& cells) const {
   const Pose2 grid_from_map = inverse(grid.map_from_grid);
   const auto [column, row] = square_of(grid_from_map * hit, grid.resolution);
   const int around = static_cast<int>(std::ceil(wall / grid.resolution));
-  for (int y = row - around; y <= row + around; ++y) {
-    for (int x = column - around; x <= column + around; ++x) cells.hit.emplace(x, y);
+  for (int y = std::max(row - around, 0); y <= std::min(row + around, grid.height - 1); ++y) {
+    for (int x = std::max(column - around, 0); x <= std::min(column + around, grid.width - 1); ++x) {
+      if (grid.cell(x, y) == Cell::occupied) cells.hit.emplace(x, y);
+    }
   }
   const float off = distances_->at(static_cast<float>(hit.x), static_cast<float>(hit.y)).distance;
   if (off >= least_off && grid.at(hit.x, hit.y) == Cell::free) wide.hit.insert(square_of(hit, wide_side));
