@@ -41,7 +41,7 @@ class StagedMargin final : public VerdictRule {
     double max_turn_rate_deg = 60.0;
     double max_free_space_violation = 0.4;
     double min_scan_contact = 0.75;
-    double min_confidence = 0.98;
+    double min_confidence = 0.9975;
   };
 
   StagedMargin(const Params& params, const StageSetup& setup);

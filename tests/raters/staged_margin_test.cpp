@@ -170,7 +170,7 @@ TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
 }
 
 /// A step that only a confidence can declare: little of its scan is on the map, and much of it is in free
-/// space. Log odds of the second one: -1.94 + 15.5 * 0.2 + 0.64 ln 2 + 0.51 * 6.
+/// space. Log odds of the second one: -2.854 + 27.28 * 0.2 + 1.126 ln 2 + 0.898 * 6.
 StepResult cluttered(double driven, double omega_scan = 0.5) {
   StepResult result = step(0.5, 0.3, driven);
   result.omega_scan = omega_scan;
@@ -187,16 +187,16 @@ StageSetup with_verifier() {
 }
 
 TEST(StagedMargin, WhatBeamsSayMakesAConfidenceThatIsEnough) {
-  StagedMargin rule({.min_confidence = 0.98}, with_verifier());
+  StagedMargin rule({.min_confidence = 0.9975}, with_verifier());
   EXPECT_EQ(rule.judge(cluttered(0.0)).kind, VerdictKind::searching);
   EXPECT_EQ(rule.judge(cluttered(0.0)).kind, VerdictKind::searching);  // It stands.
   const Verdict verdict = rule.judge(cluttered(0.1));
   EXPECT_EQ(verdict.kind, VerdictKind::localized);
   EXPECT_FALSE(verdict.needs_certificate);
-  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9906, 1e-4);
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9998448, 1e-6);
 
-  StagedMargin surer({.min_confidence = 0.99}, with_verifier());
-  StagedMargin unverified({.min_confidence = 0.98}, {});
+  StagedMargin surer({.min_confidence = 0.9979}, with_verifier());
+  StagedMargin unverified({.min_confidence = 0.9975}, {});
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(surer.judge(cluttered(0.1 * i)).kind, VerdictKind::searching) << i;
     EXPECT_EQ(unverified.judge(cluttered(0.1 * i)).kind, VerdictKind::searching) << i;
@@ -208,8 +208,8 @@ TEST(StagedMargin, WithoutARivalBeamsSayNothing) {
   StepResult alone = cluttered(0.0);
   alone.hypotheses.pop_back();
   const Verdict verdict = rule.judge(alone);
-  // Log odds -1.94 + 15.5 * (0.5 - 0.1).
-  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9860744, 1e-6);
+  // Log odds -2.854 + 27.28 * (0.5 - 0.1).
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9996835, 1e-6);
 }
 
 TEST(StagedMargin, AScanWithMuchLessContactThanUsualBeginsAnew) {
