@@ -15,7 +15,8 @@ namespace glocal {
 /// Searches the whole map for poses with about as much contact as the declared one, by branch and bound on
 /// boxes of poses (search_boxes.hpp). If none is found, no pose has it: the certificate holds for every pose
 /// of the plane, not for those of a grid alone. Where the motion is upright, it holds for every x, y, z and
-/// yaw of the local map, which does not tilt: the robot's roll and pitch are those of the declared pose.
+/// yaw of the local map, which does not tilt: the robot's roll and pitch are those of the declared pose. In
+/// space 600 of its points count, spread evenly.
 ///
 /// The search counts contact (Omega, eq. 4) and nothing else. What the matcher thinks of a pose beyond that,
 /// it says of the rivals that the search brings (Matcher::rescore).

@@ -102,7 +102,7 @@ std::shared_ptr<const BoxPyramid> box_pyramid(BoxPyramid::Of of, const GlobalMap
   const bool is_grid = of == BoxPyramid::Of::pose_grid;
   constexpr double top_box = 0.4;  // m
   const int top_level = is_grid || in_space
-                            ? BoxPyramid::default_top_level(of)
+                            ? BoxPyramid::default_top_level(of, motion)
                             : std::max(0, static_cast<int>(std::lround(std::log2(top_box / cell))));
   const std::string key =
       fmt::format("{} {}{}{}", cell, epsilon, in_space ? " in space" : "", is_grid ? " of a grid" : "");

@@ -23,9 +23,11 @@ class BoxPyramid {
   /// Whose poses are in its boxes (pose_boxes.hpp).
   enum class Of { pose_grid, all_poses };
 
-  /// Boxes of the top level of a grid are 0.8 m wide where cells are 0.05 m, and of all poses half of that:
-  /// larger ones bound nothing indoors.
-  [[nodiscard]] static constexpr int default_top_level(Of of) { return of == Of::pose_grid ? 4 : 3; }
+  /// Boxes of the top level of a grid, and of all poses in space, are 0.8 m wide where cells are 0.05 m, and
+  /// of all poses of the plane half of that: larger ones bound nothing indoors.
+  [[nodiscard]] static constexpr int default_top_level(Of of, Motion motion = Motion::planar) {
+    return of == Of::pose_grid || motion != Motion::planar ? 4 : 3;
+  }
 
   /// `cell` and `epsilon` in m; in space where the motion is not planar. A cell is in contact if it is within
   /// epsilon of a point of the map: for a grid by its centre, for all poses by the nearest of its places.

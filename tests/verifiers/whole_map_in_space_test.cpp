@@ -26,13 +26,14 @@ TEST(ContactClimb, FindsTheSummitNearby) {
   EXPECT_EQ(found.tilt(), 0.0);
 }
 
-Verification verification(const Points& map, const Pose3& map_from_local) {
+Verification verification(const Points& map, const Pose3& map_from_local,
+                          const Points& seen = seen_in_room()) {
   MapData data;
   data.points = map;
   WholeMap verifier({.contact_epsilon = epsilon},
                     {.map = std::make_shared<const GlobalMap>(std::move(data)), .motion = Motion::upright});
   LocalMap local;
-  local.points = seen_in_room();
+  local.points = seen;
   local.ends = {local.points.size()};
   local.local_from_robot = local_from_robot;
   return verifier.verify(local, map_from_local, {});
@@ -47,6 +48,18 @@ TEST(WholeMapInSpace, CertifiesAPoseWithoutEqual) {
   EXPECT_DOUBLE_EQ(found.certificate->epsilon, epsilon);
   EXPECT_NEAR(found.certificate->delta, 0.1 * std::sqrt(4.0 + 4.0 + 2.25), 1e-9);
   for (const Hypothesis& rival : found.rivals) EXPECT_LT(rival.quality, 1.0);
+}
+
+TEST(WholeMapInSpace, OfManyPointsSixHundredCount) {
+  const Points in_room = seen_in_room();
+  Points seen;
+  for (std::size_t i = 0; i < 600; ++i) {
+    seen.push_back(in_room[i % in_room.size()]);
+    seen.push_back(point(50.0, 50.0, 50.0));  // one in two, so none counts
+  }
+  const auto found = verification(two_rooms(), map_from_local_in(0.0, 0.0, 0.0), seen);
+  ASSERT_TRUE(found.certificate);
+  EXPECT_EQ(found.certificate->contact, 1.0);
 }
 
 TEST(WholeMapInSpace, BoxesAreLargerOnMapsOfVeryManyCells) {
