@@ -142,6 +142,13 @@ constexpr std::array kinds = {
                      {0.05, 0.1, 0.2, 0.3, 0.5},
                      "office fronts have a third"},
                     made<Glass>},
+    DisturbanceKind{{"mirrors",
+                     "share of places that mirror",
+                     "",
+                     1.0,
+                     {0.02, 0.05, 0.1, 0.2, 0.4},
+                     "lifts, shop windows and polished steel; in a hall of mirrors nobody finds the way"},
+                    made<Mirrors>},
     // The drive.
     DisturbanceKind{{"dropped_scans",
                      "share of scans that are lost",

@@ -11,10 +11,14 @@
 namespace glocal::disturbed {
 namespace {
 
-constexpr double panel = 1.0;           // m, side of a pane of glass
+constexpr double panel = 1.0;           // m, side of a pane of glass, or of a mirror
 constexpr float least_behind = 0.5F;    // m
 constexpr float most_behind = 3.0F;     // m
 constexpr double nothing_behind = 0.3;  // share of panes
+
+constexpr double wall_nearby = 0.3;  // m about a hit, where a wall is straight
+constexpr int least_of_wall = 3;     // hits
+constexpr double ray_radius = 0.1;   // m, within which a hit is on a ray
 
 constexpr double reach = 8.0;       // m from the robot
 constexpr double radius = 0.25;     // m of a person
@@ -24,6 +28,47 @@ constexpr double elbow_room = 0.5;  // m between sensor and person
 
 std::uint64_t cell_of(double coordinate) {
   return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(coordinate / panel)));
+}
+
+/// If a reading meets one of the panes that are this share of all: what is drawn for that pane.
+std::optional<Rng> pane_at(const Reading& reading, const Pose3& odom_from_robot, double share,
+                           const Rng& rng) {
+  const Vector3 place = odom_from_robot * as_vector(reading.end);
+  Rng of_pane = rng.stream({cell_of(place.x()), cell_of(place.y())});
+  if (!reading.is_hit || of_pane.uniform() >= share) return std::nullopt;
+  return of_pane;
+}
+
+/// Where the wall runs at a hit, rad, seen from above: the long axis of the hits of its ring about it.
+std::optional<double> wall_direction(const Readings& readings, const std::vector<Reading>& all,
+                                     const Reading& hit) {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  int number = 0;
+  for (const Reading& other : all) {
+    const double x = other.end.x - hit.end.x, y = other.end.y - hit.end.y;
+    if (!other.is_hit || std::hypot(x, y) > wall_nearby || readings.ring(other) != readings.ring(hit))
+      continue;
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+    ++number;
+  }
+  if (number < least_of_wall) return std::nullopt;
+  return 0.5 * std::atan2(2.0 * xy, xx - yy);
+}
+
+/// Distance (m) along a ray of unit direction to the first hit on it, behind the wall that it leaves.
+std::optional<double> distance_to_hit(const std::vector<Reading>& all, const Vector3& from,
+                                      const Vector3& direction) {
+  std::optional<double> nearest;
+  for (const Reading& other : all) {
+    if (!other.is_hit) continue;
+    const Vector3 to_hit = as_vector(other.end) - from;
+    const double along = to_hit.dot(direction);
+    if (along < wall_nearby || (nearest && along >= *nearest)) continue;
+    if ((to_hit - direction * along).norm() <= ray_radius) nearest = along;
+  }
+  return nearest;
 }
 
 /// Distance (m) along a ray of unit direction to a person who stands at `at`, seen from where the ray begins;
@@ -41,13 +86,30 @@ std::optional<Sample> Glass::disturb(Sample sample, Rng /*rng*/) {
   Readings readings(sample.observation.scan);
   const Pose3& odom_from_robot = sample.observation.odom_from_robot;
   for (Reading& reading : readings.all()) {
-    if (!reading.is_hit) continue;
-    const Vector3 place = odom_from_robot * as_vector(reading.end);
-    Rng of_pane = rng_.stream({cell_of(place.x()), cell_of(place.y())});
-    if (of_pane.uniform() >= share_) continue;
-    reading.is_hit = of_pane.uniform() >= nothing_behind;
+    std::optional<Rng> of_pane = pane_at(reading, odom_from_robot, share_, rng_);
+    if (!of_pane) continue;
+    reading.is_hit = of_pane->uniform() >= nothing_behind;
     readings.set_range(reading,
-                       reading.range + static_cast<float>(of_pane.uniform(least_behind, most_behind)));
+                       reading.range + static_cast<float>(of_pane->uniform(least_behind, most_behind)));
+  }
+  sample.observation.scan = readings.scan();
+  return sample;
+}
+
+std::optional<Sample> Mirrors::disturb(Sample sample, Rng /*rng*/) {
+  Readings readings(sample.observation.scan);
+  const std::vector<Reading> unmirrored = readings.all();
+  for (Reading& reading : readings.all()) {
+    if (!pane_at(reading, sample.observation.odom_from_robot, share_, rng_)) continue;
+    const std::optional<double> wall = wall_direction(readings, unmirrored, reading);
+    if (!wall) continue;
+    const Vector3 ray = (as_vector(reading.end) - as_vector(readings.origin())) / reading.range;
+    const double bearing = 2.0 * *wall - std::atan2(ray.y(), ray.x());
+    const double across = std::hypot(ray.x(), ray.y());
+    const Vector3 mirrored{across * std::cos(bearing), across * std::sin(bearing), ray.z()};
+    const std::optional<double> beyond = distance_to_hit(unmirrored, as_vector(reading.end), mirrored);
+    reading.is_hit = beyond.has_value();
+    readings.set_range(reading, beyond ? reading.range + static_cast<float>(*beyond) : readings.farthest());
   }
   sample.observation.scan = readings.scan();
   return sample;

@@ -19,6 +19,19 @@ class Glass final : public Disturbance {
   Rng rng_;
 };
 
+/// This share of all places mirrors. What the laser meets there is what it would meet from there on, as a
+/// ball that bounces off the wall: as far behind the wall as that is before it, or nothing. Walls stand
+/// upright, and what is around them is what the scan itself shows.
+class Mirrors final : public Disturbance {
+ public:
+  Mirrors(double share, Rng rng) : share_(share), rng_(rng) {}
+  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
+
+ private:
+  double share_;
+  Rng rng_;
+};
+
 /// So many people walk within 8 m of the robot, and stand before what the sensor would meet.
 class People final : public Disturbance {
  public:

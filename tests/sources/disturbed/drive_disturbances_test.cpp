@@ -141,6 +141,32 @@ TEST(Surroundings, GlassIsAlwaysAtTheSamePlace) {
   EXPECT_LT(panes.size(), 32U) << "of a hundred panes, thirty less those with nothing behind";
 }
 
+TEST(Surroundings, MirrorsShowWhatStandsBeforeThem) {
+  // In the middle of a room of 4 m x 4 m, a beam each degree.
+  std::vector<Sample> looks(1);
+  for (int k = 0; k < 360; ++k) {
+    const double c = std::cos(radians(k)), s = std::sin(radians(k));
+    const double range = 2.0 / std::max(std::abs(c), std::abs(s));
+    looks[0].observation.scan.hits.push_back(
+        {static_cast<float>(range * c), static_cast<float>(range * s), 0.0F});
+  }
+  const auto left = disturbed(Mirrors(1.0, Rng(3)), looks);
+  const Points& hits = left[0].observation.scan.hits;
+  const auto range_at = [&](double bearing_deg) {
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+      if (std::abs(degrees(std::atan2(hits.y[k], hits.x[k])) - bearing_deg) < 0.1)
+        return std::hypot(hits.x[k], hits.y[k]);
+    }
+    return 0.0F;
+  };
+  EXPECT_NEAR(range_at(0.0), 6.0, 0.01) << "back past the sensor, to the wall behind it";
+  // At 20 degrees to (2, 0.728), then at 160 degrees to the wall at y = 2: 1.272 m up are 3.719 m of way.
+  EXPECT_NEAR(range_at(20.0), 2.0 / std::cos(radians(20.0)) + 1.272 / std::sin(radians(20.0)), 0.1);
+  EXPECT_NEAR(range_at(-70.0), range_at(20.0), 0.1) << "the room is a square";
+  const auto unchanged = disturbed(Mirrors(0.0, Rng(3)), looks);
+  EXPECT_EQ(unchanged[0].observation.scan.hits, looks[0].observation.scan.hits);
+}
+
 TEST(Surroundings, PeopleStandBeforeTheWallAndWalk) {
   std::vector<Sample> looks(50);
   for (Sample& look : looks) {
