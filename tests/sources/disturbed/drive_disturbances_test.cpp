@@ -160,9 +160,11 @@ TEST(Surroundings, MirrorsShowWhatStandsBeforeThem) {
     return 0.0F;
   };
   EXPECT_NEAR(range_at(0.0), 6.0, 0.01) << "back past the sensor, to the wall behind it";
-  // At 20 degrees to (2, 0.728), then at 160 degrees to the wall at y = 2: 1.272 m up are 3.719 m of way.
-  EXPECT_NEAR(range_at(20.0), 2.0 / std::cos(radians(20.0)) + 1.272 / std::sin(radians(20.0)), 0.1);
-  EXPECT_NEAR(range_at(-70.0), range_at(20.0), 0.1) << "the room is a square";
+  // At 20 degrees to (2, 0.728), then at 160 degrees to the wall at y = 2: 1.272 m up are 3.719 m of way. A
+  // hit 0.1 m beside the ray is on it, and up to 0.1 / tan(20 degrees) nearer.
+  const double expected = 2.0 / std::cos(radians(20.0)) + 1.272 / std::sin(radians(20.0));
+  EXPECT_NEAR(range_at(20.0), expected - 0.14, 0.15);
+  EXPECT_NEAR(range_at(-70.0), range_at(20.0), 0.01) << "the room is a square";
   const auto unchanged = disturbed(Mirrors(0.0, Rng(3)), looks);
   EXPECT_EQ(unchanged[0].observation.scan.hits, looks[0].observation.scan.hits);
 }
