@@ -16,8 +16,8 @@ constexpr std::size_t most_rivals = 10;
 /// How many more points a search in space looks at: there are heights, too, and scans have many points.
 constexpr double more_looks_in_space = 10.0;
 
-/// Points of a scan in space that count, spread evenly over all of its local map: with more of them shares of
-/// contact differ by 1.5 % (one standard deviation) at most, a third of the margin.
+/// Points of a local map in space that count. A share of contact of 80 % among them has a standard deviation of
+/// 1.6 %, a third of the margin.
 constexpr std::size_t most_points_in_space = 600;
 
 Points evenly_chosen(const Points& points, std::size_t most) {
