@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glocal/evenly.hpp"
 #include "matchers/box_search/map_area.hpp"
 #include "matchers/box_search/search_boxes.hpp"
 #include "matchers/common/candidates.hpp"
@@ -16,13 +17,13 @@ constexpr std::size_t most_rivals = 10;
 /// How many more points a search in space looks at: there are heights, too, and scans have many points.
 constexpr double more_looks_in_space = 10.0;
 
-/// Points of a local map in space that count. A share of contact of 80 % among them has a standard deviation of
-/// 1.6 %, a third of the margin.
+/// Points of a local map in space that count. A share of contact of 80 % among them has a standard deviation
+/// of 1.6 %, a third of the margin.
 constexpr std::size_t most_points_in_space = 600;
 
-Points evenly_chosen(const Points& points, std::size_t most) {
+Points some_of(const Points& points) {
   Points chosen;
-  for (std::size_t i = 0; i < most; ++i) chosen.push_back(points[i * points.size() / most]);
+  for (const std::size_t i : evenly_chosen(points.size(), most_points_in_space)) chosen.push_back(points[i]);
   return chosen;
 }
 
@@ -87,8 +88,7 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
 }
 
 Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
-  const bool are_too_many = in_space_ && local.points.size() > most_points_in_space;
-  const Points points = are_too_many ? evenly_chosen(local.points, most_points_in_space) : local.points;
+  const Points points = in_space_ ? some_of(local.points) : local.points;
   const auto size = static_cast<double>(points.size());
   const double contact = contact_of(points, map_from_local);
   const double least = std::max(1.0, std::ceil((contact - params_.margin) * size));

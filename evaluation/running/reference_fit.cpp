@@ -7,22 +7,15 @@
 #include <vector>
 
 #include "glocal/contact.hpp"
+#include "glocal/evenly.hpp"
 
 namespace glocal {
 namespace {
 
-/// `most` of n things, evenly spread.
-std::vector<std::size_t> evenly(std::size_t n, std::size_t most) {
-  std::vector<std::size_t> picked;
-  const std::size_t count = std::min(n, most);
-  for (std::size_t i = 0; i < count; ++i) picked.push_back(i * n / count);
-  return picked;
-}
-
 /// Adds so many hits of a scan, evenly spread, at a pose.
 void place_hits(const Scan& scan, const Pose3& map_from_robot, std::size_t most, Points& ends) {
   const Points placed = moved(scan.hits, map_from_robot);
-  for (const std::size_t k : evenly(placed.size(), most)) ends.push_back(placed[k]);
+  for (const std::size_t k : evenly_chosen(placed.size(), most)) ends.push_back(placed[k]);
 }
 
 }  // namespace
@@ -35,7 +28,7 @@ std::optional<double> reference_fit(const Drive& drive, const GlobalMap& map, do
   }
   if (judged.empty()) return std::nullopt;
   Points ends;
-  for (const std::size_t i : evenly(judged.size(), scans))
+  for (const std::size_t i : evenly_chosen(judged.size(), scans))
     place_hits(judged[i]->observation.scan, map.relative(*judged[i]->map_from_robot), hits_of_scan, ends);
   // Not one of the map's indexes, whose time to build is counted when a strategy asks for them.
   return KdTreeContact(map.points(), epsilon).share(ends, Transform(Pose2{}));
@@ -48,7 +41,7 @@ std::optional<double> fit_among_scans(const Drive& drive,
   Points ends, others;
   std::size_t placed = 0;
   Vector3 origin = Vector3::Zero();
-  const std::vector<std::size_t> picked = evenly(drive.samples.size(), scans);
+  const std::vector<std::size_t> picked = evenly_chosen(drive.samples.size(), scans);
   for (const std::size_t i : picked) {
     const Observation& observation = drive.samples[i].observation;
     const auto pose = reference_at(observation.stamp);

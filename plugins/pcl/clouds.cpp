@@ -1,17 +1,17 @@
 #include "clouds.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <memory>
+
+#include "glocal/evenly.hpp"
 
 namespace glocal {
 
 Cloud::Ptr cloud(const Points& points, std::size_t at_most) {
   auto result = std::make_shared<Cloud>();
-  const std::size_t n = at_most == 0 ? points.size() : std::min(at_most, points.size());
-  for (std::size_t i = 0; i < n; ++i) {
-    const Point p = points[i * points.size() / n];
+  for (const std::size_t i : evenly_chosen(points.size(), at_most == 0 ? points.size() : at_most)) {
+    const Point p = points[i];
     result->push_back({p.x, p.y, p.z});
   }
   return result;

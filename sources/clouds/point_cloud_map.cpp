@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "glocal/evenly.hpp"
 #include "glocal/voxel_filter.hpp"
 #include "sources/clouds/cloud_file.hpp"
 #include "sources/clouds/trajectory_file.hpp"
@@ -89,12 +90,11 @@ MapData PointCloudMap::load() {
 
 double typical_spacing(const Points& points) {
   constexpr std::size_t most_samples = 200, distances = 50'000'000;
-  const std::size_t samples =
-      std::min(points.size(), std::clamp<std::size_t>(distances / points.size(), 20, most_samples));
+  const std::size_t samples = std::clamp<std::size_t>(distances / points.size(), 20, most_samples);
   std::vector<float> squared;
-  for (std::size_t i = 0; i < samples; ++i)
-    squared.push_back(nearest_squared(points, points[i * points.size() / samples]));
-  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(samples / 2);
+  for (const std::size_t i : evenly_chosen(points.size(), samples))
+    squared.push_back(nearest_squared(points, points[i]));
+  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
   std::nth_element(squared.begin(), middle, squared.end());
   return std::isfinite(*middle) ? std::sqrt(static_cast<double>(*middle)) : 0.0;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/evenly.hpp"
 #include "sources/bags/pose_track.hpp"
 #include "sources/compressed_file.hpp"
 #include "sources/text_lines.hpp"
@@ -42,8 +43,7 @@ std::vector<Stretch> stretches_of(const std::vector<TrackedScan>& scans) {
     all.push_back({&scans[i - 1], &scans[i], speed, turn_rate});
   }
   std::vector<Stretch> picked;
-  const std::size_t count = std::min(all.size(), most);
-  for (std::size_t i = 0; i < count; ++i) picked.push_back(all[i * all.size() / count]);
+  for (const std::size_t i : evenly_chosen(all.size(), most)) picked.push_back(all[i]);
   return picked;
 }
 

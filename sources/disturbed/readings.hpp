@@ -21,6 +21,7 @@ class Readings {
   explicit Readings(const Scan& scan);
 
   [[nodiscard]] std::vector<Reading>& all() { return readings_; }
+  [[nodiscard]] const std::vector<Reading>& all() const { return readings_; }
   /// Where all rays begin.
   [[nodiscard]] const Point& origin() const { return origin_; }
   /// The farthest range of any ray, m; 0 without any.

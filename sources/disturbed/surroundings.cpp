@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "sources/disturbed/readings.hpp"
-
 namespace glocal::disturbed {
 namespace {
 
@@ -30,21 +28,11 @@ std::uint64_t cell_of(double coordinate) {
   return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(coordinate / panel)));
 }
 
-/// If a reading meets one of the panes that are this share of all: what is drawn for that pane.
-std::optional<Rng> pane_at(const Reading& reading, const Pose3& odom_from_robot, double share,
-                           const Rng& rng) {
-  const Vector3 place = odom_from_robot * as_vector(reading.end);
-  Rng of_pane = rng.stream({cell_of(place.x()), cell_of(place.y())});
-  if (!reading.is_hit || of_pane.uniform() >= share) return std::nullopt;
-  return of_pane;
-}
-
 /// Where the wall runs at a hit, rad, seen from above: the long axis of the hits of its ring about it.
-std::optional<double> wall_direction(const Readings& readings, const std::vector<Reading>& all,
-                                     const Reading& hit) {
+std::optional<double> wall_direction(const Readings& readings, const Reading& hit) {
   double xx = 0.0, xy = 0.0, yy = 0.0;
   int number = 0;
-  for (const Reading& other : all) {
+  for (const Reading& other : readings.all()) {
     const double x = other.end.x - hit.end.x, y = other.end.y - hit.end.y;
     if (!other.is_hit || std::hypot(x, y) > wall_nearby || readings.ring(other) != readings.ring(hit))
       continue;
@@ -58,10 +46,10 @@ std::optional<double> wall_direction(const Readings& readings, const std::vector
 }
 
 /// Distance (m) along a ray of unit direction to the first hit on it, behind the wall that it leaves.
-std::optional<double> distance_to_hit(const std::vector<Reading>& all, const Vector3& from,
+std::optional<double> distance_to_hit(const Readings& readings, const Vector3& from,
                                       const Vector3& direction) {
   std::optional<double> nearest;
-  for (const Reading& other : all) {
+  for (const Reading& other : readings.all()) {
     if (!other.is_hit) continue;
     const Vector3 to_hit = as_vector(other.end) - from;
     const double along = to_hit.dot(direction);
@@ -82,37 +70,35 @@ double distance_along(const Pose2& direction, const Pose2& at) {
 
 }  // namespace
 
-std::optional<Sample> Glass::disturb(Sample sample, Rng /*rng*/) {
-  Readings readings(sample.observation.scan);
+std::optional<Sample> Panes::disturb(Sample sample, Rng /*rng*/) {
+  Readings before(sample.observation.scan);
+  Readings readings = before;
   const Pose3& odom_from_robot = sample.observation.odom_from_robot;
   for (Reading& reading : readings.all()) {
-    std::optional<Rng> of_pane = pane_at(reading, odom_from_robot, share_, rng_);
-    if (!of_pane) continue;
-    reading.is_hit = of_pane->uniform() >= nothing_behind;
-    readings.set_range(reading,
-                       reading.range + static_cast<float>(of_pane->uniform(least_behind, most_behind)));
+    if (!reading.is_hit) continue;
+    const Vector3 place = odom_from_robot * as_vector(reading.end);
+    Rng of_pane = rng_.stream({cell_of(place.x()), cell_of(place.y())});
+    if (of_pane.uniform() < share_) change(reading, before, of_pane);
   }
   sample.observation.scan = readings.scan();
   return sample;
 }
 
-std::optional<Sample> Mirrors::disturb(Sample sample, Rng /*rng*/) {
-  Readings readings(sample.observation.scan);
-  const std::vector<Reading> unmirrored = readings.all();
-  for (Reading& reading : readings.all()) {
-    if (!pane_at(reading, sample.observation.odom_from_robot, share_, rng_)) continue;
-    const std::optional<double> wall = wall_direction(readings, unmirrored, reading);
-    if (!wall) continue;
-    const Vector3 ray = (as_vector(reading.end) - as_vector(readings.origin())) / reading.range;
-    const double bearing = 2.0 * *wall - std::atan2(ray.y(), ray.x());
-    const double across = std::hypot(ray.x(), ray.y());
-    const Vector3 mirrored{across * std::cos(bearing), across * std::sin(bearing), ray.z()};
-    const std::optional<double> beyond = distance_to_hit(unmirrored, as_vector(reading.end), mirrored);
-    reading.is_hit = beyond.has_value();
-    readings.set_range(reading, beyond ? reading.range + static_cast<float>(*beyond) : readings.farthest());
-  }
-  sample.observation.scan = readings.scan();
-  return sample;
+void Glass::change(Reading& reading, const Readings& before, Rng of_pane) const {
+  reading.is_hit = of_pane.uniform() >= nothing_behind;
+  before.set_range(reading, reading.range + static_cast<float>(of_pane.uniform(least_behind, most_behind)));
+}
+
+void Mirrors::change(Reading& reading, const Readings& before, Rng /*of_pane*/) const {
+  const std::optional<double> wall = wall_direction(before, reading);
+  if (!wall) return;
+  const Vector3 ray = (as_vector(reading.end) - as_vector(before.origin())) / reading.range;
+  const double bearing = 2.0 * *wall - std::atan2(ray.y(), ray.x());
+  const double across = std::hypot(ray.x(), ray.y());
+  const Vector3 mirrored{across * std::cos(bearing), across * std::sin(bearing), ray.z()};
+  const std::optional<double> beyond = distance_to_hit(before, as_vector(reading.end), mirrored);
+  reading.is_hit = beyond.has_value();
+  before.set_range(reading, beyond ? reading.range + static_cast<float>(*beyond) : before.farthest());
 }
 
 People::People(double people, Rng /*rng*/) : people_(static_cast<std::size_t>(std::lround(people))) {}

@@ -34,9 +34,8 @@ std::size_t brute_count(const Points& map, const Points& points, const Pose3& ma
 
 BoxPyramid pyramid_of(const Points& map, int threads = 1) {
   constexpr auto all_poses = BoxPyramid::Of::all_poses;
-  return {
-      all_poses,      map, cell, epsilon, BoxPyramid::default_top_level(all_poses, Motion::upright), threads,
-      Motion::upright};
+  const int top_level = BoxPyramid::default_top_level(all_poses, Motion::upright);
+  return {all_poses, map, cell, epsilon, top_level, threads, Motion::upright};
 }
 
 /// All poses but those near this one.
