@@ -37,7 +37,8 @@ const char* contact_for(double area) {
 void describe(ParamVisitor& v, WholeMap::Params& p) {
   v.field("margin", p.margin,
           {.doc = "Poses are searched for whose contact is at most this much lower than the declared pose's, "
-                  "and one whose score is at most this much lower refutes the declaration.",
+                  "and one whose score is at most this much lower refutes the declaration. So does the "
+                  "mirrored local map, in the plane, if its contact is higher by this much.",
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::tuner});
@@ -102,6 +103,7 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
       search_boxes(*pyramid_, points, local.local_from_robot, rule, declared, threads_);
   Verification result{.near = declared.near, .margin = params_.margin};
   result.points_tested = search.looks;
+  result.mirrored_contact = mirrored_contact(points, local.local_from_robot, contact);
   std::vector<Hypothesis> rivals;
   for (const BoxSearchResult::FoundPose& found : search.poses) {
     for (const Pose3& pose : {found.upright(), refined(points, found.upright())}) {
@@ -117,6 +119,24 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
                           .epsilon = epsilon_,
                           .delta = pyramid_->delta()};
   return result;
+}
+
+std::optional<double> WholeMap::mirrored_contact(Points points, const Pose3& local_from_robot,
+                                                 double contact) const {
+  const auto size = static_cast<double>(points.size());
+  const double least = std::ceil((contact + params_.margin) * size);
+  if (in_space_ || least > size) return std::nullopt;
+  for (float& y : points.y) y = -y;
+  const Pose2 robot = seen_from_above(local_from_robot);
+  const Pose2 mirrored_robot{robot.x, -robot.y, -robot.theta};
+  const BoxSearchRule rule{
+      .least = static_cast<std::size_t>(least), .most_places = 1, .most_looks = most_looks_};
+  const BoxSearchResult search =
+      search_boxes(*pyramid_, points, mirrored_robot, rule, std::nullopt, threads_);
+  if (search.poses.empty()) return std::nullopt;
+  const Pose3 best = refined(points, search.poses.front().upright());
+  const double mirrored = contact_of(points, best);
+  return mirrored >= contact + params_.margin ? std::optional(mirrored) : std::nullopt;
 }
 
 double WholeMap::contact_of(const Points& points, const Pose3& map_from_points) const {

@@ -20,6 +20,9 @@ namespace glocal {
 ///
 /// The search counts contact (Omega, eq. 4) and nothing else. What the matcher thinks of a pose beyond that,
 /// it says of the rivals that the search brings (Matcher::rescore).
+///
+/// In the plane it looks for the mirrored local map, too, since left and right that have changed places show
+/// in nothing else.
 class WholeMap final : public Verifier {
  public:
   static constexpr Motions motions{.planar = true, .upright = true};
@@ -40,6 +43,10 @@ class WholeMap final : public Verifier {
                                     const PoseGate& gate) override;
 
  private:
+  /// Contact at the best pose of the mirrored points, in the plane, if it is more than `contact` by the
+  /// margin or more: rooms are often nearly their own mirror images, and then both fit alike.
+  [[nodiscard]] std::optional<double> mirrored_contact(Points points, const Pose3& local_from_robot,
+                                                       double contact) const;
   [[nodiscard]] double contact_of(const Points& points, const Pose3& map_from_points) const;
   /// Near a pose that the search found, one that fits better.
   [[nodiscard]] Pose3 refined(const Points& points, const Pose3& map_from_points) const;

@@ -59,6 +59,7 @@ Json to_json(const Verification& v, Motion motion) {
                {"points_tested", v.points_tested},
                {"rivals", std::move(rivals)}};
   if (v.certificate) json["certificate"] = to_json(v, *v.certificate);
+  if (v.mirrored_contact) json["mirrored_contact"] = *v.mirrored_contact;
   return json;
 }
 
@@ -75,6 +76,9 @@ Json to_json(const SetupCheck& setup) {
     json["mount_angle_sd_deg"] = setup.mount_angle_sd_deg;
   }
   if (setup.late_by) json["late_by"] = *setup.late_by;
+  if (setup.range_bias_m) json["range_bias_m"] = *setup.range_bias_m;
+  json["walls"] = setup.walls;
+  json["stuck_share"] = setup.stuck_share;
   if (setup.fault) json["fault"] = to_string(*setup.fault);
   json["in_doubt"] = setup.is_in_doubt;
   return json;

@@ -116,6 +116,8 @@ void bind_verification(py::module_& module) {
           "rivals", [](const Verification& v) { return SeenHypotheses(std::vector<Hypothesis>(v.rivals)); },
           "Hypotheses, best score first.")
       .def_readonly("certificate", &Verification::certificate, "None where the search was given up.")
+      .def_readonly("mirrored_contact", &Verification::mirrored_contact,
+                    "Contact of the mirrored local map where it fits clearly better, or None.")
       .def_readonly("is_refuted", &Verification::is_refuted, "Whether the pose is not declared after all.")
       .def_readonly("score", &Verification::score, "Of the declared pose.")
       .def_readonly("margin", &Verification::margin,

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sources/disturbed/readings.hpp"
+
 namespace glocal::disturbed {
 namespace {
 
@@ -60,6 +62,34 @@ std::optional<Sample> UpsideDown::disturb(Sample sample, Rng /*rng*/) {
   for (Points* points : {&scan.hits, &scan.free_ends}) {
     for (float& y : points->y) y = 2.0F * scan.origin.y - y;
   }
+  return sample;
+}
+
+std::optional<Sample> Mirrored::disturb(Sample sample, Rng /*rng*/) {
+  Observation& observation = sample.observation;
+  observation.scan.origin.y = -observation.scan.origin.y;
+  for (Points* points : {&observation.scan.hits, &observation.scan.free_ends}) {
+    for (float& y : points->y) y = -y;
+  }
+  // A mirror at the plane y = 0 turns x and z the other way round.
+  const Pose3& robot = observation.odom_from_robot;
+  const Quaternion& q = robot.rotation;
+  observation.odom_from_robot = {{robot.x, -robot.y, robot.z}, {q.w(), -q.x(), q.y(), -q.z()}};
+  return sample;
+}
+
+std::optional<Sample> StuckRanges::disturb(Sample sample, Rng /*rng*/) {
+  Readings readings(sample.observation.scan);
+  for (Reading& reading : readings.all()) {
+    const auto bearing = static_cast<std::int64_t>(std::floor(degrees(readings.bearing(reading))));
+    const Direction direction{bearing, readings.ring(reading)};
+    Rng of_direction = rng_.stream(
+        {static_cast<std::uint64_t>(bearing + 180), static_cast<std::uint64_t>(direction.second + 90)});
+    if (of_direction.uniform() >= share_) continue;
+    readings.set_range(reading, first_range_.try_emplace(direction, reading.range).first->second);
+    reading.is_hit = true;
+  }
+  sample.observation.scan = readings.scan();
   return sample;
 }
 

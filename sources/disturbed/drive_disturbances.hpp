@@ -1,9 +1,11 @@
 // What goes wrong with odometry, with the order of things in time, and with how the sensor is mounted.
 #pragma once
 
+#include <cstdint>
 #include <deque>
-#include <functional>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "sources/disturbed/disturbance.hpp"
 
@@ -58,6 +60,27 @@ class UpsideDown final : public Disturbance {
  public:
   UpsideDown(double /*amount*/, Rng /*rng*/) {}
   [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
+};
+
+/// Scans and odometry have left and right the wrong way round: the robot sees and drives in a mirror.
+class Mirrored final : public Disturbance {
+ public:
+  Mirrored(double /*amount*/, Rng /*rng*/) {}
+  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
+};
+
+/// In this share of all directions, a degree wide and high, the first range that is read there stays for
+/// ever.
+class StuckRanges final : public Disturbance {
+ public:
+  StuckRanges(double share, Rng rng) : share_(share), rng_(rng) {}
+  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
+
+ private:
+  using Direction = std::pair<std::int64_t, int>;  ///< Bearing and ring, deg.
+  double share_;
+  Rng rng_;
+  std::map<Direction, float> first_range_;  ///< m
 };
 
 /// Motions as odometry measures them, made into poses again.

@@ -51,24 +51,36 @@ std::vector<std::vector<CellAt>> components_of(const OccupancyGrid& grid) {
   return components;
 }
 
-bool is_furniture(const std::vector<CellAt>& component, double resolution) {
+/// The cells of a component at its ends.
+struct Extent {
+  CellAt least, most;
+};
+
+Extent extent_of(const std::vector<CellAt>& component) {
   const auto [left, right] = std::minmax_element(component.begin(), component.end(),
                                                  [](CellAt a, CellAt b) { return a.column < b.column; });
   const auto [low, high] = std::minmax_element(component.begin(), component.end(),
                                                [](CellAt a, CellAt b) { return a.row < b.row; });
-  return (right->column - left->column + 1) * resolution <= largest_furniture &&
-         (high->row - low->row + 1) * resolution <= largest_furniture;
+  return {{left->column, low->row}, {right->column, high->row}};
+}
+
+/// This share of the furniture, drawn.
+std::vector<std::vector<CellAt>> some_furniture(const OccupancyGrid& grid, double share, Rng& rng) {
+  std::vector<std::vector<CellAt>> chosen;
+  for (std::vector<CellAt>& component : components_of(grid)) {
+    const auto [least, most] = extent_of(component);
+    const bool is_furniture = (most.column - least.column + 1) * grid.resolution <= largest_furniture &&
+                              (most.row - least.row + 1) * grid.resolution <= largest_furniture;
+    if (is_furniture && rng.uniform() < share) chosen.push_back(std::move(component));
+  }
+  return chosen;
 }
 
 /// What becomes of a share of the furniture: taken away, or put up to `farthest` metres away, where that is
 /// free.
 void move_furniture(MapData& map, double share, double farthest, Rng& rng) {
   OccupancyGrid& grid = map.grid;
-  std::vector<std::vector<CellAt>> chosen;
-  for (std::vector<CellAt>& component : components_of(grid)) {
-    if (is_furniture(component, grid.resolution) && rng.uniform() < share)
-      chosen.push_back(std::move(component));
-  }
+  const auto chosen = some_furniture(grid, share, rng);
   for (const std::vector<CellAt>& component : chosen) {
     for (const CellAt at : component) grid.cell(at.column, at.row) = Cell::free;
   }
@@ -96,6 +108,23 @@ void take_furniture(MapData& map, double share, Rng& rng) {
 void shift_furniture(MapData& map, double share, Rng& rng) {
   constexpr double farthest = 2.0;  // m
   move_furniture(map, share, farthest, rng);
+}
+
+/// A share of the furniture was mapped at the height of its legs: what is farther than 0.1 m, along either
+/// axis, from all corners of its extent is free.
+void leave_legs(MapData& map, double share, Rng& rng) {
+  constexpr double leg = 0.1;  // m
+  OccupancyGrid& grid = map.grid;
+  const auto cells = static_cast<int>(std::lround(leg / grid.resolution));
+  for (const std::vector<CellAt>& component : some_furniture(grid, share, rng)) {
+    const auto [least, most] = extent_of(component);
+    for (const CellAt at : component) {
+      const bool is_leg = std::min(at.column - least.column, most.column - at.column) < cells &&
+                          std::min(at.row - least.row, most.row - at.row) < cells;
+      if (!is_leg) grid.cell(at.column, at.row) = Cell::free;
+    }
+  }
+  take_points_of_cells(map);
 }
 
 /// Boxes of 0.3 to 1.2 m that the world does not have, so many on 100 square metres of free cells.
@@ -249,6 +278,14 @@ constexpr std::array map_kinds = {
                         "a day, a week, a year of use"},
                        true,
                        shift_furniture},
+    MapDisturbanceKind{{"other_height",
+                        "share of the furniture that was mapped at the height of its legs",
+                        "",
+                        1.0,
+                        {0.1, 0.25, 0.5, 0.75, 1.0},
+                        "tables are four legs to one sensor and a top to another"},
+                       true,
+                       leave_legs},
     MapDisturbanceKind{{"brought",
                         "boxes that are gone since the map was made, on 100 square metres free",
                         "",

@@ -76,6 +76,18 @@ TEST(WholeMap, BringsEachRivalOnce) {
   }
 }
 
+TEST(WholeMap, FindsWhatFitsBetterInAMirror) {
+  // The short wall of the map is where the local map has its long one. Only half of it fits without a mirror.
+  Points mirrored = corner(0.0F, 0.0F);
+  std::swap(mirrored.x, mirrored.y);
+  const auto found = verification(map_of({mirrored}), {1.0, 1.0, 0.0});
+  ASSERT_TRUE(found.mirrored_contact);
+  EXPECT_GT(*found.mirrored_contact, 0.98);
+  EXPECT_FALSE(verification(map_of({corner(0.0F, 0.0F)}), {1.0, 1.0, 0.0}).mirrored_contact);
+  EXPECT_FALSE(verification(map_of({mirrored, corner(9.0F, 9.0F)}), {10.0, 10.0, 0.0}).mirrored_contact)
+      << "the local map fits as well without";
+}
+
 TEST(WholeMap, RivalsOutsideOfAPriorAreNone) {
   const Prior prior{.region = {.x = 1.0, .y = 1.0, .radius = 2.0}, .heading = {}};
   const auto found = verification(map_of({corner(0.0F, 0.0F), corner(7.0F, 4.0F)}), {1.0, 1.0, 0.0},

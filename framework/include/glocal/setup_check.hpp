@@ -1,4 +1,4 @@
-// Notices a robot that is set up wrongly: its scans tell another motion than its odometry.
+// Notices a robot that is set up wrongly, by its scans and its odometry.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,9 @@
 #include "glocal/observation.hpp"
 #include "glocal/params.hpp"
 #include "glocal/pose2.hpp"
+#include "glocal/range_bias.hpp"
 #include "glocal/step_result.hpp"
+#include "glocal/stuck_ranges.hpp"
 
 namespace glocal {
 
@@ -20,9 +22,9 @@ struct SetupCheckParams {
 };
 void describe(ParamVisitor& v, SetupCheckParams& p);
 
-/// Compares how the local map has moved the robot, following the scans, with how odometry has. Works in the
-/// plane. Where the local mapper believes odometry, since a scan did not fit or it never looks, the step says
-/// nothing.
+/// Compares how the local map has moved the robot, following the scans, with how odometry has, and looks at
+/// the ranges themselves. Works in the plane. Where the local mapper believes odometry, since a scan did not
+/// fit or it never looks, the step says nothing of motions.
 class SetupMonitor {
  public:
   explicit SetupMonitor(const SetupCheckParams& params) : params_(params) {}
@@ -64,6 +66,9 @@ class SetupMonitor {
   std::deque<Motions> motions_;  ///< The latest ones.
   std::size_t steps_ = 0;        ///< Motions since reset().
   double agreement_ = 0.0;       ///< SetupCheck::agreement.
+  RangeBias bias_;
+  std::optional<Pose2> bias_told_at_;  ///< odom_from_robot where walls were last looked at.
+  StuckRanges stuck_;
 };
 
 }  // namespace glocal

@@ -58,6 +58,9 @@ struct Verification {
   bool is_refuted = false;        ///< The localizer sets it.
   std::size_t points_tested = 0;  ///< Looks at a point.
   std::optional<Certificate> certificate = {};  ///< None where the search was given up.
+  /// Contact of the mirrored local map at the pose where it fits best; none where it fits nowhere clearly
+  /// better than the local map at the declared pose.
+  std::optional<double> mirrored_contact = {};
 
   /// Whether a rival is about as good as the declared pose.
   [[nodiscard]] bool is_about_as_good(const Hypothesis& rival) const { return rival.score >= score - margin; }
@@ -81,12 +84,15 @@ enum class SetupFault {
   upside_down,     ///< The scans turn the other way than odometry.
   mount_angle,     ///< The sensor looks elsewhere than it is said to.
   late_scans,      ///< The scans tell what odometry told some observations before.
+  stuck_ranges,    ///< Ranges do not change though the robot moves.
+  biased_ranges,   ///< All ranges are too long by the same, or too short.
+  mirrored,        ///< The map fits better if left and right change places.
 };
 
 /// The name used in YAML, JSON and messages.
 [[nodiscard]] const char* to_string(SetupFault fault);
 
-/// What the motions that scans and odometry tell say of the robot's set-up.
+/// What scans and odometry say of the robot's set-up.
 struct SetupCheck {
   /// Logarithm of how much more likely these motions are if scans and odometry are of one robot and one time
   /// than if they are not; in [-10, 5], as what was long ago counts less.
@@ -97,7 +103,11 @@ struct SetupCheck {
   /// Of that: a standard deviation, deg.
   double mount_angle_sd_deg = 0.0;
   std::optional<std::size_t> late_by = {};  ///< Observations; where the scans are late.
-  std::optional<SetupFault> fault = {};     ///< As long as it stands, nothing is declared.
+  /// By which ranges are too long, m; none before a straight wall was seen under 60 degrees.
+  std::optional<double> range_bias_m = {};
+  std::size_t walls = 0;                 ///< That tell it, one for each time it was seen.
+  double stuck_share = 0.0;              ///< Of the last scan's directions, those whose range never changes.
+  std::optional<SetupFault> fault = {};  ///< As long as it stands, nothing is declared.
   /// Something speaks against the set-up, or too little for it: nothing is declared yet.
   bool is_in_doubt = false;
 

@@ -1,8 +1,10 @@
 #include "glocal/range_noise.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "glocal/pose2.hpp"
+#include "glocal/readings.hpp"
 
 namespace glocal {
 namespace {
@@ -10,21 +12,10 @@ namespace {
 /// Neighbours farther apart are hardly ever of one wall.
 constexpr double farthest_neighbour = radians(2.6);
 
-/// A hit as the sensor sees it.
-struct Reading {
-  double range = 0.0;  ///< m
-  double angle = 0.0;
-};
-
-Reading reading_of(const Point& hit, const Point& sensor) {
-  const double x = static_cast<double>(hit.x) - static_cast<double>(sensor.x);
-  const double y = static_cast<double>(hit.y) - static_cast<double>(sensor.y);
-  return {std::sqrt(x * x + y * y), std::atan2(y, x)};
-}
-
 /// How far the middle one is, along its ray, from the line through the others, m; none where they are no
 /// neighbours.
-std::optional<double> off_line(const Reading& before, const Reading& middle, const Reading& after) {
+std::optional<double> off_line(const PolarReading& before, const PolarReading& middle,
+                               const PolarReading& after) {
   const double first = wrap_angle(middle.angle - before.angle);
   const double second = wrap_angle(after.angle - middle.angle);
   const auto are_neighbours = [](double angle) {
@@ -41,20 +32,15 @@ std::optional<double> off_line(const Reading& before, const Reading& middle, con
 }  // namespace
 
 void RangeNoise::take_in(const Scan& scan) {
-  if (scan.hits.size() < 3) return;
-  Reading before = reading_of(scan.hits[0], scan.origin);
-  Reading middle = reading_of(scan.hits[1], scan.origin);
-  for (std::size_t i = 2; i < scan.hits.size(); ++i) {
-    const Reading after = reading_of(scan.hits[i], scan.origin);
-    if (const auto off = off_line(before, middle, after)) {
+  const std::vector<PolarReading> readings = readings_of(scan);
+  for (std::size_t i = 2; i < readings.size(); ++i) {
+    if (const auto off = off_line(readings[i - 2], readings[i - 1], readings[i])) {
       const double place = std::abs(*off) / bin;
       if (place < static_cast<double>(bins)) {
         ++counts_[static_cast<std::size_t>(place)];
         ++size_;
       }
     }
-    before = middle;
-    middle = after;
   }
 }
 

@@ -58,6 +58,19 @@ constexpr double least_agreement = -10.0;
 /// Below this, scans and odometry do not belong together.
 constexpr double agreement_of_fault = -6.0;
 
+/// Of ranges that never change, this share is a fault: robots see parts of themselves.
+constexpr double most_stuck = 0.2;
+
+/// Good sensors are off by less, m, ...
+constexpr double most_bias = 0.15;
+/// ... and the median over some walls by this, divided by the root of their number, ...
+constexpr double spread_of_bias = 0.15;
+/// ... or, to be sure, by this over so many.
+constexpr double sure_spread_of_bias = 1.0;
+constexpr std::size_t least_walls = 12;
+/// From places nearer to each other, m, the same walls are seen.
+constexpr double other_place = 0.25;
+
 double length_of(const Pose2& motion) {
   return std::hypot(motion.x, motion.y);
 }
@@ -92,6 +105,11 @@ bool is_slip(const Pose2& odometry, const Pose2& scans) {
   const double grip = std::clamp(
       (odometry.x * scans.x + odometry.y * scans.y + odometry.theta * scans.theta) / along, least_grip, 1.0);
   return are_alike({grip * odometry.x, grip * odometry.y, grip * odometry.theta}, scans);
+}
+
+bool is_biased(const SetupCheck& check, double spread) {
+  return check.range_bias_m &&
+         std::abs(*check.range_bias_m) > most_bias + spread / std::sqrt(static_cast<double>(check.walls));
 }
 
 double median(std::vector<double> values) {
@@ -131,6 +149,9 @@ void SetupMonitor::reset() {
   motions_.clear();
   steps_ = 0;
   agreement_ = 0.0;
+  bias_ = {};
+  bias_told_at_.reset();
+  stuck_ = {};
 }
 
 SetupCheck SetupMonitor::update(const Observation& observation, const LocalMap& local) {
@@ -140,8 +161,14 @@ SetupCheck SetupMonitor::update(const Observation& observation, const LocalMap& 
     ++steps_;
     weigh(motions_.back());
   }
-  last_ = {observation.scan.hits, seen_from_above(observation.odom_from_robot),
-           seen_from_above(local.local_from_robot), local.epoch};
+  const std::vector<PolarReading> readings = readings_of(observation.scan);
+  const Pose2 odom_from_robot = seen_from_above(observation.odom_from_robot);
+  if (!bias_told_at_ || distance(*bias_told_at_, odom_from_robot) >= other_place) {
+    bias_.take_in(by_direction(readings));
+    bias_told_at_ = odom_from_robot;
+  }
+  stuck_.take_in(readings, odom_from_robot);
+  last_ = {observation.scan.hits, odom_from_robot, seen_from_above(local.local_from_robot), local.epoch};
   SetupCheck check = measured();
   if (agreement_ <= agreement_of_fault) check.late_by = lag();
   check.fault = fault(check);
@@ -176,7 +203,10 @@ void SetupMonitor::weigh(const Motions& motions) {
 }
 
 SetupCheck SetupMonitor::measured() const {
-  SetupCheck check{.agreement = agreement_};
+  SetupCheck check{.agreement = agreement_,
+                   .range_bias_m = bias_.median(),
+                   .walls = bias_.walls(),
+                   .stuck_share = stuck_.share()};
   std::vector<double> angles;
   for (const auto& [odometry, scans, is_repeated] : motions_) {
     if (!scans) continue;
@@ -243,6 +273,8 @@ std::optional<SetupFault> SetupMonitor::fault(const SetupCheck& check) const {
   if (is_repeated(3)) return SetupFault::repeated_scans;
   if (is_mirrored(radians(50.0))) return SetupFault::upside_down;
   if (check.late_by) return SetupFault::late_scans;
+  if (check.stuck_share >= most_stuck) return SetupFault::stuck_ranges;
+  if (check.walls >= least_walls && is_biased(check, sure_spread_of_bias)) return SetupFault::biased_ranges;
   if (check.way_m >= 1.0 && check.mount_angle_deg &&
       std::abs(*check.mount_angle_deg) - 2.0 * check.mount_angle_sd_deg > most_mount_angle_deg)
     return SetupFault::mount_angle;
@@ -254,8 +286,8 @@ bool SetupMonitor::is_in_doubt(const SetupCheck& check) const {
   const bool is_turned = check.mount_angle_deg &&
                          std::abs(*check.mount_angle_deg) + check.mount_angle_sd_deg > most_mount_angle_deg;
   const bool is_too_early = check.way_m < first_way && steps_ < most_steps_for_first_way;
-  return is_too_early || is_turned || agreement_ < params_.min_agreement || is_repeated(1) ||
-         is_mirrored(radians(12.0));
+  return is_too_early || is_turned || agreement_ < params_.min_agreement ||
+         is_biased(check, spread_of_bias) || is_repeated(1) || is_mirrored(radians(12.0));
 }
 
 }  // namespace glocal

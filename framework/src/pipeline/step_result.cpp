@@ -30,6 +30,12 @@ const char* to_string(SetupFault fault) {
       return "mount_angle";
     case SetupFault::late_scans:
       return "late_scans";
+    case SetupFault::stuck_ranges:
+      return "stuck_ranges";
+    case SetupFault::biased_ranges:
+      return "biased_ranges";
+    case SetupFault::mirrored:
+      return "mirrored";
   }
   return "";
 }
@@ -53,6 +59,19 @@ std::string SetupCheck::why() const {
           "the scans tell the motions that odometry told {} observations before: do they come late, or are "
           "the clocks of both not the same?",
           *late_by);
+    case SetupFault::stuck_ranges:
+      return fmt::format(
+          "{:.0f} % of the ranges stay the same while the robot drives and turns: is something on the "
+          "sensor, or in its view?",
+          100.0 * stuck_share);
+    case SetupFault::biased_ranges:
+      return fmt::format(
+          "straight walls look bent as they do when all ranges are {:.1f} m too {}: are the sensor's offset "
+          "and unit right?",
+          std::abs(*range_bias_m), *range_bias_m > 0.0 ? "long" : "short");
+    case SetupFault::mirrored:
+      return "mirrored, the scans fit the map better: have left and right changed places in scans and "
+             "odometry, or on the map?";
   }
   return "";
 }

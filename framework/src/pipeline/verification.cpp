@@ -40,7 +40,8 @@ void settle(Verification& v, Verdict& verdict) {
   }
   const std::size_t rivals = candidates.size() - 1;
   const bool is_topped = v.certificate && v.certificate->at_most > v.certificate->contact;
-  v.is_refuted = rivals > 0 || !v.certificate || (verdict.needs_certificate && is_topped);
+  v.is_refuted =
+      rivals > 0 || !v.certificate || (verdict.needs_certificate && is_topped) || v.mirrored_contact;
   if (!v.is_refuted) {
     verdict.why += fmt::format("; {:.0f} % contact, and at most {:.0f} % at any pose elsewhere",
                                100.0 * v.certificate->contact, 100.0 * v.certificate->at_most);
@@ -83,6 +84,11 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
   found.score = score_near(declared, found.near, result);
   settle(found, result.verdict);
   is_verified_ = !found.is_refuted;
+  if (found.mirrored_contact) {
+    result.setup = result.setup.value_or(SetupCheck{});
+    result.setup->fault = SetupFault::mirrored;
+    result.verdict.why = result.setup->why();
+  }
   result.verification = std::move(found);
   if (is_verified_) return;
   in_stage(stages_.verdict_rule, result.step, [&] { verdict_rule_->refute(*result.verification); });

@@ -110,13 +110,19 @@ TEST(StepLine, TellsWhatTheVerdictRestsOn) {
 TEST(StepLine, TellsHowTheRobotIsSetUp) {
   StepRecord record = step_record(3, {1.5, -2.0, 0.25});
   record.result.setup = SetupCheck{.agreement = -7.5, .way_m = 2.0, .is_in_doubt = true};
-  EXPECT_EQ(parse_line(step_line(7, record))["setup"],
-            Json::parse(R"({"agreement": -7.5, "way_m": 2.0, "in_doubt": true})"));
-  record.result.setup = SetupCheck{
-      .mount_angle_deg = 3.0, .mount_angle_sd_deg = 1.25, .late_by = 4, .fault = SetupFault::late_scans};
+  EXPECT_EQ(
+      parse_line(step_line(7, record))["setup"],
+      Json::parse(R"({"agreement": -7.5, "way_m": 2.0, "walls": 0, "stuck_share": 0.0, "in_doubt": true})"));
+  record.result.setup = SetupCheck{.mount_angle_deg = 3.0,
+                                   .mount_angle_sd_deg = 1.25,
+                                   .late_by = 4,
+                                   .range_bias_m = -0.25,
+                                   .walls = 7,
+                                   .stuck_share = 0.125,
+                                   .fault = SetupFault::late_scans};
   EXPECT_EQ(parse_line(step_line(7, record))["setup"], Json::parse(R"({
       "agreement": 0.0, "way_m": 0.0, "mount_angle_deg": 3.0, "mount_angle_sd_deg": 1.25, "late_by": 4,
-      "fault": "late_scans", "in_doubt": false})"));
+      "range_bias_m": -0.25, "walls": 7, "stuck_share": 0.125, "fault": "late_scans", "in_doubt": false})"));
 }
 
 TEST(StepLine, LeavesOutWhatIsNotKnown) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace glocal::test::setup_check_test {
@@ -120,6 +121,66 @@ TEST(SetupCheck, RobotThatHoldsStillSeesTheSame) {
   for (int i = 0; i < 10; ++i) check = robot.move_without_scan({0.01, 0.0, 0.0}, {});
   EXPECT_EQ(check.fault, std::nullopt);
   EXPECT_FALSE(check.is_in_doubt);
+}
+
+/// What a robot in a corridor 4 m wide sees, which turns by `turn_deg` and whose ranges are `bias` m too
+/// long; the first beams always read 1 m.
+Observation in_a_corridor(double x, double turn_deg, double bias, int stuck) {
+  Observation observation;
+  observation.odom_from_robot = Pose2{x, 0.0, radians(turn_deg)};
+  for (int i = 0; i < 180; ++i) {
+    const double angle = radians(2.0 * i + 0.9), along = angle + radians(turn_deg);
+    const double range = i < stuck ? 1.0 : std::min(2.0 / std::abs(std::sin(along)), 15.0) + bias;
+    observation.scan.hits.push_back(
+        {static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)), 0.0F});
+  }
+  return observation;
+}
+
+/// After a drive through it with some turns.
+SetupCheck after_a_corridor(double bias, int stuck) {
+  SetupMonitor monitor({});
+  SetupCheck check;
+  LocalMap local;
+  for (int i = 0; i < 6; ++i) {
+    const Observation observation = in_a_corridor(0.3 * i, 10.0 * i, bias, stuck);
+    local.local_from_robot = seen_from_above(observation.odom_from_robot) * of_scans({});
+    check = monitor.update(observation, local);
+  }
+  return check;
+}
+
+TEST(SetupCheck, RangesThatAreAllTooLongBendWalls) {
+  EXPECT_EQ(after_a_corridor(0.0, 0).fault, std::nullopt);
+  const SetupCheck check = after_a_corridor(0.6, 0);
+  EXPECT_NEAR(check.range_bias_m.value_or(0.0), 0.6, 0.02);
+  EXPECT_GE(check.walls, 12U);
+  EXPECT_EQ(check.fault, SetupFault::biased_ranges);
+  EXPECT_THAT(check.why(), testing::HasSubstr("0.6 m too long"));
+  EXPECT_THAT(after_a_corridor(-0.6, 0).why(), testing::HasSubstr("0.6 m too short"));
+}
+
+TEST(SetupCheck, ASmallerBiasIsADoubt) {
+  const SetupCheck check = after_a_corridor(0.2, 0);
+  EXPECT_EQ(check.fault, std::nullopt);
+  EXPECT_TRUE(check.is_in_doubt);
+  EXPECT_FALSE(after_a_corridor(0.1, 0).is_in_doubt) << "good sensors have as much";
+}
+
+TEST(SetupCheck, WallsCountOnceWhereTheRobotStands) {
+  SetupMonitor monitor({});
+  const std::size_t walls = monitor.update(in_a_corridor(0.0, 0.0, 0.0, 0), {}).walls;
+  EXPECT_GT(walls, 0U);
+  EXPECT_EQ(monitor.update(in_a_corridor(0.2, 0.0, 0.0, 0), {}).walls, walls);
+  EXPECT_GT(monitor.update(in_a_corridor(0.3, 0.0, 0.0, 0), {}).walls, walls);
+}
+
+TEST(SetupCheck, RangesThatNeverChangeAreAFaultOnceTheyAreMany) {
+  EXPECT_EQ(after_a_corridor(0.0, 30).fault, std::nullopt) << "a sixth: parts of the robot";
+  const SetupCheck check = after_a_corridor(0.0, 60);
+  EXPECT_NEAR(check.stuck_share, 1.0 / 3.0, 1e-9);
+  EXPECT_EQ(check.fault, SetupFault::stuck_ranges);
+  EXPECT_THAT(check.why(), testing::HasSubstr("33 % of the ranges"));
 }
 
 TEST(SetupCheck, LateScansTellWhatOdometryToldBefore) {

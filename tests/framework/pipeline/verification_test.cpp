@@ -119,6 +119,20 @@ TEST_F(WithVerifier, ASearchThatWasGivenUpDeclaresNothing) {
   EXPECT_THAT(result.verdict.why, HasSubstr("given up"));
 }
 
+TEST_F(WithVerifier, WhatFitsBetterInAMirrorIsAFaultOfTheSetUp) {
+  script_->verify = [](const Pose3&) {
+    return Verification{
+        .certificate = Certificate{.contact = 0.8, .at_most = 0.7, .epsilon = 0.1, .delta = 0.14},
+        .mirrored_contact = 0.9};
+  };
+  const StepResult result = step();
+  EXPECT_EQ(result.verdict.kind, VerdictKind::searching);
+  EXPECT_FALSE(result.verdict.map_from_robot);
+  EXPECT_TRUE(result.verification->is_refuted);
+  EXPECT_EQ(result.setup.value().fault, SetupFault::mirrored);
+  EXPECT_THAT(result.verdict.why, HasSubstr("left and right"));
+}
+
 TEST_F(WithVerifier, WhatIsDeclaredIsVerifiedOnceAndAnewOnceItWasLost) {
   find({});
   EXPECT_TRUE(step().verification);

@@ -125,6 +125,28 @@ TEST_F(Disturbed, FurnitureIsTakenOrMovedAndWallsStay) {
   EXPECT_LE(occupied(moved), 56U);
 }
 
+TEST(DisturbedMaps, ATableMappedBelowItsTopIsFourLegs) {
+  // A table of 0.6 m x 0.8 m in cells of 5 cm, and a wall of 3 m.
+  MapData map;
+  map.grid = {.map_from_grid = {}, .resolution = 0.05, .width = 60, .height = 40, .cells = {}};
+  map.grid.cells.assign(2400, Cell::free);
+  for (int column = 0; column < 60; ++column) map.grid.cell(column, 0) = Cell::occupied;
+  for (int column = 20; column < 32; ++column) {
+    for (int row = 10; row < 26; ++row) map.grid.cell(column, row) = Cell::occupied;
+  }
+  const auto kinds = map_disturbance_kinds();
+  const auto kind =
+      std::find_if(kinds.begin(), kinds.end(), [](const auto& k) { return k.name == "other_height"; });
+  ASSERT_NE(kind, kinds.end());
+  Rng rng(1);
+  kind->change(map, 1.0, rng);
+  EXPECT_EQ(map.points.size(), 60U + 4 * 4);
+  for (const auto& [column, row] : {std::pair{20, 10}, {21, 11}, {31, 10}, {30, 24}, {20, 25}, {5, 0}})
+    EXPECT_EQ(map.grid.cell(column, row), Cell::occupied) << column << ", " << row;
+  for (const auto& [column, row] : {std::pair{22, 10}, {20, 12}, {25, 17}})
+    EXPECT_EQ(map.grid.cell(column, row), Cell::free) << column << ", " << row;
+}
+
 TEST_F(Disturbed, BoxesAreBroughtByTheFloor) {
   // 16 on 100 square metres of 26 free ones: 4 boxes of 1 to 2 cells along each side.
   const std::size_t more = occupied(map({{{"brought", 5, {}}}})) - 56;

@@ -75,6 +75,41 @@ TEST(DriveDisturbances, AMountThatLooksToTheLeftPutsThingsToTheRight) {
   EXPECT_NEAR(hits.x[1], 2.0, 1e-6);
 }
 
+TEST(DriveDisturbances, InAMirrorScanAndWayAreTheOtherWayRound) {
+  const auto way = drive(3);
+  const auto left = disturbed(Mirrored(1.0, Rng(1)), way);
+  EXPECT_EQ(left[2].observation.scan.hits[1], (Point{0.0F, -2.0F, 0.0F}));
+  const Pose2 motion = motion_before(way, 2), mirrored = motion_before(left, 2);
+  EXPECT_NEAR(mirrored.x, motion.x, 1e-12);
+  EXPECT_NEAR(mirrored.y, -motion.y, 1e-12);
+  EXPECT_NEAR(mirrored.theta, -motion.theta, 1e-12);
+}
+
+TEST(DriveDisturbances, RangesThatAreStuckStayWhatTheyWereFirst) {
+  // A round room of 1 m, 2 m, ...
+  std::vector<Sample> way = drive(4);
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    Points hits;
+    for (int k = 0; k < 360; ++k) {
+      const double angle = radians(k + 0.5), range = 1.0 + static_cast<double>(i);
+      hits.push_back(
+          {static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)), 0.0F});
+    }
+    way[i].observation.scan.hits = hits;
+  }
+  const auto left = disturbed(StuckRanges(0.4, Rng(1)), way);
+  std::set<std::size_t> stuck;
+  for (std::size_t i = 1; i < left.size(); ++i) {
+    for (std::size_t k = 0; k < 360; ++k) {
+      const Point hit = left[i].observation.scan.hits[k];
+      const double range = std::hypot(hit.x, hit.y);
+      if (range < 1.5) stuck.insert(k);
+      EXPECT_NEAR(range, stuck.contains(k) ? 1.0 : 1.0 + static_cast<double>(i), 1e-5);
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(stuck.size()), 0.4 * 360.0, 28.0) << "three standard deviations";
+}
+
 TEST(DriveDisturbances, UpsideDownLeftIsRight) {
   const auto left = disturbed(UpsideDown(1.0, Rng(1)), drive(3));
   EXPECT_EQ(left[2].observation.scan.hits[0], (Point{2.0F, 0.0F, 0.0F}));
