@@ -10,6 +10,10 @@
 namespace glocal::local_mappers {
 namespace {
 
+/// Share of a scan's hits that must have found a point of the map. A scan that does not fit moves the robot
+/// as predicted and adds no points.
+constexpr double min_fit = 0.3;
+
 /// The distance of the farthest hit from the sensor, m.
 double farthest_range(const Scan& scan) {
   double most = 0.0;
@@ -41,16 +45,6 @@ void describe(ParamVisitor& v, LidarOdometry::Params& p) {
               "odometry since the last observation, or the last step (velocity); odometry is the last "
               "step, too, where odometry stands still or there is none.",
        .choices = {"none", "velocity", "odometry"}});
-  v.field("min_fit", p.min_fit,
-          {.doc = "An observation fits only if this share of its hits has found a point of the map. One that "
-                  "does not fit moves the robot as predicted and adds no points.",
-           .min = 0.0,
-           .max = 1.0});
-  v.field("restart_after", p.restart_after,
-          {.doc = "Observations in a row that do not fit before a new local map is started with the last of "
-                  "them.",
-           .min = 1,
-           .audience = Audience::expert});
   v.field("scans", p.scans,
           {.doc = "A point is forgotten that none of the last observations has hit, so many of them; 0 sets "
                   "no such limit.",
@@ -146,7 +140,7 @@ Pose3 LidarOdometry::match(const Scan& scan, const Pose3& prediction) {
                            .kernel = sigma / 3.0};
   const PlaneRegistration found = register_to_planes(map_, hits, scan.origin, prediction, limits);
   const bool fits = found.matches >= min_matches &&
-                    static_cast<double>(found.matches) >= params_.min_fit * static_cast<double>(hits.size());
+                    static_cast<double>(found.matches) >= min_fit * static_cast<double>(hits.size());
   misfits_ = fits ? 0 : misfits_ + 1;
   if (!fits) return prediction;
   threshold_.note(inverse(prediction) * found.local_from_robot, farthest_range(scan));

@@ -50,8 +50,7 @@ class LidarOdometry final : public LocalMapper {
     double scan_voxel = 0.25;
     std::string prediction = "odometry";
     std::string deskew = "odometry";
-    double min_fit = 0.3;
-    int restart_after = 3;
+    int restart_after = 3;  ///< Not in YAML.
     int scans = 400;
     double distance = 30.0;
   };

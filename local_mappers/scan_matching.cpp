@@ -20,11 +20,6 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
            .audience = Audience::expert});
   v.field("refinement", p.refinement,
           {.doc = "Point-to-line registration after the search.", .audience = Audience::expert});
-  v.field("min_fit", p.min_fit,
-          {.doc = "An observation fits only if its mean likelihood after the search reaches this. One that "
-                  "does not fit moves the robot by odometry and adds no points.",
-           .min = 0.0,
-           .max = 1.0});
   v.field(
       "max_free_space_violation", p.max_free_space_violation,
       {.doc =
@@ -34,12 +29,6 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
        .max = 1.0,
        .audience = Audience::tuner,
        .formerly = "max_seen_through"});
-  v.field(
-      "restart_after", p.restart_after,
-      {.doc =
-           "Observations in a row that do not fit before a new local map is started with the last of them.",
-       .min = 1,
-       .audience = Audience::expert});
   v.require(cells_in(p.refinement.match_distance, p.voxels.resolution) <= PointGrid::max_reach, "refinement",
             "gate must be at most 11 times resolution");
 }
@@ -88,7 +77,7 @@ Pose2 ScanMatching::predict(const Pose2& odom_from_robot) const {
 Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& predicted) {
   if (map().points.empty() || scan.hits.size() < static_cast<std::size_t>(min_matches)) return predicted;
   const SearchResult found = search(scan.hits, predicted);
-  const bool fits = found.likelihood >= params_.min_fit;
+  const bool fits = found.likelihood >= min_fit;
   const Pose2 refined = fits ? refine(scan, normals, found.local_from_robot, predicted) : predicted;
   misfits_ = fits && free_space_check_.violation(scan, refined) <= params_.max_free_space_violation
                  ? 0

@@ -27,9 +27,8 @@ class ScanMatching final : public LocalMapper {
     CorrelativeSearchParams search;
     CorrelativeSearchParams wide_search{.translation = 0.75, .rotation_deg = 86.0};
     LineRegistrationParams refinement;
-    double min_fit = 0.15;
     double max_free_space_violation = 0.15;
-    int restart_after = 2;
+    int restart_after = 2;  ///< Not in YAML.
   };
 
   explicit ScanMatching(const Params& params);
@@ -54,6 +53,9 @@ class ScanMatching final : public LocalMapper {
   [[nodiscard]] const PointGrid& grid() const { return map_.grid(); }
 
  private:
+  /// Mean likelihood that an observation must reach after the search. One that does not fit moves the robot
+  /// by odometry and adds no points.
+  static constexpr double min_fit = 0.15;
   /// What a pose at the border of the search loses in likelihood: odometry holds where hits say nothing …
   static constexpr double near_penalty = 0.005;
   /// … and is preferred among places that resemble each other.

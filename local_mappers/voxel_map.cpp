@@ -38,12 +38,6 @@ void describe(ParamVisitor& v, VoxelParams& p) {
            .min = 1,
            .max = 100,
            .audience = Audience::expert});
-  v.field("memory_mb", p.memory_mb,
-          {.doc = "Memory the index of the points may take.",
-           .unit = "MB",
-           .min = 1,
-           .max = 65536,
-           .audience = Audience::expert});
 }
 
 int cells_in(double metres, double resolution) {

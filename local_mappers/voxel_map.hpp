@@ -17,7 +17,7 @@ namespace glocal::local_mappers {
 struct VoxelParams {
   double resolution = 0.05;
   int cell_hits = 3;
-  int memory_mb = 256;
+  int memory_mb = 256;  ///< That the index of the points may take. Not in YAML.
 };
 void describe(ParamVisitor& v, VoxelParams& p);
 

@@ -8,6 +8,12 @@
 #include "raters/candidates.hpp"
 
 namespace glocal::raters {
+namespace {
+
+/// A cluster is a candidate if its rating (eq. 7) is at least this share of the best one's.
+constexpr double candidate_share = 0.4;
+
+}  // namespace
 
 void describe(ParamVisitor& v, ConsecutiveRating::Params& p) {
   v.field("min_rating", p.min_rating,
@@ -19,11 +25,6 @@ void describe(ParamVisitor& v, ConsecutiveRating::Params& p) {
           {.doc = "Number of consecutive steps in which the same cluster must be rated so highly.",
            .min = 1,
            .audience = Audience::tuner});
-  v.field("candidate_share", p.candidate_share,
-          {.doc = "A cluster is a candidate if its rating (eq. 7) is at least this share of the best one's.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::expert});
 }
 
 Verdict ConsecutiveRating::judge(const StepResult& step) {
@@ -67,7 +68,7 @@ bool ConsecutiveRating::continues(const Leader& last, const StepResult& step) co
 /// Robot poses of the highly rated clusters, leaving out those that only repeat a better one.
 std::vector<Pose3> ConsecutiveRating::candidates(const StepResult& step) const {
   std::vector<Pose3> poses;
-  const double least = params_.candidate_share * step.ratings.front().r;
+  const double least = candidate_share * step.ratings.front().r;
   for (std::size_t i = 0; i < step.clusters.size() && step.ratings[i].r >= least; ++i) {
     const Pose3& pose = step.clusters[i].map_from_robot;
     if (std::none_of(poses.begin(), poses.end(), [&](const Pose3& other) { return are_same(pose, other); })) {

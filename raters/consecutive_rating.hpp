@@ -18,7 +18,6 @@ class ConsecutiveRating final : public VerdictRule {
   struct Params {
     double min_rating = 0.8;
     int consecutive = 3;
-    double candidate_share = 0.4;
   };
 
   explicit ConsecutiveRating(const Params& params) : params_(params) {}

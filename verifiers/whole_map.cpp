@@ -14,6 +14,9 @@ namespace {
 
 /// That are judged: those with the most contact.
 constexpr std::size_t most_rivals = 10;
+/// A search that looks at more points is given up, and nothing is declared in that step. On maps of more than
+/// 2 hectares it may look at as many more as they are larger.
+constexpr double max_looks = 40e6;
 /// How many more points a search in space looks at: there are heights, too, and scans have many points.
 constexpr double more_looks_in_space = 10.0;
 
@@ -65,13 +68,6 @@ void describe(ParamVisitor& v, WholeMap::Params& p) {
            .audience = Audience::expert});
   v.require(!p.contact_epsilon || !p.cell || *p.cell <= *p.contact_epsilon, "cell",
             "must be at most contact_epsilon");
-  v.field("max_looks", p.max_looks,
-          {.doc = "A search that looks at more points is given up, and nothing is declared in this step; on "
-                  "maps of more than 2 hectares it may look at as many more as they are larger, and in space "
-                  "at ten times as many.",
-           .min = 1,
-           .max = 2e9,
-           .audience = Audience::expert});
 }
 
 WholeMap::WholeMap(const Params& params, const StageSetup& setup)
@@ -79,7 +75,7 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
       in_space_(setup.motion != Motion::planar),
       epsilon_(setup.epsilon(params.contact_epsilon)),
       threads_(setup.threads) {
-  most_looks_ = looks_on(*setup.map, params.max_looks * (in_space_ ? more_looks_in_space : 1.0));
+  most_looks_ = looks_on(*setup.map, max_looks * (in_space_ ? more_looks_in_space : 1.0));
   contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(*setup.map)), epsilon_);
   if (!in_space_) field_ = distance_field(*setup.map, setup.threads);
   const double automatic = in_space_ ? automatic_box_cell_in_space(*setup.map, epsilon_)

@@ -33,7 +33,6 @@ class WholeMap final : public Verifier {
     double rotation_deg = PoseTolerance::default_rotation_deg;
     std::optional<double> contact_epsilon = {};
     std::optional<double> cell = {};
-    int max_looks = 40'000'000;
   };
 
   /// Throws ConfigError where the map is too large for a contact grid or a pyramid.

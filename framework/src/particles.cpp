@@ -26,33 +26,11 @@ std::vector<CellSum> cell_sums(const Particles& particles, const PoseBinning& bi
   return sums;
 }
 
-void describe(ParamVisitor& v, ParticleMerging& p) {
-  v.field("merge_distance", p.merge_distance,
-          {.doc = "Particles are one hypothesis if they lie in the same cell of this side and of "
-                  "merge_rotation_deg.",
-           .unit = "m",
-           .min = 0.001,
-           .audience = Audience::expert});
-  v.field("merge_rotation_deg", p.merge_rotation_deg,
-          {.doc = "Particles are one hypothesis if they lie in the same cell of this width in heading and of "
-                  "merge_distance.",
-           .unit = "deg",
-           .min = 0.05,
-           .audience = Audience::expert,
-           .formerly = "merge_rotation"});
-  v.field("max_hypotheses", p.max_hypotheses,
-          {.doc = "Largest number of hypotheses; the heaviest are kept.",
-           .min = 1,
-           .max = 1000000,
-           .audience = Audience::expert});
-}
-
 std::vector<Hypothesis> hypotheses_of(const Particles& particles, const Pose2& old_from_new,
                                       const ParticleMerging& merging, const ContactIndex& contact,
                                       const LocalMap& local, const Scan& scan, double omega_max) {
   const std::vector<CellSum> sums = cell_sums(
-      particles, {merging.merge_distance, square_parts_of_a_turn(radians(merging.merge_rotation_deg))},
-      static_cast<std::size_t>(merging.max_hypotheses));
+      particles, {merging.distance, square_parts_of_a_turn(merging.rotation)}, merging.max_hypotheses);
   const Pose2 robot_from_local = inverse(seen_from_above(local.local_from_robot));
   std::vector<Hypothesis> found;
   for (const CellSum& sum : sums) {

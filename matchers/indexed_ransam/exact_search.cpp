@@ -23,11 +23,6 @@ void describe(ParamVisitor& v, ExactSearchRule& p) {
           {.doc = "Contact that a pose needs to be searched for: less takes more time.",
            .max = 1.0,
            .above = 0.0});
-  v.field("max_looks", p.max_looks,
-          {.doc = "A search ends when it has looked at more points; on maps of more than 2 hectares it may "
-                  "look at as many more as they are larger.",
-           .min = 1,
-           .max = 2e9});
   v.removed("min_rotation_step_deg", "intervals of rotations follow the cell");
   v.removed("min_rotation_step", "intervals of rotations follow the cell");
 }

@@ -24,6 +24,8 @@ struct ExactSearchRule {
   std::optional<double> cell = {};
   int points = 512;
   int max_poses = 10;
+  /// At a point; on maps of more than 2 hectares as many more as they are larger. A search ends then. Not in
+  /// YAML.
   int max_looks = 40'000'000;
 };
 void describe(ParamVisitor& v, ExactSearchRule& p);

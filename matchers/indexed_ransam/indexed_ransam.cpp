@@ -11,7 +11,7 @@ namespace {
 RelationRule relation_rule(const IndexedRansam::Params& p) {
   return {.relation = p.relation,
           .points = {.voxel_size = p.voxel_size, .radius = 2.0 * p.voxel_size},
-          .pairs = {.min_length = p.min_length, .max_entries = static_cast<std::size_t>(p.max_entries)}};
+          .pairs = {.min_length = p.min_length}};
 }
 
 JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
@@ -97,12 +97,6 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
                   "have normals.",
            .choices = {"oriented_pair", "triangle", "auto"},
            .former_choices = {{"dipole", "oriented_pair"}}});
-  v.field("max_entries", p.max_entries,
-          {.doc = "Largest number of oriented point pairs (8 bytes each) or triangles (12 to 20 bytes) in "
-                  "the index: of more, an even share is kept.",
-           .min = 1000,
-           .max = 100e6,
-           .audience = Audience::expert});
   v.field("voxel_size", p.voxel_size,
           {.doc = "Side of the squares of the map that give one oriented point each; its normal is of what "
                   "is within twice as much.",

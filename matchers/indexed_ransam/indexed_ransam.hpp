@@ -46,7 +46,6 @@ class IndexedRansam final : public Matcher {
     double fit_weight = 0.05;
     double min_length = 0.5;
     std::string relation = "auto";
-    int max_entries = 1000000;
     double voxel_size = 0.1;
     ExactSearchRule exact_search = {};
   };

@@ -13,11 +13,11 @@ namespace glocal::indexed_ransam {
 
 /// Which pairs of points are worth an entry, and how alike two of them are that share a bin.
 struct OrientedPairRule {
-  double min_length = 0.5;   ///< m
-  double max_length = 6.0;   ///< m
-  double length_cell = 0.1;  ///< m
-  int angle_cells = 24;      ///< In a full turn.
-  std::size_t max_entries = 1'000'000;
+  double min_length = 0.5;              ///< m
+  double max_length = 6.0;              ///< m
+  double length_cell = 0.1;             ///< m
+  int angle_cells = 24;                 ///< In a full turn.
+  std::size_t max_entries = 1'000'000;  ///< Of 8 bytes; of triangles 12 to 20.
 };
 
 /// Ordered pairs of oriented points (Winkelbach et al. 2006: oriented point pairs), in bins of their distance

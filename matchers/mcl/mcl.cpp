@@ -306,7 +306,6 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
   v.field("laser_max_range", p.laser_max_range,
           {.doc = "Range of the laser, over which z_rand is spread.", .unit = "m", .above = 0.0});
   describe_contact_epsilon(v, p.contact_epsilon);
-  describe(v, p.merging);
 }
 
 }  // namespace glocal::mcl

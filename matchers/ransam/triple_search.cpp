@@ -51,11 +51,6 @@ void describe(ParamVisitor& v, TripleSearch& p) {
       {.doc = "Look a local triple up in the nearer neighbouring relation cells too (eight look-ups instead "
               "of one), so that sides near a cell's boundary are not lost.",
        .audience = Audience::expert});
-  v.field("max_hypotheses", p.max_hypotheses,
-          {.doc = "Of more hypotheses than this, those that mean nearly the same pose (5 cm and 2 degrees, "
-                  "or coarser until they fit) become one, which counts as many.",
-           .min = 100,
-           .audience = Audience::expert});
 }
 
 TripleMatchingRule matching_rule(const TripleSearch& p) {

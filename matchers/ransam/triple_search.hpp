@@ -23,6 +23,8 @@ struct TripleSearch {
   std::string extrapolation = "interval";
   ContactChoice contact = "bitset";
   bool neighbour_cells = false;
+  /// Of more, those that mean nearly the same pose (5 cm and 2 degrees, or coarser until they fit) become
+  /// one, which counts as many. Not in YAML.
   int max_hypotheses = 10000;
 };
 void describe(ParamVisitor& v, TripleSearch& p);

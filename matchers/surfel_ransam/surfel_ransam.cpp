@@ -10,6 +10,13 @@
 namespace glocal::surfel_ransam {
 namespace {
 
+/// Rounds of a step at most, when nothing is carried on yet: the last one is that which finds the best pose
+/// once more, if no other comes near.
+constexpr std::size_t first_rounds = 24;
+/// What the share of the map's surfels that the latest scan looked through, among those it looked at, takes
+/// from the score.
+constexpr double seen_through_weight = 1.0;
+
 /// The local map's surfels, finer than those of the map: a narrow view has few. With the view of the latest
 /// scan: where a local map of many scans was seen from is not known.
 surfels::PreparedCloud prepared(const LocalMap& local, const Scan& latest, float voxel_size) {
@@ -61,13 +68,6 @@ void describe(ParamVisitor& v, SurfelRansam::Params& p) {
            .min = 1000,
            .max = 100e6,
            .audience = Audience::expert});
-  v.field(
-      "first_rounds", p.first_rounds,
-      {.doc = "Rounds of a step at most, when nothing is carried on yet: the last one is that which finds "
-              "the best pose once more, if no other comes near.",
-       .min = 1,
-       .max = 1000,
-       .audience = Audience::tuner});
   v.field("rounds", p.rounds,
           {.doc = "Rounds of any other step at most.", .min = 0, .max = 1000, .audience = Audience::tuner});
   v.field("draws", p.draws,
@@ -80,17 +80,6 @@ void describe(ParamVisitor& v, SurfelRansam::Params& p) {
            .min = 1,
            .max = 10000,
            .audience = Audience::expert});
-  v.field("refined", p.refined,
-          {.doc = "Distinct poses of a round that are refined and judged by all surfels.",
-           .min = 1,
-           .max = 10000,
-           .audience = Audience::expert});
-  v.field("seen_through_weight", p.seen_through_weight,
-          {.doc = "What the share of the map's surfels that the latest scan looked through, among those it "
-                  "looked at, takes from the score.",
-           .min = 0.0,
-           .max = 100.0,
-           .audience = Audience::tuner});
   v.field("free_space_weight", p.free_space_weight,
           {.doc = "What the share of points that lie where the map is known to be free takes from the score; "
                   "of no effect on maps that know of no free space in three dimensions.",
@@ -119,11 +108,10 @@ std::optional<MapIndexInfo> SurfelRansam::map_index() const {
 }
 
 surfels::PoseSearchParams SurfelRansam::search_params(const PoseGate& gate) const {
-  return {.rounds = static_cast<std::size_t>(carried_.empty() ? params_.first_rounds : params_.rounds),
+  return {.rounds = carried_.empty() ? first_rounds : static_cast<std::size_t>(params_.rounds),
           .draws = static_cast<std::size_t>(params_.draws),
           .partners = static_cast<std::size_t>(params_.partners),
-          .refined = static_cast<std::size_t>(params_.refined),
-          .seen_through_weight = params_.seen_through_weight,
+          .seen_through_weight = seen_through_weight,
           .free_space_weight = params_.free_space_weight,
           .upright = upright_,
           .gate = gate};

@@ -22,7 +22,7 @@ namespace glocal::surfel_ransam {
 /// free.
 ///
 /// Hypotheses are the best distinct poses; their score is the contact (mean of the share of surfels and of
-/// the share of points) less `seen_through_weight` times the share of the map's surfels that the latest scan
+/// the share of points) less the share of the map's surfels that the latest scan
 /// looked through, and less `free_space_weight` times the share of points where the map is free.
 class SurfelRansam final : public Matcher {
  public:
@@ -34,12 +34,9 @@ class SurfelRansam final : public Matcher {
     int best = 10;
     int carried = 10;
     int pairs = 300000;
-    int first_rounds = 24;
     int rounds = 4;
     int draws = 600;
     int partners = 8;
-    int refined = 12;
-    double seen_through_weight = 1.0;
     double free_space_weight = 1.0;
   };
 

@@ -123,7 +123,6 @@ void describe(ParamVisitor& v, MrptMcl::Params& p) {
       "must have the model_selection mmGaussian with pfAuxiliaryPFStandard: MRPT 2.5 would move all "
       "particles alike");
   describe_contact_epsilon(v, p.contact_epsilon);
-  describe(v, p.merging);
 }
 
 }  // namespace glocal

@@ -179,12 +179,6 @@ void describe(ParamVisitor& v, LogMap::Params& p) {
           {.doc = "A cell is occupied only if at least so many readings end in it.",
            .min = 1,
            .audience = Audience::tuner});
-  v.field("min_hit_share", p.min_hit_share,
-          {.doc = "A cell is occupied only if the readings that end in it are at least this share of the "
-                  "rays that reach it: people leave hits, but more rays pass there later.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::expert});
   v.field("points", p.points,
           {.doc = "Where an occupied cell's point lies: at the mean of its hits, closer to the wall, or at "
                   "the centre.",
@@ -214,8 +208,7 @@ MapData LogMap::load() {
     }
   }
   if (map.points.empty()) {
-    throw ConfigError(
-        {{file, 0, 0, "its map has no occupied cell; lower min_hits or min_hit_share, or use more scans"}});
+    throw ConfigError({{file, 0, 0, "its map has no occupied cell; lower min_hits, or use more scans"}});
   }
   map.path = path_of(placed);
   return map;

@@ -17,6 +17,8 @@ class LogMap final : public MapSource {
     LogParams log;
     double resolution = 0.05;
     int min_hits = 3;
+    /// Of the rays that reach an occupied cell, those that end in it, at least: people leave hits, but more
+    /// rays pass there later. Not in YAML.
     double min_hit_share = 0.1;
     std::string points = "mean";
   };

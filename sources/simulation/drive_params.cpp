@@ -96,7 +96,6 @@ void describe(ParamVisitor& v, LaserDriveParams& p) {
            .unit = "m",
            .max_items = 10000});
   describe_drive(v, p);
-  describe_max_unknown(v, p.max_unknown);
   v.field("laser", p.laser, {.doc = "A planar range finder."});
   v.removed("lidar", "a drive with a lidar is the observation source lidar_simulation");
   const bool has_map = !p.map.text.empty();

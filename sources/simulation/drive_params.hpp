@@ -6,6 +6,7 @@
 #include "glocal/params.hpp"
 #include "sources/simulation/laser.hpp"
 #include "sources/simulation/lidar.hpp"
+#include "sources/simulation/occupancy_ray.hpp"
 #include "sources/simulation/shapes.hpp"
 
 namespace glocal {
@@ -47,7 +48,9 @@ struct DriveParams {
 struct LaserDriveParams : DriveParams {
   FilePath map;
   std::vector<Position> way_points;
-  double max_unknown = 0.2;
+  /// Farthest a ray may go through unknown cells of a map before it reaches an occupied one, m; one that goes
+  /// farther gives no reading. Not in YAML.
+  double max_unknown = unknown_rim;
   LaserParams laser;
 };
 void describe(ParamVisitor& v, LaserDriveParams& p);

@@ -33,14 +33,4 @@ double ray_distance(const OccupancyGrid& grid, const Position& origin, const Pos
   return is_lost(distance / reach) ? std::numeric_limits<double>::quiet_NaN() : distance;
 }
 
-void describe_max_unknown(ParamVisitor& v, double& max_unknown) {
-  v.field(
-      "max_unknown", max_unknown,
-      {.doc = "Farthest a ray may go through unknown cells of a map before it reaches an occupied one, as "
-              "walls have blurred rims. A ray that goes farther gives no reading.",
-       .unit = "m",
-       .min = 0.0,
-       .audience = Audience::expert});
-}
-
 }  // namespace glocal

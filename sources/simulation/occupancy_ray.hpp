@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "glocal/occupancy_grid.hpp"
-#include "glocal/params.hpp"
 #include "sources/simulation/shapes.hpp"
 
 namespace glocal {
@@ -17,7 +16,7 @@ namespace glocal {
                                   const Position& direction, double reach, double max_unknown,
                                   double thing = std::numeric_limits<double>::infinity());
 
-/// The field `max_unknown`, for everything that casts such rays.
-void describe_max_unknown(ParamVisitor& v, double& max_unknown);
+/// As walls have blurred rims, m: what `max_unknown` is in simulations.
+constexpr double unknown_rim = 0.2;
 
 }  // namespace glocal

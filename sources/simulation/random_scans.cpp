@@ -34,7 +34,6 @@ void describe(ParamVisitor& v, RandomScans::Params& p) {
            .min = 0.0,
            .max = 5.0,
            .audience = Audience::expert});
-  describe_max_unknown(v, p.max_unknown);
   v.field("laser", p.laser, {.doc = "The range finder. Rays end where they enter an occupied cell."});
 }
 

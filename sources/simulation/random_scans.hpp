@@ -11,6 +11,7 @@
 #include "glocal/strategies.hpp"
 #include "sources/ros_map/ros_map.hpp"
 #include "sources/simulation/laser.hpp"
+#include "sources/simulation/occupancy_ray.hpp"
 
 namespace glocal {
 
@@ -22,7 +23,7 @@ class RandomScans final : public ObservationSource {
     RosMap::Params map;
     int count = 100;
     double clearance = 0.3;
-    double max_unknown = 0.2;
+    double max_unknown = unknown_rim;  ///< As in LaserDriveParams.
     LaserParams laser;
   };
 

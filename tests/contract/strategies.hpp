@@ -114,8 +114,8 @@ class Contract : public ::testing::Test {
     // So that some of the particles fit well enough after a single scan.
     fill<mcl::Mcl::Params>("matcher/mcl", [](auto& p) {
       p.max_particles = 20000;
-      p.merging.merge_distance = 0.1;
-      p.merging.merge_rotation_deg = 2.9;
+      p.merging.distance = 0.1;
+      p.merging.rotation = radians(2.9);
       p.contact_epsilon = 0.3;
     });
     bags::RobotRecording recording;
@@ -131,8 +131,7 @@ class Contract : public ::testing::Test {
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };
-    const std::string filter =
-        folder_.write("filter.yaml", "contact_epsilon: 0.3\nmerge_distance: 0.1\nmerge_rotation_deg: 2.9\n");
+    const std::string filter = folder_.write("filter.yaml", "contact_epsilon: 0.3\n");
     fillers_["matcher/mrpt_mcl"] = [filter](AnyParams& any) { read_yaml(filter, any); };
     for (const char* stage : {"local_mapper/scan_matching",
                               "local_mapper/bounded",

@@ -40,13 +40,12 @@ struct CellSum {
 [[nodiscard]] std::vector<CellSum> cell_sums(const Particles& particles, const PoseBinning& binning,
                                              std::size_t most);
 
-/// Which particles are one hypothesis: parameters of every particle filter.
+/// Which particles are one hypothesis: those whose poses lie in one cell.
 struct ParticleMerging {
-  double merge_distance = 0.25;
-  double merge_rotation_deg = 10.0;
-  int max_hypotheses = 1000;
+  double distance = 0.25;             ///< Side of a cell, m.
+  double rotation = radians(10.0);    ///< Its width in heading.
+  std::size_t max_hypotheses = 1000;  ///< The heaviest are kept.
 };
-void describe(ParamVisitor& v, ParticleMerging& p);
 
 /// What a particle filter answers: its cells, with as much support as their weights are worth in particles.
 /// The quality is that of the local map (eq. 4), the score the same of the latest scan: weights say how poses

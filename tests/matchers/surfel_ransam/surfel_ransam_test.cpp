@@ -274,8 +274,7 @@ TEST(SurfelRansam, PointsWhereTheMapIsFreeSpeakAgainstAPose) {
   const Seen seen(truth);
   const auto best = [&](bool is_known, double weight) {
     Rng rng(1);
-    const SurfelRansam::Params params{
-        .pairs = 100000, .seen_through_weight = 0.0, .free_space_weight = weight};
+    const SurfelRansam::Params params{.pairs = 100000, .free_space_weight = weight};
     SurfelRansam made = matcher(Motion::upright, params, before_the_furniture(is_known));
     return made.match({seen.local, seen.latest, 0.0}, rng).hypotheses.at(0);
   };

@@ -119,7 +119,7 @@ TEST(LogMap, SaysWhyThereIsNoMap) {
       "a.log:3: error: this scan has no reference pose; a map needs a TRUEPOS line before each scan it is "
       "made from");
   EXPECT_EQ(message(params_for(folder.write("b.log", scan_at(0, 0, "2 1 1")))),
-            "b.log: error: its map has no occupied cell; lower min_hits or min_hit_share, or use more scans");
+            "b.log: error: its map has no occupied cell; lower min_hits, or use more scans");
   EXPECT_EQ(message(params_for(folder.write("c.log", scan_at(0, 0, "2 1 1") + scan_at(1e7, 1e9, "2 1 1")))),
             "c.log: error: its map would have more than 64 million cells; raise resolution, lower max_range, "
             "or look for "
