@@ -24,9 +24,12 @@ constexpr double more_looks_in_space = 10.0;
 /// of 1.6 %, a third of the margin.
 constexpr std::size_t most_points_in_space = 600;
 
-Points some_of(const Points& points) {
+/// Points that are enough to find a mirrored pose that fits clearly better; all of them judge it then.
+constexpr std::size_t most_mirrored_points = 150;
+
+Points some_of(const Points& points, std::size_t most) {
   Points chosen;
-  for (const std::size_t i : evenly_chosen(points.size(), most_points_in_space)) chosen.push_back(points[i]);
+  for (const std::size_t i : evenly_chosen(points.size(), most)) chosen.push_back(points[i]);
   return chosen;
 }
 
@@ -85,7 +88,7 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
 }
 
 Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
-  const Points points = in_space_ ? some_of(local.points) : local.points;
+  const Points points = in_space_ ? some_of(local.points, most_points_in_space) : local.points;
   const auto size = static_cast<double>(points.size());
   const double contact = contact_of(points, map_from_local);
   const double least = std::max(1.0, std::ceil((contact - params_.margin) * size));
@@ -119,16 +122,16 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
 
 std::optional<double> WholeMap::mirrored_contact(Points points, const Pose3& local_from_robot,
                                                  double contact) const {
-  const auto size = static_cast<double>(points.size());
-  const double least = std::ceil((contact + params_.margin) * size);
-  if (in_space_ || least > size) return std::nullopt;
+  if (in_space_ || contact + params_.margin > 1.0) return std::nullopt;
   for (float& y : points.y) y = -y;
+  const Points sample = some_of(points, most_mirrored_points);
+  const double least = std::ceil((contact + params_.margin) * static_cast<double>(sample.size()));
   const Pose2 robot = seen_from_above(local_from_robot);
   const Pose2 mirrored_robot{robot.x, -robot.y, -robot.theta};
   const BoxSearchRule rule{
       .least = static_cast<std::size_t>(least), .most_places = 1, .most_looks = most_looks_};
   const BoxSearchResult search =
-      search_boxes(*pyramid_, points, mirrored_robot, rule, std::nullopt, threads_);
+      search_boxes(*pyramid_, sample, mirrored_robot, rule, std::nullopt, threads_);
   if (search.poses.empty()) return std::nullopt;
   const Pose3 best = refined(points, search.poses.front().upright());
   const double mirrored = contact_of(points, best);
