@@ -11,8 +11,8 @@
 namespace glocal {
 
 /// Finds directions of the sensor in which the range has stayed the same while the robot drove on and turned:
-/// dirt on its cover, a part of the robot, or a driver that repeats what it has read. A straight wall beside
-/// the way keeps its range, too, but not in a turn.
+/// its driver repeats what it has read. A straight wall beside the way keeps its range, too, but not in a
+/// turn. What is nearer than 1 m may move along, and does not count.
 class StuckRanges {
  public:
   /// Takes in a scan, and where odometry is.

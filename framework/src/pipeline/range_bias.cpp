@@ -122,6 +122,9 @@ std::optional<double> bias_of_wall(const Rays& rays, std::size_t middle) {
   const double variance = fit->squares.inverse()(2, 2);
   const double deviation = std::max(fit->off_wall, least_off_wall) * std::sqrt(variance);
   if (!(fit->off_wall <= most_off_wall && deviation <= most_deviation)) return std::nullopt;
+  // Somebody's round back, close by, is no wall at half the distance.
+  const double away = 1.0 / std::hypot(wall.a, wall.b);
+  if (std::abs(wall.bias) > away) return std::nullopt;
   return wall.bias;
 }
 

@@ -58,7 +58,7 @@ constexpr double least_agreement = -10.0;
 /// Below this, scans and odometry do not belong together.
 constexpr double agreement_of_fault = -6.0;
 
-/// Of ranges that never change, this share is a fault: robots see parts of themselves.
+/// Of ranges that never change, this share is a fault.
 constexpr double most_stuck = 0.2;
 
 /// Good sensors are off by less, m, ...

@@ -61,8 +61,8 @@ std::string SetupCheck::why() const {
           *late_by);
     case SetupFault::stuck_ranges:
       return fmt::format(
-          "{:.0f} % of the ranges stay the same while the robot drives and turns: is something on the "
-          "sensor, or in its view?",
+          "{:.0f} % of the ranges stay the same while the robot drives and turns: does the sensor's "
+          "driver repeat what it has read, or is something in its view?",
           100.0 * stuck_share);
     case SetupFault::biased_ranges:
       return fmt::format(

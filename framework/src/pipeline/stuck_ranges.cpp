@@ -13,6 +13,9 @@ constexpr double same_range = 0.015;
 constexpr double turned_by = radians(25.0);
 constexpr double driven_by = 0.5;
 
+/// What is nearer, m, may move along: parts of the robot, or somebody beside it.
+constexpr double least_range = 1.0;
+
 /// Beams lie at whole and half degrees, so that borders of cells must not.
 constexpr double offset = radians(0.07);
 
@@ -31,7 +34,7 @@ void StuckRanges::take_in(const std::vector<PolarReading>& readings, const Pose2
     since.has_turned |= rotation_between(since.odom_from_robot, odom_from_robot) >= turned_by;
     since.has_driven |= distance(since.odom_from_robot, odom_from_robot) >= driven_by;
     ++seen;
-    if (since.has_turned && since.has_driven) ++stuck;
+    if (since.has_turned && since.has_driven && since.range >= least_range) ++stuck;
   }
   share_ = seen == 0 ? 0.0 : static_cast<double>(stuck) / static_cast<double>(seen);
 }

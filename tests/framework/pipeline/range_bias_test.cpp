@@ -58,14 +58,15 @@ TEST(RangeBias, NeedsStraightWalls) {
   EXPECT_FALSE(bias.median());
 }
 
-TEST(RangeBias, OfARobotInARoundTankIsNone) {
-  // A circle bulges inwards as no straight wall does, whatever is added to its ranges.
-  RangeBias bias;
-  std::vector<PolarReading> readings;
-  for (double angle_deg = -179.5; angle_deg < 180.0; angle_deg += 1.0)
-    readings.push_back({4.0, radians(angle_deg)});
-  bias.take_in(by_direction(readings));
-  EXPECT_EQ(bias.walls(), 0U);
+TEST(RangeBias, IsNotToldByWhatIsRound) {
+  for (const double radius : {0.4, 0.6, 1.0, 4.0}) {
+    RangeBias bias;
+    std::vector<PolarReading> readings;
+    for (double angle_deg = -179.5; angle_deg < 180.0; angle_deg += 1.0)
+      readings.push_back({radius, radians(angle_deg)});
+    bias.take_in(by_direction(readings));
+    EXPECT_EQ(bias.walls(), 0U) << radius;
+  }
 }
 
 }  // namespace

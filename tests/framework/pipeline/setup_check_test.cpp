@@ -124,13 +124,13 @@ TEST(SetupCheck, RobotThatHoldsStillSeesTheSame) {
 }
 
 /// What a robot in a corridor 4 m wide sees, which turns by `turn_deg` and whose ranges are `bias` m too
-/// long; the first beams always read 1 m.
+/// long; the first beams always read 1.5 m.
 Observation in_a_corridor(double x, double turn_deg, double bias, int stuck) {
   Observation observation;
   observation.odom_from_robot = Pose2{x, 0.0, radians(turn_deg)};
   for (int i = 0; i < 180; ++i) {
     const double angle = radians(2.0 * i + 0.9), along = angle + radians(turn_deg);
-    const double range = i < stuck ? 1.0 : std::min(2.0 / std::abs(std::sin(along)), 15.0) + bias;
+    const double range = i < stuck ? 1.5 : std::min(2.0 / std::abs(std::sin(along)), 15.0) + bias;
     observation.scan.hits.push_back(
         {static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)), 0.0F});
   }

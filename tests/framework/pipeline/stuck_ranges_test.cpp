@@ -21,6 +21,16 @@ TEST(StuckRanges, AreThoseThatStayWhileTheRobotDrivesAndTurns) {
   EXPECT_DOUBLE_EQ(ranges.share(), 0.3);
 }
 
+TEST(StuckRanges, AreNoneOfWhoMovesAlong) {
+  StuckRanges ranges;
+  for (int i = 0; i < 4; ++i) {
+    auto scan = readings(0, 3.0 + 0.1 * i);
+    for (int k = 0; k < 60; ++k) scan[static_cast<std::size_t>(k)].range = 0.6;
+    ranges.take_in(scan, {0.3 * i, 0.0, radians(15.0 * i)});
+  }
+  EXPECT_EQ(ranges.share(), 0.0);
+}
+
 TEST(StuckRanges, AreNoneWhereTheRobotOnlyTurns) {
   StuckRanges ranges;
   for (int i = 0; i < 36; ++i) ranges.take_in(readings(100, 2.0), {0.0, 0.0, radians(10.0 * i)});
