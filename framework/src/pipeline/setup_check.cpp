@@ -68,6 +68,9 @@ constexpr double spread_of_bias = 0.15;
 /// ... or, to be sure, by this over so many.
 constexpr double sure_spread_of_bias = 1.0;
 constexpr std::size_t least_walls = 12;
+/// A doubt of fewer walls passes after so many steps.
+constexpr std::size_t few_walls = 8;
+constexpr std::size_t most_steps_of_doubt = 12;
 /// From places nearer to each other, m, the same walls are seen.
 constexpr double other_place = 0.25;
 
@@ -286,8 +289,9 @@ bool SetupMonitor::is_in_doubt(const SetupCheck& check) const {
   const bool is_turned = check.mount_angle_deg &&
                          std::abs(*check.mount_angle_deg) + check.mount_angle_sd_deg > most_mount_angle_deg;
   const bool is_too_early = check.way_m < first_way && steps_ < most_steps_for_first_way;
+  const bool tells_bias = check.walls >= few_walls || steps_ <= most_steps_of_doubt;
   return is_too_early || is_turned || agreement_ < params_.min_agreement ||
-         is_biased(check, spread_of_bias) || is_repeated(1) || is_mirrored(radians(12.0));
+         (tells_bias && is_biased(check, spread_of_bias)) || is_repeated(1) || is_mirrored(radians(12.0));
 }
 
 }  // namespace glocal

@@ -167,6 +167,28 @@ TEST(SetupCheck, ASmallerBiasIsADoubt) {
   EXPECT_FALSE(after_a_corridor(0.1, 0).is_in_doubt) << "good sensors have as much";
 }
 
+TEST(SetupCheck, ADoubtOfFewWallsPasses) {
+  SetupMonitor monitor({});
+  LocalMap local;
+  // One wall, 2 m ahead and seen under 70 degrees, whose ranges are 0.5 m too long; then nothing more.
+  Observation observation;
+  for (int i = -35; i <= 35; ++i) {
+    const double angle = radians(i), range = 2.0 / std::cos(angle) + 0.5;
+    observation.scan.hits.push_back(
+        {static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)), 0.0F});
+  }
+  SetupCheck check = monitor.update(observation, local);
+  ASSERT_GT(check.walls, 0U);
+  ASSERT_LT(check.walls, 8U);
+  observation.scan.hits = {};
+  for (int i = 1; i <= 13; ++i) {
+    observation.odom_from_robot = observation.odom_from_robot * Pose3(ahead);
+    local.local_from_robot = seen_from_above(local.local_from_robot) * of_scans(ahead);
+    check = monitor.update(observation, local);
+    EXPECT_EQ(check.is_in_doubt, i <= 12) << i;
+  }
+}
+
 TEST(SetupCheck, WallsCountOnceWhereTheRobotStands) {
   SetupMonitor monitor({});
   const std::size_t walls = monitor.update(in_a_corridor(0.0, 0.0, 0.0, 0), {}).walls;
