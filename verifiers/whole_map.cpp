@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "glocal/evenly.hpp"
 #include "matchers/box_search/map_area.hpp"
-#include "matchers/box_search/search_boxes.hpp"
 #include "matchers/common/candidates.hpp"
 #include "verifiers/contact_climb.hpp"
 
@@ -77,7 +77,8 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
     : params_(params),
       in_space_(setup.motion != Motion::planar),
       epsilon_(setup.epsilon(params.contact_epsilon)),
-      threads_(setup.threads) {
+      threads_(setup.threads),
+      looks_per_step_(setup.looks_per_step) {
   most_looks_ = looks_on(*setup.map, max_looks * (in_space_ ? more_looks_in_space : 1.0));
   contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(*setup.map)), epsilon_);
   if (!in_space_) field_ = distance_field(*setup.map, setup.threads);
@@ -88,54 +89,82 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
 }
 
 Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
-  const Points points = in_space_ ? some_of(local.points, most_points_in_space) : local.points;
-  const auto size = static_cast<double>(points.size());
+  if (!open_ || !is_of(local, map_from_local)) open_.emplace(begin(local, map_from_local, gate));
+  Search& search = *open_;
+  Verification result{.near = search.declared.near, .margin = params_.margin};
+  result.points_tested = search.rivals.advance(looks_per_step_);
+  if (search.mirrored && result.points_tested < looks_per_step_)
+    result.points_tested += search.mirrored->advance(looks_per_step_ - result.points_tested);
+  result.goes_on = !search.rivals.is_over() || (search.mirrored && !search.mirrored->is_over());
+  if (result.goes_on) return result;
+  const BoxSearchResult found = search.rivals.result();
+  result.mirrored_contact = mirrored_contact(search);
+  result.rivals = rivals_of(search, found);
+  if (found.is_complete)
+    result.certificate = {
+        .contact = search.contact,
+        .at_most = static_cast<double>(found.at_most) / static_cast<double>(search.points.size()),
+        .epsilon = epsilon_,
+        .delta = pyramid_->delta()};
+  open_.reset();
+  return result;
+}
+
+/// The open search.
+bool WholeMap::is_of(const LocalMap& local, const Pose3& map_from_local) const {
+  const Pose3 declared = map_from_local * open_->local_from_robot;
+  return open_->epoch == local.epoch &&
+         open_->declared.near.are_near(declared, open_->declared.map_from_robot);
+}
+
+WholeMap::Search WholeMap::begin(const LocalMap& local, const Pose3& map_from_local,
+                                 const PoseGate& gate) const {
+  Points points = in_space_ ? some_of(local.points, most_points_in_space) : local.points;
   const double contact = contact_of(points, map_from_local);
-  const double least = std::max(1.0, std::ceil((contact - params_.margin) * size));
-  const BoxSearchRule rule{.least = static_cast<std::size_t>(least),
+  const auto least_of = [](double share, const Points& of) {
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(share * static_cast<double>(of.size()))));
+  };
+  const BoxSearchRule rule{.least = least_of(contact - params_.margin, points),
                            .most_places = most_rivals,
                            .most_looks = most_looks_,
                            .gate = gate};
   const Exclusion declared{map_from_local * local.local_from_robot,
                            {.translation = params_.distance, .rotation = radians(params_.rotation_deg)}};
-  const BoxSearchResult search =
-      search_boxes(*pyramid_, points, local.local_from_robot, rule, declared, threads_);
-  Verification result{.near = declared.near, .margin = params_.margin};
-  result.points_tested = search.looks;
-  result.mirrored_contact = mirrored_contact(points, local.local_from_robot, contact);
-  std::vector<Hypothesis> rivals;
-  for (const BoxSearchResult::FoundPose& found : search.poses) {
-    for (const Pose3& pose : {found.upright(), refined(points, found.upright())}) {
-      const Pose3 robot = pose * local.local_from_robot;
-      if (gate.allows(pose) && !declared.near.are_near(robot, declared.map_from_robot))
-        rivals.push_back(Hypothesis::by_contact(pose, contact_of(points, pose)));
-    }
-  }
-  result.rivals = distinct_candidates(std::move(rivals), local.local_from_robot, rule.most_places);
-  if (search.is_complete)
-    result.certificate = {.contact = contact,
-                          .at_most = static_cast<double>(search.at_most) / size,
-                          .epsilon = epsilon_,
-                          .delta = pyramid_->delta()};
-  return result;
+  BoxSearch rivals(*pyramid_, points, local.local_from_robot, rule, declared, threads_);
+  Search search{std::move(points), local.epoch,       local.local_from_robot, declared,    gate,
+                contact,           std::move(rivals), std::nullopt,           std::nullopt};
+  if (in_space_ || contact + params_.margin > 1.0) return search;
+  search.mirrored_points = search.points;
+  for (float& y : search.mirrored_points->y) y = -y;
+  const Points sample = some_of(*search.mirrored_points, most_mirrored_points);
+  const Pose2 robot = seen_from_above(local.local_from_robot);
+  search.mirrored.emplace(
+      *pyramid_, sample, Pose2{robot.x, -robot.y, -robot.theta},
+      BoxSearchRule{
+          .least = least_of(contact + params_.margin, sample), .most_places = 1, .most_looks = most_looks_},
+      std::nullopt, threads_);
+  return search;
 }
 
-std::optional<double> WholeMap::mirrored_contact(Points points, const Pose3& local_from_robot,
-                                                 double contact) const {
-  if (in_space_ || contact + params_.margin > 1.0) return std::nullopt;
-  for (float& y : points.y) y = -y;
-  const Points sample = some_of(points, most_mirrored_points);
-  const double least = std::ceil((contact + params_.margin) * static_cast<double>(sample.size()));
-  const Pose2 robot = seen_from_above(local_from_robot);
-  const Pose2 mirrored_robot{robot.x, -robot.y, -robot.theta};
-  const BoxSearchRule rule{
-      .least = static_cast<std::size_t>(least), .most_places = 1, .most_looks = most_looks_};
-  const BoxSearchResult search =
-      search_boxes(*pyramid_, sample, mirrored_robot, rule, std::nullopt, threads_);
-  if (search.poses.empty()) return std::nullopt;
-  const Pose3 best = refined(points, search.poses.front().upright());
-  const double mirrored = contact_of(points, best);
-  return mirrored >= contact + params_.margin ? std::optional(mirrored) : std::nullopt;
+std::vector<Hypothesis> WholeMap::rivals_of(const Search& search, const BoxSearchResult& found) const {
+  std::vector<Hypothesis> rivals;
+  for (const BoxSearchResult::FoundPose& place : found.poses) {
+    for (const Pose3& pose : {place.upright(), refined(search.points, place.upright())}) {
+      const Pose3 robot = pose * search.local_from_robot;
+      if (search.gate.allows(pose) && !search.declared.near.are_near(robot, search.declared.map_from_robot))
+        rivals.push_back(Hypothesis::by_contact(pose, contact_of(search.points, pose)));
+    }
+  }
+  return distinct_candidates(std::move(rivals), search.local_from_robot, most_rivals);
+}
+
+std::optional<double> WholeMap::mirrored_contact(const Search& search) const {
+  if (!search.mirrored) return std::nullopt;
+  const BoxSearchResult found = search.mirrored->result();
+  if (found.poses.empty()) return std::nullopt;
+  const Pose3 best = refined(*search.mirrored_points, found.poses.front().upright());
+  const double mirrored = contact_of(*search.mirrored_points, best);
+  return mirrored >= search.contact + params_.margin ? std::optional(mirrored) : std::nullopt;
 }
 
 double WholeMap::contact_of(const Points& points, const Pose3& map_from_points) const {

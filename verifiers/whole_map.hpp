@@ -9,6 +9,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 #include "matchers/box_search/box_pyramid.hpp"
+#include "matchers/box_search/search_boxes.hpp"
 
 namespace glocal {
 
@@ -23,6 +24,9 @@ namespace glocal {
 ///
 /// In the plane it looks for the mirrored local map, too (150 of its points), since left and right that have
 /// changed places show in nothing else.
+///
+/// Where a step has no more looks left, the search of that step's local map goes on in the next, as long as
+/// the same pose is to be declared in the same local frame.
 class WholeMap final : public Verifier {
  public:
   static constexpr Motions motions{.planar = true, .upright = true};
@@ -40,12 +44,28 @@ class WholeMap final : public Verifier {
 
   [[nodiscard]] Verification verify(const LocalMap& local, const Pose3& map_from_local,
                                     const PoseGate& gate) override;
+  void reset() override { open_.reset(); }
 
  private:
-  /// Contact at the best pose of the mirrored points, in the plane, if it is more than `contact` by the
-  /// margin or more: rooms are often nearly their own mirror images, and then both fit alike.
-  [[nodiscard]] std::optional<double> mirrored_contact(Points points, const Pose3& local_from_robot,
-                                                       double contact) const;
+  /// A verification that has begun.
+  struct Search {
+    Points points;
+    int epoch;  ///< Of the local frame.
+    Pose3 local_from_robot;
+    Exclusion declared;
+    PoseGate gate;
+    double contact;  ///< At the declared pose.
+    BoxSearch rivals;
+    /// The points with left and right changed, where they can fit clearly better at all.
+    std::optional<Points> mirrored_points;
+    std::optional<BoxSearch> mirrored;
+  };
+  [[nodiscard]] bool is_of(const LocalMap& local, const Pose3& map_from_local) const;
+  [[nodiscard]] Search begin(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) const;
+  [[nodiscard]] std::vector<Hypothesis> rivals_of(const Search& search, const BoxSearchResult& found) const;
+  /// Contact at the best pose of the mirrored points, in the plane, if it is more than at the declared pose
+  /// by the margin or more: rooms are often nearly their own mirror images, and then both fit alike.
+  [[nodiscard]] std::optional<double> mirrored_contact(const Search& search) const;
   [[nodiscard]] double contact_of(const Points& points, const Pose3& map_from_points) const;
   /// Near a pose that the search found, one that fits better.
   [[nodiscard]] Pose3 refined(const Points& points, const Pose3& map_from_points) const;
@@ -54,10 +74,12 @@ class WholeMap final : public Verifier {
   bool in_space_;
   double epsilon_;
   int threads_;
+  std::size_t looks_per_step_;
   std::size_t most_looks_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const DistanceField> field_;  ///< To refine rivals on; in the plane only.
   std::shared_ptr<const BoxPyramid> pyramid_;
+  std::optional<Search> open_;  ///< That goes on in the next step.
 };
 void describe(ParamVisitor& v, WholeMap::Params& p);
 

@@ -59,6 +59,7 @@ Json to_json(const Verification& v, Motion motion) {
                {"points_tested", v.points_tested},
                {"rivals", std::move(rivals)}};
   if (v.certificate) json["certificate"] = to_json(v, *v.certificate);
+  if (v.goes_on) json["goes_on"] = true;
   if (v.mirrored_contact) json["mirrored_contact"] = *v.mirrored_contact;
   return json;
 }

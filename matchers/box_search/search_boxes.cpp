@@ -8,12 +8,13 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "glocal/parallel.hpp"
 #include "matchers/box_search/allowed_translations.hpp"
 
 namespace glocal {
-namespace {
+namespace box_search {
 
 /// What is searched, and for what.
 struct Problem {
@@ -133,7 +134,7 @@ struct Bottom {
   std::optional<CellPoints> middles = {};  ///< See AllPoses; once a box has reached the bar.
 };
 
-/// The search below one interval of rotations of the top level.
+/// The search of one interval of rotations of the top level. It can be interrupted after any part.
 class IntervalSearch {
  public:
   IntervalSearch(const Problem& problem, std::size_t least, std::size_t most_looks)
@@ -152,15 +153,34 @@ class IntervalSearch {
     return {std::move(interval), std::move(found_)};
   }
 
-  /// Given up after so many looks: what is found is then not all.
-  [[nodiscard]] FoundPlaces search(const Interval& interval) {
-    const int top = problem_.pyramid.top_level();
+  /// Begins the search below a first look. Given up after `most_looks`: what is found is then not all.
+  void begin(const Interval& interval) {
     last_layer_ = interval.last_layer;
-    look_at(top, interval.rotation, problem_.boxes.cells(top, interval.rotation), interval.tiles);
-    return std::move(found_);
+    open_.push_back({problem_.pyramid.top_level(), interval.rotation, interval.tiles});
   }
 
+  /// Goes on for about so many looks, at least one part, until it is over. Returns how many were taken.
+  std::size_t advance(std::size_t looks) {
+    const std::size_t before = found_.looks;
+    while (!is_over() && found_.looks - before < looks) {
+      const Part part = std::move(open_.back());
+      open_.pop_back();
+      look_at(part);
+    }
+    return found_.looks - before;
+  }
+
+  [[nodiscard]] bool is_over() const { return open_.empty(); }
+  [[nodiscard]] const FoundPlaces& found() const { return found_; }
+
  private:
+  /// What is still to be looked at: some tiles of an interval of a level.
+  struct Part {
+    int level;
+    std::size_t rotation;
+    std::vector<Tile> tiles;
+  };
+
   /// Those that hold all wanted ones of some translations.
   [[nodiscard]] std::vector<Tile> top_tiles(std::size_t rotation, const Translations& all) const {
     const int top = problem_.pyramid.top_level();
@@ -232,30 +252,33 @@ class IntervalSearch {
     return {std::countr_zero(boxes[static_cast<std::size_t>(row)]), row};
   }
 
-  /// `points` are the cells of this rotation.
-  void look_at(int level, std::size_t rotation, const std::vector<CellPoints>& points,
-               const std::vector<Tile>& tiles) {
-    if (level == 0) return look_at_bottom(rotation, points, tiles);
+  void look_at(const Part& part) {
+    const auto& [level, rotation, tiles] = part;
+    // On a grid they are the same at all levels.
+    if (problem_.all_poses != nullptr || points_.empty()) points_ = problem_.boxes.cells(level, rotation);
+    if (level == 0) return look_at_bottom(rotation, tiles);
     const WantedBoxes wanted(problem_, level, rotation);
     std::vector<Tile> quarters;
     for (const Tile& tile : tiles) {
       if (!wanted.any(tile, TileCounts::columns << level, TileCounts::rows << level)) continue;
       if (found_.looks > most_looks_) return;
-      if (reaches(level, points, tile, least_)) add_quarters(level, tile, wanted, quarters);
+      if (reaches(level, points_, tile, least_)) add_quarters(level, tile, wanted, quarters);
     }
     if (quarters.empty()) return;
-    if (problem_.all_poses == nullptr) return look_at(level - 1, rotation, points, quarters);
-    for (const std::size_t half : {2 * rotation, 2 * rotation + 1})
-      look_at(level - 1, half, problem_.boxes.cells(level - 1, half), quarters);
+    if (problem_.all_poses == nullptr) {
+      open_.push_back({level - 1, rotation, std::move(quarters)});
+    } else {
+      open_.push_back({level - 1, 2 * rotation + 1, quarters});
+      open_.push_back({level - 1, 2 * rotation, std::move(quarters)});
+    }
   }
 
-  void look_at_bottom(std::size_t rotation, const std::vector<CellPoints>& points,
-                      const std::vector<Tile>& tiles) {
+  void look_at_bottom(std::size_t rotation, const std::vector<Tile>& tiles) {
     Bottom bottom(problem_, rotation);
     for (const Tile& tile : tiles) {
       if (!bottom.wanted.any(tile, TileCounts::columns, TileCounts::rows)) continue;
       if (found_.looks > most_looks_) return;
-      if (reaches(0, points, tile, least_)) add_boxes(bottom, tile, least_);
+      if (reaches(0, points_, tile, least_)) add_boxes(bottom, tile, least_);
     }
   }
 
@@ -308,94 +331,197 @@ class IntervalSearch {
   const Problem& problem_;
   std::size_t least_;
   std::size_t most_looks_;
-  int last_layer_ = 0;  ///< Of translations.
+  int last_layer_ = 0;              ///< Of translations.
+  std::vector<Part> open_;          ///< The last of them comes next.
+  std::vector<CellPoints> points_;  ///< Of the rotation that is looked at.
   TileCounts counts_, middle_counts_;
   FoundPlaces found_;
 };
 
-void take_in(BoxSearchResult& result, const FoundPlaces& found) {
-  result.tested += found.tested;
-  result.looks += found.looks;
+std::unique_ptr<const PoseBoxes> boxes_of(const BoxPyramid& pyramid, const Points& points,
+                                          double robot_height, double min_rotation_step) {
+  if (pyramid.of() == BoxPyramid::Of::pose_grid)
+    return std::make_unique<PoseGrid>(points, pyramid.frame(), min_rotation_step, robot_height);
+  return std::make_unique<AllPoses>(points, pyramid.frame(), pyramid.top_level());
 }
 
-/// A first look at every interval: those that promise most come first.
-std::vector<Interval> look_at_all(const Problem& problem, BestPlaces& best, BoxSearchResult& result,
-                                  int threads) {
-  std::vector<FirstLook> looks(problem.boxes.rotations(problem.pyramid.top_level()));
-  parallel_for(threads, looks.size(), [&](std::size_t i) {
-    looks[i] = IntervalSearch(problem, problem.rule.least, problem.rule.most_looks).look(i);
-  });
-  std::vector<Interval> intervals;
-  for (FirstLook& look : looks) {
-    take_in(result, look.found);
-    best.add(look.found.places);
-    intervals.push_back(std::move(look.interval));
+/// First all intervals get a first look. Then those that promise most are searched, a batch of them at a
+/// time, and what they bring raises the bar for the next.
+class State {
+ public:
+  State(const BoxPyramid& pyramid, Points points, const Pose3& local_from_robot, const BoxSearchRule& rule,
+        const std::optional<Exclusion>& exclusion, int threads)
+      : points_(std::move(points)),
+        local_from_robot_(local_from_robot),
+        rule_(rule),
+        exclusion_(exclusion),
+        threads_(threads),
+        boxes_(boxes_of(pyramid, points_, local_from_robot.z, rule.min_rotation_step)),
+        problem_{.pyramid = pyramid,
+                 .boxes = *boxes_,
+                 .all_poses = dynamic_cast<const AllPoses*>(boxes_.get()),
+                 .local_from_robot = local_from_robot_,
+                 .above_from_robot = seen_from_above(local_from_robot_),
+                 .rule = rule_,
+                 .exclusion = exclusion_},
+        best_(rule.most_places, rule.least),
+        rotations_(boxes_->rotations(pyramid.top_level())) {
+    result_.at_most = rule.least - 1;
   }
-  best.raise();
-  std::stable_sort(intervals.begin(), intervals.end(),
-                   [](const Interval& a, const Interval& b) { return a.promise > b.promise; });
-  return intervals;
-}
+  State(const State&) = delete;  // The problem refers to what is here.
+  State& operator=(const State&) = delete;
 
-/// The search of what reaches the bar, which rises. Returns whether it came to its end.
-bool search_all(const Problem& problem, std::span<const Interval> intervals, BestPlaces& best,
-                BoxSearchResult& result, int threads) {
-  const std::size_t most_looks = problem.rule.most_looks;
-  const auto reaches_bar = [&](const Interval& interval) { return interval.bound >= best.bar(); };
-  while (!intervals.empty()) {
-    const auto batch = intervals.first(std::min(problem.intervals_at_a_time(), intervals.size()));
-    intervals = intervals.subspan(batch.size());
-    if (std::none_of(batch.begin(), batch.end(), reaches_bar)) continue;
-    if (result.looks > most_looks) return false;
-    // Of each interval, as all of them are searched before the next count.
-    const std::size_t looks_each = (most_looks - result.looks) / 4;
-    std::vector<FoundPlaces> found(batch.size());
-    parallel_for(threads, batch.size(), [&](std::size_t i) {
-      if (reaches_bar(batch[i])) found[i] = IntervalSearch(problem, best.bar(), looks_each).search(batch[i]);
-    });
-    for (const FoundPlaces& of_interval : found) {
-      take_in(result, of_interval);
-      best.add(of_interval.places);
-      best.raise();
-      if (of_interval.looks > looks_each) return false;
+  void advance(std::size_t looks) {
+    const std::size_t before = looks_;
+    while (!is_over_ && looks_ - before < looks) {
+      const std::size_t left = looks - (looks_ - before);
+      if (first_looks_.size() < rotations_) {
+        take_first_looks(left);
+      } else if (batch_.empty()) {
+        begin_batch();
+      } else {
+        search_batch(left);
+      }
     }
   }
-  return true;
+
+  [[nodiscard]] bool is_over() const { return is_over_; }
+  [[nodiscard]] std::size_t looks() const { return looks_; }
+
+  [[nodiscard]] BoxSearchResult result() const {
+    BoxSearchResult result = result_;
+    if (!result.is_complete) return result;
+    const double middle = problem_.middle_of_box();
+    for (const auto& [bound, box] : best_.falling(problem_.all_poses == nullptr)) {
+      result.poses.push_back({boxes_->pose(0, box.rotation, box.column + middle, box.row + middle),
+                              boxes_->height(box.layer + middle), bound});
+    }
+    if (!result.poses.empty()) result.at_most = result.poses.front().in_contact;
+    return result;
+  }
+
+ private:
+  /// At as many intervals as these looks are likely to do for, going by those before.
+  void take_first_looks(std::size_t looks) {
+    constexpr std::size_t at_first = 8;
+    const std::size_t done = first_looks_.size();
+    const std::size_t likely = done == 0 ? at_first : looks / (looks_ / done + 1);
+    const std::size_t size = std::clamp<std::size_t>(likely, 1, rotations_ - done);
+    first_looks_.resize(done + size);
+    parallel_for(threads_, size, [&](std::size_t i) {
+      first_looks_[done + i] = IntervalSearch(problem_, rule_.least, rule_.most_looks).look(done + i);
+    });
+    for (const FirstLook& look : std::span(first_looks_).subspan(done)) {
+      looks_ += look.found.looks;
+      take_in(look.found);
+    }
+    if (first_looks_.size() < rotations_) return;
+    best_.raise();
+    std::stable_sort(first_looks_.begin(), first_looks_.end(), [](const FirstLook& a, const FirstLook& b) {
+      return a.interval.promise > b.interval.promise;
+    });
+  }
+
+  void begin_batch() {
+    const auto rest = std::span<const FirstLook>(first_looks_).subspan(next_);
+    const auto some = rest.first(std::min(problem_.intervals_at_a_time(), rest.size()));
+    next_ += some.size();
+    const bool is_given_up = result_.looks > rule_.most_looks;
+    // Of each interval, as all of them are searched before the next count.
+    looks_each_ = is_given_up ? 0 : (rule_.most_looks - result_.looks) / 4;
+    for (const auto& [interval, found] : some) {
+      if (interval.bound < best_.bar()) continue;
+      if (is_given_up) return end(false);
+      batch_.emplace_back(problem_, best_.bar(), looks_each_).begin(interval);
+    }
+    if (batch_.empty() && next_ == first_looks_.size()) end(true);
+  }
+
+  void search_batch(std::size_t looks) {
+    const std::size_t looks_of_each = std::max<std::size_t>(looks / batch_.size(), 1);
+    std::vector<std::size_t> taken(batch_.size());
+    parallel_for(threads_, batch_.size(),
+                 [&](std::size_t i) { taken[i] = batch_[i].advance(looks_of_each); });
+    for (const std::size_t of_interval : taken) looks_ += of_interval;
+    if (std::all_of(batch_.begin(), batch_.end(), [](const IntervalSearch& s) { return s.is_over(); }))
+      end_batch();
+  }
+
+  void end_batch() {
+    for (const IntervalSearch& search : batch_) {
+      take_in(search.found());
+      best_.raise();
+      if (search.found().looks > looks_each_) return end(false);
+    }
+    batch_.clear();
+    if (next_ == first_looks_.size()) end(true);
+  }
+
+  void take_in(const FoundPlaces& found) {
+    result_.tested += found.tested;
+    result_.looks += found.looks;
+    best_.add(found.places);
+  }
+
+  void end(bool is_complete) {
+    result_.is_complete = is_complete;
+    is_over_ = true;
+  }
+
+  Points points_;
+  Pose3 local_from_robot_;
+  BoxSearchRule rule_;
+  std::optional<Exclusion> exclusion_;
+  int threads_;
+  std::unique_ptr<const PoseBoxes> boxes_;
+  Problem problem_;
+  BestPlaces best_;
+  BoxSearchResult result_;
+  std::size_t looks_ = 0;  ///< With those of intervals whose result does not count yet.
+  bool is_over_ = false;
+  std::size_t rotations_;               ///< How many intervals there are.
+  std::vector<FirstLook> first_looks_;  ///< Once there are all, those that promise most come first.
+  std::size_t next_ = 0;                ///< Of them; those before are searched, or in the batch.
+  std::vector<IntervalSearch> batch_;   ///< Searched before the bar is raised again.
+  std::size_t looks_each_ = 0;          ///< That an interval of the batch may take.
+};
+
+}  // namespace box_search
+
+BoxSearch::BoxSearch(const BoxPyramid& pyramid, Points points, const Pose3& local_from_robot,
+                     const BoxSearchRule& rule, const std::optional<Exclusion>& exclusion, int threads) {
+  over_.at_most = rule.least - 1;
+  over_.is_complete = points.size() <= TileCounts::most_points && rule.least > points.size();
+  if (points.size() <= TileCounts::most_points && !over_.is_complete)
+    state_ = std::make_unique<box_search::State>(pyramid, std::move(points), local_from_robot, rule,
+                                                 exclusion, threads);
 }
 
-}  // namespace
+BoxSearch::BoxSearch(BoxSearch&&) noexcept = default;
+BoxSearch& BoxSearch::operator=(BoxSearch&&) noexcept = default;
+BoxSearch::~BoxSearch() = default;
+
+std::size_t BoxSearch::advance(std::size_t looks) {
+  if (is_over()) return 0;
+  const std::size_t before = state_->looks();
+  state_->advance(looks);
+  return state_->looks() - before;
+}
+
+bool BoxSearch::is_over() const {
+  return !state_ || state_->is_over();
+}
+
+BoxSearchResult BoxSearch::result() const {
+  return state_ ? state_->result() : over_;
+}
 
 BoxSearchResult search_boxes(const BoxPyramid& pyramid, const Points& points, const Pose3& local_from_robot,
                              const BoxSearchRule& rule, const std::optional<Exclusion>& exclusion,
                              int threads) {
-  BoxSearchResult result{.at_most = rule.least - 1};
-  if (points.size() > TileCounts::most_points) return result;
-  result.is_complete = rule.least > points.size();
-  if (result.is_complete) return result;
-  std::unique_ptr<const PoseBoxes> boxes;
-  if (pyramid.of() == BoxPyramid::Of::pose_grid) {
-    boxes = std::make_unique<PoseGrid>(points, pyramid.frame(), rule.min_rotation_step, local_from_robot.z);
-  } else {
-    boxes = std::make_unique<AllPoses>(points, pyramid.frame(), pyramid.top_level());
-  }
-  const Problem problem{.pyramid = pyramid,
-                        .boxes = *boxes,
-                        .all_poses = dynamic_cast<const AllPoses*>(boxes.get()),
-                        .local_from_robot = local_from_robot,
-                        .above_from_robot = seen_from_above(local_from_robot),
-                        .rule = rule,
-                        .exclusion = exclusion};
-  BestPlaces best(rule.most_places, rule.least);
-  const std::vector<Interval> intervals = look_at_all(problem, best, result, threads);
-  result.is_complete = search_all(problem, intervals, best, result, threads);
-  if (!result.is_complete) return result;
-  const double middle = problem.middle_of_box();
-  for (const auto& [bound, box] : best.falling(problem.all_poses == nullptr)) {
-    result.poses.push_back({boxes->pose(0, box.rotation, box.column + middle, box.row + middle),
-                            boxes->height(box.layer + middle), bound});
-  }
-  if (!result.poses.empty()) result.at_most = result.poses.front().in_contact;
-  return result;
+  BoxSearch search(pyramid, points, local_from_robot, rule, exclusion, threads);
+  search.advance(BoxSearch::to_the_end);
+  return search.result();
 }
 
 }  // namespace glocal

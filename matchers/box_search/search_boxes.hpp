@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -67,5 +68,33 @@ struct BoxSearchResult {
 [[nodiscard]] BoxSearchResult search_boxes(const BoxPyramid& pyramid, const Points& points,
                                            const Pose3& local_from_robot, const BoxSearchRule& rule,
                                            const std::optional<Exclusion>& exclusion, int threads);
+
+namespace box_search {
+class State;
+}
+
+/// The same search in pieces. How it is divided changes nothing of what it finds.
+class BoxSearch {
+ public:
+  static constexpr std::size_t to_the_end = std::numeric_limits<std::size_t>::max();
+
+  /// As search_boxes(). The pyramid must live as long as the search.
+  BoxSearch(const BoxPyramid& pyramid, Points points, const Pose3& local_from_robot,
+            const BoxSearchRule& rule, const std::optional<Exclusion>& exclusion, int threads);
+  BoxSearch(BoxSearch&&) noexcept;
+  BoxSearch& operator=(BoxSearch&&) noexcept;
+  ~BoxSearch();
+
+  /// Goes on for about so many looks (a few parts more, at least one), or to the end. Returns how many it
+  /// took.
+  std::size_t advance(std::size_t looks);
+  [[nodiscard]] bool is_over() const;
+  /// Once it is over.
+  [[nodiscard]] BoxSearchResult result() const;
+
+ private:
+  std::unique_ptr<box_search::State> state_;  ///< None where nothing is to be searched …
+  BoxSearchResult over_;                      ///< … and this is all that is to be said.
+};
 
 }  // namespace glocal

@@ -13,6 +13,7 @@
 #include "glocal/points.hpp"
 #include "glocal/prior.hpp"
 #include "matchers/box_search/box_pyramid.hpp"
+#include "matchers/box_search/search_boxes.hpp"
 
 namespace glocal::indexed_ransam {
 
@@ -35,11 +36,12 @@ void describe(ParamVisitor& v, ExactSearchRule& p);
 class ExactSearch {
  public:
   /// Throws ConfigError where the map is too large for a pyramid.
-  ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon, int threads);
+  ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon, int threads,
+              std::size_t looks_per_step);
 
   /// Takes in the best poses of a step, and says whether a search is due now: after `after_steps` steps in a
   /// row in which no pose was clearly the best. The next search is due after twice as many such steps, and so
-  /// on, until a pose is clearly the best or reset() is called.
+  /// on, until a pose is clearly the best or reset() is called. While one goes on, none is due.
   [[nodiscard]] bool is_due(const std::vector<Hypothesis>& best);
   void reset();
 
@@ -48,19 +50,34 @@ class ExactSearch {
   /// Refines and judges the poses that a round has found. Returns the best poses so far, whoever found them.
   using Settle = std::function<std::vector<Hypothesis>(const std::vector<Pose2>& map_from_local)>;
 
-  /// Searches in rounds, each of which asks for less contact of these points of a local map than the one
-  /// before, and hands what it finds to `settle`. What is near the best pose so far is not searched for
-  /// (Exclusion). The last round is the one after which a pose has a score that those of the next round would
-  /// hardly reach, the one of `min_contact`, or the one that takes too many looks. Returns how many points
-  /// were looked at.
-  std::size_t search(const Points& points, const Pose3& local_from_robot, const PoseGate& gate,
-                     std::vector<Hypothesis> best, const Settle& settle) const;
+  /// Begins a search for poses of these points of a local map.
+  void begin(Points points, const Pose3& local_from_robot, const PoseGate& gate);
+
+  /// Searches in rounds, each of which asks for less contact than the one before, and hands what it finds to
+  /// `settle`. What is near the best pose so far is not searched for (Exclusion). The last round is the one
+  /// after which a pose has a score that those of the next round would hardly reach, the one of
+  /// `min_contact`, or the one that takes too many looks. Without a search that has begun, or once a step's
+  /// looks are taken, nothing happens until the next call. Returns how many points were looked at.
+  std::size_t advance(std::vector<Hypothesis> best, const Settle& settle);
 
  private:
+  /// A search that has begun.
+  struct Search {
+    Points points;
+    Pose3 local_from_robot;
+    PoseGate gate;
+    double bar;             ///< Share of contact that this round asks for.
+    std::size_t looks = 0;  ///< Of the rounds before.
+    std::optional<BoxSearch> round = {};
+  };
+  [[nodiscard]] BoxSearch round_of(const Search& search, const std::vector<Hypothesis>& best) const;
+
   ExactSearchRule rule_;
   std::shared_ptr<const BoxPyramid> pyramid_;  ///< Null where no search is ever due.
   std::size_t most_looks_;
+  std::size_t looks_per_step_;
   int threads_;
+  std::optional<Search> open_ = {};
   int undecided_ = 0;  ///< Steps without a clear best pose.
   int wait_;           ///< For so many of them.
 };

@@ -121,7 +121,8 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
                distance_field(*map_, setup.threads), contact_),
       judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
              distance_field(*map_, setup.threads)),
-      exact_search_(params.exact_search, *map_, setup.epsilon(params.contact_epsilon), setup.threads) {
+      exact_search_(params.exact_search, *map_, setup.epsilon(params.contact_epsilon), setup.threads,
+                    setup.looks_per_step) {
   const auto start = std::chrono::steady_clock::now();
   index_ = relation_index(*map_, relation_, setup.threads);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
@@ -166,14 +167,14 @@ MatchResult IndexedRansam::match(const MatchRequest& request, Rng& rng) {
           [&](const MotionBatch& poses, std::size_t size) { candidates.test(poses, size); });
   std::vector<Hypothesis> best = settled(candidates, local, sample, result);
   if (exact_search_.is_due(best)) {
-    const Points searched = sample_of(local.points, exact_search_.points(), rng);
-    result.points_tested += exact_search_.search(searched, seen_from_above(local.local_from_robot),
-                                                 request.gate, best, [&](const std::vector<Pose2>& poses) {
-                                                   for (const Pose2& pose : poses) candidates.add(pose);
-                                                   result.proposals += poses.size();
-                                                   return best = settled(candidates, local, sample, result);
-                                                 });
+    exact_search_.begin(sample_of(local.points, exact_search_.points(), rng),
+                        seen_from_above(local.local_from_robot), request.gate);
   }
+  result.points_tested += exact_search_.advance(best, [&](const std::vector<Pose2>& poses) {
+    for (const Pose2& pose : poses) candidates.add(pose);
+    result.proposals += poses.size();
+    return best = settled(candidates, local, sample, result);
+  });
   result.proposals += candidates.tested();
   result.points_tested += candidates.points_tested();
 

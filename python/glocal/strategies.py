@@ -191,6 +191,9 @@ class Verifier(_Stage):
     kind = "verifier"
     abstract = ("verify",)
 
+    def reset(self) -> None:
+        """Forgets an answer that goes on: nothing is to be declared any more."""
+
     def verify(self, local: LocalMap, map_from_local: Pose, gate: PoseGate) -> Verification:
         """What speaks against the pose of a local map with points; poses that the gate does not allow are no rivals."""
         raise NotImplementedError

@@ -294,10 +294,11 @@ class PythonVerifier final : public Verifier {
         },
         Seen(local, loan), map_from_local, gate);
   }
+  void reset() override { reset_(nothing); }
 
  private:
   Held object_;
-  Method verify_{object_, "verify"};
+  Method verify_{object_, "verify"}, reset_{object_, "reset"};
 };
 
 template <class Adapter, class Interface, class Setup>
@@ -347,6 +348,8 @@ void bind_setups(py::module_& module) {
                     "m; said once for all stages (epsilon of eq. 4).")
       .def_property_readonly(
           "motion", [](const StageSetup& s) { return to_string(s.motion); }, "planar, upright or free")
+      .def_readonly("looks_per_step", &StageSetup::looks_per_step,
+                    "Looks at points that searches of the whole map may take in a step.")
       .def_readonly("has_verifier", &StageSetup::has_verifier, "Whether what is declared is verified.")
       .def(
           "note_input", [](const StageSetup& s, const std::string& file) { s.note_input(file); },

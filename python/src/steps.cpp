@@ -78,7 +78,8 @@ void bind_verdict(py::module_& module) {
 }
 
 Verification make_verification(const py::object& rivals, const std::optional<Certificate>& certificate,
-                               double distance, double rotation, double margin, std::size_t points_tested) {
+                               double distance, double rotation, double margin, std::size_t points_tested,
+                               bool goes_on) {
   Verification verification;
   if (!rivals.is_none())
     verification.rivals = *seen<std::vector<Hypothesis>>(rivals, "rivals are Hypotheses");
@@ -86,6 +87,7 @@ Verification make_verification(const py::object& rivals, const std::optional<Cer
   verification.near = {.translation = distance, .rotation = rotation};
   verification.margin = margin;
   verification.points_tested = points_tested;
+  verification.goes_on = goes_on;
   return verification;
 }
 
@@ -106,7 +108,7 @@ void bind_verification(py::module_& module) {
                            "What a verifier says of a pose that is about to be declared.")
       .def(py::init(&make_verification), py::arg("rivals") = py::none(), py::arg("certificate") = py::none(),
            py::arg("distance") = 1.0, py::arg("rotation") = 0.0, py::arg("margin") = 0.0,
-           py::arg("points_tested") = 0,
+           py::arg("points_tested") = 0, py::arg("goes_on") = false,
            "rivals: Hypotheses whose quality and score are the share of points in contact. certificate: None "
            "where the "
            "search was given up. distance (m), rotation (rad): what is farther away is a rival. margin: a "
@@ -115,7 +117,10 @@ void bind_verification(py::module_& module) {
       .def_property_readonly(
           "rivals", [](const Verification& v) { return SeenHypotheses(std::vector<Hypothesis>(v.rivals)); },
           "Hypotheses, best score first.")
-      .def_readonly("certificate", &Verification::certificate, "None where the search was given up.")
+      .def_readonly("goes_on", &Verification::goes_on,
+                    "The search has not come to its end, and is asked for again in the next step.")
+      .def_readonly("certificate", &Verification::certificate,
+                    "None where the search goes on, or was given up.")
       .def_readonly("mirrored_contact", &Verification::mirrored_contact,
                     "Contact of the mirrored local map where it fits clearly better, or None.")
       .def_readonly("is_refuted", &Verification::is_refuted, "Whether the pose is not declared after all.")

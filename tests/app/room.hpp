@@ -29,6 +29,7 @@ inline Json without_times(Json json) {
   if (json.contains("map")) {
     json["map"].erase("build_ms");
     json["map"].erase("index_ms");
+    if (json["map"].contains("index")) json["map"]["index"].erase("build_ms");
   }
   return json;
 }

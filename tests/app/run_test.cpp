@@ -104,6 +104,18 @@ TEST_F(RunCommand, OnlyValuesChangeResults) {
   expect_same_results("one", "two");
   EXPECT_EQ(json("one/summary.json")["seed"], 3);
   EXPECT_EQ(json("two/provenance.json")["threads"], 2);
+  // Searches in pieces, too: an undecided robot is led into the exact search, and what it declares is
+  // verified.
+  const std::string in_pieces =
+      "--quiet --set localizer.verifier=whole_map --set localizer.matcher=indexed_ransam --set "
+      "localizer.matcher.indexed_ransam.exact_search.after_steps=1 --set localizer.looks_per_step=";
+  for (const std::string looks : {"1", "10", "1000000000", "0"}) {
+    ASSERT_EQ(run_room("piece" + looks, in_pieces + looks + " --threads 1").exit_code, 0);
+    ASSERT_EQ(run_room("threads" + looks, in_pieces + looks + " --threads 3").exit_code, 0);
+    expect_same_results("piece" + looks, "threads" + looks);
+  }
+  expect_same_results("piece0", "piece1000000000");
+  EXPECT_NE(lines("piece0/steps.jsonl"), lines("piece1/steps.jsonl"));
   const Answer again = run("run " + file("one/effective.yaml") + " --quiet --out " + file("again"));
   ASSERT_EQ(again.exit_code, 0) << again.err;
   expect_same_results("one", "again");

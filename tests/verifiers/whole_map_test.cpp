@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace glocal::whole_map_test {
 namespace {
@@ -86,6 +88,53 @@ TEST(WholeMap, FindsWhatFitsBetterInAMirror) {
   EXPECT_FALSE(verification(map_of({corner(0.0F, 0.0F)}), {1.0, 1.0, 0.0}).mirrored_contact);
   EXPECT_FALSE(verification(map_of({mirrored, corner(9.0F, 9.0F)}), {10.0, 10.0, 0.0}).mirrored_contact)
       << "the local map fits as well without";
+}
+
+/// What the verifier says in the end, and in which call.
+std::pair<Verification, int> asked_again(WholeMap& verifier, const LocalMap& local, const Pose2& declared) {
+  for (int call = 1;; ++call) {
+    Verification found = verifier.verify(local, Pose3(declared), {});
+    if (!found.goes_on) return {std::move(found), call};
+    EXPECT_FALSE(found.certificate);
+    EXPECT_TRUE(found.rivals.empty());
+  }
+}
+
+TEST(WholeMap, ASearchThatGoesOnSaysTheSameInTheEnd) {
+  const auto map = map_of({corner(0.0F, 0.0F), corner(7.03F, 4.01F)});
+  const Pose2 declared{1.0, 1.0, 0.0};
+  const Verification whole = verification(map, declared);
+  int calls_before = std::numeric_limits<int>::max();
+  for (const std::size_t looks : {1, 1000, 1'000'000'000}) {
+    WholeMap verifier({}, StageSetup{.map = map, .looks_per_step = looks});
+    const auto [found, calls] = asked_again(verifier, before_a_corner(), declared);
+    EXPECT_EQ(found.certificate.value().at_most, whole.certificate.value().at_most);
+    ASSERT_EQ(found.rivals.size(), whole.rivals.size());
+    EXPECT_EQ(found.rivals.front().map_from_local, whole.rivals.front().map_from_local);
+    EXPECT_LT(calls, calls_before);
+    calls_before = calls;
+  }
+  EXPECT_EQ(calls_before, 1);
+}
+
+TEST(WholeMap, ASearchGoesOnForTheSamePoseInTheSameFrameOnly) {
+  const auto map = map_of({corner(0.0F, 0.0F), corner(7.03F, 4.01F)});
+  WholeMap verifier({}, StageSetup{.map = map, .looks_per_step = 3000});
+  const Pose2 declared{1.0, 1.0, 0.0};
+  LocalMap local = before_a_corner();
+  const int calls = asked_again(verifier, local, declared).second;
+  ASSERT_GT(calls, 3);
+  const auto begin = [&] { ASSERT_TRUE(verifier.verify(local, Pose3(declared), {}).goes_on); };
+  begin();
+  EXPECT_EQ(asked_again(verifier, local, {1.1, 1.0, 0.0}).second, calls - 1) << "nearly the same pose";
+  begin();
+  EXPECT_EQ(asked_again(verifier, local, {8.03, 5.01, 0.0}).second, calls) << "another pose";
+  begin();
+  verifier.reset();
+  EXPECT_EQ(asked_again(verifier, local, declared).second, calls) << "after a reset";
+  begin();
+  ++local.epoch;
+  EXPECT_EQ(asked_again(verifier, local, declared).second, calls) << "in another frame";
 }
 
 TEST(WholeMap, RivalsOutsideOfAPriorAreNone) {

@@ -24,7 +24,8 @@ struct LocalizerConfig {
   /// m; epsilon of eq. 4 for all stages without one of their own. None: twice the map's resolution, and more
   /// where scans are noisier than that.
   std::optional<double> contact_epsilon = {};
-  Prior prior = {};  ///< Outside of it nothing is looked for.
+  int looks_per_step = 0;  ///< Of searches of the whole map, at points; 0 is as many as they take.
+  Prior prior = {};        ///< Outside of it nothing is looked for.
   StrategyChoice local_mapper;
   StrategyChoice matcher;
   StrategyChoice clusterer;
@@ -109,6 +110,8 @@ class Localizer {
   void check_setup(const Observation& observation, const LocalMap& local, StepResult& result);
   /// Lets the verifier look for rivals of a pose when it is declared: with one, it is not.
   void verify(const LocalMap& local, StepResult& result);
+  /// One that goes on: what it is about is not declared.
+  void forget_verification(std::size_t step);
 
   LocalizerConfig config_;
   const Catalog& catalog_;
@@ -127,7 +130,8 @@ class Localizer {
   std::optional<SetupMonitor> setup_;  ///< None where the set-up is not checked.
   StartInLocalMap start_;              ///< Followed where a prior is given.
   PoseGate gate_;
-  bool is_verified_ = false;  ///< What is declared since some steps.
+  bool is_verified_ = false;        ///< What is declared since some steps.
+  bool is_being_verified_ = false;  ///< What would be declared.
   Rng seed_;
   std::uint64_t trial_ = 0;
   Rng rng_;  ///< Of the trial.

@@ -170,9 +170,12 @@ class VerdictRule {
 class Verifier {
  public:
   virtual ~Verifier() = default;
-  /// Of the pose of a local map with points. Poses that `gate` does not allow are no rivals.
+  /// Of the pose of a local map with points. Poses that `gate` does not allow are no rivals. An answer that
+  /// goes on is asked for again in the next step, if that one would declare a pose, too.
   [[nodiscard]] virtual Verification verify(const LocalMap& local, const Pose3& map_from_local,
                                             const PoseGate& gate) = 0;
+  /// Forgets an answer that goes on: nothing is to be declared any more.
+  virtual void reset() {}
 };
 
 }  // namespace glocal

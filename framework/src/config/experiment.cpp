@@ -62,6 +62,13 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
        .unit = "m",
        .above = 0.0,
        .audience = Audience::tuner});
+  v.field(
+      "looks_per_step", c.looks_per_step,
+      {.doc = "Searches of the whole map (whole_map, and exact_search of indexed_ransam) stop after so "
+              "many looks at a point in a step, each about 50 ns, and go on in the next; 0 lets them come "
+              "to their end.",
+       .min = 0,
+       .audience = Audience::tuner});
   v.field("prior", c.prior,
           {.doc = "What is known of where a trial begins; nothing is looked for outside of it."});
   stage_field(v, "local_mapper", c.local_mapper, s.catalog->local_mappers, c.motion,

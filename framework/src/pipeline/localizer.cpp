@@ -135,6 +135,8 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
   if (motion_ == Motion::planar) origin_.z() = 0.0;
   if (config.setup_check.enabled && motion_ == Motion::planar) setup_.emplace(config.setup_check);
   stage_setup_.motion = motion_;
+  if (config.looks_per_step > 0)
+    stage_setup_.looks_per_step = static_cast<std::size_t>(config.looks_per_step);
   use_epsilon(contact_epsilon_on(*stage_setup_.map, config));
   local_mapper_ = make(catalog.local_mappers, config.local_mapper, stages_.local_mapper);
   clusterer_ = make(catalog.clusterers, config.clusterer, stages_.clusterer);
@@ -320,6 +322,7 @@ void Localizer::reset(std::uint64_t trial) {
 void Localizer::forget_poses(std::size_t step) {
   by_contact_->unknown_place.reset();
   is_verified_ = false;
+  forget_verification(step);
   in_stage(stages_.matcher, step, [&] { by_contact_->matcher->reset(); });
   in_stage(stages_.threshold_policy, step, [&] { threshold_policy_->reset(); });
   in_stage(stages_.verdict_rule, step, [&] { verdict_rule_->reset(); });

@@ -32,8 +32,14 @@ std::string why_refuted(const Verification& v, std::size_t rivals) {
 }
 
 /// Takes the verdict back where a rival is about as good, or the search was given up; else tells the
-/// certificate. Whether it was taken back is noted in the verification.
+/// certificate, or waits for a search that goes on. Whether it was taken back is noted in the verification.
 void settle(Verification& v, Verdict& verdict) {
+  if (v.goes_on) {
+    verdict.kind = VerdictKind::searching;
+    verdict.map_from_robot.reset();
+    verdict.why = "the best pose is not declared yet: the search of the whole map goes on";
+    return;
+  }
   std::vector<Pose3> candidates = {*verdict.map_from_robot};
   for (const Hypothesis& rival : v.rivals) {
     if (v.is_about_as_good(rival)) candidates.push_back(rival.map_from_robot);
@@ -59,10 +65,11 @@ void settle(Verification& v, Verdict& verdict) {
 }  // namespace
 
 void Localizer::verify(const LocalMap& local, StepResult& result) {
-  if (result.verdict.kind != VerdictKind::localized) is_verified_ = false;
-  if (result.verdict.kind != VerdictKind::localized || is_verified_ || local.points.empty() ||
-      !by_contact_->verifier)
-    return;
+  if (result.verdict.kind != VerdictKind::localized) {
+    is_verified_ = false;
+    return forget_verification(result.step);
+  }
+  if (is_verified_ || local.points.empty() || !by_contact_->verifier) return;
   const Pose3 declared = *result.verdict.map_from_robot;
   Verification found;
   in_stage(stages_.verifier, result.step, [&] {
@@ -71,6 +78,7 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
     });
     check_verification(found, motion_);
   });
+  is_being_verified_ = found.goes_on;
   in_stage(stages_.matcher, result.step, [&] {
     timed(&StageTimes::verify, result,
           [&] { found.rivals = by_contact_->matcher->rescore(std::move(found.rivals), local); });
@@ -83,15 +91,22 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
   });
   found.score = score_near(declared, found.near, result);
   settle(found, result.verdict);
-  is_verified_ = !found.is_refuted;
+  is_verified_ = !found.is_refuted && !found.goes_on;
   if (found.mirrored_contact) {
     result.setup = result.setup.value_or(SetupCheck{});
     result.setup->fault = SetupFault::mirrored;
     result.verdict.why = result.setup->why();
   }
   result.verification = std::move(found);
-  if (is_verified_) return;
+  if (!result.verification->is_refuted) return;
   in_stage(stages_.verdict_rule, result.step, [&] { verdict_rule_->refute(*result.verification); });
+}
+
+void Localizer::forget_verification(std::size_t step) {
+  if (!is_being_verified_) return;
+  is_being_verified_ = false;
+  for (auto& [epsilon, stages] : by_epsilon_)
+    in_stage(stages_.verifier, step, [&] { stages.verifier->reset(); });
 }
 
 }  // namespace glocal

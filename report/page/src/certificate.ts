@@ -29,7 +29,8 @@ function rivalsSentence({ refuted, rivals, score, margin }: Verification): strin
 
 /** Of a step whose declaration was verified. */
 export function verificationSentence(verification: Verification): string {
-  const { certificate, refuted } = verification;
+  const { certificate, refuted, goes_on } = verification;
+  if (goes_on) return "Not declared yet: the search of the whole map goes on in the next step.";
   const head = refuted ? "Refuted. " : "";
   const proved = certificate ? certificateSentence(certificate) : "The search of the whole map was given up, so nothing is proved.";
   return `${head}${proved} ${rivalsSentence(verification)}`;
@@ -41,7 +42,7 @@ export function certificateNote(trial: Trial, step: number, isOpen: boolean): HT
   const certificate = verification ? verification.certificate : trial.certificate;
   if (!verification && !certificate) return null;
   const declared = trial.steps === undefined ? "" : `, of step ${trial.steps - 1}`;
-  const name = verification ? (verification.refuted ? "verification" : "certificate") : `certificate of the trial${declared}`;
+  const name = verification ? (verification.certificate && !verification.refuted ? "certificate" : "verification") : `certificate of the trial${declared}`;
   const text = verification ? verificationSentence(verification) : certificate ? certificateSentence(certificate) : "";
   return el(
     "details",

@@ -42,7 +42,9 @@ export interface Verification {
   /** A rival refutes if its score is at most this much lower. */
   margin: number;
   rivals: { pose: Pose; contact: number; score: number }[];
-  /** Absent where the search was given up. */
+  /** The search has not come to its end, and goes on in the next step. */
+  goes_on?: boolean;
+  /** Absent where the search goes on, or was given up. */
   certificate?: Certificate;
 }
 

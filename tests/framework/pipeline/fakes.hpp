@@ -134,6 +134,7 @@ struct FakeVerifier final : Fake<Verifier> {
     note("verify");
     return script_->verify(map_from_local);
   }
+  void reset() override { note("forget verification"); }
 };
 
 /// Delivers what it is given.

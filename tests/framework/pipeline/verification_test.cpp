@@ -14,6 +14,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 
 class WithVerifier : public testing::Test {
  protected:
@@ -152,6 +153,37 @@ TEST_F(WithVerifier, WhatWasRefutedIsVerifiedInEachStep) {
   EXPECT_TRUE(step().verification);
   find({});
   EXPECT_EQ(step().verdict.kind, VerdictKind::localized);
+}
+
+TEST_F(WithVerifier, NothingIsDeclaredWhileTheSearchGoesOn) {
+  script_->verify = [](const Pose3&) { return Verification{.goes_on = true}; };
+  for (int i = 0; i < 2; ++i) {
+    const StepResult result = step();
+    EXPECT_EQ(result.verdict.kind, VerdictKind::searching);
+    EXPECT_FALSE(result.verdict.map_from_robot);
+    EXPECT_THAT(result.verdict.why, HasSubstr("goes on"));
+    EXPECT_FALSE(result.verification->is_refuted);
+    EXPECT_THAT(script_->calls, Not(Contains("refute")));
+  }
+  find({});
+  EXPECT_EQ(step().verdict.kind, VerdictKind::localized);
+  EXPECT_THAT(script_->calls, Not(Contains("forget verification")));
+}
+
+TEST_F(WithVerifier, ASearchThatGoesOnIsForgottenOnceNothingIsToBeDeclared) {
+  script_->verify = [](const Pose3&) { return Verification{.goes_on = true}; };
+  step();
+  const auto sure = script_->judge;
+  script_->judge = [](const StepResult&) { return Verdict{VerdictKind::searching, {}, {}, "lost"}; };
+  step();
+  EXPECT_THAT(script_->calls, Contains("forget verification"));
+  step();
+  EXPECT_THAT(script_->calls, Not(Contains("forget verification"))) << "there is none any more";
+  script_->judge = sure;
+  step();
+  script_->calls.clear();
+  localizer_.reset(1);
+  EXPECT_THAT(script_->calls, Contains("forget verification"));
 }
 
 TEST_F(WithVerifier, WithoutOneDeclarationsStand) {

@@ -235,6 +235,18 @@ TEST(SearchBoxes, LooksOnlyWhereAPriorAllows) {
   EXPECT_FALSE(search_about(12.0, 4.5).poses.empty());
 }
 
+void expect_same(const BoxSearchResult& one, const BoxSearchResult& two) {
+  EXPECT_EQ(one.is_complete, two.is_complete);
+  EXPECT_EQ(one.looks, two.looks);
+  EXPECT_EQ(one.tested, two.tested);
+  EXPECT_EQ(one.at_most, two.at_most);
+  ASSERT_EQ(one.poses.size(), two.poses.size());
+  for (std::size_t i = 0; i < one.poses.size(); ++i) {
+    EXPECT_EQ(one.poses[i].map_from_local.x, two.poses[i].map_from_local.x);
+    EXPECT_EQ(one.poses[i].in_contact, two.poses[i].in_contact);
+  }
+}
+
 TEST(SearchBoxes, AnswersAlikeForAnyNumberOfThreadsAndGivesUpWhenToldTo) {
   Points map = room(0.0F, 0.0F, true);
   add(map, room(10.0F, 3.0F, false));
@@ -242,17 +254,51 @@ TEST(SearchBoxes, AnswersAlikeForAnyNumberOfThreadsAndGivesUpWhenToldTo) {
   const Points points = seen_in_room();
   BoxSearchRule rule{.least = points.size() * 2 / 3};
   const auto one = search(pyramid, points, {2.0, 1.5, 0.0}, rule, 1);
-  const auto two = search(pyramid, points, {2.0, 1.5, 0.0}, rule, 2);
   EXPECT_TRUE(one.is_complete);
-  EXPECT_EQ(one.looks, two.looks);
-  EXPECT_EQ(one.at_most, two.at_most);
-  ASSERT_EQ(one.poses.size(), two.poses.size());
-  for (std::size_t i = 0; i < one.poses.size(); ++i) {
-    EXPECT_EQ(one.poses[i].map_from_local.x, two.poses[i].map_from_local.x);
-    EXPECT_EQ(one.poses[i].in_contact, two.poses[i].in_contact);
-  }
+  EXPECT_GT(one.poses.size(), 1U);
+  expect_same(one, search(pyramid, points, {2.0, 1.5, 0.0}, rule, 2));
   rule.most_looks = 10;
   EXPECT_FALSE(search(pyramid, points, {2.0, 1.5, 0.0}, rule).is_complete);
+}
+
+TEST(BoxSearch, InPiecesFindsTheSame) {
+  Points map = room(0.0F, 0.0F, true);
+  add(map, room(10.0F, 3.0F, false));
+  const Points points = seen_in_room();
+  for (const BoxPyramid::Of of : {BoxPyramid::Of::all_poses, BoxPyramid::Of::pose_grid}) {
+    const BoxPyramid pyramid(of, map, cell, epsilon, BoxPyramid::default_top_level(of));
+    for (const std::size_t most_looks : {std::size_t{1} << 60, std::size_t{20000}}) {
+      const BoxSearchRule rule{.least = points.size() * 2 / 3, .most_looks = most_looks};
+      const Exclusion declared{Pose2{2.0, 1.5, 0.0}};
+      const BoxSearchResult whole = search_boxes(pyramid, points, {}, rule, declared, 1);
+      std::size_t pieces_before = std::numeric_limits<std::size_t>::max();
+      for (const std::size_t looks : {1, 10, 1000, 1'000'000'000}) {
+        std::size_t taken = 0;
+        std::size_t pieces = 0;
+        BoxSearch search(pyramid, points, {}, rule, declared, pieces_before % 2 == 0 ? 1 : 3);
+        for (; !search.is_over(); ++pieces) taken += search.advance(looks);
+        expect_same(search.result(), whole);
+        EXPECT_GE(taken, whole.looks);
+        EXPECT_EQ(search.advance(looks), 0U);
+        EXPECT_LE(pieces, pieces_before);
+        pieces_before = pieces;
+      }
+      EXPECT_EQ(pieces_before, 1U);
+    }
+  }
+}
+
+TEST(BoxSearch, APieceTakesFewMoreLooksThanItIsAskedFor) {
+  Points map = room(0.0F, 0.0F, true);
+  add(map, room(10.0F, 3.0F, false));
+  const BoxPyramid pyramid = pyramid_of(map);
+  const Points points = seen_in_room();
+  BoxSearch search(pyramid, points, {}, {.least = points.size() / 2}, Exclusion{Pose2{2.0, 1.5, 0.0}}, 1);
+  constexpr std::size_t asked = 20000;
+  constexpr std::size_t part = 25000;  // of all intervals of a batch
+  std::size_t pieces = 0;
+  for (; !search.is_over(); ++pieces) EXPECT_LT(search.advance(asked), asked + part);
+  EXPECT_GT(pieces, 10U);
 }
 
 }  // namespace

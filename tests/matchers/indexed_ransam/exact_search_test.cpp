@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "test_world.hpp"
@@ -11,7 +12,7 @@ namespace glocal::indexed_ransam::exact_search_test {
 namespace {
 
 ExactSearch search_after(int steps) {
-  return {{.after_steps = steps, .margin = 0.1}, *test::small_world(), 0.1, 1};
+  return {{.after_steps = steps, .margin = 0.1}, *test::small_world(), 0.1, 1, BoxSearch::to_the_end};
 }
 
 std::vector<Hypothesis> best_two(double first, double second) {
@@ -61,16 +62,21 @@ const Pose2 truth{5.5, 2.5, 0.7};
 struct Rounds {
   std::vector<std::vector<Pose2>> poses = {};
   std::size_t looks = 0;
+  int steps = 0;
 };
 
-Rounds rounds(const ExactSearchRule& rule, double score) {
-  const ExactSearch search(rule, *test::small_world(), 0.1, 1);
-  const Points points = test::seen_from(test::small_world_points(), truth, 3.0);
+Rounds rounds(const ExactSearchRule& rule, double score, std::size_t looks_per_step = BoxSearch::to_the_end) {
+  ExactSearch search(rule, *test::small_world(), 0.1, 1, looks_per_step);
+  search.begin(test::seen_from(test::small_world_points(), truth, 3.0), {}, {});
   Rounds rounds;
-  rounds.looks = search.search(points, {}, {}, {}, [&](const std::vector<Pose2>& poses) {
-    rounds.poses.push_back(poses);
-    return std::vector{Hypothesis::by_contact(poses.front(), score)};
-  });
+  std::vector<Hypothesis> best;
+  for (std::size_t looks = 1; looks > 0; ++rounds.steps) {
+    looks = search.advance(best, [&](const std::vector<Pose2>& poses) {
+      rounds.poses.push_back(poses);
+      return best = {Hypothesis::by_contact(poses.front(), score)};
+    });
+    rounds.looks += looks;
+  }
   return rounds;
 }
 
@@ -99,6 +105,34 @@ TEST(ExactSearch, LaterRoundsAreAboutOtherPlacesThanTheBestOne) {
   ASSERT_GT(found.size(), 1U);
   ASSERT_TRUE(is_near_truth(found[0].front()));
   EXPECT_TRUE(std::none_of(found[1].begin(), found[1].end(), is_near_truth));
+}
+
+TEST(ExactSearch, InManyStepsFindsTheSame) {
+  const Rounds whole = rounds({.min_contact = 0.5, .max_poses = 100}, 0.0);
+  EXPECT_EQ(whole.steps, 2) << "and in the second there is nothing to be done";
+  int steps_before = std::numeric_limits<int>::max();
+  for (const std::size_t looks : {1, 1000, 1'000'000'000}) {
+    const Rounds found = rounds({.min_contact = 0.5, .max_poses = 100}, 0.0, looks);
+    EXPECT_EQ(found.poses, whole.poses);
+    EXPECT_LT(found.steps, steps_before);
+    steps_before = found.steps;
+  }
+  EXPECT_EQ(steps_before, 2);
+}
+
+TEST(ExactSearch, NoneIsDueWhileOneGoesOnAndAClearBestPoseEndsIt) {
+  ExactSearch search({.after_steps = 1, .margin = 0.1}, *test::small_world(), 0.1, 1, 1);
+  const auto advance = [&] {
+    return search.advance({}, [](const std::vector<Pose2>&) { return std::vector<Hypothesis>{}; });
+  };
+  EXPECT_EQ(advance(), 0U);
+  ASSERT_TRUE(search.is_due(best_two(0.8, 0.75)));
+  search.begin(test::seen_from(test::small_world_points(), truth, 3.0), {}, {});
+  EXPECT_GT(advance(), 0U);
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(search.is_due(best_two(0.8, 0.75)));
+  EXPECT_GT(advance(), 0U);
+  EXPECT_FALSE(search.is_due(best_two(0.8, 0.6)));
+  EXPECT_EQ(advance(), 0U);
 }
 
 TEST(ExactSearch, EndsAfterTooManyLooks) {
