@@ -105,8 +105,9 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
 void Localizer::forget_verification(std::size_t step) {
   if (!is_being_verified_) return;
   is_being_verified_ = false;
-  for (auto& [epsilon, stages] : by_epsilon_)
-    in_stage(stages_.verifier, step, [&] { stages.verifier->reset(); });
+  in_stage(stages_.verifier, step, [&] {
+    for (const auto& [epsilon, stages] : by_epsilon_) stages.verifier->reset();
+  });
 }
 
 }  // namespace glocal
