@@ -14,7 +14,7 @@
 
 namespace glocal::app {
 
-void CloudFolderWriter::write(const DriveScan& scan) {
+void CloudFolderWriter::write(const conversion::DriveScan& scan) {
   if (is_interrupted()) throw RunError("interrupted; nothing is left of " + folder_.path().string());
   const auto* const cloud = std::get_if<bags::PointCloud>(&scan.rays);
   if (cloud == nullptr)

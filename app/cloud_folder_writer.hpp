@@ -13,14 +13,14 @@ namespace glocal::app {
 
 /// Writes a PCD file for each cloud, in the sensor's frame and named by its stamp in seconds, and the robot's
 /// poses as odometry.tum and, where there are any, reference.tum. Times of points are left out.
-class CloudFolderWriter final : public DriveWriter {
+class CloudFolderWriter final : public conversion::DriveWriter {
  public:
   /// `file`: where the drive comes from, for what is said of it. `below`: the folder's part to write to.
   CloudFolderWriter(OutputFolder& folder, std::string file, std::filesystem::path below = {})
       : folder_(folder), file_(std::move(file)), below_(std::move(below)) {}
 
   /// Throws ConfigError for planar scans, and for a sensor that moves on the robot.
-  void write(const DriveScan& scan) override;
+  void write(const conversion::DriveScan& scan) override;
   void finish() override {}
 
   /// Of the clouds that were written, of which there is one.

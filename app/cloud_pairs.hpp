@@ -14,7 +14,7 @@ namespace glocal::app {
 
 /// A pair, and what came of it.
 struct PairOutcome {
-  CloudPair pair;
+  clouds::CloudPair pair;
   std::string method = {};  ///< The cloud registrar's name, where it was asked for by name.
   Registration registration = {};
   double cpu_s = 0.0;  ///< CPU time without reading files, s.

@@ -26,6 +26,8 @@
 namespace glocal::app {
 namespace {
 
+using conversion::DriveCounts;
+
 namespace fs = std::filesystem;
 
 struct ConvertOptions {
@@ -84,7 +86,7 @@ void copy_to_mcap(const ConvertOptions& options) {
   bags::Recording recording = options.in.open_recording();
   recording.tell_progress(bar.call());
   GrowingFile file(options.out, options.force);
-  const CopiedRecording copied = copy_recording(recording, file.sink());
+  const conversion::CopiedRecording copied = conversion::copy_recording(recording, file.sink());
   for (const std::string& text : recording.warnings()) warn(text);
   for (const std::string& remark : copied.remarks) warn(fmt::format("{}: {}", options.in.file, remark));
   file.commit();
@@ -96,8 +98,8 @@ void to_mcap(const ConvertOptions& options) {
   ReadingBar bar;
   const auto reader = options.in.open(warn, bar.call());
   GrowingFile file(options.out, options.force);
-  McapDriveWriter writer(reader->sensors(), file.sink());
-  const DriveCounts counts = pass_on(*reader, writer, options.in.file, warn);
+  conversion::McapDriveWriter writer(reader->sensors(), file.sink());
+  const DriveCounts counts = conversion::pass_on(*reader, writer, options.in.file, warn);
   file.commit();
   tell(counts, options);
 }
@@ -112,8 +114,8 @@ void to_carmen(const ConvertOptions& options) {
   ReadingBar bar;
   const auto reader = options.in.open(warn, bar.call());
   GrowingFile file(options.out, options.force);
-  CarmenDriveWriter writer(options.in.file, file.sink());
-  const DriveCounts counts = pass_on(*reader, writer, options.in.file, warn);
+  conversion::CarmenDriveWriter writer(options.in.file, file.sink());
+  const DriveCounts counts = conversion::pass_on(*reader, writer, options.in.file, warn);
   file.commit();
   tell(counts, options);
 }
@@ -133,7 +135,7 @@ void to_folder(const ConvertOptions& options, const Context& context) {
   const auto reader = options.in.open(warn, bar.call());
   OutputFolder folder(options.out, options.force);
   CloudFolderWriter writer(folder, options.in.file);
-  const DriveCounts counts = pass_on(*reader, writer, options.in.file, warn);
+  const DriveCounts counts = conversion::pass_on(*reader, writer, options.in.file, warn);
   FileHashes hashes;
   folder.append("provenance.json",
                 provenance(context.catalog, 1, options.in.inputs(), hashes).dump(2) + "\n");

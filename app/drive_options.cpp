@@ -12,6 +12,8 @@
 namespace glocal::app {
 namespace {
 
+using conversion::DriveReader;
+
 namespace fs = std::filesystem;
 
 std::unique_ptr<DriveReader> open_recorded(const DriveOptions& options, const Warn& warn,
@@ -23,18 +25,18 @@ std::unique_ptr<DriveReader> open_recorded(const DriveOptions& options, const Wa
   topics.base_frame = options.base_frame;
   topics.are_options = true;
   (is_topic(options.reference) ? topics.reference : topics.reference_frame) = options.reference;
-  return std::make_unique<RecordingDriveReader>(options.file, topics, bags::damage_if(options.strict), warn,
-                                                progress);
+  return std::make_unique<conversion::RecordingDriveReader>(options.file, topics,
+                                                            bags::damage_if(options.strict), warn, progress);
 }
 
 std::unique_ptr<DriveReader> open_carmen(const DriveOptions& options) {
   options.refuse_choices("a CARMEN log says which scans, odometry and reference poses it has");
-  return std::make_unique<CarmenDriveReader>(options.file, options.max_range);
+  return std::make_unique<conversion::CarmenDriveReader>(options.file, options.max_range);
 }
 
-DriveFiles cloud_files(const DriveOptions& options) {
+clouds::DriveFiles cloud_files(const DriveOptions& options) {
   const fs::path folder = options.file;
-  DriveFiles files{.folder = folder, .odometry = options.odometry, .reference = options.reference};
+  clouds::DriveFiles files{.folder = folder, .odometry = options.odometry, .reference = options.reference};
   if (files.odometry.empty()) files.odometry = odometry_of_clouds(folder);
   if (files.reference.empty() && fs::exists(folder / "reference.tum"))
     files.reference = folder / "reference.tum";
@@ -50,7 +52,7 @@ std::unique_ptr<DriveReader> open_clouds(const DriveOptions& options, const Warn
       throw ConfigError(
           {{options.file, 0, 0, fmt::format("a folder of clouds has no topics: leave out {}", name)}});
   }
-  return std::make_unique<CloudFolderReader>(cloud_files(options), warn, progress);
+  return std::make_unique<conversion::CloudFolderReader>(cloud_files(options), warn, progress);
 }
 
 }  // namespace
@@ -111,7 +113,7 @@ std::set<fs::path> DriveOptions::inputs() const {
       return {recording.files().begin(), recording.files().end()};
     }
     case LogKind::clouds: {
-      const DriveFiles files = cloud_files(*this);
+      const clouds::DriveFiles files = cloud_files(*this);
       std::set<fs::path> inputs{files.odometry, files.reference};
       inputs.erase(fs::path());
       return inputs;

@@ -21,7 +21,7 @@ void add_strict(CLI::App& command, bool& strict);
 struct DriveOptions {
   std::string file;
   std::string scans, odometry, odom_frame, base_frame, reference;
-  double max_range = sick_range;
+  double max_range = conversion::sick_range;
   bool strict = false;
 
   /// Adds the file, as `name`, and all others. This object must live as long as the command.
@@ -35,7 +35,8 @@ struct DriveOptions {
 
   /// Opens the drive, whatever it is. Throws ConfigError where kind_of_log() and the readers do, and for
   /// options that the input has no use for.
-  [[nodiscard]] std::unique_ptr<DriveReader> open(const Warn& warn, const TellProgress& progress) const;
+  [[nodiscard]] std::unique_ptr<conversion::DriveReader> open(const Warn& warn,
+                                                              const TellProgress& progress) const;
 
   /// The files that are read, but for single clouds.
   [[nodiscard]] std::set<std::filesystem::path> inputs() const;

@@ -49,7 +49,7 @@ struct MapChoice {
 };
 
 bool is_file_of_octree(const fs::path& map) {
-  return !fs::is_directory(map) && is_octree(bags::FileBytes(map).peek(0));
+  return !fs::is_directory(map) && clouds::is_octree(bags::FileBytes(map).peek(0));
 }
 
 /// The plugin knows of free voxels, too.
@@ -69,12 +69,13 @@ MapChoice choose_map(const LocalizeRequest& request, const Catalog& catalog) {
     return {fmt::format("bag_map: {{{}{}}}", path, request.strict ? ", strict: true" : ""),
             "a map recorded as a message"};
   if (is_file_of_octree(map)) return choose_octree(path, catalog);
-  if (has_name_of_cloud(map)) return {fmt::format("point_cloud: {{{}}}", path), "a cloud of points", true};
+  if (clouds::has_name_of_cloud(map))
+    return {fmt::format("point_cloud: {{{}}}", path), "a cloud of points", true};
   if (map.extension() != ".yaml" && map.extension() != ".yml")
     refuse(map,
            "is no map that is known: a map server's YAML, a cloud (PCD, PLY), an octree (.bt, .ot) or a "
            "recording with a nav_msgs/OccupancyGrid");
-  ParamsOf<RosMapFile> file;
+  ParamsOf<ros_map::RosMapFile> file;
   read_yaml(map, file);
   return {fmt::format("ros_map: {{{}}}", path),
           fmt::format("a map server's, cells of {} m", file.value.resolution), false, file.value.resolution};

@@ -20,7 +20,8 @@ LogKind kind_of_log(const fs::path& log) {
   if (bags::is_recording(log)) return LogKind::recording;
   if (!fs::is_directory(log)) return LogKind::carmen;
   const fs::directory_iterator files(log);
-  if (std::any_of(begin(files), end(files), [](const auto& file) { return has_name_of_cloud(file.path()); }))
+  if (std::any_of(begin(files), end(files),
+                  [](const auto& file) { return clouds::has_name_of_cloud(file.path()); }))
     return LogKind::clouds;
   throw ConfigError({{log.string(), 0, 0, "is a folder with neither clouds nor .db3 or .mcap files"}});
 }

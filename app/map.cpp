@@ -50,12 +50,12 @@ bool is_ros_map(const std::string& file) {
 
 /// The map of a file; `input` has what may be changed in it.
 MapData load(const ExperimentOptions& input, Context& context) {
-  if (is_ros_map(input.file)) return RosMap({{input.file, input.file}}, warning_setup()).load();
+  if (is_ros_map(input.file)) return ros_map::RosMap({{input.file, input.file}}, warning_setup()).load();
   return load_map(input.read(context), context.catalog, warning_setup());
 }
 
 /// The parameters of log_map, from `--set name=value`.
-LogMap::Params log_map_params(const ExperimentOptions& input) {
+carmen::LogMap::Params log_map_params(const ExperimentOptions& input) {
   const auto origin = std::make_shared<Origin>(Origin{"map build", std::filesystem::current_path()});
   const Place place{origin};
   YamlNode path = make_node(NodeKind::scalar, place);
@@ -63,7 +63,7 @@ LogMap::Params log_map_params(const ExperimentOptions& input) {
   path.quoted = true;
   YamlNode tree = make_node(NodeKind::map, place);
   tree.entries.push_back({"path", place, std::move(path)});
-  ParamsOf<LogMap::Params> params;
+  ParamsOf<carmen::LogMap::Params> params;
   fill(params, std::move(tree), input.overrides());
   return std::move(params.value);
 }
@@ -74,10 +74,10 @@ void write(const MapData& map, const MapOptions& options) {
   if (out.extension() == ".pcd") {
     files.add(out, pcd(map.points, map.origin));
   } else if (out.extension() == ".yaml") {
-    const ByteImage image = trinary_image(map.grid);
+    const ros_map::ByteImage image = ros_map::trinary_image(map.grid);
     const std::filesystem::path image_file = std::filesystem::path(out).replace_extension(options.image);
-    files.add(image_file, options.image == "png" ? png(image) : pgm(image));
-    files.add(out, ros_map_yaml(map.grid, image_file.filename().string(), map.origin));
+    files.add(image_file, options.image == "png" ? ros_map::png(image) : ros_map::pgm(image));
+    files.add(out, ros_map::ros_map_yaml(map.grid, image_file.filename().string(), map.origin));
   } else {
     throw ConfigError({{options.out, 0, 0, "the name must end in .yaml (ROS map) or .pcd (points)"}});
   }
@@ -162,7 +162,7 @@ void add_map(CLI::App& app, Context& context) {
   options->input.add_set_to(*build, "Change a parameter of log_map: segments=[[0,0.3]] (repeatable)");
   add_output(*build, *options);
   build->callback(
-      [options] { write(LogMap(log_map_params(options->input), warning_setup()).load(), *options); });
+      [options] { write(carmen::LogMap(log_map_params(options->input), warning_setup()).load(), *options); });
 
   constexpr const char* file = "ROS map (YAML), or experiment whose map is meant";
   CLI::App* convert = map->add_subcommand("convert", "Write a map in another format.");

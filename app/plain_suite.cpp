@@ -33,7 +33,7 @@ std::vector<std::int64_t> stamps_of(const Drive& drive) {
   for (const Sample& sample : drive.samples) {
     const double stamp = sample.observation.stamp;
     is_good = is_good && stamp >= 0.0 && stamp < latest;
-    stamps.push_back(is_good ? nanoseconds_of(stamp) : 0);
+    stamps.push_back(is_good ? conversion::nanoseconds_of(stamp) : 0);
     is_good = is_good && (stamps.size() < 2 || stamps[stamps.size() - 2] < stamps.back());
   }
   constexpr std::int64_t second = 1'000'000'000;
@@ -45,20 +45,21 @@ std::vector<std::int64_t> stamps_of(const Drive& drive) {
 void write_plain_map(OutputFolder& folder, const fs::path& below, const GlobalMap& map) {
   folder.append(below / "map.pcd", pcd(map.points(), map.origin()));
   if (map.grid().cells.empty()) return;
-  write_trinary_pgm(map.grid(), [&](std::string_view piece) { folder.append(below / "map.pgm", piece); });
-  folder.append(below / "map.yaml", ros_map_yaml(map.grid(), "map.pgm", map.origin()));
+  ros_map::write_trinary_pgm(map.grid(),
+                             [&](std::string_view piece) { folder.append(below / "map.pgm", piece); });
+  folder.append(below / "map.yaml", ros_map::ros_map_yaml(map.grid(), "map.pgm", map.origin()));
 }
 
 /// Both forms of the drive. Points are in the robot's frame.
 void write_plain_drive(OutputFolder& folder, const fs::path& below, const Drive& drive) {
-  McapDriveWriter recording(
+  conversion::McapDriveWriter recording(
       {{.topic = "/points", .frame = sensor_frame, .has_clouds = true, .robot_from_sensor = Pose3{}}},
       [&](std::string_view bytes) { folder.append(below / "drive.mcap", bytes); });
   CloudFolderWriter clouds(folder, below.string(), below / "scans");
   const std::vector<std::int64_t> stamps = stamps_of(drive);
   for (std::size_t i = 0; i < drive.samples.size(); ++i) {
     const Observation& observation = drive.samples[i].observation;
-    DriveScan scan;
+    conversion::DriveScan scan;
     scan.stamp_ns = stamps[i];
     scan.odom_from_robot = observation.odom_from_robot;
     scan.rays = bags::PointCloud{{scan.stamp_ns, sensor_frame}, observation.scan.hits, {}};

@@ -31,6 +31,10 @@
 namespace glocal::app {
 namespace {
 
+using conversion::DriveTrack;
+using conversion::ReferencePoses;
+using conversion::TrackedScan;
+
 namespace fs = std::filesystem;
 
 struct PrepareOptions {
@@ -66,7 +70,7 @@ class Warnings {
 
 DriveTrack read_track(const PrepareOptions& options, Warnings& warnings, const TellProgress& progress) {
   const auto reader = options.log.open(warnings.call(), progress);
-  DriveTrack track = track_of(*reader);
+  DriveTrack track = conversion::track_of(*reader);
   const auto tell = [&](std::size_t scans, const char* why) {
     if (scans > 0)
       warnings.add(fmt::format("{}: {} scans are left out, as {}", options.log.file, scans, why));
@@ -78,8 +82,8 @@ DriveTrack read_track(const PrepareOptions& options, Warnings& warnings, const T
 
 ReferencePoses references_of(const PrepareOptions& options, const DriveTrack& drive) {
   ReferencePoses references;
-  references.track =
-      options.corrected.empty() ? own_references(drive.scans) : read_corrected(options.corrected, drive);
+  references.track = options.corrected.empty() ? conversion::own_references(drive.scans)
+                                               : conversion::read_corrected(options.corrected, drive);
   references.are_of_sensor = options.poses_of == "sensor";
   references.shift_ns = nanoseconds(options.shift_s);
   references.max_gap_ns = nanoseconds(options.max_gap_s);
@@ -118,19 +122,20 @@ CaseFacts facts_of(const PrepareOptions& options, const ReferencePoses& referenc
   facts.all_scans = drive.scans.size();
   facts.robot_from_sensor = facts.scans.front().robot_from_sensor;
   facts.shift_s = options.shift_s;
-  facts.odometry_shift = time_shift_of(drive, references);
-  facts.jumps = reference_jumps(facts.scans);
+  facts.odometry_shift = conversion::time_shift_of(drive, references);
+  facts.jumps = conversion::reference_jumps(facts.scans);
   if (!options.relations.empty()) {
-    facts.relations = relation_errors(read_relations(options.relations), facts.scans, references.max_gap_ns);
+    facts.relations = conversion::relation_errors(conversion::read_relations(options.relations), facts.scans,
+                                                  references.max_gap_ns);
     if (!facts.relations)
       throw ConfigError({{options.relations, 0, 0,
                           "has no relation both of whose times have a reference pose; its times are those "
                           "of the log's scans"}});
   }
   const bool is_given = options.map_share > 0.0 || options.blocks > 1;
-  facts.split =
-      is_given ? split_drive(facts.scans, options.blocks, options.map_share > 0.0 ? options.map_share : 0.5)
-               : choose_split(facts.scans);
+  facts.split = is_given ? conversion::split_drive(facts.scans, options.blocks,
+                                                   options.map_share > 0.0 ? options.map_share : 0.5)
+                         : conversion::choose_split(facts.scans);
   return facts;
 }
 
@@ -158,15 +163,15 @@ class FilePart {
 void write_drive(const PrepareOptions& options, const ReferencePoses& references, bool has_clouds,
                  OutputFolder& folder, const TellProgress& progress) {
   const Warn already_told = [](const std::string&) {};
-  JoinedDrive drive(options.log.open(already_told, progress), references);
+  conversion::JoinedDrive drive(options.log.open(already_told, progress), references);
   if (has_clouds) {
     CloudFolderWriter writer(folder, options.log.file, "clouds");
-    pass_on(drive, writer, options.log.file, already_told);
+    conversion::pass_on(drive, writer, options.log.file, already_told);
     return;
   }
   FilePart file(folder, "drive.log");
-  CarmenDriveWriter writer(options.log.file, [&](std::string_view lines) { file.append(lines); });
-  pass_on(drive, writer, options.log.file, already_told);
+  conversion::CarmenDriveWriter writer(options.log.file, [&](std::string_view lines) { file.append(lines); });
+  conversion::pass_on(drive, writer, options.log.file, already_told);
   file.flush();
 }
 
@@ -198,7 +203,7 @@ Drive mapped_part(const LoadedExperiment& loaded) {
   std::erase_if(part.samples, [&](const Sample& sample) {
     return std::none_of(path.begin(), path.end(), [&](const Pose3& place) {
       return sample.map_from_robot &&
-             distance(place, loaded.map->relative(*sample.map_from_robot)) <= near_map_m;
+             distance(place, loaded.map->relative(*sample.map_from_robot)) <= conversion::near_map_m;
     });
   });
   return part;
@@ -232,8 +237,8 @@ ScanShift scan_shift_of(const Drive& run, const ReferencePoses& references, cons
 
 void write_map(const MapData& map, bool has_clouds, OutputFolder& folder) {
   if (has_clouds) return folder.append("map.pcd", pcd(map.points, map.origin));
-  folder.append("map.pgm", pgm(trinary_image(map.grid)));
-  folder.append("map.yaml", ros_map_yaml(map.grid, "map.pgm", map.origin));
+  folder.append("map.pgm", ros_map::pgm(ros_map::trinary_image(map.grid)));
+  folder.append("map.yaml", ros_map::ros_map_yaml(map.grid, "map.pgm", map.origin));
 }
 
 void prepare(const PrepareOptions& options, Context& context) {

@@ -13,6 +13,9 @@
 namespace glocal::app {
 namespace {
 
+using conversion::segments_yaml;
+using conversion::TrackedScan;
+
 std::vector<Pose3> odometry_of(const std::vector<TrackedScan>& scans) {
   std::vector<Pose3> poses;
   for (const TrackedScan& scan : scans) poses.push_back(scan.odom_from_robot);
@@ -51,7 +54,7 @@ std::string trials_of(const CaseFacts& facts) {
   const double every_m = std::clamp(std::round(10.0 * run * way / 25.0) / 10.0, 0.5, 6.0);
   constexpr double ten_steps_m = 5.0;  // with room to begin at some places
   return fmt::format("every_m: {}, max_steps: 60, min_steps: {}, within_map_m: {}", every_m,
-                     shortest * way >= ten_steps_m ? 10 : 1, near_map_m);
+                     shortest * way >= ten_steps_m ? 10 : 1, conversion::near_map_m);
 }
 
 /// What is wrong with the reference's stamps, if anything. Scans tell more than odometry, whose own clock may
@@ -151,7 +154,7 @@ std::vector<std::pair<std::string, std::string>> fact_lines(const CaseFacts& fac
       "run", fmt::format("{} observations, from {} of the way; {:.0f} % within {:g} m of the map's path; {} "
                          "starts",
                          facts.observations, segments_yaml(facts.split.run),
-                         percent(facts.split.run_near_map), near_map_m, facts.starts));
+                         percent(facts.split.run_near_map), conversion::near_map_m, facts.starts));
   lines.emplace_back("scan fit", facts.fit ? fmt::format("{:.0f} % of the beam ends within {:g} m of the map",
                                                          percent(*facts.fit), facts.fit_within_m)
                                            : "not known: no scan of the run is where the map was made");
@@ -170,9 +173,9 @@ std::vector<std::string> case_warnings(const CaseFacts& facts) {
                     percent(share)));
   if (auto warning = shift_warning(facts)) warnings.push_back(std::move(*warning));
   if (!facts.jumps.empty()) {
-    const auto& largest = *std::max_element(
-        facts.jumps.begin(), facts.jumps.end(),
-        [](const ReferenceJump& a, const ReferenceJump& b) { return a.distance_m < b.distance_m; });
+    const auto& largest =
+        *std::max_element(facts.jumps.begin(), facts.jumps.end(),
+                          [](const auto& a, const auto& b) { return a.distance_m < b.distance_m; });
     warnings.push_back(fmt::format(
         "the reference jumps against odometry, {} in all; the largest, by {:.2f} m and {:.1f} deg, is "
         "before the scan at {:.3f} s",
@@ -194,7 +197,7 @@ std::vector<std::string> case_warnings(const CaseFacts& facts) {
     warnings.push_back(
         fmt::format("only {:.0f} % of the run lies within {:g} m of the map's path: the drive does not come "
                     "back; give --blocks or --map-share",
-                    percent(facts.split.run_near_map), near_map_m));
+                    percent(facts.split.run_near_map), conversion::near_map_m));
   return warnings;
 }
 

@@ -30,13 +30,13 @@ struct CaseFacts {
   bool has_clouds = false;
   Pose3 robot_from_sensor = {};  ///< Of clouds.
   std::size_t all_scans = 0;
-  std::vector<TrackedScan> scans = {};           ///< Those with a reference.
-  double shift_s = 0.0;                          ///< That was asked for.
-  std::optional<TimeShift> odometry_shift = {};  ///< Besides.
+  std::vector<conversion::TrackedScan> scans = {};           ///< Those with a reference.
+  double shift_s = 0.0;                                      ///< That was asked for.
+  std::optional<conversion::TimeShift> odometry_shift = {};  ///< Besides.
   ScanShift scan_shift = {};
-  std::vector<ReferenceJump> jumps = {};
-  std::optional<RelationErrors> relations = {};
-  MapSplit split = {};
+  std::vector<conversion::ReferenceJump> jumps = {};
+  std::optional<conversion::RelationErrors> relations = {};
+  conversion::MapSplit split = {};
   std::optional<double> fit = {};  ///< Share of the run's beam ends near the map, where that was mapped.
   double fit_within_m = 0.1;
   std::size_t map_points = 0, observations = 0, starts = 0;

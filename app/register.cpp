@@ -27,6 +27,8 @@
 namespace glocal::app {
 namespace {
 
+using clouds::Cloud;
+
 constexpr const char* own_method = "surfel_pairs";
 
 struct RegisterOptions {
@@ -76,8 +78,9 @@ struct Registering {
 };
 
 Cloud read(const std::filesystem::path& file, const RegisterOptions& options) {
-  Cloud cloud = read_cloud(file, {options.unit, options.max_size_gb});
-  for (const std::string& remark : cloud_remarks(cloud)) spdlog::warn("{}: {}", file.string(), remark);
+  Cloud cloud = clouds::read_cloud(file, {options.unit, options.max_size_gb});
+  for (const std::string& remark : clouds::cloud_remarks(cloud))
+    spdlog::warn("{}: {}", file.string(), remark);
   return cloud;
 }
 
@@ -86,8 +89,9 @@ double cpu_seconds() {
 }
 
 /// What one method makes of a pair.
-PairOutcome outcome_of(CloudPair pair, const Cloud& source, const Cloud& target, const std::string& method,
-                       const RegisterOptions& options, const Registering& registering) {
+PairOutcome outcome_of(clouds::CloudPair pair, const Cloud& source, const Cloud& target,
+                       const std::string& method, const RegisterOptions& options,
+                       const Registering& registering) {
   RegistrationOptions registration;
   if (options.voxel_size > 0.0) registration.voxel_size = options.voxel_size;
   registration.source_seen_from = as_point(source.viewpoint.translation());
@@ -170,7 +174,7 @@ void register_pair(const RegisterOptions& options, const Registering& registerin
 void register_pairs(const RegisterOptions& options, const Registering& registering) {
   const std::vector<std::string>& methods = registering.methods;
   std::vector<std::vector<PairOutcome>> outcomes(methods.size());
-  for (const CloudPair& pair : read_cloud_pairs(options.pairs)) {
+  for (const clouds::CloudPair& pair : clouds::read_cloud_pairs(options.pairs)) {
     const Cloud source = read(pair.source_file, options);
     const Cloud target = read(pair.target_file, options);
     for (std::size_t i = 0; i < methods.size(); ++i) {

@@ -33,7 +33,7 @@ struct SimulateOptions {
 
 /// As a file beside the experiment that names it.
 StrategyChoice recorded_map() {
-  auto params = std::make_unique<ParamsOf<RosMap::Params>>();
+  auto params = std::make_unique<ParamsOf<ros_map::RosMap::Params>>();
   params->value.path = {"map.yaml", "map.yaml"};
   return {"ros_map", std::move(params)};
 }
@@ -83,8 +83,8 @@ void simulate(const SimulateOptions& options, Context& context) {
                                        : simulated_experiment(options.experiment, context, inputs);
   OutputFolder folder(options.out, options.force);
   folder.append(files.drive.file_name, files.drive.content);
-  write_trinary_pgm(files.grid, [&](std::string_view piece) { folder.append("map.pgm", piece); });
-  folder.append("map.yaml", ros_map_yaml(files.grid, "map.pgm", files.origin));
+  ros_map::write_trinary_pgm(files.grid, [&](std::string_view piece) { folder.append("map.pgm", piece); });
+  folder.append("map.yaml", ros_map::ros_map_yaml(files.grid, "map.pgm", files.origin));
   folder.append("experiment.yaml", files.experiment);
   FileHashes hashes;
   folder.append("provenance.json", provenance(context.catalog, files.threads, inputs, hashes).dump(2) + "\n");

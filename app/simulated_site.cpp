@@ -32,7 +32,7 @@ int starts_of(const SiteOptions& options) {
 
 std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const std::string& log,
                           const Catalog& catalog) {
-  const LogParams limits = scan_limits(sites::office_drive().laser);
+  const carmen::LogParams limits = simulation::scan_limits(sites::office_drive().laser);
   return fmt::format(
       "# A simulated {} of {:g} m x {:g} m, seed {}. Written by glocal simulate.\n"
       "schema: 1\n"
@@ -83,10 +83,12 @@ void SiteOptions::add_to(CLI::App& command) {
 SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed, const Catalog& catalog) {
   if (options.side == 0.0)
     throw ConfigError({{"--site " + options.site, 0, 0, "needs --side, its side in metres"}});
-  World world = sites::office_site(options.side, length_of(options), seed);
-  OccupancyGrid grid = plan_of(world, options.resolution);
-  SimulatedFiles files{
-      *Simulation(sites::office_drive(), std::move(world), seed).recording(), std::move(grid), {}, 1};
+  simulation::World world = sites::office_site(options.side, length_of(options), seed);
+  OccupancyGrid grid = simulation::plan_of(world, options.resolution);
+  SimulatedFiles files{*simulation::Simulation(sites::office_drive(), std::move(world), seed).recording(),
+                       std::move(grid),
+                       {},
+                       1};
   files.experiment = experiment_of(options, seed, files.drive.file_name, catalog);
   return files;
 }

@@ -65,9 +65,9 @@ void register_all() {
     return benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
   };
   add("exhaustive/paper_lab", [](benchmark::State& state) {
-    const GridRule grid{
+    const grid_search::GridRule grid{
         .contact_epsilon = 0.15, .cell = 0.15, .min_rotation_step_deg = 1.15, .max_points = 100};
-    match<Exhaustive>(state, scene("paper_lab"), {.matching = {.grid = grid}}, 0.3);
+    match<grid_search::Exhaustive>(state, scene("paper_lab"), {.matching = {.grid = grid}}, 0.3);
   })->Arg(0);
   if (!has_datasets()) return;
   add("ransac/intel", [](benchmark::State& state) { match<ransac::Ransac>(state, scene("intel"), {}, 0.55); })

@@ -66,7 +66,8 @@ std::vector<PlacedMap> local_maps(const Scene& s, std::size_t step) {
 
 /// So many poses searched for.
 void match(benchmark::State& state, const Scene& s) {
-  BranchAndBound matcher({.grid = {.max_poses = static_cast<int>(state.range(1))}}, {s.loaded.map, 1});
+  grid_search::BranchAndBound matcher({.grid = {.max_poses = static_cast<int>(state.range(1))}},
+                                      {s.loaded.map, 1});
   const std::vector<PlacedMap> maps = local_maps(s, static_cast<std::size_t>(state.range(0)));
   Rng rng(1);
   for ([[maybe_unused]] auto _ : state) {
@@ -84,7 +85,7 @@ void boxes(benchmark::State& state, const Scene& s) {
 
 /// Rivals of the true poses.
 void verify(benchmark::State& state, const Scene& s) {
-  WholeMap verifier({}, {s.loaded.map, 1});
+  verifiers::WholeMap verifier({}, {s.loaded.map, 1});
   const std::vector<PlacedMap> maps = local_maps(s, static_cast<std::size_t>(state.range(0)));
   for ([[maybe_unused]] auto _ : state) {
     for (const PlacedMap& map : maps)

@@ -14,12 +14,12 @@
 namespace glocal {
 
 void register_matchers(Catalog& catalog) {
-  catalog.matchers.add<BranchAndBound>(
+  catalog.matchers.add<grid_search::BranchAndBound>(
       "branch_and_bound", "Exact search of a grid of poses, by upper bounds for whole blocks of them.",
       stable_since("0.1.0"));
-  catalog.matchers.add<Exhaustive>("exhaustive", "Every pose of a grid, each judged by eq. 4.",
-                                   stable_since("0.1.0"),
-                                   {.contact = ContactChoice(catalog.contact_indexes)});
+  catalog.matchers.add<grid_search::Exhaustive>("exhaustive", "Every pose of a grid, each judged by eq. 4.",
+                                                stable_since("0.1.0"),
+                                                {.contact = ContactChoice(catalog.contact_indexes)});
   catalog.matchers.add<indexed_ransam::IndexedRansam>(
       "indexed_ransam",
       "Random sample matching of oriented point pairs over an index of the "
@@ -45,7 +45,7 @@ void register_matchers(Catalog& catalog) {
       "triangle_ransam",
       "Random sample matching of triangles in space over a hash table, as ransam's in the plane.",
       experimental_since("0.1.0"), {.contact = ContactChoice(catalog.contact_indexes)});
-  catalog.matchers.add<UprightBranchAndBound>(
+  catalog.matchers.add<grid_search::UprightBranchAndBound>(
       "upright_branch_and_bound",
       "Exact search of a grid of upright poses, as branch_and_bound's of the plane.", stable_since("0.1.0"));
   catalog.matchers.note_counterparts("branch_and_bound", "upright_branch_and_bound");

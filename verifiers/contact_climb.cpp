@@ -6,7 +6,7 @@
 
 #include "glocal/extent.hpp"
 
-namespace glocal {
+namespace glocal::verifiers {
 namespace {
 
 /// Of the farthest point from the middle, seen from above, m; not so small that a step would be half a turn.
@@ -54,4 +54,4 @@ Pose3 climbed_pose(const ContactIndex& contact, const Points& points, const Pose
   return best.map_from_middle * middle_from_points;
 }
 
-}  // namespace glocal
+}  // namespace glocal::verifiers

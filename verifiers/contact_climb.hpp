@@ -5,7 +5,7 @@
 #include "glocal/points.hpp"
 #include "glocal/pose3.hpp"
 
-namespace glocal {
+namespace glocal::verifiers {
 
 /// Goes from an upright pose to its best neighbour, as long as that has more contact: a step (m) along x, y
 /// or z, or a turn about the middle of the points that moves the farthest of them by a step. Then once more
@@ -13,4 +13,4 @@ namespace glocal {
 [[nodiscard]] Pose3 climbed_pose(const ContactIndex& contact, const Points& points,
                                  const Pose3& map_from_points, double step);
 
-}  // namespace glocal
+}  // namespace glocal::verifiers

@@ -9,7 +9,7 @@
 #include "matchers/common/candidates.hpp"
 #include "verifiers/contact_climb.hpp"
 
-namespace glocal {
+namespace glocal::verifiers {
 namespace {
 
 /// That are judged: those with the most contact.
@@ -177,4 +177,4 @@ Pose3 WholeMap::refined(const Points& points, const Pose3& map_from_points) cons
   return refined_pose(*field_, points, seen_from_above(map_from_points), {});
 }
 
-}  // namespace glocal
+}  // namespace glocal::verifiers

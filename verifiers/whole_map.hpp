@@ -11,7 +11,7 @@
 #include "matchers/box_search/box_pyramid.hpp"
 #include "matchers/box_search/search_boxes.hpp"
 
-namespace glocal {
+namespace glocal::verifiers {
 
 /// Searches the whole map for poses with about as much contact as the declared one, by branch and bound on
 /// boxes of poses (search_boxes.hpp). If none is found, no pose has it: the certificate holds for every pose
@@ -83,4 +83,4 @@ class WholeMap final : public Verifier {
 };
 void describe(ParamVisitor& v, WholeMap::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::verifiers

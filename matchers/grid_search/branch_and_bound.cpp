@@ -1,6 +1,6 @@
 #include "matchers/grid_search/branch_and_bound.hpp"
 
-namespace glocal {
+namespace glocal::grid_search {
 
 BranchAndBound::BranchAndBound(const Params& params, const StageSetup& setup)
     : GridMatcher(params, setup,
@@ -14,4 +14,4 @@ BoxSearchResult BranchAndBound::search(const Points& points, const Pose3& local_
   return search_boxes(*pyramid_, points, local_from_robot, rule, std::nullopt, threads_);
 }
 
-}  // namespace glocal
+}  // namespace glocal::grid_search

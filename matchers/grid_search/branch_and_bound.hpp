@@ -5,7 +5,7 @@
 #include "matchers/box_search/box_pyramid.hpp"
 #include "matchers/grid_search/grid_matcher.hpp"
 
-namespace glocal {
+namespace glocal::grid_search {
 
 /// Exact matching on a grid of poses: what it does not find is not there.
 ///
@@ -33,4 +33,4 @@ class BranchAndBound final : public GridMatcher {
   std::shared_ptr<const BoxPyramid> pyramid_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::grid_search

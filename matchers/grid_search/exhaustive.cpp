@@ -6,7 +6,7 @@
 
 #include "glocal/parallel.hpp"
 
-namespace glocal {
+namespace glocal::grid_search {
 namespace {
 
 /// Rotations searched before the bar is raised. Fixed, so that the answer does not depend on the threads.
@@ -139,4 +139,4 @@ FoundPlaces Exhaustive::search_rotation(const PoseGrid& grid, std::size_t rotati
   return found;
 }
 
-}  // namespace glocal
+}  // namespace glocal::grid_search

@@ -9,7 +9,7 @@
 #include "matchers/box_search/pose_boxes.hpp"
 #include "matchers/grid_search/grid_matcher.hpp"
 
-namespace glocal {
+namespace glocal::grid_search {
 
 /// Brute force: looks at every pose of the grid that branch_and_bound searches, and judges each by the
 /// contact of its points where they really lie (Omega, eq. 4). Slow, and with nothing in it that could go
@@ -43,4 +43,4 @@ class Exhaustive final : public GridMatcher {
 };
 void describe(ParamVisitor& v, Exhaustive::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::grid_search

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace glocal {
+namespace glocal::grid_search {
 
 void describe(ParamVisitor& v, GridRule& p) {
   describe_contact_epsilon(v, p.contact_epsilon);
@@ -98,4 +98,4 @@ MatchResult GridMatcher::match(const MatchRequest& request, Rng& rng) {
   return result;
 }
 
-}  // namespace glocal
+}  // namespace glocal::grid_search

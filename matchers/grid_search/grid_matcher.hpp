@@ -11,7 +11,7 @@
 #include "matchers/box_search/search_boxes.hpp"
 #include "matchers/common/candidates.hpp"
 
-namespace glocal {
+namespace glocal::grid_search {
 
 /// Which grid of poses is searched.
 struct GridRule {
@@ -61,4 +61,4 @@ class GridMatcher : public Matcher {
   CandidateRefiner refiner_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::grid_search

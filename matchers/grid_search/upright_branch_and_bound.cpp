@@ -4,7 +4,7 @@
 
 #include "matchers/box_search/search_boxes.hpp"
 
-namespace glocal {
+namespace glocal::grid_search {
 
 UprightBranchAndBound::UprightBranchAndBound(const Params& params, const StageSetup& setup)
     : params_(params),
@@ -43,4 +43,4 @@ MatchResult UprightBranchAndBound::match(const MatchRequest& request, Rng& rng) 
   return result;
 }
 
-}  // namespace glocal
+}  // namespace glocal::grid_search

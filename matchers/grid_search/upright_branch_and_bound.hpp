@@ -7,7 +7,7 @@
 #include "matchers/box_search/box_pyramid.hpp"
 #include "matchers/grid_search/grid_matcher.hpp"
 
-namespace glocal {
+namespace glocal::grid_search {
 
 /// Exact matching on a grid of upright poses: x, y, z and yaw. What it does not find is not there, as long as
 /// the robot is between the map's lowest and highest points.
@@ -33,4 +33,4 @@ class UprightBranchAndBound final : public Matcher {
   std::shared_ptr<const BoxPyramid> pyramid_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::grid_search

@@ -10,7 +10,7 @@
 
 #include "glocal/error.hpp"
 
-namespace glocal {
+namespace glocal::mrpt_plugin {
 namespace {
 
 /// How likely a cell is free, for MRPT.
@@ -87,4 +87,4 @@ MrptGrid mrpt_grid(const GlobalMap& map) {
   return made;
 }
 
-}  // namespace glocal
+}  // namespace glocal::mrpt_plugin

@@ -8,7 +8,7 @@
 #include "glocal/global_map.hpp"
 #include "glocal/pose2.hpp"
 
-namespace glocal {
+namespace glocal::mrpt_plugin {
 
 /// An occupancy grid of MRPT, which begins at the origin of a frame of its own: MRPT's grids are not turned,
 /// count in single precision, and begin at multiples of their cells only.
@@ -22,4 +22,4 @@ struct MrptGrid {
 /// reach over too many cells.
 [[nodiscard]] MrptGrid mrpt_grid(const GlobalMap& map);
 
-}  // namespace glocal
+}  // namespace glocal::mrpt_plugin

@@ -13,7 +13,7 @@
 
 #include "range_scan.hpp"
 
-namespace glocal {
+namespace glocal::mrpt_plugin {
 namespace {
 
 /// Seeding it would not do: it may still have the other one of a pair of normal numbers.
@@ -125,4 +125,4 @@ void describe(ParamVisitor& v, MrptMcl::Params& p) {
   describe_contact_epsilon(v, p.contact_epsilon);
 }
 
-}  // namespace glocal
+}  // namespace glocal::mrpt_plugin

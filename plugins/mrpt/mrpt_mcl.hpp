@@ -15,7 +15,7 @@
 #include "grid.hpp"
 #include "options.hpp"
 
-namespace glocal {
+namespace glocal::mrpt_plugin {
 
 /// Monte Carlo localization by MRPT (mrpt::slam::CMonteCarloLocalization2D). It begins with particles all
 /// over free space (resetUniformFreeSpace) and goes on with increments of odometry. It looks at the latest
@@ -66,4 +66,4 @@ class MrptMcl final : public Matcher {
 };
 void describe(ParamVisitor& v, MrptMcl::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::mrpt_plugin

@@ -2,7 +2,7 @@
 
 #include "glocal/pose2.hpp"
 
-namespace glocal {
+namespace glocal::mrpt_plugin {
 
 void describe(ParamVisitor& v, MrptFilterOptions& p) {
   v.field(
@@ -191,4 +191,4 @@ mrpt::obs::CActionRobotMovement2D::TMotionModelOptions mrpt_options(const MrptMo
   return options;
 }
 
-}  // namespace glocal
+}  // namespace glocal::mrpt_plugin

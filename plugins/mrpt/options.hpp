@@ -10,7 +10,7 @@
 
 #include "glocal/params.hpp"
 
-namespace glocal {
+namespace glocal::mrpt_plugin {
 
 /// mrpt::bayes::CParticleFilter::TParticleFilterOptions.
 struct MrptFilterOptions {
@@ -82,4 +82,4 @@ struct MrptMotionModel {
 void describe(ParamVisitor& v, MrptMotionModel& p);
 [[nodiscard]] mrpt::obs::CActionRobotMovement2D::TMotionModelOptions mrpt_options(const MrptMotionModel& p);
 
-}  // namespace glocal
+}  // namespace glocal::mrpt_plugin

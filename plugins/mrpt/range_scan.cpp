@@ -10,7 +10,7 @@
 
 #include "glocal/pose2.hpp"
 
-namespace glocal {
+namespace glocal::mrpt_plugin {
 namespace {
 
 constexpr double most_off = radians(0.01);
@@ -121,4 +121,4 @@ mrpt::obs::CObservation2DRangeScan::Ptr mrpt_scan(const Scan& scan) {
   return made;
 }
 
-}  // namespace glocal
+}  // namespace glocal::mrpt_plugin

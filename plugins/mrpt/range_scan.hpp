@@ -5,7 +5,7 @@
 
 #include "glocal/observation.hpp"
 
-namespace glocal {
+namespace glocal::mrpt_plugin {
 
 /// A scan of MRPT is a fan of rays at equal angles, each with a range or none. The rays of a laser are that,
 /// once those that measured nothing are filled in; for any others the fan gets so many rays that each point
@@ -13,4 +13,4 @@ namespace glocal {
 /// the sensor itself, are left out. Heights are ignored.
 [[nodiscard]] mrpt::obs::CObservation2DRangeScan::Ptr mrpt_scan(const Scan& scan);
 
-}  // namespace glocal
+}  // namespace glocal::mrpt_plugin

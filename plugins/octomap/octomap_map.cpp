@@ -8,7 +8,7 @@
 #include "glocal/error.hpp"
 #include "tree_file.hpp"
 
-namespace glocal {
+namespace glocal::octomap_plugin {
 namespace {
 
 /// Smallest voxels of a tree, numbered along x, y and z as in octomap::OcTreeKey.
@@ -150,4 +150,4 @@ MapData OctomapMap::load() {
   return map;
 }
 
-}  // namespace glocal
+}  // namespace glocal::octomap_plugin

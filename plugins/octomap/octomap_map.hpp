@@ -8,7 +8,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::octomap_plugin {
 
 /// An octree's voxels between two heights: as a plan, or as points in space.
 class OctomapMap final : public MapSource {
@@ -34,4 +34,4 @@ class OctomapMap final : public MapSource {
 };
 void describe(ParamVisitor& v, OctomapMap::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::octomap_plugin

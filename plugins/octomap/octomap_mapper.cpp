@@ -4,7 +4,7 @@
 
 #include "tree_file.hpp"
 
-namespace glocal {
+namespace glocal::octomap_plugin {
 
 void describe(ParamVisitor& v, OctomapMapper::Params& p) {
   v.strategy("poses", p.poses, *p.mappers,
@@ -113,4 +113,4 @@ std::vector<MapFile> OctomapMapper::files() const {
   return {{"bt", bt_file(tree_)}};
 }
 
-}  // namespace glocal
+}  // namespace glocal::octomap_plugin

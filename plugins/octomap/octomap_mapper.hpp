@@ -11,7 +11,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::octomap_plugin {
 
 /// Occupancy in log-odds with ray casting (Hornung et al. 2013), at poses that another local mapper finds.
 /// Points of the map are the voxels that are occupied now, each at the mean of its hits: those of people who
@@ -57,4 +57,4 @@ class OctomapMapper final : public LocalMapper {
 };
 void describe(ParamVisitor& v, OctomapMapper::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::octomap_plugin

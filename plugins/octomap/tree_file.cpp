@@ -11,7 +11,7 @@
 
 #include "glocal/error.hpp"
 
-namespace glocal {
+namespace glocal::octomap_plugin {
 namespace {
 
 constexpr std::string_view binary_begin = "# Octomap OcTree binary file";
@@ -138,4 +138,4 @@ std::string bt_file(const octomap::OcTree& tree) {
   return std::move(stream).str();
 }
 
-}  // namespace glocal
+}  // namespace glocal::octomap_plugin

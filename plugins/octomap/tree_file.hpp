@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace glocal {
+namespace glocal::octomap_plugin {
 
 /// Reads a .bt (binary) or .ot (with probabilities) file of an OcTree, known by its content. Throws
 /// ConfigError for what is none, or is damaged.
@@ -16,4 +16,4 @@ namespace glocal {
 /// The content of a .bt file: each node occupied, free or unknown.
 [[nodiscard]] std::string bt_file(const octomap::OcTree& tree);
 
-}  // namespace glocal
+}  // namespace glocal::octomap_plugin

@@ -11,7 +11,7 @@
 
 #include "glocal/voxel_filter.hpp"
 
-namespace glocal {
+namespace glocal::open3d_plugin {
 namespace {
 
 namespace registration = open3d::pipelines::registration;
@@ -153,4 +153,4 @@ std::optional<MatchedPose> FastGlobalSearch::find(const Open3dCloud& source, con
   }
 }
 
-}  // namespace glocal
+}  // namespace glocal::open3d_plugin

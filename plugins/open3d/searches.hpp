@@ -13,7 +13,7 @@
 #include "glocal/pose3.hpp"
 #include "plugins/common/matched_pose.hpp"
 
-namespace glocal {
+namespace glocal::open3d_plugin {
 
 /// A cloud, one point for each voxel, with FPFH features (Rusu, Blodow and Beetz 2009) in the sizes of
 /// Open3D's tutorial: normals from 2 voxels around, features from 5.
@@ -61,4 +61,4 @@ struct FastGlobalSearch {
 };
 void describe(ParamVisitor& v, FastGlobalSearch& p);
 
-}  // namespace glocal
+}  // namespace glocal::open3d_plugin

@@ -6,7 +6,7 @@
 
 #include "glocal/evenly.hpp"
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 
 Cloud::Ptr cloud(const Points& points, std::size_t at_most) {
   auto result = std::make_shared<Cloud>();
@@ -29,4 +29,4 @@ Pose2 pose(const Eigen::Matrix4f& matrix) {
   return {matrix(0, 3), matrix(1, 3), wrap_angle(std::atan2(matrix(1, 0), matrix(0, 0)))};
 }
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

@@ -10,7 +10,7 @@
 #include "glocal/points.hpp"
 #include "glocal/pose2.hpp"
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
@@ -21,4 +21,4 @@ using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 [[nodiscard]] Eigen::Matrix4f matrix(const Pose2& pose);
 [[nodiscard]] Pose2 pose(const Eigen::Matrix4f& matrix);
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

@@ -10,7 +10,7 @@
 #include "glocal/error.hpp"
 #include "glocal/parallel.hpp"
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 namespace {
 
 /// Starts handled by one thread together. Fixed, so that the answer does not depend on the number of threads.
@@ -127,4 +127,4 @@ MatchResult PclIcp::match(const MatchRequest& request, Rng& /*rng*/) {
   return result;
 }
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

@@ -14,7 +14,7 @@
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 
 /// One level of pcl::IterativeClosestPoint.
 struct IcpParams {
@@ -72,4 +72,4 @@ class PclIcp final : public Matcher {
 };
 void describe(ParamVisitor& v, PclIcp::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

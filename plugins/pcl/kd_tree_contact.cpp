@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 namespace {
 
 /// PCL must not be asked about points that are not numbers; those far away would overflow when squared.
@@ -37,4 +37,4 @@ std::size_t PclKdTreeContact::memory_bytes() const {
   return tree_.getInputCloud()->size() * sizeof(pcl::PointXYZ);
 }
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

@@ -8,7 +8,7 @@
 #include "clouds.hpp"
 #include "glocal/contact.hpp"
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 
 /// Exact: the nearest point of the map is nearer than epsilon.
 class PclKdTreeContact final : public ContactIndex {
@@ -28,4 +28,4 @@ class PclKdTreeContact final : public ContactIndex {
 };
 inline void describe(ParamVisitor& /*v*/, PclKdTreeContact::Params& /*p*/) {}
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

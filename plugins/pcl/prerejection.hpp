@@ -12,7 +12,7 @@
 #include "clouds.hpp"
 #include "glocal/params.hpp"
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 
 using Features = pcl::PointCloud<pcl::FPFHSignature33>;
 using Prerejection = pcl::SampleConsensusPrerejective<pcl::PointXYZ, pcl::PointXYZ, pcl::FPFHSignature33>;
@@ -61,4 +61,4 @@ void describe_prerejection(ParamVisitor& v, Params& p) {
           {.doc = "Share of inliers a pose needs.", .min = 0.0, .max = 1.0});
 }
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 namespace {
 
 using Normals = pcl::PointCloud<pcl::Normal>;
@@ -99,4 +99,4 @@ MatchResult PclPrerejective::match(const MatchRequest& request, Rng& rng) {
   return result;
 }
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

@@ -12,7 +12,7 @@
 #include "icp.hpp"
 #include "prerejection.hpp"
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 
 /// pcl::SampleConsensusPrerejective with FPFH features (Rusu, Blodow and Beetz 2009; Buch et al. 2013) of
 /// normals in the plane: triples of points with like features, rejected early where their sides differ.
@@ -46,4 +46,4 @@ class PclPrerejective final : public Matcher {
 };
 void describe(ParamVisitor& v, PclPrerejective::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

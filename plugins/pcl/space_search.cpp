@@ -12,7 +12,7 @@
 #include "glocal/voxel_filter.hpp"
 #include "prerejection.hpp"
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 namespace {
 
 using Tree = pcl::search::KdTree<pcl::PointXYZ>;
@@ -97,4 +97,4 @@ std::optional<MatchedPose> PrerejectiveSearch::find(const FpfhCloud& source, con
   return judged(pose_in_space(align.getFinalTransformation()), moved, target.points, voxel_size);
 }
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

@@ -11,7 +11,7 @@
 #include "plugins/common/matched_pose.hpp"
 #include "prerejection.hpp"
 
-namespace glocal {
+namespace glocal::pcl_plugin {
 
 /// A cloud, one point for each voxel, with FPFH features in the sizes of PCL's tutorial: normals from 2
 /// voxels around, features from 5. Points with too few others around them for a normal are left out.
@@ -44,4 +44,4 @@ struct PrerejectiveSearch {
 };
 void describe(ParamVisitor& v, PrerejectiveSearch& p);
 
-}  // namespace glocal
+}  // namespace glocal::pcl_plugin

@@ -11,7 +11,7 @@
 #include "glocal/words.hpp"
 #include "sources/bags/sensor_scan.hpp"
 
-namespace glocal {
+namespace glocal::bags {
 namespace {
 
 constexpr double ns_per_s = 1e9;
@@ -299,7 +299,7 @@ void BagDrive::warn_of_references() const {
 }
 
 std::optional<Pose3> BagDrive::robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) {
-  if (params_.sensor_from == "given") return glocal::robot_from_sensor(params_.sensor);
+  if (params_.sensor_from == "given") return clouds::robot_from_sensor(params_.sensor);
   return contents_.robot_from_sensor(frame, stamp_ns, max_gap_ns_);
 }
 
@@ -419,4 +419,4 @@ void BagDrive::warn_once(const std::string& text) {
   warn_(params_.path.resolved.string() + ": " + text + "; others like it are not told");
 }
 
-}  // namespace glocal
+}  // namespace glocal::bags

@@ -18,7 +18,7 @@
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/driven_path.hpp"
 
-namespace glocal {
+namespace glocal::bags {
 
 /// Reference poses of a recording: a topic's, or those of the robot in a frame of tf. Only the evaluation
 /// sees them.
@@ -43,7 +43,7 @@ class BagDrive final : public ObservationSource {
     std::string odom_frame;
     std::string base_frame;
     std::string sensor_from = "tf";
-    SensorMount sensor;
+    clouds::SensorMount sensor;
     BagReference reference;
     PathSegments segments{{0.0, 1.0}};
     KeyframeRule keyframes;
@@ -111,4 +111,4 @@ class BagDrive final : public ObservationSource {
 };
 void describe(ParamVisitor& v, BagDrive::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::bags

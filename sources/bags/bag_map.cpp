@@ -12,7 +12,7 @@
 #include "sources/bags/messages.hpp"
 #include "sources/bags/recording.hpp"
 
-namespace glocal {
+namespace glocal::bags {
 namespace {
 
 constexpr const char* grid_type = "nav_msgs/OccupancyGrid";
@@ -106,4 +106,4 @@ MapData BagMap::load() {
   return map;
 }
 
-}  // namespace glocal
+}  // namespace glocal::bags

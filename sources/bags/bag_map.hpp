@@ -6,7 +6,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
 
-namespace glocal {
+namespace glocal::bags {
 
 /// An occupancy grid (nav_msgs/OccupancyGrid) of a recording: the last one of its topic.
 class BagMap final : public MapSource {
@@ -31,4 +31,4 @@ class BagMap final : public MapSource {
 };
 void describe(ParamVisitor& v, BagMap::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::bags

@@ -17,6 +17,8 @@
 namespace glocal::bags {
 namespace {
 
+using clouds::Scalar;
+
 std::string frame_name(std::string_view name) {
   if (name.starts_with('/')) name.remove_prefix(1);
   return std::string(name);
@@ -98,7 +100,7 @@ struct CloudLayout {
 void check_layout(const MessageReader& reader, const CloudLayout& layout, const CloudFields& fields,
                   std::size_t bytes) {
   for (const auto& field : fields) {
-    if (field && field->offset + size_of(field->type) > layout.point_step)
+    if (field && field->offset + clouds::size_of(field->type) > layout.point_step)
       reader.refuse(fmt::format("a field at byte {} reaches beyond the point's {} bytes", field->offset,
                                 layout.point_step));
   }
@@ -157,10 +159,11 @@ PointCloud read_point_cloud(const RecordedMessage& message) {
       const char* const point =
           data.data() + std::size_t{row} * layout.row_step + std::size_t{column} * layout.point_step;
       const auto value = [&](const CloudField& field) {
-        return number_at(point + field.offset, field.type, order);
+        return clouds::number_at(point + field.offset, field.type, order);
       };
       const double x = value(*fields[0]), y = value(*fields[1]), z = value(*fields[2]);
-      const double time = fields[3] ? value(*fields[3]) * (is_whole(fields[3]->type) ? 1e-9 : 1.0) : 0.0;
+      const double time =
+          fields[3] ? value(*fields[3]) * (clouds::is_whole(fields[3]->type) ? 1e-9 : 1.0) : 0.0;
       const auto is_place = [](double v) { return std::abs(v) <= farthest_m; };
       if (!is_place(x) || !is_place(y) || !is_place(z) || !std::isfinite(time)) {
         ++cloud.left_out;

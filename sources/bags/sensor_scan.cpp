@@ -54,7 +54,7 @@ SensorScan rays_of(const PointCloud& cloud, const RangeLimits& limits) {
     rays.hits.push_back(cloud.points[i]);
     if (!cloud.times.empty()) rays.hit_times.push_back(static_cast<float>(cloud.times[i] - origin));
   }
-  if (limits.voxel_size > 0.0) thin_out(rays.hits, rays.hit_times, limits.voxel_size);
+  if (limits.voxel_size > 0.0) clouds::thin_out(rays.hits, rays.hit_times, limits.voxel_size);
   return rays;
 }
 

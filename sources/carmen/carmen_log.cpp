@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace glocal {
+namespace glocal::carmen {
 namespace {
 
 void warn_of_stamps(const LogDrive& drive, const std::filesystem::path& file, const Warn& warn) {
@@ -31,4 +31,4 @@ std::optional<Sample> CarmenLog::next() {
       {scan.stamp, robot_scan(scan, params_), scan.odom_from_robot}, scan.map_from_robot, frame.segment};
 }
 
-}  // namespace glocal
+}  // namespace glocal::carmen

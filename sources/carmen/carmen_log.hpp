@@ -8,7 +8,7 @@
 #include "glocal/strategies.hpp"
 #include "sources/carmen/log_drive.hpp"
 
-namespace glocal {
+namespace glocal::carmen {
 
 class CarmenLog final : public ObservationSource {
  public:
@@ -25,4 +25,4 @@ class CarmenLog final : public ObservationSource {
   std::size_t next_ = 0;
 };
 
-}  // namespace glocal
+}  // namespace glocal::carmen

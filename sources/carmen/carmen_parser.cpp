@@ -14,7 +14,7 @@
 #include "sources/compressed_file.hpp"
 #include "sources/text_lines.hpp"
 
-namespace glocal {
+namespace glocal::carmen {
 namespace {
 
 constexpr std::size_t max_readings = 100000;
@@ -252,4 +252,4 @@ std::vector<CarmenScan> read_carmen_log(const std::filesystem::path& file, doubl
   return Parser(file).parse(content);
 }
 
-}  // namespace glocal
+}  // namespace glocal::carmen

@@ -26,7 +26,7 @@
 #include "glocal/pose2.hpp"
 #include "sources/compressed_file.hpp"
 
-namespace glocal {
+namespace glocal::carmen {
 
 enum class CarmenLaser { flaser, rlaser, robotlaser1 };
 
@@ -49,4 +49,4 @@ struct CarmenScan {
 [[nodiscard]] std::vector<CarmenScan> read_carmen_log(const std::filesystem::path& file,
                                                       double max_size_gb = default_max_size_gb);
 
-}  // namespace glocal
+}  // namespace glocal::carmen

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace glocal {
+namespace glocal::carmen {
 namespace {
 
 std::string text(const Pose2& pose) {
@@ -31,4 +31,4 @@ std::string carmen_lines(const CarmenScan& scan) {
   return lines;
 }
 
-}  // namespace glocal
+}  // namespace glocal::carmen

@@ -6,7 +6,7 @@
 
 #include "glocal/error.hpp"
 
-namespace glocal {
+namespace glocal::carmen {
 namespace {
 
 /// A logger that writes ROBOTLASER1 lines often writes the same scans as FLASER lines too.
@@ -108,4 +108,4 @@ Scan robot_scan(const CarmenScan& scan, const LogParams& params) {
   return out;
 }
 
-}  // namespace glocal
+}  // namespace glocal::carmen

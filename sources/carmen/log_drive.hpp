@@ -12,7 +12,7 @@
 #include "sources/carmen/carmen_parser.hpp"
 #include "sources/driven_path.hpp"
 
-namespace glocal {
+namespace glocal::carmen {
 
 /// Which scans of a log, and how much of them.
 struct LogParams {
@@ -52,4 +52,4 @@ struct LogDrive {
 /// negative, infinite and NaN ones met nothing.
 [[nodiscard]] Scan robot_scan(const CarmenScan& scan, const LogParams& params);
 
-}  // namespace glocal
+}  // namespace glocal::carmen

@@ -11,7 +11,7 @@
 #include "glocal/limits.hpp"
 #include "sources/grid_ray.hpp"
 
-namespace glocal {
+namespace glocal::carmen {
 namespace {
 
 /// A scan and the sensor's place on the map.
@@ -214,4 +214,4 @@ MapData LogMap::load() {
   return map;
 }
 
-}  // namespace glocal
+}  // namespace glocal::carmen

@@ -7,7 +7,7 @@
 #include "glocal/strategies.hpp"
 #include "sources/carmen/log_drive.hpp"
 
-namespace glocal {
+namespace glocal::carmen {
 
 /// Counts, for each cell, the rays that end in it and those that pass it.
 class LogMap final : public MapSource {
@@ -34,4 +34,4 @@ class LogMap final : public MapSource {
 };
 void describe(ParamVisitor& v, LogMap::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::carmen

@@ -9,7 +9,7 @@
 #include "glocal/error.hpp"
 #include "glocal/words.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 constexpr std::size_t index_of(Channel channel) {
@@ -134,4 +134,4 @@ Cloud CloudBuilder::finish() {
   return std::move(cloud_);
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -13,7 +13,7 @@
 #include "glocal/pose3.hpp"
 #include "sources/compressed_file.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// What a file says of its points. Points with a coordinate or time that is no finite number are left out.
 struct Cloud {
@@ -78,4 +78,4 @@ class CloudBuilder {
   Cloud cloud_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -6,7 +6,7 @@
 #include "sources/clouds/cloud_file.hpp"
 #include "sources/clouds/thinning.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 void describe(ParamVisitor& v, SensorMount& p) {
   constexpr double far = 100.0;
   v.field("x", p.x, {.doc = "Forward of the robot's origin.", .unit = "m", .min = -far, .max = far});
@@ -151,4 +151,4 @@ Scan CloudDrive::scan_of(const Cloud& cloud) const {
   return scan;
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

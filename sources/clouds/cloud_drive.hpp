@@ -12,7 +12,7 @@
 #include "sources/clouds/drive_clouds.hpp"
 #include "sources/driven_path.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// Where a sensor is on its robot.
 struct SensorMount {
@@ -67,4 +67,4 @@ class CloudDrive final : public ObservationSource {
 };
 void describe(ParamVisitor& v, CloudDrive::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

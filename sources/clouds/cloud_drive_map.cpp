@@ -10,7 +10,7 @@
 #include "glocal/limits.hpp"
 #include "glocal/voxel_numbers.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 /// What clouds have met in each cube of space, in the order in which cubes were met first.
@@ -107,4 +107,4 @@ MapData CloudDriveMap::load() {
   return map;
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -5,7 +5,7 @@
 #include "glocal/strategies.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// The mean of the points in each cube that enough clouds have met. Nothing is known to be free.
 class CloudDriveMap final : public MapSource {
@@ -29,4 +29,4 @@ class CloudDriveMap final : public MapSource {
 };
 void describe(ParamVisitor& v, CloudDriveMap::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -14,7 +14,7 @@
 #include "sources/clouds/pcd_reader.hpp"
 #include "sources/clouds/ply_reader.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 /// The ending of a name, that of a compression left away.
@@ -93,4 +93,4 @@ std::vector<std::string> cloud_remarks(const Cloud& cloud) {
   return remarks;
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -8,7 +8,7 @@
 
 #include "sources/clouds/cloud.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// The cloud in a file: PCD, PLY or OctoMap's binary tree, known by what the file begins with, or KITTI's,
 /// known by its name (*.bin); perhaps compressed (gzip, bzip2, xz). Throws ConfigError with what is wrong,
@@ -25,4 +25,4 @@ namespace glocal {
 /// another unit, places that single precision rounds, points that all lie in a plane or on a line.
 [[nodiscard]] std::vector<std::string> cloud_remarks(const Cloud& cloud);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -10,7 +10,7 @@
 #include "glocal/error.hpp"
 #include "sources/clouds/cloud_file.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 void describe_pair(ParamVisitor& v, CloudPairParams& p) {
@@ -65,4 +65,4 @@ std::optional<Sample> CloudPairScan::next() {
   return sample;
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

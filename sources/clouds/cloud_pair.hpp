@@ -8,7 +8,7 @@
 #include "sources/clouds/pair_list.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// Which pair it is.
 struct CloudPairParams {
@@ -45,4 +45,4 @@ class CloudPairScan final : public ObservationSource {
 };
 void describe(ParamVisitor& v, CloudPairScan::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -9,7 +9,7 @@
 #include "glocal/error.hpp"
 #include "sources/grid_ray.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 CloudVoxels::CloudVoxels(const Cloud& cloud, double side, const std::string& file)
     : side_(cloud.voxel_size > 0.0 ? cloud.voxel_size : side) {
@@ -86,4 +86,4 @@ std::size_t CloudVoxels::index_of(const Cube& cube) const {
   return (at(cube[2]) * at(size_[1]) + at(cube[1])) * at(size_[0]) + at(cube[0]);
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -10,7 +10,7 @@
 #include "glocal/pose3.hpp"
 #include "sources/clouds/cloud.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// Cubes over the extent of a cloud: occupied where there are points, empty elsewhere. A bit for each.
 class CloudVoxels {
@@ -42,4 +42,4 @@ class CloudVoxels {
   std::vector<bool> occupied_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::clouds

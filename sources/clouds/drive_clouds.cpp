@@ -13,7 +13,7 @@
 #include "sources/clouds/trajectory_file.hpp"
 #include "sources/text_lines.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ std::vector<DriveCloud> drive_clouds(const DriveFiles& files, const Warn& warn) 
   return clouds;
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

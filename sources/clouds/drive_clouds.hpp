@@ -9,7 +9,7 @@
 #include "glocal/pose3.hpp"
 #include "sources/compressed_file.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// A cloud's file, and what is known of it.
 struct DriveCloud {
@@ -39,4 +39,4 @@ struct DriveFiles {
 /// odometry that leaves out a cloud, and poses that belong to no cloud. Warns of clouds without reference.
 [[nodiscard]] std::vector<DriveCloud> drive_clouds(const DriveFiles& files, const Warn& warn);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -4,7 +4,7 @@
 
 #include "sources/clouds/scalar.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 Cloud read_kitti_cloud(std::string_view content, const std::string& file, const CloudOptions& options) {
   constexpr std::size_t value_size = 4, point_size = 4 * value_size;
@@ -24,4 +24,4 @@ Cloud read_kitti_cloud(std::string_view content, const std::string& file, const 
   return cloud.finish();
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

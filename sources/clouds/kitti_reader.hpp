@@ -6,10 +6,10 @@
 
 #include "sources/clouds/cloud.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// Throws ConfigError, with the number of the point, if this is no such cloud.
 [[nodiscard]] Cloud read_kitti_cloud(std::string_view content, const std::string& file,
                                      const CloudOptions& options);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

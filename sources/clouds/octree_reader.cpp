@@ -9,7 +9,7 @@
 #include "glocal/words.hpp"
 #include "sources/text_lines.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 constexpr std::string_view octree_begin = "# Octomap OcTree";
@@ -183,4 +183,4 @@ Cloud read_octree_cloud(std::string_view content, const std::string& file, const
   return OctreeReader(content, file, options).read();
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -14,7 +14,7 @@
 #include "sources/compressed_file.hpp"
 #include "sources/text_lines.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 constexpr std::array pose_columns = {"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
@@ -127,4 +127,4 @@ std::vector<CloudPair> read_cloud_pairs(const std::filesystem::path& file) {
   return PairsReader(file).read();
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -8,7 +8,7 @@
 
 #include "glocal/pose3.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// A line of a list.
 struct CloudPair {
@@ -23,4 +23,4 @@ struct CloudPair {
 /// passed over. Throws ConfigError with all faults.
 [[nodiscard]] std::vector<CloudPair> read_cloud_pairs(const std::filesystem::path& file);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

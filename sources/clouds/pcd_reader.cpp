@@ -12,7 +12,7 @@
 #include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 struct PcdField {
@@ -360,4 +360,4 @@ Cloud read_pcd_cloud(std::string_view content, const std::string& file, const Cl
   return PcdReader(content, file, options).read();
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

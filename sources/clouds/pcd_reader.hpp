@@ -6,7 +6,7 @@
 
 #include "sources/clouds/cloud.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// Whether a file that begins so is a PCD file.
 [[nodiscard]] bool is_pcd(std::string_view content);
@@ -17,4 +17,4 @@ namespace glocal {
 [[nodiscard]] Cloud read_pcd_cloud(std::string_view content, const std::string& file,
                                    const CloudOptions& options);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -9,7 +9,7 @@
 #include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 struct PlyProperty {
@@ -264,4 +264,4 @@ Cloud read_ply_cloud(std::string_view content, const std::string& file, const Cl
       options);
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

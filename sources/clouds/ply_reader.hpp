@@ -6,7 +6,7 @@
 
 #include "sources/clouds/cloud.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// Whether a file that begins so is a PLY file.
 [[nodiscard]] bool is_ply(std::string_view content);
@@ -16,4 +16,4 @@ namespace glocal {
 [[nodiscard]] Cloud read_ply_cloud(std::string_view content, const std::string& file,
                                    const CloudOptions& options);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -11,7 +11,7 @@
 #include "sources/clouds/cloud_file.hpp"
 #include "sources/clouds/trajectory_file.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 /// The normal of the first point of each voxel: the mean of a thin wall's two sides would be none.
@@ -99,4 +99,4 @@ double typical_spacing(const Points& points) {
   return std::isfinite(*middle) ? std::sqrt(static_cast<double>(*middle)) : 0.0;
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -7,7 +7,7 @@
 #include "glocal/strategies.hpp"
 #include "sources/clouds/cloud.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 /// A map without cells: nothing is known to be free.
 class PointCloudMap final : public MapSource {
@@ -36,4 +36,4 @@ void describe(ParamVisitor& v, PointCloudMap::Params& p);
 /// elsewhere, of some of the points. 0 if all are in one place.
 [[nodiscard]] double typical_spacing(const Points& points);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

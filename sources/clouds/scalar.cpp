@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 template <class T>
@@ -58,4 +58,4 @@ double number_at(const char* bytes, Scalar type, std::endian order) {
   }
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace glocal {
+namespace glocal::clouds {
 
 enum class Scalar : std::uint8_t {
   int8,
@@ -28,4 +28,4 @@ enum class Scalar : std::uint8_t {
 /// The number in the `size_of(type)` bytes that begin here.
 [[nodiscard]] double number_at(const char* bytes, Scalar type, std::endian order);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

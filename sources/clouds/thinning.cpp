@@ -2,7 +2,7 @@
 
 #include "glocal/voxel_filter.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 /// The mean of each group's times. To first order it is when the mean of the group's points was measured.
@@ -26,4 +26,4 @@ void thin_out(Points& points, std::vector<float>& times, double side) {
   if (!times.empty()) times = mean_times(times, groups);
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

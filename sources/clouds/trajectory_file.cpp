@@ -12,7 +12,7 @@
 #include "glocal/words.hpp"
 #include "sources/text_lines.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 namespace {
 
 constexpr std::size_t tum_values = 8, kitti_values = 12;
@@ -118,4 +118,4 @@ Trajectory read_trajectory(const std::filesystem::path& file, double max_size_gb
   return parse_trajectory(read_decompressed(file, max_size_gb), file.string());
 }
 
-}  // namespace glocal
+}  // namespace glocal::clouds

@@ -9,7 +9,7 @@
 #include "glocal/pose3.hpp"
 #include "sources/compressed_file.hpp"
 
-namespace glocal {
+namespace glocal::clouds {
 
 struct StampedPose {
   double stamp = 0.0;  ///< s; never falls from pose to pose.
@@ -31,4 +31,4 @@ struct Trajectory {
 [[nodiscard]] Trajectory read_trajectory(const std::filesystem::path& file,
                                          double max_size_gb = default_max_size_gb);
 
-}  // namespace glocal
+}  // namespace glocal::clouds

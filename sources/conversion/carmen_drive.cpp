@@ -13,8 +13,11 @@
 #include "sources/carmen/carmen_writer.hpp"
 #include "sources/carmen/log_drive.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 namespace {
+
+using carmen::CarmenLaser;
+using carmen::CarmenScan;
 
 /// The laser's pose, if it is the same in all scans but for the six decimals that logs have.
 std::optional<Pose3> fixed_pose(const std::vector<CarmenScan>& scans, bool rear) {
@@ -113,7 +116,7 @@ CarmenScan carmen_scan(const DriveScan& scan, const std::string& file) {
 }
 
 CarmenDriveReader::CarmenDriveReader(const std::filesystem::path& file, double max_range)
-    : max_range_(max_range), scans_(read_carmen_log(file)) {
+    : max_range_(max_range), scans_(carmen::read_carmen_log(file)) {
   for (const CarmenScan& scan : scans_) check_stamp(scan.stamp, file.string(), scan.line);
   const auto has = [&](CarmenLaser laser) {
     return std::any_of(scans_.begin(), scans_.end(), [&](const CarmenScan& s) { return s.laser == laser; });
@@ -145,7 +148,7 @@ std::optional<DriveScan> CarmenDriveReader::next() {
 }
 
 void CarmenDriveWriter::write(const DriveScan& scan) {
-  sink_(carmen_lines(carmen_scan(scan, file_)));
+  sink_(carmen::carmen_lines(carmen_scan(scan, file_)));
 }
 
-}  // namespace glocal
+}  // namespace glocal::conversion

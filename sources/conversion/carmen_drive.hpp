@@ -12,36 +12,37 @@
 #include "sources/carmen/carmen_parser.hpp"
 #include "sources/conversion/drive_stream.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 
 /// What a Sick LMS can measure at most, m. Logs without ranges of their own (FLASER, RLASER) are its: what it
 /// reads beyond says that nothing was met.
 inline constexpr double sick_range = 80.0;
 
-/// The scan as ROS has it: readings that met nothing (LogParams) are infinite. `frame`: the laser's.
-[[nodiscard]] bags::LaserScan laser_scan(const CarmenScan& scan, double max_range, const std::string& frame);
+/// The scan as ROS has it: readings that met nothing (carmen::LogParams) are infinite. `frame`: the laser's.
+[[nodiscard]] bags::LaserScan laser_scan(const carmen::CarmenScan& scan, double max_range,
+                                         const std::string& frame);
 
 /// The scan as a line of ROBOTLASER1, seen from above: a laser mounted upside down is turned over, readings
 /// that met nothing are max_range, and those that say nothing are 0. Throws ConfigError, naming `file`, for
 /// clouds, a laser that is not level (by more than 1 deg), and scans of more than a turn.
-[[nodiscard]] CarmenScan carmen_scan(const DriveScan& scan, const std::string& file);
+[[nodiscard]] carmen::CarmenScan carmen_scan(const DriveScan& scan, const std::string& file);
 
 /// A log's scans: those of the front laser on /scan, those of the rear one on /scan_rear. The log is held in
 /// memory.
 class CarmenDriveReader final : public DriveReader {
  public:
-  /// `max_range`: m, for lines that do not say it. Throws ConfigError where read_carmen_log() does, and for
-  /// stamps that are before 1970 or after 2037.
+  /// `max_range`: m, for lines that do not say it. Throws ConfigError where carmen::read_carmen_log() does,
+  /// and for stamps that are before 1970 or after 2037.
   explicit CarmenDriveReader(const std::filesystem::path& file, double max_range = sick_range);
 
   [[nodiscard]] const std::vector<DriveSensor>& sensors() const override { return sensors_; }
   [[nodiscard]] std::optional<DriveScan> next() override;
 
  private:
-  std::size_t sensor_of(const CarmenScan& scan) const;
+  std::size_t sensor_of(const carmen::CarmenScan& scan) const;
 
   double max_range_;
-  std::vector<CarmenScan> scans_;
+  std::vector<carmen::CarmenScan> scans_;
   std::vector<DriveSensor> sensors_;
   std::size_t next_ = 0;
 };
@@ -61,4 +62,4 @@ class CarmenDriveWriter final : public DriveWriter {
   std::function<void(std::string_view)> sink_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::conversion

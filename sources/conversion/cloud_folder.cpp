@@ -5,13 +5,13 @@
 #include "glocal/error.hpp"
 #include "sources/clouds/cloud_file.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 
-CloudFolderReader::CloudFolderReader(const DriveFiles& files, const Warn& warn, TellProgress progress)
-    : clouds_(drive_clouds(files, warn)),
+CloudFolderReader::CloudFolderReader(const clouds::DriveFiles& files, const Warn& warn, TellProgress progress)
+    : clouds_(clouds::drive_clouds(files, warn)),
       sensors_{{"/points", "lidar", true, Pose3{}}},
       progress_(std::move(progress)) {
-  for (const DriveCloud& cloud : clouds_) {
+  for (const clouds::DriveCloud& cloud : clouds_) {
     if (!cloud.odometry)
       throw ConfigError({{files.folder.string(), 0, 0,
                           "has no odometry.tum, and a recording says where the robot was at each scan; give "
@@ -23,8 +23,8 @@ CloudFolderReader::CloudFolderReader(const DriveFiles& files, const Warn& warn, 
 std::optional<DriveScan> CloudFolderReader::next() {
   progress_(static_cast<double>(next_) / static_cast<double>(clouds_.size()));
   if (next_ == clouds_.size()) return std::nullopt;
-  const DriveCloud& source = clouds_[next_++];
-  Cloud cloud = read_cloud(source.file);
+  const clouds::DriveCloud& source = clouds_[next_++];
+  clouds::Cloud cloud = clouds::read_cloud(source.file);
   DriveScan scan;
   scan.stamp_ns = nanoseconds_of(source.stamp);
   scan.odom_from_robot = *source.odometry;
@@ -36,4 +36,4 @@ std::optional<DriveScan> CloudFolderReader::next() {
   return scan;
 }
 
-}  // namespace glocal
+}  // namespace glocal::conversion

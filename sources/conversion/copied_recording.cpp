@@ -13,7 +13,7 @@
 #include "sources/bags/cdr_writer.hpp"
 #include "sources/bags/message_definitions.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 namespace {
 
 /// What ROS 2 calls a type of ROS 1.
@@ -102,4 +102,4 @@ CopiedRecording copy_recording(bags::Recording& recording, bags::McapWriter::Sin
   return RecordingCopier(recording, std::move(sink)).copy();
 }
 
-}  // namespace glocal
+}  // namespace glocal::conversion

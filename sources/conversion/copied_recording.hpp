@@ -8,7 +8,7 @@
 #include "sources/bags/mcap_writer.hpp"
 #include "sources/bags/recording.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 
 struct CopiedRecording {
   std::size_t messages = 0;
@@ -19,4 +19,4 @@ struct CopiedRecording {
 /// bags::definition_of() knows in ROS 2's serialization. Throws ConfigError if nothing can be copied.
 [[nodiscard]] CopiedRecording copy_recording(bags::Recording& recording, bags::McapWriter::Sink sink);
 
-}  // namespace glocal
+}  // namespace glocal::conversion

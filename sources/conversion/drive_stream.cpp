@@ -7,7 +7,7 @@
 
 #include "glocal/error.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 
 std::int64_t nanoseconds_of(double stamp) {
   return std::llround(stamp * 1e6) * 1000;
@@ -46,4 +46,4 @@ DriveCounts pass_on(DriveReader& reader, DriveWriter& writer, const std::string&
   return counts;
 }
 
-}  // namespace glocal
+}  // namespace glocal::conversion

@@ -12,7 +12,7 @@
 #include "glocal/pose3.hpp"
 #include "sources/bags/messages.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 
 /// A laser or lidar.
 struct DriveSensor {
@@ -73,4 +73,4 @@ struct DriveCounts {
 /// warning. Throws ConfigError for a drive that has no other ones, and what reader and writer throw.
 DriveCounts pass_on(DriveReader& reader, DriveWriter& writer, const std::string& file, const Warn& warn);
 
-}  // namespace glocal
+}  // namespace glocal::conversion

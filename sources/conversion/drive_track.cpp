@@ -11,7 +11,7 @@
 #include "sources/clouds/trajectory_file.hpp"
 #include "sources/text_lines.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 namespace {
 
 /// Whether the first line that says something begins with a word, as messages of CARMEN do.
@@ -24,11 +24,11 @@ bool is_carmen_text(const std::string& content) {
 }
 
 bags::PoseTrack track_of_log(const std::filesystem::path& file) {
-  const std::vector<CarmenScan> scans = read_carmen_log(file);
+  const std::vector<carmen::CarmenScan> scans = carmen::read_carmen_log(file);
   const bool has_references =
-      std::any_of(scans.begin(), scans.end(), [](const CarmenScan& s) { return s.map_from_robot; });
+      std::any_of(scans.begin(), scans.end(), [](const carmen::CarmenScan& s) { return s.map_from_robot; });
   bags::PoseTrack track;
-  for (const CarmenScan& scan : scans) {
+  for (const carmen::CarmenScan& scan : scans) {
     check_stamp(scan.stamp, file.string(), scan.line);
     if (!has_references) track.add(nanoseconds_of(scan.stamp), scan.odom_from_robot);
     if (scan.map_from_robot) track.add(nanoseconds_of(scan.stamp), *scan.map_from_robot);
@@ -38,7 +38,7 @@ bags::PoseTrack track_of_log(const std::filesystem::path& file) {
 
 bags::PoseTrack track_of_trajectory(const std::string& content, const std::filesystem::path& file,
                                     const DriveTrack& drive) {
-  const Trajectory trajectory = parse_trajectory(content, file.string());
+  const clouds::Trajectory trajectory = clouds::parse_trajectory(content, file.string());
   if (!trajectory.has_stamps && trajectory.poses.size() != drive.scans.size())
     throw ConfigError({{file.string(), 0, 0,
                         fmt::format("has {} poses without stamps, and there are {} scans; write the "
@@ -46,7 +46,7 @@ bags::PoseTrack track_of_trajectory(const std::string& content, const std::files
                                     trajectory.poses.size(), drive.scans.size())}});
   bags::PoseTrack track;
   for (std::size_t i = 0; i < trajectory.poses.size(); ++i) {
-    const StampedPose& pose = trajectory.poses[i];
+    const clouds::StampedPose& pose = trajectory.poses[i];
     check_stamp(pose.stamp, file.string());
     track.add(trajectory.has_stamps ? nanoseconds_of(pose.stamp) : drive.scans[i].stamp_ns, pose.pose);
   }
@@ -111,4 +111,4 @@ std::optional<DriveScan> JoinedDrive::next() {
   return std::nullopt;
 }
 
-}  // namespace glocal
+}  // namespace glocal::conversion

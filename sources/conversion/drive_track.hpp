@@ -11,7 +11,7 @@
 #include "sources/bags/pose_track.hpp"
 #include "sources/conversion/drive_stream.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 
 /// A scan without its rays.
 struct TrackedScan {
@@ -66,4 +66,4 @@ class JoinedDrive final : public DriveReader {
   std::vector<DriveSensor> sensors_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::conversion

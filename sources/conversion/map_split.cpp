@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glocal {
+namespace glocal::conversion {
 namespace {
 
 /// Whether a place of the drive, as a share of its path, is in one of the segments.
@@ -79,4 +79,4 @@ std::string segments_yaml(const PathSegments& segments) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-}  // namespace glocal
+}  // namespace glocal::conversion

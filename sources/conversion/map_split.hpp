@@ -7,7 +7,7 @@
 #include "sources/conversion/drive_track.hpp"
 #include "sources/driven_path.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 
 /// Parts of a drive that have no scan in common.
 struct MapSplit {
@@ -29,4 +29,4 @@ inline constexpr double near_map_m = 2.0;
 /// "[[0, 0.3], [0.5, 0.8]]"
 [[nodiscard]] std::string segments_yaml(const PathSegments& segments);
 
-}  // namespace glocal
+}  // namespace glocal::conversion

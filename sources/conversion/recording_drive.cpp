@@ -12,7 +12,7 @@
 #include "sources/bags/message_definitions.hpp"
 #include "sources/bags/message_reader.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 namespace {
 
 constexpr std::int64_t longest_gap_ns = 500'000'000;  ///< Between poses that others are interpolated from.
@@ -125,4 +125,4 @@ void McapDriveWriter::write(const DriveScan& scan) {
        std::visit([](const auto& rays) { return bags::serialized(rays); }, scan.rays));
 }
 
-}  // namespace glocal
+}  // namespace glocal::conversion

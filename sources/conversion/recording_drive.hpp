@@ -14,7 +14,7 @@
 #include "sources/bags/recording.hpp"
 #include "sources/conversion/drive_stream.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 
 /// The scans of a recording. Memory holds its poses, and of its scans the stamps. Scans at whose time it is
 /// not known where the robot or its sensor was, and those that cannot be read, are left out, with a warning
@@ -61,4 +61,4 @@ class McapDriveWriter final : public DriveWriter {
   std::map<std::string, std::uint16_t> channels_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::conversion

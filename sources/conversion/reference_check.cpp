@@ -14,7 +14,7 @@
 #include "sources/compressed_file.hpp"
 #include "sources/text_lines.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 namespace {
 
 /// Two scans in a row, and how fast the robot was between them by odometry.
@@ -185,4 +185,4 @@ std::optional<RelationErrors> relation_errors(const std::vector<Relation>& relat
   return RelationErrors{ways.size(), mean(ways), ways[(ways.size() - 1) * 95 / 100], mean(turns)};
 }
 
-}  // namespace glocal
+}  // namespace glocal::conversion

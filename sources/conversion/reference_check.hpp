@@ -9,7 +9,7 @@
 
 #include "sources/conversion/drive_track.hpp"
 
-namespace glocal {
+namespace glocal::conversion {
 
 /// Where the reference moves otherwise than odometry from one scan to the next.
 struct ReferenceJump {
@@ -55,4 +55,4 @@ struct RelationErrors {
                                                             const std::vector<TrackedScan>& scans,
                                                             std::int64_t max_gap_ns);
 
-}  // namespace glocal
+}  // namespace glocal::conversion

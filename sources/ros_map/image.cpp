@@ -14,7 +14,7 @@
 #include "glocal/occupancy_grid.hpp"
 #include "sources/compressed_file.hpp"
 
-namespace glocal {
+namespace glocal::ros_map {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, std::string message) {
@@ -267,4 +267,4 @@ std::string png(const ByteImage& image) {
   return bytes;
 }
 
-}  // namespace glocal
+}  // namespace glocal::ros_map

@@ -8,7 +8,7 @@
 
 #include "sources/compressed_file.hpp"
 
-namespace glocal {
+namespace glocal::ros_map {
 
 /// One row of an image; row 0 is the top row.
 struct ImageRow {
@@ -41,4 +41,4 @@ struct ByteImage {
 /// The image as a grey PNG file.
 [[nodiscard]] std::string png(const ByteImage& image);
 
-}  // namespace glocal
+}  // namespace glocal::ros_map

@@ -10,7 +10,7 @@
 #include "glocal/yaml.hpp"
 #include "sources/ros_map/image.hpp"
 
-namespace glocal {
+namespace glocal::ros_map {
 namespace {
 
 /// What map savers paint unknown cells with. Its darkness of 0.19608 lies below some files' free_thresh of
@@ -139,4 +139,4 @@ MapData RosMap::load() {
   return map;
 }
 
-}  // namespace glocal
+}  // namespace glocal::ros_map

@@ -8,7 +8,7 @@
 #include "glocal/strategies.hpp"
 #include "sources/compressed_file.hpp"
 
-namespace glocal {
+namespace glocal::ros_map {
 
 /// The YAML file of a map server.
 struct RosMapFile {
@@ -44,4 +44,4 @@ class RosMap final : public MapSource {
 };
 void describe(ParamVisitor& v, RosMap::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::ros_map

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace glocal {
+namespace glocal::ros_map {
 namespace {
 
 char grey_of(Cell cell) {
@@ -58,4 +58,4 @@ std::string ros_map_yaml(const OccupancyGrid& grid, const std::string& image_nam
       image_name, grid.resolution, origin.x() + corner.x, origin.y() + corner.y, corner.theta);
 }
 
-}  // namespace glocal
+}  // namespace glocal::ros_map

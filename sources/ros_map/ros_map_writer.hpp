@@ -9,7 +9,7 @@
 #include "glocal/pose3.hpp"
 #include "sources/ros_map/image.hpp"
 
-namespace glocal {
+namespace glocal::ros_map {
 
 /// Occupied black, free white, unknown grey (205), as map savers write it.
 [[nodiscard]] ByteImage trinary_image(const OccupancyGrid& grid);
@@ -22,4 +22,4 @@ void write_trinary_pgm(const OccupancyGrid& grid, const std::function<void(std::
 [[nodiscard]] std::string ros_map_yaml(const OccupancyGrid& grid, const std::string& image_name,
                                        const Vector3& origin = Vector3::Zero());
 
-}  // namespace glocal
+}  // namespace glocal::ros_map

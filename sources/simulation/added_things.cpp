@@ -12,7 +12,7 @@
 #include "sources/grid_ray.hpp"
 #include "sources/simulation/clear_cells.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 /// Draws for a box; where so many find no room there is hardly any.
@@ -134,4 +134,4 @@ std::vector<Rectangle> drawn_boxes(int count, const OccupancyGrid& grid, const C
   return boxes;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -9,7 +9,7 @@
 #include "sources/simulation/clear_region.hpp"
 #include "sources/simulation/world.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// People who walk to and fro, each between two places drawn in a region, by a shortest way, at 0.4 to 1.2
 /// m/s.
@@ -23,4 +23,4 @@ namespace glocal {
                                                  const std::vector<std::vector<Position>>& ways,
                                                  double clearance, Rng rng, const std::string& file);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 
-namespace glocal {
+namespace glocal::simulation {
 
 NearCells::NearCells(double distance, const OccupancyGrid& grid) : width_(grid.width), height_(grid.height) {
   const double reach = distance / grid.resolution;
@@ -61,4 +61,4 @@ std::optional<std::size_t> cell_under(const Position& place, const OccupancyGrid
   return grid.index(static_cast<int>(column), static_cast<int>(row));
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

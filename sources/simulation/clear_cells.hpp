@@ -8,7 +8,7 @@
 #include "glocal/occupancy_grid.hpp"
 #include "sources/simulation/shapes.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// Marks the cells around others.
 class NearCells {
@@ -31,4 +31,4 @@ class NearCells {
 /// Index of the cell under a place of the map; none off the grid.
 [[nodiscard]] std::optional<std::size_t> cell_under(const Position& place, const OccupancyGrid& grid);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -10,7 +10,7 @@
 #include "sources/grid_ray.hpp"
 #include "sources/simulation/clear_cells.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 /// To a neighbouring cell: first those over a side, then those over the corner between a side and the next.
@@ -264,4 +264,4 @@ std::vector<Position> ClearRegion::tightened(const std::vector<Position>& way) c
   }
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

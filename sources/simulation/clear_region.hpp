@@ -9,7 +9,7 @@
 #include "glocal/rng.hpp"
 #include "sources/simulation/shapes.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// Clear cells of a grid that can be reached from one another, over sides of clear cells.
 class ClearRegion {
@@ -51,4 +51,4 @@ class ClearRegion {
   std::vector<char> is_inside_;  ///< Of each cell of the grid.
 };
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -4,7 +4,7 @@
 
 #include "sources/simulation/occupancy_ray.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 void describe(ParamVisitor& v, OdometryParams& p) {
   v.field("distance_bias", p.distance_bias,
@@ -116,4 +116,4 @@ void describe(ParamVisitor& v, LidarDriveParams& p) {
             "scan_time must be at most step_seconds: a scan is over before the next one begins");
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

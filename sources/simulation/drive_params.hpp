@@ -9,7 +9,7 @@
 #include "sources/simulation/occupancy_ray.hpp"
 #include "sources/simulation/shapes.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// Each step's motion is measured with an error that always is the same and one that is drawn anew.
 struct OdometryParams {
@@ -61,4 +61,4 @@ struct LidarDriveParams : DriveParams {
 };
 void describe(ParamVisitor& v, LidarDriveParams& p);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -6,7 +6,7 @@
 
 #include "sources/simulation/occupancy_ray.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 DrivingRobot::DrivingRobot(Route route, const DriveParams& params, std::uint64_t seed)
     : odometry_(params.odometry), step_seconds_(params.step_seconds), rng_(seed), route_(std::move(route)) {}
@@ -58,10 +58,10 @@ DriveSimulator::DriveSimulator(const LaserDriveParams& params, std::uint64_t see
       reality_(shapes_in_reality(world_)),
       robot_(std::move(drive.route), params, seed) {}
 
-std::optional<CarmenScan> DriveSimulator::next() {
+std::optional<carmen::CarmenScan> DriveSimulator::next() {
   const std::optional<DriveStep> step = robot_.next();
   if (!step) return std::nullopt;
-  CarmenScan scan = measure(*step);
+  carmen::CarmenScan scan = measure(*step);
   scan.stamp = step->stamp;
   scan.odom_from_robot = step->odom_from_robot;
   scan.map_from_robot->x += origin_.x();
@@ -69,7 +69,7 @@ std::optional<CarmenScan> DriveSimulator::next() {
   return scan;
 }
 
-CarmenScan DriveSimulator::measure(const DriveStep& step) const {
+carmen::CarmenScan DriveSimulator::measure(const DriveStep& step) const {
   const Pose2 map_from_laser = step.map_from_robot * robot_from_laser(laser_);
   // A map is looked at from beyond the last cell that matters, as rays stop before the cell they end in.
   const double reach = laser_.max_range + (map_ ? 2.0 * map_->resolution : 0.0);
@@ -86,4 +86,4 @@ CarmenScan DriveSimulator::measure(const DriveStep& step) const {
                         robot_.stream(DriveStream::laser, step.number));
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -12,7 +12,7 @@
 #include "sources/simulation/near_shapes.hpp"
 #include "sources/simulation/planned_drive.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// Where the robot is when it measures.
 struct DriveStep {
@@ -56,11 +56,11 @@ class DriveSimulator {
 
   /// The scan of the next step, with its reference pose; none at the end of the drive. Rays that meet nothing
   /// within the laser's range read max_range, those that are lost in unknown cells of a map 0.
-  [[nodiscard]] std::optional<CarmenScan> next();
+  [[nodiscard]] std::optional<carmen::CarmenScan> next();
   void start_over() { robot_.start_over(); }
 
  private:
-  [[nodiscard]] CarmenScan measure(const DriveStep& step) const;
+  [[nodiscard]] carmen::CarmenScan measure(const DriveStep& step) const;
 
   LaserParams laser_;
   double max_unknown_;
@@ -71,4 +71,4 @@ class DriveSimulator {
   DrivingRobot robot_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::simulation

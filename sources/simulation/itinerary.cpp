@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 std::map<Position, std::vector<std::size_t>> neighbours_of(const std::vector<Position>& way_points) {
@@ -58,4 +58,4 @@ std::size_t Itinerary::next_of_tour() {
   return choices[rng_.below(static_cast<std::uint32_t>(choices.size()))];
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

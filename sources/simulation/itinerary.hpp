@@ -9,7 +9,7 @@
 #include "glocal/rng.hpp"
 #include "sources/simulation/shapes.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// The way points of a world one after the other; or a random tour, that takes pairs of consecutive way
 /// points for ways which meet at equal ones, and turns back only where there is no other.
@@ -41,4 +41,4 @@ class Itinerary {
   bool has_to_get_there_ = false;  ///< `at_` is still to be driven to.
 };
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace glocal {
+namespace glocal::simulation {
 
 void describe(ParamVisitor& v, LaserParams& p) {
   v.field("fov_deg", p.fov_deg,
@@ -44,10 +44,10 @@ Pose2 robot_from_laser(const LaserParams& laser) {
   return {laser.x, laser.y, wrap_angle(radians(laser.yaw_deg))};
 }
 
-CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
-                          const RayDistance& ray_distance, Rng rng) {
-  CarmenScan scan;
-  scan.laser = CarmenLaser::robotlaser1;
+carmen::CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
+                                  const RayDistance& ray_distance, Rng rng) {
+  carmen::CarmenScan scan;
+  scan.laser = carmen::CarmenLaser::robotlaser1;
   scan.start_angle = -radians(laser.fov_deg) / 2.0;
   scan.angle_step = radians(laser.step_deg);
   scan.max_range = laser.max_range;
@@ -67,8 +67,8 @@ CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
   return scan;
 }
 
-LogParams scan_limits(const LaserParams& laser) {
-  LogParams limits;
+carmen::LogParams scan_limits(const LaserParams& laser) {
+  carmen::LogParams limits;
   limits.keyframes = {0.0, 0.0};
   limits.min_range = 1e-6;  // 0 says nothing
   limits.max_range = laser.max_range;
@@ -76,4 +76,4 @@ LogParams scan_limits(const LaserParams& laser) {
   return limits;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

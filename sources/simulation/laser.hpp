@@ -9,7 +9,7 @@
 #include "sources/carmen/log_drive.hpp"
 #include "sources/simulation/shapes.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// The defaults are a Sick LMS 200 in its 8 m mode.
 struct LaserParams {
@@ -32,11 +32,11 @@ using RayDistance = std::function<double(const Position& origin, const Position&
 
 /// What the laser measures from a robot pose. Rays that meet nothing within its range read max_range, those
 /// of which nothing is known 0. Stamp and odometry are left to the caller.
-[[nodiscard]] CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
-                                        const RayDistance& ray_distance, Rng rng);
+[[nodiscard]] carmen::CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
+                                                const RayDistance& ray_distance, Rng rng);
 
 /// How a log of such scans is to be read: every scan is used, and what a simulated laser does not see within
 /// its range is not there.
-[[nodiscard]] LogParams scan_limits(const LaserParams& laser);
+[[nodiscard]] carmen::LogParams scan_limits(const LaserParams& laser);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

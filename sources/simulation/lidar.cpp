@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-namespace glocal {
+namespace glocal::simulation {
 
 void describe(ParamVisitor& v, LidarParams& p) {
   v.field("beams", p.beams, {.doc = "Number of beams, one above the other.", .min = 1, .max = 1024});
@@ -104,4 +104,4 @@ Quaternion Swaying::at(double steps) const {
   return composed(exponential({0.0, sum(pitch_), 0.0}), exponential({sum(roll_), 0.0, 0.0}));
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

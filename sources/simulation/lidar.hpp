@@ -9,7 +9,7 @@
 #include "glocal/pose3.hpp"
 #include "glocal/rng.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// How a lidar measures, and how it is carried about. The defaults are much like a Velodyne
 /// VLP-16 on a robot of medium height.
@@ -62,4 +62,4 @@ class Swaying {
   std::vector<Wave> pitch_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::simulation

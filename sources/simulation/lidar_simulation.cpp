@@ -10,7 +10,7 @@
 
 #include "glocal/error.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 /// A share of the way from pose to pose, as the robot drives it: straight, and turning evenly.
@@ -96,4 +96,4 @@ void LidarSimulation::check_ways() const {
   }
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -10,7 +10,7 @@
 #include "sources/simulation/drive_simulator.hpp"
 #include "sources/simulation/scene.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// A drive through a simulated world with a lidar. The robot's frame is the sensor's: a height over the
 /// floor, rolled and pitched as the robot sways. Odometry measures x, y and yaw as that of a planar drive
@@ -44,4 +44,4 @@ class LidarSimulation final : public ObservationSource {
   Swaying swaying_;
 };
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 constexpr double least_side = 10.0;  // m
@@ -104,4 +104,4 @@ void NearShapes::sort_in(std::uint32_t shape, const Position& low, const Positio
   }
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -7,7 +7,7 @@
 
 #include "sources/simulation/shapes.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// Segments and circles of a world of any size, of which a laser sees those around it.
 class NearShapes {
@@ -37,4 +37,4 @@ class NearShapes {
   std::vector<std::uint32_t> wide_;  ///< Those that are in too many cells.
 };
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -4,7 +4,7 @@
 
 #include "sources/grid_ray.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 double ray_distance(const OccupancyGrid& grid, const Position& origin, const Position& direction,
                     double reach, double max_unknown, double thing) {
@@ -33,4 +33,4 @@ double ray_distance(const OccupancyGrid& grid, const Position& origin, const Pos
   return is_lost(distance / reach) ? std::numeric_limits<double>::quiet_NaN() : distance;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

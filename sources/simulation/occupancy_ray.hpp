@@ -6,7 +6,7 @@
 #include "glocal/occupancy_grid.hpp"
 #include "sources/simulation/shapes.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// Distance (m) from a place on the map along a unit vector to where the ray enters an occupied cell, or to
 /// `thing` (m), where it meets what is not on the map; infinite if there is neither within `reach` (m). Not a
@@ -19,4 +19,4 @@ namespace glocal {
 /// As walls have blurred rims, m: what `max_unknown` is in simulations.
 constexpr double unknown_rim = 0.2;
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -13,7 +13,7 @@
 #include "sources/simulation/clear_cells.hpp"
 #include "sources/simulation/world_grid.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 constexpr double most_observations = 1e6;
@@ -149,7 +149,7 @@ void make_relative(LaserDriveParams& params, const Vector3& origin) {
 
 PlannedDrive drive_in_map(LaserDriveParams params, const SourceSetup& setup) {
   params.world = params.map;  // Where it drives, as faults tell.
-  MapData map = RosMap({params.map}, setup).load();
+  MapData map = ros_map::RosMap({params.map}, setup).load();
   make_relative(params, map.origin);
   PlannedDrive drive{{}, std::move(map.grid), {}, {}, map.origin};
   const OccupancyGrid& grid = *drive.map;
@@ -206,4 +206,4 @@ PlannedDrive planned_drive(const LidarDriveParams& params, const SourceSetup& se
   return drive_in_world(params, setup, true);
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -14,7 +14,7 @@
 #include "sources/simulation/ways.hpp"
 #include "sources/simulation/world.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// Streams of random numbers, one for each thing that is drawn on a drive.
 enum class DriveStream : std::uint64_t { laser, odometry, tour, lidar, sway, tilt, people, boxes };
@@ -34,8 +34,8 @@ struct PlannedDrive {
   World world;                       ///< Of a map: only what nobody has mapped.
   std::optional<OccupancyGrid> map;  ///< That the robot drives in, if it is one.
   Route route;
-  std::optional<CloudVoxels> cloud;  ///< Of the world, if it has one that somebody asks for.
-  Vector3 origin = Vector3::Zero();  ///< Of the map: all places are relative to it.
+  std::optional<clouds::CloudVoxels> cloud;  ///< Of the world, if it has one that somebody asks for.
+  Vector3 origin = Vector3::Zero();          ///< Of the map: all places are relative to it.
 };
 
 /// Along the way points of a world, with nothing in it but what the world has. Throws ConfigError where
@@ -47,4 +47,4 @@ struct PlannedDrive {
 [[nodiscard]] PlannedDrive planned_drive(const LaserDriveParams& params, const SourceSetup& setup);
 [[nodiscard]] PlannedDrive planned_drive(const LidarDriveParams& params, const SourceSetup& setup);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -9,7 +9,7 @@
 #include "sources/simulation/clear_cells.hpp"
 #include "sources/simulation/occupancy_ray.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 enum Stream : std::uint64_t { pose_stream, laser_stream };
@@ -39,7 +39,7 @@ void describe(ParamVisitor& v, RandomScans::Params& p) {
 
 RandomScans::RandomScans(const Params& params, const SourceSetup& setup)
     : params_(params),
-      map_(RosMap(params.map, setup).load()),
+      map_(ros_map::RosMap(params.map, setup).load()),
       clear_cells_(marked(clear_cells(map_.grid, params.clearance))),
       scan_limits_(scan_limits(params.laser)),
       rng_(setup.seed) {
@@ -69,10 +69,10 @@ std::optional<Sample> RandomScans::next() {
   const auto distance_to_cells = [&](const Position& origin, const Position& direction) {
     return ray_distance(map_.grid, origin, direction, reach, params_.max_unknown);
   };
-  const CarmenScan scan =
+  const carmen::CarmenScan scan =
       simulated_scan(params_.laser, map_from_robot, distance_to_cells, rng_.stream({laser_stream, next_}));
-  const Observation observation{static_cast<double>(next_), robot_scan(scan, scan_limits_), {}};
+  const Observation observation{static_cast<double>(next_), carmen::robot_scan(scan, scan_limits_), {}};
   return Sample{observation, shifted(map_from_robot, map_.origin), static_cast<int>(next_++)};
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

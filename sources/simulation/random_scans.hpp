@@ -13,21 +13,21 @@
 #include "sources/simulation/laser.hpp"
 #include "sources/simulation/occupancy_ray.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// Poses drawn uniformly in the free cells of a map, headings too, and a scan cast through the map's cells at
 /// each. Odometry means nothing: every scan is a segment of its own.
 class RandomScans final : public ObservationSource {
  public:
   struct Params {
-    RosMap::Params map;
+    ros_map::RosMap::Params map;
     int count = 100;
     double clearance = 0.3;
     double max_unknown = unknown_rim;  ///< As in LaserDriveParams.
     LaserParams laser;
   };
 
-  /// Throws ConfigError where RosMap does, and for a map without a cell that is free and clear.
+  /// Throws ConfigError where ros_map::RosMap does, and for a map without a cell that is free and clear.
   RandomScans(const Params& params, const SourceSetup& setup);
 
   [[nodiscard]] std::optional<Sample> next() override;
@@ -38,10 +38,10 @@ class RandomScans final : public ObservationSource {
   Params params_;
   MapData map_;
   std::vector<std::size_t> clear_cells_;  ///< Indexes of the cells a pose may lie in.
-  LogParams scan_limits_;
+  carmen::LogParams scan_limits_;
   Rng rng_;
   std::size_t next_ = 0;
 };
 void describe(ParamVisitor& v, RandomScans::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

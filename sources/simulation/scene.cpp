@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::infinity();
@@ -19,7 +19,7 @@ double distance_to_level(double height, double z, double rise) {
 
 }  // namespace
 
-Scene::Scene(World world, std::optional<CloudVoxels> cloud)
+Scene::Scene(World world, std::optional<clouds::CloudVoxels> cloud)
     : world_(std::move(world)), reality_(shapes_in_reality(world_)), cloud_(std::move(cloud)) {}
 
 void Scene::look_around(const Position& place, double reach, double time) {
@@ -42,4 +42,4 @@ double Scene::cloud_distance(const Vector3& origin, const Vector3& direction, do
   return cloud_ ? cloud_->ray_distance(origin, direction, reach) : nothing;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -6,13 +6,13 @@
 #include "sources/clouds/cloud_voxels.hpp"
 #include "sources/simulation/world.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// What is there in reality: things, people, floor and ceiling, and the world's cloud.
 class Scene {
  public:
   /// `cloud`: the world's, if it has one.
-  explicit Scene(World world, std::optional<CloudVoxels> cloud = {});
+  explicit Scene(World world, std::optional<clouds::CloudVoxels> cloud = {});
 
   /// What may be within `reach` (m) of a place at a time (s after the start).
   void look_around(const Position& place, double reach, double time);
@@ -25,9 +25,9 @@ class Scene {
  private:
   World world_;
   Shapes reality_;
-  std::optional<CloudVoxels> cloud_;
+  std::optional<clouds::CloudVoxels> cloud_;
   Shapes near_;         ///< What look_around() has found.
   double reach_ = 0.0;  ///< m
 };
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -152,4 +152,4 @@ double clearance(const Shapes& shapes, const Position& place) {
   return nearest;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -7,7 +7,7 @@
 
 #include "glocal/pose3.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 using Position = std::array<double, 2>;  ///< x, y (m)
 
@@ -60,4 +60,4 @@ struct Shapes {
 /// Distance from a place to the nearest shape's outline, m.
 [[nodiscard]] double clearance(const Shapes& shapes, const Position& place);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

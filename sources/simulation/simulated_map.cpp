@@ -6,7 +6,7 @@
 #include "sources/simulation/surface_points.hpp"
 #include "sources/simulation/world_grid.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 void describe(ParamVisitor& v, SimulatedMap::Params& p) {
   v.field("world", p.world, {.doc = "File that describes the world.", .required = true});
   v.field("resolution", p.resolution,
@@ -49,4 +49,4 @@ MapData SimulatedMap::load() {
   return map;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -6,7 +6,7 @@
 #include "sources/carmen/carmen_log.hpp"
 #include "sources/carmen/carmen_writer.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 Simulation::Simulation(const Params& params, const SourceSetup& setup)
     : scan_limits_(scan_limits(params.laser)), simulator_(params, setup) {}
@@ -16,14 +16,14 @@ Simulation::Simulation(const Params& params, World world, std::uint64_t seed)
       simulator_(params, seed, drive_in(std::move(world), params, seed)) {}
 
 std::optional<Sample> Simulation::next() {
-  const std::optional<CarmenScan> scan = simulator_.next();
+  const std::optional<carmen::CarmenScan> scan = simulator_.next();
   if (!scan) return std::nullopt;
   return Sample{
-      {scan->stamp, robot_scan(*scan, scan_limits_), scan->odom_from_robot}, scan->map_from_robot, 0};
+      {scan->stamp, carmen::robot_scan(*scan, scan_limits_), scan->odom_from_robot}, scan->map_from_robot, 0};
 }
 
 std::optional<Recording> Simulation::recording() const {
-  auto log = std::make_unique<ParamsOf<CarmenLog::Params>>();
+  auto log = std::make_unique<ParamsOf<carmen::CarmenLog::Params>>();
   log->value = scan_limits_;
   Recording recording{.file_name = "drive.log", .content = {}, .observations = 0, .source = {}};
   log->value.path = {recording.file_name, recording.file_name};
@@ -31,10 +31,10 @@ std::optional<Recording> Simulation::recording() const {
   DriveSimulator simulator = simulator_;
   simulator.start_over();
   while (const auto scan = simulator.next()) {
-    recording.content += carmen_lines(*scan);
+    recording.content += carmen::carmen_lines(*scan);
     ++recording.observations;
   }
   return recording;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -12,7 +12,7 @@
 #include "sources/simulation/drive_simulator.hpp"
 #include "sources/simulation/world.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// A drive through a simulated world or a map, with a planar laser.
 class Simulation final : public ObservationSource {
@@ -29,7 +29,7 @@ class Simulation final : public ObservationSource {
   [[nodiscard]] std::optional<Recording> recording() const override;
 
  private:
-  LogParams scan_limits_;
+  carmen::LogParams scan_limits_;
   DriveSimulator simulator_;
 };
 
@@ -55,4 +55,4 @@ class SimulatedMap final : public MapSource {
 };
 void describe(ParamVisitor& v, SimulatedMap::Params& p);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -12,7 +12,7 @@
 #include "glocal/voxel_filter.hpp"
 #include "sources/clouds/cloud_file.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 double length_of(const Segment& s) {
@@ -136,7 +136,7 @@ Points surface_points(const World& world, const OccupancyGrid& plan, const std::
   if (world.cloud.text.empty()) {
     add_floor(world, plan, floor);
   } else {
-    cloud = voxel_downsampled(read_cloud(world.cloud.resolved, {}).points, side);
+    cloud = voxel_downsampled(clouds::read_cloud(world.cloud.resolved, {}).points, side);
   }
   Points points;
   for (const Points& part : {voxel_downsampled(things.points(), side), floor.points(), cloud}) {
@@ -147,4 +147,4 @@ Points surface_points(const World& world, const OccupancyGrid& plan, const std::
   return points;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -10,7 +10,7 @@
 #include "glocal/error.hpp"
 #include "sources/simulation/clear_cells.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 WorldWays::WorldWays(const World& world) : places_(world.way_points), reality_(shapes_in_reality(world)) {}
 
@@ -110,4 +110,4 @@ ClearRegion checked_region(ClearRegion region, double clearance, const std::stri
                     clearance)}});
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

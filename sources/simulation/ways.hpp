@@ -10,7 +10,7 @@
 #include "sources/simulation/itinerary.hpp"
 #include "sources/simulation/world.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// What a drive through a world and one through a map have in common.
 class Ways {
@@ -83,4 +83,4 @@ class MapWays final : public Ways {
 /// `clearance` (m) away from all others.
 [[nodiscard]] ClearRegion checked_region(ClearRegion region, double clearance, const std::string& file);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -11,7 +11,7 @@
 #include "glocal/pose2.hpp"
 #include "glocal/yaml.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
 
 constexpr double lengths = 1000.0;       // m; nothing is larger or farther away
@@ -249,4 +249,4 @@ std::vector<Circle> people_at(const World& world, double time) {
   return circles;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -8,7 +8,7 @@
 #include "glocal/params.hpp"
 #include "sources/simulation/shapes.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// Where a thing is: on the map, in reality, or (as a rule) both.
 struct Presence {
@@ -96,4 +96,4 @@ void describe(ParamVisitor& v, World& p);
 /// Where people are `time` seconds after the start.
 [[nodiscard]] std::vector<Circle> people_at(const World& world, double time);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

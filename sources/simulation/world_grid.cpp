@@ -15,8 +15,10 @@
 #include "sources/clouds/cloud_file.hpp"
 #include "sources/simulation/clear_cells.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 namespace {
+
+using clouds::CloudVoxels;
 
 constexpr double fine_resolution = 0.05;  // m
 constexpr double most_cells = 4e6;        // of reality, by which nothing is measured
@@ -232,7 +234,7 @@ OccupancyGrid reality_of(const World& world) {
 
 CloudVoxels voxels_of(const World& world) {
   const std::filesystem::path& file = world.cloud.resolved;
-  return {read_cloud(file), world.cloud_voxel_size, file.string()};
+  return {clouds::read_cloud(file), world.cloud_voxel_size, file.string()};
 }
 
 OccupancyGrid floor_near(const std::vector<Position>& places, const World& world, const CloudVoxels& cloud,
@@ -266,4 +268,4 @@ OccupancyGrid floor_near(const std::vector<Position>& places, const World& world
   return floor;
 }
 
-}  // namespace glocal
+}  // namespace glocal::simulation

@@ -8,7 +8,7 @@
 #include "sources/clouds/cloud_voxels.hpp"
 #include "sources/simulation/world.hpp"
 
-namespace glocal {
+namespace glocal::simulation {
 
 /// What the map of a world shows, seen from above: outlines, one cell thick, and the free space around the
 /// places of `free_from`. Cells are centred on multiples of the resolution (m).
@@ -19,7 +19,7 @@ namespace glocal {
 [[nodiscard]] OccupancyGrid reality_of(const World& world);
 
 /// The voxels of a world's cloud. Throws ConfigError if that is none, or too large.
-[[nodiscard]] CloudVoxels voxels_of(const World& world);
+[[nodiscard]] clouds::CloudVoxels voxels_of(const World& world);
 
 /// Where things can stand and people can walk in a world with a cloud, within 10 m of some places: a cell for
 /// each column of voxels. Free is the cloud's floor as far as it can be reached from the places through
@@ -27,6 +27,6 @@ namespace glocal {
 /// others from there to 2 m over it, nor things. Throws ConfigError at `file`, the world's, if there is no
 /// such floor, or if there were too many cells.
 [[nodiscard]] OccupancyGrid floor_near(const std::vector<Position>& places, const World& world,
-                                       const CloudVoxels& cloud, const std::string& file);
+                                       const clouds::CloudVoxels& cloud, const std::string& file);
 
-}  // namespace glocal
+}  // namespace glocal::simulation

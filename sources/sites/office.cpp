@@ -21,14 +21,14 @@ void describe_office(ParamVisitor& v, OfficeParams& p) {
               "the same."});
 }
 
-World office_of(const OfficeParams& p) {
+simulation::World office_of(const OfficeParams& p) {
   return office_site(p.side, p.length.value_or(usual_length(p.side)), p.number);
 }
 
 }  // namespace
 
-LaserDriveParams office_drive() {
-  LaserDriveParams params;
+simulation::LaserDriveParams office_drive() {
+  simulation::LaserDriveParams params;
   params.step_length = 0.3;
   params.step_turn_deg = 15.0;
   params.step_seconds = 0.5;
@@ -50,7 +50,7 @@ void describe(ParamVisitor& v, OfficeMap::Params& p) {
 
 MapData OfficeMap::load() {
   MapData map;
-  map.grid = plan_of(office_of(params_), params_.resolution);
+  map.grid = simulation::plan_of(office_of(params_), params_.resolution);
   map.points = occupied_centres(map.grid);
   return map;
 }

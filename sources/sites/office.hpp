@@ -19,7 +19,7 @@ struct OfficeParams {
 };
 
 /// How the robot drives and measures there.
-[[nodiscard]] LaserDriveParams office_drive();
+[[nodiscard]] simulation::LaserDriveParams office_drive();
 
 /// Way driven where nothing is said, m: so long that starts are all over the office.
 [[nodiscard]] double usual_length(double side);
@@ -49,7 +49,7 @@ class OfficeDrive final : public ObservationSource {
   [[nodiscard]] std::optional<Recording> recording() const override { return simulation_.recording(); }
 
  private:
-  Simulation simulation_;
+  simulation::Simulation simulation_;
 };
 void describe(ParamVisitor& v, OfficeDrive::Params& p);
 

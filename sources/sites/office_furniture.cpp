@@ -12,6 +12,9 @@
 namespace glocal::sites {
 namespace {
 
+using simulation::Position;
+using simulation::World;
+
 // Lengths in m.
 constexpr double furniture_gap = 0.03;                           // between pieces, and to walls
 constexpr double margin = wall_thickness / 2.0 + furniture_gap;  // from the middle of a wall
@@ -49,7 +52,7 @@ bool overlap(const Piece& a, const Piece& b) {
 
 /// What reaches from one corner to the opposite one.
 Piece between_corners(const Position& a, const Position& b) {
-  return {.centre = between(a, b, 0.5), .size = {std::abs(b[0] - a[0]), std::abs(b[1] - a[1])}};
+  return {.centre = simulation::between(a, b, 0.5), .size = {std::abs(b[0] - a[0]), std::abs(b[1] - a[1])}};
 }
 
 enum class Side { front, back, left, right };
@@ -232,17 +235,17 @@ void put_own(Layout& layout) {
   for (std::uint32_t i = 0; i < count; ++i) layout.put_along_wall(lengths[layout.rng().below(4)], 0.4);
 }
 
-void add_to_world(const Piece& piece, const Frame& frame, Presence presence, World& world) {
+void add_to_world(const Piece& piece, const Frame& frame, simulation::Presence presence, World& world) {
   const Position at = frame.at(piece.centre[0], piece.centre[1]);
   if (piece.kind == Kind::chair) {
-    RoundThing chair;
+    simulation::RoundThing chair;
     chair.centre = {at[0], at[1]};
     chair.radius = piece.size[0] / 2.0;
     chair.presence = presence;
     world.circles.push_back(chair);
     return;
   }
-  Rectangle box;
+  simulation::Rectangle box;
   box.centre = {at[0], at[1]};
   box.size = {piece.size[0], piece.size[1]};
   box.angle_deg = degrees(std::atan2(frame.x_axis[1], frame.x_axis[0])) + piece.angle_deg;

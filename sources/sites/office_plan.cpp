@@ -11,6 +11,8 @@
 namespace glocal::sites {
 namespace {
 
+using simulation::World;
+
 constexpr double module = 0.6;                // m; everything is a multiple of it
 constexpr double outer_wall_thickness = 0.3;  // m
 constexpr double door_offset = 0.75;          // m, from the nearer wall's middle to the door's
@@ -172,8 +174,8 @@ class RowOfRooms {
 };
 
 /// A box between two places.
-void add_box(const Position& a, const Position& b, World& world) {
-  Rectangle box;
+void add_box(const simulation::Position& a, const simulation::Position& b, World& world) {
+  simulation::Rectangle box;
   box.centre = {(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0};
   box.size = {std::abs(b[0] - a[0]), std::abs(b[1] - a[1])};
   world.rectangles.push_back(box);
@@ -199,9 +201,9 @@ void add_front(const Room& room, World& world) {
 }
 
 /// A leaf, which turns about the side of the door that is nearer to a wall.
-void add_leaf(const Room& room, double angle, Presence presence, World& world) {
+void add_leaf(const Room& room, double angle, simulation::Presence presence, World& world) {
   const double hinge = room.door - door_width / 2.0;
-  Wall leaf;
+  simulation::Wall leaf;
   leaf.points = {room.frame.at(hinge, 0.0),
                  room.frame.at(hinge + door_width * std::cos(angle), door_width * std::sin(angle))};
   leaf.presence = presence;
@@ -210,8 +212,8 @@ void add_leaf(const Room& room, double angle, Presence presence, World& world) {
 
 void add_door(const Room& room, Rng rng, World& world) {
   const auto drawn_angle = [&] { return radians(rng.uniform(84.0, 103.0)); };
-  constexpr Presence only_on_map{true, false};
-  constexpr Presence only_in_reality{false, true};
+  constexpr simulation::Presence only_on_map{true, false};
+  constexpr simulation::Presence only_in_reality{false, true};
   const double mapped = drawn_angle();
   const double real = drawn_angle();
   switch (room.state) {

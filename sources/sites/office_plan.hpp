@@ -24,12 +24,12 @@ struct Span {
 
 /// Axes of a part of the building, along those of the world or across them, either way round.
 struct Frame {
-  Position origin{};
-  Position x_axis{1.0, 0.0};
-  Position y_axis{0.0, 1.0};
+  simulation::Position origin{};
+  simulation::Position x_axis{1.0, 0.0};
+  simulation::Position y_axis{0.0, 1.0};
 
   /// A place (m) in the world's frame.
-  [[nodiscard]] Position at(double x, double y) const {
+  [[nodiscard]] simulation::Position at(double x, double y) const {
     return {origin[0] + x * x_axis[0] + y * y_axis[0], origin[1] + x * x_axis[1] + y * y_axis[1]};
   }
 };
@@ -71,6 +71,6 @@ struct OfficePlan {
 [[nodiscard]] OfficePlan office_plan(double side, Rng rng);
 
 /// Walls, doors and pillars.
-void add_walls(const OfficePlan& plan, Rng rng, World& world);
+void add_walls(const OfficePlan& plan, Rng rng, simulation::World& world);
 
 }  // namespace glocal::sites

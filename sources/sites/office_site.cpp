@@ -12,10 +12,10 @@ enum class Part : std::uint64_t { plan, walls, furniture, tour };
 
 }  // namespace
 
-World office_site(double side, double drive_length, std::uint64_t seed) {
+simulation::World office_site(double side, double drive_length, std::uint64_t seed) {
   const auto stream = [&](Part part) { return Rng(seed).stream({static_cast<std::uint64_t>(part)}); };
   const OfficePlan plan = office_plan(side, stream(Part::plan));
-  World world;
+  simulation::World world;
   world.size = {side, side};
   add_walls(plan, stream(Part::walls), world);
   furnish(plan, stream(Part::furniture), world);

@@ -9,6 +9,9 @@
 namespace glocal::sites {
 namespace {
 
+using simulation::distance;
+using simulation::Position;
+
 constexpr double visited = 0.12;  // share of the rooms on the way that the robot drives into
 
 /// Where a corridor and a cross corridor meet.
@@ -82,7 +85,7 @@ class Tour {
       way_points_.pop_back();
       const double way = distance(way_points_.back(), last);
       if (way > excess) {
-        way_points_.push_back(between(last, way_points_.back(), excess / way));
+        way_points_.push_back(simulation::between(last, way_points_.back(), excess / way));
         return;
       }
       excess -= way;

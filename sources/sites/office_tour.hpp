@@ -10,6 +10,6 @@ namespace glocal::sites {
 
 /// Way points of a drive of `length` (m): along corridors to places all over the building, and into
 /// some of the rooms on the way, and back.
-[[nodiscard]] std::vector<Position> office_tour(const OfficePlan& plan, double length, Rng rng);
+[[nodiscard]] std::vector<simulation::Position> office_tour(const OfficePlan& plan, double length, Rng rng);
 
 }  // namespace glocal::sites

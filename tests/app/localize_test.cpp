@@ -30,7 +30,7 @@ class Localize : public CommandLine {
   /// A scan a second; a laser that looks the same way as the robot.
   void write_recording() const {
     bags::RobotRecording recording;
-    for (const CarmenScan& scan : read_carmen_log(file("room/drive.log"))) {
+    for (const carmen::CarmenScan& scan : carmen::read_carmen_log(file("room/drive.log"))) {
       const auto stamp = static_cast<std::int64_t>(scan.stamp * 1e9);
       recording.transform("odom", "base_link", stamp, scan.odom_from_robot);
       recording.transform("base_link", "laser", stamp, {}, "/tf_static");

@@ -36,7 +36,7 @@ class PrepareCommand : public CommandLine {
   /// The true poses ten times a second, their stamps later than they are.
   void write_trajectory(const std::string& name, double late_s) const {
     glocal::bags::PoseTrack track;
-    for (const CarmenScan& scan : read_carmen_log(file("simulated/drive.log")))
+    for (const carmen::CarmenScan& scan : carmen::read_carmen_log(file("simulated/drive.log")))
       track.add(std::llround(scan.stamp * 1e9), *scan.map_from_robot);
     track.settle();
     constexpr std::int64_t step_ns = 100'000'000;

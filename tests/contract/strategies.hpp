@@ -56,8 +56,9 @@ class Contract : public ::testing::Test {
     ros_map_ = file_path(folder_.write("map.yaml",
                                        "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
                                        "occupied_thresh: 0.65\nfree_thresh: 0.196\n"));
-    fill<Simulation::Params>("observation_source/simulation", [&](auto& p) { p.world = world_; });
-    fill<LidarSimulation::Params>("observation_source/lidar_simulation", [&](auto& p) { p.world = world_; });
+    fill<simulation::Simulation::Params>("observation_source/simulation", [&](auto& p) { p.world = world_; });
+    fill<simulation::LidarSimulation::Params>("observation_source/lidar_simulation",
+                                              [&](auto& p) { p.world = world_; });
     const auto make_small = [](sites::OfficeParams& p) {
       p.side = 20.0;
       p.length = 10.0;
@@ -74,15 +75,15 @@ class Contract : public ::testing::Test {
       fillers_.at("map_source/ros_map")(*p.source.params);
       p.by = {{{"brought", 3, {}}}};
     });
-    fill<LogParams>("observation_source/carmen_log", [&](auto& p) { p.path = log_; });
-    fill<RandomScans::Params>("observation_source/random_scans", [&](auto& p) {
+    fill<carmen::LogParams>("observation_source/carmen_log", [&](auto& p) { p.path = log_; });
+    fill<simulation::RandomScans::Params>("observation_source/random_scans", [&](auto& p) {
       p.map.path = ros_map_;
       p.count = 3;
       p.clearance = 0.0;
     });
-    fill<SimulatedMap::Params>("map_source/simulation", [&](auto& p) { p.world = world_; });
-    fill<RosMap::Params>("map_source/ros_map", [&](auto& p) { p.path = ros_map_; });
-    fill<LogMap::Params>("map_source/log_map", [&](auto& p) {
+    fill<simulation::SimulatedMap::Params>("map_source/simulation", [&](auto& p) { p.world = world_; });
+    fill<ros_map::RosMap::Params>("map_source/ros_map", [&](auto& p) { p.path = ros_map_; });
+    fill<carmen::LogMap::Params>("map_source/log_map", [&](auto& p) {
       p.log.path = log_;
       p.min_hits = 1;
     });
@@ -92,20 +93,21 @@ class Contract : public ::testing::Test {
     std::filesystem::create_directory(folder_ / "clouds");
     folder_.write("clouds/0.ply", cloud);
     folder_.write("clouds/1.ply", cloud);
-    fill<CloudDrive::Params>("observation_source/cloud_drive",
-                             [&](auto& p) { p.folder = file_path(folder_ / "clouds"); });
+    fill<clouds::CloudDrive::Params>("observation_source/cloud_drive",
+                                     [&](auto& p) { p.folder = file_path(folder_ / "clouds"); });
     const FilePath poses = file_path(folder_.write("poses.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n"));
-    fill<CloudDriveMap::Params>("map_source/cloud_drive", [&, poses](auto& p) {
+    fill<clouds::CloudDriveMap::Params>("map_source/cloud_drive", [&, poses](auto& p) {
       p.drive.folder = file_path(folder_ / "clouds");
       p.drive.reference = poses;
     });
     const FilePath pairs =
         file_path(folder_.write("pairs.csv", "source,target\nclouds/0.ply,clouds/1.ply\n"));
-    fill<CloudPairMap::Params>("map_source/cloud_pair", [pairs](auto& p) { p.list = pairs; });
-    fill<CloudPairScan::Params>("observation_source/cloud_pair", [pairs](auto& p) { p.list = pairs; });
-    fill<PointCloudMap::Params>("map_source/point_cloud",
-                                [&](auto& p) { p.path = file_path(folder_ / "clouds/0.ply"); });
-    fill<Exhaustive::Params>("matcher/exhaustive", [](auto& p) {
+    fill<clouds::CloudPairMap::Params>("map_source/cloud_pair", [pairs](auto& p) { p.list = pairs; });
+    fill<clouds::CloudPairScan::Params>("observation_source/cloud_pair",
+                                        [pairs](auto& p) { p.list = pairs; });
+    fill<clouds::PointCloudMap::Params>("map_source/point_cloud",
+                                        [&](auto& p) { p.path = file_path(folder_ / "clouds/0.ply"); });
+    fill<grid_search::Exhaustive::Params>("matcher/exhaustive", [](auto& p) {
       // Defaults would take minutes.
       p.matching.grid.contact_epsilon = 0.2;
       p.matching.grid.cell = 0.2;
@@ -126,8 +128,8 @@ class Contract : public ::testing::Test {
     }
     recording.grid("/map", 0, 0.1F, 3, {0, 0, 100});
     const FilePath bag = file_path(folder_.write("drive.mcap", recording.bytes()));
-    fill<BagDrive::Params>("observation_source/bag", [&, bag](auto& p) { p.path = bag; });
-    fill<BagMap::Params>("map_source/bag_map", [&, bag](auto& p) { p.path = bag; });
+    fill<glocal::bags::BagDrive::Params>("observation_source/bag", [&, bag](auto& p) { p.path = bag; });
+    fill<glocal::bags::BagMap::Params>("map_source/bag_map", [&, bag](auto& p) { p.path = bag; });
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };

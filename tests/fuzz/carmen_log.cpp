@@ -4,11 +4,12 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
-  LogParams params;
+  carmen::LogParams params;
   params.path.resolved = fuzz::write("drive.log", fuzz::text_of(data, size));
   params.segments = {{0.0, 0.5}, {0.5, 1.0}};
   return fuzz::answer([&] {
-    const LogDrive drive = read_log_drive(params);
-    for (const LogFrame& frame : drive.frames) static_cast<void>(robot_scan(drive.scans[frame.scan], params));
+    const carmen::LogDrive drive = carmen::read_log_drive(params);
+    for (const carmen::LogFrame& frame : drive.frames)
+      static_cast<void>(carmen::robot_scan(drive.scans[frame.scan], params));
   });
 }

@@ -9,7 +9,7 @@
 
 namespace glocal::fuzz {
 
-inline void check_cloud(const Cloud& cloud) {
+inline void check_cloud(const clouds::Cloud& cloud) {
   const std::size_t n = cloud.points.size();
   must_hold(n > 0, "a cloud has points");
   for (const auto* axis : {&cloud.points.x, &cloud.points.y, &cloud.points.z}) {
@@ -24,12 +24,13 @@ inline void check_cloud(const Cloud& cloud) {
   must_hold(cloud.times.empty() || cloud.times.size() == n, "there is one time for each point");
   const auto is_time = [](double t) { return std::isfinite(t) && t >= 0.0; };
   must_hold(std::all_of(cloud.times.begin(), cloud.times.end(), is_time), "a time is none");
-  static_cast<void>(cloud_remarks(cloud));
+  static_cast<void>(clouds::cloud_remarks(cloud));
 }
 
 /// Tries a reader of one format; no byte behind the input belongs to it.
 template <class Read>
-int try_cloud(const std::uint8_t* data, std::size_t size, Read read, const CloudOptions& options = {}) {
+int try_cloud(const std::uint8_t* data, std::size_t size, Read read,
+              const clouds::CloudOptions& options = {}) {
   return answer([&] {
     check_cloud(read(std::string_view(reinterpret_cast<const char*>(data), size), "cloud", options));
   });

@@ -4,5 +4,5 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // A few bytes may stand for as many voxels as are allowed.
-  return glocal::fuzz::try_cloud(data, size, glocal::read_octree_cloud, {.max_size_gb = 0.01});
+  return glocal::fuzz::try_cloud(data, size, glocal::clouds::read_octree_cloud, {.max_size_gb = 0.01});
 }

@@ -3,5 +3,5 @@
 #include "sources/clouds/pcd_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return glocal::fuzz::try_cloud(data, size, glocal::read_pcd_cloud);
+  return glocal::fuzz::try_cloud(data, size, glocal::clouds::read_pcd_cloud);
 }

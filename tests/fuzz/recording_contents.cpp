@@ -21,17 +21,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   };
   answer([&] {
-    BagMap::Params map;
+    bags::BagMap::Params map;
     map.path.resolved = file;
-    check_map(BagMap(map, setup).load(), Motion::planar);
+    check_map(bags::BagMap(map, setup).load(), Motion::planar);
   });
   return answer([&] {
-    BagDrive::Params params;
+    bags::BagDrive::Params params;
     params.path.resolved = file;
     params.scans = {draw.byte() % 2 == 0 ? "/scan" : "/points"};
     params.heights = {-1.0, 2.0};
     params.deskew = draw.byte() % 2 == 0 ? "odometry" : "none";
-    BagDrive drive(params, setup);
+    bags::BagDrive drive(params, setup);
     while (const auto sample = drive.next()) check_sample(*sample, motion);
   });
 }

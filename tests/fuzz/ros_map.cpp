@@ -8,5 +8,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto parts = fuzz::parts(fuzz::text_of(data, size), 2);
   const auto file = fuzz::write("map.yaml", parts[0]);
   fuzz::write("map.image", parts[1]);
-  return fuzz::answer([&] { static_cast<void>(RosMap({{file.string(), file}}, {}).load()); });
+  return fuzz::answer([&] { static_cast<void>(ros_map::RosMap({{file.string(), file}}, {}).load()); });
 }

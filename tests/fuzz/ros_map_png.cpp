@@ -36,5 +36,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const auto map =
       fuzz::write("map.yaml", "image: map.png\nresolution: 0.05\norigin: [0, 0, 0]\nmode: scale\n");
   fuzz::write("map.png", repaired(fuzz::text_of(data, size)));
-  return fuzz::answer([&] { static_cast<void>(RosMap({{map.string(), map}}, {}).load()); });
+  return fuzz::answer([&] { static_cast<void>(ros_map::RosMap({{map.string(), map}}, {}).load()); });
 }

@@ -8,7 +8,7 @@
 namespace glocal::fuzz {
 namespace {
 
-void check_trajectory(const Trajectory& trajectory) {
+void check_trajectory(const clouds::Trajectory& trajectory) {
   must_hold(!trajectory.poses.empty(), "a trajectory has poses");
   double last = -std::numeric_limits<double>::infinity();
   for (const auto& [stamp, pose] : trajectory.poses) {
@@ -27,5 +27,5 @@ void check_trajectory(const Trajectory& trajectory) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   const std::string_view content(reinterpret_cast<const char*>(data), size);
-  return fuzz::answer([&] { fuzz::check_trajectory(parse_trajectory(content, "poses")); });
+  return fuzz::answer([&] { fuzz::check_trajectory(clouds::parse_trajectory(content, "poses")); });
 }

@@ -43,7 +43,7 @@ class FastDrive : public testing::Test {
   }
 
   [[nodiscard]] std::vector<Sample> samples() const {
-    LidarSimulation source(params_, {});
+    simulation::LidarSimulation source(params_, {});
     std::vector<Sample> all;
     while (auto sample = source.next()) all.push_back(*std::move(sample));
     return all;
@@ -72,12 +72,12 @@ class FastDrive : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  LidarDriveParams params_;
+  simulation::LidarDriveParams params_;
 };
 
 TEST_F(FastDrive, PointsAreWhereTheyWouldBeSeenFromTheLastPose) {
   params_.lidar.noise = params_.lidar.outliers = params_.lidar.tilt_deg = 0.0;
-  Scene scene(read_world(params_.world.resolved));
+  simulation::Scene scene(simulation::read_world(params_.world.resolved));
   const auto all = samples();
   std::size_t far_off = 0;
   std::size_t hits = 0;

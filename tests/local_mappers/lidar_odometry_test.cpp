@@ -176,12 +176,12 @@ TEST(LidarOdometry, RepeatsItselfAfterAReset) {
 TEST(LidarOdometry, HalvesTheDriftOfARecordedDrive) {
   const std::filesystem::path folder = test::dataset("lidar3d/fr_079/drives/d7");
   if (folder.empty() || !std::filesystem::exists(folder)) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
-  CloudDrive::Params params;
+  clouds::CloudDrive::Params params;
   params.folder = test::file_path(folder);
   params.odometry = test::file_path(folder / "odom.tum");
   params.reference = test::file_path(folder / "poses.tum");
   params.voxel_size = 0.0;
-  CloudDrive source(params, {});
+  clouds::CloudDrive source(params, {});
   LidarOdometry mapper({}, in_space());
   std::vector<Sample> samples;
   while (auto sample = source.next()) {

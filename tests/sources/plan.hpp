@@ -24,7 +24,7 @@ class Plan {
 
   [[nodiscard]] FilePath file() const { return file_path(file_); }
   [[nodiscard]] std::filesystem::path folder() const { return file_.parent_path(); }
-  [[nodiscard]] OccupancyGrid grid() const { return RosMap({file()}, {}).load().grid; }
+  [[nodiscard]] OccupancyGrid grid() const { return ros_map::RosMap({file()}, {}).load().grid; }
 
  private:
   TemporaryFolder folder_;

@@ -6,7 +6,7 @@
 #include "verifiers/contact_climb.hpp"
 #include "verifiers/whole_map.hpp"
 
-namespace glocal::whole_map_in_space_test {
+namespace glocal::verifiers::whole_map_in_space_test {
 namespace {
 
 using namespace test::rooms_in_space;
@@ -87,4 +87,4 @@ TEST(WholeMapInSpace, BringsTheRoomThatLooksAlike) {
 }
 
 }  // namespace
-}  // namespace glocal::whole_map_in_space_test
+}  // namespace glocal::verifiers::whole_map_in_space_test

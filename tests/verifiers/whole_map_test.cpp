@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace glocal::whole_map_test {
+namespace glocal::verifiers::whole_map_test {
 namespace {
 
 /// An L of walls: where its corner is, and how it lies, is plain to see.
@@ -155,4 +155,4 @@ TEST(WholeMap, BoxesAreLargerOnLargeMaps) {
 }
 
 }  // namespace
-}  // namespace glocal::whole_map_test
+}  // namespace glocal::verifiers::whole_map_test

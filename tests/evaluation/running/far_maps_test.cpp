@@ -114,11 +114,11 @@ class FarMaps : public testing::Test {
 class FarRosMap : public FarMaps {
  protected:
   FarRosMap() {
-    OccupancyGrid grid = SimulatedMap({.world = world_, .resolution = 0.05}, {}).load().grid;
-    folder_.write("map.pgm", pgm(trinary_image(grid)));
+    OccupancyGrid grid = simulation::SimulatedMap({.world = world_, .resolution = 0.05}, {}).load().grid;
+    folder_.write("map.pgm", ros_map::pgm(ros_map::trinary_image(grid)));
     grid.map_from_grid = {};
-    folder_.write("near_map.yaml", ros_map_yaml(grid, "map.pgm"));
-    folder_.write("far_map.yaml", ros_map_yaml(grid, "map.pgm", {east, north, 0.0}));
+    folder_.write("near_map.yaml", ros_map::ros_map_yaml(grid, "map.pgm"));
+    folder_.write("far_map.yaml", ros_map::ros_map_yaml(grid, "map.pgm", {east, north, 0.0}));
   }
 
   [[nodiscard]] Lines run_with(const std::string& name, const std::string& observations) const {
@@ -130,10 +130,10 @@ class FarRosMap : public FarMaps {
 };
 
 TEST_F(FarRosMap, HasTheSameOutcomesAndPosesAsNear) {
-  LaserDriveParams params;
+  simulation::LaserDriveParams params;
   params.world = world_;
   params.tour_legs = 6;
-  std::istringstream near_log(Simulation(params, {.seed = 3}).recording()->content);
+  std::istringstream near_log(simulation::Simulation(params, {.seed = 3}).recording()->content);
   std::string far_log;
   folder_.write("near.log", near_log.str());
   for (std::string line; std::getline(near_log, line);) {
@@ -160,7 +160,8 @@ TEST_F(FarRosMap, ADriveInItIsTheSameAsNear) {
 }
 
 TEST_F(FarMaps, ACloudInSpaceHasTheSameOutcomesAndPosesAsNear) {
-  const MapData map = SimulatedMap({.world = world_, .resolution = 0.1, .points = "space"}, {}).load();
+  const MapData map =
+      simulation::SimulatedMap({.world = world_, .resolution = 0.1, .points = "space"}, {}).load();
   // The first point decides where the origin is: near that of the other map.
   Points points;
   points.push_back({0.25F, 0.0F, 0.5F});
@@ -168,10 +169,10 @@ TEST_F(FarMaps, ACloudInSpaceHasTheSameOutcomesAndPosesAsNear) {
   folder_.write("near.pcd", pcd(points));
   folder_.write("far.pcd", pcd(points, {east, north, 0.0}));
   fs::create_directory(folder_.path() / "scans");
-  LidarDriveParams params;
+  simulation::LidarDriveParams params;
   params.world = world_;
   params.tour_legs = 5;
-  LidarSimulation drive(params, {.seed = 2, .motion = Motion::upright});
+  simulation::LidarSimulation drive(params, {.seed = 2, .motion = Motion::upright});
   std::string odometry, near, far;
   while (const auto sample = drive.next()) {
     const double stamp = sample->observation.stamp;

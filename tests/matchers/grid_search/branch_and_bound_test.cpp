@@ -10,7 +10,7 @@
 #include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
-namespace glocal::branch_and_bound_test {
+namespace glocal::grid_search::branch_and_bound_test {
 namespace {
 
 using test::local_map_at;
@@ -157,4 +157,4 @@ TEST(BranchAndBound, RefusesCellsLargerThanTheEpsilonOfTheMap) {
 }
 
 }  // namespace
-}  // namespace glocal::branch_and_bound_test
+}  // namespace glocal::grid_search::branch_and_bound_test

@@ -9,7 +9,7 @@
 #include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
-namespace glocal::exhaustive_test {
+namespace glocal::grid_search::exhaustive_test {
 namespace {
 
 using test::local_map_at;
@@ -144,4 +144,4 @@ TEST(Exhaustive, AnswersAlikeForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace glocal::exhaustive_test
+}  // namespace glocal::grid_search::exhaustive_test

@@ -17,7 +17,7 @@
 #include "matchers/surfels/hall_map.hpp"
 #include "matchers/surfels/scanned_hall.hpp"
 
-namespace glocal::upright_branch_and_bound_test {
+namespace glocal::grid_search::upright_branch_and_bound_test {
 namespace {
 
 constexpr double cell = 0.3;
@@ -282,4 +282,4 @@ TEST(UprightBranchAndBound, FindsNothingForAnEmptyLocalMap) {
 }
 
 }  // namespace
-}  // namespace glocal::upright_branch_and_bound_test
+}  // namespace glocal::grid_search::upright_branch_and_bound_test

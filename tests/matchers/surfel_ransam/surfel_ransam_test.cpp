@@ -420,13 +420,13 @@ TEST(SurfelRansam, FindsScansOfABuilding) {
   const std::filesystem::path folder = test::dataset("lidar3d/fr_079");
   if (folder.empty()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
   const SourceSetup setup;
-  PointCloudMap::Params map_params;
+  clouds::PointCloudMap::Params map_params;
   map_params.path = test::file_path(folder / "map.pcd");
-  const auto map = std::make_shared<const GlobalMap>(PointCloudMap(map_params, setup).load());
-  CloudDrive::Params scan_params;
+  const auto map = std::make_shared<const GlobalMap>(clouds::PointCloudMap(map_params, setup).load());
+  clouds::CloudDrive::Params scan_params;
   scan_params.folder = test::file_path(folder / "scans");
   scan_params.reference = test::file_path(folder / "scans/poses.tum");
-  CloudDrive scans(scan_params, setup);
+  clouds::CloudDrive scans(scan_params, setup);
   SurfelRansam in_building = matcher(Motion::free, {}, map);
   for (std::uint64_t i = 0; i < 5; ++i) {
     const auto sample = scans.next();

@@ -14,6 +14,7 @@
 namespace glocal::test::bags::bag_drive_test {
 namespace {
 
+using glocal::bags::BagDrive;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -329,7 +330,7 @@ double share_on_map(const BagDrive::Params& params, const OccupancyGrid& grid) {
 TEST(RealBags, ADriveFitsItsBuildingsPlanWithTheKnownTransformation) {
   const auto folder = dataset("bags/jarvis");
   if (folder.empty()) GTEST_SKIP() << "set GLOCAL_DATASETS to run this";
-  const OccupancyGrid grid = RosMap({file_path(folder / "i-108_10mm.yaml")}, {}).load().grid;
+  const OccupancyGrid grid = ros_map::RosMap({file_path(folder / "i-108_10mm.yaml")}, {}).load().grid;
   BagDrive::Params params;
   params.path = file_path(folder / "jarvis_circular_path_fast.bag");
   params.scans = {"/driver_laser_navigation/laser_scan"};

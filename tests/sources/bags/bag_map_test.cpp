@@ -17,7 +17,7 @@ class BagMaps : public testing::Test {
  protected:
   MapData load() {
     params_.path = file_path(folder_.write("map.mcap", recording_.bytes()));
-    return BagMap(params_, {}).load();
+    return glocal::bags::BagMap(params_, {}).load();
   }
   std::string fault() {
     return config_error(folder_.path(), [&] { load(); });
@@ -25,7 +25,7 @@ class BagMaps : public testing::Test {
 
   TemporaryFolder folder_;
   RobotRecording recording_;
-  BagMap::Params params_;
+  glocal::bags::BagMap::Params params_;
 };
 
 TEST_F(BagMaps, CellsAreFreeOccupiedOrUnknownByTheirShare) {

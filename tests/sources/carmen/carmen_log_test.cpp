@@ -8,7 +8,7 @@
 
 #include "files.hpp"
 
-namespace glocal::carmen_log_test {
+namespace glocal::carmen::carmen_log_test {
 namespace {
 
 using testing::ElementsAre;
@@ -215,4 +215,4 @@ INSTANTIATE_TEST_SUITE_P(Datasets, SharedLog,
                          });
 
 }  // namespace
-}  // namespace glocal::carmen_log_test
+}  // namespace glocal::carmen::carmen_log_test

@@ -7,7 +7,7 @@
 
 #include "files.hpp"
 
-namespace glocal::carmen_parser_test {
+namespace glocal::carmen::carmen_parser_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -162,4 +162,4 @@ TEST(CarmenParser, ALineThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace glocal::carmen_parser_test
+}  // namespace glocal::carmen::carmen_parser_test

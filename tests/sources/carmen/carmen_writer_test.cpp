@@ -6,7 +6,7 @@
 #include "sources/carmen/carmen_log.hpp"
 #include "sources/simulation/simulation.hpp"
 
-namespace glocal::carmen_writer_test {
+namespace glocal::carmen::carmen_writer_test {
 namespace {
 
 template <class Source>
@@ -32,7 +32,7 @@ void expect_near(const Pose3& a, const Pose3& b) {
 
 TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
   const test::TemporaryFolder folder;
-  LaserDriveParams params;
+  simulation::LaserDriveParams params;
   params.world =
       test::file_path(folder.write("world.yaml",
                                    "size: [20, 3]\n"
@@ -44,14 +44,14 @@ TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
   params.laser.yaw_deg = 10.0;
   SourceSetup setup;
   setup.seed = 5;
-  DriveSimulator simulator(params, setup);
+  simulation::DriveSimulator simulator(params, setup);
   std::string lines;
   while (const auto scan = simulator.next()) lines += carmen_lines(*scan);
 
-  LogParams log = scan_limits(params.laser);
+  LogParams log = simulation::scan_limits(params.laser);
   log.path = test::file_path(folder.write("drive.log", lines));
   CarmenLog recorded(log, setup);
-  Simulation simulated(params, setup);
+  simulation::Simulation simulated(params, setup);
   const auto a = read_all(simulated);
   const auto b = read_all(recorded);
   ASSERT_EQ(a.size(), b.size());
@@ -81,4 +81,4 @@ TEST(CarmenWriter, WritesTheFormatsFields) {
 }
 
 }  // namespace
-}  // namespace glocal::carmen_writer_test
+}  // namespace glocal::carmen::carmen_writer_test

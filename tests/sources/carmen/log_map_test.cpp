@@ -6,7 +6,7 @@
 
 #include "files.hpp"
 
-namespace glocal::log_map_test {
+namespace glocal::carmen::log_map_test {
 namespace {
 
 std::string scan_at(double x, double y, const std::string& readings) {
@@ -158,4 +158,4 @@ INSTANTIATE_TEST_SUITE_P(Datasets, SharedLogMap,
                          });
 
 }  // namespace
-}  // namespace glocal::log_map_test
+}  // namespace glocal::carmen::log_map_test

@@ -15,7 +15,7 @@
 #include "glocal/yaml.hpp"
 #include "sources/clouds/cloud_file.hpp"
 
-namespace glocal::cloud_drive_map_test {
+namespace glocal::clouds::cloud_drive_map_test {
 namespace {
 
 using testing::ElementsAre;
@@ -141,4 +141,4 @@ TEST_F(CloudDriveMapTest, OfADriveLiesOnTheMapThatItWasSimulatedIn) {
 }
 
 }  // namespace
-}  // namespace glocal::cloud_drive_map_test
+}  // namespace glocal::clouds::cloud_drive_map_test

@@ -11,7 +11,7 @@
 #include "glocal/yaml.hpp"
 #include "sources/clouds/cloud_file.hpp"
 
-namespace glocal::cloud_drive_test {
+namespace glocal::clouds::cloud_drive_test {
 namespace {
 
 using testing::ElementsAre;
@@ -174,4 +174,4 @@ TEST_F(CloudDriveTest, OfTheDatasetsLiesOnItsMap) {
 }
 
 }  // namespace
-}  // namespace glocal::cloud_drive_test
+}  // namespace glocal::clouds::cloud_drive_test

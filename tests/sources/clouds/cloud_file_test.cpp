@@ -10,7 +10,7 @@
 #include "octree_files.hpp"
 #include "sources/clouds/cloud_files.hpp"
 
-namespace glocal::cloud_file_test {
+namespace glocal::clouds::cloud_file_test {
 namespace {
 
 using test::bytes;
@@ -105,4 +105,4 @@ TEST(CloudFile, OfTheDatasetsIsRead) {
 }
 
 }  // namespace
-}  // namespace glocal::cloud_file_test
+}  // namespace glocal::clouds::cloud_file_test

@@ -7,7 +7,7 @@
 #include "files.hpp"
 #include "glocal/error.hpp"
 
-namespace glocal::cloud_pair_test {
+namespace glocal::clouds::cloud_pair_test {
 namespace {
 
 using testing::ElementsAre;
@@ -61,4 +61,4 @@ TEST_F(CloudPairTest, RefusesAPairThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace glocal::cloud_pair_test
+}  // namespace glocal::clouds::cloud_pair_test

@@ -8,7 +8,7 @@
 
 #include "files.hpp"
 
-namespace glocal::cloud_voxels_test {
+namespace glocal::clouds::cloud_voxels_test {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::infinity();
@@ -61,4 +61,4 @@ TEST(CloudVoxels, AreNotTooMany) {
 }
 
 }  // namespace
-}  // namespace glocal::cloud_voxels_test
+}  // namespace glocal::clouds::cloud_voxels_test

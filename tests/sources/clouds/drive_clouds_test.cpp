@@ -5,7 +5,7 @@
 
 #include "files.hpp"
 
-namespace glocal::drive_clouds_test {
+namespace glocal::clouds::drive_clouds_test {
 namespace {
 
 using testing::ElementsAre;
@@ -98,4 +98,4 @@ TEST_F(DriveClouds, InNoFolderOrWithTheSameNumberAreRefused) {
 }
 
 }  // namespace
-}  // namespace glocal::drive_clouds_test
+}  // namespace glocal::clouds::drive_clouds_test

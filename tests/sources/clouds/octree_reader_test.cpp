@@ -10,7 +10,7 @@
 #include "sources/clouds/cloud_file.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 
-namespace glocal::octree_reader_test {
+namespace glocal::clouds::octree_reader_test {
 namespace {
 
 using test::bt_file;
@@ -168,4 +168,4 @@ TEST(OctreeReader, AMapOfAnOctreeHasItsResolution) {
 }
 
 }  // namespace
-}  // namespace glocal::octree_reader_test
+}  // namespace glocal::clouds::octree_reader_test

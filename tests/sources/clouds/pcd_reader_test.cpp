@@ -8,7 +8,7 @@
 #include "files.hpp"
 #include "sources/clouds/cloud_files.hpp"
 
-namespace glocal::pcd_reader_test {
+namespace glocal::clouds::pcd_reader_test {
 namespace {
 
 using test::bytes;
@@ -223,4 +223,4 @@ TEST(PcdReader, RefusesPointsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace glocal::pcd_reader_test
+}  // namespace glocal::clouds::pcd_reader_test

@@ -6,7 +6,7 @@
 #include "files.hpp"
 #include "sources/clouds/cloud_files.hpp"
 
-namespace glocal::ply_reader_test {
+namespace glocal::clouds::ply_reader_test {
 namespace {
 
 using test::bytes;
@@ -122,4 +122,4 @@ TEST(PlyReader, RefusesListsAndNumbersThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace glocal::ply_reader_test
+}  // namespace glocal::clouds::ply_reader_test

@@ -8,7 +8,7 @@
 #include "evaluation/results/pcd.hpp"
 #include "files.hpp"
 
-namespace glocal::point_cloud_map_test {
+namespace glocal::clouds::point_cloud_map_test {
 namespace {
 
 using testing::ElementsAre;
@@ -145,4 +145,4 @@ TEST_F(PointCloudMapTest, OfTheDatasetsIsLoaded) {
 }
 
 }  // namespace
-}  // namespace glocal::point_cloud_map_test
+}  // namespace glocal::clouds::point_cloud_map_test

@@ -7,7 +7,7 @@
 
 #include "files.hpp"
 
-namespace glocal::trajectory_file_test {
+namespace glocal::clouds::trajectory_file_test {
 namespace {
 
 Trajectory parse(const std::string& content) {
@@ -79,4 +79,4 @@ TEST(TrajectoryFile, OfTheDatasetsIsRead) {
 }
 
 }  // namespace
-}  // namespace glocal::trajectory_file_test
+}  // namespace glocal::clouds::trajectory_file_test

@@ -15,9 +15,10 @@
 #include "sources/conversion/recording_drive.hpp"
 #include "sources/simulation/simulation.hpp"
 
-namespace glocal::test::carmen_drive_test {
+namespace glocal::conversion::carmen_drive_test {
 namespace {
 
+using carmen::CarmenScan;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -27,19 +28,19 @@ class Conversion : public testing::Test {
  protected:
   /// A simulated drive with a laser that is off the robot's centre and looks aside.
   std::filesystem::path simulated_log() {
-    LaserDriveParams params;
+    simulation::LaserDriveParams params;
     params.world =
-        file_path(folder_.write("world.yaml",
-                                "size: [20, 3]\n"
-                                "walls: [{points: [[0, 0], [20, 0], [20, 3], [0, 3]], closed: true}]\n"
-                                "free_from: [[1, 1]]\n"
-                                "way_points: [[1, 1], [6, 1], [6, 2]]\n"));
+        test::file_path(folder_.write("world.yaml",
+                                      "size: [20, 3]\n"
+                                      "walls: [{points: [[0, 0], [20, 0], [20, 3], [0, 3]], closed: true}]\n"
+                                      "free_from: [[1, 1]]\n"
+                                      "way_points: [[1, 1], [6, 1], [6, 2]]\n"));
     params.laser.outliers = 0.02;
     params.laser.x = 0.2;
     params.laser.yaw_deg = 10.0;
-    DriveSimulator simulator(params, {.seed = 5});
+    simulation::DriveSimulator simulator(params, {.seed = 5});
     std::string lines;
-    while (const auto scan = simulator.next()) lines += carmen_lines(*scan);
+    while (const auto scan = simulator.next()) lines += carmen::carmen_lines(*scan);
     return folder_.write("drive.log", lines);
   }
   std::filesystem::path as_mcap(const std::filesystem::path& log) {
@@ -60,7 +61,7 @@ class Conversion : public testing::Test {
     return [this](const std::string& text) { warnings_.push_back(text); };
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   DriveCounts counts_;
   std::vector<std::string> warnings_;
 };
@@ -80,13 +81,13 @@ void expect_near(const Points& a, const Points& b) {
 
 TEST_F(Conversion, ALogComesBackFromMcapAsItWas) {
   const auto log = simulated_log();
-  const auto before = read_carmen_log(log);
-  const auto after = read_carmen_log(as_log(as_mcap(log), {.reference = "/reference"}));
+  const auto before = carmen::read_carmen_log(log);
+  const auto after = carmen::read_carmen_log(as_log(as_mcap(log), {.reference = "/reference"}));
   ASSERT_EQ(after.size(), before.size());
   EXPECT_EQ(counts_.scans, before.size());
   EXPECT_EQ(counts_.references, before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
-    EXPECT_EQ(after[i].laser, CarmenLaser::robotlaser1);
+    EXPECT_EQ(after[i].laser, carmen::CarmenLaser::robotlaser1);
     EXPECT_EQ(after[i].ranges, before[i].ranges);
     EXPECT_EQ(after[i].stamp, before[i].stamp);
     EXPECT_EQ(after[i].max_range, before[i].max_range);
@@ -100,16 +101,16 @@ TEST_F(Conversion, ALogComesBackFromMcapAsItWas) {
 }
 
 TEST_F(Conversion, McapGivesTheObservationsThatTheLogGives) {
-  LogParams as_log = scan_limits({});
-  as_log.path = file_path(simulated_log());
-  BagDrive::Params as_bag;
-  as_bag.path = file_path(as_mcap(as_log.path.resolved));
+  carmen::LogParams as_log = simulation::scan_limits({});
+  as_log.path = test::file_path(simulated_log());
+  bags::BagDrive::Params as_bag;
+  as_bag.path = test::file_path(as_mcap(as_log.path.resolved));
   as_bag.keyframes = as_log.keyframes;
   as_bag.min_range = as_log.min_range;
   as_bag.free_range = as_log.free_range;
   as_bag.reference.topic = "/reference";
-  CarmenLog log(as_log, {});
-  BagDrive bag(as_bag, {.warn = warn()});
+  carmen::CarmenLog log(as_log, {});
+  bags::BagDrive bag(as_bag, {.warn = warn()});
   std::size_t n = 0, free_ends = 0;
   while (const auto a = log.next()) {
     const auto b = bag.next();
@@ -190,7 +191,7 @@ TEST_F(Conversion, ScansAgainstTheClockAreTurnedRound) {
 
 TEST_F(Conversion, LogsHaveLevelLasersOnly) {
   const auto fault = [&](const DriveScan& scan) {
-    return config_error(folder_.path(), [&] { static_cast<void>(carmen_scan(scan, "a.bag")); });
+    return test::config_error(folder_.path(), [&] { static_cast<void>(carmen_scan(scan, "a.bag")); });
   };
   EXPECT_EQ(fault(drive_scan(Pose3(exponential({0.0, radians(20.0), 0.0})))),
             "a.bag: error: the sensor of laser is tilted by 20.0 deg, and lasers of a CARMEN log are level; "
@@ -228,7 +229,7 @@ TEST_F(Conversion, ALaserThatMovesHasItsPoseWithEachScan) {
                                  "FLASER 2 1 2 0.1 0 0.5 0 0 0 1.5 host 1.5\n"
                                  "FLASER 2 1 2 0.1 0 0.75 0 0 0 2.5 host 2.5\n");
   EXPECT_FALSE(CarmenDriveReader(log).sensors()[0].robot_from_sensor);
-  const auto back = read_carmen_log(as_log(as_mcap(log), {}));
+  const auto back = carmen::read_carmen_log(as_log(as_mcap(log), {}));
   ASSERT_EQ(back.size(), 2U);
   EXPECT_NEAR(back[0].robot_from_laser.theta, 0.5, 1e-6);
   EXPECT_NEAR(back[1].robot_from_laser.theta, 0.75, 1e-6);
@@ -237,10 +238,10 @@ TEST_F(Conversion, ALaserThatMovesHasItsPoseWithEachScan) {
 TEST_F(Conversion, StampsThatOtherFormatsDoNotHaveAreAFault) {
   const auto log = folder_.write("old.log", "FLASER 2 1 2 0 0 0 0 0 0 -1.5 host 1.5\n");
   EXPECT_EQ(
-      config_error(folder_.path(), [&] { CarmenDriveReader{log}; }),
+      test::config_error(folder_.path(), [&] { CarmenDriveReader{log}; }),
       "old.log:1: error: the time stamp -1.5 is not of the years 1970 to 2037, which other formats have; "
       "correct it");
 }
 
 }  // namespace
-}  // namespace glocal::test::carmen_drive_test
+}  // namespace glocal::conversion::carmen_drive_test

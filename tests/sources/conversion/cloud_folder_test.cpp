@@ -7,7 +7,7 @@
 #include "sources/bags/bag_drive.hpp"
 #include "sources/conversion/recording_drive.hpp"
 
-namespace glocal::test::cloud_folder_test {
+namespace glocal::conversion::cloud_folder_test {
 namespace {
 
 using testing::ElementsAre;
@@ -38,20 +38,20 @@ class Clouds : public testing::Test {
     return folder_.write("drive.mcap", bytes);
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   DriveCounts counts_;
 };
 
 TEST_F(Clouds, AreReadBackFromMcap) {
-  BagDrive::Params params;
-  params.path = file_path(as_mcap());
+  bags::BagDrive::Params params;
+  params.path = test::file_path(as_mcap());
   params.keyframes = {0.0, 0.0};
   params.voxel_size = 0.0;
   params.deskew = "none";
   params.reference.topic = "/reference";
   EXPECT_EQ(counts_.scans, 2U);
   EXPECT_EQ(counts_.references, 1U);
-  BagDrive bag(params, {.motion = Motion::free});
+  bags::BagDrive bag(params, {.motion = Motion::free});
   const auto first = bag.next(), second = bag.next();
   ASSERT_TRUE(first && second);
   EXPECT_FALSE(bag.next());
@@ -64,12 +64,12 @@ TEST_F(Clouds, AreReadBackFromMcap) {
 }
 
 TEST_F(Clouds, NeedOdometry) {
-  EXPECT_EQ(
-      config_error(folder_.path(),
-                   [&] { CloudFolderReader({.folder = folder_ / "clouds"}, [](const std::string&) {}); }),
-      "clouds: error: has no odometry.tum, and a recording says where the robot was at each scan; give "
-      "the file with --odometry");
+  EXPECT_EQ(test::config_error(
+                folder_.path(),
+                [&] { CloudFolderReader({.folder = folder_ / "clouds"}, [](const std::string&) {}); }),
+            "clouds: error: has no odometry.tum, and a recording says where the robot was at each scan; give "
+            "the file with --odometry");
 }
 
 }  // namespace
-}  // namespace glocal::test::cloud_folder_test
+}  // namespace glocal::conversion::cloud_folder_test

@@ -6,7 +6,7 @@
 #include "sources/conversion/carmen_drive.hpp"
 #include "temporary_folder.hpp"
 
-namespace glocal::test::drive_track_test {
+namespace glocal::conversion::drive_track_test {
 namespace {
 
 using testing::HasSubstr;
@@ -38,7 +38,7 @@ class DriveTracks : public testing::Test {
     return "";
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(DriveTracks, HasTheScansOfTheFirstSensor) {
@@ -105,4 +105,4 @@ TEST_F(DriveTracks, JoinsWhatHasAReference) {
 }
 
 }  // namespace
-}  // namespace glocal::test::drive_track_test
+}  // namespace glocal::conversion::drive_track_test

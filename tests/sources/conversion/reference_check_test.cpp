@@ -8,7 +8,7 @@
 #include "sources/conversion/map_split.hpp"
 #include "temporary_folder.hpp"
 
-namespace glocal::test::reference_check_test {
+namespace glocal::conversion::reference_check_test {
 namespace {
 
 constexpr std::int64_t second = 1'000'000'000;
@@ -66,7 +66,7 @@ TEST(ReferenceCheck, FindsJumps) {
 }
 
 TEST(ReferenceCheck, ComparesRelations) {
-  TemporaryFolder folder;
+  test::TemporaryFolder folder;
   const auto file = folder.write("a.relations",
                                  "# t1 t2 x y z roll pitch yaw\n"
                                  "0 1 1 0 0 0 0 0.5\n"
@@ -108,4 +108,4 @@ TEST(MapSplit, TakesTheLeastThatTheRestComesBackTo) {
 }
 
 }  // namespace
-}  // namespace glocal::test::reference_check_test
+}  // namespace glocal::conversion::reference_check_test

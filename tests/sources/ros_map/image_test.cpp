@@ -5,7 +5,7 @@
 #include "files.hpp"
 #include "sources/png_files.hpp"
 
-namespace glocal::image_test {
+namespace glocal::ros_map::image_test {
 namespace {
 
 using test::bytes;
@@ -161,4 +161,4 @@ TEST(Writers, AreReadBack) {
 }
 
 }  // namespace
-}  // namespace glocal::image_test
+}  // namespace glocal::ros_map::image_test

@@ -10,7 +10,7 @@
 #include "sources/ros_map/image.hpp"
 #include "sources/ros_map/ros_map_writer.hpp"
 
-namespace glocal::ros_map_test {
+namespace glocal::ros_map::ros_map_test {
 namespace {
 
 using testing::ElementsAre;
@@ -260,4 +260,4 @@ INSTANTIATE_TEST_SUITE_P(Datasets, SharedRosMap,
                          });
 
 }  // namespace
-}  // namespace glocal::ros_map_test
+}  // namespace glocal::ros_map::ros_map_test

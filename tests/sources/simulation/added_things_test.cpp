@@ -9,7 +9,7 @@
 #include "files.hpp"
 #include "sources/simulation/clear_cells.hpp"
 
-namespace glocal::added_things_test {
+namespace glocal::simulation::added_things_test {
 namespace {
 
 /// A hall of 12 m x 8 m with cells of 0.1 m, turned, with two walls and an unknown part.
@@ -136,4 +136,4 @@ TEST_F(Hall, HasPeopleWhoWalkInClearSpaceOnly) {
 }
 
 }  // namespace
-}  // namespace glocal::added_things_test
+}  // namespace glocal::simulation::added_things_test

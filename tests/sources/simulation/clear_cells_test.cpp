@@ -8,7 +8,7 @@
 #include "glocal/rng.hpp"
 #include "sources/plan.hpp"
 
-namespace glocal::clear_cells_test {
+namespace glocal::simulation::clear_cells_test {
 namespace {
 
 /// Distance between the borders of two cells, in cells.
@@ -63,4 +63,4 @@ TEST(CellUnder, IsOneOfTheGridOrNone) {
 }
 
 }  // namespace
-}  // namespace glocal::clear_cells_test
+}  // namespace glocal::simulation::clear_cells_test

@@ -10,7 +10,7 @@
 #include "sources/plan.hpp"
 #include "sources/simulation/clear_cells.hpp"
 
-namespace glocal::clear_region_test {
+namespace glocal::simulation::clear_region_test {
 namespace {
 
 using test::Plan;
@@ -199,4 +199,4 @@ TEST(ClearRegion, WaysThroughOpenSpaceHaveNoCornersOfTheGrid) {
 }
 
 }  // namespace
-}  // namespace glocal::clear_region_test
+}  // namespace glocal::simulation::clear_region_test

@@ -19,7 +19,7 @@
 #include "sources/simulation/scene.hpp"
 #include "sources/simulation/simulation.hpp"
 
-namespace glocal::lidar_simulation_test {
+namespace glocal::simulation::lidar_simulation_test {
 namespace {
 
 using testing::HasSubstr;
@@ -402,4 +402,4 @@ TEST(SimulatedMapInSpace, HasTheCloudAsItIs) {
 }
 
 }  // namespace
-}  // namespace glocal::lidar_simulation_test
+}  // namespace glocal::simulation::lidar_simulation_test

@@ -6,7 +6,7 @@
 
 #include "glocal/rng.hpp"
 
-namespace glocal::near_shapes_test {
+namespace glocal::simulation::near_shapes_test {
 namespace {
 
 /// Walls and pillars of all lengths over 400 m x 90 m, with one that crosses all of it.
@@ -73,4 +73,4 @@ TEST(NearShapes, CanBeOfNothing) {
 }
 
 }  // namespace
-}  // namespace glocal::near_shapes_test
+}  // namespace glocal::simulation::near_shapes_test

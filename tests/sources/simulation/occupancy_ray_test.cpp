@@ -7,7 +7,7 @@
 
 #include "sources/plan.hpp"
 
-namespace glocal::occupancy_ray_test {
+namespace glocal::simulation::occupancy_ray_test {
 namespace {
 
 using test::Plan;
@@ -69,4 +69,4 @@ TEST(OccupancyRay, MeetsThingsBeforeItIsLostOnly) {
 }
 
 }  // namespace
-}  // namespace glocal::occupancy_ray_test
+}  // namespace glocal::simulation::occupancy_ray_test

@@ -17,7 +17,7 @@
 #include "sources/simulation/simulation.hpp"
 #include "sources/simulation/world_grid.hpp"
 
-namespace glocal::planned_drive_test {
+namespace glocal::simulation::planned_drive_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -122,12 +122,12 @@ TEST(PlannedDrive, InAMapFarAwayIsTheSameFarAway) {
     params.kidnappings = {{.after_m = 3.0, .to = {x + 1.75, y + 9.25}, .heading_deg = 90.0}};
     params.boxes = 2;
     DriveSimulator drive(params, SourceSetup{.seed = 4});
-    std::vector<CarmenScan> scans;
+    std::vector<carmen::CarmenScan> scans;
     while (auto scan = drive.next()) scans.push_back(*std::move(scan));
     return scans;
   };
-  const std::vector<CarmenScan> near = read_all(test::Plan(floor_plan, "[0, 0, 0]"), 0.0, 0.0);
-  const std::vector<CarmenScan> far =
+  const std::vector<carmen::CarmenScan> near = read_all(test::Plan(floor_plan, "[0, 0, 0]"), 0.0, 0.0);
+  const std::vector<carmen::CarmenScan> far =
       read_all(test::Plan(floor_plan, "[500000, 4649776, 0]"), 500'000.0, 4'649'776.0);
   ASSERT_EQ(far.size(), near.size());
   for (std::size_t i = 0; i < near.size(); ++i) {
@@ -479,4 +479,4 @@ TEST(DriveParams, AreOfAWorldOrOfAMap) {
 }
 
 }  // namespace
-}  // namespace glocal::planned_drive_test
+}  // namespace glocal::simulation::planned_drive_test

@@ -11,7 +11,7 @@
 #include "files.hpp"
 #include "sources/plan.hpp"
 
-namespace glocal::random_scans_test {
+namespace glocal::simulation::random_scans_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -149,4 +149,4 @@ TEST(RandomScans, OfAMapFarAwayAreTheSameFarAway) {
 }
 
 }  // namespace
-}  // namespace glocal::random_scans_test
+}  // namespace glocal::simulation::random_scans_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glocal::shapes_test {
+namespace glocal::simulation::shapes_test {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -86,4 +86,4 @@ TEST(ShapesWithin, AreThoseThatMayBeMet) {
 }
 
 }  // namespace
-}  // namespace glocal::shapes_test
+}  // namespace glocal::simulation::shapes_test

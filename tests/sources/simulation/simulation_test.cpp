@@ -10,7 +10,7 @@
 
 #include "files.hpp"
 
-namespace glocal::simulation_test {
+namespace glocal::simulation::simulation_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -395,4 +395,4 @@ TEST(Route, OfATourBetweenManyPlacesIsQuick) {
 }
 
 }  // namespace
-}  // namespace glocal::simulation_test
+}  // namespace glocal::simulation::simulation_test

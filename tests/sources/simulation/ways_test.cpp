@@ -6,7 +6,7 @@
 
 #include "sources/plan.hpp"
 
-namespace glocal::ways_test {
+namespace glocal::simulation::ways_test {
 namespace {
 
 /// Two rooms side by side, 0.5 m cells: the left one has 4 x 3 cells, the right one 2 x 3.
@@ -87,4 +87,4 @@ TEST(MapWays, SayThatThereIsNowhereToDrive) {
 }
 
 }  // namespace
-}  // namespace glocal::ways_test
+}  // namespace glocal::simulation::ways_test

@@ -9,7 +9,7 @@
 #include "evaluation/results/pcd.hpp"
 #include "files.hpp"
 
-namespace glocal::world_grid_test {
+namespace glocal::simulation::world_grid_test {
 namespace {
 
 using testing::HasSubstr;
@@ -156,4 +156,4 @@ TEST(FloorNear, IsMostOfARealCorridor) {
 }
 
 }  // namespace
-}  // namespace glocal::world_grid_test
+}  // namespace glocal::simulation::world_grid_test

@@ -4,7 +4,7 @@
 
 #include "files.hpp"
 
-namespace glocal::world_test {
+namespace glocal::simulation::world_test {
 namespace {
 
 constexpr const char* room =
@@ -100,4 +100,4 @@ TEST(World, MoreThanCanBeCheckedIsRefused) {
 }
 
 }  // namespace
-}  // namespace glocal::world_test
+}  // namespace glocal::simulation::world_test

@@ -19,20 +19,27 @@
 namespace glocal::office_site_test {
 namespace {
 
+using simulation::Position;
+using simulation::Shapes;
+using simulation::shapes_in_reality;
+using simulation::shapes_on_map;
+using simulation::World;
 using sites::office_site;
 
-bool is_only_on_map(const Presence& presence) {
+bool is_only_on_map(const simulation::Presence& presence) {
   return presence.on_map && !presence.in_reality;
 }
-bool is_only_in_reality(const Presence& presence) {
+bool is_only_in_reality(const simulation::Presence& presence) {
   return !presence.on_map && presence.in_reality;
 }
 
 /// All that a laser meets, in words that can be compared.
 std::vector<std::array<double, 4>> outlines(const Shapes& shapes) {
   std::vector<std::array<double, 4>> lines;
-  for (const Segment& s : shapes.segments) lines.push_back({s.from[0], s.from[1], s.to[0], s.to[1]});
-  for (const Circle& c : shapes.circles) lines.push_back({c.centre[0], c.centre[1], c.radius, 0.0});
+  for (const simulation::Segment& s : shapes.segments)
+    lines.push_back({s.from[0], s.from[1], s.to[0], s.to[1]});
+  for (const simulation::Circle& c : shapes.circles)
+    lines.push_back({c.centre[0], c.centre[1], c.radius, 0.0});
   return lines;
 }
 
@@ -49,7 +56,7 @@ TEST(OfficeSite, IsTheSameForTheSameSeedOnly) {
 
 /// Distance from a place to a straight way.
 double distance_to_way(const Position& place, const Position& from, const Position& to) {
-  const double length = distance(from, to);
+  const double length = simulation::distance(from, to);
   const Position along{(to[0] - from[0]) / length, (to[1] - from[1]) / length};
   const double share =
       std::clamp((place[0] - from[0]) * along[0] + (place[1] - from[1]) * along[1], 0.0, length);
@@ -65,14 +72,15 @@ TEST(OfficeSite, TheDriveIsFree) {
       for (std::size_t i = 1; i < world.way_points.size(); ++i) {
         const Position& from = world.way_points[i - 1];
         const Position& to = world.way_points[i];
-        length += distance(from, to);
-        ASSERT_TRUE(is_free_way(reality, from, to)) << side << " m, seed " << seed << ", way " << i;
-        for (const Segment& s : reality.segments) {
+        length += simulation::distance(from, to);
+        ASSERT_TRUE(simulation::is_free_way(reality, from, to))
+            << side << " m, seed " << seed << ", way " << i;
+        for (const simulation::Segment& s : reality.segments) {
           for (const Position& end : {s.from, s.to}) ASSERT_GT(distance_to_way(end, from, to), 0.2);
         }
-        for (const Circle& c : reality.circles)
+        for (const simulation::Circle& c : reality.circles)
           ASSERT_GT(distance_to_way(c.centre, from, to), c.radius + 0.2);
-        ASSERT_GT(clearance(reality, to), 0.2);
+        ASSERT_GT(simulation::clearance(reality, to), 0.2);
       }
       EXPECT_NEAR(length, 5.0 * side, 1e-6);
     }
@@ -81,7 +89,7 @@ TEST(OfficeSite, TheDriveIsFree) {
 
 TEST(OfficeSite, TheDriveIsWhereTheMapIsFree) {
   const World world = office_site(60.0, 400.0, 4);
-  const OccupancyGrid map = plan_of(world, 0.05);
+  const OccupancyGrid map = simulation::plan_of(world, 0.05);
   // The map is freed from one place: all that the drive comes to is connected to it.
   for (const Position& place : world.way_points) EXPECT_EQ(map.at(place[0], place[1]), Cell::free);
 }
@@ -114,9 +122,9 @@ TEST(OfficeSite, SomeThingsHaveChangedSinceTheMapWasMade) {
 
 TEST(OfficeSite, WhatIsNewIsNotOnTheMap) {
   const World world = office_site(60.0, 100.0, 5);
-  const OccupancyGrid map = plan_of(world, 0.05);
+  const OccupancyGrid map = simulation::plan_of(world, 0.05);
   int on_free_cells = 0;
-  for (const Rectangle& box : world.rectangles) {
+  for (const simulation::Rectangle& box : world.rectangles) {
     if (!is_only_in_reality(box.presence)) continue;
     // Within its four sides, as it may stand less than a cell away from a wall. Of rooms that were shut
     // nothing is known.
@@ -144,8 +152,8 @@ TEST(OfficeSite, RaysMeetWhatIsThereInReality) {
   for (const Position& place : world.way_points) {
     for (int degree = 0; degree < 360; degree += 3) {
       const Position direction{std::cos(radians(degree)), std::sin(radians(degree))};
-      const double real = ray_distance(reality, place, direction);
-      const double expected = ray_distance(mapped, place, direction);
+      const double real = simulation::ray_distance(reality, place, direction);
+      const double expected = simulation::ray_distance(mapped, place, direction);
       ++rays;
       if (real < expected - 0.2) ++shorter;
       if (real > expected + 0.2) ++longer;
@@ -160,7 +168,7 @@ TEST(OfficeSite, RaysMeetWhatIsThereInReality) {
 
 TEST(OfficeSite, NothingIsKnownOfRoomsThatWereShut) {
   const World world = office_site(100.0, 500.0, 2);
-  const OccupancyGrid map = plan_of(world, 0.05);
+  const OccupancyGrid map = simulation::plan_of(world, 0.05);
   std::map<Cell, int> cells;
   for (const Cell cell : map.cells) ++cells[cell];
   const double all = static_cast<double>(map.cells.size());
