@@ -89,7 +89,7 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
 }
 
 Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
-  if (!open_ || !is_of(local, map_from_local)) open_.emplace(begin(local, map_from_local, gate));
+  if (!open_ || !is_about(local, map_from_local)) open_.emplace(begin(local, map_from_local, gate));
   Search& search = *open_;
   Verification result{.near = search.declared.near, .margin = params_.margin};
   result.points_tested = search.rivals.advance(looks_per_step_);
@@ -110,11 +110,10 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
   return result;
 }
 
-/// The open search.
-bool WholeMap::is_of(const LocalMap& local, const Pose3& map_from_local) const {
+/// Whether the open search is about this pose.
+bool WholeMap::is_about(const LocalMap& local, const Pose3& map_from_local) const {
   const Pose3 declared = map_from_local * open_->local_from_robot;
-  return open_->epoch == local.epoch &&
-         open_->declared.near.are_near(declared, open_->declared.map_from_robot);
+  return open_->epoch == local.epoch && is_same_candidate(declared, open_->declared.map_from_robot);
 }
 
 WholeMap::Search WholeMap::begin(const LocalMap& local, const Pose3& map_from_local,

@@ -60,7 +60,7 @@ class WholeMap final : public Verifier {
     std::optional<Points> mirrored_points;
     std::optional<BoxSearch> mirrored;
   };
-  [[nodiscard]] bool is_of(const LocalMap& local, const Pose3& map_from_local) const;
+  [[nodiscard]] bool is_about(const LocalMap& local, const Pose3& map_from_local) const;
   [[nodiscard]] Search begin(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) const;
   [[nodiscard]] std::vector<Hypothesis> rivals_of(const Search& search, const BoxSearchResult& found) const;
   /// Contact at the best pose of the mirrored points, in the plane, if it is more than at the declared pose

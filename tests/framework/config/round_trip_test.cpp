@@ -133,6 +133,7 @@ trials:
 localizer:
   motion: planar
   contact_epsilon: auto
+  looks_per_step: 0
   prior:
     region:
       x: auto
@@ -188,7 +189,7 @@ TEST_F(RoundTrip, WhatFollowsFromTheMapIsAComment) {
   EXPECT_THAT(written,
               testing::HasSubstr(
                   "\nlocalizer:\n  motion: planar\n  contact_epsilon: auto  # 0.06 m here, twice the map's "
-                  "resolution\n  prior:\n"));
+                  "resolution\n  looks_per_step: 0\n  prior:\n"));
   Experiment again = read("again.yaml", written);
   EXPECT_EQ(effective_yaml(again, catalog_), effective_yaml(e, catalog_));
   e.localizer.contact_epsilon = 0.05;
