@@ -105,7 +105,7 @@ TEST(WholeMap, ASearchThatGoesOnSaysTheSameInTheEnd) {
   const Pose2 declared{1.0, 1.0, 0.0};
   const Verification whole = verification(map, declared);
   int calls_before = std::numeric_limits<int>::max();
-  for (const std::size_t looks : {1, 1000, 1'000'000'000}) {
+  for (const std::size_t looks : {1U, 1000U, 1'000'000'000U}) {
     WholeMap verifier({}, StageSetup{.map = map, .looks_per_step = looks});
     const auto [found, calls] = asked_again(verifier, before_a_corner(), declared);
     EXPECT_EQ(found.certificate.value().at_most, whole.certificate.value().at_most);

@@ -272,7 +272,7 @@ TEST(BoxSearch, InPiecesFindsTheSame) {
       const Exclusion declared{Pose2{2.0, 1.5, 0.0}};
       const BoxSearchResult whole = search_boxes(pyramid, points, {}, rule, declared, 1);
       std::size_t pieces_before = std::numeric_limits<std::size_t>::max();
-      for (const std::size_t looks : {1, 10, 1000, 1'000'000'000}) {
+      for (const std::size_t looks : {1U, 10U, 1000U, 1'000'000'000U}) {
         std::size_t taken = 0;
         std::size_t pieces = 0;
         BoxSearch search(pyramid, points, {}, rule, declared, pieces_before % 2 == 0 ? 1 : 3);

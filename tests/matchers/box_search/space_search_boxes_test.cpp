@@ -173,10 +173,10 @@ TEST(SearchBoxesInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
     const Pose3 near = found.poses[rng.below(static_cast<std::uint32_t>(found.poses.size()))].upright();
     look_at({near.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}, turn(0.05) * near.rotation});
     const Vector3 way{up_to(1.0), up_to(1.0), up_to(1.0)};
-    const Pose3 robot({declared.translation() + (rng.uniform(1.0, 1.1) / way.norm()) * way},
+    const Pose3 robot(declared.translation() + (rng.uniform(1.0, 1.1) / way.norm()) * way,
                       turn(0.05) * declared.rotation);
     look_at(robot * inverse(local_from_robot));
-    const Pose3 turned({declared.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}},
+    const Pose3 turned(declared.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)},
                        turn_about_z(radians(rng.uniform(30.0, 34.0))) * declared.rotation);
     look_at(turned * inverse(local_from_robot));
   }
