@@ -27,6 +27,11 @@ constexpr std::size_t most_points_in_space = 600;
 /// Points that are enough to find a mirrored pose that fits clearly better; all of them judge it then.
 constexpr std::size_t most_mirrored_points = 150;
 
+/// Left and right have changed places where the mirrored local map leaves less than this share of the points
+/// out of contact that the declared pose leaves. Offices are nearly their own mirror images: there people and
+/// doors put more points out of contact than the mirror does.
+constexpr double share_left = 0.5;
+
 Points some_of(const Points& points, std::size_t most) {
   Points chosen;
   for (const std::size_t i : evenly_chosen(points.size(), most)) chosen.push_back(points[i]);
@@ -99,6 +104,8 @@ Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local
   if (result.goes_on) return result;
   const BoxSearchResult found = search.rivals.result();
   result.mirrored_contact = mirrored_contact(search);
+  result.is_mirrored =
+      result.mirrored_contact && 1.0 - *result.mirrored_contact < share_left * (1.0 - search.contact);
   result.rivals = rivals_of(search, found);
   if (found.is_complete)
     result.certificate = {

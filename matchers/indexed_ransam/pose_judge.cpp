@@ -1,6 +1,7 @@
 #include "matchers/indexed_ransam/pose_judge.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace glocal::indexed_ransam {
@@ -37,8 +38,10 @@ std::vector<Hypothesis> PoseJudge::best_of(const std::vector<Candidate>& candida
   std::stable_sort(at_most.begin(), at_most.end(), has_better_score);
   std::vector<Hypothesis> best;
   for (Hypothesis& h : at_most) {
-    if (best.size() == rule_.most && best.back().score >= h.score) break;
-    h.score -= beams_.penalty(*clearance_, seen_from_above(h.map_from_local));
+    const bool is_full = best.size() == rule_.most;
+    if (is_full && best.back().score >= h.score) break;
+    const double to_lose = is_full ? h.score - best.back().score : std::numeric_limits<double>::infinity();
+    h.score -= beams_.penalty(*clearance_, seen_from_above(h.map_from_local), to_lose);
     best.insert(std::upper_bound(best.begin(), best.end(), h, has_better_score), h);
     if (best.size() > rule_.most) best.pop_back();
   }

@@ -122,7 +122,7 @@ void bind_verification(py::module_& module) {
       .def_readonly("certificate", &Verification::certificate,
                     "None where the search goes on, or was given up.")
       .def_readonly("mirrored_contact", &Verification::mirrored_contact,
-                    "Contact of the mirrored local map where it fits clearly better, or None.")
+                    "Contact of the mirrored local map where it fits better by the margin, or None.")
       .def_readonly("is_refuted", &Verification::is_refuted, "Whether the pose is not declared after all.")
       .def_readonly("score", &Verification::score, "Of the declared pose.")
       .def_readonly("margin", &Verification::margin,

@@ -85,9 +85,25 @@ TEST(WholeMap, FindsWhatFitsBetterInAMirror) {
   const auto found = verification(map_of({mirrored}), {1.0, 1.0, 0.0});
   ASSERT_TRUE(found.mirrored_contact);
   EXPECT_GT(*found.mirrored_contact, 0.98);
+  EXPECT_TRUE(found.is_mirrored);
   EXPECT_FALSE(verification(map_of({corner(0.0F, 0.0F)}), {1.0, 1.0, 0.0}).mirrored_contact);
   EXPECT_FALSE(verification(map_of({mirrored, corner(9.0F, 9.0F)}), {10.0, 10.0, 0.0}).mirrored_contact)
       << "the local map fits as well without";
+}
+
+TEST(WholeMap, NamesNoMirrorWhereMostOfWhatIsSeenIsNotOnTheMapEitherWay) {
+  Points mirrored = corner(0.0F, 0.0F);
+  std::swap(mirrored.x, mirrored.y);
+  LocalMap local = before_a_corner();
+  for (int i = 0; i < 100; ++i) {  // As many points again, apart from each other.
+    const auto k = static_cast<float>(i);
+    local.points.push_back({3.0F + 1.7F * k, 5.0F + 1.1F * k, 0.0F});
+  }
+  local.ends = {local.points.size()};
+  WholeMap verifier({}, StageSetup{.map = map_of({mirrored})});
+  const Verification found = verifier.verify(local, Pose3(Pose2{1.0, 1.0, 0.0}), {});
+  EXPECT_NEAR(found.mirrored_contact.value(), 0.5, 0.05);
+  EXPECT_FALSE(found.is_mirrored);
 }
 
 /// What the verifier says in the end, and in which call.

@@ -59,9 +59,11 @@ struct Verification {
   std::size_t points_tested = 0;  ///< Looks at a point.
   bool goes_on = false;           ///< The search has not come to its end, and goes on in the next step.
   std::optional<Certificate> certificate = {};  ///< None where the search goes on, or was given up.
-  /// Contact of the mirrored local map at the pose where it fits best; none where it fits nowhere clearly
-  /// better than the local map at the declared pose.
+  /// Contact of the mirrored local map at the pose where it fits best; none where it fits nowhere better
+  /// by the margin than the local map at the declared pose.
   std::optional<double> mirrored_contact = {};
+  /// It fits so much better that left and right have changed places, and not the place is like its image.
+  bool is_mirrored = false;
 
   /// Whether a rival is about as good as the declared pose.
   [[nodiscard]] bool is_about_as_good(const Hypothesis& rival) const { return rival.score >= score - margin; }

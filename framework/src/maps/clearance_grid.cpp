@@ -46,11 +46,16 @@ std::optional<double> ClearanceGrid::first_occupied(const Point& from, const Poi
   if (clearance_.empty() || !(length > 0.0F)) return std::nullopt;
   const float scale = 1.0F / resolution_;
   const float end = (length - static_cast<float>(margin)) * scale;
+  const float columns = dx / length, rows = dy / length;
+  bool was_inside = false;
   for (float t = 0.5F; t <= end;) {
-    const float column = a.x * scale + t * dx / length;
-    const float row = a.y * scale + t * dy / length;
+    const float column = a.x * scale + t * columns;
+    const float row = a.y * scale + t * rows;
     const bool inside = column >= 0.0F && row >= 0.0F && column < static_cast<float>(width_) &&
                         row < static_cast<float>(height_);
+    // A ray that has left the grid does not come back.
+    if (was_inside && !inside) return std::nullopt;
+    was_inside = inside;
     const int clearance = inside ? clearance_[index(static_cast<int>(column), static_cast<int>(row))] : 1;
     if (clearance == 0) return t * resolution_;
     t += std::max(0.5F, static_cast<float>(clearance - 1));

@@ -26,6 +26,8 @@ std::string why_refuted(const Verification& v, std::size_t rivals) {
     return fmt::format("a search of the whole map found {} about as good",
                        rivals == 1 ? "another one" : fmt::format("{} others", rivals));
   }
+  if (v.mirrored_contact)
+    return fmt::format("its mirror image fits better: {:.0f} % contact", 100.0 * *v.mirrored_contact);
   if (!v.certificate) return "the search of the whole map was given up: too many poses are about as good";
   return fmt::format("it has {:.0f} % contact, and up to {:.0f} % cannot be ruled out elsewhere",
                      100.0 * v.certificate->contact, 100.0 * v.certificate->at_most);
@@ -92,7 +94,7 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
   found.score = score_near(declared, found.near, result);
   settle(found, result.verdict);
   is_verified_ = !found.is_refuted && !found.goes_on;
-  if (found.mirrored_contact) {
+  if (found.is_mirrored) {
     result.setup = result.setup.value_or(SetupCheck{});
     result.setup->fault = SetupFault::mirrored;
     result.verdict.why = result.setup->why();

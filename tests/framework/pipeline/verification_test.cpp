@@ -124,7 +124,8 @@ TEST_F(WithVerifier, WhatFitsBetterInAMirrorIsAFaultOfTheSetUp) {
   script_->verify = [](const Pose3&) {
     return Verification{
         .certificate = Certificate{.contact = 0.8, .at_most = 0.7, .epsilon = 0.1, .delta = 0.14},
-        .mirrored_contact = 0.9};
+        .mirrored_contact = 0.95,
+        .is_mirrored = true};
   };
   const StepResult result = step();
   EXPECT_EQ(result.verdict.kind, VerdictKind::searching);
@@ -132,6 +133,18 @@ TEST_F(WithVerifier, WhatFitsBetterInAMirrorIsAFaultOfTheSetUp) {
   EXPECT_TRUE(result.verification->is_refuted);
   EXPECT_EQ(result.setup.value().fault, SetupFault::mirrored);
   EXPECT_THAT(result.verdict.why, HasSubstr("left and right"));
+}
+
+TEST_F(WithVerifier, WhatFitsALittleBetterInAMirrorIsRefutedAndNoFault) {
+  script_->verify = [](const Pose3&) {
+    return Verification{
+        .certificate = Certificate{.contact = 0.8, .at_most = 0.7, .epsilon = 0.1, .delta = 0.14},
+        .mirrored_contact = 0.86};
+  };
+  const StepResult result = step();
+  EXPECT_TRUE(result.verification->is_refuted);
+  EXPECT_FALSE(result.setup && result.setup->fault);
+  EXPECT_THAT(result.verdict.why, EndsWith("its mirror image fits better: 86 % contact"));
 }
 
 TEST_F(WithVerifier, WhatIsDeclaredIsVerifiedOnceAndAnewOnceItWasLost) {
