@@ -12,6 +12,7 @@
 
 #include "glocal/cloud_registrar.hpp"
 #include "glocal/contact.hpp"
+#include "glocal/message_link.hpp"
 #include "glocal/motion.hpp"
 #include "glocal/registry.hpp"
 #include "glocal/strategies.hpp"
@@ -66,17 +67,18 @@ struct Catalog {
   Registry<VerdictRule, StageSetup> verdict_rules{"verdict_rule"};
   Registry<Verifier, StageSetup> verifiers{"verifier"};
   CloudRegistrars cloud_registrars{"cloud_registrar"};
+  Registry<MessageLink, SourceSetup> message_links{"message_link"};
 
   /// Every registry, in the order of the data's way; last what no localizer has.
-  [[nodiscard]] std::array<RegistryBase*, 11> registries() {
-    return {&map_sources,   &observation_sources, &local_mappers,   &contact_indexes,
-            &matchers,      &clusterers,          &raters,          &threshold_policies,
-            &verdict_rules, &verifiers,           &cloud_registrars};
+  [[nodiscard]] std::array<RegistryBase*, 12> registries() {
+    return {&map_sources,   &observation_sources, &local_mappers,    &contact_indexes,
+            &matchers,      &clusterers,          &raters,           &threshold_policies,
+            &verdict_rules, &verifiers,           &cloud_registrars, &message_links};
   }
-  [[nodiscard]] std::array<const RegistryBase*, 11> registries() const {
-    return {&map_sources,   &observation_sources, &local_mappers,   &contact_indexes,
-            &matchers,      &clusterers,          &raters,          &threshold_policies,
-            &verdict_rules, &verifiers,           &cloud_registrars};
+  [[nodiscard]] std::array<const RegistryBase*, 12> registries() const {
+    return {&map_sources,   &observation_sources, &local_mappers,    &contact_indexes,
+            &matchers,      &clusterers,          &raters,           &threshold_policies,
+            &verdict_rules, &verifiers,           &cloud_registrars, &message_links};
   }
 };
 
