@@ -82,6 +82,7 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 void add_all(CLI::App& app, Context& context) {
+  add_live(app, context);
   add_localize(app, context);
   add_run(app, context);
   add_status(app, context);

@@ -39,6 +39,7 @@ void add_figures(CLI::App& app, Context& context);
 void add_help(CLI::App& app, Context& context);
 void add_leaderboard(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
+void add_live(CLI::App& app, Context& context);
 void add_localize(CLI::App& app, Context& context);
 void add_map(CLI::App& app, Context& context);
 void add_mapping(CLI::App& app, Context& context);

@@ -19,6 +19,7 @@
 #include "app/report_file.hpp"
 #include "app/run_report.hpp"
 #include "app/standard_streams.hpp"
+#include "app/step_text.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/running/experiment_runner.hpp"
 
@@ -32,12 +33,6 @@ struct LocalizeOptions {
   std::string out;
   bool force = false;
 };
-
-std::string text_of(const Pose3& pose, Motion motion) {
-  const std::string height = motion == Motion::planar ? "" : fmt::format(" z {:.2f}", pose.z);
-  return fmt::format("x {:.2f} y {:.2f}{} heading {:.1f} deg", pose.x, pose.y, height,
-                     degrees(pose.heading()));
-}
 
 /// "right: 0.01 m and 0.5 deg off the reference", or nothing without a reference.
 std::string judged(const TrialRecord& trial) {
@@ -83,12 +78,8 @@ class Narrator {
   void step(const StepRecord& record) {
     if (!tells_steps_) return;
     const StepResult& result = record.result;
-    const auto pose = result.estimate();
-    const auto& estimate = result.verdict.estimate;
     const double way = drive_->path_m[first_sample_ + result.step] - drive_->path_m[first_sample_];
-    answer("step {:3}  {:6.2f} m  {:13}  {}{}\n", result.step, way, to_string(result.verdict.kind),
-           pose ? text_of(*pose, motion_) : "no pose",
-           estimate ? fmt::format(", {:.0f} %", 100.0 * estimate->confidence) : "");
+    answer("{}\n", text_of(result, way));
     if (result.verdict.why != last_why_) answer("          {}\n", result.verdict.why);
     last_why_ = result.verdict.why;
   }

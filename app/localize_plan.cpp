@@ -61,12 +61,11 @@ MapChoice choose_octree(const std::string& path, const Catalog& catalog) {
           true};
 }
 
-MapChoice choose_map(const LocalizeRequest& request, const Catalog& catalog) {
-  const fs::path& map = request.map;
+MapChoice choose_map(const fs::path& map, bool is_strict, const Catalog& catalog) {
   expect_there(map);
   const std::string path = path_entry("path", map);
   if (bags::is_recording(map))
-    return {fmt::format("bag_map: {{{}{}}}", path, request.strict ? ", strict: true" : ""),
+    return {fmt::format("bag_map: {{{}{}}}", path, is_strict ? ", strict: true" : ""),
             "a map recorded as a message"};
   if (is_file_of_octree(map)) return choose_octree(path, catalog);
   if (clouds::has_name_of_cloud(map))
@@ -209,24 +208,76 @@ std::string prior_yaml(const Prior& prior) {
   return fmt::format("{{{}}}", fmt::join(keys, ", "));
 }
 
+/// Plans and sensors are off by centimetres, however fine a map's cells are.
+void widen_contact(const MapChoice& map, LocalizePlan& plan, std::map<std::string, std::string>& changes) {
+  constexpr double finest = 0.05, least_epsilon = 0.1;  // m
+  if (map.resolution == 0.0 || map.resolution >= finest) return;
+  plan.choices.push_back(fmt::format(
+      "contact     within {} m: the map's cells are finer than maps and sensors are true", least_epsilon));
+  changes["contact_epsilon"] = fmt::format("{}", least_epsilon);
+}
+
+/// The way to the robot's messages, as YAML.
+std::string link_yaml(const LiveRequest& request) {
+  if (request.recording.empty())
+    return request.domain ? fmt::format("{{ros2: {{domain: {}}}}}", *request.domain) : "ros2";
+  return fmt::format("{{recording: {{{}, in_real_time: {}}}}}", path_entry("path", request.recording),
+                     request.in_real_time);
+}
+
+MapChoice choose_live_map(const LiveRequest& request, const Catalog& catalog) {
+  constexpr std::string_view topic = "topic:";
+  if (!request.map.starts_with(topic)) return choose_map(request.map, false, catalog);
+  return {fmt::format("ros2_map: {{link: {}, {}}}", link_yaml(request),
+                      entry("topic", request.map.substr(topic.size()))),
+          "what the robot's map server sends"};
+}
+
+std::string live_drive_yaml(const LiveRequest& request) {
+  std::string yaml = fmt::format("ros2:\n    link: {}\n", link_yaml(request));
+  for (const auto& [key, value] :
+       {std::pair("scans", &request.scans), std::pair("odometry", &request.odometry),
+        std::pair("odom_frame", &request.odom_frame), std::pair("base_frame", &request.base_frame),
+        std::pair("namespace", &request.name_space)}) {
+    if (!value->empty()) yaml += fmt::format("    {}\n", entry(key, *value));
+  }
+  if (!request.heights.empty()) yaml += fmt::format("    heights: [{}]\n", fmt::join(request.heights, ", "));
+  return yaml;
+}
+
 }  // namespace
 
+LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog) {
+  const MapChoice map = choose_live_map(request, catalog);
+  LocalizePlan plan{.name = "live", .experiment = {}, .choices = {"map         " + map.text}};
+  std::map<std::string, std::string> changes;
+  widen_contact(map, plan, changes);
+  const std::string method = request.method.empty() ? default_method(map.in_space) : request.method;
+  plan.choices.push_back(fmt::format("method      {}", shown(method)));
+  plan.experiment = fmt::format(
+      "# Written by glocal live.\n"
+      "schema: 1\n"
+      "name: live\n"
+      "seed: 1\n"
+      "map:\n"
+      "  {}\n"
+      "observations:\n"
+      "  {}"
+      "trials: {{whole: true}}\n"
+      "{}",
+      map.yaml, live_drive_yaml(request), localizer_yaml(method, changes, catalog));
+  return plan;
+}
+
 LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& catalog) {
-  const MapChoice map = choose_map(request, catalog);
+  const MapChoice map = choose_map(request.map, request.strict, catalog);
   const LogChoice log = choose_log(request, map);
   LocalizePlan plan{.name = "localize_" + plain_name(request.log),
                     .experiment = {},
                     .choices = {"map         " + map.text}};
   plan.choices.insert(plan.choices.end(), log.texts.begin(), log.texts.end());
-  // Plans and sensors are off by centimetres, however fine a map's cells are.
-  constexpr double finest = 0.05, least_epsilon = 0.1;  // m
-  const bool is_fine = map.resolution > 0.0 && map.resolution < finest;
   std::map<std::string, std::string> changes;
-  if (is_fine) {
-    plan.choices.push_back(fmt::format(
-        "contact     within {} m: the map's cells are finer than maps and sensors are true", least_epsilon));
-    changes["contact_epsilon"] = fmt::format("{}", least_epsilon);
-  }
+  widen_contact(map, plan, changes);
   const std::string method = request.method.empty() ? default_method(map.in_space) : request.method;
   plan.choices.push_back(fmt::format("method      {}", shown(method)));
   if (request.prior.is_given()) {

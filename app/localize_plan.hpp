@@ -39,6 +39,24 @@ struct LocalizePlan {
 /// ConfigError for what is none of these, and where a reader does.
 [[nodiscard]] LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& catalog);
 
+/// A robot that is to be localized while it drives.
+struct LiveRequest {
+  /// Map server's YAML, cloud, octree or recording; `topic:/map`: what a map server sends; `topic:` alone the
+  /// only such topic.
+  std::string map;
+  std::filesystem::path recording;     ///< In place of the robot; empty: DDS.
+  bool in_real_time = false;           ///< The recording's messages come when they came to the recorder.
+  std::optional<int> domain;           ///< Of DDS; none: ROS_DOMAIN_ID, else 0.
+  std::string scans, odometry;         ///< Topics; empty: the only one there is.
+  std::string odom_frame, base_frame;  ///< Of tf; empty: the usual ones.
+  std::string name_space;              ///< Of the robot's topics.
+  std::vector<double> heights;         ///< m; of clouds.
+  std::string method;                  ///< Name or file; empty: one that fits the map.
+};
+
+/// The same for a robot that drives. Its trials are a single one that does not end.
+[[nodiscard]] LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog);
+
 /// The built-in method that fits most robots and maps.
 [[nodiscard]] inline const char* default_method(bool in_space) {
   return in_space ? "lidar_upright" : "indexed";

@@ -10,6 +10,9 @@
 #include "sources/clouds/point_cloud_map.hpp"
 #include "sources/disturbed/disturbed_drive.hpp"
 #include "sources/disturbed/disturbed_map.hpp"
+#include "sources/live/live_drive.hpp"
+#include "sources/live/live_map.hpp"
+#include "sources/live/recording_link.hpp"
 #include "sources/ros_map/ros_map.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/random_scans.hpp"
@@ -58,6 +61,13 @@ void register_sources(Catalog& catalog) {
       experimental_since("0.1.0"), {.sources = &catalog.map_sources});
   catalog.map_sources.add<sites::OfficeMap>("office", "The map of a simulated office of any size.",
                                             stable_since("0.1.0"));
+  catalog.message_links.add<live::RecordingLink>("recording", "A recording in place of a robot.",
+                                                 experimental_since("0.1.0"));
+  catalog.observation_sources.add<live::LiveDrive>("ros2", "The drive of a robot while it drives.",
+                                                   experimental_since("0.1.0"),
+                                                   {.links = &catalog.message_links});
+  catalog.map_sources.add<live::LiveMap>("ros2_map", "The map that a robot's map server sends.",
+                                         experimental_since("0.1.0"), {.links = &catalog.message_links});
 }
 
 }  // namespace glocal

@@ -14,16 +14,7 @@
 namespace glocal::bags {
 namespace {
 
-constexpr double ns_per_s = 1e9;
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-std::int64_t nanoseconds(double seconds) {
-  return static_cast<std::int64_t>(std::llround(seconds * ns_per_s));
-}
-
-double seconds(std::int64_t ns) {
-  return static_cast<double>(ns) / ns_per_s;
-}
 
 bags::DriveTopics topics_of(const BagDrive::Params& params) {
   return {.scans = params.scans,
@@ -33,6 +24,16 @@ bags::DriveTopics topics_of(const BagDrive::Params& params) {
           .reference = params.reference.topic,
           .reference_frame = params.reference.frame,
           .sensor_is_given = params.sensor_from == "given"};
+}
+
+bags::PlacingRule placing_rule(const BagDrive::Params& params, bool is_planar) {
+  return {.heights = params.heights,
+          .is_deskewed = params.deskew == "odometry",
+          .is_planar = is_planar,
+          .max_gap_ns = nanoseconds(params.max_gap),
+          .robot_from_sensor = params.sensor_from == "given"
+                                   ? std::optional(clouds::robot_from_sensor(params.sensor))
+                                   : std::nullopt};
 }
 
 /// By number, the message of a topic that was made nearest to each of these times and at most so far from it;
@@ -53,18 +54,6 @@ std::vector<std::size_t> nearest_messages(const std::vector<std::int64_t>& of_me
     nearest.push_back(is_near ? best->second : none);
   }
   return nearest;
-}
-
-/// The earliest and the latest time, s; both 0 where there is none.
-std::pair<double, double> time_span(const bags::SensorScan& rays) {
-  double first = 0.0, last = 0.0;
-  for (const auto* times : {&rays.hit_times, &rays.free_times}) {
-    for (const float time : *times) {
-      first = std::min(first, double{time});
-      last = std::max(last, double{time});
-    }
-  }
-  return {first, last};
 }
 
 }  // namespace
@@ -159,29 +148,13 @@ void describe(ParamVisitor& v, BagDrive::Params& p) {
             "must be tf where scans of several topics are joined");
 }
 
-/// Moves the ends of rays to where the robot is at the observation's stamp.
-class BagDrive::RayMover {
- public:
-  /// The sensor's pose in that robot's frame when the first ray was measured and the last one, and these
-  /// times, s.
-  RayMover(const Pose3& first, const Pose3& last, const std::pair<double, double>& span)
-      : motion_(first, last), first_time_(span.first), duration_(span.second - span.first) {}
-
-  [[nodiscard]] Vector3 moved(const Point& p, double time) const {
-    return motion_.at(duration_ > 0.0 ? (time - first_time_) / duration_ : 0.0) * as_vector(p);
-  }
-
- private:
-  bags::EvenMotion motion_;
-  double first_time_, duration_;
-};
-
 BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
     : params_(params),
       is_planar_(setup.motion == Motion::planar),
       warn_(setup.warn),
       max_gap_ns_(nanoseconds(params.max_gap)),
-      recording_(params.path.resolved, bags::damage_if(params.strict)) {
+      recording_(params.path.resolved, bags::damage_if(params.strict)),
+      placer_(placing_rule(params, setup.motion == Motion::planar), contents_) {
   recording_.tell_progress(setup.progress);
   const std::string file = params.path.resolved.string();
   contents_ = bags::read_contents(recording_, topics_of(params), file, warn_);
@@ -224,7 +197,7 @@ std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
     }
     last = stamp;
     const auto odometry = contents_.odometry_at(stamp, max_gap_ns_);
-    if (!odometry || !robot_from_sensor(scans.frame, stamp)) {
+    if (!odometry || !placer_.robot_from_sensor(scans.frame, stamp)) {
       ++lost;
       continue;
     }
@@ -298,11 +271,6 @@ void BagDrive::warn_of_references() const {
                     without, frames_.size()));
 }
 
-std::optional<Pose3> BagDrive::robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) {
-  if (params_.sensor_from == "given") return clouds::robot_from_sensor(params_.sensor);
-  return contents_.robot_from_sensor(frame, stamp_ns, max_gap_ns_);
-}
-
 std::optional<Pose3> BagDrive::reference_at(std::int64_t stamp_ns) const {
   const BagReference& r = params_.reference;
   const auto pose = contents_.reference_at(stamp_ns - nanoseconds(r.time_shift), max_gap_ns_);
@@ -341,7 +309,7 @@ void BagDrive::take(const bags::RecordedMessage& message) {
   const auto t = static_cast<std::size_t>(topic - scans.begin());
   const auto frames = wanted_.find({t, read_[t]++});
   if (frames == wanted_.end()) return;
-  const auto rays = rays_of(message, topic->are_clouds);
+  const auto rays = rays_of(message);
   for (const std::size_t i : frames->second) {
     Joined& joined = pending_.try_emplace(i, Joined{.missing = frames_[i].scans}).first->second;
     --joined.missing;
@@ -349,68 +317,22 @@ void BagDrive::take(const bags::RecordedMessage& message) {
   }
 }
 
-std::optional<bags::SensorScan> BagDrive::rays_of(const bags::RecordedMessage& message, bool is_cloud) {
-  const bags::RangeLimits limits{params_.min_range, params_.max_range, params_.free_range,
-                                 params_.voxel_size};
+std::optional<bags::SensorScan> BagDrive::rays_of(const bags::RecordedMessage& message) {
   try {
-    return is_cloud ? bags::rays_of(bags::read_point_cloud(message), limits)
-                    : bags::rays_of(bags::read_laser_scan(message), limits);
+    return bags::read_rays(message,
+                           {params_.min_range, params_.max_range, params_.free_range, params_.voxel_size});
   } catch (const ConfigError& error) {
     warn_once(fmt::format("a scan of {} is left out: {}", shown(message.connection->topic), error.what()));
     return std::nullopt;
   }
 }
 
-std::optional<BagDrive::RayMover> BagDrive::mover_of(const bags::Header& header, const Frame& frame,
-                                                     const std::pair<double, double>& span) {
-  const auto sensor_at = [&](double time) -> std::optional<Pose3> {
-    const std::int64_t stamp = header.stamp_ns + nanoseconds(time);
-    const auto then_from_sensor = robot_from_sensor(header.frame, stamp);
-    const auto odom_from_then = contents_.odometry_at(stamp, max_gap_ns_);
-    const auto odom_from_now = contents_.odometry_at(frame.stamp_ns, max_gap_ns_);
-    if (!then_from_sensor || !odom_from_then || !odom_from_now) return std::nullopt;
-    return inverse(*odom_from_now) * *odom_from_then * *then_from_sensor;
-  };
-  if (params_.deskew == "none") {
-    const auto sensor = robot_from_sensor(header.frame, header.stamp_ns);
-    return sensor ? std::optional(RayMover(*sensor, *sensor, {0.0, 0.0})) : std::nullopt;
-  }
-  const auto first = sensor_at(span.first), last = sensor_at(span.second);
-  return first && last ? std::optional(RayMover(*first, *last, span)) : std::nullopt;
-}
-
 bool BagDrive::add(const bags::SensorScan& rays, const bags::Header& header, const Frame& frame, Scan& scan) {
-  const auto mover = mover_of(header, frame, time_span(rays));
-  if (!mover) {
-    warn_once(
-        fmt::format("the scan at {:.3f} s is left out, as it is not known where the robot was until its end",
-                    seconds(header.stamp_ns)));
-    return false;
-  }
-  const auto is_wanted = [&](double z) {
-    return params_.heights.empty() || (z >= params_.heights[0] && z <= params_.heights[1]);
-  };
-  const auto place = [&](const Point& end, double time, Points& ends) {
-    const Vector3 p = mover->moved(end, time);
-    if (!is_wanted(p.z())) return false;
-    ends.push_back(as_point({p.x(), p.y(), is_planar_ ? 0.0 : p.z()}));
-    return true;
-  };
-  const bool several = contents_.scans.size() > 1;
-  const bool keeps_times = params_.deskew == "none" && (several || !rays.hit_times.empty());
-  const double since_stamp = seconds(header.stamp_ns - frame.stamp_ns);
-  for (std::size_t i = 0; i < rays.hits.size(); ++i) {
-    const double time = rays.hit_times.empty() ? 0.0 : rays.hit_times[i];
-    if (place(rays.hits[i], time, scan.hits) && keeps_times)
-      scan.times.push_back(static_cast<float>(since_stamp + time));
-  }
-  for (std::size_t i = 0; i < rays.free_ends.size(); ++i)
-    place(rays.free_ends[i], rays.free_times.empty() ? 0.0 : rays.free_times[i], scan.free_ends);
-  // Of several sensors the rays begin halfway between them.
-  const Vector3 share = (1.0 / static_cast<double>(frame.scans)) * mover->moved({}, 0.0);
-  scan.origin =
-      as_point(as_vector(scan.origin) + Vector3{share.x(), share.y(), is_planar_ ? 0.0 : share.z()});
-  return true;
+  if (placer_.add(rays, header, frame.stamp_ns, frame.scans, scan)) return true;
+  warn_once(
+      fmt::format("the scan at {:.3f} s is left out, as it is not known where the robot was until its end",
+                  seconds(header.stamp_ns)));
+  return false;
 }
 
 void BagDrive::warn_once(const std::string& text) {

@@ -14,7 +14,7 @@
 #include "sources/bags/drive_contents.hpp"
 #include "sources/bags/messages.hpp"
 #include "sources/bags/recording.hpp"
-#include "sources/bags/sensor_scan.hpp"
+#include "sources/bags/scan_placer.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/driven_path.hpp"
 
@@ -63,8 +63,6 @@ class BagDrive final : public ObservationSource {
   [[nodiscard]] std::optional<Sample> next() override;
 
  private:
-  class RayMover;
-
   /// An observation to be.
   struct Frame {
     std::int64_t stamp_ns = 0;
@@ -84,13 +82,9 @@ class BagDrive final : public ObservationSource {
   void pick(const std::vector<Frame>& frames);
   void join_other_topics();
   void warn_of_references() const;
-  [[nodiscard]] std::optional<Pose3> robot_from_sensor(const std::string& frame, std::int64_t stamp_ns);
   [[nodiscard]] std::optional<Pose3> reference_at(std::int64_t stamp_ns) const;
   void take(const bags::RecordedMessage& message);
-  [[nodiscard]] std::optional<bags::SensorScan> rays_of(const bags::RecordedMessage& message, bool is_cloud);
-  /// None where it is not known where the robot and its sensor were in this span of time, s after the stamp.
-  [[nodiscard]] std::optional<RayMover> mover_of(const bags::Header& header, const Frame& frame,
-                                                 const std::pair<double, double>& span);
+  [[nodiscard]] std::optional<bags::SensorScan> rays_of(const bags::RecordedMessage& message);
   /// Adds a message's rays to the scan of a frame; false if they cannot be placed.
   bool add(const bags::SensorScan& rays, const bags::Header& header, const Frame& frame, Scan& scan);
   void warn_once(const std::string& text);
@@ -102,6 +96,7 @@ class BagDrive final : public ObservationSource {
   std::int64_t max_gap_ns_;
   bags::Recording recording_;
   bags::DriveContents contents_;
+  bags::ScanPlacer placer_;
   std::vector<Frame> frames_;
   /// Which frames want a message: by topic, and its number there.
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> wanted_;

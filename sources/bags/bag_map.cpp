@@ -9,7 +9,6 @@
 
 #include "glocal/error.hpp"
 #include "glocal/words.hpp"
-#include "sources/bags/messages.hpp"
 #include "sources/bags/recording.hpp"
 
 namespace glocal::bags {
@@ -48,11 +47,11 @@ bags::GridMessage last_grid(bags::Recording& recording, const std::string& topic
 }
 
 /// -1, and whatever else is no share, is unknown.
-Cell cell_of(std::int8_t percent, const BagMap::Params& params) {
+Cell cell_of(std::int8_t percent, const CellThresholds& thresholds) {
   const double occupancy = percent / 100.0;
   if (percent < 0 || percent > 100) return Cell::unknown;
-  if (occupancy > params.occupied_thresh) return Cell::occupied;
-  return occupancy < params.free_thresh ? Cell::free : Cell::unknown;
+  if (occupancy > thresholds.occupied) return Cell::occupied;
+  return occupancy < thresholds.free ? Cell::free : Cell::unknown;
 }
 
 }  // namespace
@@ -79,17 +78,21 @@ MapData BagMap::load() {
   recording.tell_progress(setup_.progress);
   for (const auto& file : recording.files()) setup_.note_input(file);
   const std::string topic = topic_of(recording, params_);
-  const std::string name = shown(topic);
   const bags::GridMessage grid = last_grid(recording, topic, params_);
   for (const std::string& warning : recording.warnings()) setup_.warn(warning);
+  return map_of(grid, {params_.occupied_thresh, params_.free_thresh}, params_.path.resolved.string(), topic);
+}
+
+MapData map_of(const GridMessage& grid, const CellThresholds& thresholds, const std::string& source,
+               const std::string& topic) {
+  const std::string of_topic = "the map of " + shown(topic);
+  const auto fail = [&](const std::string& message) { throw ConfigError({{source, 0, 0, message}}); };
   if (static_cast<double>(grid.cells.size()) > max_grid_cells)
-    fail(params_,
-         fmt::format("the map of {} has {} x {} cells, more than {:g}; record it with a coarser resolution",
-                     name, grid.width, grid.height, max_grid_cells));
+    fail(fmt::format("{} has {} x {} cells, more than {:g}; record it with a coarser resolution", of_topic,
+                     grid.width, grid.height, max_grid_cells));
   constexpr double level = 1e-6;  // rad
   if (grid.frame_from_grid.tilt() > level)
-    fail(params_,
-         fmt::format("the map of {} is tilted against its frame; only level maps can be used", name));
+    fail(of_topic + " is tilted against its frame; only level maps can be used");
   MapData map;
   const Vector3 corner = grid.frame_from_grid.translation();
   map.origin = origin_near({corner.x(), corner.y(), 0.0});
@@ -97,12 +100,10 @@ MapData BagMap::load() {
               static_cast<int>(grid.width), static_cast<int>(grid.height),
               std::vector<Cell>(grid.cells.size())};
   std::transform(grid.cells.begin(), grid.cells.end(), map.grid.cells.begin(),
-                 [&](std::int8_t percent) { return cell_of(percent, params_); });
+                 [&](std::int8_t percent) { return cell_of(percent, thresholds); });
   map.points = occupied_centres(map.grid);
   if (map.points.empty())
-    fail(params_,
-         fmt::format("the map of {} has no occupied cell; check occupied_thresh, or take another topic",
-                     name));
+    fail(of_topic + " has no occupied cell; check occupied_thresh, or take another topic");
   return map;
 }
 

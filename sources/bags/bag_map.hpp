@@ -5,6 +5,7 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
+#include "sources/bags/messages.hpp"
 
 namespace glocal::bags {
 
@@ -30,5 +31,15 @@ class BagMap final : public MapSource {
   SourceSetup setup_;
 };
 void describe(ParamVisitor& v, BagMap::Params& p);
+
+/// Cells more likely to be occupied than `occupied` are, less likely ones than `free` are free.
+struct CellThresholds {
+  double occupied = 0.65, free = 0.196;  ///< As map_server has them.
+};
+
+/// The map of a message; each occupied cell's centre is a point. Throws ConfigError, naming `source` and
+/// topic, for a grid that is too large, tilted or without occupied cell.
+[[nodiscard]] MapData map_of(const GridMessage& grid, const CellThresholds& thresholds,
+                             const std::string& source, const std::string& topic);
 
 }  // namespace glocal::bags

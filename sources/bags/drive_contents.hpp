@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "glocal/catalog.hpp"
@@ -61,13 +62,51 @@ struct DriveContents {
                                                        std::int64_t max_gap_ns);
 };
 
-/// Reads all but the scans' content, and finds out what is not asked for by name. Throws ConfigError, with
-/// what there is, for topics that are missing, several where one is needed, and frames that tf does not
-/// connect. Warns of what the recording warns of, and of messages that cannot be read.
+/// Finds out what a drive is made of, message by message.
+class ContentsReader {
+ public:
+  /// `wanted` names the topics of scans, but those that are added; `source` is what errors name.
+  ContentsReader(const DriveTopics& wanted, std::string source);
+
+  void add_scans(const std::string& topic) { contents_.scans.emplace_back().topic = topic; }
+
+  /// Takes in a message of tf, scans, odometry or the reference. Throws ConfigError if it cannot be read.
+  void take(const RecordedMessage& message);
+  /// What is known by now, or, where no more comes, all there is. Throws ConfigError, with what there is, for
+  /// several topics where one is needed, and frames that tf does not connect. What was once chosen stays.
+  DriveContents& settle(bool more_may_come);
+  /// Forgets how the robot and its sensors moved before a time.
+  void forget_before(std::int64_t stamp_ns);
+
+ private:
+  struct OdometryTopic {
+    PoseTrack poses;
+    std::string frame, child;
+  };
+
+  [[noreturn]] void fail(const std::string& message) const;
+  [[nodiscard]] std::string name_of(std::string_view key) const;
+  void take_scan(const RecordedMessage& message);
+  void choose_frames();
+  void choose_odometry_topic(const std::vector<std::string>& bases);
+  void check_sensors();
+  [[nodiscard]] std::string tree_text() const;
+
+  DriveTopics wanted_;
+  std::string source_;
+  DriveContents contents_;
+  std::map<std::string, OdometryTopic> odometry_;
+};
+
+/// Reads all but the scans' content, and finds out what is not asked for by name. Throws ConfigError where
+/// ContentsReader does, and for topics that are missing. Warns of what the recording warns of, and of
+/// messages that cannot be read.
 [[nodiscard]] DriveContents read_contents(Recording& recording, const DriveTopics& wanted,
                                           const std::string& file, const Warn& warn);
 
 /// Topics with scans.
 [[nodiscard]] bool has_scans(std::string_view type);
+/// Of nav_msgs/Odometry.
+[[nodiscard]] bool has_odometry(std::string_view type);
 
 }  // namespace glocal::bags

@@ -5,15 +5,22 @@
 
 namespace glocal::bags {
 
-void PoseTrack::settle() {
+void PoseTrack::settle(bool more_may_come) {
   std::stable_sort(poses_.begin(), poses_.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   // Of equal stamps the last one: from the back, unique() keeps the first that it meets.
   const auto same_stamp = [](const auto& a, const auto& b) { return a.first == b.first; };
   poses_.erase(poses_.begin(), std::unique(poses_.rbegin(), poses_.rend(), same_stamp).base());
-  is_still_ = !poses_.empty() && std::all_of(poses_.begin(), poses_.end(), [&](const auto& stamped) {
-    return stamped.second == poses_.front().second;
-  });
+  is_still_ = !more_may_come && !poses_.empty() &&
+              std::all_of(poses_.begin(), poses_.end(),
+                          [&](const auto& stamped) { return stamped.second == poses_.front().second; });
+}
+
+void PoseTrack::forget_before(std::int64_t stamp_ns) {
+  const auto after =
+      std::upper_bound(poses_.begin(), poses_.end(), stamp_ns,
+                       [](std::int64_t stamp, const auto& pose) { return stamp < pose.first; });
+  if (after != poses_.begin()) poses_.erase(poses_.begin(), after - 1);
 }
 
 std::optional<Pose3> PoseTrack::at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {

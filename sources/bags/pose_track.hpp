@@ -33,8 +33,11 @@ class EvenMotion {
 class PoseTrack {
  public:
   void add(std::int64_t stamp_ns, const Pose3& pose) { poses_.emplace_back(stamp_ns, pose); }
-  /// To be called once all poses are there: sorts them; of those with equal stamps the last one stays.
-  void settle();
+  /// To be called once all poses are there: sorts them; of those with equal stamps the last one stays. Where
+  /// more may come, nobody knows yet whether the track is still.
+  void settle(bool more_may_come = false);
+  /// Forgets what was before the last pose that is not after a time. To be settled.
+  void forget_before(std::int64_t stamp_ns);
 
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
   /// The first stamp and the last one. There must be a pose.

@@ -17,7 +17,7 @@ void TransformTree::add(const FrameTransform& transform, bool is_static) {
   }
 }
 
-void TransformTree::settle() {
+void TransformTree::settle(bool more_may_come) {
   for (auto& [child, by_parent] : edges_) {
     const auto times_named = [](const auto& edge) {
       return edge.second.track.size() + (edge.second.fixed ? 1 : 0);
@@ -26,7 +26,16 @@ void TransformTree::settle() {
         std::max_element(by_parent.begin(), by_parent.end(),
                          [&](const auto& a, const auto& b) { return times_named(a) < times_named(b); });
     parents_[child] = parent->first;
-    parent->second.track.settle();
+    parent->second.track.settle(more_may_come);
+  }
+}
+
+void TransformTree::forget_before(std::int64_t stamp_ns) {
+  for (auto& [child, by_parent] : edges_) {
+    for (auto& [parent, edge] : by_parent) {
+      edge.track.settle(true);
+      edge.track.forget_before(stamp_ns);
+    }
   }
 }
 

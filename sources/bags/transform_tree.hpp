@@ -49,9 +49,11 @@ class TransformTree {
  public:
   /// A static one holds at all times; a later one takes its place. More than 10,000 frames are not noted.
   void add(const FrameTransform& transform, bool is_static);
-  /// To be called once all transforms are there. A frame that was said to have several parents has that which
-  /// was named most often.
-  void settle();
+  /// To be called once all transforms are there, or whenever the tree is asked where more may come. A frame
+  /// that was said to have several parents has that which was named most often.
+  void settle(bool more_may_come = false);
+  /// Forgets how frames moved before a time (PoseTrack::forget_before).
+  void forget_before(std::int64_t stamp_ns);
 
   /// The pose of one frame in the other over time; each frame has a way to itself. None if no way connects
   /// them.

@@ -34,6 +34,8 @@ struct SourceSetup {
   std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
   /// To be called now and then by sources that take long to read.
   TellProgress progress = [](double) {};
+  /// To be asked now and then by sources that wait.
+  std::function<bool()> is_stopped = [] { return false; };
 };
 
 /// What stages may use when they are made.

@@ -43,6 +43,8 @@ class MessageLink {
   virtual void subscribe(const LiveTopic& topic, Delivery delivery) = 0;
   /// The next message of a topic that was subscribed to; none if none came within this time.
   [[nodiscard]] virtual std::optional<LiveMessage> next(std::chrono::milliseconds longest) = 0;
+  /// A robot's messages come when they come; those of a recording wait until they are asked for.
+  [[nodiscard]] virtual bool is_live() const { return true; }
   /// Whether nothing will come any more; a robot is never at its end.
   [[nodiscard]] virtual bool has_ended() const { return false; }
   /// Sends a message. Throws ConfigError for a type that the link does not know.

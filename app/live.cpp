@@ -1,0 +1,196 @@
+// glocal live: where a robot is while it drives.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/commands.hpp"
+#include "app/experiment_options.hpp"
+#include "app/interrupts.hpp"
+#include "app/localize_plan.hpp"
+#include "app/standard_streams.hpp"
+#include "app/step_text.hpp"
+#include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/writers.hpp"
+#include "evaluation/running/experiment_loader.hpp"
+#include "glocal/localizer.hpp"
+#include "sources/bags/scan_placer.hpp"
+#include "sources/live/answers.hpp"
+#include "sources/live/live_drive.hpp"
+#include "sources/live/recorded_link.hpp"
+
+namespace glocal::app {
+namespace {
+
+struct LiveOptions {
+  LiveRequest request;
+  ExperimentOptions changes;
+  std::string out, record;
+  bool publishes_tf = false, force = false;
+};
+
+const LiveTopic begin_topic{"/glocal/begin", "std_msgs/Empty"};
+
+/// Localizes a robot as its observations come, for ever, and tells what it finds.
+class LiveLocalizer {
+ public:
+  LiveLocalizer(const Experiment& experiment, const LiveOptions& options, const Context& context)
+      : experiment_(experiment),
+        loaded_(loaded(experiment, context.catalog)),
+        localizer_(make_localizer(experiment, context.catalog, loaded_)),
+        link_(link_of(options, context.catalog)),
+        name_space_(params().topics.name_space),
+        drive_(params().topics, setup(experiment), link_,
+               [this](const LiveMessage& message) {
+                 is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
+               }),
+        answers_(*link_, name_space_, frames(options)),
+        steps_(options.out + ".steps.jsonl", std::ios::binary) {
+    link_->subscribe(begin(), Delivery::reliable);
+  }
+
+  /// Until it is interrupted, or a recording has come to its end.
+  void run() {
+    begin_anew();
+    while (const auto sample = drive_.next()) {
+      if (is_asked_to_begin_ || sample->segment != segment_) begin_anew();
+      segment_ = sample->segment;
+      step(*sample);
+    }
+    answer(
+        "{} observations, {} declarations{}\n", observations_, declarations_,
+        drive_.passed_over() > 0 ? fmt::format(", {} observations passed over", drive_.passed_over()) : "");
+  }
+
+ private:
+  static SourceSetup setup(const Experiment& experiment) {
+    return {.seed = seed_of(RandomPart::observation_source, experiment),
+            .motion = experiment.localizer.motion,
+            .warn = [](const std::string& text) { spdlog::warn(text); },
+            .is_stopped = is_interrupted};
+  }
+
+  static LoadedExperiment loaded(const Experiment& experiment, const Catalog& catalog) {
+    LoadedExperiment loaded;
+    loaded.map = std::make_shared<const GlobalMap>(load_map(experiment, catalog, setup(experiment)));
+    answer("map         {} points\n\n", loaded.map->points().size());
+    return loaded;
+  }
+
+  [[nodiscard]] const live::LiveDrive::Params& params() const {
+    return dynamic_cast<const ParamsOf<live::LiveDrive::Params>&>(*experiment_.observations.params).value;
+  }
+
+  [[nodiscard]] std::shared_ptr<MessageLink> link_of(const LiveOptions& options,
+                                                     const Catalog& catalog) const {
+    std::shared_ptr<MessageLink> link = catalog.message_links.make(params().link, setup(experiment_));
+    if (options.record.empty()) return link;
+    return std::make_shared<live::RecordedLink>(std::move(link), options.record);
+  }
+
+  [[nodiscard]] live::Answers::Frames frames(const LiveOptions& options) const {
+    const std::string& odom = params().topics.odom_frame;
+    return {.odom = odom.empty() ? "odom" : odom, .publishes_tf = options.publishes_tf};
+  }
+
+  [[nodiscard]] LiveTopic begin() const { return {name_space_ + begin_topic.name, begin_topic.type}; }
+
+  void begin_anew() {
+    if (observations_ > 0) answer("begins anew\n");
+    is_asked_to_begin_ = false;
+    localizer_.reset(trial_++);
+    way_ = 0.0;
+    last_.reset();
+  }
+
+  void step(const Sample& sample) {
+    const Observation& observation = sample.observation;
+    if (last_) way_ += distance(*last_, observation.odom_from_robot);
+    last_ = observation.odom_from_robot;
+    StepRecord record;
+    record.result = localizer_.step(observation);
+    const StepResult& result = record.result;
+    ++observations_;
+    const bool is_declared = result.verdict.kind == VerdictKind::localized;
+    if (is_declared && !was_declared_) ++declarations_;
+    was_declared_ = is_declared;
+    answers_.tell(result, bags::nanoseconds(observation.stamp), observation.odom_from_robot,
+                  drive_.passed_over());
+    steps_ << step_line(trial_ - 1, record) << std::flush;
+    answer("{}\n", text_of(result, way_));
+    if (result.verdict.why != last_why_) answer("          {}\n", result.verdict.why);
+    last_why_ = result.verdict.why;
+    std::fflush(stdout);
+  }
+
+  const Experiment& experiment_;
+  LoadedExperiment loaded_;
+  Localizer localizer_;
+  std::shared_ptr<MessageLink> link_;
+  std::string name_space_;
+  live::LiveDrive drive_;
+  live::Answers answers_;
+  std::ofstream steps_;
+  bool is_asked_to_begin_ = false, was_declared_ = false;
+  int segment_ = 0;
+  std::size_t trial_ = 0, observations_ = 0, declarations_ = 0;
+  double way_ = 0.0;  ///< m, as odometry has it.
+  std::optional<Pose3> last_;
+  std::string last_why_;
+};
+
+void live(const LiveOptions& options, Context& context) {
+  const LocalizePlan plan = plan_live(options.request, context.catalog);
+  const std::string file = options.out + ".yaml";
+  AtomicFiles files(options.force);
+  files.add(file, plan.experiment);
+  files.commit();
+  for (const std::string& choice : plan.choices) answer("{}\n", choice);
+  answer("experiment  {}\n", file);
+  listen_to_interrupts();
+  const Experiment experiment = options.changes.read(file, context);
+  LiveLocalizer(experiment, options, context).run();
+}
+
+}  // namespace
+
+void add_live(CLI::App& app, Context& context) {
+  auto options = std::make_shared<LiveOptions>();
+  LiveRequest& request = options->request;
+  CLI::App* command =
+      app.add_subcommand("live", "Find a robot on a map while it drives, by its ROS 2 topics, and tell it.");
+  command
+      ->add_option("MAP", request.map,
+                   "Map server's YAML, cloud (PCD, PLY), octree, recording with a map, or topic:/map")
+      ->required();
+  CLI::Option* recording =
+      command->add_option("--recording", request.recording, "ROS bag or MCAP in place of the robot");
+  command->add_flag("--real-time", request.in_real_time, "The recording's messages come at their times")
+      ->needs(recording);
+  command->add_option("--domain", request.domain, "Domain of DDS (default: ROS_DOMAIN_ID, else 0)")
+      ->excludes(recording);
+  command->add_option("--scans", request.scans, "Topic with scans (default: the only one)");
+  command->add_option("--odometry", request.odometry, "Topic with odometry (default: tf, or the only one)");
+  command->add_option("--odom-frame", request.odom_frame, "Frame of tf that odometry counts from");
+  command->add_option("--base-frame", request.base_frame, "Frame of the robot");
+  command->add_option("--namespace", request.name_space, "What the robot's topics begin with, as /robot1");
+  command->add_option("--heights", request.heights, "Of clouds: from and to, above the robot's origin, m")
+      ->expected(2);
+  command->add_option("--method", request.method,
+                      "Localizer: a name (glocal list methods) or a file (default: indexed, and for maps in "
+                      "space lidar_upright)");
+  command->add_option("--record", options->record, "Write all that comes and is told to an MCAP file");
+  command->add_flag("--tf", options->publishes_tf, "Send map to odom, too, while a pose is declared");
+  options->changes.add_overrides_to(*command);
+  options->out = "results/live";
+  command->add_option("-o,--out", options->out, "Where the experiment and the steps go")
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "Replace earlier files");
+  command->callback([options, &context] { live(*options, context); });
+}
+
+}  // namespace glocal::app

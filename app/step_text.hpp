@@ -1,0 +1,16 @@
+// What is said of a step while a robot is localized.
+#pragma once
+
+#include <string>
+
+#include "glocal/step_result.hpp"
+
+namespace glocal::app {
+
+/// "x 1.23 y 4.56 heading 78.9 deg", with the height where the motion is not planar.
+[[nodiscard]] std::string text_of(const Pose3& pose, Motion motion);
+
+/// "step   3    1.20 m  localized      x 1.23 y 4.56 heading 78.9 deg, 99 %", after so much way (m).
+[[nodiscard]] std::string text_of(const StepResult& result, double way);
+
+}  // namespace glocal::app

@@ -1,0 +1,61 @@
+// From what a sensor measured to what a robot sees: rays moved to where the robot is at an observation's
+// stamp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "glocal/observation.hpp"
+#include "glocal/pose3.hpp"
+#include "sources/bags/drive_contents.hpp"
+#include "sources/bags/messages.hpp"
+#include "sources/bags/sensor_scan.hpp"
+
+namespace glocal::bags {
+
+struct PlacingRule {
+  /// Ends of rays between these heights above the robot's origin count, m; all if there are none.
+  std::vector<double> heights = {};
+  bool is_deskewed = true;                ///< Rays are moved as odometry says; else they keep their times.
+  bool is_planar = true;                  ///< Ends have no height.
+  std::int64_t max_gap_ns = 500'000'000;  ///< Between poses that are interpolated.
+  std::optional<Pose3> robot_from_sensor = {};  ///< None: tf has it.
+};
+
+class ScanPlacer {
+ public:
+  /// `contents` must outlive this.
+  ScanPlacer(PlacingRule rule, DriveContents& contents) : rule_(std::move(rule)), contents_(contents) {}
+
+  /// None where it is not known at this time.
+  [[nodiscard]] std::optional<Pose3> robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) const;
+
+  /// Adds the rays of a message, one of `of` that make an observation, to its scan. False if it is not known
+  /// where the robot and its sensor were until the end of the message.
+  [[nodiscard]] bool add(const SensorScan& rays, const Header& header, std::int64_t observation_ns,
+                         std::size_t of, Scan& scan) const;
+
+ private:
+  class RayMover;
+  /// None where it is not known where the robot and its sensor were in this span of time, s after the stamp.
+  [[nodiscard]] std::optional<RayMover> mover_of(const Header& header, std::int64_t observation_ns,
+                                                 const std::pair<double, double>& span) const;
+
+  PlacingRule rule_;
+  DriveContents& contents_;
+};
+
+/// Reads a message of one of the types of has_scans(). Throws ConfigError where it breaks its definition.
+[[nodiscard]] SensorScan read_rays(const RecordedMessage& message, const RangeLimits& limits);
+
+/// Of measured rays: the earliest and the latest time, s after the stamp; both 0 where there is none.
+[[nodiscard]] std::pair<double, double> time_span(const SensorScan& rays);
+
+[[nodiscard]] std::int64_t nanoseconds(double seconds);
+[[nodiscard]] double seconds(std::int64_t ns);
+
+}  // namespace glocal::bags

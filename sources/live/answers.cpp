@@ -1,0 +1,97 @@
+#include "sources/live/answers.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "sources/bags/cdr_writer.hpp"
+
+namespace glocal::live {
+namespace {
+
+using bags::CdrWriter;
+using bags::Header;
+
+/// Of x, y, z and rotations about x, y and z, row by row; what is not known is 0.
+std::array<double, 36> covariance_of(const std::optional<PoseEstimate>& estimate) {
+  std::array<double, 36> rows{};
+  if (!estimate || !estimate->covariance) return rows;
+  const PoseCovariance& c = *estimate->covariance;
+  constexpr std::size_t x = 0, y = 1, heading = 5;
+  const auto set = [&](std::size_t row, std::size_t column, double value) {
+    rows.at(row * 6 + column) = rows.at(column * 6 + row) = value;
+  };
+  set(x, x, c.xx);
+  set(x, y, c.xy);
+  set(y, y, c.yy);
+  set(x, heading, c.xt);
+  set(y, heading, c.yt);
+  set(heading, heading, c.tt);
+  return rows;
+}
+
+std::string pose_message(const Header& header, const Pose3& pose,
+                         const std::optional<PoseEstimate>& estimate) {
+  CdrWriter writer;
+  writer.header(header).rigid_motion(pose);
+  for (const double value : covariance_of(estimate)) writer.number(value);
+  return writer.message();
+}
+
+std::string poses_message(const Header& header, const std::vector<Pose3>& poses) {
+  CdrWriter writer;
+  writer.header(header).count(poses.size());
+  for (const Pose3& pose : poses) writer.rigid_motion(pose);
+  return writer.message();
+}
+
+/// 0 is ok, 1 a warning, 2 an error.
+std::uint8_t level_of(const StepResult& result) {
+  if (result.setup && result.setup->fault) return 2;
+  return result.verdict.kind == VerdictKind::localized ? 0 : 1;
+}
+
+std::string diagnostics_message(const StepResult& result, const Header& header, std::size_t passed_over) {
+  std::vector<std::pair<std::string, std::string>> values = {{"verdict", to_string(result.verdict.kind)},
+                                                             {"step", fmt::format("{}", result.step)},
+                                                             {"passed_over", fmt::format("{}", passed_over)}};
+  if (result.verdict.estimate)
+    values.emplace_back("confidence", fmt::format("{:.4f}", result.verdict.estimate->confidence));
+  for (const Evidence& evidence : result.verdict.evidence)
+    values.emplace_back(evidence.name, fmt::format("{:.4f}", evidence.value));
+  CdrWriter writer;
+  writer.header(header).count(1).number(level_of(result));
+  writer.text("glocal: localization").text(result.verdict.why).text("glocal").count(values.size());
+  for (const auto& [key, value] : values) writer.text(key).text(value);
+  return writer.message();
+}
+
+}  // namespace
+
+void Answers::tell(const StepResult& result, std::int64_t stamp_ns, const Pose3& odom_from_robot,
+                   std::size_t passed_over) {
+  const Header header{stamp_ns, frames_.map};
+  const char* const pose_type = "geometry_msgs/PoseWithCovarianceStamped";
+  const bool is_declared = result.verdict.kind == VerdictKind::localized;
+  if (const auto best = result.estimate())
+    publish("/glocal/pose", pose_type, pose_message(header, *best, result.verdict.estimate));
+  if (is_declared && !is_declared_)
+    publish("/initialpose", pose_type,
+            pose_message(header, *result.verdict.map_from_robot, result.verdict.estimate));
+  is_declared_ = is_declared;
+  publish("/glocal/candidates", "geometry_msgs/PoseArray", poses_message(header, result.verdict.candidates));
+  publish("/diagnostics", "diagnostic_msgs/DiagnosticArray",
+          diagnostics_message(result, header, passed_over));
+  if (!frames_.publishes_tf || !is_declared) return;
+  const Pose3 map_from_odom = *result.verdict.map_from_robot * inverse(odom_from_robot);
+  publish("/tf", "tf2_msgs/TFMessage",
+          bags::serialized(std::vector{bags::FrameTransform{header, frames_.odom, map_from_odom}}));
+}
+
+void Answers::publish(const std::string& topic, const std::string& type, const std::string& bytes) {
+  link_.publish({name_space_ + topic, type}, Delivery::reliable, bytes);
+}
+
+}  // namespace glocal::live

@@ -1,0 +1,44 @@
+// What a robot is told of its place, as messages.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "glocal/message_link.hpp"
+#include "glocal/step_result.hpp"
+
+namespace glocal::live {
+
+/// Publishes each step's answer, under a namespace (`/robot1`, or empty):
+/// - `/initialpose` (PoseWithCovarianceStamped): a pose once it is declared;
+/// - `/glocal/pose` (PoseWithCovarianceStamped): the best pose of each step, declared or not;
+/// - `/glocal/candidates` (PoseArray): poses among which nothing decides yet;
+/// - `/diagnostics` (DiagnosticArray): verdict, confidence, margin and reason;
+/// - `/tf`, if asked for: map to odom while a pose is declared.
+class Answers {
+ public:
+  struct Frames {
+    std::string map = "map";
+    std::string odom = "odom";
+    bool publishes_tf = false;  ///< Somebody else may own map to odom (REP 105).
+  };
+
+  /// `link` must outlive this.
+  Answers(MessageLink& link, std::string name_space, Frames frames)
+      : link_(link), name_space_(std::move(name_space)), frames_(std::move(frames)) {}
+
+  /// A step made of the observation at this stamp, and how many observations were passed over so far.
+  void tell(const StepResult& result, std::int64_t stamp_ns, const Pose3& odom_from_robot,
+            std::size_t passed_over);
+
+ private:
+  void publish(const std::string& topic, const std::string& type, const std::string& bytes);
+
+  MessageLink& link_;
+  std::string name_space_;
+  Frames frames_;
+  bool is_declared_ = false;
+};
+
+}  // namespace glocal::live

@@ -1,0 +1,311 @@
+#include "sources/live/live_drive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "glocal/error.hpp"
+#include "glocal/words.hpp"
+
+namespace glocal::live {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr seconds longest_first_wait{10};
+/// Others may be heard of a little later than the first topic with scans.
+constexpr seconds time_to_hear_of_topics{1};
+constexpr milliseconds between_looks{100};  ///< At topics, and whether to stop.
+
+constexpr std::int64_t ns_per_s = 1'000'000'000;
+/// A longer pause, or a clock that goes back by more, begins a drive of its own; BagDrive does so, too.
+constexpr std::int64_t longest_pause_ns = 60 * ns_per_s;
+constexpr std::int64_t jump_back_ns = ns_per_s;
+/// So long where the robot was is remembered, and how often what is older is forgotten.
+constexpr std::int64_t memory_ns = 60 * ns_per_s;
+constexpr std::int64_t between_forgetting_ns = 10 * ns_per_s;
+/// Between poses that are interpolated.
+constexpr std::int64_t max_gap_ns = ns_per_s / 2;
+/// More scans do not wait for odometry, and more messages of tf_static are not kept.
+constexpr std::size_t most_mounts = 100;
+constexpr std::size_t most_pending = 200;
+
+/// What errors name.
+const char* const robot = "the robot";
+const char* const transforms_type = "tf2_msgs/TFMessage";
+
+bags::RangeLimits limits_of(const LiveTopics& topics) {
+  return {.max_range = topics.max_range, .voxel_size = topics.voxel_size};
+}
+
+/// All but scans, whose topic may not be known yet.
+bags::DriveTopics wanted(const LiveTopics& topics) {
+  return {.odometry = topics.odometry, .odom_frame = topics.odom_frame, .base_frame = topics.base_frame};
+}
+
+std::vector<std::string> names(const std::vector<LiveTopic>& topics) {
+  std::vector<std::string> names;
+  for (const LiveTopic& topic : topics) names.push_back(topic.name);
+  return names;
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, LiveTopics& p) {
+  v.field("scans", p.scans,
+          {.doc = "Topic with scans: sensor_msgs/LaserScan or PointCloud2. Empty: the only one there is."});
+  v.field("odometry", p.odometry,
+          {.doc = "Topic with odometry: nav_msgs/Odometry. Empty: tf's, or the only such topic."});
+  v.field("odom_frame", p.odom_frame, {.doc = "Frame of tf that odometry counts from. Empty: odom."});
+  v.field("base_frame", p.base_frame,
+          {.doc = "Frame of the robot. Empty: base_footprint or base_link, or that of the odometry."});
+  v.field("namespace", p.name_space,
+          {.doc = "What the robot's topics begin with, those of tf, too, as `/robot1`. Empty: nothing."});
+  v.field("heights", p.heights,
+          {.doc = "Ends of rays from the first to the second of these heights above the robot's origin are "
+                  "used. Empty: all. Where the motion is planar, clouds need this.",
+           .unit = "m",
+           .max_items = 2});
+  v.field("max_range", p.max_range,
+          {.doc = "Readings from here on count as no return; the messages' own limit holds as well.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::tuner});
+  v.field("voxel_size", p.voxel_size,
+          {.doc = "Clouds: side of the cubes whose points are replaced by their mean; 0 takes all points.",
+           .unit = "m",
+           .min = 0.0,
+           .max = 100.0,
+           .audience = Audience::tuner});
+  describe_keyframes(v, p.keyframes);
+  v.require(p.heights.empty() || (p.heights.size() == 2 && p.heights[0] < p.heights[1]), "heights",
+            "must be two heights, the lower one first");
+}
+
+void describe(ParamVisitor& v, LiveDrive::Params& p) {
+  v.strategy("link", p.link, *p.links, {.doc = "The way to the robot's messages.", .required = true});
+  describe(v, p.topics);
+}
+
+LiveDrive::LiveDrive(const Params& params, const SourceSetup& setup)
+    : LiveDrive(params.topics, setup, params.links->make(params.link, setup), [](const LiveMessage&) {}) {}
+
+LiveDrive::LiveDrive(LiveTopics topics, const SourceSetup& setup, std::shared_ptr<MessageLink> link,
+                     TakeOther other)
+    : topics_(std::move(topics)),
+      is_planar_(setup.motion == Motion::planar),
+      warn_(setup.warn),
+      is_stopped_(setup.is_stopped),
+      link_(std::move(link)),
+      take_other_(std::move(other)),
+      contents_(wanted(topics_), robot) {
+  subscribe({topics_.name_space + "/tf", transforms_type}, Delivery::reliable);
+  subscribe({topics_.name_space + "/tf_static", transforms_type}, Delivery::kept);
+}
+
+void LiveDrive::subscribe(const LiveTopic& topic, Delivery delivery) {
+  if (!asked_for_.insert(topic.name).second) return;
+  connections_[topic.name] = {.topic = topic.name, .type = topic.type, .encoding = "cdr", .definition = ""};
+  link_->subscribe(topic, delivery);
+}
+
+/// Topics come and go: they are asked for as they are heard of.
+void LiveDrive::ask_for_topics() {
+  std::vector<LiveTopic> scans;
+  for (const LiveTopic& topic : link_->topics()) {
+    if (!topic.name.starts_with(topics_.name_space + "/")) continue;
+    if (bags::has_scans(topic.type)) scans.push_back(topic);
+    const bool is_wanted = topics_.odometry.empty() || topic.name == topics_.odometry;
+    if (bags::has_odometry(topic.type) && is_wanted) subscribe(topic, Delivery::reliable);
+  }
+  choose_scans(scans);
+}
+
+void LiveDrive::choose_scans(const std::vector<LiveTopic>& there) {
+  if (has_scans_ || there.empty()) return;
+  if (!first_scans_seen_) first_scans_seen_ = Clock::now();
+  const bool has_heard_all = !link_->is_live() || Clock::now() - *first_scans_seen_ >= time_to_hear_of_topics;
+  const auto named = std::find_if(there.begin(), there.end(), [&](const LiveTopic& topic) {
+    return topics_.scans.empty() ? has_heard_all : topic.name == topics_.scans;
+  });
+  if (named == there.end()) return;
+  if (topics_.scans.empty() && there.size() > 1)
+    throw ConfigError(
+        {{"", 0, 0,
+          fmt::format("there are several topics with scans; set scans to one of {}", listed(names(there)))}});
+  if (is_planar_ && named->type == "sensor_msgs/PointCloud2" && topics_.heights.empty())
+    throw ConfigError({{"", 0, 0,
+                        fmt::format("{} has clouds, and the motion is planar: set heights, such as [0.2, "
+                                    "1.5], to those of the map's walls, or localizer.motion to upright",
+                                    shown(named->name))}});
+  has_scans_ = true;
+  topics_.scans = named->name;
+  contents_.add_scans(named->name);
+  subscribe(*named, Delivery::newest);
+}
+
+/// Nothing of what was is known any more, but where sensors are on the robot.
+void LiveDrive::begin_anew() {
+  contents_ = bags::ContentsReader(wanted(topics_), robot);
+  if (!topics_.scans.empty()) contents_.add_scans(topics_.scans);
+  pending_.clear();
+  last_stamp_ns_.reset();
+  last_keyframe_.reset();
+  forgotten_until_ns_.reset();
+  const bags::Connection& connection = connections_.at(topics_.name_space + "/tf_static");
+  for (const std::string& bytes : mounts_)
+    contents_.take({&connection, 0, bytes, {.file = connection.topic}});
+}
+
+void LiveDrive::take(const LiveMessage& message) {
+  const auto connection = connections_.find(message.topic.name);
+  if (connection == connections_.end()) return take_other_(message);
+  const bags::RecordedMessage recorded{
+      &connection->second, message.stamp_ns, message.bytes, {.file = connection->second.topic}};
+  try {
+    if (bags::has_scans(connection->second.type)) return take_scan(recorded);
+    contents_.take(recorded);
+    is_news_ = true;
+    if (!message.topic.name.ends_with("/tf_static")) return;
+    mounts_.push_back(message.bytes);
+    if (mounts_.size() > most_mounts) mounts_.pop_front();
+  } catch (const ConfigError& error) {
+    warn_once(fmt::format("a message of {} is left out: {}", shown(message.topic.name), error.what()));
+  }
+}
+
+void LiveDrive::take_scan(const bags::RecordedMessage& message) {
+  const auto header = bags::readable_header(message);
+  if (!header) return warn_once("a scan without a header is left out");
+  if (last_stamp_ns_ && *last_stamp_ns_ - header->stamp_ns > jump_back_ns) {
+    warn_(fmt::format("stamps jump back by {:.1f} s: what follows is a drive of its own",
+                      bags::seconds(*last_stamp_ns_ - header->stamp_ns)));
+    begin_anew();
+    ++segment_;
+  } else if (last_stamp_ns_ && header->stamp_ns <= *last_stamp_ns_) {
+    return warn_once("a scan is left out, as its stamp stands still or runs backwards");
+  } else if (last_stamp_ns_ && header->stamp_ns - *last_stamp_ns_ > longest_pause_ns) {
+    warn_(fmt::format("stamps jump by {:.0f} s: what follows is a drive of its own",
+                      bags::seconds(header->stamp_ns - *last_stamp_ns_)));
+    ++segment_;
+  }
+  last_stamp_ns_ = header->stamp_ns;
+  contents_.take(message);
+  pending_.push_back({*header, bags::read_rays(message, limits_of(topics_)), segment_});
+  if (pending_.size() > most_pending) pending_.pop_front();
+  is_news_ = true;
+}
+
+std::optional<Sample> LiveDrive::next() {
+  if (!first_call_) first_call_ = Clock::now();
+  for (auto next_look = Clock::time_point{};;) {
+    if (Clock::now() >= next_look) {
+      ask_for_topics();
+      next_look = Clock::now() + between_looks;
+    }
+    // A robot's messages are all taken before one is answered; those of a recording wait.
+    auto message = link_->next(milliseconds(0));
+    for (; message; message = link_->next(milliseconds(0))) {
+      take(*message);
+      if (!link_->is_live()) break;
+    }
+    if (auto sample = newest()) return sample;
+    if (message) continue;
+    if (link_->has_ended() || is_stopped_()) return std::nullopt;
+    check_first_wait();
+    if ((message = link_->next(between_looks))) take(*message);
+  }
+}
+
+std::optional<Pose3> LiveDrive::robot_at(std::int64_t stamp_ns, const bags::DriveContents& contents) const {
+  const auto odom_from_robot = contents.odometry_at(stamp_ns, max_gap_ns);
+  return odom_from_robot && is_planar_ ? Pose3(seen_from_above(*odom_from_robot)) : odom_from_robot;
+}
+
+/// Where a later scan can be placed, an earlier one that cannot never will be.
+void LiveDrive::drop_lost(const bags::DriveContents& contents) {
+  const auto last_known = std::find_if(pending_.rbegin(), pending_.rend(), [&](const Pending& scan) {
+    return robot_at(scan.header.stamp_ns, contents).has_value();
+  });
+  const auto begin_of_unknown = last_known.base();
+  const auto is_unknown = [&](const Pending& scan) { return !robot_at(scan.header.stamp_ns, contents); };
+  const auto kept = std::remove_if(pending_.begin(), begin_of_unknown, is_unknown);
+  if (kept != begin_of_unknown)
+    warn_once(
+        fmt::format("scans are left out, as it is not known within {} s of their stamps where the robot was",
+                    bags::seconds(max_gap_ns)));
+  pending_.erase(kept, begin_of_unknown);
+}
+
+std::optional<Sample> LiveDrive::newest() {
+  if (pending_.empty() || !is_news_) return std::nullopt;
+  is_news_ = false;
+  bags::DriveContents* contents = nullptr;
+  try {
+    contents = &contents_.settle(true);
+  } catch (const ConfigError& error) {
+    why_no_frames_ = error.what();
+    return std::nullopt;
+  }
+  drop_lost(*contents);
+  const bags::ScanPlacer placer(
+      {.heights = topics_.heights, .is_planar = is_planar_, .max_gap_ns = max_gap_ns}, *contents);
+  std::optional<Sample> newest;
+  while (!pending_.empty()) {
+    const Pending& scan = pending_.front();
+    const std::int64_t stamp = scan.header.stamp_ns;
+    const auto odom_from_robot = robot_at(stamp, *contents);
+    if (!odom_from_robot) break;
+    const bool is_next = !last_keyframe_ || scan.segment != segment_of_keyframe_ ||
+                         is_keyframe(*last_keyframe_, *odom_from_robot, topics_.keyframes);
+    Sample sample{{bags::seconds(stamp), {}, *odom_from_robot}, std::nullopt, scan.segment};
+    const bool is_placed = is_next && placer.add(scan.rays, scan.header, stamp, 1, sample.observation.scan);
+    // It may end after all that is known so far.
+    const bool is_last_known = pending_.size() == 1 || !robot_at(pending_[1].header.stamp_ns, *contents);
+    if (is_next && !is_placed && is_last_known) break;
+    if (is_next) {
+      last_keyframe_ = odom_from_robot;
+      segment_of_keyframe_ = scan.segment;
+    }
+    if (is_placed) {
+      if (newest) ++passed_over_;
+      newest = std::move(sample);
+    }
+    pending_.pop_front();
+  }
+  forget(*last_stamp_ns_);
+  has_delivered_ = has_delivered_ || newest;
+  return newest;
+}
+
+void LiveDrive::forget(std::int64_t now_ns) {
+  if (!forgotten_until_ns_) forgotten_until_ns_ = now_ns;
+  if (now_ns - *forgotten_until_ns_ < memory_ns + between_forgetting_ns) return;
+  *forgotten_until_ns_ = now_ns - memory_ns;
+  contents_.forget_before(*forgotten_until_ns_);
+}
+
+void LiveDrive::check_first_wait() const {
+  if (has_delivered_ || Clock::now() - *first_call_ < longest_first_wait) return;
+  const std::string there = listed(names(link_->topics()));
+  const std::string why =
+      !has_scans_       ? fmt::format("there is no topic {}; there are {}",
+                                topics_.scans.empty() ? "with scans" : shown(topics_.scans),
+                                there.empty() ? "none at all" : there)
+            : !last_stamp_ns_ ? fmt::format("no message came on {}", shown(topics_.scans))
+      : !why_no_frames_.empty()
+          ? why_no_frames_
+          : fmt::format(
+                "where the robot was is not known within {} s of the stamps of {}; do both clocks agree?",
+                bags::seconds(max_gap_ns), shown(topics_.scans));
+  throw ConfigError(
+      {{robot, 0, 0, fmt::format("no observation within {} s: {}", longest_first_wait.count(), why)}});
+}
+
+void LiveDrive::warn_once(const std::string& text) {
+  if (told_.insert(text).second) warn_(text + "; others like it are not told");
+}
+
+}  // namespace glocal::live

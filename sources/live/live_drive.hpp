@@ -1,0 +1,117 @@
+// The drive of a robot while it drives.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "glocal/catalog.hpp"
+#include "glocal/message_link.hpp"
+#include "glocal/strategies.hpp"
+#include "sources/bags/drive_contents.hpp"
+#include "sources/bags/scan_placer.hpp"
+#include "sources/driven_path.hpp"
+
+namespace glocal::live {
+
+/// What of a robot's messages makes observations.
+struct LiveTopics {
+  std::string scans;            ///< LaserScan or PointCloud2; empty: the only such topic.
+  std::string odometry;         ///< nav_msgs/Odometry; empty: tf, or the only such topic.
+  std::string odom_frame;       ///< For tf; empty: odom.
+  std::string base_frame;       ///< Empty: base_footprint or base_link, or that of the odometry.
+  std::string name_space;       ///< Of the robot's topics, tf among them: `/robot1`; empty: none.
+  std::vector<double> heights;  ///< m; see PlacingRule.
+  double max_range = 100.0;     ///< m
+  double voxel_size = 0.1;      ///< m; of clouds.
+  KeyframeRule keyframes;
+};
+/// The fields of an observation source and of `glocal live`.
+void describe(ParamVisitor& v, LiveTopics& p);
+
+/// What a robot's messages tell, as soon as they tell it: an observation is a scan of one topic, once it is
+/// known where the robot was until its end. Those of a recording are the same ones as BagDrive delivers of
+/// that topic.
+class LiveDrive final : public ObservationSource {
+ public:
+  struct Params {
+    /// Of the link; outlives all that is made of it.
+    const Registry<MessageLink, SourceSetup>* links = nullptr;
+    StrategyChoice link = {};
+    LiveTopics topics = {};
+  };
+  /// Takes messages of topics that it has not asked for.
+  using TakeOther = std::function<void(const LiveMessage&)>;
+
+  LiveDrive(const Params& params, const SourceSetup& setup);
+  /// On a link that others use, too. `other` is called in next().
+  LiveDrive(LiveTopics topics, const SourceSetup& setup, std::shared_ptr<MessageLink> link, TakeOther other);
+
+  /// Waits for an observation; none once the link has ended, or the setup says to stop. Of several that have
+  /// come since the last one, the newest. Throws ConfigError if there is none within 10 s of the first call,
+  /// with what there is.
+  [[nodiscard]] std::optional<Sample> next() override;
+
+  /// How many observations were not delivered, since a newer one was there.
+  [[nodiscard]] std::size_t passed_over() const { return passed_over_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// A scan of which it is not yet known where it was made.
+  struct Pending {
+    bags::Header header;
+    bags::SensorScan rays;
+    int segment;
+  };
+
+  void ask_for_topics();
+  void choose_scans(const std::vector<LiveTopic>& there);
+  void subscribe(const LiveTopic& topic, Delivery delivery);
+  void take(const LiveMessage& message);
+  void take_scan(const bags::RecordedMessage& message);
+  void begin_anew();
+  /// The newest observation that can be made, and none of those before it.
+  [[nodiscard]] std::optional<Sample> newest();
+  /// The robot in the odometry's frame at this time, as the motion has it.
+  [[nodiscard]] std::optional<Pose3> robot_at(std::int64_t stamp_ns,
+                                              const bags::DriveContents& contents) const;
+  void drop_lost(const bags::DriveContents& contents);
+  void forget(std::int64_t now_ns);
+  void check_first_wait() const;
+  void warn_once(const std::string& text);
+
+  LiveTopics topics_;
+  bool is_planar_;
+  Warn warn_;
+  std::function<bool()> is_stopped_;
+  std::shared_ptr<MessageLink> link_;
+  TakeOther take_other_;
+
+  std::set<std::string> asked_for_;
+  std::map<std::string, bags::Connection> connections_;  ///< By topic.
+  std::optional<Clock::time_point> first_call_, first_scans_seen_;
+  bags::ContentsReader contents_;
+  std::deque<std::string> mounts_;  ///< Messages of tf_static: they hold when the clock jumps, too.
+  std::string why_no_frames_;       ///< What is missing to know where the robot is.
+  bool is_news_ = false;            ///< Since newest() was asked last.
+  std::deque<Pending> pending_;
+  std::optional<std::int64_t> last_stamp_ns_;
+  std::optional<std::int64_t> forgotten_until_ns_;
+  std::optional<Pose3> last_keyframe_;  ///< The robot in the odometry's frame.
+  int segment_ = 0, segment_of_keyframe_ = 0;
+  bool has_scans_ = false, has_delivered_ = false;
+  std::size_t passed_over_ = 0;
+  std::set<std::string> told_;
+};
+void describe(ParamVisitor& v, LiveDrive::Params& p);
+
+}  // namespace glocal::live

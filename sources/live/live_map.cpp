@@ -1,0 +1,82 @@
+#include "sources/live/live_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "glocal/error.hpp"
+#include "glocal/words.hpp"
+#include "sources/bags/bag_map.hpp"
+
+namespace glocal::live {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds longest_wait{10};
+constexpr std::chrono::milliseconds between_looks{100};
+const char* const grid_type = "nav_msgs/OccupancyGrid";
+/// What errors name.
+const char* const robot = "the robot";
+
+[[noreturn]] void fail(const std::string& message) {
+  throw ConfigError({{robot, 0, 0, message}});
+}
+
+std::vector<std::string> maps_of(MessageLink& link) {
+  std::vector<std::string> maps;
+  for (const LiveTopic& topic : link.topics()) {
+    if (topic.type == grid_type) maps.push_back(topic.name);
+  }
+  return maps;
+}
+
+[[noreturn]] void fail_without_map(MessageLink& link, const std::string& topic) {
+  std::vector<std::string> there;
+  for (const LiveTopic& other : link.topics()) there.push_back(other.name);
+  fail(fmt::format("no map ({}) came {} within {} s; {}", grid_type,
+                   topic.empty() ? "at all" : "on " + shown(topic), longest_wait.count(),
+                   there.empty() ? "there are no topics: check the domain" : "there are " + listed(there)));
+}
+
+MapData map_in(const LiveMessage& message) {
+  const bags::Connection connection{message.topic.name, grid_type, "cdr", ""};
+  const auto grid =
+      bags::read_occupancy_grid({&connection, message.stamp_ns, message.bytes, {.file = connection.topic}});
+  return bags::map_of(grid, {}, robot, message.topic.name);
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, LiveMap::Params& p) {
+  v.strategy("link", p.link, *p.links, {.doc = "The way to the robot's messages.", .required = true});
+  v.field("topic", p.topic,
+          {.doc = "Topic with the map (nav_msgs/OccupancyGrid). Empty: the only one there is."});
+}
+
+MapData LiveMap::load() {
+  return live_map(*params_.links->make(params_.link, setup_), params_.topic, setup_.is_stopped);
+}
+
+MapData live_map(MessageLink& link, std::string topic, const std::function<bool()>& is_stopped) {
+  bool is_subscribed = false;
+  for (const auto begun = Clock::now(); Clock::now() - begun < longest_wait && !is_stopped();) {
+    const std::vector<std::string> maps = maps_of(link);
+    if (topic.empty() && maps.size() > 1)
+      fail(fmt::format("there are several maps; set topic to one of {}", listed(maps)));
+    if (topic.empty() && maps.size() == 1) topic = maps.front();
+    if (!topic.empty() && !is_subscribed) {
+      link.subscribe({topic, grid_type}, Delivery::kept);
+      is_subscribed = true;
+    }
+    const auto message = link.next(between_looks);
+    if (message && message->topic.name == topic) return map_in(*message);
+    if (!message && link.has_ended()) break;
+  }
+  fail_without_map(link, topic);
+}
+
+}  // namespace glocal::live

@@ -1,0 +1,79 @@
+#include "sources/live/recording_link.hpp"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "sources/bags/cdr_writer.hpp"
+#include "sources/bags/message_definitions.hpp"
+#include "sources/bags/message_reader.hpp"
+
+namespace glocal::live {
+namespace {
+
+/// As ROS 2 has it; none where nobody knows how.
+std::optional<std::string> cdr_of(const bags::RecordedMessage& message) {
+  if (message.connection->encoding == "cdr") return std::string(message.bytes);
+  if (bags::definition_of(message.connection->type).empty()) return std::nullopt;
+  return bags::as_cdr(message);
+}
+
+}  // namespace
+
+void describe(ParamVisitor& v, RecordingLink::Params& p) {
+  v.field("path", p.path,
+          {.doc = "ROS 1 bag, ROS 2 bag (.db3 or its folder) or MCAP file.",
+           .required = true,
+           .may_be_folder = true});
+  v.field("in_real_time", p.in_real_time,
+          {.doc = "Messages come when they came to the recorder, and who is slow misses some. Otherwise they "
+                  "wait."});
+}
+
+RecordingLink::RecordingLink(const Params& params, const SourceSetup& setup)
+    : is_live_(params.in_real_time), recording_(params.path.resolved) {
+  for (const auto& file : recording_.files()) setup.note_input(file);
+  recording_.rewind();
+}
+
+void RecordingLink::subscribe(const LiveTopic& topic, Delivery /*delivery*/) {
+  asked_for_.insert(topic.name);
+}
+
+std::optional<LiveMessage> RecordingLink::next(std::chrono::milliseconds longest) {
+  while (!waiting_ && !has_ended_) {
+    const auto message = recording_.next();
+    has_ended_ = !message;
+    if (!message || !asked_for_.contains(message->connection->topic) ||
+        !bags::is_readable(*message->connection))
+      continue;
+    if (auto bytes = cdr_of(*message))
+      waiting_ = {
+          {message->connection->topic, message->connection->type}, message->stamp_ns, *std::move(bytes)};
+  }
+  if (!waiting_) return std::nullopt;
+  if (is_live_) {
+    if (!begun_) {
+      begun_ = Clock::now();
+      first_ns_ = waiting_->stamp_ns;
+    }
+    const auto its_time = *begun_ + std::chrono::nanoseconds(waiting_->stamp_ns - first_ns_);
+    const auto until = std::min(its_time, Clock::now() + longest);
+    std::this_thread::sleep_until(until);
+    if (until < its_time) return std::nullopt;
+  }
+  return std::exchange(waiting_, std::nullopt);
+}
+
+std::vector<LiveTopic> RecordingLink::topics() {
+  std::vector<LiveTopic> topics;
+  for (const bags::Connection& connection : recording_.connections()) {
+    if (bags::is_readable(connection)) topics.push_back({connection.topic, connection.type});
+  }
+  std::sort(topics.begin(), topics.end(),
+            [](const LiveTopic& a, const LiveTopic& b) { return a.name < b.name; });
+  topics.erase(std::unique(topics.begin(), topics.end()), topics.end());
+  return topics;
+}
+
+}  // namespace glocal::live
