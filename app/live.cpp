@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
 #include "app/interrupts.hpp"
+#include "app/live_state.hpp"
 #include "app/localize_plan.hpp"
 #include "app/standard_streams.hpp"
 #include "app/step_text.hpp"
@@ -29,7 +31,7 @@ namespace {
 struct LiveOptions {
   LiveRequest request;
   ExperimentOptions changes;
-  std::string out, record;
+  std::string out, record, state;
   bool publishes_tf = false, force = false;
 };
 
@@ -49,15 +51,19 @@ class LiveLocalizer {
                  is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
                }),
         answers_(*link_, name_space_, frames(options)),
-        steps_(options.out + ".steps.jsonl", std::ios::binary) {
+        steps_(options.out + ".steps.jsonl", std::ios::binary),
+        state_file_(options.state) {
     link_->subscribe(begin(), Delivery::reliable);
+    localizer_.reset(trial_);
+    if (state_file_.empty()) return;
+    fingerprint_ = fingerprint(*loaded_.map);
+    recall();
   }
 
   /// Until it is interrupted, or a recording has come to its end.
   void run() {
-    begin_anew();
     while (const auto sample = drive_.next()) {
-      if (is_asked_to_begin_ || sample->segment != segment_) begin_anew();
+      if (observations_ > 0 && (is_asked_to_begin_ || sample->segment != segment_)) begin_anew();
       segment_ = sample->segment;
       step(*sample);
     }
@@ -99,31 +105,72 @@ class LiveLocalizer {
 
   [[nodiscard]] LiveTopic begin() const { return {name_space_ + begin_topic.name, begin_topic.type}; }
 
+  /// The robot may have been carried anywhere.
   void begin_anew() {
-    if (observations_ > 0) answer("begins anew\n");
+    answer("begins anew\n");
     is_asked_to_begin_ = false;
-    localizer_.reset(trial_++);
+    localizer_.reset(++trial_);
     way_ = 0.0;
     last_.reset();
+    state_.reset();
+  }
+
+  /// Where the robot was when it was switched off, if that is known.
+  void recall() {
+    const auto state = read_state(state_file_);
+    if (!state) return;
+    const auto expected = expected_from(*state, *loaded_.map);
+    if (!expected) {
+      spdlog::warn("{} is of another map: the robot may be anywhere", state_file_);
+      return;
+    }
+    answer("was at      {}, odds {:.0f} to 1\n\n",
+           text_of(expected->map_from_robot, experiment_.localizer.motion), expected->odds);
+    localizer_.expect(*expected);
+  }
+
+  /// At each declaration, and every few seconds.
+  void keep(const StepResult& result, const Pose3& driven, bool is_newly_declared) {
+    constexpr double between_s = 5.0;
+    if (state_file_.empty()) return;
+    if (result.verdict.kind == VerdictKind::localized) {
+      const auto& estimate = result.verdict.estimate;
+      state_ = {.map = fingerprint_,
+                .map_from_robot = *result.verdict.map_from_robot,
+                .covariance = estimate ? estimate->covariance : std::nullopt};
+    } else if (state_) {
+      state_->map_from_robot = state_->map_from_robot * driven;
+      state_->way_since_m += driven.translation().norm();
+    }
+    if (!state_) return;
+    state_->stamp = result.stamp;
+    if (!is_newly_declared && std::abs(result.stamp - kept_at_) < between_s) return;
+    write_state(state_file_, *state_);
+    kept_at_ = result.stamp;
   }
 
   void step(const Sample& sample) {
     const Observation& observation = sample.observation;
-    if (last_) way_ += distance(*last_, observation.odom_from_robot);
+    const Pose3 driven = last_ ? inverse(*last_) * observation.odom_from_robot : Pose3{};
+    way_ += driven.translation().norm();
     last_ = observation.odom_from_robot;
     StepRecord record;
     record.result = localizer_.step(observation);
+    record.hypotheses = record.result.hypotheses.size();
     const StepResult& result = record.result;
     ++observations_;
     const bool is_declared = result.verdict.kind == VerdictKind::localized;
-    if (is_declared && !was_declared_) ++declarations_;
+    const bool is_newly_declared = is_declared && !was_declared_;
+    if (is_newly_declared) ++declarations_;
     was_declared_ = is_declared;
+    keep(result, driven, is_newly_declared);
     answers_.tell(result, bags::nanoseconds(observation.stamp), observation.odom_from_robot,
                   drive_.passed_over());
-    steps_ << step_line(trial_ - 1, record) << std::flush;
+    steps_ << step_line(trial_, record) << std::flush;
     answer("{}\n", text_of(result, way_));
-    if (result.verdict.why != last_why_) answer("          {}\n", result.verdict.why);
-    last_why_ = result.verdict.why;
+    // Numbers in a reason change at each step: it is told when the verdict does.
+    if (result.verdict.kind != last_verdict_) answer("          {}\n", result.verdict.why);
+    last_verdict_ = result.verdict.kind;
     std::fflush(stdout);
   }
 
@@ -140,7 +187,10 @@ class LiveLocalizer {
   std::size_t trial_ = 0, observations_ = 0, declarations_ = 0;
   double way_ = 0.0;  ///< m, as odometry has it.
   std::optional<Pose3> last_;
-  std::string last_why_;
+  std::optional<VerdictKind> last_verdict_;
+  std::string state_file_, fingerprint_;  ///< Empty where nothing is kept.
+  std::optional<LiveState> state_;
+  double kept_at_ = 0.0;  ///< s
 };
 
 void live(const LiveOptions& options, Context& context) {
@@ -184,6 +234,9 @@ void add_live(CLI::App& app, Context& context) {
                       "Localizer: a name (glocal list methods) or a file (default: indexed, and for maps in "
                       "space lidar_upright)");
   command->add_option("--record", options->record, "Write all that comes and is told to an MCAP file");
+  command->add_option(
+      "--state", options->state,
+      "Keep the last pose in this file; when the robot is switched on, it is the first candidate");
   command->add_flag("--tf", options->publishes_tf, "Send map to odom, too, while a pose is declared");
   options->changes.add_overrides_to(*command);
   options->out = "results/live";

@@ -265,7 +265,10 @@ LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog) {
       "  {}"
       "trials: {{whole: true}}\n"
       "{}",
-      map.yaml, live_drive_yaml(request), localizer_yaml(method, changes, catalog));
+      map.yaml, live_drive_yaml(request),
+      localizer_yaml(
+          method, changes, catalog,
+          request.recording.empty() ? std::vector<std::string>{"plugin:ros2"} : std::vector<std::string>{}));
   return plan;
 }
 
@@ -301,19 +304,19 @@ LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& ca
 }
 
 std::string localizer_yaml(const std::string& method, const std::map<std::string, std::string>& changes,
-                           const Catalog& catalog) {
+                           const Catalog& catalog, std::vector<std::string> plugins) {
   ExperimentFileParams params(catalog);
   const YamlNode keys = read_method(method, params);
   std::string yaml = fmt::format("# The method {}.\n", method);
-  if (const YamlEntry* plugins = find_entry(keys, "plugins")) {
-    std::vector<std::string> files;
-    for (const YamlNode& plugin : plugins->value.items) {
+  if (const YamlEntry* of_method = find_entry(keys, "plugins")) {
+    for (const YamlNode& plugin : of_method->value.items) {
       const bool is_relative = !plugin.text.starts_with("plugin:");
-      files.push_back(to_yaml(std::string_view(
-          is_relative ? fs::absolute(plugin.place.origin->folder / plugin.text).string() : plugin.text)));
+      plugins.push_back(is_relative ? fs::absolute(plugin.place.origin->folder / plugin.text).string()
+                                    : plugin.text);
     }
-    yaml += fmt::format("plugins: [{}]\n", fmt::join(files, ", "));
   }
+  for (std::string& plugin : plugins) plugin = to_yaml(std::string_view(plugin));
+  if (!plugins.empty()) yaml += fmt::format("plugins: [{}]\n", fmt::join(plugins, ", "));
   yaml += "localizer:\n";
   for (const YamlEntry& entry : find_entry(keys, "localizer")->value.entries) {
     if (!changes.contains(entry.key)) yaml += fmt::format("  {}: {}\n", entry.key, flow_yaml(entry.value));

@@ -63,9 +63,10 @@ struct LiveRequest {
 }
 
 /// The localizer's part of an experiment, and the plugins it needs, as a method (name or file) has it;
-/// `changes`: values in YAML, by key, that take the place of the method's. Throws ConfigError.
+/// `changes`: values in YAML, by key, that take the place of the method's; `plugins`: more that are needed.
+/// Throws ConfigError.
 [[nodiscard]] std::string localizer_yaml(const std::string& method,
                                          const std::map<std::string, std::string>& changes,
-                                         const Catalog& catalog);
+                                         const Catalog& catalog, std::vector<std::string> plugins = {});
 
 }  // namespace glocal::app

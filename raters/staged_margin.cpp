@@ -32,15 +32,28 @@ constexpr int first_views_to_be_sure = 2;
 /// No refutation asks for more.
 constexpr int most_views_to_be_sure = 1024;
 
+/// A scan that fits less well says that the robot is perhaps on another floor, and what was thought before is
+/// worth nothing.
+constexpr double least_contact_where_expected = 0.9;
+
+/// Logarithm of the odds for the best pose that come from where the robot was thought to be.
+double log_odds_before(const StepResult& step) {
+  const bool is_expected =
+      step.expected && step.omega_scan.value_or(0.0) >= least_contact_where_expected &&
+      near.are_near(step.hypotheses.front().map_from_robot, step.expected->map_from_robot);
+  return is_expected ? std::log(step.expected->odds) : 0.0;
+}
+
 /// The probability that the best pose is right: logistic in its margin, in the logarithm of the steps in
 /// which it has been the same and the robot has not stood, and in how much more beams say for it than for any
 /// rival. Fitted to starts in disturbed worlds, one in ten of them on a wrong map; without beams, to starts
 /// in clean worlds (docs/method.md). Never 1, however clear the margin is: a place off the map has no
 /// hypothesis.
-double confidence_of(double margin, int views, const std::optional<double>& beam_lead) {
-  const double log_odds = beam_lead ? -2.854 + 27.28 * margin + 1.126 * std::log(views) + 0.898 * *beam_lead
-                                    : -1.5 + 28.5 * margin + 0.45 * std::log(views);
-  return 0.998 / (1.0 + std::exp(-log_odds));
+double confidence_of(double margin, int views, const std::optional<double>& beam_lead,
+                     double log_odds_before) {
+  const double seen = beam_lead ? -2.854 + 27.28 * margin + 1.126 * std::log(views) + 0.898 * *beam_lead
+                                : -1.5 + 28.5 * margin + 0.45 * std::log(views);
+  return 0.998 / (1.0 + std::exp(-seen - log_odds_before));
 }
 
 /// How much more beams say for the best pose than for any rival; 0 without a rival.
@@ -205,7 +218,7 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const std::optional<double>& violation = step.hypotheses.front().free_space_violation;
   const bool is_consistent = !violation || *violation <= params_.max_free_space_violation;
   const std::optional<double> lead = beam_lead(step.hypotheses);
-  const double confidence = confidence_of(margin, views_, lead);
+  const double confidence = confidence_of(margin, views_, lead, log_odds_before(step));
   const bool is_steady_now = is_steady(turn_rate_deg);
   const bool is_sure = is_steady_now && has_verifier_ && lead && views_ >= views_to_be_sure_ &&
                        confidence >= params_.min_confidence;

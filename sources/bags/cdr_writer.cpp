@@ -64,7 +64,7 @@ class Recoder {
 
   /// Bytes; 0 for what is no number. There are none of 16 bits.
   static std::size_t size_of_number(std::string_view type) {
-    if (type == "bool" || type == "int8" || type == "uint8") return 1;
+    if (type == "bool" || type == "byte" || type == "int8" || type == "uint8") return 1;
     if (type == "int32" || type == "uint32" || type == "float32") return sizeof(std::uint32_t);
     return type == "float64" ? sizeof(std::uint64_t) : 0;
   }

@@ -123,7 +123,7 @@ DriveContents& ContentsReader::settle(bool more_may_come) {
   for (auto& [topic, odometry] : odometry_) odometry.poses.settle(more_may_come);
   contents_.reference.settle(more_may_come);
   contents_.mounts.clear();
-  choose_frames();
+  choose_frames(more_may_come);
   contents_.tf_reference = contents_.tree.path(wanted_.reference_frame, contents_.base_frame);
   check_sensors();
   wanted_.odometry = contents_.odometry;
@@ -162,7 +162,7 @@ void ContentsReader::take_scan(const RecordedMessage& message) {
 }
 
 /// tf's odometry before that of a topic, as it is that of which all else in the tree knows.
-void ContentsReader::choose_frames() {
+void ContentsReader::choose_frames(bool more_may_come) {
   DriveContents& c = contents_;
   const TransformTree& tree = c.tree;
   c.odom_frame = wanted_.odom_frame.empty() ? "odom" : wanted_.odom_frame;
@@ -173,7 +173,7 @@ void ContentsReader::choose_frames() {
   });
   if (wanted_.odometry.empty() && base != bases.end()) {
     c.base_frame = *base;
-    c.tf_odometry = tree.path(c.odom_frame, c.base_frame);
+    c.tf_odometry = tree.path(c.odom_frame, c.base_frame, more_may_come);
     return;
   }
   choose_odometry_topic(bases);

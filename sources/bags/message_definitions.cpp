@@ -13,7 +13,7 @@ namespace glocal::bags {
 namespace {
 
 /// Common_msgs, as of ROS 2 Jazzy.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 20> definitions = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 25> definitions = {{
     {"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
     {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
     {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
@@ -24,6 +24,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> definiti
     {"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
     {"geometry_msgs/PoseWithCovarianceStamped",
      "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n"},
+    {"geometry_msgs/PoseArray", "std_msgs/Header header\ngeometry_msgs/Pose[] poses\n"},
     {"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
     {"geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
     {"geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
@@ -41,6 +42,12 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> definiti
      "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\n"
      "float32 time_increment\nfloat32 scan_time\nfloat32 range_min\nfloat32 range_max\n"
      "float32[] ranges\nfloat32[] intensities\n"},
+    {"std_msgs/Empty", "uint8 structure_needs_at_least_one_member\n"},
+    {"diagnostic_msgs/KeyValue", "string key\nstring value\n"},
+    {"diagnostic_msgs/DiagnosticStatus",
+     "byte level\nstring name\nstring message\nstring hardware_id\ndiagnostic_msgs/KeyValue[] values\n"},
+    {"diagnostic_msgs/DiagnosticArray",
+     "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n"},
     {"sensor_msgs/PointField", "string name\nuint32 offset\nuint8 datatype\nuint32 count\n"},
     {"sensor_msgs/PointCloud2",
      "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"

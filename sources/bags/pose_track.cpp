@@ -6,14 +6,15 @@
 namespace glocal::bags {
 
 void PoseTrack::settle(bool more_may_come) {
+  may_grow_ = more_may_come;
   std::stable_sort(poses_.begin(), poses_.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   // Of equal stamps the last one: from the back, unique() keeps the first that it meets.
   const auto same_stamp = [](const auto& a, const auto& b) { return a.first == b.first; };
   poses_.erase(poses_.begin(), std::unique(poses_.rbegin(), poses_.rend(), same_stamp).base());
-  is_still_ = !more_may_come && !poses_.empty() &&
-              std::all_of(poses_.begin(), poses_.end(),
-                          [&](const auto& stamped) { return stamped.second == poses_.front().second; });
+  is_still_ = !poses_.empty() && std::all_of(poses_.begin(), poses_.end(), [&](const auto& stamped) {
+    return stamped.second == poses_.front().second;
+  });
 }
 
 void PoseTrack::forget_before(std::int64_t stamp_ns) {
@@ -24,7 +25,7 @@ void PoseTrack::forget_before(std::int64_t stamp_ns) {
 }
 
 std::optional<Pose3> PoseTrack::at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
-  if (is_still_) return poses_.front().second;
+  if (is_still_ && !may_grow_) return poses_.front().second;
   const auto after = not_before(stamp_ns);
   if (after == poses_.end()) return std::nullopt;
   if (after->first == stamp_ns) return after->second;

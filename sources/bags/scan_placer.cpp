@@ -50,6 +50,10 @@ std::optional<ScanPlacer::RayMover> ScanPlacer::mover_of(const Header& header, s
   return first && last ? std::optional(RayMover(*first, *last, span)) : std::nullopt;
 }
 
+bool ScanPlacer::can_place(const SensorScan& rays, const Header& header, std::int64_t observation_ns) const {
+  return mover_of(header, observation_ns, time_span(rays)).has_value();
+}
+
 bool ScanPlacer::add(const SensorScan& rays, const Header& header, std::int64_t observation_ns,
                      std::size_t of, Scan& scan) const {
   const auto mover = mover_of(header, observation_ns, time_span(rays));

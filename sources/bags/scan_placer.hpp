@@ -34,8 +34,12 @@ class ScanPlacer {
   /// None where it is not known at this time.
   [[nodiscard]] std::optional<Pose3> robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) const;
 
-  /// Adds the rays of a message, one of `of` that make an observation, to its scan. False if it is not known
-  /// where the robot and its sensor were until the end of the message.
+  /// Whether it is known where the robot and its sensor were until the end of a message.
+  [[nodiscard]] bool can_place(const SensorScan& rays, const Header& header,
+                               std::int64_t observation_ns) const;
+
+  /// Adds the rays of a message, one of `of` that make an observation, to its scan. False where it cannot be
+  /// placed.
   [[nodiscard]] bool add(const SensorScan& rays, const Header& header, std::int64_t observation_ns,
                          std::size_t of, Scan& scan) const;
 

@@ -50,32 +50,34 @@ std::vector<std::string> TransformTree::line_of(const std::string& frame) const 
   return line;
 }
 
-std::optional<FramePath> TransformTree::path(const std::string& in, const std::string& of) const {
+std::optional<FramePath> TransformTree::path(const std::string& in, const std::string& of,
+                                             bool may_move) const {
   const std::vector<std::string> from_in = line_of(in), from_of = line_of(of);
   const std::set<std::string> above_of(from_of.begin(), from_of.end());
   const auto top = std::find_if(from_in.begin(), from_in.end(),
                                 [&](const std::string& frame) { return above_of.contains(frame); });
   if (top == from_in.end()) return std::nullopt;
   FramePath path;
-  path.from_first_ = climb(from_in, *top);
-  path.from_second_ = climb(from_of, *top);
+  path.from_first_ = climb(from_in, *top, may_move);
+  path.from_second_ = climb(from_of, *top, may_move);
   return path;
 }
 
-FramePath::Climb TransformTree::climb(const std::vector<std::string>& line, const std::string& top) const {
+FramePath::Climb TransformTree::climb(const std::vector<std::string>& line, const std::string& top,
+                                      bool may_move) const {
   FramePath::Climb climb;
   for (auto frame = line.begin(); *frame != top; ++frame)
-    climb.add(edges_.at(*frame).at(parents_.at(*frame)));
+    climb.add(edges_.at(*frame).at(parents_.at(*frame)), may_move);
   return climb;
 }
 
 std::optional<Pose3> TransformEdge::still() const {
   if (fixed) return fixed;
-  return track.is_still() ? track.at(0, 0) : std::nullopt;
+  return track.is_still() ? std::optional(track.first()) : std::nullopt;
 }
 
-void FramePath::Climb::add(const TransformEdge& edge) {
-  const auto parent_from_frame = edge.still();
+void FramePath::Climb::add(const TransformEdge& edge, bool may_move) {
+  const auto parent_from_frame = may_move ? edge.fixed : edge.still();
   if (moving.empty() && parent_from_frame) {
     still = *parent_from_frame * still;
   } else {

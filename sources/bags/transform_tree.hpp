@@ -18,7 +18,7 @@ struct TransformEdge {
   PoseTrack track;
   std::optional<Pose3> fixed;
 
-  /// The pose that it always has; none if it moves.
+  /// The pose that it always has, or has had so far; none if it moves.
   [[nodiscard]] std::optional<Pose3> still() const;
 };
 
@@ -39,7 +39,7 @@ class FramePath {
     Pose3 still;                                    ///< Of the first edges together, all of which are.
     std::vector<const TransformEdge*> moving = {};  ///< Those from the first on that is not.
 
-    void add(const TransformEdge& edge);
+    void add(const TransformEdge& edge, bool may_move);
     [[nodiscard]] std::optional<Pose3> top_from_frame(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
   };
   Climb from_first_, from_second_;
@@ -56,14 +56,16 @@ class TransformTree {
   void forget_before(std::int64_t stamp_ns);
 
   /// The pose of one frame in the other over time; each frame has a way to itself. None if no way connects
-  /// them.
-  [[nodiscard]] std::optional<FramePath> path(const std::string& in, const std::string& of) const;
+  /// them. What has been still so far is taken to stay so, as sensors on a robot do, unless it `may_move`.
+  [[nodiscard]] std::optional<FramePath> path(const std::string& in, const std::string& of,
+                                              bool may_move = false) const;
   [[nodiscard]] const std::map<std::string, std::string>& parents() const { return parents_; }
 
  private:
   /// The frame, its parent, and so on up to the root.
   [[nodiscard]] std::vector<std::string> line_of(const std::string& frame) const;
-  [[nodiscard]] FramePath::Climb climb(const std::vector<std::string>& line, const std::string& top) const;
+  [[nodiscard]] FramePath::Climb climb(const std::vector<std::string>& line, const std::string& top,
+                                       bool may_move) const;
 
   std::map<std::string, std::map<std::string, TransformEdge>> edges_;  ///< By child and parent.
   std::map<std::string, std::string> parents_;

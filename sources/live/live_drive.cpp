@@ -14,7 +14,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr seconds longest_first_wait{10};
 /// Others may be heard of a little later than the first topic with scans.
 constexpr seconds time_to_hear_of_topics{1};
 constexpr milliseconds between_looks{100};  ///< At topics, and whether to stop.
@@ -80,6 +79,8 @@ void describe(ParamVisitor& v, LiveTopics& p) {
            .max = 100.0,
            .audience = Audience::tuner});
   describe_keyframes(v, p.keyframes);
+  v.field("longest_wait", p.longest_wait,
+          {.doc = "How long the first observation is waited for.", .unit = "s", .max = 3600.0, .above = 0.0});
   v.require(p.heights.empty() || (p.heights.size() == 2 && p.heights[0] < p.heights[1]), "heights",
             "must be two heights, the lower one first");
 }
@@ -224,19 +225,14 @@ std::optional<Pose3> LiveDrive::robot_at(std::int64_t stamp_ns, const bags::Driv
   return odom_from_robot && is_planar_ ? Pose3(seen_from_above(*odom_from_robot)) : odom_from_robot;
 }
 
-/// Where a later scan can be placed, an earlier one that cannot never will be.
-void LiveDrive::drop_lost(const bags::DriveContents& contents) {
-  const auto last_known = std::find_if(pending_.rbegin(), pending_.rend(), [&](const Pending& scan) {
-    return robot_at(scan.header.stamp_ns, contents).has_value();
+/// How many scans have had their chance: where a later one can be placed, an earlier one that cannot never
+/// will be.
+std::size_t LiveDrive::decided(const bags::ScanPlacer& placer, const bags::DriveContents& contents) const {
+  const auto last = std::find_if(pending_.rbegin(), pending_.rend(), [&](const Pending& scan) {
+    return robot_at(scan.header.stamp_ns, contents) &&
+           placer.can_place(scan.rays, scan.header, scan.header.stamp_ns);
   });
-  const auto begin_of_unknown = last_known.base();
-  const auto is_unknown = [&](const Pending& scan) { return !robot_at(scan.header.stamp_ns, contents); };
-  const auto kept = std::remove_if(pending_.begin(), begin_of_unknown, is_unknown);
-  if (kept != begin_of_unknown)
-    warn_once(
-        fmt::format("scans are left out, as it is not known within {} s of their stamps where the robot was",
-                    bags::seconds(max_gap_ns)));
-  pending_.erase(kept, begin_of_unknown);
+  return static_cast<std::size_t>(pending_.rend() - last);
 }
 
 std::optional<Sample> LiveDrive::newest() {
@@ -249,35 +245,40 @@ std::optional<Sample> LiveDrive::newest() {
     why_no_frames_ = error.what();
     return std::nullopt;
   }
-  drop_lost(*contents);
   const bags::ScanPlacer placer(
       {.heights = topics_.heights, .is_planar = is_planar_, .max_gap_ns = max_gap_ns}, *contents);
   std::optional<Sample> newest;
-  while (!pending_.empty()) {
-    const Pending& scan = pending_.front();
-    const std::int64_t stamp = scan.header.stamp_ns;
-    const auto odom_from_robot = robot_at(stamp, *contents);
-    if (!odom_from_robot) break;
-    const bool is_next = !last_keyframe_ || scan.segment != segment_of_keyframe_ ||
-                         is_keyframe(*last_keyframe_, *odom_from_robot, topics_.keyframes);
-    Sample sample{{bags::seconds(stamp), {}, *odom_from_robot}, std::nullopt, scan.segment};
-    const bool is_placed = is_next && placer.add(scan.rays, scan.header, stamp, 1, sample.observation.scan);
-    // It may end after all that is known so far.
-    const bool is_last_known = pending_.size() == 1 || !robot_at(pending_[1].header.stamp_ns, *contents);
-    if (is_next && !is_placed && is_last_known) break;
-    if (is_next) {
-      last_keyframe_ = odom_from_robot;
-      segment_of_keyframe_ = scan.segment;
-    }
-    if (is_placed) {
+  for (std::size_t left = decided(placer, *contents); left > 0; --left) {
+    const Pending scan = std::move(pending_.front());
+    pending_.pop_front();
+    if (auto sample = observed(scan, placer, *contents)) {
       if (newest) ++passed_over_;
       newest = std::move(sample);
     }
-    pending_.pop_front();
   }
   forget(*last_stamp_ns_);
   has_delivered_ = has_delivered_ || newest;
   return newest;
+}
+
+/// None where the robot has not moved on, or the scan cannot be placed.
+std::optional<Sample> LiveDrive::observed(const Pending& scan, const bags::ScanPlacer& placer,
+                                          const bags::DriveContents& contents) {
+  const std::int64_t stamp = scan.header.stamp_ns;
+  const auto odom_from_robot = robot_at(stamp, contents);
+  Sample sample{{bags::seconds(stamp), {}, odom_from_robot.value_or(Pose3{})}, std::nullopt, scan.segment};
+  if (odom_from_robot) {
+    const bool is_next = !last_keyframe_ || scan.segment != segment_of_keyframe_ ||
+                         is_keyframe(*last_keyframe_, *odom_from_robot, topics_.keyframes);
+    if (!is_next) return std::nullopt;
+    last_keyframe_ = odom_from_robot;
+    segment_of_keyframe_ = scan.segment;
+    if (placer.add(scan.rays, scan.header, stamp, 1, sample.observation.scan)) return sample;
+  }
+  warn_once(
+      fmt::format("a scan is left out, as it is not known within {} s where the robot and its sensor were",
+                  bags::seconds(max_gap_ns)));
+  return std::nullopt;
 }
 
 void LiveDrive::forget(std::int64_t now_ns) {
@@ -288,7 +289,8 @@ void LiveDrive::forget(std::int64_t now_ns) {
 }
 
 void LiveDrive::check_first_wait() const {
-  if (has_delivered_ || Clock::now() - *first_call_ < longest_first_wait) return;
+  if (has_delivered_ || Clock::now() - *first_call_ < std::chrono::duration<double>(topics_.longest_wait))
+    return;
   const std::string there = listed(names(link_->topics()));
   const std::string why =
       !has_scans_       ? fmt::format("there is no topic {}; there are {}",
@@ -301,7 +303,7 @@ void LiveDrive::check_first_wait() const {
                 "where the robot was is not known within {} s of the stamps of {}; do both clocks agree?",
                 bags::seconds(max_gap_ns), shown(topics_.scans));
   throw ConfigError(
-      {{robot, 0, 0, fmt::format("no observation within {} s: {}", longest_first_wait.count(), why)}});
+      {{robot, 0, 0, fmt::format("no observation within {} s: {}", topics_.longest_wait, why)}});
 }
 
 void LiveDrive::warn_once(const std::string& text) {

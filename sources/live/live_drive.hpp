@@ -24,15 +24,16 @@ namespace glocal::live {
 
 /// What of a robot's messages makes observations.
 struct LiveTopics {
-  std::string scans;            ///< LaserScan or PointCloud2; empty: the only such topic.
-  std::string odometry;         ///< nav_msgs/Odometry; empty: tf, or the only such topic.
-  std::string odom_frame;       ///< For tf; empty: odom.
-  std::string base_frame;       ///< Empty: base_footprint or base_link, or that of the odometry.
-  std::string name_space;       ///< Of the robot's topics, tf among them: `/robot1`; empty: none.
-  std::vector<double> heights;  ///< m; see PlacingRule.
-  double max_range = 100.0;     ///< m
-  double voxel_size = 0.1;      ///< m; of clouds.
-  KeyframeRule keyframes;
+  std::string scans = {};            ///< LaserScan or PointCloud2; empty: the only such topic.
+  std::string odometry = {};         ///< nav_msgs/Odometry; empty: tf, or the only such topic.
+  std::string odom_frame = {};       ///< For tf; empty: odom.
+  std::string base_frame = {};       ///< Empty: base_footprint or base_link, or that of the odometry.
+  std::string name_space = {};       ///< Of the robot's topics, tf among them: `/robot1`; empty: none.
+  std::vector<double> heights = {};  ///< m; see PlacingRule.
+  double max_range = 100.0;          ///< m
+  double voxel_size = 0.1;           ///< m; of clouds.
+  KeyframeRule keyframes = {};
+  double longest_wait = 10.0;  ///< s; for the first observation.
 };
 /// The fields of an observation source and of `glocal live`.
 void describe(ParamVisitor& v, LiveTopics& p);
@@ -56,8 +57,8 @@ class LiveDrive final : public ObservationSource {
   LiveDrive(LiveTopics topics, const SourceSetup& setup, std::shared_ptr<MessageLink> link, TakeOther other);
 
   /// Waits for an observation; none once the link has ended, or the setup says to stop. Of several that have
-  /// come since the last one, the newest. Throws ConfigError if there is none within 10 s of the first call,
-  /// with what there is.
+  /// come since the last one, the newest. Throws ConfigError if there is none within `longest_wait` of the
+  /// first call, with what there is.
   [[nodiscard]] std::optional<Sample> next() override;
 
   /// How many observations were not delivered, since a newer one was there.
@@ -84,7 +85,10 @@ class LiveDrive final : public ObservationSource {
   /// The robot in the odometry's frame at this time, as the motion has it.
   [[nodiscard]] std::optional<Pose3> robot_at(std::int64_t stamp_ns,
                                               const bags::DriveContents& contents) const;
-  void drop_lost(const bags::DriveContents& contents);
+  [[nodiscard]] std::size_t decided(const bags::ScanPlacer& placer,
+                                    const bags::DriveContents& contents) const;
+  [[nodiscard]] std::optional<Sample> observed(const Pending& scan, const bags::ScanPlacer& placer,
+                                               const bags::DriveContents& contents);
   void forget(std::int64_t now_ns);
   void check_first_wait() const;
   void warn_once(const std::string& text);

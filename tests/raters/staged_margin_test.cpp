@@ -203,6 +203,20 @@ TEST(StagedMargin, WhatBeamsSayMakesAConfidenceThatIsEnough) {
   }
 }
 
+TEST(StagedMargin, WhereTheRobotWasExpectedItIsSurer) {
+  const auto confidence = [](const std::optional<ExpectedPose>& expected, double scan_contact = 0.95) {
+    StagedMargin rule({}, with_verifier());
+    StepResult result = cluttered(0.0, scan_contact);
+    result.expected = expected;
+    return rule.judge(result).estimate->confidence;
+  };
+  const double seen = confidence({}) / 0.998;
+  EXPECT_NEAR(confidence(ExpectedPose{here, 19.0}), 0.998 * 19.0 * seen / (1.0 - seen + 19.0 * seen), 1e-9);
+  EXPECT_DOUBLE_EQ(confidence(ExpectedPose{here, 1.0}), 0.998 * seen);
+  EXPECT_DOUBLE_EQ(confidence(ExpectedPose{there, 19.0}), 0.998 * seen) << "that is another pose";
+  EXPECT_DOUBLE_EQ(confidence(ExpectedPose{here, 19.0}, 0.85), 0.998 * seen) << "perhaps another floor";
+}
+
 TEST(StagedMargin, WithoutARivalBeamsSayNothing) {
   StagedMargin rule({}, with_verifier());
   StepResult alone = cluttered(0.0);

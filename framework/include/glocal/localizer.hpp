@@ -66,6 +66,11 @@ class Localizer {
   /// Throws StrategyError if a strategy throws an exception.
   void reset(std::uint64_t trial);
 
+  /// Where the robot is thought to be in the next step, the first one after reset(): one more candidate,
+  /// judged and verified like any other, and with odds of its own. It is dropped once another pose is better,
+  /// or none fits. Matchers that do not rescore poses know nothing of it.
+  void expect(const ExpectedPose& expected) { expected_ = expected; }
+
   /// The local map after the last step.
   [[nodiscard]] const LocalMap& local_map() const { return local_mapper_->map(); }
   [[nodiscard]] std::vector<MapFile> local_map_files() const { return local_mapper_->files(); }
@@ -103,6 +108,8 @@ class Localizer {
   void follow_noise(const Scan& scan, StepResult& result);
   const LocalMap& add(const Observation& observation, StepResult& result);
   void match(const LocalMap& local, const Observation& latest, StepResult& result);
+  /// Puts the expected pose among the hypotheses of the first step, and follows it.
+  void follow_expected(const LocalMap& local, StepResult& result);
   void cluster(StepResult& result);
   void rate(StepResult& result);
   void judge(StepResult& result);
@@ -130,8 +137,11 @@ class Localizer {
   std::optional<SetupMonitor> setup_;  ///< None where the set-up is not checked.
   StartInLocalMap start_;              ///< Followed where a prior is given.
   PoseGate gate_;
-  bool is_verified_ = false;        ///< What is declared since some steps.
-  bool is_being_verified_ = false;  ///< What would be declared.
+  std::optional<ExpectedPose> expected_;  ///< In the map's frame; none once it was dropped.
+  Pose3 expected_map_from_local_;         ///< Relative to the map's origin, after the first step.
+  int expected_epoch_ = 0;                ///< Of that local map.
+  bool is_verified_ = false;              ///< What is declared since some steps.
+  bool is_being_verified_ = false;        ///< What would be declared.
   Rng seed_;
   std::uint64_t trial_ = 0;
   Rng rng_;  ///< Of the trial.

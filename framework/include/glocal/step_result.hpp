@@ -69,6 +69,12 @@ struct Verification {
   [[nodiscard]] bool is_about_as_good(const Hypothesis& rival) const { return rival.score >= score - margin; }
 };
 
+/// Where a robot is thought to be before anything was seen.
+struct ExpectedPose {
+  Pose3 map_from_robot;
+  double odds = 1.0;  ///< Of this pose against all others together, above 0.
+};
+
 /// What a verdict rule says, and why.
 struct Verdict {
   VerdictKind kind = VerdictKind::searching;
@@ -154,8 +160,10 @@ struct StepResult {
   std::size_t points_tested = 0;   ///< Single points tested for contact.
 
   std::vector<Hypothesis> hypotheses;  ///< Falling score.
-  std::vector<Cluster> clusters;       ///< Falling rating.
-  std::vector<Rating> ratings;         ///< One for each cluster.
+  /// Where the robot is now if it was where it was expected, as long as nothing speaks against it.
+  std::optional<ExpectedPose> expected;
+  std::vector<Cluster> clusters;  ///< Falling rating.
+  std::vector<Rating> ratings;    ///< One for each cluster.
   Verdict verdict;
   std::optional<Verification> verification;  ///< Of a pose that was declared, or would have been.
   std::optional<SetupCheck> setup;           ///< None where it is not checked: in space.

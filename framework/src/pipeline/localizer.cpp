@@ -49,8 +49,15 @@ void add_origin(StepResult& result, const Vector3& origin) {
   if (verdict.map_from_robot) add_to(*verdict.map_from_robot);
   for (Pose3& candidate : verdict.candidates) add_to(candidate);
   if (verdict.estimate) add_to(verdict.estimate->map_from_robot);
+  if (result.expected) add_to(result.expected->map_from_robot);
   if (!result.verification) return;
   for (Hypothesis& rival : result.verification->rivals) add_to_both(rival);
+}
+
+void note_best(StepResult& result) {
+  if (result.hypotheses.empty()) return;
+  result.omega_best = result.hypotheses.front().quality;
+  result.score_best = result.hypotheses.front().score;
 }
 
 /// Says what the verdict leaves out of account.
@@ -184,6 +191,7 @@ StepResult Localizer::step(const Observation& observation) {
   const LocalMap& local = add(observation, result);
   follow_noise(observation.scan, result);
   match(local, observation, result);
+  follow_expected(local, result);
   result.omega_place = by_contact_->unknown_place.update(local, result.hypotheses);
   if (!result.hypotheses.empty() && motion_ == Motion::planar) {
     result.hit_kinds = by_contact_->unknown_place.kinds_of(
@@ -255,11 +263,41 @@ void Localizer::match(const LocalMap& local, const Observation& latest, StepResu
     result.points_tested = match.points_tested;
   });
   for (Hypothesis& h : result.hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
-  if (!result.hypotheses.empty()) {
-    result.omega_best = result.hypotheses.front().quality;
-    result.score_best = result.hypotheses.front().score;
-  }
+  note_best(result);
   in_stage(stages_.threshold_policy, result.step, [&] { threshold_policy_->update(result.hypotheses); });
+}
+
+void Localizer::follow_expected(const LocalMap& local, StepResult& result) {
+  if (!expected_) return;
+  std::vector<Hypothesis>& hypotheses = result.hypotheses;
+  const bool is_first = result.step == 0;
+  if (is_first) {
+    expected_map_from_local_ = shifted(expected_->map_from_robot, -origin_) * inverse(local.local_from_robot);
+    const auto contact = contact_index(*stage_setup_.map, "bitset", stage_setup_.contact_epsilon)
+                             ->share(local.points, expected_map_from_local_);
+    in_stage(stages_.matcher, result.step, [&] {
+      timed(&StageTimes::match, result, [&] {
+        for (Hypothesis& h : by_contact_->matcher->rescore(
+                 {Hypothesis::by_contact(expected_map_from_local_, contact)}, local))
+          hypotheses.push_back(h);
+      });
+      for (Hypothesis& h : hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
+      std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                       [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+      std::erase_if(hypotheses, [&](const Hypothesis& h) {
+        return h.score < result.omega_max || !gate_.allows(h.map_from_local);
+      });
+      check_hypotheses(hypotheses, result.omega_max, motion_);
+    });
+    note_best(result);
+  }
+  const Pose3 map_from_robot = expected_map_from_local_ * local.local_from_robot;
+  constexpr PoseTolerance near;
+  const bool is_best =
+      !hypotheses.empty() && near.are_near(hypotheses.front().map_from_robot, map_from_robot);
+  if (is_first) expected_epoch_ = local.epoch;
+  if (!is_best || local.epoch != expected_epoch_) return expected_.reset();
+  result.expected = {map_from_robot, expected_->odds};
 }
 
 void Localizer::cluster(StepResult& result) {
@@ -311,6 +349,7 @@ void Localizer::reset(std::uint64_t trial) {
   trial_ = trial;
   rng_ = seed_.stream({trial});
   step_ = 0;
+  expected_.reset();
   if (setup_) setup_->reset();
   start_.reset();
   noise_ = {};

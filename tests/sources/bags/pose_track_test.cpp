@@ -48,6 +48,26 @@ TEST(PoseTrack, ThatIsStillHoldsAtAllTimes) {
   EXPECT_EQ(track.at(5000, 1)->x, 1.0);
 }
 
+TEST(PoseTrack, ThatIsStillSoFarHoldsWhereItIsKnown) {
+  PoseTrack track;
+  track.add(100, Pose2{1.0, 0.0, 0.5});
+  track.add(900, Pose2{1.0, 0.0, 0.5});
+  track.settle(true);
+  EXPECT_TRUE(track.is_still());
+  EXPECT_FALSE(track.at(5000, 10'000));
+  EXPECT_EQ(track.at(500, 1000)->x, 1.0);
+}
+
+TEST(PoseTrack, ForgetsAllButWhatATimeNeeds) {
+  PoseTrack track = track_of({{100, {1.0, 0.0, 0.0}}, {200, {2.0, 0.0, 0.0}}, {300, {3.0, 0.0, 0.0}}});
+  track.forget_before(250);
+  EXPECT_EQ(track.size(), 2U);
+  EXPECT_FALSE(track.at(199, 1000));
+  EXPECT_EQ(track.at(250, 1000)->x, 2.5);
+  track.forget_before(50);
+  EXPECT_EQ(track.size(), 2U);
+}
+
 TEST(PoseTrack, SortsAndKeepsTheLastOfEqualStamps) {
   const PoseTrack track = track_of({{200, {2.0, 0.0, 0.0}}, {100, {7.0, 0.0, 0.0}}, {100, {1.0, 0.0, 0.0}}});
   EXPECT_EQ(track.size(), 2U);

@@ -1,0 +1,111 @@
+// glocal live, with a recording in place of a robot.
+#include <gmock/gmock.h>
+
+#include "app/result_lines.hpp"
+#include "app/room.hpp"
+#include "sources/bags/message_writer.hpp"
+#include "sources/carmen/carmen_parser.hpp"
+
+namespace glocal::test::live_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A simulated room: a map, and a drive as a recording.
+class Live : public CommandLine {
+ protected:
+  Live() {
+    write_world();
+    folder_.write("room.yaml",
+                  "schema: 1\nname: room\n"
+                  "map:\n  simulation: {world: world.yaml, resolution: 0.05}\n"
+                  "observations:\n  simulation: {world: world.yaml, laser: {fov_deg: 270}}\n"
+                  "trials: {whole: true}\n");
+    EXPECT_EQ(run("simulate " + file("room.yaml") + " --out " + file("room")).exit_code, 0);
+    bags::RobotRecording recording;
+    for (const carmen::CarmenScan& scan : carmen::read_carmen_log(file("room/drive.log"))) {
+      const auto stamp = static_cast<std::int64_t>(scan.stamp * 1e9);
+      recording.transform("odom", "base_link", stamp, scan.odom_from_robot);
+      recording.transform("base_link", "laser", stamp, {}, "/tf_static");
+      recording.scan("/scan", stamp,
+                     {.angle_min = static_cast<float>(scan.start_angle),
+                      .angle_increment = static_cast<float>(scan.angle_step),
+                      .range_max = static_cast<float>(scan.max_range),
+                      .ranges = scan.ranges});
+    }
+    folder_.write("drive.mcap", recording.bytes());
+  }
+
+  [[nodiscard]] Answer live(const std::string& recording, const std::string& options) const {
+    return run("live " + file("room/map.yaml") + " --recording " + file(recording) + " --force " + options);
+  }
+  /// All that `localize` finds, but for times.
+  [[nodiscard]] std::vector<Json> steps_of_localize(const std::string& recording) const {
+    const Answer answer = run("localize " + file("room/map.yaml") + " " + file(recording) +
+                              " --scans /scan --whole --force --out " + file("whole"));
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    return comparable(file("whole/steps.jsonl"));
+  }
+  /// The first step in which they differ is told.
+  static void expect_same(const std::vector<Json>& steps, const std::vector<Json>& expected) {
+    ASSERT_EQ(steps.size(), expected.size());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      for (const auto& [key, value] : expected[i].items())
+        ASSERT_EQ(steps[i].value(key, Json()), value) << i << key;
+    }
+  }
+  static std::vector<Json> comparable(const std::string& lines) {
+    std::vector<Json> steps = json_lines(lines);
+    for (Json& step : steps) step = without_times(step);
+    return steps;
+  }
+};
+
+TEST_F(Live, FindsWhatLocalizeFindsOnTheRecording) {
+  const Answer answer = live("drive.mcap", "--out " + file("live"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("localized"));
+  EXPECT_THAT(answer.out, HasSubstr("1 declarations"));
+  const std::vector<Json> steps = comparable(file("live.steps.jsonl"));
+  EXPECT_GT(steps.size(), 10U);
+  expect_same(steps, steps_of_localize("drive.mcap"));
+}
+
+TEST_F(Live, ItsOwnRecordingGivesTheSameAnswers) {
+  const Answer answer = live("drive.mcap", "--tf --out " + file("live") + " --record " + file("again.mcap"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  expect_same(comparable(file("live.steps.jsonl")), steps_of_localize("again.mcap"));
+  const Answer info = run("bag info " + file("again.mcap"));
+  for (const char* topic : {"/initialpose", "/glocal/pose", "/glocal/candidates", "/diagnostics"})
+    EXPECT_THAT(info.out, HasSubstr(topic));
+  const Answer twice = live("drive.mcap", "--out " + file("live") + " --record " + file("again.mcap"));
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.err, HasSubstr("again.mcap: error: is there already"));
+}
+
+TEST_F(Live, KnowsAfterAPowerCycleWhereItWas) {
+  const std::string state = " --out " + file("live") + " --state " + file("state.json");
+  const Answer first = live("drive.mcap", state);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.out, Not(HasSubstr("was at")));
+  // The drive begins anew at its start: the robot was carried there while it was off.
+  const Answer second = live("drive.mcap", state);
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_THAT(second.out, HasSubstr("was at"));
+  EXPECT_EQ(json_lines(file("live.steps.jsonl")).back()["verdict"], "localized");
+
+  folder_.write("state.json", "{\"schema\": 1");
+  const Answer damaged = live("drive.mcap", state);
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("state.json: error: is cut short"));
+}
+
+TEST_F(Live, WithoutThePluginItSaysWhatIsMissing) {
+  const Answer answer = run("live " + file("room/map.yaml") + " --out " + file("live"));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("ros2"));
+}
+
+}  // namespace
+}  // namespace glocal::test::live_test

@@ -1,0 +1,137 @@
+#include "sources/live/answers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "sources/bags/message_reader.hpp"
+#include "sources/bags/messages.hpp"
+#include "sources/live/fake_link.hpp"
+
+namespace glocal::test::live::answers_test {
+namespace {
+
+using glocal::bags::Connection;
+using glocal::bags::MessageReader;
+using glocal::bags::RecordedMessage;
+using glocal::live::Answers;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::Not;
+using testing::Pair;
+
+constexpr std::int64_t stamp = 3'000'000'004;
+
+class Published : public testing::Test {
+ protected:
+  void tell(const StepResult& result, Answers& answers) {
+    link_.published.clear();
+    answers.tell(result, stamp, Pose2{1.0, 0.0, 0.0}, 7);
+  }
+  std::vector<std::string> topics() const {
+    std::vector<std::string> topics;
+    for (const LiveMessage& message : link_.published) topics.push_back(message.topic.name);
+    return topics;
+  }
+  /// Calls `use` with a message as a reader of recordings has it.
+  template <class Use>
+  void read(const std::string& topic, Use use) const {
+    for (const LiveMessage& message : link_.published) {
+      if (message.topic.name != topic) continue;
+      const Connection connection{topic, message.topic.type, "cdr", ""};
+      return use(RecordedMessage{&connection, 0, message.bytes, {.file = topic}});
+    }
+    ADD_FAILURE() << "nothing on " << topic;
+  }
+  static StepResult declared() {
+    StepResult result;
+    result.verdict = {VerdictKind::localized, Pose2{4.0, 5.0, 0.5}, {}, "sure"};
+    result.verdict.estimate = PoseEstimate{Pose2{4.0, 5.0, 0.5}, 0.98, PoseCovariance{1, 2, 3, 4, 5, 6}};
+    result.verdict.evidence = {{"margin", 0.25}};
+    return result;
+  }
+
+  FakeLink link_;
+};
+
+TEST_F(Published, APoseOnceItIsDeclaredAndTheBestOneAlways) {
+  Answers answers(link_, "/robot", {});
+  StepResult searching;
+  searching.verdict.candidates = {Pose2{1.0, 0.0, 0.0}, Pose2{2.0, 0.0, 0.0}};
+  tell(searching, answers);
+  EXPECT_THAT(topics(), ElementsAre("/robot/glocal/candidates", "/robot/diagnostics"));
+  tell(declared(), answers);
+  EXPECT_THAT(topics(), Contains("/robot/initialpose"));
+  tell(declared(), answers);
+  EXPECT_THAT(topics(), Not(Contains("/robot/initialpose")));
+  EXPECT_THAT(topics(), Contains("/robot/glocal/pose"));
+  tell(searching, answers);
+  tell(declared(), answers);
+  EXPECT_THAT(topics(), Contains("/robot/initialpose")) << "declared anew";
+}
+
+TEST_F(Published, PoseAndCovarianceAreThoseOfTheMessage) {
+  Answers answers(link_, "", {.map = "plan"});
+  tell(declared(), answers);
+  read("/initialpose", [](const RecordedMessage& message) {
+    const auto pose = glocal::bags::read_pose(message);
+    EXPECT_EQ(pose.header.stamp_ns, stamp);
+    EXPECT_EQ(pose.header.frame, "plan");
+    EXPECT_NEAR(pose.pose.x, 4.0, 1e-12);
+    EXPECT_NEAR(pose.pose.heading(), 0.5, 1e-12);
+    ASSERT_EQ(pose.covariance.size(), 36U);
+    EXPECT_EQ(pose.covariance[0], 1.0);
+    EXPECT_EQ(pose.covariance[1], 2.0);
+    EXPECT_EQ(pose.covariance[6], 2.0);
+    EXPECT_EQ(pose.covariance[7], 4.0);
+    EXPECT_EQ(pose.covariance[5], 3.0);
+    EXPECT_EQ(pose.covariance[11], 5.0);
+    EXPECT_EQ(pose.covariance[35], 6.0);
+  });
+}
+
+TEST_F(Published, DiagnosticsSayTheVerdictAndWhatItRestsOn) {
+  Answers answers(link_, "", {});
+  tell(declared(), answers);
+  read("/diagnostics", [](const RecordedMessage& message) {
+    MessageReader reader(message);
+    reader.skip(8);  // The stamp.
+    EXPECT_EQ(reader.text(), "map");
+    ASSERT_EQ(reader.count(1), 1U);
+    EXPECT_EQ(reader.number<std::uint8_t>(), 0) << "ok";
+    EXPECT_EQ(reader.text(), "glocal: localization");
+    EXPECT_EQ(reader.text(), "sure");
+    EXPECT_EQ(reader.text(), "glocal");
+    std::map<std::string, std::string> values;
+    for (std::size_t n = reader.count(1); n > 0; --n) {
+      const std::string key(reader.text());
+      values[key] = reader.text();
+    }
+    EXPECT_THAT(values, Contains(Pair("verdict", "localized")));
+    EXPECT_THAT(values, Contains(Pair("confidence", "0.9800")));
+    EXPECT_THAT(values, Contains(Pair("margin", "0.2500")));
+    EXPECT_THAT(values, Contains(Pair("passed_over", "7")));
+  });
+}
+
+TEST_F(Published, MapToOdomIfAskedFor) {
+  Answers answers(link_, "", {.publishes_tf = true});
+  tell(declared(), answers);
+  read("/tf", [](const RecordedMessage& message) {
+    const auto transforms = glocal::bags::read_transforms(message);
+    ASSERT_EQ(transforms.size(), 1U);
+    EXPECT_EQ(transforms[0].header.frame, "map");
+    EXPECT_EQ(transforms[0].child_frame, "odom");
+    // The robot is 1 m along odom's x axis.
+    EXPECT_NEAR(transforms[0].parent_from_child.x, 4.0 - std::cos(0.5), 1e-12);
+    EXPECT_NEAR(transforms[0].parent_from_child.y, 5.0 - std::sin(0.5), 1e-12);
+  });
+  StepResult lost = declared();
+  lost.verdict.kind = VerdictKind::searching;
+  tell(lost, answers);
+  EXPECT_THAT(topics(), Not(Contains("/tf")));
+}
+
+}  // namespace
+}  // namespace glocal::test::live::answers_test

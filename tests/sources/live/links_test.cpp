@@ -1,0 +1,92 @@
+// Recordings in place of robots, and of them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "files.hpp"
+#include "sources/bags/message_writer.hpp"
+#include "sources/live/fake_link.hpp"
+#include "sources/live/recorded_link.hpp"
+#include "sources/live/recording_link.hpp"
+
+namespace glocal::test::live::links_test {
+namespace {
+
+using glocal::live::RecordedLink;
+using glocal::live::RecordingLink;
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr std::int64_t ms = 1'000'000;
+
+const LiveTopic tf{"/tf", "tf2_msgs/TFMessage"};
+const LiveTopic scan{"/scan", "sensor_msgs/LaserScan"};
+
+class Links : public testing::Test {
+ protected:
+  [[nodiscard]] std::string written() const {
+    bags::RobotRecording recording;
+    recording.transform("odom", "base_link", 0, Pose2{1.0, 0.0, 0.0});
+    recording.scan("/scan", 20 * ms, {.ranges = {1.0F}});
+    recording.transform("odom", "base_link", 40 * ms, Pose2{2.0, 0.0, 0.0});
+    return folder_.write("drive.mcap", recording.bytes());
+  }
+  static std::vector<std::string> all_of(MessageLink& link) {
+    std::vector<std::string> topics;
+    while (const auto message = link.next(milliseconds(0))) topics.push_back(message->topic.name);
+    return topics;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Links, GiveTheTopicsThatAreAskedForInOrder) {
+  RecordingLink link({file_path(written())}, {});
+  EXPECT_THAT(link.topics(), ElementsAre(scan, tf));
+  link.subscribe(tf, Delivery::reliable);
+  EXPECT_FALSE(link.is_live());
+  EXPECT_THAT(all_of(link), ElementsAre("/tf", "/tf"));
+  EXPECT_TRUE(link.has_ended());
+}
+
+TEST_F(Links, InRealTimeMessagesComeWhenTheyCameToTheRecorder) {
+  RecordingLink link({file_path(written()), true}, {});
+  link.subscribe(tf, Delivery::reliable);
+  EXPECT_TRUE(link.is_live());
+  const auto begun = std::chrono::steady_clock::now();
+  EXPECT_TRUE(link.next(milliseconds(0)));
+  EXPECT_FALSE(link.next(milliseconds(0))) << "40 ms later";
+  EXPECT_FALSE(link.has_ended());
+  EXPECT_TRUE(link.next(milliseconds(10'000)));
+  EXPECT_GE(std::chrono::steady_clock::now() - begun, milliseconds(40));
+}
+
+TEST_F(Links, WhatComesAndWhatIsToldIsWrittenDown) {
+  const std::string file = (folder_.path() / "live.mcap").string();
+  {
+    const auto robot = std::make_shared<FakeLink>();
+    robot->put(tf, 10 * ms, bags::Writer("cdr").number<std::uint32_t>(0).bytes());
+    robot->put(scan, 5 * ms, "a scan that was received before");
+    RecordedLink link(robot, file);
+    link.subscribe(tf, Delivery::reliable);
+    link.subscribe(scan, Delivery::newest);
+    EXPECT_THAT(all_of(link), ElementsAre("/tf", "/scan"));
+    link.publish({"/initialpose", "geometry_msgs/PoseWithCovarianceStamped"}, Delivery::reliable, "a pose");
+    EXPECT_EQ(robot->published.size(), 1U);
+  }
+  RecordingLink again({file_path(file)}, {});
+  for (const LiveTopic& topic : again.topics()) again.subscribe(topic, Delivery::reliable);
+  EXPECT_THAT(all_of(again), ElementsAre("/tf", "/scan", "/initialpose"))
+      << "in the order in which they were taken";
+  EXPECT_THAT(config_error(folder_.path(), [&] { RecordedLink(std::make_shared<FakeLink>(), file); }),
+              HasSubstr("live.mcap: error: is there already"));
+  EXPECT_THAT(
+      config_error(folder_.path(),
+                   [&] { RecordedLink(std::make_shared<FakeLink>(), folder_.path() / "no" / "f.mcap"); }),
+      HasSubstr("cannot be written"));
+}
+
+}  // namespace
+}  // namespace glocal::test::live::links_test
