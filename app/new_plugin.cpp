@@ -84,7 +84,8 @@ void check(const NewPluginOptions& options, const Catalog& catalog) {
 
 /// The localizer's section of an experiment that uses the strategy.
 std::string localizer_with(const std::string& kind, const std::string& name) {
-  if (kind == "map_source" || kind == "observation_source" || kind == "cloud_registrar")
+  if (kind == "map_source" || kind == "observation_source" || kind == "cloud_registrar" ||
+      kind == "message_link")
     return "localizer: {}";
   if (kind == "contact_index")
     return fmt::format("localizer:\n  matcher:\n    ransam: {{contact: {}}}", name);

@@ -48,7 +48,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glocal.pc DESTINATION ${CMAKE_INSTALL_
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_CORE_PACKAGE_NAME glocal)
-foreach(package mrpt octomap open3d pcl)
+foreach(package mrpt octomap open3d pcl ros2)
   string(TOUPPER ${package} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME glocal-${package})
   set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "glocal (= ${PROJECT_VERSION})")

@@ -26,6 +26,9 @@
 #include "sources/clouds/point_cloud_map.hpp"
 #include "sources/disturbed/disturbed_drive.hpp"
 #include "sources/disturbed/disturbed_map.hpp"
+#include "sources/live/live_drive.hpp"
+#include "sources/live/live_map.hpp"
+#include "sources/live/recording_link.hpp"
 #include "sources/ros_map/ros_map.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/random_scans.hpp"
@@ -130,10 +133,23 @@ class Contract : public ::testing::Test {
     const FilePath bag = file_path(folder_.write("drive.mcap", recording.bytes()));
     fill<glocal::bags::BagDrive::Params>("observation_source/bag", [&, bag](auto& p) { p.path = bag; });
     fill<glocal::bags::BagMap::Params>("map_source/bag_map", [&, bag](auto& p) { p.path = bag; });
+    const auto play = [&, bag](AnyParams& any) {
+      dynamic_cast<ParamsOf<glocal::live::RecordingLink::Params>&>(any).value.path = bag;
+    };
+    fillers_["message_link/recording"] = play;
+    const auto from_recording = [&, play](auto& p) {
+      p.link = catalog_.message_links.choose("recording");
+      play(*p.link.params);
+    };
+    fill<glocal::live::LiveDrive::Params>("observation_source/ros2", from_recording);
+    fill<glocal::live::LiveMap::Params>("map_source/ros2_map", from_recording);
     const std::string tree = folder_.write("tree.bt", bt_file({{}, {.x = 32770, .log_odds = -1.0F}}, 0.1));
     const std::string tree_params = folder_.write("tree.yaml", "path: " + tree + "\n");
     fillers_["map_source/octomap"] = [tree_params](AnyParams& any) { read_yaml(tree_params, any); };
     const std::string filter = folder_.write("filter.yaml", "contact_epsilon: 0.3\n");
+    // On this computer alone.
+    setenv("CYCLONEDDS_URI", "<General><Interfaces><NetworkInterface name='lo'/></Interfaces></General>", 1);
+    fillers_["message_link/ros2"] = [](AnyParams&) {};
     fillers_["matcher/mrpt_mcl"] = [filter](AnyParams& any) { read_yaml(filter, any); };
     for (const char* stage : {"local_mapper/scan_matching",
                               "local_mapper/bounded",

@@ -13,7 +13,7 @@ prefix=$work/prefix
 
 cmake --install "$build" --prefix "$prefix" >/dev/null
 [ "$("$prefix/bin/glocal" --version | cut -d ' ' -f 1)" = glocal ] || fail "the installed program does not run"
-for library in mrpt pcl octomap Open3D vtk Qt; do
+for library in mrpt pcl octomap Open3D vtk Qt ddsc; do
   ! ldd "$prefix/bin/glocal" "$prefix"/lib*/libglocal.so | grep -qi "lib$library" || fail "the framework needs $library"
 done
 
@@ -44,7 +44,7 @@ done
 
 # A plugin of every kind, outside of the tree: as new-plugin writes them, they build, pass their test and run.
 kinds=$("$prefix/bin/glocal" list | grep -E '^[a-z_]+$')
-[ "$(wc -w <<<"$kinds")" -eq 11 ] || fail "the kinds of strategies are: $kinds"
+[ "$(wc -w <<<"$kinds")" -eq 12 ] || fail "the kinds of strategies are: $kinds"
 try_kind() {
   local kind=$1 folder=$work/outside/$1
   "$prefix/bin/glocal" new-plugin "$kind" "my_$kind" -o "$folder" >/dev/null

@@ -54,7 +54,7 @@ TEST_F(PluginCommand, StrategiesOfEveryKindAreListedAndDescribed) {
   const Answer list = run("list --plugin " + plugin("every_kind"));
   ASSERT_EQ(list.exit_code, 0) << list.err;
   for (const char* name : {"room", "standing", "last_scan", "oracle", "each_alone", "all_alike",
-                           "always_half", "at_once", "ahead"}) {
+                           "always_half", "at_once", "ahead", "mute"}) {
     EXPECT_THAT(list.out, HasSubstr(name));
     EXPECT_EQ(run("describe " + std::string(name) + " --plugin " + plugin("every_kind")).exit_code, 0)
         << name;
@@ -62,7 +62,8 @@ TEST_F(PluginCommand, StrategiesOfEveryKindAreListedAndDescribed) {
   const Answer room = run("--plugin " + plugin("every_kind") + " describe room");
   EXPECT_THAT(room.out, AllOf(HasSubstr("every_kind 1.2.3"), HasSubstr("side: number (> 0 m), default 8")));
   EXPECT_THAT(run("schema --plugin " + plugin("every_kind")).out, HasSubstr("each_alone"));
-  EXPECT_THAT(run("list").out, Not(HasSubstr("oracle")));
+  EXPECT_THAT(run("list").out,
+              AllOf(Not(HasSubstr("oracle")), HasSubstr("message_link\n  none but those of plugins\n")));
 }
 
 TEST_F(PluginCommand, FoldersOfPluginsComeFromTheEnvironment) {

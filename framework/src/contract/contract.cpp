@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -406,6 +407,33 @@ void try_map_source(const Made<MapSource>& make, Findings& findings) {
   });
 }
 
+void try_link(const Made<MessageLink>& make, Findings& findings) {
+  const LiveTopic unknown{"/glocal/contract", "no_such_msgs/NoSuchMessage"};
+  const auto is_refused = [](const auto& call) {
+    try {
+      call();
+    } catch (const ConfigError&) {
+      return true;
+    }
+    return false;
+  };
+  findings.check("a type that is not known", [&] {
+    const auto link = make(1);
+    expect(is_refused([&] { link->subscribe(unknown, Delivery::newest); }),
+           "it is subscribed to, without a ConfigError");
+    expect(is_refused([&] { link->publish(unknown, Delivery::newest, {}); }),
+           "it is published, without a ConfigError");
+  });
+  findings.check("next() without a subscription", [&] {
+    using namespace std::chrono;
+    const auto link = make(1);
+    const auto begin = steady_clock::now();
+    expect(!link->next(milliseconds(100)), "there is a message");
+    const double took = duration<double>(steady_clock::now() - begin).count();
+    expect(took < 1.0, "it took {:.1f} s, and was to take 0.1 s", took);
+  });
+}
+
 /// Reading is strict: a default that is out of its own range would be refused.
 void try_params(const AnyParams& params, Findings& findings) {
   findings.check("parameters", [&] {
@@ -460,6 +488,7 @@ void try_others(const std::string& kind, const StrategyChoice& choice, const Mot
   if (kind == catalog.observation_sources.kind())
     try_source(source(catalog.observation_sources), motions.planar ? Motion::planar : Motion::free, findings);
   if (kind == catalog.map_sources.kind()) try_map_source(source(catalog.map_sources), findings);
+  if (kind == catalog.message_links.kind()) try_link(source(catalog.message_links), findings);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <stdexcept>
+#include <thread>
 
 #include "glocal/clusters_of.hpp"
 #include "glocal/contact.hpp"
@@ -156,6 +157,24 @@ struct ToySource final : ObservationSource {
   int given = 0;
 };
 
+struct ToyLink final : MessageLink {
+  using Params = Wrong;
+  explicit ToyLink(const Params& params) : wrong(params.wrong) {}
+  void subscribe(const LiveTopic& /*topic*/, Delivery /*delivery*/) override {
+    if (wrong != "subscribes") throw ConfigError({{"", 0, 0, "no type is known"}});
+  }
+  std::optional<LiveMessage> next(std::chrono::milliseconds longest) override {
+    if (wrong == "waits") std::this_thread::sleep_for(11 * longest);
+    if (wrong == "speaks") return LiveMessage{};
+    return std::nullopt;
+  }
+  void publish(const LiveTopic& /*topic*/, Delivery /*delivery*/, std::string_view /*bytes*/) override {
+    if (wrong != "publishes") throw ConfigError({{"", 0, 0, "no type is known"}});
+  }
+  std::vector<LiveTopic> topics() override { return {}; }
+  std::string wrong;
+};
+
 class Promises : public testing::Test {
  protected:
   Promises() {
@@ -166,6 +185,7 @@ class Promises : public testing::Test {
     catalog_.threshold_policies.add<ToyThreshold>("toy", "A toy.");
     catalog_.verdict_rules.add<ToyRule>("toy", "A toy.");
     catalog_.observation_sources.add<ToySource>("toy", "A toy.");
+    catalog_.message_links.add<ToyLink>("toy", "A toy.");
     catalog_.contact_indexes.add<BitsetContact>("bitset", "The framework's.");
     catalog_.contact_indexes.add<KdTreeContact>("kd_tree", "The framework's.");
   }
@@ -181,7 +201,7 @@ class Promises : public testing::Test {
 
 TEST_F(Promises, AreKeptByToysThatDoNothingWrong) {
   for (const char* kind : {"local_mapper", "matcher", "clusterer", "rater", "threshold_policy",
-                           "verdict_rule", "observation_source"})
+                           "verdict_rule", "observation_source", "message_link"})
     EXPECT_THAT(broken(kind, ""), IsEmpty()) << kind;
   for (const char* name : {"bitset", "kd_tree"})
     EXPECT_THAT(broken_promises("contact_index", {name}, catalog_), IsEmpty()) << name;
@@ -232,6 +252,13 @@ TEST_F(Promises, OfLocalMappers) {
 TEST_F(Promises, OfSources) {
   EXPECT_THAT(broken("observation_source", "again"), ElementsAre(HasSubstr("another observation after it")));
   EXPECT_THAT(broken("observation_source", "random"), ElementsAre(HasSubstr("the same seed: ")));
+}
+
+TEST_F(Promises, OfMessageLinks) {
+  EXPECT_THAT(broken("message_link", "subscribes"), ElementsAre(HasSubstr("it is subscribed to, without")));
+  EXPECT_THAT(broken("message_link", "publishes"), ElementsAre(HasSubstr("it is published, without")));
+  EXPECT_THAT(broken("message_link", "speaks"), ElementsAre(HasSubstr("there is a message")));
+  EXPECT_THAT(broken("message_link", "waits"), ElementsAre(HasSubstr("and was to take 0.1 s")));
 }
 
 TEST_F(Promises, AreOnlyThoseOfAStrategyThatThereIs) {

@@ -1,4 +1,5 @@
 // One strategy of every kind, as small as they can be.
+#include "glocal/error.hpp"
 #include "glocal/plugin.hpp"
 
 namespace {
@@ -158,6 +159,24 @@ void describe(ParamVisitor& v, Ahead::Params& p) {
   v.field("by", p.by, {.doc = "How far.", .unit = "m", .min = 0.0});
 }
 
+/// A robot that says nothing, and knows no type of messages.
+class Mute final : public MessageLink {
+ public:
+  using Params = NoParams;
+  explicit Mute(const Params& /*params*/) {}
+  void subscribe(const LiveTopic& topic, Delivery /*delivery*/) override { refuse(topic); }
+  std::optional<LiveMessage> next(std::chrono::milliseconds /*longest*/) override { return std::nullopt; }
+  void publish(const LiveTopic& topic, Delivery /*delivery*/, std::string_view /*bytes*/) override {
+    refuse(topic);
+  }
+  std::vector<LiveTopic> topics() override { return {}; }
+
+ private:
+  static void refuse(const LiveTopic& topic) {
+    throw ConfigError({{"", 0, 0, "the type '" + topic.type + "' is not known; none is"}});
+  }
+};
+
 }  // namespace
 
 GLOCAL_PLUGIN("every_kind", "1.2.3", catalog) {
@@ -171,4 +190,5 @@ GLOCAL_PLUGIN("every_kind", "1.2.3", catalog) {
   catalog.verdict_rules.add<AtOnce>("at_once", "Takes the first guess.");
   catalog.verifiers.add<Trusting>("trusting", "Believes all that is declared.");
   catalog.cloud_registrars.add<Ahead>("ahead", "The source is ahead.");
+  catalog.message_links.add<Mute>("mute", "A robot that says nothing.");
 }
