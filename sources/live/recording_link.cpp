@@ -1,15 +1,26 @@
 #include "sources/live/recording_link.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <thread>
 #include <utility>
 
+#include "glocal/error.hpp"
+#include "glocal/words.hpp"
 #include "sources/bags/cdr_writer.hpp"
 #include "sources/bags/message_definitions.hpp"
 #include "sources/bags/message_reader.hpp"
 
 namespace glocal::live {
 namespace {
+
+void require_known(const LiveTopic& topic) {
+  if (!bags::definition_of(topic.type).empty()) return;
+  throw ConfigError({{topic.name, 0, 0,
+                      fmt::format("messages of {} are not known; types are written as sensor_msgs/LaserScan",
+                                  shown(topic.type))}});
+}
 
 /// As ROS 2 has it; none where nobody knows how.
 std::optional<std::string> cdr_of(const bags::RecordedMessage& message) {
@@ -37,7 +48,12 @@ RecordingLink::RecordingLink(const Params& params, const SourceSetup& setup)
 }
 
 void RecordingLink::subscribe(const LiveTopic& topic, Delivery /*delivery*/) {
+  require_known(topic);
   asked_for_.insert(topic.name);
+}
+
+void RecordingLink::publish(const LiveTopic& topic, Delivery /*delivery*/, std::string_view /*bytes*/) {
+  require_known(topic);
 }
 
 std::optional<LiveMessage> RecordingLink::next(std::chrono::milliseconds longest) {

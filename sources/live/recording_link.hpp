@@ -27,12 +27,12 @@ class RecordingLink final : public MessageLink {
   /// Throws ConfigError where Recording does.
   RecordingLink(const Params& params, const SourceSetup& setup);
 
-  /// Messages that have gone by do not come any more.
+  /// Messages that have gone by do not come any more. Throws ConfigError for a type that nobody here knows.
   void subscribe(const LiveTopic& topic, Delivery delivery) override;
   [[nodiscard]] std::optional<LiveMessage> next(std::chrono::milliseconds longest) override;
   [[nodiscard]] bool is_live() const override { return is_live_; }
   [[nodiscard]] bool has_ended() const override { return has_ended_; }
-  void publish(const LiveTopic& /*topic*/, Delivery /*delivery*/, std::string_view /*bytes*/) override {}
+  void publish(const LiveTopic& topic, Delivery delivery, std::string_view bytes) override;
   [[nodiscard]] std::vector<LiveTopic> topics() override;
 
  private:

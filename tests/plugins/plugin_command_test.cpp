@@ -62,8 +62,7 @@ TEST_F(PluginCommand, StrategiesOfEveryKindAreListedAndDescribed) {
   const Answer room = run("--plugin " + plugin("every_kind") + " describe room");
   EXPECT_THAT(room.out, AllOf(HasSubstr("every_kind 1.2.3"), HasSubstr("side: number (> 0 m), default 8")));
   EXPECT_THAT(run("schema --plugin " + plugin("every_kind")).out, HasSubstr("each_alone"));
-  EXPECT_THAT(run("list").out,
-              AllOf(Not(HasSubstr("oracle")), HasSubstr("message_link\n  none but those of plugins\n")));
+  EXPECT_THAT(run("list").out, Not(HasSubstr("oracle")));
 }
 
 TEST_F(PluginCommand, FoldersOfPluginsComeFromTheEnvironment) {

@@ -161,7 +161,6 @@ std::optional<std::string> help(std::string_view name, const Catalog& catalog) {
 
 std::string list_strategies(const RegistryBase& registry) {
   const auto all = registry.all();
-  if (all.empty()) return "  none but those of plugins\n";
   std::size_t width = 0;
   std::size_t standing_width = 0;
   for (const StrategyInfo* info : all) {

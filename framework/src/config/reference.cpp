@@ -102,7 +102,7 @@ std::string parameter_reference(const Catalog& catalog) {
       contents(catalog) + "\n## The experiment file\n\n" + table(document(params));
   for (const RegistryBase* registry : catalog.registries()) {
     text += "\n## " + registry->kind() + "\n";
-    if (registry->all().empty()) text += "\nNone but those of plugins.\n";
+    if (registry->all().empty()) text += "\nNone.\n";
     for (const StrategyInfo* info : registry->all()) {
       text += fmt::format(
           "\n### {}\n\n{}\n\nStatus: {}.\n\n{}{}", info->name, info->doc, to_string(info->standing),

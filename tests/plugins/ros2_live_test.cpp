@@ -1,0 +1,136 @@
+// glocal live beside a robot whose DDS is another one.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "app/room.hpp"
+#include "fast_dds_robot.hpp"
+#include "sources/bags/message_writer.hpp"
+#include "sources/bags/messages.hpp"
+#include "sources/carmen/carmen_parser.hpp"
+
+namespace glocal::test::ros2_live_test {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+constexpr RobotQos best_effort{.reliable = false, .transient_local = false, .depth = 5};
+constexpr RobotQos reliable{.reliable = true, .transient_local = false, .depth = 100};
+constexpr RobotQos latched{.reliable = true, .transient_local = true, .depth = 1};
+constexpr const char* dds_tf = "tf2_msgs::msg::dds_::TFMessage_";
+
+/// A simulated room, and what a robot sends that drives through it.
+class LiveRoom : public CommandLine {
+ protected:
+  LiveRoom() {
+    // On this computer alone, which may know no multicast.
+    setenv("CYCLONEDDS_URI",
+           "<General><Interfaces><NetworkInterface name='lo'/></Interfaces><AllowMulticast>false"
+           "</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex><Peers>"
+           "<Peer address='127.0.0.1'/></Peers></Discovery>",
+           1);
+    write_world();
+    folder_.write("room.yaml",
+                  "schema: 1\nname: room\n"
+                  "map:\n  simulation: {world: world.yaml, resolution: 0.05}\n"
+                  "observations:\n  simulation: {world: world.yaml, laser: {fov_deg: 270}}\n"
+                  "trials: {whole: true}\n");
+    EXPECT_EQ(run("simulate " + file("room.yaml") + " --out " + file("room")).exit_code, 0);
+    for (const carmen::CarmenScan& scan : carmen::read_carmen_log(file("room/drive.log"))) {
+      const auto stamp = static_cast<std::int64_t>(scan.stamp * 1e9);
+      sent_.push_back(
+          {transform("odom", "base_link", stamp, scan.odom_from_robot), scan_message(scan, stamp)});
+    }
+  }
+
+  static std::string transform(const std::string& parent, const std::string& child, std::int64_t stamp,
+                               const Pose3& pose) {
+    return bags::Writer("cdr").number<std::uint32_t>(1).header(parent, stamp).text(child).pose(pose).bytes();
+  }
+
+  static std::string scan_message(const carmen::CarmenScan& scan, std::int64_t stamp) {
+    bags::Writer w("cdr");
+    const auto first = static_cast<float>(scan.start_angle), step = static_cast<float>(scan.angle_step);
+    const auto last = first + static_cast<float>(scan.ranges.size() - 1) * step;
+    w.header("laser", stamp);
+    for (const float v : {first, last, step, 0.0F, 0.1F, 0.0F, static_cast<float>(scan.max_range)})
+      w.number(v);
+    w.number(static_cast<std::uint32_t>(scan.ranges.size()));
+    for (const float range : scan.ranges) w.number(range);
+    return w.number<std::uint32_t>(0).bytes();
+  }
+
+  void start(const std::string& options) {
+    const std::string command = std::string(GLOCAL_PROGRAM) + " live " + file("room/map.yaml") +
+                                " --domain " + std::to_string(domain_) + " --scans /scan --force --out " +
+                                file("live") + " " + options + " >" + file("live.out") + " 2>" +
+                                file("live.err") + " & echo $! >" + file("pid");
+    ASSERT_EQ(std::system(command.c_str()), 0);
+  }
+
+  /// As Ctrl-C does; what it says at its end.
+  std::string end() {
+    kill(static_cast<pid_t>(std::stol(content(file("pid")))), SIGINT);
+    for (int i = 0; i < 100 && content(file("live.out")).find("observations,") == std::string::npos; ++i)
+      std::this_thread::sleep_for(milliseconds(50));
+    return content(file("live.out"));
+  }
+
+  struct Sent {
+    std::string transform, scan;
+  };
+  std::vector<Sent> sent_;
+  int domain_ = 101 + static_cast<int>(getpid()) % 100;
+};
+
+TEST_F(LiveRoom, TheRobotIsToldWhatLocalizeFindsOnTheRecording) {
+  Robot robot(domain_);
+  const auto tf = robot.sender("rt/tf", dds_tf, reliable);
+  const auto tf_static = robot.sender("rt/tf_static", dds_tf, latched);
+  const auto scans = robot.sender("rt/scan", "sensor_msgs::msg::dds_::LaserScan_", best_effort);
+  const auto poses =
+      robot.receiver("rt/initialpose", "geometry_msgs::msg::dds_::PoseWithCovarianceStamped_", reliable);
+  const auto diagnostics =
+      robot.receiver("rt/diagnostics", "diagnostic_msgs::msg::dds_::DiagnosticArray_", reliable);
+  tf_static->send(transform("base_link", "laser", 0, {}));
+  start("--record " + file("live.mcap"));
+  ASSERT_TRUE(tf->has_receivers(1) && scans->has_receivers(1)) << content(file("live.err"));
+  std::size_t answered = 0;
+  for (const Sent& sent : sent_) {
+    tf->send(sent.transform);
+    scans->send(sent.scan);
+    // The first one may come before the laser's place or the answers' receiver is known.
+    if (diagnostics->receive(milliseconds(answered == 0 ? 4000 : 2000))) ++answered;
+  }
+  const std::string told = end();
+  EXPECT_GE(answered + 1, sent_.size()) << told << content(file("live.err"));
+  EXPECT_THAT(told, HasSubstr("localized"));
+  EXPECT_TRUE(poses->receive(milliseconds(1000)));
+
+  const Answer answer = run("localize " + file("room/map.yaml") + " " + file("live.mcap") +
+                            " --scans /scan --whole --out " + file("again"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const std::vector<Json> live = json_lines(file("live.steps.jsonl"));
+  const std::vector<Json> again = json_lines(file("again/steps.jsonl"));
+  ASSERT_EQ(live.size(), again.size());
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    for (const auto& [key, value] : without_times(again[i]).items())
+      ASSERT_EQ(live[i].value(key, Json()), value) << i << " " << key;
+  }
+}
+
+TEST_F(LiveRoom, WithoutARobotItSaysWhatThereIs) {
+  const Answer answer = run("live " + file("room/map.yaml") + " --domain " + std::to_string(domain_) +
+                            " --out " + file("live") + " --set observations.ros2.longest_wait=0.5");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err,
+              HasSubstr("no observation within 0.5 s: there is no topic with scans; there are none at all"));
+}
+
+}  // namespace
+}  // namespace glocal::test::ros2_live_test
