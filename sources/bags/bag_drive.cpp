@@ -17,6 +17,11 @@ namespace {
 constexpr double ns_per_s = 1e9;
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
+/// Poses are interpolated between two that are at most this far apart, and scans of several topics joined
+/// that are, s.
+constexpr double max_gap = 0.5;
+constexpr std::int64_t max_gap_ns = 500'000'000;
+
 std::int64_t nanoseconds(double seconds) {
   return static_cast<std::int64_t>(std::llround(seconds * ns_per_s));
 }
@@ -107,24 +112,11 @@ void describe(ParamVisitor& v, BagDrive::Params& p) {
   v.field("reference", p.reference, {.doc = "Reference poses, for the evaluation."});
   describe_segments(v, p.segments);
   describe_keyframes(v, p.keyframes);
-  v.field("min_range", p.min_range,
-          {.doc = "Readings below this are dropped: dirt on the glass, or the robot itself.",
-           .unit = "m",
-           .min = 0.0,
-           .audience = Audience::expert});
   v.field("max_range", p.max_range,
           {.doc = "Readings from here on count as no return; the messages' own limit holds as well.",
            .unit = "m",
            .above = 0.0,
            .audience = Audience::tuner});
-  v.field(
-      "free_range", p.free_range,
-      {.doc =
-           "How far the way of a reading without return is taken to be free (at most max_range); 0: not at "
-           "all.",
-       .unit = "m",
-       .min = 0.0,
-       .audience = Audience::expert});
   v.field("heights", p.heights,
           {.doc = "Ends of rays from the first to the second of these heights above the robot's origin are "
                   "used. Empty: "
@@ -142,17 +134,9 @@ void describe(ParamVisitor& v, BagDrive::Params& p) {
                   "as measured, with their "
                   "times.",
            .choices = {"odometry", "none"}});
-  v.field(
-      "max_gap", p.max_gap,
-      {.doc =
-           "Poses are interpolated between two that are at most this far apart, and scans of several topics "
-           "joined that are.",
-       .unit = "s",
-       .max = 3600.0,
-       .above = 0.0,
-       .audience = Audience::expert});
   require_rising(v, p.segments);
-  v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
+  v.require(p.max_range > bags::RangeLimits{}.min_range, "max_range",
+            "must be above 0.1 m: nearer readings are dropped");
   v.require(p.heights.empty() || (p.heights.size() == 2 && p.heights[0] < p.heights[1]), "heights",
             "must be two heights, the lower one first");
   v.require(p.sensor_from == "tf" || p.scans.size() < 2, "sensor_from",
@@ -180,7 +164,6 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
     : params_(params),
       is_planar_(setup.motion == Motion::planar),
       warn_(setup.warn),
-      max_gap_ns_(nanoseconds(params.max_gap)),
       recording_(params.path.resolved, bags::damage_if(params.strict)) {
   recording_.tell_progress(setup.progress);
   const std::string file = params.path.resolved.string();
@@ -223,7 +206,7 @@ std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
       ++pauses;
     }
     last = stamp;
-    const auto odometry = contents_.odometry_at(stamp, max_gap_ns_);
+    const auto odometry = contents_.odometry_at(stamp, max_gap_ns);
     if (!odometry || !robot_from_sensor(scans.frame, stamp)) {
       ++lost;
       continue;
@@ -237,13 +220,13 @@ std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
     throw ConfigError({{params_.path.resolved.string(), 0, 0,
                         fmt::format("{} has {} scans, and for none of them is it known where the robot and "
                                     "its sensor were within {} s; "
-                                    "check the stamps, or set odometry, odom_frame, base_frame or max_gap",
-                                    shown(scans.topic), scans.stamps_ns.size(), params_.max_gap)}});
+                                    "check the stamps, or set odometry, odom_frame or base_frame",
+                                    shown(scans.topic), scans.stamps_ns.size(), max_gap)}});
   }
   if (lost > 0)
     warn_(fmt::format("{}: {} of {} scans are left out, as {} is not known within {} s of their stamps", at,
                       lost, scans.stamps_ns.size(),
-                      contents_.odometry.empty() ? "tf" : shown(contents_.odometry), params_.max_gap));
+                      contents_.odometry.empty() ? "tf" : shown(contents_.odometry), max_gap));
   return frames;
 }
 
@@ -276,7 +259,7 @@ void BagDrive::join_other_topics() {
   std::vector<std::int64_t> stamps;
   for (const Frame& frame : frames_) stamps.push_back(frame.stamp_ns);
   for (std::size_t topic = 1; topic < contents_.scans.size(); ++topic) {
-    const auto nearest = nearest_messages(contents_.scans[topic].stamps_ns, stamps, max_gap_ns_);
+    const auto nearest = nearest_messages(contents_.scans[topic].stamps_ns, stamps, max_gap_ns);
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (nearest[i] == none) continue;
       wanted_[{topic, nearest[i]}].push_back(i);
@@ -300,12 +283,12 @@ void BagDrive::warn_of_references() const {
 
 std::optional<Pose3> BagDrive::robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) {
   if (params_.sensor_from == "given") return clouds::robot_from_sensor(params_.sensor);
-  return contents_.robot_from_sensor(frame, stamp_ns, max_gap_ns_);
+  return contents_.robot_from_sensor(frame, stamp_ns, max_gap_ns);
 }
 
 std::optional<Pose3> BagDrive::reference_at(std::int64_t stamp_ns) const {
   const BagReference& r = params_.reference;
-  const auto pose = contents_.reference_at(stamp_ns - nanoseconds(r.time_shift), max_gap_ns_);
+  const auto pose = contents_.reference_at(stamp_ns - nanoseconds(r.time_shift), max_gap_ns);
   if (!pose) return std::nullopt;
   const Pose3 map_from_robot = Pose3({r.x, r.y, r.z}, turn_about_z(radians(r.yaw_deg))) * *pose;
   return is_planar_ ? Pose3(seen_from_above(map_from_robot)) : map_from_robot;
@@ -350,8 +333,7 @@ void BagDrive::take(const bags::RecordedMessage& message) {
 }
 
 std::optional<bags::SensorScan> BagDrive::rays_of(const bags::RecordedMessage& message, bool is_cloud) {
-  const bags::RangeLimits limits{params_.min_range, params_.max_range, params_.free_range,
-                                 params_.voxel_size};
+  const bags::RangeLimits limits{.max_range = params_.max_range, .voxel_size = params_.voxel_size};
   try {
     return is_cloud ? bags::rays_of(bags::read_point_cloud(message), limits)
                     : bags::rays_of(bags::read_laser_scan(message), limits);
@@ -366,8 +348,8 @@ std::optional<BagDrive::RayMover> BagDrive::mover_of(const bags::Header& header,
   const auto sensor_at = [&](double time) -> std::optional<Pose3> {
     const std::int64_t stamp = header.stamp_ns + nanoseconds(time);
     const auto then_from_sensor = robot_from_sensor(header.frame, stamp);
-    const auto odom_from_then = contents_.odometry_at(stamp, max_gap_ns_);
-    const auto odom_from_now = contents_.odometry_at(frame.stamp_ns, max_gap_ns_);
+    const auto odom_from_then = contents_.odometry_at(stamp, max_gap_ns);
+    const auto odom_from_now = contents_.odometry_at(frame.stamp_ns, max_gap_ns);
     if (!then_from_sensor || !odom_from_then || !odom_from_now) return std::nullopt;
     return inverse(*odom_from_now) * *odom_from_then * *then_from_sensor;
   };

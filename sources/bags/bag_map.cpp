@@ -15,6 +15,11 @@
 namespace glocal::bags {
 namespace {
 
+/// Cells more likely to be occupied than this are: as map servers have it.
+constexpr double occupied_thresh = 0.65;
+/// Cells less likely to be occupied than this are free.
+constexpr double free_thresh = 0.196;
+
 constexpr const char* grid_type = "nav_msgs/OccupancyGrid";
 
 [[noreturn]] void fail(const BagMap::Params& params, const std::string& message) {
@@ -48,11 +53,11 @@ bags::GridMessage last_grid(bags::Recording& recording, const std::string& topic
 }
 
 /// -1, and whatever else is no share, is unknown.
-Cell cell_of(std::int8_t percent, const BagMap::Params& params) {
+Cell cell_of(std::int8_t percent) {
   const double occupancy = percent / 100.0;
   if (percent < 0 || percent > 100) return Cell::unknown;
-  if (occupancy > params.occupied_thresh) return Cell::occupied;
-  return occupancy < params.free_thresh ? Cell::free : Cell::unknown;
+  if (occupancy > occupied_thresh) return Cell::occupied;
+  return occupancy < free_thresh ? Cell::free : Cell::unknown;
 }
 
 }  // namespace
@@ -67,11 +72,6 @@ void describe(ParamVisitor& v, BagMap::Params& p) {
                   "read, with a warning."});
   v.field("topic", p.topic,
           {.doc = "Topic with the map (nav_msgs/OccupancyGrid). Empty: the only one there is."});
-  v.field("occupied_thresh", p.occupied_thresh,
-          {.doc = "Cells more likely to be occupied than this are.", .min = 0.0, .max = 1.0});
-  v.field("free_thresh", p.free_thresh,
-          {.doc = "Cells less likely to be occupied than this are free.", .min = 0.0, .max = 1.0});
-  v.require(p.free_thresh < p.occupied_thresh, "free_thresh", "must be below occupied_thresh");
 }
 
 MapData BagMap::load() {
@@ -96,13 +96,11 @@ MapData BagMap::load() {
   map.grid = {seen_from_above(shifted(grid.frame_from_grid, -map.origin)), grid.resolution,
               static_cast<int>(grid.width), static_cast<int>(grid.height),
               std::vector<Cell>(grid.cells.size())};
-  std::transform(grid.cells.begin(), grid.cells.end(), map.grid.cells.begin(),
-                 [&](std::int8_t percent) { return cell_of(percent, params_); });
+  std::transform(grid.cells.begin(), grid.cells.end(), map.grid.cells.begin(), cell_of);
   map.points = occupied_centres(map.grid);
   if (map.points.empty())
     fail(params_,
-         fmt::format("the map of {} has no occupied cell; check occupied_thresh, or take another topic",
-                     name));
+         fmt::format("the map of {} has no occupied cell, none above 65 %; take another topic", name));
   return map;
 }
 

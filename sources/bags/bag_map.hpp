@@ -15,8 +15,6 @@ class BagMap final : public MapSource {
     FilePath path;
     bool strict = false;
     std::string topic;
-    double occupied_thresh = 0.65;
-    double free_thresh = 0.196;
   };
 
   BagMap(const Params& params, const SourceSetup& setup) : params_(params), setup_(setup) {}
