@@ -99,8 +99,9 @@ void wide_search(benchmark::State& state) {
   local_mappers::ScanMatching mapper(params);
   for (const Observation& observation : observations) mapper.add(observation);
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(local_mappers::correlative_search(mapper.grid(), observations.back().scan.hits,
-                                                               mapper.robot(), params.wide_search, 0.02));
+    benchmark::DoNotOptimize(
+        local_mappers::correlative_search(mapper.grid(), observations.back().scan.hits, mapper.robot(),
+                                          local_mappers::ScanMatching::wide_search, 0.02));
   }
 }
 BENCHMARK(wide_search)->Unit(benchmark::kMillisecond);

@@ -11,6 +11,9 @@
 namespace glocal::clustering {
 namespace {
 
+/// Unit of rotation: as the bandwidth is that of distance.
+constexpr double bandwidth_rotation_deg = 8.0;
+
 /// A kernel on SE(2) or SE(3): how much a pose weighs, seen from another one.
 struct Kernel {
   bool is_flat;
@@ -215,16 +218,10 @@ void describe(ParamVisitor& v, MeanShift::Params& p) {
        .unit = "m",
        .min = 0.001,
        .audience = Audience::tuner});
-  v.field("bandwidth_rotation_deg", p.bandwidth_rotation_deg,
-          {.doc = "Unit of rotation: as bandwidth, for the rotation.",
-           .unit = "deg",
-           .min = 0.01,
-           .max = 60.0,
-           .audience = Audience::tuner});
 }
 
 std::vector<Cluster> MeanShift::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
-  const Kernel kernel{params_.kernel == "flat", {params_.bandwidth, radians(params_.bandwidth_rotation_deg)}};
+  const Kernel kernel{params_.kernel == "flat", {params_.bandwidth, radians(bandwidth_rotation_deg)}};
   const PoseRadius near{0.25 * kernel.bandwidth.translation, 0.25 * kernel.bandwidth.rotation};
   const std::vector<double> weights = supports(hypotheses);
   const auto labels = [&](const auto& together, const auto& poses) {

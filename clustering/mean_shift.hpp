@@ -22,7 +22,6 @@ class MeanShift final : public Clusterer {
   struct Params {
     std::string kernel = "gaussian";
     double bandwidth = 0.15;
-    double bandwidth_rotation_deg = 8.0;
   };
 
   explicit MeanShift(const Params& params) : params_(params) {}

@@ -45,7 +45,7 @@ void describe(ParamVisitor& v, Bounded::Params& p) {
            .unit = "m",
            .min = 0.0});
   v.require(p.scans > 0 || p.distance > 0.0, "scans", "either scans or distance must be above 0");
-  describe(v, p.matching);
+  describe_common(v, p.matching);
 }
 
 void Bounded::reset() {

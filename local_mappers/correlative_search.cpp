@@ -141,12 +141,6 @@ void describe(ParamVisitor& v, CorrelativeSearchParams& p) {
            .unit = "m",
            .min = 0.0,
            .max = 10.0});
-  v.field("rotation_deg", p.rotation_deg,
-          {.doc = "Largest rotation tried from the one odometry predicts.",
-           .unit = "deg",
-           .min = 0.0,
-           .max = 180.0,
-           .formerly = "rotation"});
 }
 
 SearchResult correlative_search(const PointGrid& grid, const Points& hits, const Pose2& predicted,

@@ -10,7 +10,7 @@ namespace glocal::local_mappers {
 
 struct CorrelativeSearchParams {
   double translation = 0.1;
-  double rotation_deg = 9.0;
+  double rotation_deg = 9.0;  ///< Largest rotation tried from the predicted one. Not in YAML.
 };
 void describe(ParamVisitor& v, CorrelativeSearchParams& p);
 

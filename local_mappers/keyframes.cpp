@@ -27,7 +27,7 @@ void describe(ParamVisitor& v, Keyframes::Params& p) {
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::expert});
-  describe(v, p.matching);
+  describe_common(v, p.matching);
 }
 
 void Keyframes::reset() {

@@ -1,17 +1,17 @@
 #include "local_mappers/odometry.hpp"
 
 #include "local_mappers/first_pose.hpp"
+#include "local_mappers/scan_normals.hpp"
 
 namespace glocal::local_mappers {
 
 void describe(ParamVisitor& v, Odometry::Params& p) {
   describe(v, p.voxels);
-  v.field("normals", p.normals, {.doc = "Normals of a scan.", .audience = Audience::expert});
 }
 
 // Nobody asks for the nearest point or for likelihoods: a point stamps its own cell only.
 Odometry::Odometry(const Params& params, const StageSetup& setup)
-    : params_(params), motion_(setup.motion), map_(params.voxels, 0, params.voxels.resolution) {}
+    : motion_(setup.motion), map_(params.voxels, 0, params.voxels.resolution) {}
 
 void Odometry::add(const Observation& observation) {
   if (odom_from_first_) {
@@ -41,7 +41,7 @@ void Odometry::move_to(const Pose3& odom_from_robot) {
 
 LocalScan Odometry::placed(const Scan& scan) const {
   if (motion_ != Motion::planar) return LocalScan(moved(scan.hits, map_.map().local_from_robot));
-  return {scan.hits, scan_normals(scan.hits, scan.origin, params_.normals), map_.robot()};
+  return {scan.hits, scan_normals(scan.hits, scan.origin, {}), map_.robot()};
 }
 
 void Odometry::reset() {

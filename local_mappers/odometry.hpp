@@ -6,7 +6,6 @@
 #include "glocal/catalog.hpp"
 #include "glocal/params.hpp"
 #include "glocal/strategies.hpp"
-#include "local_mappers/scan_normals.hpp"
 #include "local_mappers/voxel_map.hpp"
 
 namespace glocal::local_mappers {
@@ -19,7 +18,6 @@ class Odometry final : public LocalMapper {
   static constexpr Motions motions = all_motions;
   struct Params {
     VoxelParams voxels = {};
-    ScanNormalParams normals = {};
   };
 
   Odometry(const Params& params, const StageSetup& setup);
@@ -33,7 +31,6 @@ class Odometry final : public LocalMapper {
   void move_to(const Pose3& odom_from_robot);
   [[nodiscard]] LocalScan placed(const Scan& scan) const;
 
-  Params params_;
   Motion motion_;
   VoxelMap map_;
   std::optional<Pose3> odom_from_first_;  ///< The robot where the map was begun; none before that.

@@ -8,20 +8,9 @@ namespace {
 /// Standard deviation of a hit around a point of the map, in the search, m.
 constexpr double likelihood_sigma = 0.1;
 
-}  // namespace
-
-void describe(ParamVisitor& v, ScanMatching::Params& p) {
-  describe(v, p.voxels);
-  v.field("normals", p.normals, {.doc = "Normals of a scan.", .audience = Audience::expert});
-  v.field("search", p.search, {.doc = "Search around odometry.", .audience = Audience::expert});
-  v.field("wide_search", p.wide_search,
-          {.doc = "Search that follows where the first finds nothing that fits well: wheels slip, and logs "
-                  "have jumps.",
-           .audience = Audience::expert});
-  v.field("refinement", p.refinement,
-          {.doc = "Point-to-line registration after the search.", .audience = Audience::expert});
+void describe_fit(ParamVisitor& v, double& max_free_space_violation) {
   v.field(
-      "max_free_space_violation", p.max_free_space_violation,
+      "max_free_space_violation", max_free_space_violation,
       {.doc =
            "An observation fits only if the share of free-space violations stays below this: hits where the "
            "latest scans saw free space, or the other way round. More means that the robot was carried away.",
@@ -29,8 +18,34 @@ void describe(ParamVisitor& v, ScanMatching::Params& p) {
        .max = 1.0,
        .audience = Audience::tuner,
        .formerly = "max_seen_through"});
-  v.require(cells_in(p.refinement.match_distance, p.voxels.resolution) <= PointGrid::max_reach, "refinement",
-            "gate must be at most 11 times resolution");
+}
+
+bool is_gate_in_reach(const ScanMatching::Params& p) {
+  return cells_in(p.refinement.match_distance, p.voxels.resolution) <= PointGrid::max_reach;
+}
+
+}  // namespace
+
+void describe_common(ParamVisitor& v, ScanMatching::Params& p) {
+  describe(v, p.voxels);
+  describe_fit(v, p.max_free_space_violation);
+  v.require(is_gate_in_reach(p), "resolution",
+            "must be at least 0.041 m: points are looked for in 11 cells, and 0.45 m away");
+}
+
+void describe(ParamVisitor& v, ScanMatching::Params& p) {
+  describe(v, p.voxels);
+  v.field("cell_hits", p.voxels.cell_hits,
+          {.doc = "The point of a voxel is the mean of its first hits, so many of them.",
+           .min = 1,
+           .max = 100,
+           .audience = Audience::expert});
+  v.field("normals", p.normals, {.doc = "Normals of a scan.", .audience = Audience::expert});
+  v.field("search", p.search, {.doc = "Search around odometry.", .audience = Audience::expert});
+  v.field("refinement", p.refinement,
+          {.doc = "Point-to-line registration after the search.", .audience = Audience::expert});
+  describe_fit(v, p.max_free_space_violation);
+  v.require(is_gate_in_reach(p), "refinement", "gate must be at most 11 times resolution");
 }
 
 ScanMatching::ScanMatching(const Params& params)
@@ -98,7 +113,7 @@ Pose2 ScanMatching::refine(const Scan& scan, const Points& normals, const Pose2&
 SearchResult ScanMatching::search(const Points& hits, const Pose2& predicted) const {
   const SearchResult near = correlative_search(grid(), hits, predicted, params_.search, near_penalty);
   if (near.likelihood >= wide_search_below) return near;
-  const SearchResult far = correlative_search(grid(), hits, predicted, params_.wide_search, wide_penalty);
+  const SearchResult far = correlative_search(grid(), hits, predicted, wide_search, wide_penalty);
   // Far from odometry only a good fit is believed: every place resembles some other a little.
   const double needed = std::max(wide_search_below, near.likelihood + wide_search_gain);
   return far.likelihood >= needed ? far : near;

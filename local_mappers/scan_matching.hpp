@@ -25,11 +25,12 @@ class ScanMatching final : public LocalMapper {
     VoxelParams voxels;
     ScanNormalParams normals;
     CorrelativeSearchParams search;
-    CorrelativeSearchParams wide_search{.translation = 0.75, .rotation_deg = 86.0};
     LineRegistrationParams refinement;
     double max_free_space_violation = 0.15;
     int restart_after = 2;  ///< Not in YAML.
   };
+  /// The search that follows where the first finds nothing that fits well: wheels slip, and logs have jumps.
+  static constexpr CorrelativeSearchParams wide_search{.translation = 0.75, .rotation_deg = 86.0};
 
   explicit ScanMatching(const Params& params);
 
@@ -85,5 +86,7 @@ class ScanMatching final : public LocalMapper {
   int misfits_ = 0;  ///< Observations in a row that did not fit.
 };
 void describe(ParamVisitor& v, ScanMatching::Params& p);
+/// What mappers that match scans in this way have of these parameters.
+void describe_common(ParamVisitor& v, ScanMatching::Params& p);
 
 }  // namespace glocal::local_mappers

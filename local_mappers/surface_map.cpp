@@ -8,6 +8,9 @@
 namespace glocal::local_mappers {
 namespace {
 
+/// Largest ratio of the variances across and along a surface; rougher places have no normal.
+constexpr double max_roughness = 0.2;
+
 float squared_distance(const Point& a, const Point& b) {
   return dot(a - b, a - b);
 }
@@ -27,11 +30,6 @@ void describe(ParamVisitor& v, SurfaceMapParams& p) {
            .max = 10.0,
            .above = 0.001,
            .audience = Audience::tuner});
-  v.field("cell_hits", p.cell_hits,
-          {.doc = "The point of a cube is the mean of its first hits, so many of them.",
-           .min = 1,
-           .max = 10000,
-           .audience = Audience::expert});
   v.field("normal_radius", p.normal_radius,
           {.doc = "A point's normal is computed from the points of the map within this distance: a few times "
                   "what is between neighbouring rings of a scan.",
@@ -39,11 +37,6 @@ void describe(ParamVisitor& v, SurfaceMapParams& p) {
            .max = 100.0,
            .above = 0.0,
            .audience = Audience::tuner});
-  v.field("max_roughness", p.max_roughness,
-          {.doc = "Largest ratio of the variances across and along a surface; rougher places have no normal.",
-           .max = 1.0,
-           .above = 0.0,
-           .audience = Audience::expert});
   v.require(p.normal_radius >= p.resolution, "normal_radius", "must not be below resolution");
   v.require(p.normal_radius <= 100.0 * p.resolution, "normal_radius", "must be at most 100 times resolution");
 }
@@ -238,7 +231,7 @@ Point SurfaceMap::normal_at(const Point& p, const Points& around) const {
     sums.add(double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z);
   }
   if (sums.size() < fewest) return {};
-  return sums.plane_normal(thinnest_width, params_.max_roughness).value_or(Point{});
+  return sums.plane_normal(thinnest_width, max_roughness).value_or(Point{});
 }
 
 }  // namespace glocal::local_mappers

@@ -16,9 +16,8 @@ namespace glocal::local_mappers {
 
 struct SurfaceMapParams {
   double resolution = 0.15;
-  int cell_hits = 20;
+  int cell_hits = 20;  ///< The point of a cube is the mean of its first hits, so many. Not in YAML.
   double normal_radius = 0.6;
-  double max_roughness = 0.2;
 };
 void describe(ParamVisitor& v, SurfaceMapParams& p);
 

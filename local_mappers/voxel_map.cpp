@@ -33,11 +33,6 @@ void describe(ParamVisitor& v, VoxelParams& p) {
            .max = 1.0,
            .above = 0.001,
            .audience = Audience::tuner});
-  v.field("cell_hits", p.cell_hits,
-          {.doc = "The point of a voxel is the mean of its first hits, so many of them.",
-           .min = 1,
-           .max = 100,
-           .audience = Audience::expert});
 }
 
 int cells_in(double metres, double resolution) {

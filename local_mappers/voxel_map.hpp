@@ -13,10 +13,10 @@
 
 namespace glocal::local_mappers {
 
-/// Parameters of any local mapper that downsamples its points, among its own.
+/// How points are downsampled. Of any local mapper that does so the resolution is a parameter.
 struct VoxelParams {
   double resolution = 0.05;
-  int cell_hits = 3;
+  int cell_hits = 3;    ///< The point of a voxel is the mean of its first hits, so many of them.
   int memory_mb = 256;  ///< That the index of the points may take. Not in YAML.
 };
 void describe(ParamVisitor& v, VoxelParams& p);

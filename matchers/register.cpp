@@ -44,7 +44,7 @@ void register_matchers(Catalog& catalog) {
   catalog.matchers.add<ransam::TriangleRansam>(
       "triangle_ransam",
       "Random sample matching of triangles in space over a hash table, as ransam's in the plane.",
-      experimental_since("0.1.0"), {.contact = ContactChoice(catalog.contact_indexes)});
+      experimental_since("0.1.0"));
   catalog.matchers.add<grid_search::UprightBranchAndBound>(
       "upright_branch_and_bound",
       "Exact search of a grid of upright poses, as branch_and_bound's of the plane.", stable_since("0.1.0"));

@@ -8,6 +8,13 @@
 #include "raters/normalise.hpp"
 
 namespace glocal::raters {
+namespace {
+
+/// Variance of heading, or of rotation about another axis, at which the third term of eq. 7 is 0; as
+/// hierarchical_kmeans has it.
+constexpr double max_variance_rotation_deg2 = 50.0;
+
+}  // namespace
 
 void describe(ParamVisitor& v, ClusterRating::Params& p) {
   v.field("weights", p.weights,
@@ -23,11 +30,6 @@ void describe(ParamVisitor& v, ClusterRating::Params& p) {
   v.field("max_variance_translation", p.max_variance_translation,
           {.doc = "Variance along x, y or z at which the second term of eq. 7 is 0; the clusterer's value.",
            .unit = "m^2",
-           .above = 0.0});
-  v.field("max_variance_rotation_deg2", p.max_variance_rotation_deg2,
-          {.doc = "Variance of heading, or of rotation about another axis, at which the third term of eq. 7 "
-                  "is 0; the clusterer's value.",
-           .unit = "deg^2",
            .above = 0.0});
 }
 
@@ -48,7 +50,7 @@ std::vector<Rating> ClusterRating::rate(const std::vector<Cluster>& clusters,
 double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
                                double all_support) const {
   const double degree = radians(1.0);
-  const double max_variance_rotation = params_.max_variance_rotation_deg2 * degree * degree;
+  const double max_variance_rotation = max_variance_rotation_deg2 * degree * degree;
   double support = 0.0;
   for (const std::size_t i : cluster.members) support += static_cast<double>(hypotheses[i].support);
   const double score = mean_score(hypotheses, cluster.members);

@@ -15,7 +15,6 @@ class ClusterRating final : public Rater {
     /// The paper leaves them open; these give its first-step ratings of 0.2 to 0.45 (Fig. 4a).
     std::vector<double> weights = {0.5, 0.075, 0.075, 0.35};
     double max_variance_translation = 0.0030;
-    double max_variance_rotation_deg2 = 50.0;
   };
 
   explicit ClusterRating(const Params& params) : params_(params) {}

@@ -38,7 +38,7 @@ class Content {
     std::string().swap(text_);
     refuse_file(file_,
                 fmt::format("has more than {} GB (decompressed, if it is compressed); if it is the right "
-                            "file, raise max_size_gb of the map or observations that it is read for",
+                            "file, thin it out, or take a part of it",
                             max_size_gb_));
   }
   [[nodiscard]] std::string take() { return std::move(text_); }
@@ -80,15 +80,6 @@ std::string decompress(const std::filesystem::path& file, const std::string& raw
 }
 
 }  // namespace
-
-void describe_max_size(ParamVisitor& v, double& max_size_gb) {
-  v.field("max_size_gb", max_size_gb,
-          {.doc = "Larger files are refused; what counts is their size when decompressed.",
-           .unit = "GB",
-           .max = 1000.0,
-           .above = 0.0,
-           .audience = Audience::expert});
-}
 
 std::string read_decompressed(const std::filesystem::path& file, double max_size_gb) {
   using namespace std::string_view_literals;

@@ -4,15 +4,10 @@
 #include <filesystem>
 #include <string>
 
-#include "glocal/params.hpp"
-
 namespace glocal {
 
 /// What fits into the memory of most machines; no log or map image at hand has a tenth of it.
 inline constexpr double default_max_size_gb = 2.0;
-
-/// The field that raises the limit, for everything that reads such files.
-void describe_max_size(ParamVisitor& v, double& max_size_gb);
 
 /// The content of a file; gzip, bzip2 and xz are recognised by what the file begins with, not by its name.
 /// Throws ConfigError if the file cannot be read, if its compressed data is damaged or ends early, or if it

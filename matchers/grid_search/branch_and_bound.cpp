@@ -2,6 +2,10 @@
 
 namespace glocal::grid_search {
 
+void describe(ParamVisitor& v, BranchAndBound::Params& p) {
+  describe(v, p.grid);
+}
+
 BranchAndBound::BranchAndBound(const Params& params, const StageSetup& setup)
     : GridMatcher(params, setup,
                   contact_index(*setup.map, "bitset", setup.epsilon(params.grid.contact_epsilon))),

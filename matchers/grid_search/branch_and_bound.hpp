@@ -20,7 +20,7 @@ namespace glocal::grid_search {
 /// the poses of the grid whose points were counted.
 class BranchAndBound final : public GridMatcher {
  public:
-  using Params = GridMatching;
+  using Params = GridMatching;  // Its grid is in YAML.
 
   /// Throws ConfigError where the map is too large for a contact grid, a pyramid or a distance field.
   BranchAndBound(const Params& params, const StageSetup& setup);
@@ -32,5 +32,6 @@ class BranchAndBound final : public GridMatcher {
   int threads_;
   std::shared_ptr<const BoxPyramid> pyramid_;
 };
+void describe(ParamVisitor& v, BranchAndBound::Params& p);
 
 }  // namespace glocal::grid_search

@@ -76,7 +76,14 @@ class Candidates {
 }  // namespace
 
 void describe(ParamVisitor& v, Exhaustive::Params& p) {
-  describe(v, p.matching);
+  describe(v, p.matching.grid);
+  v.field("min_rotation_step_deg", p.matching.grid.min_rotation_step_deg,
+          {.doc = "Smallest step between rotations; a step moves the farthest point by one cell otherwise.",
+           .unit = "deg",
+           .min = 0.005,
+           .max = 5.7,
+           .audience = Audience::expert,
+           .formerly = "min_rotation_step"});
   p.contact.describe_as("contact", v);
 }
 

@@ -15,13 +15,6 @@ void describe(ParamVisitor& v, GridRule& p) {
            .max = 1.0,
            .audience = Audience::tuner});
   v.require(!p.contact_epsilon || p.cell <= *p.contact_epsilon, "cell", "must be at most contact_epsilon");
-  v.field("min_rotation_step_deg", p.min_rotation_step_deg,
-          {.doc = "Smallest step between rotations; a step moves the farthest point by one cell otherwise.",
-           .unit = "deg",
-           .min = 0.005,
-           .max = 5.7,
-           .audience = Audience::expert,
-           .formerly = "min_rotation_step"});
   v.field("max_points", p.max_points,
           {.doc = "A local map of more points is searched for by a random sample of so many; 0 takes all.",
            .min = 0,
@@ -33,14 +26,6 @@ void describe(ParamVisitor& v, GridRule& p) {
            .min = 1,
            .max = 100000,
            .audience = Audience::tuner});
-}
-
-void describe(ParamVisitor& v, GridMatching& p) {
-  describe(v, p.grid);
-  v.field("refinement", p.refinement,
-          {.doc = "How poses are refined on the distance field, in the plane; without iterations they stay "
-                  "on the grid.",
-           .audience = Audience::expert});
 }
 
 std::size_t GridRule::most_points() const {

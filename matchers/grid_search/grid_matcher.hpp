@@ -17,6 +17,8 @@ namespace glocal::grid_search {
 struct GridRule {
   std::optional<double> contact_epsilon = {};
   double cell = 0.05;
+  /// Smallest step between rotations; a step moves the farthest point by one cell otherwise. A parameter of
+  /// exhaustive only.
   double min_rotation_step_deg = 0.3;
   int max_points = 200;
   int max_poses = 50;
@@ -32,9 +34,8 @@ void describe(ParamVisitor& v, GridRule& p);
 /// Which grid of poses is searched, and what becomes of the poses found.
 struct GridMatching {
   GridRule grid = {};
-  PoseRefinement refinement = {};
+  PoseRefinement refinement = {};  ///< Without iterations poses stay on the grid. Not in YAML.
 };
-void describe(ParamVisitor& v, GridMatching& p);
 
 /// Matching in the plane by a search of a grid of poses (PoseGrid). A local map of more than max_points is
 /// searched for by a sample of them.

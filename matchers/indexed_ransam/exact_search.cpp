@@ -15,14 +15,6 @@ void describe(ParamVisitor& v, ExactSearchRule& p) {
                   "next one after twice as many more, and so on; 0 never searches.",
            .min = 0,
            .max = 1e6});
-  v.field("margin", p.margin,
-          {.doc = "The best pose is clear if no other pose has a score within this of its own.",
-           .min = 0.0,
-           .max = 1.0});
-  v.field("min_contact", p.min_contact,
-          {.doc = "Contact that a pose needs to be searched for: less takes more time.",
-           .max = 1.0,
-           .above = 0.0});
   v.removed("min_rotation_step_deg", "intervals of rotations follow the cell");
   v.removed("min_rotation_step", "intervals of rotations follow the cell");
 }

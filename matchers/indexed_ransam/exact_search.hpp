@@ -20,7 +20,9 @@ namespace glocal::indexed_ransam {
 /// When a search is due, and how far it goes.
 struct ExactSearchRule {
   int after_steps = 5;
+  /// The best pose is clear if no other pose has a score within this of its own. Not in YAML.
   double margin = 0.1;
+  /// Contact that a pose needs to be searched for: less takes more time. Not in YAML.
   double min_contact = 0.75;
   std::optional<double> cell = {};
   int points = 512;

@@ -8,17 +8,18 @@
 namespace glocal::indexed_ransam {
 namespace {
 
+/// Squares of the map that give one oriented point each; its normal is of what is within twice as much.
+constexpr double voxel_size = 0.1;
+
 RelationRule relation_rule(const IndexedRansam::Params& p) {
   return {.relation = p.relation,
-          .points = {.voxel_size = p.voxel_size, .radius = 2.0 * p.voxel_size},
+          .points = {.voxel_size = voxel_size, .radius = 2.0 * voxel_size},
           .pairs = {.min_length = p.min_length}};
 }
 
 JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
   return {.beams = p.beams,
           .unknown_weight = p.unknown_weight,
-          .free_space_weight = p.free_space_weight,
-          .fit_weight = p.fit_weight,
           .most = static_cast<std::size_t>(p.best),
           .contact_epsilon = contact_epsilon,
           .kernel = p.refinement.kernel};
@@ -76,17 +77,6 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
            .min = 0.0,
            .max = 1.0,
            .audience = Audience::expert});
-  v.field("free_space_weight", p.free_space_weight,
-          {.doc = "What the share of points in cells known to be free, out of contact, takes from the score.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::expert});
-  v.field("fit_weight", p.fit_weight,
-          {.doc = "What the mean distance of points to the map takes from the score, as a share of "
-                  "contact_epsilon: of poses in like contact the one that fits more closely is the better.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::expert});
   v.field("min_length", p.min_length,
           {.doc = "Shortest oriented point pair, or side of a triangle.",
            .unit = "m",
@@ -97,13 +87,6 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
                   "have normals.",
            .choices = {"oriented_pair", "triangle", "auto"},
            .former_choices = {{"dipole", "oriented_pair"}}});
-  v.field("voxel_size", p.voxel_size,
-          {.doc = "Side of the squares of the map that give one oriented point each; its normal is of what "
-                  "is within twice as much.",
-           .unit = "m",
-           .min = 0.01,
-           .audience = Audience::expert,
-           .formerly = "thinning"});
   v.field(
       "exact_search", p.exact_search,
       {.doc = "When an exact search of the whole map, on boxes of poses as the verifier whole_map makes it, "

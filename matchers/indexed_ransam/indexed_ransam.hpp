@@ -42,11 +42,8 @@ class IndexedRansam final : public Matcher {
     PoseRefinement refinement = {};
     BeamRule beams = {.weight = 1.0, .cap = 0.3};
     double unknown_weight = 0.1;
-    double free_space_weight = 0.25;
-    double fit_weight = 0.05;
     double min_length = 0.5;
     std::string relation = "auto";
-    double voxel_size = 0.1;
     ExactSearchRule exact_search = {};
   };
 

@@ -27,6 +27,11 @@ struct FittingPair {
   static constexpr int most = 1000;  ///< The first so many of a step become hypotheses.
 };
 
+/// Pairs of matches drawn in a step.
+constexpr int draws = 20000;
+/// Hypotheses left by preemption, and carried to the next step.
+constexpr std::size_t most_in_pool = 100;
+
 Point point_of(const OrientedPoints& s, std::uint32_t i) {
   return {s.x[i], s.y[i]};
 }
@@ -93,25 +98,15 @@ void describe(ParamVisitor& v, IRansac::Params& p) {
           {.doc = "Look features up by locality-sensitive hashing, which misses some, instead of comparing "
                   "them with all.",
            .audience = Audience::tuner});
-  v.field("draws", p.draws,
-          {.doc = "Pairs of matches drawn in a step.", .min = 0, .max = 100e6, .audience = Audience::expert});
-  v.field("pool", p.pool,
-          {.doc = "Hypotheses left by preemption, and carried to the next step.",
-           .min = 1,
-           .max = 100000,
-           .audience = Audience::expert});
   describe_contact_epsilon(v, p.contact_epsilon);
   v.field("best", p.best, {.doc = "Distinct poses that become hypotheses.", .min = 1, .max = 10000});
-  v.field("refinement", p.refinement,
-          {.doc = "How poses are refined on the distance field.", .audience = Audience::expert});
 }
 
 IRansac::IRansac(const Params& params, const StageSetup& setup)
     : params_(params),
       threads_(setup.threads),
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
-      refiner_(static_cast<std::size_t>(params.pool), params.refinement,
-               distance_field(*setup.map, setup.threads), contact_) {
+      refiner_(most_in_pool, PoseRefinement{}, distance_field(*setup.map, setup.threads), contact_) {
   const auto begin = std::chrono::steady_clock::now();
   index_ = setup.map->index<FeatureIndex>(params.lsh ? "hashed" : "compared", [&] {
     return FeatureIndex(oriented_points_of(*setup.map, oriented_point_rule, setup.threads),
@@ -135,7 +130,7 @@ MatchResult IRansac::match(const MatchRequest& request, Rng& rng) {
   const Points shuffled = sample_of(local.points, local.points.size(), rng);
   const Points latest = latest_points(local);
   result.points_tested = preempt(pool_, *contact_, shuffled, sample_of(latest, latest.size(), rng),
-                                 {.fewest = static_cast<std::size_t>(params_.pool)}, threads_);
+                                 {.fewest = most_in_pool}, threads_);
 
   std::vector<Candidate> candidates;
   for (const ScoredPose& pose : pool_) candidates.push_back({pose.map_from_local, pose.score()});
@@ -173,7 +168,7 @@ void IRansac::propose(const LocalMap& local, Rng& rng) {
   const double angle = radians(FittingPair::angle_tolerance_deg);
   MotionBatch motion;
   int proposed = 0;
-  for (int draw = 0; draw < params_.draws && proposed < FittingPair::most; ++draw) {
+  for (int draw = 0; draw < draws && proposed < FittingPair::most; ++draw) {
     const std::size_t first = any(drawn.size());
     const std::size_t second = any(drawn.size());
     if (matches[first].empty() || matches[second].empty()) continue;

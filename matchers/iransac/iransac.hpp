@@ -36,11 +36,8 @@ class IRansac final : public Matcher {
     int features = 40;
     int matches = 10;
     bool lsh = false;
-    int draws = 20000;
-    int pool = 100;
     std::optional<double> contact_epsilon = {};
     int best = 10;
-    PoseRefinement refinement = {};
   };
 
   /// Throws ConfigError where the map is too large for a contact grid or a distance field.

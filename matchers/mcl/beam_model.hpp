@@ -9,12 +9,12 @@ namespace glocal::mcl {
 /// Parameters of the model, with the names and defaults of AMCL (Nav2). The four weights need not add up to
 /// 1: only their shares count.
 struct BeamModelRule {
-  double z_hit = 0.5;
-  double z_short = 0.05;
-  double z_max = 0.05;
-  double z_rand = 0.5;
-  double sigma_hit = 0.2;     ///< m
-  double lambda_short = 0.1;  ///< 1/m
+  double z_hit = 0.5;         ///< Of beams that meet what the map says.
+  double z_short = 0.05;      ///< Of beams that meet something before that.
+  double z_max = 0.05;        ///< Of beams that meet nothing.
+  double z_rand = 0.5;        ///< Of beams that meet anything anywhere.
+  double sigma_hit = 0.2;     ///< Standard deviation of a hit, m.
+  double lambda_short = 0.1;  ///< Rate at which too short beams get rarer with their range, 1/m.
   double max_range = 100.0;   ///< m
 };
 

@@ -31,8 +31,7 @@ LikelihoodField::LikelihoodField(const GlobalMap& map, const LikelihoodFieldRule
       const float x = min_x_ + (static_cast<float>(column) + 0.5F) / scale_;
       const float y = min_y_ + (static_cast<float>(row) + 0.5F) / scale_;
       const double likelihood = likelihood_of_distance(distances.at(x, y).distance, rule);
-      const double least = map.grid().at(x, y) == Cell::unknown ? rule.z_unknown / rule.max_range : 0.0;
-      cells_.push_back(static_cast<float>(term(std::max(likelihood, least))));
+      cells_.push_back(static_cast<float>(term(likelihood)));
     }
   }
 }

@@ -16,10 +16,9 @@ namespace glocal::mcl {
 struct LikelihoodFieldRule {
   double z_hit = 0.5;
   double z_rand = 0.5;
-  double sigma_hit = 0.2;       ///< m
-  double z_unknown = 0.0;       ///< Share of 1 / max_range that an unknown cell is worth at least.
+  double sigma_hit = 0.2;       ///< Standard deviation of a hit, m.
   double max_range = 100.0;     ///< m
-  double max_distance = 2.0;    ///< m; laser_likelihood_max_dist
+  double max_distance = 2.0;    ///< At which the likelihood stops falling, m; laser_likelihood_max_dist.
   double distance_cell = 0.05;  ///< m
 };
 
@@ -31,9 +30,8 @@ struct LikelihoodFieldRule {
 /// A table of what a beam's end adds to a pose's score, cell by cell.
 class LikelihoodField {
  public:
-  /// For each end of a beam, `term` of its likelihood is added. In unknown cells that is at least z_unknown /
-  /// max_range: there it may meet anything (Probabilistic Robotics, Section 6.4, with z_unknown 1). Throws
-  /// ConfigError if it would need more than 1 GiB.
+  /// For each end of a beam, `term` of its likelihood is added. Throws ConfigError if it would need more than
+  /// 1 GiB.
   LikelihoodField(const GlobalMap& map, const LikelihoodFieldRule& rule,
                   const std::function<double(double likelihood)>& term);
 

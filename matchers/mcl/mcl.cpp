@@ -17,35 +17,23 @@ namespace {
 /// Names of the random streams within a step.
 enum Stream : std::uint64_t { beginning, moving, resampling };
 
-/// Bins of KLD-sampling, as in AMCL.
+/// Smallest number of particles, unless max_particles is less: AMCL's, as what follows.
+constexpr std::size_t min_particles = 500;
+/// Beams of a scan that are looked at.
+constexpr std::size_t max_beams = 60;
+/// Bins of KLD-sampling.
 constexpr PoseBinning kld_bins{.side = 0.5, .turns = 36};
+/// Largest error between the particles and what they stand for (epsilon of Fox 2003).
+constexpr double pf_err = 0.05;
+/// Upper standard normal quantile of the probability that the error is smaller (z of Fox 2003): 84 %.
+constexpr double pf_z = 0.99;
 
 double cube(double value) {
   return value * value * value;
 }
 
-LikelihoodFieldRule field_rule(const Mcl::Params& p) {
-  return {.z_hit = p.z_hit,
-          .z_rand = p.z_rand,
-          .sigma_hit = p.sigma_hit,
-          .z_unknown = p.z_unknown,
-          .max_range = p.laser_max_range,
-          .max_distance = p.laser_likelihood_max_dist};
-}
-
-BeamModelRule beam_rule(const Mcl::Params& p) {
-  return {.z_hit = p.z_hit,
-          .z_short = p.z_short,
-          .z_max = p.z_max,
-          .z_rand = p.z_rand,
-          .sigma_hit = p.sigma_hit,
-          .lambda_short = p.lambda_short,
-          .max_range = p.laser_max_range};
-}
-
 std::string field_key(const Mcl::Params& p) {
-  return fmt::format("{} {} {} {} {} {} {}", p.laser_model_type, p.z_hit, p.z_rand, p.z_unknown, p.sigma_hit,
-                     p.laser_max_range, p.laser_likelihood_max_dist);
+  return fmt::format("{} {} {}", p.laser_model_type, p.z_hit, p.laser_max_range);
 }
 
 }  // namespace
@@ -56,13 +44,14 @@ Mcl::Mcl(const Params& params, const StageSetup& setup)
       threads_(setup.threads),
       free_space_(free_space(*setup.map)),
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params.contact_epsilon))),
-      beam_rule_(beam_rule(params)),
+      beam_rule_{.z_hit = params.z_hit, .max_range = params.laser_max_range},
       averages_(params.recovery_alpha_slow, params.recovery_alpha_fast) {
   if (params.laser_model_type.starts_with("beam")) {
     grid_ = clearance_grid(*setup.map);
   } else {
     field_ = setup.map->index<LikelihoodField>(field_key(params), [&] {
-      return LikelihoodField(*setup.map, field_rule(params), [this](double p) { return term(p); });
+      return LikelihoodField(*setup.map, {.z_hit = params.z_hit, .max_range = params.laser_max_range},
+                             [this](double p) { return term(p); });
     });
   }
 }
@@ -108,7 +97,7 @@ bool Mcl::is_due(const Pose2& moved) const {
 
 Mcl::Beams Mcl::beams_of(const Scan& scan) const {
   Beams beams{.origin = scan.origin, .hits = {}, .ranges = {}, .reach = {}};
-  for (const Beam& beam : some_beams(scan, static_cast<std::size_t>(params_.max_beams))) {
+  for (const Beam& beam : some_beams(scan, max_beams)) {
     if (beam.is_hit) beams.hits.push_back(beam.end);
     const float dx = beam.end.x - scan.origin.x;
     const float dy = beam.end.y - scan.origin.y;
@@ -200,7 +189,6 @@ void Mcl::resample(Rng& rng) {
 
 /// KLD-sampling: draws fill bins until there are as many draws as the bins ask for.
 std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
-  const auto least = static_cast<std::size_t>(params_.min_particles);
   const auto most = static_cast<std::size_t>(params_.max_particles);
   const std::vector<std::uint32_t> draws = low_variance_draws(particles_.weights, most, rng.uniform());
   // Draws are sorted: steps of the golden ratio take them from everywhere.
@@ -209,11 +197,10 @@ std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
   std::unordered_set<PoseCell, PoseCellHash> bins;
   double asked_for = 1.0;
   std::size_t n = 0;
-  while (n < most && (n < least || static_cast<double>(n) < asked_for)) {
+  while (n < most && (n < min_particles || static_cast<double>(n) < asked_for)) {
     const bool is_new = rng.uniform() < share_of_new;
     const Pose2 pose = is_new ? free_space_->draw(rng) : particles_.poses[draws[n * step % most]];
-    if (bins.insert(kld_bins.cell_of(pose)).second)
-      asked_for = kld_sample_size(bins.size(), params_.pf_err, params_.pf_z);
+    if (bins.insert(kld_bins.cell_of(pose)).second) asked_for = kld_sample_size(bins.size(), pf_err, pf_z);
     if (asked_for >= static_cast<double>(most)) return most;
     ++n;
   }
@@ -221,23 +208,11 @@ std::size_t Mcl::sample_size(double share_of_new, Rng& rng) const {
 }
 
 void describe(ParamVisitor& v, Mcl::Params& p) {
-  v.field("min_particles", p.min_particles, {.doc = "Smallest number of particles.", .min = 1, .max = 10e6});
   v.field("max_particles", p.max_particles,
           {.doc = "Largest number of particles, and the number at the start.",
            .min = 1,
            .max = 10e6,
            .audience = Audience::tuner});
-  v.require(p.min_particles <= p.max_particles, "min_particles", "must be at most max_particles");
-  v.field("pf_err", p.pf_err,
-          {.doc = "KLD-sampling: largest error between the particles and what they stand for (epsilon of Fox "
-                  "2003).",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("pf_z", p.pf_z,
-          {.doc = "KLD-sampling: upper standard normal quantile of the probability that the error is smaller "
-                  "(z of Fox 2003; 0.99, AMCL's default, means 84 %).",
-           .min = 0.0,
-           .audience = Audience::expert});
   v.field("recovery_alpha_slow", p.recovery_alpha_slow,
           {.doc = "Rate of the slow average of the mean likelihood. Random particles are added while the "
                   "fast average is below the slow one; 0 adds none. AMCL's manual proposes 0.001.",
@@ -267,7 +242,6 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
               "the sum of their cubes, as in AMCL.",
        .choices = {"beam", "beam_prob", "likelihood_field", "likelihood_field_prob"},
        .audience = Audience::tuner});
-  v.field("max_beams", p.max_beams, {.doc = "Beams of a scan that are looked at.", .min = 1, .max = 100000});
   v.field("likelihood_exponent", p.likelihood_exponent,
           {.doc = "For models with _prob: the product of likelihoods is raised to this power, since beams "
                   "err alike (Probabilistic Robotics, Section 6.3.4). Not in AMCL.",
@@ -275,34 +249,6 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
            .above = 0.0,
            .audience = Audience::expert});
   v.field("z_hit", p.z_hit, {.doc = "Weight of beams that meet what the map says.", .min = 0.0, .max = 1.0});
-  v.field("z_short", p.z_short,
-          {.doc = "Weight of beams that meet something before what the map says; for beam models only.",
-           .min = 0.0,
-           .max = 1.0});
-  v.field("z_max", p.z_max,
-          {.doc = "Weight of beams that meet nothing; for beam models only.", .min = 0.0, .max = 1.0});
-  v.field("z_rand", p.z_rand,
-          {.doc = "Weight of beams that meet anything anywhere.", .max = 1.0, .above = 0.0});
-  v.field("z_unknown", p.z_unknown,
-          {.doc = "Least weight of a beam that ends in an unknown cell, spread over laser_max_range; for "
-                  "likelihood fields only. With z_rand or less, beams into the unknown count as misses. "
-                  "Probabilistic Robotics, Section 6.4, has 1; AMCL knows of no unknown cells.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::expert});
-  v.field("sigma_hit", p.sigma_hit,
-          {.doc = "Standard deviation of a hit.", .unit = "m", .above = 0.0, .audience = Audience::tuner});
-  v.field("lambda_short", p.lambda_short,
-          {.doc = "Rate at which too short beams get rarer with their range; for beam models only.",
-           .unit = "1/m",
-           .above = 0.0,
-           .audience = Audience::expert});
-  v.field("laser_likelihood_max_dist", p.laser_likelihood_max_dist,
-          {.doc = "Distance from the map at which the likelihood stops falling.",
-           .unit = "m",
-           .max = 20.0,
-           .above = 0.0,
-           .audience = Audience::expert});
   v.field("laser_max_range", p.laser_max_range,
           {.doc = "Range of the laser, over which z_rand is spread.", .unit = "m", .above = 0.0});
   describe_contact_epsilon(v, p.contact_epsilon);

@@ -35,26 +35,15 @@ namespace glocal::mcl {
 class Mcl final : public Matcher {
  public:
   struct Params {
-    int min_particles = 500;
     int max_particles = 2000;
-    double pf_err = 0.05;
-    double pf_z = 0.99;
     double recovery_alpha_slow = 0.0;
     double recovery_alpha_fast = 0.0;
     double update_min_d = 0.25;
     double update_min_a_deg = 11.5;
     OdometryNoise noise = {};
     std::string laser_model_type = "likelihood_field";
-    int max_beams = 60;
     double likelihood_exponent = 1.0;
     double z_hit = 0.5;
-    double z_short = 0.05;
-    double z_max = 0.05;
-    double z_rand = 0.5;
-    double z_unknown = 0.0;
-    double sigma_hit = 0.2;
-    double lambda_short = 0.1;
-    double laser_likelihood_max_dist = 2.0;
     double laser_max_range = 100.0;
     std::optional<double> contact_epsilon = {};
     ParticleMerging merging = {};

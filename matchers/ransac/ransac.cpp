@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t iterations_per_chunk = 65536;
 /// Local points nearer to each other give poor headings, m.
 constexpr float min_distance = 1.0F;
+/// By how much the two distances of a sample may differ, m.
+constexpr float tolerance = 0.1F;
 /// Of more, those that mean nearly the same pose become one, which counts as many.
 constexpr std::size_t most_hypotheses = 1000;
 /// Used to refine a pose.
@@ -40,21 +42,7 @@ void describe(ParamVisitor& v, Ransac::Params& p) {
            .min = 1,
            .max = 1e9,
            .audience = Audience::tuner});
-  v.field("tries", p.tries,
-          {.doc = "Times the second point of the map is drawn until it is at the distance of the local two; "
-                  "1 is the textbook's.",
-           .min = 1,
-           .max = 100000,
-           .audience = Audience::expert});
   describe_contact_epsilon(v, p.contact_epsilon);
-  v.field("tolerance", p.tolerance,
-          {.doc = "By how much the two distances of a sample may differ.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::tuner});
-  v.field("refinement", p.refinement,
-          {.doc = "How hypotheses are fitted to all points at the end; not without iterations.",
-           .audience = Audience::expert});
 }
 
 Ransac::Ransac(const Params& params, const StageSetup& setup)
@@ -75,14 +63,13 @@ MatchResult Ransac::match(const MatchRequest& request, Rng& rng) {
     chunks[i] = draw(local, quality, std::min(iterations_per_chunk, iterations - begin), draws.stream({i}));
   });
   MatchResult result = joined(chunks, local.local_from_robot, most_hypotheses);
-  if (params_.refinement.iterations > 0) refine_all(local, request.omega_max, result, rng);
+  refine_all(local, request.omega_max, result, rng);
   return result;
 }
 
 MatchResult Ransac::draw(const LocalMap& local, const QualityTest& quality, std::size_t iterations,
                          Rng rng) const {
   const Points& map = setup_.map->points();
-  const auto tolerance = static_cast<float>(params_.tolerance);
   MatchResult found;
   MotionBatch motions;
   ContactIndex::BatchColumn starts{};
@@ -100,14 +87,11 @@ MatchResult Ransac::draw(const LocalMap& local, const QualityTest& quality, std:
     const float length = distance_between(pair[0], pair[1]);
     if (length < min_distance) continue;
     const Point first = draw_point(map, rng);
-    for (int k = 0; k < params_.tries; ++k) {
-      const Point second = draw_point(map, rng);
-      if (std::abs(distance_between(first, second) - length) > tolerance) continue;
-      starts[size] = static_cast<std::uint32_t>(rng.next());
-      lay(pair, {first, second}, motions, size++);
-      if (size == MotionBatch::capacity) test();
-      break;
-    }
+    const Point second = draw_point(map, rng);
+    if (std::abs(distance_between(first, second) - length) > tolerance) continue;
+    starts[size] = static_cast<std::uint32_t>(rng.next());
+    lay(pair, {first, second}, motions, size++);
+    if (size == MotionBatch::capacity) test();
   }
   test();
   return found;
@@ -117,8 +101,7 @@ void Ransac::refine_all(const LocalMap& local, double omega_max, MatchResult& re
   const Points anchors = sample_of(local.points, refinement_points, rng);
   parallel_for(setup_.threads, result.hypotheses.size(), [&](std::size_t i) {
     Hypothesis& h = result.hypotheses[i];
-    const Pose2 refined =
-        refined_pose(*field_, anchors, seen_from_above(h.map_from_local), params_.refinement);
+    const Pose2 refined = refined_pose(*field_, anchors, seen_from_above(h.map_from_local), {});
     h.map_from_local = refined;
     h.quality = contact_->share(local.points, Transform(refined));
     h.score = h.quality;

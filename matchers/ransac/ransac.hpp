@@ -20,19 +20,13 @@ namespace glocal::ransac {
 /// is Omega (eq. 4), given up early as in eq. 5. The comparison of distances costs next to nothing and spares
 /// most draws the rest. There is no table: what one iteration has drawn helps no other.
 ///
-/// Fischler and Bolles end with a fit to all points of the consensus set. `refinement` does that for every
+/// Fischler and Bolles end with a fit to all points of the consensus set. A refinement does that for every
 /// hypothesis kept, with the points weighted by how near they are.
-///
-/// `tries` above 1 is not the textbook's: the second point of the map is drawn again until it is at the right
-/// distance, and the other three draws are saved.
 class Ransac final : public Matcher {
  public:
   struct Params {
     int iterations = 5000000;
-    int tries = 1;
     std::optional<double> contact_epsilon = {};
-    double tolerance = 0.10;
-    PoseRefinement refinement = {};
   };
 
   /// Throws ConfigError where the map is too large for a contact grid or a distance field.

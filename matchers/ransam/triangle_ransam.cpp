@@ -81,13 +81,17 @@ SurfacePoints::SurfacePoints(const Points& cloud, const Points& some, float voxe
   }
 }
 
+void describe(ParamVisitor& v, TriangleRansam::Params& p) {
+  describe_triples(v, p.triples);
+}
+
 TriangleRansam::TriangleRansam(const Params& params, const StageSetup& setup)
-    : params_(params),
+    : params_(params.triples),
       upright_(setup.motion == Motion::upright),
-      voxel_size_(static_cast<float>(epsilons_per_voxel * setup.epsilon(params.contact_epsilon))),
-      contact_(contact_index(*setup.map, params.contact, setup.epsilon(params.contact_epsilon))),
+      voxel_size_(static_cast<float>(epsilons_per_voxel * setup.epsilon(params_.contact_epsilon))),
+      contact_(contact_index(*setup.map, "bitset", setup.epsilon(params_.contact_epsilon))),
       map_(surfaces_of(*setup.map, voxel_size_)),
-      matching_(map_->points, find_relations_in_space, matching_rule(params), setup.threads) {}
+      matching_(map_->points, find_relations_in_space, matching_rule(params_), setup.threads) {}
 
 MatchResult TriangleRansam::match(const MatchRequest& request, Rng& rng) {
   const LocalMap& local = request.local;

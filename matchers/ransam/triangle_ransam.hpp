@@ -29,7 +29,9 @@ struct SurfacePoints {
 /// degrees of its partner's, n and -n being the same. Omega (eq. 4) asks all points of the local map.
 class TriangleRansam final : public Matcher {
  public:
-  using Params = TripleSearch;
+  struct Params {
+    TripleSearch triples = {};
+  };
   static constexpr Motions motions = motions_in_space;
 
   /// Throws ConfigError where the map is too large for a contact grid or has no surfaces.
@@ -43,12 +45,13 @@ class TriangleRansam final : public Matcher {
                                             const QualityTest& quality, const TripleBatch& local_triples,
                                             const TripleBatch& map_triples) const;
 
-  Params params_;
+  TripleSearch params_;
   bool upright_;
   float voxel_size_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const SurfacePoints> map_;
   TripleMatching matching_;
 };
+void describe(ParamVisitor& v, TriangleRansam::Params& p);
 
 }  // namespace glocal::ransam

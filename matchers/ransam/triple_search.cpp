@@ -2,7 +2,7 @@
 
 namespace glocal::ransam {
 
-void describe(ParamVisitor& v, TripleSearch& p) {
+void describe_triples(ParamVisitor& v, TripleSearch& p) {
   v.field("iterations", p.iterations,
           {.doc = "Triples drawn from each of the two maps in a step.",
            .min = 1,
@@ -30,6 +30,10 @@ void describe(ParamVisitor& v, TripleSearch& p) {
            .unit = "m",
            .min = 0.0,
            .audience = Audience::expert});
+}
+
+void describe(ParamVisitor& v, TripleSearch& p) {
+  describe_triples(v, p);
   v.field(
       "extrapolation_batch", p.extrapolation_batch,
       {.doc = "Points looked at before the bound on a hypothesis's quality is computed again (k of eq. 5).",

@@ -28,6 +28,8 @@ struct TripleSearch {
   int max_hypotheses = 10000;
 };
 void describe(ParamVisitor& v, TripleSearch& p);
+/// Which triples are drawn and when points are in contact; the rest is as it stands.
+void describe_triples(ParamVisitor& v, TripleSearch& p);
 
 [[nodiscard]] TripleMatchingRule matching_rule(const TripleSearch& p);
 [[nodiscard]] ExtrapolationRule extrapolation_rule(const TripleSearch& p);

@@ -13,6 +13,10 @@ namespace {
 /// Rounds of a step at most, when nothing is carried on yet: the last one is that which finds the best pose
 /// once more, if no other comes near.
 constexpr std::size_t first_rounds = 24;
+/// Pairs of surfels drawn from the local map in each round.
+constexpr std::size_t draws = 600;
+/// Pairs of the map that are tried for each drawn pair.
+constexpr std::size_t partners = 8;
 /// What the share of the map's surfels that the latest scan looked through, among those it looked at, takes
 /// from the score.
 constexpr double seen_through_weight = 1.0;
@@ -70,16 +74,6 @@ void describe(ParamVisitor& v, SurfelRansam::Params& p) {
            .audience = Audience::expert});
   v.field("rounds", p.rounds,
           {.doc = "Rounds of any other step at most.", .min = 0, .max = 1000, .audience = Audience::tuner});
-  v.field("draws", p.draws,
-          {.doc = "Pairs of surfels drawn from the local map in each round.",
-           .min = 1,
-           .max = 10e6,
-           .audience = Audience::expert});
-  v.field("partners", p.partners,
-          {.doc = "Pairs of the map that are tried for each drawn pair.",
-           .min = 1,
-           .max = 10000,
-           .audience = Audience::expert});
   v.field("free_space_weight", p.free_space_weight,
           {.doc = "What the share of points that lie where the map is known to be free takes from the score; "
                   "of no effect on maps that know of no free space in three dimensions.",
@@ -109,8 +103,8 @@ std::optional<MapIndexInfo> SurfelRansam::map_index() const {
 
 surfels::PoseSearchParams SurfelRansam::search_params(const PoseGate& gate) const {
   return {.rounds = carried_.empty() ? first_rounds : static_cast<std::size_t>(params_.rounds),
-          .draws = static_cast<std::size_t>(params_.draws),
-          .partners = static_cast<std::size_t>(params_.partners),
+          .draws = draws,
+          .partners = partners,
           .seen_through_weight = seen_through_weight,
           .free_space_weight = params_.free_space_weight,
           .upright = upright_,

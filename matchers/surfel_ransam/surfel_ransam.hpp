@@ -35,8 +35,6 @@ class SurfelRansam final : public Matcher {
     int carried = 10;
     int pairs = 300000;
     int rounds = 4;
-    int draws = 600;
-    int partners = 8;
     double free_space_weight = 1.0;
   };
 

@@ -30,7 +30,6 @@ bags::PlacingRule placing_rule(const BagDrive::Params& params, bool is_planar) {
   return {.heights = params.heights,
           .is_deskewed = params.deskew == "odometry",
           .is_planar = is_planar,
-          .max_gap_ns = nanoseconds(params.max_gap),
           .robot_from_sensor = params.sensor_from == "given"
                                    ? std::optional(clouds::robot_from_sensor(params.sensor))
                                    : std::nullopt};
@@ -96,24 +95,11 @@ void describe(ParamVisitor& v, BagDrive::Params& p) {
   v.field("reference", p.reference, {.doc = "Reference poses, for the evaluation."});
   describe_segments(v, p.segments);
   describe_keyframes(v, p.keyframes);
-  v.field("min_range", p.min_range,
-          {.doc = "Readings below this are dropped: dirt on the glass, or the robot itself.",
-           .unit = "m",
-           .min = 0.0,
-           .audience = Audience::expert});
   v.field("max_range", p.max_range,
           {.doc = "Readings from here on count as no return; the messages' own limit holds as well.",
            .unit = "m",
            .above = 0.0,
            .audience = Audience::tuner});
-  v.field(
-      "free_range", p.free_range,
-      {.doc =
-           "How far the way of a reading without return is taken to be free (at most max_range); 0: not at "
-           "all.",
-       .unit = "m",
-       .min = 0.0,
-       .audience = Audience::expert});
   v.field("heights", p.heights,
           {.doc = "Ends of rays from the first to the second of these heights above the robot's origin are "
                   "used. Empty: "
@@ -131,17 +117,9 @@ void describe(ParamVisitor& v, BagDrive::Params& p) {
                   "as measured, with their "
                   "times.",
            .choices = {"odometry", "none"}});
-  v.field(
-      "max_gap", p.max_gap,
-      {.doc =
-           "Poses are interpolated between two that are at most this far apart, and scans of several topics "
-           "joined that are.",
-       .unit = "s",
-       .max = 3600.0,
-       .above = 0.0,
-       .audience = Audience::expert});
   require_rising(v, p.segments);
-  v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
+  v.require(p.max_range > bags::RangeLimits{}.min_range, "max_range",
+            "must be above 0.1 m: nearer readings are dropped");
   v.require(p.heights.empty() || (p.heights.size() == 2 && p.heights[0] < p.heights[1]), "heights",
             "must be two heights, the lower one first");
   v.require(p.sensor_from == "tf" || p.scans.size() < 2, "sensor_from",
@@ -152,7 +130,6 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
     : params_(params),
       is_planar_(setup.motion == Motion::planar),
       warn_(setup.warn),
-      max_gap_ns_(nanoseconds(params.max_gap)),
       recording_(params.path.resolved, bags::damage_if(params.strict)),
       placer_(placing_rule(params, setup.motion == Motion::planar), contents_) {
   recording_.tell_progress(setup.progress);
@@ -196,7 +173,7 @@ std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
       ++pauses;
     }
     last = stamp;
-    const auto odometry = contents_.odometry_at(stamp, max_gap_ns_);
+    const auto odometry = contents_.odometry_at(stamp, longest_gap_ns);
     if (!odometry || !placer_.robot_from_sensor(scans.frame, stamp)) {
       ++lost;
       continue;
@@ -210,13 +187,14 @@ std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
     throw ConfigError({{params_.path.resolved.string(), 0, 0,
                         fmt::format("{} has {} scans, and for none of them is it known where the robot and "
                                     "its sensor were within {} s; "
-                                    "check the stamps, or set odometry, odom_frame, base_frame or max_gap",
-                                    shown(scans.topic), scans.stamps_ns.size(), params_.max_gap)}});
+                                    "check the stamps, or set odometry, odom_frame or base_frame",
+                                    shown(scans.topic), scans.stamps_ns.size(), seconds(longest_gap_ns))}});
   }
   if (lost > 0)
     warn_(fmt::format("{}: {} of {} scans are left out, as {} is not known within {} s of their stamps", at,
                       lost, scans.stamps_ns.size(),
-                      contents_.odometry.empty() ? "tf" : shown(contents_.odometry), params_.max_gap));
+                      contents_.odometry.empty() ? "tf" : shown(contents_.odometry),
+                      seconds(longest_gap_ns)));
   return frames;
 }
 
@@ -249,7 +227,7 @@ void BagDrive::join_other_topics() {
   std::vector<std::int64_t> stamps;
   for (const Frame& frame : frames_) stamps.push_back(frame.stamp_ns);
   for (std::size_t topic = 1; topic < contents_.scans.size(); ++topic) {
-    const auto nearest = nearest_messages(contents_.scans[topic].stamps_ns, stamps, max_gap_ns_);
+    const auto nearest = nearest_messages(contents_.scans[topic].stamps_ns, stamps, longest_gap_ns);
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (nearest[i] == none) continue;
       wanted_[{topic, nearest[i]}].push_back(i);
@@ -273,7 +251,7 @@ void BagDrive::warn_of_references() const {
 
 std::optional<Pose3> BagDrive::reference_at(std::int64_t stamp_ns) const {
   const BagReference& r = params_.reference;
-  const auto pose = contents_.reference_at(stamp_ns - nanoseconds(r.time_shift), max_gap_ns_);
+  const auto pose = contents_.reference_at(stamp_ns - nanoseconds(r.time_shift), longest_gap_ns);
   if (!pose) return std::nullopt;
   const Pose3 map_from_robot = Pose3({r.x, r.y, r.z}, turn_about_z(radians(r.yaw_deg))) * *pose;
   return is_planar_ ? Pose3(seen_from_above(map_from_robot)) : map_from_robot;
@@ -319,8 +297,7 @@ void BagDrive::take(const bags::RecordedMessage& message) {
 
 std::optional<bags::SensorScan> BagDrive::rays_of(const bags::RecordedMessage& message) {
   try {
-    return bags::read_rays(message,
-                           {params_.min_range, params_.max_range, params_.free_range, params_.voxel_size});
+    return bags::read_rays(message, {.max_range = params_.max_range, .voxel_size = params_.voxel_size});
   } catch (const ConfigError& error) {
     warn_once(fmt::format("a scan of {} is left out: {}", shown(message.connection->topic), error.what()));
     return std::nullopt;

@@ -47,13 +47,10 @@ class BagDrive final : public ObservationSource {
     BagReference reference;
     PathSegments segments{{0.0, 1.0}};
     KeyframeRule keyframes;
-    double min_range = 0.1;
     double max_range = 100.0;
-    double free_range = 8.0;
     std::vector<double> heights;
     double voxel_size = 0.1;
     std::string deskew = "odometry";
-    double max_gap = 0.5;
   };
 
   /// Finds out where the robot was at each scan. Throws ConfigError where Recording and read_contents() do,
@@ -93,7 +90,6 @@ class BagDrive final : public ObservationSource {
   bool is_planar_;
   Warn warn_;
   bool has_warned_ = false;
-  std::int64_t max_gap_ns_;
   bags::Recording recording_;
   bags::DriveContents contents_;
   bags::ScanPlacer placer_;

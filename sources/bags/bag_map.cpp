@@ -14,6 +14,11 @@
 namespace glocal::bags {
 namespace {
 
+/// Cells more likely to be occupied than this are: as map servers have it.
+constexpr double occupied_thresh = 0.65;
+/// Cells less likely to be occupied than this are free.
+constexpr double free_thresh = 0.196;
+
 constexpr const char* grid_type = "nav_msgs/OccupancyGrid";
 
 [[noreturn]] void fail(const BagMap::Params& params, const std::string& message) {
@@ -47,11 +52,11 @@ bags::GridMessage last_grid(bags::Recording& recording, const std::string& topic
 }
 
 /// -1, and whatever else is no share, is unknown.
-Cell cell_of(std::int8_t percent, const CellThresholds& thresholds) {
+Cell cell_of(std::int8_t percent) {
   const double occupancy = percent / 100.0;
   if (percent < 0 || percent > 100) return Cell::unknown;
-  if (occupancy > thresholds.occupied) return Cell::occupied;
-  return occupancy < thresholds.free ? Cell::free : Cell::unknown;
+  if (occupancy > occupied_thresh) return Cell::occupied;
+  return occupancy < free_thresh ? Cell::free : Cell::unknown;
 }
 
 }  // namespace
@@ -66,11 +71,6 @@ void describe(ParamVisitor& v, BagMap::Params& p) {
                   "read, with a warning."});
   v.field("topic", p.topic,
           {.doc = "Topic with the map (nav_msgs/OccupancyGrid). Empty: the only one there is."});
-  v.field("occupied_thresh", p.occupied_thresh,
-          {.doc = "Cells more likely to be occupied than this are.", .min = 0.0, .max = 1.0});
-  v.field("free_thresh", p.free_thresh,
-          {.doc = "Cells less likely to be occupied than this are free.", .min = 0.0, .max = 1.0});
-  v.require(p.free_thresh < p.occupied_thresh, "free_thresh", "must be below occupied_thresh");
 }
 
 MapData BagMap::load() {
@@ -80,11 +80,10 @@ MapData BagMap::load() {
   const std::string topic = topic_of(recording, params_);
   const bags::GridMessage grid = last_grid(recording, topic, params_);
   for (const std::string& warning : recording.warnings()) setup_.warn(warning);
-  return map_of(grid, {params_.occupied_thresh, params_.free_thresh}, params_.path.resolved.string(), topic);
+  return map_of(grid, params_.path.resolved.string(), topic);
 }
 
-MapData map_of(const GridMessage& grid, const CellThresholds& thresholds, const std::string& source,
-               const std::string& topic) {
+MapData map_of(const GridMessage& grid, const std::string& source, const std::string& topic) {
   const std::string of_topic = "the map of " + shown(topic);
   const auto fail = [&](const std::string& message) { throw ConfigError({{source, 0, 0, message}}); };
   if (static_cast<double>(grid.cells.size()) > max_grid_cells)
@@ -99,11 +98,9 @@ MapData map_of(const GridMessage& grid, const CellThresholds& thresholds, const 
   map.grid = {seen_from_above(shifted(grid.frame_from_grid, -map.origin)), grid.resolution,
               static_cast<int>(grid.width), static_cast<int>(grid.height),
               std::vector<Cell>(grid.cells.size())};
-  std::transform(grid.cells.begin(), grid.cells.end(), map.grid.cells.begin(),
-                 [&](std::int8_t percent) { return cell_of(percent, thresholds); });
+  std::transform(grid.cells.begin(), grid.cells.end(), map.grid.cells.begin(), cell_of);
   map.points = occupied_centres(map.grid);
-  if (map.points.empty())
-    fail(of_topic + " has no occupied cell; check occupied_thresh, or take another topic");
+  if (map.points.empty()) fail(of_topic + " has no occupied cell, none above 65 %; take another topic");
   return map;
 }
 

@@ -16,8 +16,6 @@ class BagMap final : public MapSource {
     FilePath path;
     bool strict = false;
     std::string topic;
-    double occupied_thresh = 0.65;
-    double free_thresh = 0.196;
   };
 
   BagMap(const Params& params, const SourceSetup& setup) : params_(params), setup_(setup) {}
@@ -32,14 +30,8 @@ class BagMap final : public MapSource {
 };
 void describe(ParamVisitor& v, BagMap::Params& p);
 
-/// Cells more likely to be occupied than `occupied` are, less likely ones than `free` are free.
-struct CellThresholds {
-  double occupied = 0.65, free = 0.196;  ///< As map_server has them.
-};
-
 /// The map of a message; each occupied cell's centre is a point. Throws ConfigError, naming `source` and
 /// topic, for a grid that is too large, tilted or without occupied cell.
-[[nodiscard]] MapData map_of(const GridMessage& grid, const CellThresholds& thresholds,
-                             const std::string& source, const std::string& topic);
+[[nodiscard]] MapData map_of(const GridMessage& grid, const std::string& source, const std::string& topic);
 
 }  // namespace glocal::bags

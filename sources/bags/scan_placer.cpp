@@ -29,7 +29,7 @@ class ScanPlacer::RayMover {
 
 std::optional<Pose3> ScanPlacer::robot_from_sensor(const std::string& frame, std::int64_t stamp_ns) const {
   if (rule_.robot_from_sensor) return rule_.robot_from_sensor;
-  return contents_.robot_from_sensor(frame, stamp_ns, rule_.max_gap_ns);
+  return contents_.robot_from_sensor(frame, stamp_ns, longest_gap_ns);
 }
 
 std::optional<ScanPlacer::RayMover> ScanPlacer::mover_of(const Header& header, std::int64_t observation_ns,
@@ -37,8 +37,8 @@ std::optional<ScanPlacer::RayMover> ScanPlacer::mover_of(const Header& header, s
   const auto sensor_at = [&](double time) -> std::optional<Pose3> {
     const std::int64_t stamp = header.stamp_ns + nanoseconds(time);
     const auto then_from_sensor = robot_from_sensor(header.frame, stamp);
-    const auto odom_from_then = contents_.odometry_at(stamp, rule_.max_gap_ns);
-    const auto odom_from_now = contents_.odometry_at(observation_ns, rule_.max_gap_ns);
+    const auto odom_from_then = contents_.odometry_at(stamp, longest_gap_ns);
+    const auto odom_from_now = contents_.odometry_at(observation_ns, longest_gap_ns);
     if (!then_from_sensor || !odom_from_then || !odom_from_now) return std::nullopt;
     return inverse(*odom_from_now) * *odom_from_then * *then_from_sensor;
   };

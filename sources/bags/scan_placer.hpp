@@ -17,12 +17,15 @@
 
 namespace glocal::bags {
 
+/// Poses are interpolated between two that are at most this far apart, and scans of several topics joined
+/// that are, ns.
+inline constexpr std::int64_t longest_gap_ns = 500'000'000;
+
 struct PlacingRule {
   /// Ends of rays between these heights above the robot's origin count, m; all if there are none.
   std::vector<double> heights = {};
-  bool is_deskewed = true;                ///< Rays are moved as odometry says; else they keep their times.
-  bool is_planar = true;                  ///< Ends have no height.
-  std::int64_t max_gap_ns = 500'000'000;  ///< Between poses that are interpolated.
+  bool is_deskewed = true;  ///< Rays are moved as odometry says; else they keep their times.
+  bool is_planar = true;    ///< Ends have no height.
   std::optional<Pose3> robot_from_sensor = {};  ///< None: tf has it.
 };
 

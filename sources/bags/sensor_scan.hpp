@@ -9,7 +9,7 @@ namespace glocal::bags {
 
 /// Which readings count.
 struct RangeLimits {
-  double min_range = 0.1;    ///< m; nearer ones say nothing.
+  double min_range = 0.1;    ///< m; nearer ones say nothing: dirt on the glass, or the robot itself.
   double max_range = 100.0;  ///< m; those from here on met nothing.
   double free_range = 8.0;   ///< m; so far the way of a reading without return is free.
   double voxel_size = 0.0;   ///< m; of clouds: side of the cubes whose points become one. 0: all stay.

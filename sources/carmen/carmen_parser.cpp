@@ -247,8 +247,8 @@ class Parser {
 
 }  // namespace
 
-std::vector<CarmenScan> read_carmen_log(const std::filesystem::path& file, double max_size_gb) {
-  const std::string content = read_decompressed(file, max_size_gb);
+std::vector<CarmenScan> read_carmen_log(const std::filesystem::path& file) {
+  const std::string content = read_decompressed(file);
   return Parser(file).parse(content);
 }
 

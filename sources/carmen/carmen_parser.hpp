@@ -24,7 +24,6 @@
 #include <vector>
 
 #include "glocal/pose2.hpp"
-#include "sources/compressed_file.hpp"
 
 namespace glocal::carmen {
 
@@ -44,9 +43,8 @@ struct CarmenScan {
 };
 
 /// All scans of a log, in file order. Throws ConfigError with the faults found (at most 20): a file that
-/// cannot be read, is empty or larger than max_size_gb (10^9 bytes), a log without scans, lines with more or
+/// cannot be read, is empty or larger than 2 GB, a log without scans, lines with more or
 /// fewer fields than they say or of over 10 MB, numbers that are none.
-[[nodiscard]] std::vector<CarmenScan> read_carmen_log(const std::filesystem::path& file,
-                                                      double max_size_gb = default_max_size_gb);
+[[nodiscard]] std::vector<CarmenScan> read_carmen_log(const std::filesystem::path& file);
 
 }  // namespace glocal::carmen

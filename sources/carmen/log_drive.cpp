@@ -22,7 +22,7 @@ std::vector<CarmenScan> of_laser(std::vector<CarmenScan> scans, const std::strin
 
 }  // namespace
 
-void describe(ParamVisitor& v, LogParams& p) {
+void describe_frames(ParamVisitor& v, LogParams& p) {
   v.field("path", p.path, {.doc = "CARMEN log; plain, gzip, bzip2 or xz.", .required = true});
   v.field("laser", p.laser,
           {.doc = "Which laser: front (FLASER lines, or ROBOTLASER1 where there are none) or rear (RLASER).",
@@ -34,6 +34,18 @@ void describe(ParamVisitor& v, LogParams& p) {
            .unit = "m",
            .above = 0.0,
            .audience = Audience::tuner});
+  v.field("laser_yaw_deg", p.laser_yaw_deg,
+          {.doc = "Correction added to the direction of every reading.",
+           .unit = "deg",
+           .min = -180.0,
+           .max = 180.0,
+           .audience = Audience::expert,
+           .formerly = "laser_yaw"});
+  require_rising(v, p.segments);
+}
+
+void describe(ParamVisitor& v, LogParams& p) {
+  describe_frames(v, p);
   v.field("min_range", p.min_range,
           {.doc = "Readings below this are dropped: dirt on the glass, or the robot itself.",
            .unit = "m",
@@ -46,15 +58,6 @@ void describe(ParamVisitor& v, LogParams& p) {
            .unit = "m",
            .min = 0.0,
            .audience = Audience::expert});
-  v.field("laser_yaw_deg", p.laser_yaw_deg,
-          {.doc = "Correction added to the direction of every reading.",
-           .unit = "deg",
-           .min = -180.0,
-           .max = 180.0,
-           .audience = Audience::expert,
-           .formerly = "laser_yaw"});
-  describe_max_size(v, p.max_size_gb);
-  require_rising(v, p.segments);
   v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
 }
 
@@ -68,7 +71,7 @@ std::vector<double> path_lengths(const std::vector<CarmenScan>& scans) {
 
 LogDrive read_log_drive(const LogParams& params) {
   const std::string file = params.path.resolved.string();
-  LogDrive drive{of_laser(read_carmen_log(params.path.resolved, params.max_size_gb), params.laser), {}};
+  LogDrive drive{of_laser(read_carmen_log(params.path.resolved), params.laser), {}};
   if (drive.scans.empty()) {
     throw ConfigError({{file, 0, 0,
                         "has no scan of the " + params.laser + " laser; set laser to " +

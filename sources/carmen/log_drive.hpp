@@ -24,9 +24,11 @@ struct LogParams {
   double min_range = 0.1;
   double free_range = 8.0;
   double laser_yaw_deg = 0.0;
-  double max_size_gb = default_max_size_gb;
 };
 void describe(ParamVisitor& v, LogParams& p);
+/// All but the ranges below which readings are dropped, and up to which the way of one without return is
+/// free.
+void describe_frames(ParamVisitor& v, LogParams& p);
 
 /// A scan picked from a log.
 struct LogFrame {

@@ -150,13 +150,11 @@ Cell classify(const Count& count, const LogMap::Params& params) {
   return count.passes > 0 ? Cell::free : Cell::unknown;
 }
 
-Point point_of(const OccupancyGrid& grid, int column, int row, const Count& count, bool mean) {
-  const float half = static_cast<float>(grid.resolution) / 2.0F;
+/// The mean of the hits, which is closer to the wall than the cell's centre.
+Point point_of(const OccupancyGrid& grid, int column, int row, const Count& count) {
   const auto hits = static_cast<float>(count.hits);
-  const float dx = mean ? count.sum_x / hits : half;
-  const float dy = mean ? count.sum_y / hits : half;
-  return {static_cast<float>(grid.map_from_grid.x + column * grid.resolution) + dx,
-          static_cast<float>(grid.map_from_grid.y + row * grid.resolution) + dy, 0.0F};
+  return {static_cast<float>(grid.map_from_grid.x + column * grid.resolution) + count.sum_x / hits,
+          static_cast<float>(grid.map_from_grid.y + row * grid.resolution) + count.sum_y / hits, 0.0F};
 }
 
 std::vector<Pose3> path_of(const std::vector<PlacedScan>& placed) {
@@ -172,18 +170,15 @@ LogMap::Params::Params() {
 }
 
 void describe(ParamVisitor& v, LogMap::Params& p) {
-  describe(v, p.log);
+  describe_frames(v, p.log);
+  v.require(p.log.min_range < p.log.max_range, "max_range",
+            "must be above 0.1 m: nearer readings are dropped");
   v.field("resolution", p.resolution,
           {.doc = "Side of a cell.", .unit = "m", .min = least_resolution, .max = 10.0});
   v.field("min_hits", p.min_hits,
           {.doc = "A cell is occupied only if at least so many readings end in it.",
            .min = 1,
            .audience = Audience::tuner});
-  v.field("points", p.points,
-          {.doc = "Where an occupied cell's point lies: at the mean of its hits, closer to the wall, or at "
-                  "the centre.",
-           .choices = {"mean", "centre"},
-           .audience = Audience::expert});
 }
 
 LogMap::LogMap(const Params& params, const SourceSetup& setup) : params_(params) {
@@ -204,7 +199,7 @@ MapData LogMap::load() {
       Cell& cell = map.grid.cell(column, row);
       cell = classify(count, params_);
       if (cell != Cell::occupied) continue;
-      map.points.push_back(point_of(map.grid, column, row, count, params_.points == "mean"));
+      map.points.push_back(point_of(map.grid, column, row, count));
     }
   }
   if (map.points.empty()) {

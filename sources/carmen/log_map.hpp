@@ -20,7 +20,6 @@ class LogMap final : public MapSource {
     /// Of the rays that reach an occupied cell, those that end in it, at least: people leave hits, but more
     /// rays pass there later. Not in YAML.
     double min_hit_share = 0.1;
-    std::string points = "mean";
   };
 
   LogMap(const Params& params, const SourceSetup& setup);

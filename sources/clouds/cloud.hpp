@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "glocal/global_map.hpp"
+#include "glocal/params.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose3.hpp"
 #include "sources/compressed_file.hpp"

@@ -7,6 +7,13 @@
 #include "sources/clouds/thinning.hpp"
 
 namespace glocal::clouds {
+namespace {
+
+/// Points nearer to the sensor are dropped: the robot itself, m.
+constexpr double min_range = 0.5;
+
+}  // namespace
+
 void describe(ParamVisitor& v, SensorMount& p) {
   constexpr double far = 100.0;
   v.field("x", p.x, {.doc = "Forward of the robot's origin.", .unit = "m", .min = -far, .max = far});
@@ -42,11 +49,6 @@ void describe(ParamVisitor& v, CloudDrive::Params& p) {
   v.field("sensor", p.sensor, {.doc = "Where the sensor is on the robot; x is forward and z is up."});
   describe_segments(v, p.segments);
   describe_keyframes(v, p.keyframes);
-  v.field("min_range", p.min_range,
-          {.doc = "Points nearer to the sensor are dropped: the robot itself.",
-           .unit = "m",
-           .min = 0.0,
-           .audience = Audience::expert});
   v.field("max_range", p.max_range,
           {.doc = "Points farther from the sensor are dropped.",
            .unit = "m",
@@ -60,26 +62,19 @@ void describe(ParamVisitor& v, CloudDrive::Params& p) {
        .max = 100.0,
        .audience = Audience::tuner});
   describe_cloud_unit(v, p.unit);
-  v.field("max_stamp_difference", p.max_stamp_difference,
-          {.doc = "A cloud has the pose of the nearest stamp, which is at most this far from its own.",
-           .unit = "s",
-           .min = 0.0,
-           .audience = Audience::expert});
   v.field(
       "stamp_of", p.stamp_of,
       {.doc = "Which point of a cloud its stamp and pose belong to, where points have times: scans that were "
               "made in motion.",
        .choices = {"first_point", "last_point"},
        .audience = Audience::expert});
-  describe_max_size(v, p.max_size_gb);
   require_rising(v, p.segments);
-  v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
+  v.require(p.max_range > min_range, "max_range", "must be above 0.5 m: nearer points are the robot's own");
 }
 
 CloudDrive::CloudDrive(const Params& params, const SourceSetup& setup)
     : params_(params), warn_(setup.warn), robot_from_sensor_(robot_from_sensor(params.sensor)) {
-  const DriveFiles files{params.folder.resolved, params.odometry.resolved, params.reference.resolved,
-                         params.max_stamp_difference, params.max_size_gb};
+  const DriveFiles files{params.folder.resolved, params.odometry.resolved, params.reference.resolved};
   for (const auto& trajectory : {files.odometry, files.reference}) {
     if (!trajectory.empty()) setup.note_input(trajectory);
   }
@@ -120,7 +115,7 @@ std::optional<Sample> CloudDrive::next() {
   if (next_ == clouds_.size()) return std::nullopt;
   const std::size_t number = next_++;
   const DriveCloud& source = clouds_[number];
-  const Cloud cloud = read_cloud(source.file, {params_.unit, params_.max_size_gb});
+  const Cloud cloud = read_cloud(source.file, {params_.unit});
   if (number == 0) {
     for (const std::string& remark : cloud_remarks(cloud)) warn_(source.file.string() + ": " + remark);
   }
@@ -129,7 +124,7 @@ std::optional<Sample> CloudDrive::next() {
 }
 
 Scan CloudDrive::scan_of(const Cloud& cloud) const {
-  const double min_squared = params_.min_range * params_.min_range;
+  const double min_squared = min_range * min_range;
   const double max_squared = params_.max_range * params_.max_range;
   const bool has_times = !cloud.times.empty();
   const double stamp = has_times && params_.stamp_of == "last_point"

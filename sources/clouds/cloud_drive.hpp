@@ -38,13 +38,10 @@ class CloudDrive final : public ObservationSource {
     SensorMount sensor;
     PathSegments segments{{0.0, 1.0}};
     KeyframeRule keyframes;
-    double min_range = 0.5;
     double max_range = 100.0;
     double voxel_size = 0.1;
     double unit = 1.0;
-    double max_stamp_difference = 0.02;
     std::string stamp_of = "first_point";
-    double max_size_gb = default_max_size_gb;
   };
 
   /// Finds the clouds and their poses; see drive_clouds() for what it throws. Clouds are read when their turn

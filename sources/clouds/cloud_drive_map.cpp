@@ -101,7 +101,7 @@ MapData CloudDriveMap::load() {
   map.path = sparse_path(path);
   if (map.points.empty()) {
     throw ConfigError({{params_.drive.folder.resolved.string(), 0, 0,
-                        "its map has no point; lower min_clouds or min_range, raise max_range, or use more "
+                        "its map has no point; lower min_clouds, raise max_range, or use more "
                         "clouds with reference poses"}});
   }
   return map;

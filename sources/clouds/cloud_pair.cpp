@@ -58,7 +58,7 @@ CloudPairScan::CloudPairScan(const Params& params, const SourceSetup& setup) : p
 
 std::optional<Sample> CloudPairScan::next() {
   if (std::exchange(is_read_, true)) return std::nullopt;
-  Cloud cloud = read_cloud(pair_.source_file, {1.0, default_max_size_gb});
+  Cloud cloud = read_cloud(pair_.source_file, {});
   Sample sample{.observation = {}, .map_from_robot = pair_.target_from_source};
   sample.observation.scan.hits = std::move(cloud.points);
   sample.observation.scan.origin = as_point(cloud.viewpoint.translation());

@@ -57,12 +57,15 @@ void sort_clouds(std::vector<DriveCloud>& clouds, bool have_stamps) {
   }
 }
 
+/// A cloud has the pose of the nearest stamp, which is at most this far from its own, s.
+constexpr double max_stamp_difference = 0.02;
+
 /// The pose of the stamp nearest to this one; null if it is not that near.
-const StampedPose* nearest_pose(const std::vector<StampedPose>& poses, double stamp, double max_difference) {
+const StampedPose* nearest_pose(const std::vector<StampedPose>& poses, double stamp) {
   const auto after = std::lower_bound(poses.begin(), poses.end(), stamp,
                                       [](const StampedPose& p, double s) { return p.stamp < s; });
   const StampedPose* nearest = nullptr;
-  double least = max_difference;
+  double least = max_stamp_difference;
   for (auto it = after == poses.begin() ? after : after - 1; it != poses.end() && it <= after; ++it) {
     const double difference = std::abs(it->stamp - stamp);
     if (difference > least) continue;
@@ -75,11 +78,11 @@ const StampedPose* nearest_pose(const std::vector<StampedPose>& poses, double st
 /// Gives each cloud its pose of the trajectory in `file`, if it has one; answers how many have.
 std::size_t give_poses(std::vector<DriveCloud>& clouds, bool have_stamps, const fs::path& file,
                        const DriveFiles& files, std::optional<Pose3> DriveCloud::*pose) {
-  const Trajectory trajectory = read_trajectory(file, files.max_size_gb);
+  const Trajectory trajectory = read_trajectory(file);
   std::size_t given = 0;
   for (DriveCloud& cloud : clouds) {
     if (!have_stamps || !trajectory.has_stamps) break;
-    const StampedPose* nearest = nearest_pose(trajectory.poses, cloud.stamp, files.max_stamp_difference);
+    const StampedPose* nearest = nearest_pose(trajectory.poses, cloud.stamp);
     if (nearest == nullptr) continue;
     cloud.*pose = nearest->pose;
     ++given;
@@ -121,8 +124,8 @@ std::vector<DriveCloud> drive_clouds(const DriveFiles& files, const Warn& warn) 
       refuse_drive(
           files.odometry,
           fmt::format("has a pose for {} of {} clouds; there is none within {} s of '{}'; move the "
-                      "clouds without odometry away, or raise max_stamp_difference",
-                      given, clouds.size(), files.max_stamp_difference, without->file.filename().string()));
+                      "clouds without odometry away",
+                      given, clouds.size(), max_stamp_difference, without->file.filename().string()));
     }
   }
   if (!files.reference.empty()) {

@@ -7,7 +7,6 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/pose3.hpp"
-#include "sources/compressed_file.hpp"
 
 namespace glocal::clouds {
 
@@ -25,8 +24,6 @@ struct DriveFiles {
   std::filesystem::path folder;          ///< With the clouds; other files are passed over.
   std::filesystem::path odometry = {};   ///< Trajectory; empty if there is none.
   std::filesystem::path reference = {};  ///< Trajectory; empty if there is none.
-  double max_stamp_difference = 0.02;    ///< s; between a cloud and its pose.
-  double max_size_gb = default_max_size_gb;
 };
 
 /// The number at the end of a cloud's name, as a stamp (s): of 17 digits or more, nanoseconds. None if there

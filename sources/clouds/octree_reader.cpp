@@ -146,7 +146,7 @@ class OctreeReader {
     if (static_cast<double>(voxels_ * point_size) > max_bytes_)
       refuse_cloud(file_, 0,
                    fmt::format("its occupied voxels have more than {} GB as points; if it is the right file, "
-                               "raise max_size_gb",
+                               "thin it out",
                                max_bytes_ / 1e9));
     const auto centre = [&](std::uint32_t key) {
       return (static_cast<double>(key) - middle_key + 0.5) * header_.resolution();

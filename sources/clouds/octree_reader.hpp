@@ -13,7 +13,7 @@ namespace glocal::clouds {
 
 /// The centres of all occupied voxels of the finest size, in the tree's frame; what is free is passed over.
 /// Throws ConfigError, with the line of the header or the byte of the file, if this is no binary OcTree, if
-/// its nodes are other than its header says, or if its occupied voxels have more than max_size_gb.
+/// its nodes are other than its header says, or if its occupied voxels have more than the options allow.
 [[nodiscard]] Cloud read_octree_cloud(std::string_view content, const std::string& file,
                                       const CloudOptions& options);
 

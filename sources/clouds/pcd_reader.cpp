@@ -300,7 +300,7 @@ class PcdReader {
     if (static_cast<double>(size) > max_bytes_)
       refuse_cloud(file_, 0,
                    fmt::format("its points have more than {} GB when decompressed; if it is the right file, "
-                               "raise max_size_gb",
+                               "thin it out",
                                max_bytes_ / 1e9));
     if (compressed > data.size() - 2 * size_bytes)
       refuse_number_of_points(fmt::format("{} bytes follow where compressed data of {} bytes is announced",

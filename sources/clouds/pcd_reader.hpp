@@ -13,7 +13,7 @@ namespace glocal::clouds {
 
 /// DATA ascii, binary and binary_compressed; any fields besides x, y and z, each of any type. Throws
 /// ConfigError, with the line or the number of the point, if this is no such cloud, if the header announces
-/// something else than is there, or if the points have more than max_size_gb when decompressed.
+/// something else than is there, or if the points have more than the options allow when decompressed.
 [[nodiscard]] Cloud read_pcd_cloud(std::string_view content, const std::string& file,
                                    const CloudOptions& options);
 

@@ -53,7 +53,6 @@ void describe(ParamVisitor& v, PointCloudMap::Params& p) {
   v.field("trajectory", p.trajectory,
           {.doc = "Poses of the robot that recorded the map (TUM or KITTI): trials start near them; without, "
                   "near the map's points."});
-  describe_max_size(v, p.max_size_gb);
 }
 
 PointCloudMap::PointCloudMap(const Params& params, const SourceSetup& setup)
@@ -63,7 +62,7 @@ PointCloudMap::PointCloudMap(const Params& params, const SourceSetup& setup)
 }
 
 MapData PointCloudMap::load() {
-  Cloud cloud = read_cloud(params_.path.resolved, {params_.unit, params_.max_size_gb, motion_});
+  Cloud cloud = read_cloud(params_.path.resolved, {.unit = params_.unit, .map_motion = motion_});
   for (const std::string& remark : cloud_remarks(cloud))
     warn_(params_.path.resolved.string() + ": " + remark);
   MapData map;
@@ -82,7 +81,7 @@ MapData PointCloudMap::load() {
     map.resolution = cloud.voxel_size > 0.0 ? cloud.voxel_size : typical_spacing(map.points);
   }
   if (!params_.trajectory.text.empty()) {
-    for (const StampedPose& pose : read_trajectory(params_.trajectory.resolved, params_.max_size_gb).poses)
+    for (const StampedPose& pose : read_trajectory(params_.trajectory.resolved).poses)
       map.path.push_back(shifted(pose.pose, -map.origin));
   }
   return map;

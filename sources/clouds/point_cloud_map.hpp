@@ -17,7 +17,6 @@ class PointCloudMap final : public MapSource {
     double unit = 1.0;
     double voxel_size = 0.0;
     FilePath trajectory;
-    double max_size_gb = default_max_size_gb;
   };
 
   PointCloudMap(const Params& params, const SourceSetup& setup);

@@ -10,6 +10,7 @@
 #include "glocal/error.hpp"
 #include "glocal/limits.hpp"
 #include "glocal/words.hpp"
+#include "sources/compressed_file.hpp"
 #include "sources/text_lines.hpp"
 
 namespace glocal::clouds {
@@ -114,8 +115,8 @@ Trajectory parse_trajectory(std::string_view content, const std::string& file) {
   return trajectory;
 }
 
-Trajectory read_trajectory(const std::filesystem::path& file, double max_size_gb) {
-  return parse_trajectory(read_decompressed(file, max_size_gb), file.string());
+Trajectory read_trajectory(const std::filesystem::path& file) {
+  return parse_trajectory(read_decompressed(file), file.string());
 }
 
 }  // namespace glocal::clouds

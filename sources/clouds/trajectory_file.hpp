@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "glocal/pose3.hpp"
-#include "sources/compressed_file.hpp"
 
 namespace glocal::clouds {
 
@@ -28,7 +27,6 @@ struct Trajectory {
 [[nodiscard]] Trajectory parse_trajectory(std::string_view content, const std::string& file);
 
 /// The same for a file, perhaps compressed (gzip, bzip2, xz).
-[[nodiscard]] Trajectory read_trajectory(const std::filesystem::path& file,
-                                         double max_size_gb = default_max_size_gb);
+[[nodiscard]] Trajectory read_trajectory(const std::filesystem::path& file);
 
 }  // namespace glocal::clouds

@@ -9,6 +9,7 @@
 #include "glocal/error.hpp"
 #include "sources/carmen/carmen_parser.hpp"
 #include "sources/clouds/trajectory_file.hpp"
+#include "sources/compressed_file.hpp"
 #include "sources/text_lines.hpp"
 
 namespace glocal::conversion {

@@ -25,8 +25,6 @@ constexpr std::int64_t jump_back_ns = ns_per_s;
 /// So long where the robot was is remembered, and how often what is older is forgotten.
 constexpr std::int64_t memory_ns = 60 * ns_per_s;
 constexpr std::int64_t between_forgetting_ns = 10 * ns_per_s;
-/// Between poses that are interpolated.
-constexpr std::int64_t max_gap_ns = ns_per_s / 2;
 /// More scans do not wait for odometry, and more messages of tf_static are not kept.
 constexpr std::size_t most_mounts = 100;
 constexpr std::size_t most_pending = 200;
@@ -221,7 +219,7 @@ std::optional<Sample> LiveDrive::next() {
 }
 
 std::optional<Pose3> LiveDrive::robot_at(std::int64_t stamp_ns, const bags::DriveContents& contents) const {
-  const auto odom_from_robot = contents.odometry_at(stamp_ns, max_gap_ns);
+  const auto odom_from_robot = contents.odometry_at(stamp_ns, bags::longest_gap_ns);
   return odom_from_robot && is_planar_ ? Pose3(seen_from_above(*odom_from_robot)) : odom_from_robot;
 }
 
@@ -245,8 +243,7 @@ std::optional<Sample> LiveDrive::newest() {
     why_no_frames_ = error.what();
     return std::nullopt;
   }
-  const bags::ScanPlacer placer(
-      {.heights = topics_.heights, .is_planar = is_planar_, .max_gap_ns = max_gap_ns}, *contents);
+  const bags::ScanPlacer placer({.heights = topics_.heights, .is_planar = is_planar_}, *contents);
   std::optional<Sample> newest;
   for (std::size_t left = decided(placer, *contents); left > 0; --left) {
     const Pending scan = std::move(pending_.front());
@@ -277,7 +274,7 @@ std::optional<Sample> LiveDrive::observed(const Pending& scan, const bags::ScanP
   }
   warn_once(
       fmt::format("a scan is left out, as it is not known within {} s where the robot and its sensor were",
-                  bags::seconds(max_gap_ns)));
+                  bags::seconds(bags::longest_gap_ns)));
   return std::nullopt;
 }
 
@@ -301,7 +298,7 @@ void LiveDrive::check_first_wait() const {
           ? why_no_frames_
           : fmt::format(
                 "where the robot was is not known within {} s of the stamps of {}; do both clocks agree?",
-                bags::seconds(max_gap_ns), shown(topics_.scans));
+                bags::seconds(bags::longest_gap_ns), shown(topics_.scans));
   throw ConfigError(
       {{robot, 0, 0, fmt::format("no observation within {} s: {}", topics_.longest_wait, why)}});
 }

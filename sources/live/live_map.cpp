@@ -46,7 +46,7 @@ MapData map_in(const LiveMessage& message) {
   const bags::Connection connection{message.topic.name, grid_type, "cdr", ""};
   const auto grid =
       bags::read_occupancy_grid({&connection, message.stamp_ns, message.bytes, {.file = connection.topic}});
-  return bags::map_of(grid, {}, robot, message.topic.name);
+  return bags::map_of(grid, robot, message.topic.name);
 }
 
 }  // namespace

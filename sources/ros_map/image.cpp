@@ -241,8 +241,8 @@ class PngReader {
 
 }  // namespace
 
-void read_image(const std::filesystem::path& file, const TakeRow& take, double max_size_gb) {
-  const std::string bytes = read_decompressed(file, max_size_gb);
+void read_image(const std::filesystem::path& file, const TakeRow& take) {
+  const std::string bytes = read_decompressed(file);
   if (bytes.starts_with("P5") || bytes.starts_with("P2")) return PgmReader(file, bytes).read(take);
   if (bytes.starts_with("\x89PNG")) return PngReader(file, bytes).read(take);
   fail(file, "is neither a PGM (P2, P5) nor a PNG image; convert it to one of these");

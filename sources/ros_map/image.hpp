@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "sources/compressed_file.hpp"
-
 namespace glocal::ros_map {
 
 /// One row of an image; row 0 is the top row.
@@ -24,9 +22,8 @@ using TakeRow = std::function<void(const ImageRow&)>;
 /// bit), known by what the file begins with, and hands on its rows from the top on: no more than one is held,
 /// but for those of an interlaced PNG. Throws ConfigError for a missing, damaged, truncated or empty image,
 /// one of another kind, one of more than max_grid_cells pixels (64 million, if it is interlaced), or a file
-/// of more than max_size_gb (10^9 bytes).
-void read_image(const std::filesystem::path& file, const TakeRow& take,
-                double max_size_gb = default_max_size_gb);
+/// of more than 2 GB.
+void read_image(const std::filesystem::path& file, const TakeRow& take);
 
 /// An image of bytes, row 0 at the top; grey has width * height bytes.
 struct ByteImage {

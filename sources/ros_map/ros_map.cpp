@@ -61,7 +61,7 @@ bool is_same_pixel(const ImageRow& row, std::size_t a, std::size_t b) {
 }
 
 /// Its corner is at the file's origin less that of the map.
-OccupancyGrid grid_of(const RosMapFile& file, const Vector3& origin, double max_size_gb) {
+OccupancyGrid grid_of(const RosMapFile& file, const Vector3& origin) {
   const Pose2 corner{file.origin[0] - origin.x(), file.origin[1] - origin.y(), wrap_angle(file.origin[2])};
   OccupancyGrid grid{corner, file.resolution, 0, 0, {}};
   const auto take = [&](const ImageRow& row) {
@@ -74,7 +74,7 @@ OccupancyGrid grid_of(const RosMapFile& file, const Vector3& origin, double max_
     for (std::size_t i = 0; i < row.grey.size(); ++i)
       cells[i] = i > 0 && is_same_pixel(row, i, i - 1) ? cells[i - 1] : classify(row, i, file);
   };
-  read_image(file.image.resolved, take, max_size_gb);
+  read_image(file.image.resolved, take);
   return grid;
 }
 
@@ -108,11 +108,9 @@ void describe(ParamVisitor& v, RosMapFile& p) {
 
 void describe(ParamVisitor& v, RosMap::Params& p) {
   v.field("path", p.path, {.doc = "YAML file of a ROS map server.", .required = true});
-  describe_max_size(v, p.max_size_gb);
 }
 
-RosMap::RosMap(const Params& params, const SourceSetup& setup)
-    : name_(params.path.resolved.string()), max_size_gb_(params.max_size_gb) {
+RosMap::RosMap(const Params& params, const SourceSetup& setup) : name_(params.path.resolved.string()) {
   ParamsOf<RosMapFile> file;
   read_yaml(params.path.resolved, file);
   file_ = std::move(file.value);
@@ -129,7 +127,7 @@ RosMap::RosMap(const Params& params, const SourceSetup& setup)
 MapData RosMap::load() {
   MapData map;
   map.origin = origin_near({file_.origin[0], file_.origin[1], 0.0});
-  map.grid = grid_of(file_, map.origin, max_size_gb_);
+  map.grid = grid_of(file_, map.origin);
   map.points = occupied_centres(map.grid);
   if (map.points.empty()) {
     throw ConfigError(

@@ -6,7 +6,6 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
-#include "sources/compressed_file.hpp"
 
 namespace glocal::ros_map {
 
@@ -28,7 +27,6 @@ class RosMap final : public MapSource {
  public:
   struct Params {
     FilePath path;
-    double max_size_gb = default_max_size_gb;
   };
 
   RosMap(const Params& params, const SourceSetup& setup);
@@ -40,7 +38,6 @@ class RosMap final : public MapSource {
  private:
   RosMapFile file_;
   std::string name_;
-  double max_size_gb_;
 };
 void describe(ParamVisitor& v, RosMap::Params& p);
 

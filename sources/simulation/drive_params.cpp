@@ -7,13 +7,6 @@
 namespace glocal::simulation {
 
 void describe(ParamVisitor& v, OdometryParams& p) {
-  v.field("distance_bias", p.distance_bias,
-          {.doc = "Constant error of a distance, as a share of it.", .min = -0.5, .max = 0.5});
-  v.field("distance_noise", p.distance_noise,
-          {.doc = "Standard deviation of a distance, as a share of it.", .min = 0.0});
-  v.field("turn_bias", p.turn_bias,
-          {.doc = "Constant error of a turn, as a share of it.", .min = -0.5, .max = 0.5});
-  v.field("turn_noise", p.turn_noise, {.doc = "Standard deviation of a turn, as a share of it.", .min = 0.0});
   v.field("yaw_bias_deg_per_m", p.yaw_bias_deg_per_m,
           {.doc = "Constant turn that is measured when driving straight.", .unit = "deg/m"});
   v.field("yaw_noise_deg_per_m", p.yaw_noise_deg_per_m,
@@ -77,8 +70,6 @@ void describe_drive(ParamVisitor& v, DriveParams& p) {
            .unit = "s",
            .min = 0.0,
            .audience = Audience::expert});
-  v.field("odometry", p.odometry,
-          {.doc = "How badly the robot's own motion is measured.", .audience = Audience::expert});
   v.require(std::is_sorted(p.kidnappings.begin(), p.kidnappings.end(),
                            [](const Kidnapping& a, const Kidnapping& b) { return a.after_m < b.after_m; }),
             "kidnappings", "must be in rising order of after_m");
@@ -96,6 +87,8 @@ void describe(ParamVisitor& v, LaserDriveParams& p) {
            .unit = "m",
            .max_items = 10000});
   describe_drive(v, p);
+  v.field("odometry", p.odometry,
+          {.doc = "How badly the robot's own motion is measured.", .audience = Audience::expert});
   v.field("laser", p.laser, {.doc = "A planar range finder."});
   v.removed("lidar", "a drive with a lidar is the observation source lidar_simulation");
   const bool has_map = !p.map.text.empty();

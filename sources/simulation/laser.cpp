@@ -14,29 +14,6 @@ void describe(ParamVisitor& v, LaserParams& p) {
   v.field("max_range", p.max_range,
           {.doc = "Range of the laser: what is farther away is not seen.", .unit = "m", .above = 0.0});
   v.field("noise", p.noise, {.doc = "Standard deviation of a reading.", .unit = "m", .min = 0.0});
-  v.field("outliers", p.outliers,
-          {.doc = "Share of readings that are anything between 0 and max_range.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::expert});
-  v.field("x", p.x,
-          {.doc = "Where the laser is in the robot's frame, forwards.",
-           .unit = "m",
-           .min = -5.0,
-           .max = 5.0,
-           .audience = Audience::expert});
-  v.field("y", p.y,
-          {.doc = "Where the laser is in the robot's frame, to the left.",
-           .unit = "m",
-           .min = -5.0,
-           .max = 5.0,
-           .audience = Audience::expert});
-  v.field("yaw_deg", p.yaw_deg,
-          {.doc = "Where the laser looks in the robot's frame.",
-           .unit = "deg",
-           .min = -360.0,
-           .max = 360.0,
-           .audience = Audience::expert});
   v.require(p.step_deg <= p.fov_deg, "step_deg", "must not be above fov_deg");
 }
 

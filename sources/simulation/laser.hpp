@@ -17,10 +17,9 @@ struct LaserParams {
   double step_deg = 0.5;
   double max_range = 8.0;
   double noise = 0.01;
-  double outliers = 0.0;
-  double x = 0.0;
-  double y = 0.0;
-  double yaw_deg = 0.0;
+  double outliers = 0.0;  ///< Share of readings that are anything between 0 and max_range. Not in YAML.
+  /// Where it is in the robot's frame, m, and where it looks. Not in YAML.
+  double x = 0.0, y = 0.0, yaw_deg = 0.0;
 };
 void describe(ParamVisitor& v, LaserParams& p);
 

@@ -18,30 +18,11 @@ void describe(ParamVisitor& v, LidarParams& p) {
            .max_items = 2});
   v.field("azimuth_step_deg", p.azimuth_step_deg,
           {.doc = "Angle from ray to ray of a beam.", .unit = "deg", .min = 0.01, .max = 180.0});
-  v.field("min_range", p.min_range,
-          {.doc = "What is nearer is not seen.", .unit = "m", .min = 0.0, .audience = Audience::expert});
   v.field("max_range", p.max_range,
           {.doc = "What is farther away is not seen.", .unit = "m", .max = 1000.0, .above = 0.0});
   v.field("noise", p.noise, {.doc = "Standard deviation of a range.", .unit = "m", .min = 0.0});
-  v.field("outliers", p.outliers,
-          {.doc = "Share of hits whose range is anything between min_range and max_range.",
-           .min = 0.0,
-           .max = 1.0,
-           .audience = Audience::expert});
-  v.field("dropped", p.dropped,
-          {.doc = "Share of hits that are lost.", .min = 0.0, .max = 1.0, .audience = Audience::expert});
   v.field("height", p.height,
           {.doc = "Height of the sensor over the floor.", .unit = "m", .max = 100.0, .above = 0.0});
-  v.field("tilt_deg", p.tilt_deg,
-          {.doc = "Roll and pitch sway smoothly within so much.", .unit = "deg", .min = 0.0, .max = 45.0});
-  v.field(
-      "tilt_noise_deg", p.tilt_noise_deg,
-      {.doc = "Standard deviation of roll and pitch as odometry has them: by gravity, so that they do not "
-              "drift.",
-       .unit = "deg",
-       .min = 0.0,
-       .max = 45.0,
-       .audience = Audience::expert});
   v.field("scan_time", p.scan_time,
           {.doc = "Time that a scan takes, up to its stamp: the robot drives on meanwhile, each point is "
                   "measured from where it is then, and has its time. 0 measures all at once.",
@@ -51,7 +32,7 @@ void describe(ParamVisitor& v, LidarParams& p) {
   const std::vector<double>& fov = p.vertical_fov_deg;
   v.require(fov.size() != 2 || (p.beams > 1 ? fov[0] < fov[1] : fov[0] <= fov[1]), "vertical_fov_deg",
             "must be rising: the lowest beam first");
-  v.require(p.min_range < p.max_range, "min_range", "must be below max_range");
+  v.require(p.min_range < p.max_range, "max_range", "must be above 0.5 m: what is nearer is not seen");
 }
 
 Scan lidar_scan(const LidarParams& lidar, const LidarPath& map_from_lidar,

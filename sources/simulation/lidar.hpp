@@ -17,13 +17,17 @@ struct LidarParams {
   int beams = 16;
   std::vector<double> vertical_fov_deg = {-15.0, 15.0};
   double azimuth_step_deg = 0.8;
-  double min_range = 0.5;
+  double min_range = 0.5;  ///< m; what is nearer is not seen. Not in YAML.
   double max_range = 30.0;
   double noise = 0.02;
+  /// Share of hits whose range is anything between min_range and max_range, and share of hits that are lost:
+  /// more of both are disturbances. Not in YAML.
   double outliers = 0.01;
   double dropped = 0.03;
   double height = 1.0;
-  double tilt_deg = 3.0;
+  double tilt_deg = 3.0;  ///< Roll and pitch sway smoothly within so much. Not in YAML.
+  /// Standard deviation of roll and pitch as odometry has them: by gravity, so that they do not drift. Not in
+  /// YAML.
   double tilt_noise_deg = 0.1;
   double scan_time = 0.0;
 };

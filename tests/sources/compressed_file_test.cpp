@@ -64,7 +64,7 @@ TEST_P(CompressedFile, IsRefusedWhereItDecompressesToMoreThanTheLimit) {
   EXPECT_EQ(
       test::config_error(file.parent_path(), [&] { static_cast<void>(read_decompressed(file, 0.0029)); }),
       "bomb.log: error: has more than 0.0029 GB (decompressed, if it is compressed); if it is the right "
-      "file, raise max_size_gb of the map or observations that it is read for");
+      "file, thin it out, or take a part of it");
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, CompressedFile,

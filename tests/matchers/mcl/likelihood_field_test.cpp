@@ -14,14 +14,10 @@ double itself(double likelihood) {
   return likelihood;
 }
 
-/// One point in the middle of a cell of the field; a grid whose left half is unknown.
+/// One point in the middle of a cell of the field.
 GlobalMap map_of_one_point() {
   MapData data;
   data.points.push_back({0.0F, 0.0F, 0.0F});
-  data.grid = {{-4.0, -4.0, 0.0}, 0.1, 80, 80, std::vector<Cell>(6400, Cell::free)};
-  for (int row = 0; row < 80; ++row) {
-    for (int column = 0; column < 40; ++column) data.grid.cell(column, row) = Cell::unknown;
-  }
   return GlobalMap(std::move(data));
 }
 
@@ -61,14 +57,6 @@ TEST(LikelihoodField, IsThatOfTheDistanceEverywhere) {
     EXPECT_GE(field.at(x, y), least - 1e-4);
     EXPECT_LE(field.at(x, y), most + 1e-4);
   }
-}
-
-TEST(LikelihoodField, AnUnknownCellIsWorthSomethingAndAFreeOneIsAMiss) {
-  const LikelihoodFieldRule rule{.z_hit = 0.5, .z_rand = 0.5, .z_unknown = 1.0, .max_range = 20.0};
-  const LikelihoodField field(map_of_one_point(), rule, itself);
-  EXPECT_NEAR(field.at(-1.5F, 0.0F), 0.05, 1e-6);
-  EXPECT_NEAR(field.at(1.5F, 0.0F), 0.025, 1e-6);
-  EXPECT_NEAR(field.at(-0.01F, 0.01F), 0.525, 0.02);  // near the point it is a hit all the same
 }
 
 TEST(LikelihoodField, SumsAlikeWithEveryInstructionSetAndAsOneByOne) {

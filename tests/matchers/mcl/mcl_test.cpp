@@ -137,7 +137,6 @@ TEST(Mcl, WithoutAScanThereIsNoAnswerButTheMotionCounts) {
   Mcl::Params params = many_particles("likelihood_field_prob");
   params.noise = {0.0, 0.0, 0.0, 0.0};
   params.max_particles = 1;
-  params.min_particles = 1;
   Mcl matcher(params, {walled_world(), 1});
   const Pose2 start{2.0, 2.0, 0.5};
   const Pose2 step{0.3, 0.1, 0.4};

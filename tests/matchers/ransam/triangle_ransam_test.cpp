@@ -22,7 +22,7 @@ LocalMap local_at(const Pose3& map_from_robot) {
 }
 
 const TriangleRansam::Params params{
-    .iterations = 200000, .contact_epsilon = 0.2, .relation_cell = 0.2, .min_side = 1.5, .min_height = 1.0};
+    {.iterations = 200000, .contact_epsilon = 0.2, .relation_cell = 0.2, .min_side = 1.5, .min_height = 1.0}};
 
 MatchResult match(Motion motion, const LocalMap& local, double omega_max, int threads = 1) {
   TriangleRansam ransam(params, {.map = test::hall_map(), .threads = threads, .motion = motion});

@@ -300,10 +300,9 @@ TEST_F(Bags, InSpaceCloudsKeepTheirHeightsAndOdometryItsTilt) {
 }
 
 TEST_F(Bags, WithoutTfTheSensorIsGiven) {
-  for (const int i : {0, 10})
+  for (const int i : {3, 7})
     recording_.odometry("/odom", i * 100 * ms, "odom", "base", Pose2{0.1 * i, 0.0, 0.0});
   recording_.scan("/scan", 500 * ms, {.ranges = {2.0F}});
-  params_.max_gap = 2.0;
   EXPECT_THAT(fault(), HasSubstr("tf does not connect laser, the frame of /scan, with base"));
   params_.sensor_from = "given";
   params_.sensor.x = 0.25;

@@ -43,8 +43,6 @@ TEST(LogMap, CountsHitsAndFreesTheWay) {
   EXPECT_EQ(count(map.grid, Cell::free), 4U);
   EXPECT_EQ(map.path, (std::vector<Pose3>{Pose2{0.25, 1.25, 0.0}}));
 
-  params.points = "centre";
-  EXPECT_EQ(LogMap(params, {}).load().points[0], (Point{2.25F, 1.25F, 0.0F}));
   params.min_hits = 1;
   EXPECT_EQ(LogMap(params, {}).load().points.size(), 2U);
 }

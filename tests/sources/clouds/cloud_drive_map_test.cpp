@@ -63,7 +63,7 @@ TEST_F(CloudDriveMapTest, HasTheMeanOfWhatEachCubeWasHitBy) {
   params_.min_clouds = 2;
   EXPECT_EQ(load().points.size(), 1U);
   params_.min_clouds = 3;
-  EXPECT_THAT(fault(), HasSubstr("its map has no point; lower min_clouds or min_range"));
+  EXPECT_THAT(fault(), HasSubstr("its map has no point; lower min_clouds, raise max_range"));
 }
 
 TEST_F(CloudDriveMapTest, FarAwayIsHeldRelativeToAnOriginNearItsFirstPose) {

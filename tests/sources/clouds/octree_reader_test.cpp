@@ -123,7 +123,7 @@ TEST(OctreeReader, BoundsWhatLargeLeavesAre) {
   EXPECT_EQ(read(tree, {.max_size_gb = 0.0063}).points.size(), 2U * 64U * 64U * 64U);
   EXPECT_EQ(fault(tree, {.max_size_gb = 0.0062}),
             "a.bt: error: its occupied voxels have more than 0.0062 GB as points; if it is the right file, "
-            "raise max_size_gb");
+            "thin it out");
   EXPECT_THAT(fault(bt_file({{.depth = 1}}, 0.1)), HasSubstr("have more than 2 GB as points"));
 }
 

@@ -206,7 +206,7 @@ TEST(PcdReader, RefusesDamagedCompressedData) {
   }
   EXPECT_EQ(fault(head + bytes(std::uint32_t{13}, std::uint32_t{12}) + packed, {.max_size_gb = 1e-9}),
             "a.pcd: error: its points have more than 1e-09 GB when decompressed; if it is the right file, "
-            "raise max_size_gb");
+            "thin it out");
 }
 
 TEST(PcdReader, RefusesPointsThatAreNone) {

@@ -101,13 +101,13 @@ TEST_F(Conversion, ALogComesBackFromMcapAsItWas) {
 }
 
 TEST_F(Conversion, McapGivesTheObservationsThatTheLogGives) {
-  carmen::LogParams as_log = simulation::scan_limits({});
+  carmen::LogParams as_log;
   as_log.path = test::file_path(simulated_log());
+  as_log.keyframes = {0.0, 0.0};
+  as_log.max_range = 8.0;
   bags::BagDrive::Params as_bag;
   as_bag.path = test::file_path(as_mcap(as_log.path.resolved));
   as_bag.keyframes = as_log.keyframes;
-  as_bag.min_range = as_log.min_range;
-  as_bag.free_range = as_log.free_range;
   as_bag.reference.topic = "/reference";
   carmen::CarmenLog log(as_log, {});
   bags::BagDrive bag(as_bag, {.warn = warn()});

@@ -308,7 +308,7 @@ TEST_F(LidarDrive, SaysWhatIsWrong) {
   EXPECT_THAT(fault("laser: {fov_deg: 270}\n"), HasSubstr("unknown key 'laser'"));
   EXPECT_THAT(fault("lidar: {beams: 16, vertical_fov_deg: [15, -15]}\n"),
               HasSubstr("vertical_fov_deg: must be rising"));
-  EXPECT_THAT(fault("lidar: {beams: 16, min_range: 50}\n"), HasSubstr("min_range: must be below max_range"));
+  EXPECT_THAT(fault("lidar: {beams: 16, max_range: 0.3}\n"), HasSubstr("max_range: must be above 0.5 m"));
   EXPECT_THAT(fault("lidar: {beams: 16, scan_time: 2}\n"),
               HasSubstr("scan_time must be at most step_seconds"));
   EXPECT_THAT(fault("lidar: {beams: 16, height: 3}\n"), HasSubstr("is not below the ceiling of 2.5 m"));
