@@ -95,33 +95,13 @@ void describe(ParamVisitor& v, BagDrive::Params& p) {
   v.field("reference", p.reference, {.doc = "Reference poses, for the evaluation."});
   describe_segments(v, p.segments);
   describe_keyframes(v, p.keyframes);
-  v.field("max_range", p.max_range,
-          {.doc = "Readings from here on count as no return; the messages' own limit holds as well.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::tuner});
-  v.field("heights", p.heights,
-          {.doc = "Ends of rays from the first to the second of these heights above the robot's origin are "
-                  "used. Empty: "
-                  "all. Where the motion is planar, clouds need this.",
-           .unit = "m",
-           .max_items = 2});
-  v.field("voxel_size", p.voxel_size,
-          {.doc = "Clouds: side of the cubes whose points are replaced by their mean; 0 takes all points.",
-           .unit = "m",
-           .min = 0.0,
-           .max = 100.0,
-           .audience = Audience::tuner});
+  describe_rays(v, p.max_range, p.heights, p.voxel_size);
   v.field("deskew", p.deskew,
           {.doc = "odometry: rays are moved to where the robot was at the scan's stamp. none: they are left "
                   "as measured, with their "
                   "times.",
            .choices = {"odometry", "none"}});
   require_rising(v, p.segments);
-  v.require(p.max_range > bags::RangeLimits{}.min_range, "max_range",
-            "must be above 0.1 m: nearer readings are dropped");
-  v.require(p.heights.empty() || (p.heights.size() == 2 && p.heights[0] < p.heights[1]), "heights",
-            "must be two heights, the lower one first");
   v.require(p.sensor_from == "tf" || p.scans.size() < 2, "sensor_from",
             "must be tf where scans of several topics are joined");
 }

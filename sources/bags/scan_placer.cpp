@@ -10,6 +10,29 @@ constexpr double ns_per_s = 1e9;
 
 }  // namespace
 
+void describe_rays(ParamVisitor& v, double& max_range, std::vector<double>& heights, double& voxel_size) {
+  v.field("max_range", max_range,
+          {.doc = "Readings from here on count as no return; the messages' own limit holds as well.",
+           .unit = "m",
+           .above = 0.0,
+           .audience = Audience::tuner});
+  v.field("heights", heights,
+          {.doc = "Ends of rays from the first to the second of these heights above the robot's origin are "
+                  "used. Empty: all. Where the motion is planar, clouds need this.",
+           .unit = "m",
+           .max_items = 2});
+  v.field("voxel_size", voxel_size,
+          {.doc = "Clouds: side of the cubes whose points are replaced by their mean; 0 takes all points.",
+           .unit = "m",
+           .min = 0.0,
+           .max = 100.0,
+           .audience = Audience::tuner});
+  v.require(max_range > RangeLimits{}.min_range, "max_range",
+            "must be above 0.1 m: nearer readings are dropped");
+  v.require(heights.empty() || (heights.size() == 2 && heights[0] < heights[1]), "heights",
+            "must be two heights, the lower one first");
+}
+
 /// Moves the ends of rays to where the robot is at the observation's stamp.
 class ScanPlacer::RayMover {
  public:

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "glocal/observation.hpp"
+#include "glocal/params.hpp"
 #include "glocal/pose3.hpp"
 #include "sources/bags/drive_contents.hpp"
 #include "sources/bags/messages.hpp"
@@ -20,6 +21,10 @@ namespace glocal::bags {
 /// Poses are interpolated between two that are at most this far apart, and scans of several topics joined
 /// that are, ns.
 inline constexpr std::int64_t longest_gap_ns = 500'000'000;
+
+/// The fields `max_range`, `heights` and `voxel_size`, for everything that reads robots' scans, and their
+/// rule.
+void describe_rays(ParamVisitor& v, double& max_range, std::vector<double>& heights, double& voxel_size);
 
 struct PlacingRule {
   /// Ends of rays between these heights above the robot's origin count, m; all if there are none.

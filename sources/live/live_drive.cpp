@@ -60,27 +60,10 @@ void describe(ParamVisitor& v, LiveTopics& p) {
           {.doc = "Frame of the robot. Empty: base_footprint or base_link, or that of the odometry."});
   v.field("namespace", p.name_space,
           {.doc = "What the robot's topics begin with, those of tf, too, as `/robot1`. Empty: nothing."});
-  v.field("heights", p.heights,
-          {.doc = "Ends of rays from the first to the second of these heights above the robot's origin are "
-                  "used. Empty: all. Where the motion is planar, clouds need this.",
-           .unit = "m",
-           .max_items = 2});
-  v.field("max_range", p.max_range,
-          {.doc = "Readings from here on count as no return; the messages' own limit holds as well.",
-           .unit = "m",
-           .above = 0.0,
-           .audience = Audience::tuner});
-  v.field("voxel_size", p.voxel_size,
-          {.doc = "Clouds: side of the cubes whose points are replaced by their mean; 0 takes all points.",
-           .unit = "m",
-           .min = 0.0,
-           .max = 100.0,
-           .audience = Audience::tuner});
+  bags::describe_rays(v, p.max_range, p.heights, p.voxel_size);
   describe_keyframes(v, p.keyframes);
   v.field("longest_wait", p.longest_wait,
           {.doc = "How long the first observation is waited for.", .unit = "s", .max = 3600.0, .above = 0.0});
-  v.require(p.heights.empty() || (p.heights.size() == 2 && p.heights[0] < p.heights[1]), "heights",
-            "must be two heights, the lower one first");
 }
 
 void describe(ParamVisitor& v, LiveDrive::Params& p) {

@@ -16,13 +16,7 @@ using testing::Not;
 class Live : public CommandLine {
  protected:
   Live() {
-    write_world();
-    folder_.write("room.yaml",
-                  "schema: 1\nname: room\n"
-                  "map:\n  simulation: {world: world.yaml, resolution: 0.05}\n"
-                  "observations:\n  simulation: {world: world.yaml, laser: {fov_deg: 270}}\n"
-                  "trials: {whole: true}\n");
-    EXPECT_EQ(run("simulate " + file("room.yaml") + " --out " + file("room")).exit_code, 0);
+    simulate_room();
     bags::RobotRecording recording;
     for (const carmen::CarmenScan& scan : carmen::read_carmen_log(file("room/drive.log"))) {
       const auto stamp = static_cast<std::int64_t>(scan.stamp * 1e9);

@@ -17,13 +17,7 @@ using testing::Not;
 class Localize : public CommandLine {
  protected:
   Localize() {
-    write_world();
-    folder_.write("room.yaml",
-                  "schema: 1\nname: room\n"
-                  "map:\n  simulation: {world: world.yaml, resolution: 0.05}\n"
-                  "observations:\n  simulation: {world: world.yaml, laser: {fov_deg: 270}}\n"
-                  "trials: {whole: true}\n");
-    EXPECT_EQ(run("simulate " + file("room.yaml") + " --out " + file("room")).exit_code, 0);
+    simulate_room();
     write_recording();
   }
 

@@ -47,6 +47,17 @@ class CommandLine : public testing::Test {
                   "way_points: [[1, 3], [10, 3], [10, 1]]\n");
   }
 
+  /// room/map.yaml and room/drive.log: that room, and a drive through it with a laser.
+  void simulate_room() const {
+    write_world();
+    folder_.write("room.yaml",
+                  "schema: 1\nname: room\n"
+                  "map:\n  simulation: {world: world.yaml, resolution: 0.05}\n"
+                  "observations:\n  simulation: {world: world.yaml, laser: {fov_deg: 270}}\n"
+                  "trials: {whole: true}\n");
+    EXPECT_EQ(run("simulate " + file("room.yaml") + " --out " + file("room")).exit_code, 0);
+  }
+
   TemporaryFolder folder_;
 };
 
