@@ -95,11 +95,5 @@ TEST_F(Live, KnowsAfterAPowerCycleWhereItWas) {
   EXPECT_THAT(damaged.err, HasSubstr("state.json: error: is cut short"));
 }
 
-TEST_F(Live, WithoutThePluginItSaysWhatIsMissing) {
-  const Answer answer = run("live " + file("room/map.yaml") + " --out " + file("live"));
-  EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("ros2"));
-}
-
 }  // namespace
 }  // namespace glocal::test::live_test

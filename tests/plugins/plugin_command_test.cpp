@@ -312,7 +312,7 @@ TEST_F(PluginCommand, WhatDoesNotFitThisProgramIsRefused) {
 TEST_F(PluginCommand, WhatThrowsWhileItIsLoadedIsRefused) {
   expect_refused(plugin("throws_loading"), {"threw an exception while it was loaded: no device"});
   expect_refused(plugin("throws_registering"),
-                 {"threw an exception while it registered its strategies: no licence for 11 registries"});
+                 {"threw an exception while it registered its strategies: no licence for 12 registries"});
 }
 
 TEST_F(PluginCommand, APluginExportsNothingButItsEntry) {

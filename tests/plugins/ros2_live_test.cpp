@@ -119,6 +119,20 @@ TEST_F(LiveRoom, TheRobotIsToldWhatLocalizeFindsOnTheRecording) {
   }
 }
 
+TEST_F(LiveRoom, TheMapMayBeTheMapServers) {
+  Robot robot(domain_);
+  const auto maps = robot.sender("rt/map", "nav_msgs::msg::dds_::OccupancyGrid_", latched);
+  bags::Writer grid("cdr");
+  grid.header("map").number<std::uint32_t>(0).number<std::uint32_t>(0).number(0.5F);
+  grid.number<std::uint32_t>(3).number<std::uint32_t>(1).pose();
+  maps->send(grid.raw(std::string("\x64\x00\x64", 3)).bytes());
+  const Answer answer = run("live topic:/map --domain " + std::to_string(domain_) + " --out " + file("live") +
+                            " --set observations.ros2.longest_wait=0.5");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.out, HasSubstr("map         2 points"));
+  EXPECT_THAT(answer.err, HasSubstr("there is no topic with scans; there are /map"));
+}
+
 TEST_F(LiveRoom, WithoutARobotItSaysWhatThereIs) {
   const Answer answer = run("live " + file("room/map.yaml") + " --domain " + std::to_string(domain_) +
                             " --out " + file("live") + " --set observations.ros2.longest_wait=0.5");
