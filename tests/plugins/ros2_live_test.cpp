@@ -127,7 +127,7 @@ TEST_F(LiveRoom, TheMapMayBeTheMapServers) {
   grid.number<std::uint32_t>(3).number<std::uint32_t>(1).pose();
   maps->send(grid.raw(std::string("\x64\x00\x64", 3)).bytes());
   const Answer answer = run("live topic:/map --domain " + std::to_string(domain_) + " --out " + file("live") +
-                            " --set observations.ros2.longest_wait=0.5");
+                            " --set observations.ros2.longest_wait=3");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.out, HasSubstr("map         2 points"));
   EXPECT_THAT(answer.err, HasSubstr("there is no topic with scans; there are /map"));
