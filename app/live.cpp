@@ -35,8 +35,6 @@ struct LiveOptions {
   bool publishes_tf = false, force = false;
 };
 
-const LiveTopic begin_topic{"/glocal/begin", "std_msgs/Empty"};
-
 /// Localizes a robot as its observations come, for ever, and tells what it finds.
 class LiveLocalizer {
  public:
@@ -45,12 +43,11 @@ class LiveLocalizer {
         loaded_(loaded(experiment, context.catalog)),
         localizer_(make_localizer(experiment, context.catalog, loaded_)),
         link_(link_of(options, context.catalog)),
-        name_space_(params().topics.name_space),
         drive_(params().topics, setup(experiment), link_,
                [this](const LiveMessage& message) {
                  is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
                }),
-        answers_(*link_, name_space_, frames(options)),
+        answers_(*link_, params().topics.name_space, frames(options)),
         steps_(options.out + ".steps.jsonl", std::ios::binary),
         state_file_(options.state) {
     link_->subscribe(begin(), Delivery::reliable);
@@ -103,7 +100,9 @@ class LiveLocalizer {
     return {.odom = odom.empty() ? "odom" : odom, .publishes_tf = options.publishes_tf};
   }
 
-  [[nodiscard]] LiveTopic begin() const { return {name_space_ + begin_topic.name, begin_topic.type}; }
+  [[nodiscard]] LiveTopic begin() const {
+    return {params().topics.name_space + "/glocal/begin", "std_msgs/Empty"};
+  }
 
   /// The robot may have been carried anywhere.
   void begin_anew() {
@@ -119,7 +118,7 @@ class LiveLocalizer {
   void recall() {
     const auto state = read_state(state_file_);
     if (!state) return;
-    const auto expected = expected_from(*state, *loaded_.map);
+    const auto expected = expected_from(*state, fingerprint_);
     if (!expected) {
       spdlog::warn("{} is of another map: the robot may be anywhere", state_file_);
       return;
@@ -178,7 +177,6 @@ class LiveLocalizer {
   LoadedExperiment loaded_;
   Localizer localizer_;
   std::shared_ptr<MessageLink> link_;
-  std::string name_space_;
   live::LiveDrive drive_;
   live::Answers answers_;
   std::ofstream steps_;

@@ -29,7 +29,8 @@ struct LiveState {
 /// Whole or not at all. Throws RunError if it cannot be written.
 void write_state(const std::filesystem::path& file, const LiveState& state);
 
-/// Where the robot is thought to be when it is switched on: none if the state is of another map.
-[[nodiscard]] std::optional<ExpectedPose> expected_from(const LiveState& state, const GlobalMap& map);
+/// Where the robot is thought to be when it is switched on: none if the state is of another map than that
+/// with this fingerprint.
+[[nodiscard]] std::optional<ExpectedPose> expected_from(const LiveState& state, const std::string& map);
 
 }  // namespace glocal::app

@@ -85,9 +85,7 @@ void describe(ParamVisitor& v, BagDrive::Params& p) {
                   "are, and which; those of others are added. Empty: the only one there is."});
   v.field("odometry", p.odometry,
           {.doc = "Topic with odometry (nav_msgs/Odometry). Empty: tf, or else the only one there is."});
-  v.field("odom_frame", p.odom_frame, {.doc = "Frame of tf that odometry counts from. Empty: odom."});
-  v.field("base_frame", p.base_frame,
-          {.doc = "Frame of the robot. Empty: base_footprint or base_link, or that of the odometry."});
+  describe_robot_frames(v, p.odom_frame, p.base_frame);
   v.field("sensor_from", p.sensor_from,
           {.doc = "Who says where the sensor is on the robot: tf, or `sensor` does.",
            .choices = {"tf", "given"}});
@@ -119,10 +117,7 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
   const bool has_clouds = std::any_of(contents_.scans.begin(), contents_.scans.end(),
                                       [](const bags::ScanTopic& scan) { return scan.are_clouds; });
   if (is_planar_ && has_clouds && params.heights.empty()) {
-    throw ConfigError(
-        {{file, 0, 0,
-          "has clouds, and the motion is planar: set heights, such as [0.2, 1.5], to those of the map's "
-          "walls, or localizer.motion to upright"}});
+    throw ConfigError({{file, 0, 0, clouds_need_heights}});
   }
   pick(frames_of_first_topic());
   join_other_topics();
@@ -134,7 +129,6 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
 }
 
 std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
-  constexpr double longest_pause = 60.0;  // s
   const bags::ScanTopic& scans = contents_.scans.front();
   const std::string at = fmt::format("{}: {}", params_.path.resolved.string(), shown(scans.topic));
   std::vector<Frame> frames;

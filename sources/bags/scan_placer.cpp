@@ -10,6 +10,12 @@ constexpr double ns_per_s = 1e9;
 
 }  // namespace
 
+void describe_robot_frames(ParamVisitor& v, std::string& odom_frame, std::string& base_frame) {
+  v.field("odom_frame", odom_frame, {.doc = "Frame of tf that odometry counts from. Empty: odom."});
+  v.field("base_frame", base_frame,
+          {.doc = "Frame of the robot. Empty: base_footprint or base_link, or that of the odometry."});
+}
+
 void describe_rays(ParamVisitor& v, double& max_range, std::vector<double>& heights, double& voxel_size) {
   v.field("max_range", max_range,
           {.doc = "Readings from here on count as no return; the messages' own limit holds as well.",

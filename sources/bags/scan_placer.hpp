@@ -22,6 +22,17 @@ namespace glocal::bags {
 /// that are, ns.
 inline constexpr std::int64_t longest_gap_ns = 500'000'000;
 
+/// Where stamps jump by more, a drive of its own begins, s.
+inline constexpr double longest_pause = 60.0;
+
+/// What to say of clouds where the motion is planar and no heights are given.
+inline constexpr const char* clouds_need_heights =
+    "has clouds, and the motion is planar: set heights, such as [0.2, 1.5], to those of the map's walls, or "
+    "localizer.motion to upright";
+
+/// The fields `odom_frame` and `base_frame`, for everything that reads robots' tf.
+void describe_robot_frames(ParamVisitor& v, std::string& odom_frame, std::string& base_frame);
+
 /// The fields `max_range`, `heights` and `voxel_size`, for everything that reads robots' scans, and their
 /// rule.
 void describe_rays(ParamVisitor& v, double& max_range, std::vector<double>& heights, double& voxel_size);

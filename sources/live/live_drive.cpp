@@ -19,8 +19,7 @@ constexpr seconds time_to_hear_of_topics{1};
 constexpr milliseconds between_looks{100};  ///< At topics, and whether to stop.
 
 constexpr std::int64_t ns_per_s = 1'000'000'000;
-/// A longer pause, or a clock that goes back by more, begins a drive of its own; BagDrive does so, too.
-constexpr std::int64_t longest_pause_ns = 60 * ns_per_s;
+/// A clock that goes back by more begins a drive of its own.
 constexpr std::int64_t jump_back_ns = ns_per_s;
 /// So long where the robot was is remembered, and how often what is older is forgotten.
 constexpr std::int64_t memory_ns = 60 * ns_per_s;
@@ -55,9 +54,7 @@ void describe(ParamVisitor& v, LiveTopics& p) {
           {.doc = "Topic with scans: sensor_msgs/LaserScan or PointCloud2. Empty: the only one there is."});
   v.field("odometry", p.odometry,
           {.doc = "Topic with odometry: nav_msgs/Odometry. Empty: tf's, or the only such topic."});
-  v.field("odom_frame", p.odom_frame, {.doc = "Frame of tf that odometry counts from. Empty: odom."});
-  v.field("base_frame", p.base_frame,
-          {.doc = "Frame of the robot. Empty: base_footprint or base_link, or that of the odometry."});
+  bags::describe_robot_frames(v, p.odom_frame, p.base_frame);
   v.field("namespace", p.name_space,
           {.doc = "What the robot's topics begin with, those of tf, too, as `/robot1`. Empty: nothing."});
   bags::describe_rays(v, p.max_range, p.heights, p.voxel_size);
@@ -88,9 +85,9 @@ LiveDrive::LiveDrive(LiveTopics topics, const SourceSetup& setup, std::shared_pt
 }
 
 void LiveDrive::subscribe(const LiveTopic& topic, Delivery delivery) {
-  if (!asked_for_.insert(topic.name).second) return;
-  connections_[topic.name] = {.topic = topic.name, .type = topic.type, .encoding = "cdr", .definition = ""};
-  link_->subscribe(topic, delivery);
+  const bags::Connection connection{
+      .topic = topic.name, .type = topic.type, .encoding = "cdr", .definition = ""};
+  if (connections_.try_emplace(topic.name, connection).second) link_->subscribe(topic, delivery);
 }
 
 /// Topics come and go: they are asked for as they are heard of.
@@ -106,7 +103,7 @@ void LiveDrive::ask_for_topics() {
 }
 
 void LiveDrive::choose_scans(const std::vector<LiveTopic>& there) {
-  if (has_scans_ || there.empty()) return;
+  if (are_scans_chosen() || there.empty()) return;
   if (!first_scans_seen_) first_scans_seen_ = Clock::now();
   const bool has_heard_all = !link_->is_live() || Clock::now() - *first_scans_seen_ >= time_to_hear_of_topics;
   const auto named = std::find_if(there.begin(), there.end(), [&](const LiveTopic& topic) {
@@ -118,11 +115,7 @@ void LiveDrive::choose_scans(const std::vector<LiveTopic>& there) {
         {{"", 0, 0,
           fmt::format("there are several topics with scans; set scans to one of {}", listed(names(there)))}});
   if (is_planar_ && named->type == "sensor_msgs/PointCloud2" && topics_.heights.empty())
-    throw ConfigError({{"", 0, 0,
-                        fmt::format("{} has clouds, and the motion is planar: set heights, such as [0.2, "
-                                    "1.5], to those of the map's walls, or localizer.motion to upright",
-                                    shown(named->name))}});
-  has_scans_ = true;
+    throw ConfigError({{"", 0, 0, fmt::format("{} {}", shown(named->name), bags::clouds_need_heights)}});
   topics_.scans = named->name;
   contents_.add_scans(named->name);
   subscribe(*named, Delivery::newest);
@@ -168,7 +161,7 @@ void LiveDrive::take_scan(const bags::RecordedMessage& message) {
     ++segment_;
   } else if (last_stamp_ns_ && header->stamp_ns <= *last_stamp_ns_) {
     return warn_once("a scan is left out, as its stamp stands still or runs backwards");
-  } else if (last_stamp_ns_ && header->stamp_ns - *last_stamp_ns_ > longest_pause_ns) {
+  } else if (last_stamp_ns_ && bags::seconds(header->stamp_ns - *last_stamp_ns_) > bags::longest_pause) {
     warn_(fmt::format("stamps jump by {:.0f} s: what follows is a drive of its own",
                       bags::seconds(header->stamp_ns - *last_stamp_ns_)));
     ++segment_;
@@ -271,19 +264,22 @@ void LiveDrive::forget(std::int64_t now_ns) {
 void LiveDrive::check_first_wait() const {
   if (has_delivered_ || Clock::now() - *first_call_ < std::chrono::duration<double>(topics_.longest_wait))
     return;
-  const std::string there = listed(names(link_->topics()));
-  const std::string why =
-      !has_scans_       ? fmt::format("there is no topic {}; there are {}",
-                                topics_.scans.empty() ? "with scans" : shown(topics_.scans),
-                                there.empty() ? "none at all" : there)
-            : !last_stamp_ns_ ? fmt::format("no message came on {}", shown(topics_.scans))
-      : !why_no_frames_.empty()
-          ? why_no_frames_
-          : fmt::format(
-                "where the robot was is not known within {} s of the stamps of {}; do both clocks agree?",
-                bags::seconds(bags::longest_gap_ns), shown(topics_.scans));
   throw ConfigError(
-      {{robot, 0, 0, fmt::format("no observation within {} s: {}", topics_.longest_wait, why)}});
+      {{robot, 0, 0, fmt::format("no observation within {} s: {}", topics_.longest_wait, why_nothing())}});
+}
+
+std::string LiveDrive::why_nothing() const {
+  if (!are_scans_chosen()) {
+    const std::string there = listed(names(link_->topics()));
+    return fmt::format("there is no topic {}; there are {}",
+                       topics_.scans.empty() ? "with scans" : shown(topics_.scans),
+                       there.empty() ? "none at all" : there);
+  }
+  if (!last_stamp_ns_) return fmt::format("no message came on {}", shown(topics_.scans));
+  if (!why_no_frames_.empty()) return why_no_frames_;
+  return fmt::format(
+      "where the robot was is not known within {} s of the stamps of {}; do both clocks agree?",
+      bags::seconds(bags::longest_gap_ns), shown(topics_.scans));
 }
 
 void LiveDrive::warn_once(const std::string& text) {

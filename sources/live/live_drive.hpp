@@ -90,7 +90,10 @@ class LiveDrive final : public ObservationSource {
   [[nodiscard]] std::optional<Sample> observed(const Pending& scan, const bags::ScanPlacer& placer,
                                                const bags::DriveContents& contents);
   void forget(std::int64_t now_ns);
+  [[nodiscard]] bool are_scans_chosen() const { return connections_.contains(topics_.scans); }
   void check_first_wait() const;
+  /// Why no observation has come yet.
+  [[nodiscard]] std::string why_nothing() const;
   void warn_once(const std::string& text);
 
   LiveTopics topics_;
@@ -100,8 +103,7 @@ class LiveDrive final : public ObservationSource {
   std::shared_ptr<MessageLink> link_;
   TakeOther take_other_;
 
-  std::set<std::string> asked_for_;
-  std::map<std::string, bags::Connection> connections_;  ///< By topic.
+  std::map<std::string, bags::Connection> connections_;  ///< By topic that is asked for.
   std::optional<Clock::time_point> first_call_, first_scans_seen_;
   bags::ContentsReader contents_;
   std::deque<std::string> mounts_;  ///< Messages of tf_static: they hold when the clock jumps, too.
@@ -112,7 +114,7 @@ class LiveDrive final : public ObservationSource {
   std::optional<std::int64_t> forgotten_until_ns_;
   std::optional<Pose3> last_keyframe_;  ///< The robot in the odometry's frame.
   int segment_ = 0, segment_of_keyframe_ = 0;
-  bool has_scans_ = false, has_delivered_ = false;
+  bool has_delivered_ = false;
   std::size_t passed_over_ = 0;
   std::set<std::string> told_;
 };

@@ -43,19 +43,19 @@ TEST(LiveState, IsReadAsItWasWritten) {
 
 TEST(LiveState, OfAnotherMapSaysNothing) {
   const GlobalMap map = map_of({{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}});
-  EXPECT_TRUE(expected_from(state_on(map), map));
-  EXPECT_FALSE(expected_from(state_on(map), map_of({{0.0F, 0.0F, 0.0F}, {1.5F, 0.0F, 0.0F}})));
+  EXPECT_TRUE(expected_from(state_on(map), fingerprint(map)));
+  EXPECT_FALSE(expected_from(state_on(map), fingerprint(map_of({{0.0F, 0.0F, 0.0F}, {1.5F, 0.0F, 0.0F}}))));
 }
 
 TEST(LiveState, SaysLessTheFartherTheRobotHasDrivenSince) {
   const GlobalMap map = map_of({{0.0F, 0.0F, 0.0F}});
   LiveState state = state_on(map);
   state.way_since_m = 0.0;
-  EXPECT_DOUBLE_EQ(expected_from(state, map)->odds, 19.0);
+  EXPECT_DOUBLE_EQ(expected_from(state, fingerprint(map))->odds, 19.0);
   state.way_since_m = 5.0;
-  EXPECT_DOUBLE_EQ(expected_from(state, map)->odds, 10.0);
+  EXPECT_DOUBLE_EQ(expected_from(state, fingerprint(map))->odds, 10.0);
   state.way_since_m = 1000.0;
-  EXPECT_NEAR(expected_from(state, map)->odds, 1.0, 1e-9);
+  EXPECT_NEAR(expected_from(state, fingerprint(map))->odds, 1.0, 1e-9);
 }
 
 TEST(LiveState, ThatIsDamagedIsRefused) {
