@@ -16,6 +16,17 @@ struct RobotQos {
   int depth = 5;
 };
 
+/// As ROS 2 has it for sensors, for tf and answers, and for maps and tf_static.
+inline constexpr RobotQos best_effort{.reliable = false, .transient_local = false, .depth = 5};
+inline constexpr RobotQos reliable{.reliable = true, .transient_local = false, .depth = 100};
+inline constexpr RobotQos latched{.reliable = true, .transient_local = true, .depth = 1};
+
+/// Types as DDS calls them.
+inline constexpr const char* dds_tf = "tf2_msgs::msg::dds_::TFMessage_";
+inline constexpr const char* dds_scan = "sensor_msgs::msg::dds_::LaserScan_";
+inline constexpr const char* dds_pose = "geometry_msgs::msg::dds_::PoseWithCovarianceStamped_";
+inline constexpr const char* dds_diagnostics = "diagnostic_msgs::msg::dds_::DiagnosticArray_";
+
 /// Until both sides have found each other; more than enough for messages.
 inline constexpr std::chrono::milliseconds long_enough{4000};
 

@@ -8,21 +8,14 @@
 #include <thread>
 
 #include "app/room.hpp"
+#include "carmen_messages.hpp"
 #include "fast_dds_robot.hpp"
-#include "sources/bags/message_writer.hpp"
-#include "sources/bags/messages.hpp"
-#include "sources/carmen/carmen_parser.hpp"
 
 namespace glocal::test::ros2_live_test {
 namespace {
 
 using std::chrono::milliseconds;
 using testing::HasSubstr;
-
-constexpr RobotQos best_effort{.reliable = false, .transient_local = false, .depth = 5};
-constexpr RobotQos reliable{.reliable = true, .transient_local = false, .depth = 100};
-constexpr RobotQos latched{.reliable = true, .transient_local = true, .depth = 1};
-constexpr const char* dds_tf = "tf2_msgs::msg::dds_::TFMessage_";
 
 /// A simulated room, and what a robot sends that drives through it.
 class LiveRoom : public CommandLine {
@@ -36,27 +29,9 @@ class LiveRoom : public CommandLine {
            1);
     simulate_room();
     for (const carmen::CarmenScan& scan : carmen::read_carmen_log(file("room/drive.log"))) {
-      const auto stamp = static_cast<std::int64_t>(scan.stamp * 1e9);
       sent_.push_back(
-          {transform("odom", "base_link", stamp, scan.odom_from_robot), scan_message(scan, stamp)});
+          {transform("odom", "base_link", stamp_ns(scan), scan.odom_from_robot), scan_message(scan)});
     }
-  }
-
-  static std::string transform(const std::string& parent, const std::string& child, std::int64_t stamp,
-                               const Pose3& pose) {
-    return bags::Writer("cdr").number<std::uint32_t>(1).header(parent, stamp).text(child).pose(pose).bytes();
-  }
-
-  static std::string scan_message(const carmen::CarmenScan& scan, std::int64_t stamp) {
-    bags::Writer w("cdr");
-    const auto first = static_cast<float>(scan.start_angle), step = static_cast<float>(scan.angle_step);
-    const auto last = first + static_cast<float>(scan.ranges.size() - 1) * step;
-    w.header("laser", stamp);
-    for (const float v : {first, last, step, 0.0F, 0.1F, 0.0F, static_cast<float>(scan.max_range)})
-      w.number(v);
-    w.number(static_cast<std::uint32_t>(scan.ranges.size()));
-    for (const float range : scan.ranges) w.number(range);
-    return w.number<std::uint32_t>(0).bytes();
   }
 
   void start(const std::string& options) {
@@ -86,11 +61,9 @@ TEST_F(LiveRoom, TheRobotIsToldWhatLocalizeFindsOnTheRecording) {
   Robot robot(domain_);
   const auto tf = robot.sender("rt/tf", dds_tf, reliable);
   const auto tf_static = robot.sender("rt/tf_static", dds_tf, latched);
-  const auto scans = robot.sender("rt/scan", "sensor_msgs::msg::dds_::LaserScan_", best_effort);
-  const auto poses =
-      robot.receiver("rt/initialpose", "geometry_msgs::msg::dds_::PoseWithCovarianceStamped_", reliable);
-  const auto diagnostics =
-      robot.receiver("rt/diagnostics", "diagnostic_msgs::msg::dds_::DiagnosticArray_", reliable);
+  const auto scans = robot.sender("rt/scan", dds_scan, best_effort);
+  const auto poses = robot.receiver("rt/initialpose", dds_pose, reliable);
+  const auto diagnostics = robot.receiver("rt/diagnostics", dds_diagnostics, reliable);
   tf_static->send(transform("base_link", "laser", 0, {}));
   start("--record " + file("live.mcap"));
   ASSERT_TRUE(tf->has_receivers(1) && scans->has_receivers(1)) << content(file("live.err"));

@@ -28,13 +28,7 @@ const LiveTopic scan{"/scan", "sensor_msgs/LaserScan"};
 const LiveTopic map{"/map", "nav_msgs/OccupancyGrid"};
 const LiveTopic tf{"/tf", "tf2_msgs/TFMessage"};
 const LiveTopic odom{"/odom", "nav_msgs/Odometry"};
-constexpr const char* dds_scan = "sensor_msgs::msg::dds_::LaserScan_";
 constexpr const char* dds_map = "nav_msgs::msg::dds_::OccupancyGrid_";
-constexpr const char* dds_tf = "tf2_msgs::msg::dds_::TFMessage_";
-/// As robots send scans, tf and maps.
-constexpr RobotQos best_effort{.reliable = false, .transient_local = false, .depth = 5};
-constexpr RobotQos reliable{.reliable = true, .transient_local = false, .depth = 100};
-constexpr RobotQos latched{.reliable = true, .transient_local = true, .depth = 1};
 
 /// With a range of its own.
 std::string scan_message(float range, std::endian order = std::endian::little) {
@@ -202,8 +196,7 @@ TEST_F(Ros2, TheRobotHearsWhatIsPublished) {
   Writer w("cdr");
   w.header("map").pose();
   for (int i = 0; i < 36; ++i) w.number(0.25 * i);
-  const auto poses =
-      robot.receiver("rt/initialpose", "geometry_msgs::msg::dds_::PoseWithCovarianceStamped_", reliable);
+  const auto poses = robot.receiver("rt/initialpose", dds_pose, reliable);
   const auto link = this->link();
   // The first ones go out before the robot has been found.
   std::optional<std::string> received;
