@@ -124,7 +124,8 @@ class LiveLocalizer {
       return;
     }
     answer("was at      {}, odds {:.0f} to 1\n\n",
-           text_of(loaded_.map->place_of(expected->map_from_robot), experiment_.localizer.motion), expected->odds);
+           text_of(loaded_.map->place_of(expected->map_from_robot), experiment_.localizer.motion),
+           expected->odds);
     localizer_.expect(*expected);
   }
 

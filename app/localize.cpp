@@ -91,8 +91,8 @@ class Narrator {
       spdlog::error("{}{}", from, trial.why);
     } else if (trial.pose) {
       answer("{}localized after {} {}, {:.2f} m: {}{}\n", from, trial.steps,
-             trial.steps == 1 ? "step" : "steps", trial.distance_m, text_of(map_->place_of(*trial.pose), motion_),
-             judged(trial));
+             trial.steps == 1 ? "step" : "steps", trial.distance_m,
+             text_of(map_->place_of(*trial.pose), motion_), judged(trial));
     } else {
       const auto guess = trial.records.empty() ? std::nullopt : trial.records.back().result.estimate();
       answer("{}not localized in {} steps, {:.2f} m: {}{}\n", from, trial.steps, trial.distance_m, trial.why,

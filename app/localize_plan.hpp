@@ -16,7 +16,7 @@ namespace glocal::app {
 struct LocalizeRequest {
   std::filesystem::path map, log;
   std::vector<std::filesystem::path> more_maps;  ///< Other floors: the robot is on any of them.
-  std::vector<std::string> scans;      ///< Topics of a recording; empty: chosen.
+  std::vector<std::string> scans;                ///< Topics of a recording; empty: chosen.
   std::string odometry;                ///< Of a recording: topic. Of a folder of clouds: file of poses.
   std::string odom_frame, base_frame;  ///< Of a recording's tf; empty: the usual ones.
   std::string reference;  ///< Of a recording: topic or frame of tf. Of a folder of clouds: file of poses.

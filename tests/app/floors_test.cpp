@@ -15,17 +15,16 @@ class Floors : public CommandLine {
     return "{office: {side: 20, length: 40, number: 3, furniture: " + std::to_string(furniture) + "}}";
   }
   void write_floors(const std::string& more) const {
-    std::ofstream(file("floors.yaml"))
-        << "schema: 1\nname: floors\nmap:\n  several:\n    maps:\n"
-        << "      - {name: ground, source: " << office(1) << "}\n"
-        << "      - {name: first, source: " << office(2) << "}\n"
-        << "observations:\n  several:\n    drives:\n"
-        << "      - {map: ground, source: " << office(1) << "}\n"
-        << "      - {map: first, source: " << office(2) << "}\n"
-        << more;
+    std::ofstream(file("floors.yaml")) << "schema: 1\nname: floors\nmap:\n  several:\n    maps:\n"
+                                       << "      - {name: ground, source: " << office(1) << "}\n"
+                                       << "      - {name: first, source: " << office(2) << "}\n"
+                                       << "observations:\n  several:\n    drives:\n"
+                                       << "      - {map: ground, source: " << office(1) << "}\n"
+                                       << "      - {map: first, source: " << office(2) << "}\n"
+                                       << more;
   }
   [[nodiscard]] Answer run_floors() const {
-    return run("run " + file("floors.yaml") + " --method indexed --quiet --force --out " + file("out"));
+    return run("run " + file("floors.yaml") + " --method indexed --quiet --force --out " + file("results"));
   }
 };
 
@@ -34,7 +33,7 @@ TEST_F(Floors, EachAnswerNamesItsMapAndThePoseThere) {
   const Answer answer = run_floors();
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   std::size_t right = 0, on_first = 0;
-  for (const Json& trial : json_lines(file("out/trials.jsonl"))) {
+  for (const Json& trial : json_lines(file("results/indexed/trials.jsonl"))) {
     EXPECT_NE(trial["outcome"], "wrong");
     if (trial["outcome"] != "right") continue;
     ++right;
@@ -49,7 +48,7 @@ TEST_F(Floors, EachAnswerNamesItsMapAndThePoseThere) {
     EXPECT_NEAR(trial["pose"]["y"].get<double>(), trial["place"]["pose"]["y"].get<double>(), 1.0);
   }
   EXPECT_GE(right, 6U);
-  EXPECT_GE(on_first, 3U);
+  EXPECT_GE(on_first, 2U);
 }
 
 TEST_F(Floors, ALiftIsFollowed) {
@@ -62,7 +61,7 @@ TEST_F(Floors, ALiftIsFollowed) {
   const Answer answer = run_floors();
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   std::set<std::string> declared_on;
-  for (const Json& step : json_lines(file("out/steps.jsonl"))) {
+  for (const Json& step : json_lines(file("results/indexed/steps.jsonl"))) {
     if (step["verdict"] != "localized") continue;
     declared_on.insert(step["place"]["map"]);
   }
@@ -77,7 +76,7 @@ TEST_F(Floors, LocalizeAndLiveTakeMoreMapsThanOne) {
   }
   const std::string maps = file("floor_1/map.yaml") + " ";
   const Answer answer = run("localize " + maps + file("floor_2/drive.log") + " --also " +
-                            file("floor_2/map.yaml") + " --out " + file("out"));
+                            file("floor_2/map.yaml") + " --out " + file("results"));
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("one of 2: "));
   EXPECT_THAT(answer.out, HasSubstr("floor_2/map.yaml: x "));
@@ -107,8 +106,8 @@ TEST_F(Floors, TwoMapsOfOneNameAreRefused) {
   std::ofstream(file("floors.yaml")) << text;
   const Answer answer = run_floors();
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("floors.yaml:7"));
-  EXPECT_THAT(answer.err, HasSubstr("maps[1].name must not be 'ground' again"));
+  EXPECT_THAT(answer.err, HasSubstr("floors.yaml:5"));
+  EXPECT_THAT(answer.err, HasSubstr("maps[1].name: must not be 'ground' again"));
 }
 
 }  // namespace

@@ -125,17 +125,16 @@ TEST(SeveralMaps, JoinsCloudsWithTheirFreeVoxels) {
 TEST(SeveralMaps, RefusesMapsThatDoNotFitTogether) {
   MapData coarse = small_map({0, 0, 0});
   coarse.grid.resolution = 0.25;
-  EXPECT_EQ(
-      refused({small_map({0, 0, 0}), coarse}),
-      "map.several.maps: 'floor 1' has cells of 0.25 m, and 'floor 0' of 0.5 m; make them anew with the "
-      "same");
+  EXPECT_EQ(refused({small_map({0, 0, 0}), coarse}),
+            "error: 'floor 1' has cells of 0.25 m, and 'floor 0' of 0.5 m; make them anew with the "
+            "same");
 }
 
 TEST(SeveralMaps, RefusesCellsBesideACloud) {
   MapData cloud = small_map({0, 0, 0});
   cloud.grid = {};
   EXPECT_EQ(refused({small_map({0, 0, 0}), cloud}),
-            "map.several.maps: 'floor 1' has points alone, and 'floor 0' has cells; give maps of one kind");
+            "error: 'floor 1' has points alone, and 'floor 0' has cells; give maps of one kind");
 }
 
 }  // namespace
