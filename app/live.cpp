@@ -47,7 +47,7 @@ class LiveLocalizer {
                [this](const LiveMessage& message) {
                  is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
                }),
-        answers_(*link_, params().topics.name_space, frames(options)),
+        answers_(*link_, *loaded_.map, params().topics.name_space, frames(options)),
         steps_(options.out + ".steps.jsonl", std::ios::binary),
         state_file_(options.state) {
     link_->subscribe(begin(), Delivery::reliable);
@@ -124,7 +124,8 @@ class LiveLocalizer {
       return;
     }
     answer("was at      {}, odds {:.0f} to 1\n\n",
-           text_of(expected->map_from_robot, experiment_.localizer.motion), expected->odds);
+           text_of(loaded_.map->place_of(expected->map_from_robot), experiment_.localizer.motion),
+           expected->odds);
     localizer_.expect(*expected);
   }
 
@@ -156,6 +157,8 @@ class LiveLocalizer {
     StepRecord record;
     record.result = localizer_.step(observation);
     record.hypotheses = record.result.hypotheses.size();
+    if (const auto pose = record.result.estimate(); pose && !loaded_.map->parts().empty())
+      record.place = loaded_.map->place_of(*pose);
     const StepResult& result = record.result;
     ++observations_;
     const bool is_declared = result.verdict.kind == VerdictKind::localized;
@@ -166,7 +169,7 @@ class LiveLocalizer {
     answers_.tell(result, bags::nanoseconds(observation.stamp), observation.odom_from_robot,
                   drive_.passed_over());
     steps_ << step_line(trial_, record) << std::flush;
-    answer("{}\n", text_of(result, way_));
+    answer("{}\n", text_of(result, *loaded_.map, way_));
     // Numbers in a reason change at each step: it is told when the verdict does.
     if (result.verdict.kind != last_verdict_) answer("          {}\n", result.verdict.why);
     last_verdict_ = result.verdict.kind;
@@ -215,6 +218,8 @@ void add_live(CLI::App& app, Context& context) {
       ->add_option("MAP", request.map,
                    "Map server's YAML, cloud (PCD, PLY), octree, recording with a map, or topic:/map")
       ->required();
+  command->add_option("--also", request.more_maps,
+                      "Another map, as of another floor; the robot is on any of them (may be repeated)");
   CLI::Option* recording =
       command->add_option("--recording", request.recording, "ROS bag or MCAP in place of the robot");
   command->add_flag("--real-time", request.in_real_time, "The recording's messages come at their times")

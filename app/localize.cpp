@@ -66,6 +66,7 @@ class Narrator {
  private:
   void begin(const LoadedVariant& variant) {
     const LoadedExperiment& loaded = variant.loaded;
+    map_ = loaded.map.get();
     drive_ = &loaded.drive;
     motion_ = variant.experiment.localizer.motion;
     tells_steps_ = loaded.starts.size() == 1;
@@ -79,7 +80,7 @@ class Narrator {
     if (!tells_steps_) return;
     const StepResult& result = record.result;
     const double way = drive_->path_m[first_sample_ + result.step] - drive_->path_m[first_sample_];
-    answer("{}\n", text_of(result, way));
+    answer("{}\n", text_of(result, *map_, way));
     if (result.verdict.why != last_why_) answer("          {}\n", result.verdict.why);
     last_why_ = result.verdict.why;
   }
@@ -90,18 +91,19 @@ class Narrator {
       spdlog::error("{}{}", from, trial.why);
     } else if (trial.pose) {
       answer("{}localized after {} {}, {:.2f} m: {}{}\n", from, trial.steps,
-             trial.steps == 1 ? "step" : "steps", trial.distance_m, text_of(*trial.pose, motion_),
-             judged(trial));
+             trial.steps == 1 ? "step" : "steps", trial.distance_m,
+             text_of(map_->place_of(*trial.pose), motion_), judged(trial));
     } else {
       const auto guess = trial.records.empty() ? std::nullopt : trial.records.back().result.estimate();
       answer("{}not localized in {} steps, {:.2f} m: {}{}\n", from, trial.steps, trial.distance_m, trial.why,
-             guess ? "; the best guess is " + text_of(*guess, motion_) : "");
+             guess ? "; the best guess is " + text_of(map_->place_of(*guess), motion_) : "");
     }
     const std::string fault = fault_of_setup(trial);
     if (!fault.empty()) spdlog::warn("{}{}", from, fault);
   }
 
   ReadingBar bar_;
+  const GlobalMap* map_ = nullptr;
   const Drive* drive_ = nullptr;
   Motion motion_ = Motion::planar;
   bool tells_steps_ = true;
@@ -174,6 +176,8 @@ void add_localize(CLI::App& app, Context& context) {
   command
       ->add_option("MAP", request.map, "Map server's YAML, cloud (PCD, PLY), octree, or recording with a map")
       ->required();
+  command->add_option("--also", request.more_maps,
+                      "Another map, as of another floor; the robot is on any of them (may be repeated)");
   command->add_option("LOG", request.log, "ROS bag, MCAP, CARMEN log, or folder of clouds with odometry.tum")
       ->required();
   CLI::Option* start = command->add_option("--start", request.start_m, "Begin so far along the drive, m")

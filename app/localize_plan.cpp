@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 #include "app/log_kind.hpp"
@@ -78,6 +79,34 @@ MapChoice choose_map(const fs::path& map, bool is_strict, const Catalog& catalog
   read_yaml(map, file);
   return {fmt::format("ros_map: {{{}}}", path),
           fmt::format("a map server's, cells of {} m", file.value.resolution), false, file.value.resolution};
+}
+
+/// What maps are called: by their files' names, or as they were given where two have the same.
+std::vector<std::string> names_of(const std::string& first, const std::vector<fs::path>& others) {
+  std::vector<std::string> names = {plain_name(first)}, given = {first};
+  for (const fs::path& other : others) {
+    names.push_back(plain_name(other));
+    given.push_back(other.string());
+  }
+  const std::set<std::string> different(names.begin(), names.end());
+  return different.size() == names.size() ? names : given;
+}
+
+/// `map`, which was given as `first`, and others beside it, as one.
+MapChoice with_others(MapChoice map, const std::string& first, const std::vector<fs::path>& others,
+                      bool is_strict, const Catalog& catalog) {
+  if (others.empty()) return map;
+  const std::vector<std::string> names = names_of(first, others);
+  std::string maps;
+  const auto add = [&](const std::string& name, const std::string& yaml) {
+    maps += fmt::format("\n      - {{{}, source: {{{}}}}}", entry("name", name), yaml);
+  };
+  add(names[0], map.yaml);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    add(names[i + 1], choose_map(others[i], is_strict, catalog).yaml);
+  map.yaml = "several:\n    maps:" + maps;
+  map.text = fmt::format("one of {}: {}", names.size(), fmt::join(names, ", "));
+  return map;
 }
 
 /// How a log is read.
@@ -227,10 +256,13 @@ std::string link_yaml(const LiveRequest& request) {
 
 MapChoice choose_live_map(const LiveRequest& request, const Catalog& catalog) {
   constexpr std::string_view topic = "topic:";
-  if (!request.map.starts_with(topic)) return choose_map(request.map, false, catalog);
-  return {fmt::format("ros2_map: {{link: {}, {}}}", link_yaml(request),
-                      entry("topic", request.map.substr(topic.size()))),
-          "what the robot's map server sends"};
+  if (!request.map.starts_with(topic))
+    return with_others(choose_map(request.map, false, catalog), request.map, request.more_maps, false,
+                       catalog);
+  const MapChoice sent = {fmt::format("ros2_map: {{link: {}, {}}}", link_yaml(request),
+                                      entry("topic", request.map.substr(topic.size()))),
+                          "what the robot's map server sends"};
+  return with_others(sent, "map", request.more_maps, false, catalog);
 }
 
 std::string live_drive_yaml(const LiveRequest& request) {
@@ -273,7 +305,8 @@ LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog) {
 }
 
 LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& catalog) {
-  const MapChoice map = choose_map(request.map, request.strict, catalog);
+  const MapChoice map = with_others(choose_map(request.map, request.strict, catalog), request.map.string(),
+                                    request.more_maps, request.strict, catalog);
   const LogChoice log = choose_log(request, map);
   LocalizePlan plan{.name = "localize_" + plain_name(request.log),
                     .experiment = {},

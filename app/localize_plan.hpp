@@ -15,7 +15,8 @@ namespace glocal::app {
 /// What is to be localized, and from where on. At most one of every_m and whole is given.
 struct LocalizeRequest {
   std::filesystem::path map, log;
-  std::vector<std::string> scans;      ///< Topics of a recording; empty: chosen.
+  std::vector<std::filesystem::path> more_maps;  ///< Other floors: the robot is on any of them.
+  std::vector<std::string> scans;                ///< Topics of a recording; empty: chosen.
   std::string odometry;                ///< Of a recording: topic. Of a folder of clouds: file of poses.
   std::string odom_frame, base_frame;  ///< Of a recording's tf; empty: the usual ones.
   std::string reference;  ///< Of a recording: topic or frame of tf. Of a folder of clouds: file of poses.
@@ -44,6 +45,7 @@ struct LiveRequest {
   /// Map server's YAML, cloud, octree or recording; `topic:/map`: what a map server sends; `topic:` alone the
   /// only such topic.
   std::string map;
+  std::vector<std::filesystem::path> more_maps;
   std::filesystem::path recording;     ///< In place of the robot; empty: DDS.
   bool in_real_time = false;           ///< The recording's messages come when they came to the recorder.
   std::optional<int> domain;           ///< Of DDS; none: ROS_DOMAIN_ID, else 0.

@@ -10,11 +10,16 @@ std::string text_of(const Pose3& pose, Motion motion) {
                      degrees(pose.heading()));
 }
 
-std::string text_of(const StepResult& result, double way) {
+std::string text_of(const MapPlace& place, Motion motion) {
+  const std::string pose = text_of(place.map_from_robot, motion);
+  return place.map.empty() ? pose : fmt::format("{}: {}", place.map, pose);
+}
+
+std::string text_of(const StepResult& result, const GlobalMap& map, double way) {
   const auto pose = result.estimate();
   const auto& estimate = result.verdict.estimate;
   return fmt::format("step {:3}  {:6.2f} m  {:13}  {}{}", result.step, way, to_string(result.verdict.kind),
-                     pose ? text_of(*pose, result.motion) : "no pose",
+                     pose ? text_of(map.place_of(*pose), result.motion) : "no pose",
                      estimate ? fmt::format(", {:.0f} %", 100.0 * estimate->confidence) : "");
 }
 

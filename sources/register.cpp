@@ -14,6 +14,8 @@
 #include "sources/live/live_map.hpp"
 #include "sources/live/recording_link.hpp"
 #include "sources/ros_map/ros_map.hpp"
+#include "sources/several/several_drives.hpp"
+#include "sources/several/several_maps.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/random_scans.hpp"
 #include "sources/simulation/simulation.hpp"
@@ -42,6 +44,9 @@ void register_sources(Catalog& catalog) {
   catalog.observation_sources.add<disturbed::DisturbedDrive>(
       "disturbed", "Another source, with what goes wrong on real robots.", experimental_since("0.1.0"),
       {.sources = &catalog.observation_sources});
+  catalog.observation_sources.add<several::SeveralDrives>(
+      "several", "Drives on several maps, one after the other.", experimental_since("0.1.0"),
+      {.sources = &catalog.observation_sources});
   catalog.map_sources.add<bags::BagMap>("bag_map", "A map recorded as a message: ROS bag or MCAP.",
                                         experimental_since("0.1.0"));
   catalog.map_sources.add<carmen::LogMap>("log_map", "A map from the reference poses of a CARMEN log.",
@@ -58,6 +63,9 @@ void register_sources(Catalog& catalog) {
                                                     stable_since("0.1.0"));
   catalog.map_sources.add<disturbed::DisturbedMap>(
       "disturbed", "Another map, with what has changed in the world since it was made.",
+      experimental_since("0.1.0"), {.sources = &catalog.map_sources});
+  catalog.map_sources.add<several::SeveralMaps>(
+      "several", "Maps side by side, as the floors of a building: the robot is on one of them.",
       experimental_since("0.1.0"), {.sources = &catalog.map_sources});
   catalog.map_sources.add<sites::OfficeMap>("office", "The map of a simulated office of any size.",
                                             stable_since("0.1.0"));

@@ -23,6 +23,10 @@ Json best_clusters(const StepResult& step, int most) {
   return best;
 }
 
+Json to_json(const MapPlace& place, Motion motion) {
+  return {{"map", place.map}, {"pose", to_json(place.map_from_robot, motion)}};
+}
+
 void add_error(Json& json, const PoseError& error) {
   json["translation_error_m"] = error.translation_m;
   json["rotation_error_deg"] = degrees(error.rotation_rad);
@@ -132,6 +136,7 @@ Json step_json(std::size_t trial, const StepRecord& record, int most_clusters) {
   for (const Evidence& e : step.verdict.evidence) json["evidence"][e.name] = e.value;
   json["local_from_robot"] = to_json(step.local_from_robot, step.motion);
   if (const auto estimate = step.estimate()) json["estimate"] = to_json(*estimate, step.motion);
+  if (record.place) json["place"] = to_json(*record.place, step.motion);
   if (record.reference) {
     json["reference"] = to_json(*record.reference, step.motion);
     json["on_map"] = record.on_map;
@@ -148,6 +153,7 @@ std::string step_line(std::size_t trial, const StepRecord& record, int most_clus
 Json start_json(const TrialRecord& trial) {
   Json start = {{"sample", trial.start_sample}, {"distance_m", trial.start_m}, {"stamp", trial.start_stamp}};
   if (trial.start_reference) start["reference"] = to_json(*trial.start_reference, trial.motion);
+  if (!trial.start_map.empty()) start["map"] = trial.start_map;
   return start;
 }
 
@@ -158,6 +164,7 @@ std::string trial_line(const TrialRecord& trial) {
                {"steps", trial.steps},
                {"distance_m", trial.distance_m}};
   if (trial.pose) json["pose"] = to_json(*trial.pose, trial.motion);
+  if (trial.place) json["place"] = to_json(*trial.place, trial.motion);
   if (trial.error) add_error(json, *trial.error);
   if (trial.estimate) add_estimate(json, *trial.estimate, trial.nees);
   if (trial.verification && trial.verification->certificate)

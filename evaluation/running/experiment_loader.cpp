@@ -1,6 +1,7 @@
 #include "evaluation/running/experiment_loader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -58,6 +59,42 @@ std::string localizer_yaml(const Experiment& experiment, const Catalog& catalog)
   return effective_yaml(stages, catalog);
 }
 
+/// A reference pose on one of several maps goes to the common frame of these. One that does not say on which
+/// it is goes: an error that nobody can tell is none.
+void bring_to_common_frame(Drive& drive, const GlobalMap& map, const Warn& warn) {
+  bool is_any_left_out = false;
+  for (Sample& sample : drive.samples) {
+    if (!sample.map_from_robot || (map.parts().empty() && sample.map.empty())) continue;
+    if (sample.map.empty()) {
+      sample.map_from_robot.reset();
+      is_any_left_out = true;
+      continue;
+    }
+    const auto part = std::find_if(map.parts().begin(), map.parts().end(),
+                                   [&](const MapPart& p) { return p.name == sample.map; });
+    if (part == map.parts().end()) {
+      std::vector<std::string> names;
+      for (const MapPart& p : map.parts()) names.push_back(p.name);
+      throw ConfigError(
+          {{"", 0, 0,
+            fmt::format("observations: reference poses are on a map '{}', and there is {}; name one that is "
+                        "there",
+                        sample.map,
+                        names.empty() ? "only one map" : fmt::format("only {}", fmt::join(names, ", ")))}});
+    }
+    sample.map_from_robot = part->common_from_part * *sample.map_from_robot;
+  }
+  if (is_any_left_out)
+    warn(
+        "reference poses do not say which of the maps they are on: they are left out (the observation source "
+        "'several' says it)");
+}
+
+bool has_maps(const Drive& drive) {
+  return std::any_of(drive.samples.begin(), drive.samples.end(),
+                     [](const Sample& sample) { return !sample.map.empty(); });
+}
+
 SourceSetup source_setup(std::set<std::filesystem::path>& inputs, const Warn& warn,
                          const TellProgress& progress) {
   return {.warn = warn,
@@ -106,19 +143,21 @@ LoadedExperiment& ExperimentLoader::load(const Experiment& experiment) {
   std::string map = map_yaml(experiment, catalog_);
   std::string drive = drive_yaml(experiment, catalog_);
   std::string localizer = localizer_yaml(experiment, catalog_);
-  const bool are_new = map != map_ || drive != drive_;
-  if (map != map_) {
+  const bool is_new_map = map != map_;
+  // References on one of several maps lie where these do.
+  const bool is_new_drive = drive != drive_ || (is_new_map && has_maps(loaded_.drive));
+  if (is_new_map) {
     load_map(experiment);
   } else if (localizer != localizer_) {
     loaded_.map = std::make_shared<const GlobalMap>(loaded_.map->data());
   }
   map_ = std::move(map);
   localizer_ = std::move(localizer);
-  if (drive != drive_) load_drive(experiment);
+  if (is_new_drive) load_drive(experiment);
   drive_ = std::move(drive);
   loaded_.inputs = map_inputs_;
   loaded_.inputs.insert(drive_inputs_.begin(), drive_inputs_.end());
-  if (are_new) {
+  if (is_new_map || is_new_drive) {
     const double epsilon = contact_epsilon_on(*loaded_.map, experiment.localizer);
     if (const auto doubt = doubt_of_references(loaded_.drive, *loaded_.map, epsilon)) warn_(*doubt);
   }
@@ -141,6 +180,7 @@ void ExperimentLoader::load_drive(const Experiment& experiment) {
   drive_.clear();
   drive_inputs_.clear();
   loaded_.drive = glocal::load_drive(experiment, catalog_, source_setup(drive_inputs_, warn_, progress_));
+  bring_to_common_frame(loaded_.drive, *loaded_.map, warn_);
 }
 
 Localizer make_localizer(const Experiment& experiment, const Catalog& catalog, LoadedExperiment& loaded) {

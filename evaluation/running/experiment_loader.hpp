@@ -35,7 +35,8 @@ struct LoadedExperiment {
 [[nodiscard]] MapData load_map(const Experiment& experiment, const Catalog& catalog, SourceSetup setup);
 [[nodiscard]] Drive load_drive(const Experiment& experiment, const Catalog& catalog, SourceSetup setup);
 
-/// Loads map and drive and finds the starts. Throws ConfigError.
+/// Loads map and drive, brings reference poses on one of several maps to the common frame of these, and finds
+/// the starts. Throws ConfigError.
 [[nodiscard]] LoadedExperiment load_experiment(
     const Experiment& experiment, const Catalog& catalog, const Warn& warn,
     const TellProgress& progress = [](double) {});

@@ -17,6 +17,8 @@ StepRecord make_record(StepResult result, const Sample& sample, const GlobalMap&
   record.result = std::move(result);
   record.result.hypotheses = {};
   record.reference = sample.map_from_robot;
+  if (const auto estimate = record.result.estimate(); estimate && !map.parts().empty())
+    record.place = map.place_of(*estimate);
   if (record.reference) {
     record.on_map = is_on_map(*record.reference, map);
     if (const auto estimate = record.result.estimate())
@@ -32,6 +34,7 @@ StepRecord make_record(StepResult result, const Sample& sample, const GlobalMap&
 /// Notes the trial's first declaration.
 void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfig& limits) {
   trial.pose = record.result.verdict.map_from_robot;
+  trial.place = record.place;
   if (record.reference) trial.error = pose_error(*trial.pose, *record.reference);
   trial.outcome = judge(trial.error, limits);
   trial.estimate = record.result.verdict.estimate;
@@ -122,6 +125,7 @@ TrialRecord begun_trial(const Drive& drive, Motion motion, std::size_t trial, st
   record.start_stamp = start.observation.stamp;
   record.motion = motion;
   record.start_reference = start.map_from_robot;
+  record.start_map = start.map;
   return record;
 }
 

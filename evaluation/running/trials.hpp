@@ -35,6 +35,7 @@ struct StepRecord {
   std::optional<PoseError> error;  ///< Of the estimate, declared or not.
   std::optional<double> nees;      ///< Normalised error squared of what the verdict rule believes.
   bool on_map = false;             ///< The reference is_on_map().
+  std::optional<MapPlace> place;   ///< Of the estimate, where there are several maps.
 };
 
 struct TrialRecord {
@@ -45,10 +46,12 @@ struct TrialRecord {
   double start_stamp = 0.0;
   Motion motion = Motion::planar;  ///< Says how poses are written.
   std::optional<Pose3> start_reference;
+  std::string start_map;  ///< That the reference is on, where there are several.
   Outcome outcome = Outcome::undecided;
   std::size_t steps = 0;                     ///< Up to the declaration; all of them if there is none.
   double distance_m = 0.0;                   ///< Driven in these steps.
   std::optional<Pose3> pose;                 ///< Declared robot pose.
+  std::optional<MapPlace> place;             ///< The same, where there are several maps.
   std::optional<Pose3> odom_from_robot;      ///< Odometry at the declaration.
   std::optional<PoseError> error;            ///< Of the declared pose.
   std::optional<PoseEstimate> estimate;      ///< Of the rule that declared it, where it has one.

@@ -123,6 +123,9 @@ void bind_sample(py::module_& module) {
       .def_property_readonly(
           "map_from_robot", [](const Bound& s) { return s->map_from_robot; }, "Reference pose, or None.")
       .def_property_readonly(
+          "map", [](const Bound& s) { return s->map; },
+          "Name of the map that map_from_robot is on, in the frame of that map, where there are several.")
+      .def_property_readonly(
           "segment", [](const Bound& s) { return s->segment; },
           "A number that changes where the drive is interrupted; no trial runs across.");
 }

@@ -1,6 +1,7 @@
 #include "sources/live/answers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <utility>
@@ -53,12 +54,20 @@ std::uint8_t level_of(const StepResult& result) {
   return result.verdict.kind == VerdictKind::localized ? 0 : 1;
 }
 
-std::string diagnostics_message(const StepResult& result, const Header& header, std::size_t passed_over) {
+std::string diagnostics_message(const StepResult& result, const GlobalMap& map, const Header& header,
+                                std::size_t passed_over) {
   std::vector<std::pair<std::string, std::string>> values = {{"verdict", to_string(result.verdict.kind)},
                                                              {"step", fmt::format("{}", result.step)},
                                                              {"passed_over", fmt::format("{}", passed_over)}};
   if (result.verdict.estimate)
     values.emplace_back("confidence", fmt::format("{:.4f}", result.verdict.estimate->confidence));
+  if (const auto best = result.estimate(); best && !map.parts().empty())
+    values.emplace_back("map", map.place_of(*best).map);
+  if (!map.parts().empty()) {
+    std::vector<std::string> maps;
+    for (const Pose3& pose : result.verdict.candidates) maps.push_back(map.place_of(pose).map);
+    values.emplace_back("candidates_on", fmt::format("{}", fmt::join(maps, ", ")));
+  }
   for (const Evidence& evidence : result.verdict.evidence)
     values.emplace_back(evidence.name, fmt::format("{:.4f}", evidence.value));
   CdrWriter writer;
@@ -72,20 +81,23 @@ std::string diagnostics_message(const StepResult& result, const Header& header, 
 
 void Answers::tell(const StepResult& result, std::int64_t stamp_ns, const Pose3& odom_from_robot,
                    std::size_t passed_over) {
+  const auto on_its_map = [&](const Pose3& pose) { return map_.place_of(pose).map_from_robot; };
   const Header header{stamp_ns, frames_.map};
   const char* const pose_type = "geometry_msgs/PoseWithCovarianceStamped";
   const bool is_declared = result.verdict.kind == VerdictKind::localized;
   if (const auto best = result.estimate())
-    publish("/glocal/pose", pose_type, pose_message(header, *best, result.verdict.estimate));
+    publish("/glocal/pose", pose_type, pose_message(header, on_its_map(*best), result.verdict.estimate));
   if (is_declared && !is_declared_)
     publish("/initialpose", pose_type,
-            pose_message(header, *result.verdict.map_from_robot, result.verdict.estimate));
+            pose_message(header, on_its_map(*result.verdict.map_from_robot), result.verdict.estimate));
   is_declared_ = is_declared;
-  publish("/glocal/candidates", "geometry_msgs/PoseArray", poses_message(header, result.verdict.candidates));
+  std::vector<Pose3> candidates;
+  for (const Pose3& pose : result.verdict.candidates) candidates.push_back(on_its_map(pose));
+  publish("/glocal/candidates", "geometry_msgs/PoseArray", poses_message(header, candidates));
   publish("/diagnostics", "diagnostic_msgs/DiagnosticArray",
-          diagnostics_message(result, header, passed_over));
+          diagnostics_message(result, map_, header, passed_over));
   if (!frames_.publishes_tf || !is_declared) return;
-  const Pose3 map_from_odom = *result.verdict.map_from_robot * inverse(odom_from_robot);
+  const Pose3 map_from_odom = on_its_map(*result.verdict.map_from_robot) * inverse(odom_from_robot);
   publish("/tf", "tf2_msgs/TFMessage",
           bags::serialized(std::vector{bags::FrameTransform{header, frames_.odom, map_from_odom}}));
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "glocal/global_map.hpp"
 #include "glocal/message_link.hpp"
 #include "glocal/step_result.hpp"
 
@@ -16,6 +17,7 @@ namespace glocal::live {
 /// - `/glocal/candidates` (PoseArray): poses among which nothing decides yet;
 /// - `/diagnostics` (DiagnosticArray): verdict, confidence, margin and reason;
 /// - `/tf`, if asked for: map to odom while a pose is declared.
+/// Of several maps each pose is in the frame of the one it is on; the diagnostics say on which that is.
 class Answers {
  public:
   struct Frames {
@@ -24,9 +26,9 @@ class Answers {
     bool publishes_tf = false;  ///< Somebody else may own map to odom (REP 105).
   };
 
-  /// `link` must outlive this.
-  Answers(MessageLink& link, std::string name_space, Frames frames)
-      : link_(link), name_space_(std::move(name_space)), frames_(std::move(frames)) {}
+  /// `link` and `map` must outlive this.
+  Answers(MessageLink& link, const GlobalMap& map, std::string name_space, Frames frames)
+      : link_(link), map_(map), name_space_(std::move(name_space)), frames_(std::move(frames)) {}
 
   /// A step made of the observation at this stamp, and how many observations were passed over so far.
   void tell(const StepResult& result, std::int64_t stamp_ns, const Pose3& odom_from_robot,
@@ -36,6 +38,7 @@ class Answers {
   void publish(const std::string& topic, const std::string& type, const std::string& bytes);
 
   MessageLink& link_;
+  const GlobalMap& map_;
   std::string name_space_;
   Frames frames_;
   bool is_declared_ = false;

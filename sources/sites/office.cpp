@@ -19,10 +19,15 @@ void describe_office(ParamVisitor& v, OfficeParams& p) {
       "number", p.number,
       {.doc = "Which of the offices of this size: fixes rooms, furniture and way. Map and drive must name "
               "the same."});
+  v.field(
+      "furniture", p.furniture,
+      {.doc = "Another furniture in the same rooms, as on another floor; 0 is that of the number. Map and "
+              "drive must name the same."});
 }
 
 simulation::World office_of(const OfficeParams& p) {
-  return office_site(p.side, p.length.value_or(usual_length(p.side)), p.number);
+  return office_site(p.side, p.length.value_or(usual_length(p.side)), p.number,
+                     p.furniture == 0 ? p.number : p.furniture);
 }
 
 }  // namespace

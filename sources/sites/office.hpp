@@ -16,6 +16,7 @@ struct OfficeParams {
   double side = 50.0;
   std::optional<double> length;
   std::uint64_t number = 1;
+  std::uint64_t furniture = 0;  ///< 0: as the number.
 };
 
 /// How the robot drives and measures there.

@@ -30,6 +30,8 @@
 #include "sources/live/live_map.hpp"
 #include "sources/live/recording_link.hpp"
 #include "sources/ros_map/ros_map.hpp"
+#include "sources/several/several_drives.hpp"
+#include "sources/several/several_maps.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/random_scans.hpp"
 #include "sources/simulation/simulation.hpp"
@@ -77,6 +79,14 @@ class Contract : public ::testing::Test {
       p.source = catalog_.map_sources.choose("ros_map");
       fillers_.at("map_source/ros_map")(*p.source.params);
       p.by = {{{"brought", 3, {}}}};
+    });
+    fill<several::SeveralMaps::Params>("map_source/several", [&](auto& p) {
+      p.maps = {{p.sources, "ground", p.sources->choose("ros_map")}};
+      fillers_.at("map_source/ros_map")(*p.maps[0].source.params);
+    });
+    fill<several::SeveralDrives::Params>("observation_source/several", [&](auto& p) {
+      p.drives = {{p.sources, "ground", p.sources->choose("carmen_log")}};
+      fillers_.at("observation_source/carmen_log")(*p.drives[0].source.params);
     });
     fill<carmen::LogParams>("observation_source/carmen_log", [&](auto& p) { p.path = log_; });
     fill<simulation::RandomScans::Params>("observation_source/random_scans", [&](auto& p) {

@@ -18,6 +18,20 @@
 
 namespace glocal {
 
+/// One of several maps that lie side by side along x in a common frame, too far apart for one scan to reach
+/// two of them.
+struct MapPart {
+  std::string name;
+  Pose3 common_from_part;  ///< Of the frame that it would have if it were alone.
+  double from_x = 0.0;     ///< m, in the common frame: all from here on is on it, up to where the next begins.
+};
+
+/// Where a robot is, said with the map that it is on.
+struct MapPlace {
+  std::string map;       ///< Empty where there is only one.
+  Pose3 map_from_robot;  ///< In the frame of that map.
+};
+
 /// What a MapSource delivers. Where the map lies far from the origin of its frame, all places are held
 /// relative to an `origin` near them, as single precision is coarse far away.
 struct MapData {
@@ -31,6 +45,8 @@ struct MapData {
   FreeVoxels free_voxels = {};
   /// m, in the map's frame: what is to be added to places of points, grid, path and voxels.
   Vector3 origin = Vector3::Zero();
+  /// If these are several maps: all of them, in the order of their `from_x`.
+  std::vector<MapPart> parts = {};
 };
 
 /// The origin of a map that has this place (m): along each axis 0 where that is up to 1 km, and beyond it the
@@ -53,6 +69,9 @@ class GlobalMap {
   [[nodiscard]] Pose3 relative(const Pose3& map_from_robot) const {
     return shifted(map_from_robot, -data_.origin);
   }
+  [[nodiscard]] const std::vector<MapPart>& parts() const { return data_.parts; }
+  /// Which of the maps the pose (in the common frame) lies on, and where there.
+  [[nodiscard]] MapPlace place_of(const Pose3& map_from_robot) const;
   /// m; the side of the grid's cells, or else as the source says; 0 if not known.
   [[nodiscard]] double resolution() const {
     return data_.grid.resolution > 0.0 ? data_.grid.resolution : data_.resolution;

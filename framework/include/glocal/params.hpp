@@ -164,20 +164,21 @@ class ParamVisitor {
     group(name, ref, info);
   }
 
-  /// A list of structs.
+  /// A list of structs; those that are read begin as copies of `fresh`.
   template <Described T>
-  void field(std::string_view name, std::vector<T>& values, const FieldInfo& info) {
+  void field(std::string_view name, std::vector<T>& values, const FieldInfo& info, const T& fresh = {}) {
     struct Ref final : AnyList {
-      explicit Ref(std::vector<T>& v) : target(&v) {}
+      Ref(std::vector<T>& v, const T& begin) : target(&v), fresh_item(begin) {}
       std::size_t size() const override { return target->size(); }
-      void resize(std::size_t n) override { target->resize(n); }
+      void resize(std::size_t n) override { target->resize(n, fresh_item); }
       void visit(std::size_t i, ParamVisitor& visitor) override { describe(visitor, (*target)[i]); }
       void visit_default(ParamVisitor& visitor) override {
-        T item{};
+        T item = fresh_item;
         describe(visitor, item);
       }
       std::vector<T>* target;
-    } ref(values);
+      const T& fresh_item;
+    } ref(values, fresh);
     list(name, ref, info);
   }
 

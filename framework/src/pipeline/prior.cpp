@@ -120,6 +120,8 @@ std::string to_string(const Prior& prior) {
 std::optional<std::string> why_nowhere(const Prior& prior, const GlobalMap& map) {
   constexpr double reach = 100.0;  // m
   if (!prior.region.is_given()) return std::nullopt;
+  if (!map.parts().empty())
+    return "a region is on one map, and there are several; leave it out, or take the one map";
   const StartRegion region = shifted(prior, -map.origin()).region;
   const bool has_cells = !map.grid().cells.empty();
   if (has_cells ? has_free_cell(map.grid(), region) : has_point(map.points(), region, reach))

@@ -14,20 +14,6 @@
 namespace glocal::test::experiment_loader_test {
 namespace {
 
-/// Delivers what it is given.
-class GivenMap : public MapSource {
- public:
-  struct Params {
-    MapData map;
-  };
-  explicit GivenMap(Params params) : map_(std::move(params.map)) {}
-  [[nodiscard]] MapData load() override { return map_; }
-
- private:
-  MapData map_;
-};
-void describe(ParamVisitor& /*v*/, GivenMap::Params& /*p*/) {}
-
 class Loading : public testing::Test {
  protected:
   Loading() {

@@ -138,6 +138,20 @@ struct FakeVerifier final : Fake<Verifier> {
 };
 
 /// Delivers what it is given.
+class GivenMap : public MapSource {
+ public:
+  struct Params {
+    MapData map;
+  };
+  explicit GivenMap(Params params) : map_(std::move(params.map)) {}
+  [[nodiscard]] MapData load() override { return map_; }
+
+ private:
+  MapData map_;
+};
+inline void describe(ParamVisitor& /*v*/, GivenMap::Params& /*p*/) {}
+
+/// Delivers what it is given.
 class ListedSamples : public ObservationSource {
  public:
   struct Params {

@@ -25,6 +25,25 @@ constexpr std::int64_t stamp = 3'000'000'004;
 
 class Published : public testing::Test {
  protected:
+  /// Of the first and only item.
+  std::map<std::string, std::string> diagnostics() const {
+    std::map<std::string, std::string> values;
+    read("/diagnostics", [&](const RecordedMessage& message) {
+      MessageReader reader(message);
+      reader.skip(8);  // The stamp.
+      EXPECT_EQ(reader.text(), "map");
+      ASSERT_EQ(reader.count(1), 1U);
+      EXPECT_EQ(reader.number<std::uint8_t>(), 0) << "ok";
+      EXPECT_EQ(reader.text(), "glocal: localization");
+      EXPECT_EQ(reader.text(), "sure");
+      EXPECT_EQ(reader.text(), "glocal");
+      for (std::size_t n = reader.count(1); n > 0; --n) {
+        const std::string key(reader.text());
+        values[key] = reader.text();
+      }
+    });
+    return values;
+  }
   void tell(const StepResult& result, Answers& answers) {
     link_.published.clear();
     answers.tell(result, stamp, Pose2{1.0, 0.0, 0.0}, 7);
@@ -53,10 +72,11 @@ class Published : public testing::Test {
   }
 
   FakeLink link_;
+  GlobalMap map_{{}};
 };
 
 TEST_F(Published, APoseOnceItIsDeclaredAndTheBestOneAlways) {
-  Answers answers(link_, "/robot", {});
+  Answers answers(link_, map_, "/robot", {});
   StepResult searching;
   searching.verdict.candidates = {Pose2{1.0, 0.0, 0.0}, Pose2{2.0, 0.0, 0.0}};
   tell(searching, answers);
@@ -72,7 +92,7 @@ TEST_F(Published, APoseOnceItIsDeclaredAndTheBestOneAlways) {
 }
 
 TEST_F(Published, PoseAndCovarianceAreThoseOfTheMessage) {
-  Answers answers(link_, "", {.map = "plan"});
+  Answers answers(link_, map_, "", {.map = "plan"});
   tell(declared(), answers);
   read("/initialpose", [](const RecordedMessage& message) {
     const auto pose = glocal::bags::read_pose(message);
@@ -92,31 +112,40 @@ TEST_F(Published, PoseAndCovarianceAreThoseOfTheMessage) {
 }
 
 TEST_F(Published, DiagnosticsSayTheVerdictAndWhatItRestsOn) {
-  Answers answers(link_, "", {});
+  Answers answers(link_, map_, "", {});
   tell(declared(), answers);
-  read("/diagnostics", [](const RecordedMessage& message) {
-    MessageReader reader(message);
-    reader.skip(8);  // The stamp.
-    EXPECT_EQ(reader.text(), "map");
-    ASSERT_EQ(reader.count(1), 1U);
-    EXPECT_EQ(reader.number<std::uint8_t>(), 0) << "ok";
-    EXPECT_EQ(reader.text(), "glocal: localization");
-    EXPECT_EQ(reader.text(), "sure");
-    EXPECT_EQ(reader.text(), "glocal");
-    std::map<std::string, std::string> values;
-    for (std::size_t n = reader.count(1); n > 0; --n) {
-      const std::string key(reader.text());
-      values[key] = reader.text();
-    }
-    EXPECT_THAT(values, Contains(Pair("verdict", "localized")));
-    EXPECT_THAT(values, Contains(Pair("confidence", "0.9800")));
-    EXPECT_THAT(values, Contains(Pair("margin", "0.2500")));
-    EXPECT_THAT(values, Contains(Pair("passed_over", "7")));
+  const auto values = diagnostics();
+  EXPECT_THAT(values, Contains(Pair("verdict", "localized")));
+  EXPECT_THAT(values, Contains(Pair("confidence", "0.9800")));
+  EXPECT_THAT(values, Contains(Pair("margin", "0.2500")));
+  EXPECT_THAT(values, Contains(Pair("passed_over", "7")));
+}
+
+TEST_F(Published, OfSeveralMapsEachPoseIsInTheFrameOfItsOwn) {
+  MapData data;
+  data.parts = {{"ground", {}, 0.0}, {"first", Pose2{100.0, 50.0, 0.0}, 90.0}};
+  const GlobalMap map(std::move(data));
+  Answers answers(link_, map, "", {.publishes_tf = true});
+  StepResult result = declared();
+  result.verdict.map_from_robot = result.verdict.estimate->map_from_robot = Pose2{104.0, 55.0, 0.5};
+  result.verdict.candidates = {Pose2{1.0, 2.0, 0.0}, Pose2{101.0, 52.0, 0.0}};
+  tell(result, answers);
+  for (const char* topic : {"/initialpose", "/glocal/pose"}) {
+    read(topic, [](const RecordedMessage& message) {
+      const auto pose = glocal::bags::read_pose(message);
+      EXPECT_NEAR(pose.pose.x, 4.0, 1e-12);
+      EXPECT_NEAR(pose.pose.y, 5.0, 1e-12);
+    });
+  }
+  read("/tf", [](const RecordedMessage& message) {
+    EXPECT_NEAR(glocal::bags::read_transforms(message)[0].parent_from_child.x, 4.0 - std::cos(0.5), 1e-12);
   });
+  EXPECT_THAT(diagnostics(), Contains(Pair("map", "first")));
+  EXPECT_THAT(diagnostics(), Contains(Pair("candidates_on", "ground, first")));
 }
 
 TEST_F(Published, MapToOdomIfAskedFor) {
-  Answers answers(link_, "", {.publishes_tf = true});
+  Answers answers(link_, map_, "", {.publishes_tf = true});
   tell(declared(), answers);
   read("/tf", [](const RecordedMessage& message) {
     const auto transforms = glocal::bags::read_transforms(message);
