@@ -3,11 +3,13 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
@@ -23,7 +25,8 @@
 #include "sources/bags/scan_placer.hpp"
 #include "sources/live/answers.hpp"
 #include "sources/live/live_drive.hpp"
-#include "sources/live/recorded_link.hpp"
+#include "sources/live/live_recorder.hpp"
+#include "sources/live/tapped_link.hpp"
 
 namespace glocal::app {
 namespace {
@@ -92,7 +95,11 @@ class LiveLocalizer {
                                                      const Catalog& catalog) const {
     std::shared_ptr<MessageLink> link = catalog.message_links.make(params().link, setup(experiment_));
     if (options.record.empty()) return link;
-    return std::make_shared<live::RecordedLink>(std::move(link), options.record);
+    const auto recorder = std::make_shared<live::LiveRecorder>(options.record);
+    return std::make_shared<live::TappedLink>(
+        std::move(link), [recorder](const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes) {
+          recorder->write(topic, stamp_ns, bytes);
+        });
   }
 
   [[nodiscard]] live::Answers::Frames frames(const LiveOptions& options) const {
