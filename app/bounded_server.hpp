@@ -11,15 +11,9 @@
 #include <mutex>
 #include <vector>
 
-namespace glocal::app {
+#include "app/connection_limits.hpp"
 
-struct ConnectionLimits {
-  std::size_t connections = 64;               ///< At once.
-  std::size_t request_bytes = 16'384;         ///< Request line and headers. Bodies are not read.
-  std::chrono::milliseconds to_ask{2000};     ///< From the connection to the last byte of its request.
-  std::chrono::milliseconds to_take{30'000};  ///< For the client to take its answer.
-  std::chrono::milliseconds grace{300};       ///< For answers under way when the server ends.
-};
+namespace glocal::app {
 
 /// The connections that are open. A new one takes the place of the one that has been silent for longest.
 class Connections {

@@ -3,16 +3,21 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/foxglove_server.hpp"
 #include "app/interrupts.hpp"
 #include "app/live_state.hpp"
+#include "app/live_viewers.hpp"
 #include "app/localize_plan.hpp"
 #include "app/standard_streams.hpp"
 #include "app/step_text.hpp"
@@ -23,7 +28,8 @@
 #include "sources/bags/scan_placer.hpp"
 #include "sources/live/answers.hpp"
 #include "sources/live/live_drive.hpp"
-#include "sources/live/recorded_link.hpp"
+#include "sources/live/live_recorder.hpp"
+#include "sources/live/tapped_link.hpp"
 
 namespace glocal::app {
 namespace {
@@ -32,17 +38,21 @@ struct LiveOptions {
   LiveRequest request;
   ExperimentOptions changes;
   std::string out, record, state;
-  bool publishes_tf = false, force = false;
+  bool publishes_tf = false, force = false, has_viewers = false;
+  std::string address = "127.0.0.1";
+  int port = 8765;
 };
 
 /// Localizes a robot as its observations come, for ever, and tells what it finds.
 class LiveLocalizer {
  public:
-  LiveLocalizer(const Experiment& experiment, const LiveOptions& options, const Context& context)
+  /// `viewers` may be none.
+  LiveLocalizer(const Experiment& experiment, const LiveOptions& options, const Context& context,
+                FoxgloveServer* viewers)
       : experiment_(experiment),
         loaded_(loaded(experiment, context.catalog)),
         localizer_(make_localizer(experiment, context.catalog, loaded_)),
-        link_(link_of(options, context.catalog)),
+        link_(link_of(options, context.catalog, viewers)),
         drive_(params().topics, setup(experiment), link_,
                [this](const LiveMessage& message) {
                  is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
@@ -88,16 +98,35 @@ class LiveLocalizer {
     return dynamic_cast<const ParamsOf<live::LiveDrive::Params>&>(*experiment_.observations.params).value;
   }
 
-  [[nodiscard]] std::shared_ptr<MessageLink> link_of(const LiveOptions& options,
-                                                     const Catalog& catalog) const {
+  [[nodiscard]] std::shared_ptr<MessageLink> link_of(const LiveOptions& options, const Catalog& catalog,
+                                                     FoxgloveServer* viewers) const {
     std::shared_ptr<MessageLink> link = catalog.message_links.make(params().link, setup(experiment_));
-    if (options.record.empty()) return link;
-    return std::make_shared<live::RecordedLink>(std::move(link), options.record);
+    if (!options.record.empty()) {
+      const auto recorder = std::make_shared<live::LiveRecorder>(options.record);
+      link = std::make_shared<live::TappedLink>(
+          std::move(link), [recorder](const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes) {
+            recorder->write(topic, stamp_ns, bytes);
+          });
+    }
+    if (viewers == nullptr) return link;
+    const std::string& name_space = params().topics.name_space;
+    const auto shown = std::make_shared<LiveViewers>(*viewers, loaded_.map, name_space + "/map",
+                                                     live::Answers::Frames().map);
+    // Somebody else may own map to odom, but viewers need it to see the scan on the map.
+    std::set<std::string> for_viewers_alone;
+    if (!options.publishes_tf) for_viewers_alone.insert(name_space + "/tf");
+    return std::make_shared<live::TappedLink>(
+        std::move(link),
+        [shown](const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes) {
+          shown->show(topic, stamp_ns, bytes);
+        },
+        std::move(for_viewers_alone));
   }
 
   [[nodiscard]] live::Answers::Frames frames(const LiveOptions& options) const {
     const std::string& odom = params().topics.odom_frame;
-    return {.odom = odom.empty() ? "odom" : odom, .publishes_tf = options.publishes_tf};
+    return {.odom = odom.empty() ? "odom" : odom,
+            .publishes_tf = options.publishes_tf || options.has_viewers};
   }
 
   [[nodiscard]] LiveTopic begin() const {
@@ -196,15 +225,18 @@ class LiveLocalizer {
 
 void live(const LiveOptions& options, Context& context) {
   const LocalizePlan plan = plan_live(options.request, context.catalog);
+  std::optional<FoxgloveServer> viewers;
+  if (options.has_viewers) viewers.emplace(options.address, options.port);
   const std::string file = options.out + ".yaml";
   AtomicFiles files(options.force);
   files.add(file, plan.experiment);
   files.commit();
   for (const std::string& choice : plan.choices) answer("{}\n", choice);
   answer("experiment  {}\n", file);
+  if (viewers) spdlog::info("foxglove: ws://{}", viewers->endpoint());
   listen_to_interrupts();
   const Experiment experiment = options.changes.read(file, context);
-  LiveLocalizer(experiment, options, context).run();
+  LiveLocalizer(experiment, options, context, viewers ? &*viewers : nullptr).run();
 }
 
 }  // namespace
@@ -241,6 +273,18 @@ void add_live(CLI::App& app, Context& context) {
       "--state", options->state,
       "Keep the last pose in this file; when the robot is switched on, it is the first candidate");
   command->add_flag("--tf", options->publishes_tf, "Send map to odom, too, while a pose is declared");
+  CLI::Option* foxglove = command->add_flag(
+      "--foxglove", options->has_viewers,
+      "Show what comes and is told, and the map, to viewers: Foxglove or Lichtblick, by WebSocket");
+  command->add_option("--port", options->port, "Of viewers; 0: any that is free")
+      ->needs(foxglove)
+      ->check((CLI::IsMember({"0"}) | CLI::Range(1024, 65535)).description(""))
+      ->capture_default_str();
+  command
+      ->add_option("--address", options->address,
+                   "Where viewers connect; 0.0.0.0 lets in those on other machines, who need no password")
+      ->needs(foxglove)
+      ->capture_default_str();
   options->changes.add_overrides_to(*command);
   options->out = "results/live";
   command->add_option("-o,--out", options->out, "Where the experiment and the steps go")

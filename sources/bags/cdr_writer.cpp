@@ -150,6 +150,15 @@ std::string serialized(const std::vector<FrameTransform>& transforms) {
   return writer.message();
 }
 
+std::string serialized(const GridMessage& grid) {
+  CdrWriter writer;
+  writer.header(grid.header).number<std::int32_t>(0).number<std::uint32_t>(0);  // Time of loading.
+  writer.number(static_cast<float>(grid.resolution)).number(grid.width).number(grid.height);
+  return writer.rigid_motion(grid.frame_from_grid)
+      .bytes(std::string(grid.cells.begin(), grid.cells.end()))
+      .message();
+}
+
 std::string serialized(const StampedFramePose& pose) {
   return CdrWriter().header(pose.header).rigid_motion(pose.pose).message();
 }

@@ -45,6 +45,8 @@ class CdrWriter {
 /// A cloud of x, y, z and, if they are known, times (s), all float32.
 [[nodiscard]] std::string serialized(const PointCloud& cloud);
 [[nodiscard]] std::string serialized(const std::vector<FrameTransform>& transforms);
+/// Nothing is said of when it was loaded.
+[[nodiscard]] std::string serialized(const GridMessage& grid);
 /// geometry_msgs/PoseStamped; the covariance is left out.
 [[nodiscard]] std::string serialized(const StampedFramePose& pose);
 

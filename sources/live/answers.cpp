@@ -81,25 +81,27 @@ std::string diagnostics_message(const StepResult& result, const GlobalMap& map, 
 
 void Answers::tell(const StepResult& result, std::int64_t stamp_ns, const Pose3& odom_from_robot,
                    std::size_t passed_over) {
-  const auto on_its_map = [&](const Pose3& pose) { return map_.place_of(pose).map_from_robot; };
-  const Header header{stamp_ns, frames_.map};
-  const char* const pose_type = "geometry_msgs/PoseWithCovarianceStamped";
+  const auto header = [&](const MapPlace& place) {
+    return Header{stamp_ns, place.map.empty() ? frames_.map : place.map};
+  };
+  const auto publish_pose = [&](const std::string& topic, const Pose3& pose) {
+    const MapPlace place = map_.place_of(pose);
+    publish(topic, "geometry_msgs/PoseWithCovarianceStamped",
+            pose_message(header(place), place.map_from_robot, result.verdict.estimate));
+  };
+  const Header common{stamp_ns, frames_.map};
   const bool is_declared = result.verdict.kind == VerdictKind::localized;
-  if (const auto best = result.estimate())
-    publish("/glocal/pose", pose_type, pose_message(header, on_its_map(*best), result.verdict.estimate));
-  if (is_declared && !is_declared_)
-    publish("/initialpose", pose_type,
-            pose_message(header, on_its_map(*result.verdict.map_from_robot), result.verdict.estimate));
+  if (const auto best = result.estimate()) publish_pose("/glocal/pose", *best);
+  if (is_declared && !is_declared_) publish_pose("/initialpose", *result.verdict.map_from_robot);
   is_declared_ = is_declared;
-  std::vector<Pose3> candidates;
-  for (const Pose3& pose : result.verdict.candidates) candidates.push_back(on_its_map(pose));
-  publish("/glocal/candidates", "geometry_msgs/PoseArray", poses_message(header, candidates));
+  publish("/glocal/candidates", "geometry_msgs/PoseArray", poses_message(common, result.verdict.candidates));
   publish("/diagnostics", "diagnostic_msgs/DiagnosticArray",
-          diagnostics_message(result, map_, header, passed_over));
+          diagnostics_message(result, map_, common, passed_over));
   if (!frames_.publishes_tf || !is_declared) return;
-  const Pose3 map_from_odom = on_its_map(*result.verdict.map_from_robot) * inverse(odom_from_robot);
+  const MapPlace place = map_.place_of(*result.verdict.map_from_robot);
+  const Pose3 map_from_odom = place.map_from_robot * inverse(odom_from_robot);
   publish("/tf", "tf2_msgs/TFMessage",
-          bags::serialized(std::vector{bags::FrameTransform{header, frames_.odom, map_from_odom}}));
+          bags::serialized(std::vector{bags::FrameTransform{header(place), frames_.odom, map_from_odom}}));
 }
 
 void Answers::publish(const std::string& topic, const std::string& type, const std::string& bytes) {

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "glocal/error.hpp"
 #include "glocal/words.hpp"
 #include "sources/bags/bag_map.hpp"
+#include "sources/bags/cdr_writer.hpp"
 
 namespace glocal::live {
 namespace {
@@ -49,6 +52,13 @@ MapData map_in(const LiveMessage& message) {
   return bags::map_of(grid, robot, message.topic.name);
 }
 
+/// Probability of being occupied; -1 is unknown.
+std::int8_t percent_of(Cell cell) {
+  constexpr std::int8_t unknown = -1, occupied = 100;
+  if (cell == Cell::unknown) return unknown;
+  return cell == Cell::occupied ? occupied : std::int8_t{0};
+}
+
 }  // namespace
 
 void describe(ParamVisitor& v, LiveMap::Params& p) {
@@ -77,6 +87,24 @@ MapData live_map(MessageLink& link, std::string topic, const std::function<bool(
     if (!message && link.has_ended()) break;
   }
   fail_without_map(link, topic);
+}
+
+LiveMessage map_message(const MapData& map, std::string topic, const bags::Header& header) {
+  if (map.grid.cells.empty()) {
+    bags::PointCloud cloud{header, {}, {}};
+    cloud.points.reserve(map.points.size());
+    for (std::size_t i = 0; i < map.points.size(); ++i)
+      cloud.points.push_back(as_point(as_vector(map.points[i]) + map.origin));
+    return {{std::move(topic), "sensor_msgs/PointCloud2"}, header.stamp_ns, bags::serialized(cloud)};
+  }
+  bags::GridMessage grid{header,
+                         map.grid.resolution,
+                         static_cast<std::uint32_t>(map.grid.width),
+                         static_cast<std::uint32_t>(map.grid.height),
+                         shifted(Pose3(map.grid.map_from_grid), map.origin),
+                         {}};
+  std::transform(map.grid.cells.begin(), map.grid.cells.end(), std::back_inserter(grid.cells), percent_of);
+  return {{std::move(topic), grid_type}, header.stamp_ns, bags::serialized(grid)};
 }
 
 }  // namespace glocal::live

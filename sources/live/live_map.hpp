@@ -1,4 +1,4 @@
-// The map that a robot's map server sends.
+// The map that a robot's map server sends, and maps as it would send them.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/message_link.hpp"
 #include "glocal/strategies.hpp"
+#include "sources/bags/messages.hpp"
 
 namespace glocal::live {
 
@@ -34,5 +35,8 @@ void describe(ParamVisitor& v, LiveMap::Params& p);
 /// The same on a link that others use, too; empty: the only topic with a map. Messages of other topics are
 /// passed over.
 [[nodiscard]] MapData live_map(MessageLink& link, std::string topic, const std::function<bool()>& is_stopped);
+
+/// A map as a message: nav_msgs/OccupancyGrid, or sensor_msgs/PointCloud2 of one without cells.
+[[nodiscard]] LiveMessage map_message(const MapData& map, std::string topic, const bags::Header& header);
 
 }  // namespace glocal::live

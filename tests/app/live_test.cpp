@@ -1,5 +1,11 @@
 // glocal live, with a recording in place of a robot.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <httplib.h>
+// A macro of <resolv.h>, which httplib brings, and a name of Eigen's.
+#undef _res
+
+#include <filesystem>
 
 #include "app/result_lines.hpp"
 #include "app/room.hpp"
@@ -93,6 +99,35 @@ TEST_F(Live, KnowsAfterAPowerCycleWhereItWas) {
   const Answer damaged = live("drive.mcap", state);
   EXPECT_EQ(damaged.exit_code, 2);
   EXPECT_THAT(damaged.err, HasSubstr("state.json: error: is cut short"));
+}
+
+TEST_F(Live, WithViewersAnswersAreTheSame) {
+  ASSERT_EQ(live("drive.mcap", "--out " + file("alone") + " --record " + file("alone.mcap")).exit_code, 0);
+  const Answer shown =
+      live("drive.mcap", "--foxglove --port 0 --out " + file("shown") + " --record " + file("shown.mcap"));
+  ASSERT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_THAT(shown.err, HasSubstr("foxglove: ws://127.0.0.1:"));
+  expect_same(comparable(file("shown.steps.jsonl")), comparable(file("alone.steps.jsonl")));
+  // The robot is not told more than without viewers.
+  EXPECT_EQ(content(file("shown.mcap")), content(file("alone.mcap")));
+}
+
+TEST_F(Live, ViewersNeedAPortOfTheirOwn) {
+  httplib::Server other;
+  const int port = other.bind_to_any_port("127.0.0.1");
+  const std::string out = " --out " + file("nothing");
+  const Answer taken = live("drive.mcap", fmt::format("--foxglove --port {}", port) + out);
+  EXPECT_EQ(taken.exit_code, 2);
+  EXPECT_EQ(taken.err,
+            fmt::format("--port={}: error: the port is taken; choose another one, or --port 0 for any "
+                        "that is free\n1 error\n",
+                        port));
+  for (const char* wrong :
+       {"--port 8765", "--address 127.0.0.1", "--foxglove --port 80", "--foxglove --port 65536",
+        "--foxglove --port -1", "--foxglove --port x", "--foxglove --port 0 --address here"})
+    EXPECT_EQ(live("drive.mcap", wrong + out).exit_code, 2) << wrong;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("nothing")));
 }
 
 }  // namespace

@@ -135,10 +135,13 @@ TEST_F(Published, OfSeveralMapsEachPoseIsInTheFrameOfItsOwn) {
       const auto pose = glocal::bags::read_pose(message);
       EXPECT_NEAR(pose.pose.x, 4.0, 1e-12);
       EXPECT_NEAR(pose.pose.y, 5.0, 1e-12);
+      EXPECT_EQ(pose.header.frame, "first");
     });
   }
   read("/tf", [](const RecordedMessage& message) {
-    EXPECT_NEAR(glocal::bags::read_transforms(message)[0].parent_from_child.x, 4.0 - std::cos(0.5), 1e-12);
+    const auto transforms = glocal::bags::read_transforms(message);
+    EXPECT_EQ(transforms[0].header.frame, "first");
+    EXPECT_NEAR(transforms[0].parent_from_child.x, 4.0 - std::cos(0.5), 1e-12);
   });
   EXPECT_THAT(diagnostics(), Contains(Pair("map", "first")));
   EXPECT_THAT(diagnostics(), Contains(Pair("candidates_on", "ground, first")));

@@ -1,4 +1,5 @@
 // Recordings in place of robots, and of them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,14 +8,16 @@
 #include "files.hpp"
 #include "sources/bags/message_writer.hpp"
 #include "sources/live/fake_link.hpp"
-#include "sources/live/recorded_link.hpp"
+#include "sources/live/live_recorder.hpp"
 #include "sources/live/recording_link.hpp"
+#include "sources/live/tapped_link.hpp"
 
 namespace glocal::test::live::links_test {
 namespace {
 
-using glocal::live::RecordedLink;
+using glocal::live::LiveRecorder;
 using glocal::live::RecordingLink;
+using glocal::live::TappedLink;
 using std::chrono::milliseconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -69,7 +72,10 @@ TEST_F(Links, WhatComesAndWhatIsToldIsWrittenDown) {
     const auto robot = std::make_shared<FakeLink>();
     robot->put(tf, 10 * ms, bags::Writer("cdr").number<std::uint32_t>(0).bytes());
     robot->put(scan, 5 * ms, "a scan that was received before");
-    RecordedLink link(robot, file);
+    LiveRecorder recorder(file);
+    TappedLink link(robot, [&](const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes) {
+      recorder.write(topic, stamp_ns, bytes);
+    });
     link.subscribe(tf, Delivery::reliable);
     link.subscribe(scan, Delivery::newest);
     EXPECT_THAT(all_of(link), ElementsAre("/tf", "/scan"));
@@ -80,12 +86,28 @@ TEST_F(Links, WhatComesAndWhatIsToldIsWrittenDown) {
   for (const LiveTopic& topic : again.topics()) again.subscribe(topic, Delivery::reliable);
   EXPECT_THAT(all_of(again), ElementsAre("/tf", "/scan", "/initialpose"))
       << "in the order in which they were taken";
-  EXPECT_THAT(config_error(folder_.path(), [&] { RecordedLink(std::make_shared<FakeLink>(), file); }),
+  EXPECT_THAT(config_error(folder_.path(), [&] { LiveRecorder again_there(file); }),
               HasSubstr("live.mcap: error: is there already"));
-  EXPECT_THAT(
-      config_error(folder_.path(),
-                   [&] { RecordedLink(std::make_shared<FakeLink>(), folder_.path() / "no" / "f.mcap"); }),
-      HasSubstr("cannot be written"));
+  EXPECT_THAT(config_error(folder_.path(), [&] { LiveRecorder nowhere(folder_.path() / "no" / "f.mcap"); }),
+              HasSubstr("cannot be written"));
+}
+
+TEST_F(Links, WhatIsKeptBackReachesTheTapAlone) {
+  const auto robot = std::make_shared<FakeLink>();
+  robot->put(scan, 5 * ms, "a scan");
+  std::vector<std::string> tapped;
+  TappedLink link(robot,
+                  [&](const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes) {
+                    tapped.push_back(fmt::format("{} {} {}", topic.name, stamp_ns / ms, bytes));
+                  },
+                  {"/tf"});
+  link.subscribe(scan, Delivery::newest);
+  all_of(link);
+  link.publish(tf, Delivery::reliable, "map to odom");
+  link.publish(scan, Delivery::newest, "told");
+  EXPECT_THAT(tapped, ElementsAre("/scan 5 a scan", "/tf 5 map to odom", "/scan 5 told"));
+  ASSERT_EQ(robot->published.size(), 1U);
+  EXPECT_EQ(robot->published[0].topic, scan);
 }
 
 }  // namespace

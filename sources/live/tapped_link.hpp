@@ -1,29 +1,29 @@
-// A link whose messages are written down as they come.
+// A link whose messages somebody else gets, too.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <map>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "glocal/message_link.hpp"
-#include "sources/bags/mcap_writer.hpp"
 
 namespace glocal::live {
 
-/// What comes over another link, and what is published on it, goes to an MCAP file, too: replayed, it gives
-/// the same drive.
-class RecordedLink final : public MessageLink {
+/// What comes over another link, and what is published on it, goes to a tap, too.
+class TappedLink final : public MessageLink {
  public:
-  /// Throws ConfigError if the file is there already, or cannot be written.
-  RecordedLink(std::shared_ptr<MessageLink> link, const std::filesystem::path& file);
-  /// Ends the file; what could not be written is lost then.
-  ~RecordedLink() override;
+  /// Gets messages in the order in which they are taken, which need not be that of their receipt on several
+  /// topics: their stamps are made to agree, and never fall.
+  using Tap = std::function<void(const LiveTopic&, std::int64_t stamp_ns, std::string_view bytes)>;
+
+  /// What is published on the topics of these names goes to the tap alone.
+  TappedLink(std::shared_ptr<MessageLink> link, Tap tap, std::set<std::string> kept_back = {});
 
   void subscribe(const LiveTopic& topic, Delivery delivery) override { link_->subscribe(topic, delivery); }
   [[nodiscard]] std::optional<LiveMessage> next(std::chrono::milliseconds longest) override;
@@ -33,13 +33,9 @@ class RecordedLink final : public MessageLink {
   [[nodiscard]] std::vector<LiveTopic> topics() override { return link_->topics(); }
 
  private:
-  void write(const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes);
-
   std::shared_ptr<MessageLink> link_;
-  std::string name_;
-  std::ofstream file_;
-  bags::McapWriter writer_;
-  std::map<std::string, std::uint16_t> channels_;  ///< By topic.
+  Tap tap_;
+  std::set<std::string> kept_back_;
   std::int64_t last_ns_ = 0;
 };
 
