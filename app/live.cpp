@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -58,8 +60,10 @@ class LiveLocalizer {
                  is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
                }),
         answers_(*link_, *loaded_.map, params().topics.name_space, frames(options)),
-        steps_(options.out + ".steps.jsonl", std::ios::binary),
+        steps_file_(options.out + ".steps.jsonl"),
+        steps_(steps_file_, std::ios::binary),
         state_file_(options.state) {
+    if (!steps_) throw RunError(fmt::format("{}: cannot write: {}", steps_file_, std::strerror(errno)));
     link_->subscribe(begin(), Delivery::reliable);
     localizer_.reset(trial_);
     if (state_file_.empty()) return;
@@ -178,6 +182,13 @@ class LiveLocalizer {
     kept_at_ = result.stamp;
   }
 
+  /// A robot needs its place though the disk is full.
+  void write(const std::string& line) {
+    if (!steps_) return;
+    if (!(steps_ << line << std::flush))
+      spdlog::warn("{}: cannot write: {}; steps are not written any more", steps_file_, std::strerror(errno));
+  }
+
   void step(const Sample& sample) {
     const Observation& observation = sample.observation;
     const Pose3 driven = last_ ? inverse(*last_) * observation.odom_from_robot : Pose3{};
@@ -197,7 +208,7 @@ class LiveLocalizer {
     keep(result, driven, is_newly_declared);
     answers_.tell(result, bags::nanoseconds(observation.stamp), observation.odom_from_robot,
                   drive_.passed_over());
-    steps_ << step_line(trial_, record) << std::flush;
+    write(step_line(trial_, record));
     answer("{}\n", text_of(result, *loaded_.map, way_));
     // Numbers in a reason change at each step: it is told when the verdict does.
     if (result.verdict.kind != last_verdict_) answer("          {}\n", result.verdict.why);
@@ -211,6 +222,7 @@ class LiveLocalizer {
   std::shared_ptr<MessageLink> link_;
   live::LiveDrive drive_;
   live::Answers answers_;
+  std::string steps_file_;
   std::ofstream steps_;
   bool is_asked_to_begin_ = false, was_declared_ = false;
   int segment_ = 0;
@@ -256,6 +268,7 @@ void add_live(CLI::App& app, Context& context) {
       command->add_option("--recording", request.recording, "ROS bag or MCAP in place of the robot");
   command->add_flag("--real-time", request.in_real_time, "The recording's messages come at their times")
       ->needs(recording);
+  command->add_flag("--ros2", "The robot's topics, by DDS: as without --recording")->excludes(recording);
   command->add_option("--domain", request.domain, "Domain of DDS (default: ROS_DOMAIN_ID, else 0)")
       ->excludes(recording);
   command->add_option("--scans", request.scans, "Topic with scans (default: the only one)");

@@ -72,6 +72,18 @@ TEST_F(Live, FindsWhatLocalizeFindsOnTheRecording) {
   expect_same(steps, steps_of_localize("drive.mcap"));
 }
 
+TEST_F(Live, GoesOnThoughStepsCannotBeWrittenButDoesNotBeginSo) {
+  std::filesystem::create_symlink("/dev/full", file("live.steps.jsonl"));
+  const Answer full = live("drive.mcap", "--out " + file("live"));
+  EXPECT_EQ(full.exit_code, 0);
+  EXPECT_THAT(full.err, HasSubstr("live.steps.jsonl: cannot write: No space left on device; steps are not"));
+  EXPECT_THAT(full.out, HasSubstr("1 declarations"));
+  std::filesystem::create_directory(file("other.steps.jsonl"));
+  const Answer folder = live("drive.mcap", "--out " + file("other"));
+  EXPECT_EQ(folder.exit_code, 1);
+  EXPECT_THAT(folder.err, HasSubstr("other.steps.jsonl: cannot write: Is a directory"));
+}
+
 TEST_F(Live, ItsOwnRecordingGivesTheSameAnswers) {
   const Answer answer = live("drive.mcap", "--tf --out " + file("live") + " --record " + file("again.mcap"));
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
