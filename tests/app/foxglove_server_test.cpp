@@ -129,25 +129,29 @@ TEST(FoxgloveServer, TellsOfTopicsAsTheyAreFirstSeen) {
 }
 
 TEST(FoxgloveServer, IsHeldUpByNoSlowViewer) {
-  FoxgloveServer server("127.0.0.1", 0);
-  server.offer(scan, 0, "a scan");
+  // However busy the machine is, nobody is taken for dead.
+  FoxgloveLimits limits;
+  limits.connection.to_take = std::chrono::minutes(10);
+  FoxgloveServer server("127.0.0.1", 0, limits);
+  server.offer(scan, 0, "kept", true);
   Viewer slow(server), silent(server);
   const Socket says_nothing(server);
   for (Viewer* viewer : {&slow, &silent}) {
     viewer->next_with("/scan");
     viewer->subscribe(0);
+    EXPECT_EQ(viewer->next(), "kept");
   }
-  std::this_thread::sleep_for(milliseconds(100));
   auto longest = steady_clock::duration::zero();
   constexpr int messages = 300;
+  const std::string blank(megabyte, ' ');
   for (int i = 0; i <= messages; ++i) {
-    const std::string bytes = fmt::format("scan {}{}", i, std::string(megabyte, ' '));
+    const std::string bytes = fmt::format("scan {} ", i) + blank;
     const auto begun = steady_clock::now();
     server.offer(scan, i, bytes);
     longest = std::max(longest, steady_clock::now() - begun);
     std::this_thread::sleep_for(milliseconds(1));
   }
-  EXPECT_LT(longest, milliseconds(500));
+  EXPECT_LT(longest, seconds(5));
   int received = 0, last = -1;
   while (last < messages) {
     const auto message = slow.next();
@@ -171,17 +175,19 @@ TEST(FoxgloveServer, EndsThoughAViewerReadsNothing) {
   Socket says_nothing(*server);
   const auto begun = steady_clock::now();
   server.reset();
-  EXPECT_LT(steady_clock::now() - begun, seconds(2));
+  EXPECT_LT(steady_clock::now() - begun, seconds(10));
   EXPECT_EQ(says_nothing.rest(), "");
 }
 
 TEST(FoxgloveServer, SendsWhatWaitsBeforeItEnds) {
-  auto server = std::make_unique<FoxgloveServer>("127.0.0.1", 0);
-  server->offer(scan, 0, "a scan");
+  FoxgloveLimits limits;
+  limits.connection.grace = seconds(10);
+  auto server = std::make_unique<FoxgloveServer>("127.0.0.1", 0, limits);
+  server->offer(scan, 0, "kept", true);
   Viewer viewer(*server);
   viewer.next_with("/scan");
   viewer.subscribe(0);
-  std::this_thread::sleep_for(milliseconds(100));
+  EXPECT_EQ(viewer.next(), "kept");
   for (int i = 0; i < 100; ++i) server->offer(scan, i, fmt::format("{}", i));
   std::jthread ends([&] { server.reset(); });
   for (int i = 0; i < 100; ++i) EXPECT_EQ(viewer.next(), fmt::format("{}", i));

