@@ -268,7 +268,9 @@ void add_live(CLI::App& app, Context& context) {
       command->add_option("--recording", request.recording, "ROS bag or MCAP in place of the robot");
   command->add_flag("--real-time", request.in_real_time, "The recording's messages come at their times")
       ->needs(recording);
-  command->add_flag("--ros2", "The robot's topics, by DDS: as without --recording")->excludes(recording);
+  command->add_flag("--ros2")
+      ->description("The robot's topics, by DDS: as without --recording")
+      ->excludes(recording);
   command->add_option("--domain", request.domain, "Domain of DDS (default: ROS_DOMAIN_ID, else 0)")
       ->excludes(recording);
   command->add_option("--scans", request.scans, "Topic with scans (default: the only one)");
