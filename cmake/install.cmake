@@ -17,7 +17,7 @@ install(EXPORT glocal_targets FILE glocalTargets.cmake NAMESPACE glocal:: DESTIN
 # The manual is made of what the program says of itself. Shells look for completions in folders of their own; these are Debian's.
 set(manual ${CMAKE_BINARY_DIR}/manual)
 add_custom_command(OUTPUT ${manual}/glocal.1 DEPENDS glocal_app scripts/manual_pages
-  COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual} COMMAND scripts/manual_pages $<TARGET_FILE:glocal_app> ${manual}
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual} COMMAND scripts/manual_pages ${GLOCAL_PROGRAM} ${manual}
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 add_custom_target(manual ALL DEPENDS ${manual}/glocal.1)
 install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

@@ -16,7 +16,7 @@ package=${packages[0]}
 lintian --allow-root --fail-on error,warning "$package" || fail "lintian"
 
 depends=$(dpkg-deb -f "$package" Depends)
-for library in libc6 libstdc++6 libtbb12 libhwy1 libyaml-cpp0.7; do
+for library in libc6 libstdc++6 libtbb12 libyaml-cpp0.7; do
   [[ $depends == *"$library "* ]] || fail "it does not depend on $library: $depends"
 done
 ! grep -Eqi 'mrpt|octomap|open3d|pcl|dds|python' <<<"$depends" || fail "it depends on what plugins need: $depends"
