@@ -17,7 +17,7 @@ install(EXPORT glocal_targets FILE glocalTargets.cmake NAMESPACE glocal:: DESTIN
 # The manual is made of what the program says of itself. Shells look for completions in folders of their own; these are Debian's.
 set(manual ${CMAKE_BINARY_DIR}/manual)
 add_custom_command(OUTPUT ${manual}/glocal.1 DEPENDS glocal_app scripts/manual_pages
-  COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual} COMMAND scripts/manual_pages $<TARGET_FILE:glocal_app> ${manual}
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual} COMMAND scripts/manual_pages ${GLOCAL_PROGRAM} ${manual}
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 add_custom_target(manual ALL DEPENDS ${manual}/glocal.1)
 install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
@@ -48,14 +48,27 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glocal.pc DESTINATION ${CMAKE_INSTALL_
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_CORE_PACKAGE_NAME glocal)
+set(CPACK_COMPONENT_CORE_DESCRIPTION "Finds where a robot is on a known map from its scans and odometry.
+The package has the program, its libraries, and what others are built with.")
+# What headers include, and what draws figures.
+set(CPACK_DEBIAN_CORE_PACKAGE_SUGGESTS "libeigen3-dev, python3-matplotlib")
 foreach(package mrpt octomap open3d pcl ros2)
   string(TOUPPER ${package} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME glocal-${package})
   set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "glocal (= ${PROJECT_VERSION})")
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION "This package has the plugin ${package} of glocal.")
 endforeach()
-set(CPACK_PACKAGE_CONTACT "glocal")
+set(CPACK_PACKAGE_CONTACT "The glocal authors <glocal@example.org>")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/framework ${CMAKE_BINARY_DIR}/evaluation)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_STRIP_FILES ON)
+# Which package programs depend on that are linked with the libraries.
+set(control ${CMAKE_CURRENT_BINARY_DIR}/debian)
+set(interface "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} glocal (= ${PROJECT_VERSION})\n")
+file(WRITE ${control}/shlibs "libglocal ${interface}libglocal_builtin ${interface}libglocal_evaluation ${interface}")
+file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_CORE_PACKAGE_CONTROL_EXTRA ${control}/shlibs ${control}/triggers)
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/debian/documents.cmake)
 include(CPack)

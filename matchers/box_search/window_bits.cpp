@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "matchers/box_search/window_bits.cpp"
@@ -198,9 +199,7 @@ TileCounts::Mask TileCounts::at_least(std::size_t count) const {
   return nodes;
 }
 
-LayerBits::LayerBits(int level, const Windows& windows) {
-  const int columns = static_cast<int>(windows.width) - windows.before;
-  const int rows = static_cast<int>(windows.height) - windows.before;
+LayerBits::LayerBits(int level, int columns, int rows) : words_(block_words) {
   // A tile may begin a whole tile before the first windows and end as far behind the last.
   const int last_column = ((columns - 1) >> level) + TileCounts::columns;
   const int last_row = ((rows - 1) >> level) + TileCounts::rows;
@@ -210,13 +209,17 @@ LayerBits::LayerBits(int level, const Windows& windows) {
              .last_column = last_column,
              .last_row = last_row};
   numbers_.resize(static_cast<std::size_t>(layout_.words * layout_.row_blocks) << (2 * level));
-  for (int row = -windows.before; row < rows; ++row) {
-    const std::uint8_t* line = windows.at(0, row);
-    const std::uint8_t* end = line + columns;
-    for (const std::uint8_t* next = next_set(line - windows.before, end); next != end;
-         next = next_set(next + 1, end))
-      set(static_cast<int>(next - line), row);
-  }
+}
+
+void LayerBits::reserve() {
+  words_.reserve((numbers_.size() + 1) * block_words);
+}
+
+void LayerBits::add_row(int row, int first_column, std::span<const std::uint8_t> windows) {
+  const std::uint8_t* begin = windows.data();
+  const std::uint8_t* end = begin + windows.size();
+  for (const std::uint8_t* next = next_set(begin, end); next != end; next = next_set(next + 1, end))
+    set(first_column + static_cast<int>(next - begin), row);
 }
 
 void LayerBits::set(int column, int row) {
@@ -235,10 +238,10 @@ void LayerBits::set(int column, int row) {
 
 std::uint64_t* LayerBits::block(std::size_t place) {
   if (numbers_[place] == 0) {
-    words_.resize(words_.size() + block_words);
     numbers_[place] = static_cast<std::uint32_t>(words_.size() / block_words);
+    words_.resize(words_.size() + block_words);
   }
-  return &words_[(numbers_[place] - 1) * block_words];
+  return &words_[numbers_[place] * block_words];
 }
 
 WindowBits::WindowBits(std::vector<LayerBits> layers, int layers_before, bool in_space)
@@ -247,15 +250,18 @@ WindowBits::WindowBits(std::vector<LayerBits> layers, int layers_before, bool in
       last_layer_(static_cast<std::int32_t>(layers.size()) - 1),
       in_space_(in_space) {
   std::size_t words = block_words;
-  for (const LayerBits& layer : layers) words += layer.words_.size();
+  for (const LayerBits& layer : layers) words += layer.words_.size() - block_words;
+  // In the plane, where there is one layer, nothing is copied.
+  bits_ = std::move(layers.front().words_);
   bits_.reserve(words);
-  bits_.resize(block_words);
   blocks_.reserve(layers.size() * layers.front().numbers_.size());
   for (LayerBits& layer : layers) {
-    const std::size_t before = bits_.size() - block_words;
+    const bool is_first = &layer == &layers.front();
+    const std::size_t before = is_first ? 0 : bits_.size() - block_words;
     for (const std::uint32_t number : layer.numbers_)
       blocks_.push_back(number == 0 ? 0 : static_cast<std::uint32_t>(before + number * block_words));
-    bits_.insert(bits_.end(), layer.words_.begin(), layer.words_.end());
+    if (is_first) continue;
+    bits_.insert(bits_.end(), layer.words_.begin() + block_words, layer.words_.end());
     layer.words_ = {};  // or it would all be there twice
   }
 }

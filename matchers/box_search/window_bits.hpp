@@ -88,27 +88,20 @@ class TileCounts {
   TileLooks looks_;         ///< Of the last tile; kept for their memory.
 };
 
-/// Windows over one layer of cells of a map: a byte for each, which says whether one of its cells is in
-/// contact. The first ones begin so many cells before the first column and the first row.
-struct Windows {
-  int before = 0;
-  std::size_t width = 0, height = 0;
-  std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(width * height);  ///< Columns, then rows.
-
-  [[nodiscard]] std::uint8_t* at(int column, int row) { return &bytes[index(column, row)]; }
-  [[nodiscard]] const std::uint8_t* at(int column, int row) const { return &bytes[index(column, row)]; }
-
- private:
-  [[nodiscard]] std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row + before) * width + static_cast<std::size_t>(column + before);
-  }
-};
-
 /// The bits of one layer of windows of one size. Blocks of them that are empty take no memory.
 class LayerBits {
  public:
-  /// Windows with a cell in contact begin at most 2^level - 1 cells before the first column and row.
-  LayerBits(int level, const Windows& windows);
+  /// Of windows none of which has a cell in contact yet. The last ones begin in column `columns` - 1 and row
+  /// `rows` - 1, the first ones at most 2^level - 1 cells before column and row 0.
+  LayerBits(int level, int columns, int rows);
+
+  /// Takes memory for all blocks at once. Pages of it that stay empty are never there; bits that grew would
+  /// leave as much behind in each thread as they take.
+  void reserve();
+
+  /// Those windows of a row which have a cell in contact: a byte for each, the first of column
+  /// `first_column`.
+  void add_row(int row, int first_column, std::span<const std::uint8_t> windows);
 
  private:
   friend class WindowBits;
@@ -117,8 +110,8 @@ class LayerBits {
   [[nodiscard]] std::uint64_t* block(std::size_t place);
 
   BitsLayout layout_;
-  std::vector<std::uint32_t> numbers_;  ///< Of the blocks that are not empty, from 1 on; of others 0.
-  std::vector<std::uint64_t> words_;
+  std::vector<std::uint32_t> numbers_;  ///< Of the blocks in `words_`; of those that are empty 0.
+  std::vector<std::uint64_t> words_;    ///< The first block is empty.
 };
 
 /// The bits of windows of one size, sorted by where a window begins within 2^level cells, so that the nodes

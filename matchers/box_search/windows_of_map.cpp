@@ -1,10 +1,12 @@
 #include "matchers/box_search/windows_of_map.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "glocal/parallel.hpp"
@@ -12,12 +14,32 @@
 namespace glocal {
 namespace {
 
-/// The cells of one layer of a frame that are within `epsilon` (m) of a point of the map: by their centres,
-/// or, with `anywhere`, by the nearest of their places. Each is a window of one cell.
-Windows cells_in_contact(const Points& map_points, const CellFrame& frame, double epsilon, bool anywhere,
-                         int layer) {
-  Windows cells{.width = static_cast<std::size_t>(frame.columns),
-                .height = static_cast<std::size_t>(frame.rows)};
+/// Which cells of one layer of a frame are in contact: a bit for each, row after row.
+struct LayerCells {
+  static constexpr std::size_t word_bits = 64;
+
+  std::size_t words;  ///< Of a row.
+  std::vector<std::uint64_t> bits;
+  /// All rows with such a cell are from the first one on, and before the end.
+  int first_row, end_row = 0;
+
+  void set(int column, int row) {
+    const auto bit = static_cast<std::size_t>(column);
+    bits[static_cast<std::size_t>(row) * words + bit / word_bits] |= std::uint64_t{1} << bit % word_bits;
+  }
+  [[nodiscard]] std::uint64_t word(int row, std::size_t number) const {
+    return bits[static_cast<std::size_t>(row) * words + number];
+  }
+};
+
+/// Those of a layer that are within `epsilon` (m) of a point of the map: by their centres, or, with
+/// `anywhere`, by the nearest of their places.
+LayerCells cells_in_contact(const Points& map_points, const CellFrame& frame, double epsilon, bool anywhere,
+                            int layer) {
+  const std::size_t words = static_cast<std::size_t>(frame.columns) / LayerCells::word_bits + 1;
+  LayerCells cells{.words = words,
+                   .bits = std::vector<std::uint64_t>(words * static_cast<std::size_t>(frame.rows)),
+                   .first_row = frame.rows};
   const double half_cell = anywhere ? 0.5 : 0.0;
   const double reach = epsilon / frame.cell;
   const auto first = [&](double centre) {
@@ -34,9 +56,10 @@ Windows cells_in_contact(const Points& map_points, const CellFrame& frame, doubl
     const double z = frame.in_space ? (map_points.z[i] - frame.min_z) / frame.cell - 0.5 : 0.0;
     if (layer < z - reach - half_cell || layer > z + reach + half_cell) continue;
     for (int row = first(y); row < frame.rows && row <= y + reach + half_cell; ++row) {
+      cells.first_row = std::min(cells.first_row, row);
+      cells.end_row = std::max(cells.end_row, row + 1);
       for (int column = first(x); column < frame.columns && column <= x + reach + half_cell; ++column) {
-        if (square(column - x) + square(row - y) + square(layer - z) <= reach * reach)
-          *cells.at(column, row) = 1;
+        if (square(column - x) + square(row - y) + square(layer - z) <= reach * reach) cells.set(column, row);
       }
     }
   }
@@ -55,50 +78,89 @@ void slide(int begin, int end, int behind, int ahead, Entered entered, Mark mark
   }
 }
 
-/// Windows of `behind` + `ahead` cells on either axis, of which `behind` come before the cell that names
-/// them.
-Windows widened(const Windows& cells, int behind, int ahead) {
-  constexpr int never = std::numeric_limits<int>::min() / 2;
-  const int columns = static_cast<int>(cells.width);
-  const int rows = static_cast<int>(cells.height);
-  const int before = ahead - 1;
-  Windows lines{.before = before,
-                .width = static_cast<std::size_t>(columns + behind + before),
-                .height = static_cast<std::size_t>(rows + before)};
-  int first_row = rows;
-  int end_row = 0;
-  for (int row = 0; row < rows; ++row) {
-    const std::uint8_t* cell = cells.at(0, row);
-    if (next_set(cell, cell + columns) == cell + columns) continue;
-    first_row = std::min(first_row, row);
-    end_row = row + 1;
-    std::uint8_t* window = lines.at(0, row);
+/// The bits of one layer of windows, over layers of cells that are at hand: row after row, as a byte for each
+/// window would take more memory than all bits.
+class WindowRows {
+ public:
+  WindowRows(std::span<const LayerCells> layers, const CellFrame& frame, const WindowKind& kind)
+      : layers_(layers),
+        columns_(frame.columns),
+        rows_(frame.rows),
+        behind_(kind.wider),
+        ahead_(1 << kind.level),
+        cells_(static_cast<std::size_t>(columns_)),
+        windows_(static_cast<std::size_t>(columns_ + behind_ + ahead_ - 1)),
+        last_rows_(windows_.size(), never),
+        bits_(kind.level, columns_ + behind_, rows_ + behind_) {
+    // In space most blocks of most layers are empty.
+    if (!frame.in_space) bits_.reserve();
+  }
+
+  [[nodiscard]] LayerBits bits() {
+    int begin = rows_;
+    int end = 0;
+    for (const LayerCells& layer : layers_) {
+      begin = std::min(begin, layer.first_row);
+      end = std::max(end, layer.end_row);
+    }
+    slide(
+        begin, end, behind_, ahead_, [&](int row) { enter(row); }, [&](int row) { mark(row); });
+    return std::move(bits_);
+  }
+
+ private:
+  static constexpr int never = std::numeric_limits<int>::min() / 2;
+
+  /// Takes in a row of cells: the columns of windows that meet one in contact.
+  void enter(int row) {
+    if (!join(row)) return;
+    const std::uint8_t* cells = cells_.data();
+    std::uint8_t* windows = windows_.data() + ahead_ - 1;
     int last = never;
     slide(
-        0, columns, behind, ahead,
+        0, columns_, behind_, ahead_,
         [&](int column) {
-          if (cell[column] != 0) last = column;
+          if (cells[column] != 0) last = column;
         },
-        [&](int column) { window[column] = last >= column - behind ? 1 : 0; });
+        [&](int column) { windows[column] = last >= column - behind_ ? 1 : 0; });
+    int* last_rows = last_rows_.data();
+    const std::uint8_t* first = windows_.data();
+    const std::size_t width = windows_.size();
+    for (std::size_t i = 0; i < width; ++i) last_rows[i] = first[i] != 0 ? row : last_rows[i];
   }
-  Windows windows{
-      .before = before, .width = lines.width, .height = static_cast<std::size_t>(rows + behind + before)};
-  const std::size_t width = lines.width;
-  std::vector<int> last_of_columns(width, never);
-  int* last = last_of_columns.data();
-  slide(
-      first_row, end_row, behind, ahead,
-      [&](int row) {
-        const std::uint8_t* line = lines.at(-before, row);
-        for (std::size_t i = 0; i < width; ++i) last[i] = line[i] != 0 ? row : last[i];
-      },
-      [&](int row) {
-        std::uint8_t* line = windows.at(-before, row);
-        const int first = row - behind;
-        for (std::size_t i = 0; i < width; ++i) line[i] = last[i] >= first ? 1 : 0;
-      });
-  return windows;
-}
+
+  /// Which cells of a row are in contact in one of the layers. Returns whether one is.
+  bool join(int row) {
+    std::fill(cells_.begin(), cells_.end(), std::uint8_t{0});
+    bool any = false;
+    for (std::size_t number = 0; number < layers_.front().words; ++number) {
+      std::uint64_t word = 0;
+      for (const LayerCells& layer : layers_) word |= layer.word(row, number);
+      any = any || word != 0;
+      for (; word != 0; word &= word - 1)
+        cells_[number * LayerCells::word_bits + static_cast<std::size_t>(std::countr_zero(word))] = 1;
+    }
+    return any;
+  }
+
+  /// The windows of a row, all of whose cells have been taken in.
+  void mark(int row) {
+    const int first = row - behind_;
+    const int* last_rows = last_rows_.data();
+    std::uint8_t* windows = windows_.data();
+    const std::size_t width = windows_.size();
+    for (std::size_t i = 0; i < width; ++i) windows[i] = last_rows[i] >= first ? 1 : 0;
+    bits_.add_row(row, 1 - ahead_, windows_);
+  }
+
+  std::span<const LayerCells> layers_;
+  int columns_, rows_;
+  int behind_, ahead_;                 ///< Cells of a window before the one that names it, and from that on.
+  std::vector<std::uint8_t> cells_;    ///< Of a row, a byte for each.
+  std::vector<std::uint8_t> windows_;  ///< Of a row; the first of column 1 - `ahead_`.
+  std::vector<int> last_rows_;         ///< For each of these columns the last row that it met.
+  LayerBits bits_;
+};
 
 /// Makes the bits some layers of cells at a time: all of them, at a byte each, would take more memory than
 /// the bits.
@@ -167,22 +229,12 @@ class WindowBuilder {
     parallel_for(threads_, tasks.size(), [&](std::size_t i) {
       const Task& task = tasks[i];
       const WindowKind& kind = kinds_[task.kind];
-      const Windows cells = joined(task.first, task.first + kind.height);
-      bits_[task.kind][task.number].emplace(kind.level, widened(cells, kind.wider, 1 << kind.level));
+      const int first = std::max(0, task.first);
+      const int layers = std::min(task.first + kind.height, frame_.layers) - first;
+      const auto cells = std::span<const LayerCells>(cells_).subspan(static_cast<std::size_t>(first - first_),
+                                                                     static_cast<std::size_t>(layers));
+      bits_[task.kind][task.number] = WindowRows(cells, frame_, kind).bits();
     });
-  }
-
-  /// Which cells are in contact in one of these layers.
-  [[nodiscard]] Windows joined(int begin, int end) const {
-    Windows all{.width = static_cast<std::size_t>(frame_.columns),
-                .height = static_cast<std::size_t>(frame_.rows)};
-    std::uint8_t* bytes = all.bytes.data();
-    const std::size_t size = all.bytes.size();
-    for (int layer = std::max(0, begin); layer < std::min(end, frame_.layers); ++layer) {
-      const std::uint8_t* more = cells_[static_cast<std::size_t>(layer - first_)].bytes.data();
-      for (std::size_t i = 0; i < size; ++i) bytes[i] |= more[i];
-    }
-    return all;
   }
 
   const Points& map_points_;
@@ -191,9 +243,9 @@ class WindowBuilder {
   bool anywhere_;
   const std::vector<WindowKind>& kinds_;
   int threads_;
-  int highest_ = 1;             ///< Of the windows of all kinds, in layers of cells.
-  int first_ = 0;               ///< Of the layers of cells at hand.
-  std::vector<Windows> cells_;  ///< Each one layer.
+  int highest_ = 1;  ///< Of the windows of all kinds, in layers of cells.
+  int first_ = 0;    ///< Of the layers of cells at hand.
+  std::vector<LayerCells> cells_;
   std::vector<std::vector<std::optional<LayerBits>>> bits_;  ///< Of each kind.
 };
 

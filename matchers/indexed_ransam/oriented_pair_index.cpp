@@ -66,6 +66,7 @@ OrientedPairIndex::OrientedPairIndex(OrientedPoints oriented_points, const Orien
     for_some_pairs(oriented_points_, rule_, squares, square, share, [&](const OrientedPair& pair) {
       if (const auto b = bin(oriented_points_, pair)) taken[square].emplace_back(*b, pair);
     });
+    taken[square].shrink_to_fit();  // all are there at once, beside the index that is made of them
   });
   begins_.assign(bins() + 1, 0);
   for (const auto& chunk : taken) {

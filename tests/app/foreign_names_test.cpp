@@ -48,7 +48,7 @@ class ForeignNames : public CommandLine {
     const Answer answer = run(arguments);
     for (const std::string& text : {answer.out, answer.err}) {
       const auto is_control = [](char c) {
-        return (c >= 0 && c < ' ' && c != '\n' && c != '\t') || c == 0x7F;
+        return (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') || c == 0x7F;
       };
       EXPECT_EQ(std::count_if(text.begin(), text.end(), is_control), 0) << arguments;
       EXPECT_LT(text.size(), 120'000U) << arguments;
