@@ -23,7 +23,7 @@ namespace glocal {
 struct MapPart {
   std::string name;
   Pose3 common_from_part;  ///< Of the frame that it would have if it were alone.
-  double from_x = 0.0;     ///< m, in the common frame: all from here on is on it, up to where the next begins.
+  double from_x = 0.0;     ///< m, in the common frame: where it begins, up to the next.
 };
 
 /// Where a robot is, said with the map that it is on.

@@ -34,7 +34,7 @@ struct Sample {
   Observation observation;
   std::optional<Pose3> map_from_robot;  ///< Reference pose, if the source has one.
   int segment = 0;                      ///< Changes where the drive is interrupted: no trial runs across.
-  std::string map = {};                 ///< That the reference pose is on, in its frame, where there are several.
+  std::string map = {};  ///< That the reference pose is on, in its frame, where there are several.
 };
 
 }  // namespace glocal
