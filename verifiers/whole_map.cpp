@@ -12,8 +12,9 @@
 namespace glocal::verifiers {
 namespace {
 
-/// That are judged: those with the most contact.
-constexpr std::size_t most_rivals = 10;
+/// That are judged: those with the most contact. Of several maps as many for each: floors that are alike have
+/// each rival once.
+constexpr std::size_t most_rivals_on_map = 10;
 /// A search that looks at more points is given up, and nothing is declared in that step. On maps of more than
 /// 2 hectares it may look at as many more as they are larger.
 constexpr double max_looks = 40e6;
@@ -83,7 +84,8 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
       in_space_(setup.motion != Motion::planar),
       epsilon_(setup.epsilon(params.contact_epsilon)),
       threads_(setup.threads),
-      looks_per_step_(setup.looks_per_step) {
+      looks_per_step_(setup.looks_per_step),
+      most_rivals_(most_rivals_on_map * std::max<std::size_t>(1, setup.map->parts().size())) {
   most_looks_ = looks_on(*setup.map, max_looks * (in_space_ ? more_looks_in_space : 1.0));
   contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(*setup.map)), epsilon_);
   if (!in_space_) field_ = distance_field(*setup.map, setup.threads);
@@ -131,7 +133,7 @@ WholeMap::Search WholeMap::begin(const LocalMap& local, const Pose3& map_from_lo
     return static_cast<std::size_t>(std::max(1.0, std::ceil(share * static_cast<double>(of.size()))));
   };
   const BoxSearchRule rule{.least = least_of(contact - params_.margin, points),
-                           .most_places = most_rivals,
+                           .most_places = most_rivals_,
                            .most_looks = most_looks_,
                            .gate = gate};
   const Exclusion declared{map_from_local * local.local_from_robot,
@@ -161,7 +163,7 @@ std::vector<Hypothesis> WholeMap::rivals_of(const Search& search, const BoxSearc
         rivals.push_back(Hypothesis::by_contact(pose, contact_of(search.points, pose)));
     }
   }
-  return distinct_candidates(std::move(rivals), search.local_from_robot, most_rivals);
+  return distinct_candidates(std::move(rivals), search.local_from_robot, most_rivals_);
 }
 
 std::optional<double> WholeMap::mirrored_contact(const Search& search) const {

@@ -75,6 +75,7 @@ class WholeMap final : public Verifier {
   double epsilon_;
   int threads_;
   std::size_t looks_per_step_;
+  std::size_t most_rivals_;
   std::size_t most_looks_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const DistanceField> field_;  ///< To refine rivals on; in the plane only.
