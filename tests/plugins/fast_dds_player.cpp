@@ -32,8 +32,8 @@ std::int64_t stamp_of(const std::string& bytes) {
 
 class Player {
  public:
-  explicit Player(int domain) : robot_(domain) {
-    tf_static_->send(transform("base_link", "laser", 0, {}));
+  Player(int domain, const Pose3& robot_from_laser) : robot_(domain) {
+    tf_static_->send(transform("base_link", "laser", 0, robot_from_laser));
     fmt::print("ready\n");
     std::fflush(stdout);
     while (!tf_->has_receivers(1) || !scans_->has_receivers(1)) {
@@ -90,6 +90,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const auto log = glocal::carmen::read_carmen_log(argv[1]);
-  glocal::test::Player(std::atoi(argv[2])).play(log, std::atof(argv[3]), std::strtoul(argv[4], nullptr, 10));
+  glocal::test::Player(std::atoi(argv[2]), log.front().robot_from_laser)
+      .play(log, std::atof(argv[3]), std::strtoul(argv[4], nullptr, 10));
   return 0;
 }
