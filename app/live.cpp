@@ -194,11 +194,7 @@ class LiveLocalizer {
     const Pose3 driven = last_ ? inverse(*last_) * observation.odom_from_robot : Pose3{};
     way_ += driven.translation().norm();
     last_ = observation.odom_from_robot;
-    StepRecord record;
-    record.result = localizer_.step(observation);
-    record.hypotheses = record.result.hypotheses.size();
-    if (const auto pose = record.result.estimate(); pose && !loaded_.map->parts().empty())
-      record.place = loaded_.map->place_of(*pose);
+    const StepRecord record = record_of(localizer_.step(observation), sample, *loaded_.map);
     const StepResult& result = record.result;
     ++observations_;
     const bool is_declared = result.verdict.kind == VerdictKind::localized;

@@ -90,9 +90,8 @@ void bring_to_common_frame(Drive& drive, const GlobalMap& map, const Warn& warn)
         "'several' says it)");
 }
 
-bool has_maps(const Drive& drive) {
-  return std::any_of(drive.samples.begin(), drive.samples.end(),
-                     [](const Sample& sample) { return !sample.map.empty(); });
+bool is_several(const std::shared_ptr<const GlobalMap>& map) {
+  return map != nullptr && !map->parts().empty();
 }
 
 SourceSetup source_setup(std::set<std::filesystem::path>& inputs, const Warn& warn,
@@ -144,13 +143,14 @@ LoadedExperiment& ExperimentLoader::load(const Experiment& experiment) {
   std::string drive = drive_yaml(experiment, catalog_);
   std::string localizer = localizer_yaml(experiment, catalog_);
   const bool is_new_map = map != map_;
-  // References on one of several maps lie where these do.
-  const bool is_new_drive = drive != drive_ || (is_new_map && has_maps(loaded_.drive));
+  const bool was_several = is_several(loaded_.map);
   if (is_new_map) {
     load_map(experiment);
   } else if (localizer != localizer_) {
     loaded_.map = std::make_shared<const GlobalMap>(loaded_.map->data());
   }
+  // Several maps have moved references to where they lie, or taken them away.
+  const bool is_new_drive = drive != drive_ || (is_new_map && (was_several || is_several(loaded_.map)));
   map_ = std::move(map);
   localizer_ = std::move(localizer);
   if (is_new_drive) load_drive(experiment);

@@ -11,26 +11,6 @@
 namespace glocal {
 namespace {
 
-StepRecord make_record(StepResult result, const Sample& sample, const GlobalMap& map) {
-  StepRecord record;
-  record.hypotheses = result.hypotheses.size();
-  record.result = std::move(result);
-  record.result.hypotheses = {};
-  record.reference = sample.map_from_robot;
-  if (const auto estimate = record.result.estimate(); estimate && !map.parts().empty())
-    record.place = map.place_of(*estimate);
-  if (record.reference) {
-    record.on_map = is_on_map(*record.reference, map);
-    if (const auto estimate = record.result.estimate())
-      record.error = pose_error(*estimate, *record.reference);
-    const auto& estimate = record.result.verdict.estimate;
-    if (estimate && estimate->covariance)
-      record.nees = normalised_error_squared(seen_from_above(estimate->map_from_robot),
-                                             seen_from_above(*record.reference), *estimate->covariance);
-  }
-  return record;
-}
-
 /// Notes the trial's first declaration.
 void declare(TrialRecord& trial, const StepRecord& record, const EvaluationConfig& limits) {
   trial.pose = record.result.verdict.map_from_robot;
@@ -115,6 +95,26 @@ Outcome outcome_of(const std::string& name) {
   throw std::invalid_argument("there is no outcome '" + name + "'");
 }
 
+StepRecord record_of(StepResult result, const Sample& sample, const GlobalMap& map) {
+  StepRecord record;
+  record.hypotheses = result.hypotheses.size();
+  record.result = std::move(result);
+  record.result.hypotheses = {};
+  record.reference = sample.map_from_robot;
+  if (const auto estimate = record.result.estimate(); estimate && !map.parts().empty())
+    record.place = map.place_of(*estimate);
+  if (record.reference) {
+    record.on_map = is_on_map(*record.reference, map);
+    if (const auto estimate = record.result.estimate())
+      record.error = pose_error(*estimate, *record.reference);
+    const auto& estimate = record.result.verdict.estimate;
+    if (estimate && estimate->covariance)
+      record.nees = normalised_error_squared(seen_from_above(estimate->map_from_robot),
+                                             seen_from_above(*record.reference), *estimate->covariance);
+  }
+  return record;
+}
+
 TrialRecord begun_trial(const Drive& drive, Motion motion, std::size_t trial, std::size_t start_sample) {
   const Sample& start = drive.samples[start_sample];
   TrialRecord record;
@@ -145,7 +145,7 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
     going_on = done_or_failed(record, [&] { result = localizer.step(sample.observation); });
     if (!going_on) break;
     make_valid_utf8(result.verdict);
-    record.records.push_back(make_record(std::move(result), sample, map));
+    record.records.push_back(record_of(std::move(result), sample, map));
     const StepRecord& step = record.records.back();
     if (callbacks.step) callbacks.step(step, localizer);
     if (record.pose) continue;

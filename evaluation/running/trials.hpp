@@ -38,6 +38,9 @@ struct StepRecord {
   std::optional<MapPlace> place;   ///< Of the estimate, where there are several maps.
 };
 
+/// What is kept of a step that was made of this sample.
+[[nodiscard]] StepRecord record_of(StepResult result, const Sample& sample, const GlobalMap& map);
+
 struct TrialRecord {
   std::size_t trial = 0;
   std::size_t start_sample = 0;

@@ -61,9 +61,8 @@ std::string diagnostics_message(const StepResult& result, const GlobalMap& map, 
                                                              {"passed_over", fmt::format("{}", passed_over)}};
   if (result.verdict.estimate)
     values.emplace_back("confidence", fmt::format("{:.4f}", result.verdict.estimate->confidence));
-  if (const auto best = result.estimate(); best && !map.parts().empty())
-    values.emplace_back("map", map.place_of(*best).map);
   if (!map.parts().empty()) {
+    if (const auto best = result.estimate()) values.emplace_back("map", map.place_of(*best).map);
     std::vector<std::string> maps;
     for (const Pose3& pose : result.verdict.candidates) maps.push_back(map.place_of(pose).map);
     values.emplace_back("candidates_on", fmt::format("{}", fmt::join(maps, ", ")));

@@ -23,6 +23,12 @@ class Floors : public CommandLine {
                                        << "      - {map: first, source: " << office(2) << "}\n"
                                        << more;
   }
+  /// Writes something else in place of what stands there.
+  void change(const std::string& from, const std::string& to) const {
+    std::string text = content(file("floors.yaml"));
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(file("floors.yaml")) << text;
+  }
   [[nodiscard]] Answer run_floors() const {
     return run("run " + file("floors.yaml") + " --method indexed --quiet --force --out " + file("results"));
   }
@@ -52,12 +58,8 @@ TEST_F(Floors, EachAnswerNamesItsMapAndThePoseThere) {
 }
 
 TEST_F(Floors, ALiftIsFollowed) {
-  std::string text;
   write_floors("trials: {whole: true}\n");
-  text = content(file("floors.yaml"));
-  const std::string before = "    drives:\n";
-  text.insert(text.find(before), "    in_lift: true\n");
-  std::ofstream(file("floors.yaml")) << text;
+  change("    drives:\n", "    in_lift: true\n    drives:\n");
   const Answer answer = run_floors();
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   std::set<std::string> declared_on;
@@ -91,9 +93,7 @@ TEST_F(Floors, LocalizeAndLiveTakeMoreMapsThanOne) {
 
 TEST_F(Floors, ReferencesOnAMapThatIsNotThereAreRefused) {
   write_floors("trials: {every_m: 8}\n");
-  std::string text = content(file("floors.yaml"));
-  text.replace(text.find("{map: first"), 11, "{map: attic");
-  std::ofstream(file("floors.yaml")) << text;
+  change("{map: first", "{map: attic");
   const Answer answer = run_floors();
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("reference poses are on a map 'attic', and there is only ground, first"));
@@ -101,9 +101,7 @@ TEST_F(Floors, ReferencesOnAMapThatIsNotThereAreRefused) {
 
 TEST_F(Floors, TwoMapsOfOneNameAreRefused) {
   write_floors("trials: {every_m: 8}\n");
-  std::string text = content(file("floors.yaml"));
-  text.replace(text.find("{name: first"), 12, "{name: ground");
-  std::ofstream(file("floors.yaml")) << text;
+  change("{name: first", "{name: ground");
   const Answer answer = run_floors();
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("floors.yaml:5"));

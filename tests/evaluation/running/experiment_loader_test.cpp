@@ -5,6 +5,8 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -127,6 +129,32 @@ TEST(ExperimentLoader, VariantsWithOneMapFollowEachOther) {
     variants.push_back(std::move(variant));
   }
   EXPECT_THAT(loading_order(variants, catalog), testing::ElementsAre(0, 4, 2, 1, 3));
+}
+
+TEST_F(Loading, OneDriveOnOneMapAndOnSeveralHasItsReferencesAnewOnEach) {
+  MapData floors = map_;
+  floors.parts = {{"ground", {}, 0.0}, {"first", Pose2{100.0, 0.0, 0.0}, 50.0}};
+  Catalog catalog;
+  catalog.map_sources.add<GivenMap>("one", "A map.", {}, {map_});
+  catalog.map_sources.add<GivenMap>("floors", "Several maps.", {}, {floors});
+  samples_[0].map_from_robot = samples_[1].map_from_robot = Pose2{1.0, 2.0, 0.0};
+  catalog.observation_sources.add<ListedSamples>("unnamed", "Given samples.", {}, {samples_});
+  samples_[0].map = samples_[1].map = "first";
+  catalog.observation_sources.add<ListedSamples>("named", "Given samples.", {}, {samples_});
+  std::vector<std::string> warnings;
+  ExperimentLoader loader(catalog, [&](const std::string& text) { warnings.push_back(text); });
+  const auto reference = [&](const std::string& map, const std::string& drive) {
+    Experiment experiment = default_experiment();
+    experiment.map = catalog.map_sources.choose(map);
+    experiment.observations = catalog.observation_sources.choose(drive);
+    experiment.trials.every_scan = 1;
+    return loader.load(experiment).drive.samples[1].map_from_robot;
+  };
+  EXPECT_EQ(reference("one", "unnamed"), Pose3(Pose2{1.0, 2.0, 0.0}));
+  EXPECT_EQ(reference("floors", "unnamed"), std::nullopt);
+  EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("do not say which of the maps they are on")));
+  EXPECT_EQ(reference("one", "unnamed"), Pose3(Pose2{1.0, 2.0, 0.0}));
+  EXPECT_EQ(reference("floors", "named"), Pose3(Pose2{101.0, 2.0, 0.0}));
 }
 
 }  // namespace
