@@ -32,14 +32,19 @@ void BestPlaces::add(const BestOfCells& found) {
   }
 }
 
-void BestPlaces::raise() {
-  if (places_.size() < most_) return;
+std::size_t keep_best(BestOfCells& places, std::size_t most) {
+  if (places.size() < most) return 0;
   std::vector<std::size_t> bounds;
-  for (const auto& [cell, place] : places_) bounds.push_back(place.bound);
-  const auto last = bounds.begin() + static_cast<std::ptrdiff_t>(most_) - 1;
+  for (const auto& [cell, place] : places) bounds.push_back(place.bound);
+  const auto last = bounds.begin() + static_cast<std::ptrdiff_t>(most) - 1;
   std::nth_element(bounds.begin(), last, bounds.end(), std::greater<>());
-  bar_ = *last + 1;
-  std::erase_if(places_, [&](const auto& entry) { return entry.second.bound < *last; });
+  std::erase_if(places, [&](const auto& entry) { return entry.second.bound < *last; });
+  return *last;
+}
+
+void BestPlaces::raise() {
+  const std::size_t last = keep_best(places_, most_);
+  if (last > 0) bar_ = last + 1;
 }
 
 std::vector<BestOfCell> BestPlaces::falling(bool is_grid) const {

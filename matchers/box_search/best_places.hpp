@@ -64,6 +64,10 @@ class RobotCells {
 
 using BestOfCells = std::map<RobotCell, BestOfCell>;
 
+/// Leaves those that are as good as the last of the best `most`, at least one, and returns its bound; 0, and
+/// leaves all, if there are fewer.
+std::size_t keep_best(BestOfCells& places, std::size_t most);
+
 /// What has been found in one interval of rotations.
 struct FoundPlaces {
   BestOfCells places = {};

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -36,15 +37,19 @@ struct Problem {
 /// A tile of boxes, by its first one's translation.
 struct Tile {
   int column, row, layer;
+  /// No box of it can have more points in contact.
+  std::size_t bound = std::numeric_limits<std::size_t>::max();
 };
 
 /// An interval of rotations of the top level, after a first look.
 struct Interval {
   std::size_t rotation = 0;
-  std::size_t bound = 0;         ///< No box of any tile can have more points in contact.
-  std::size_t promise = 0;       ///< What is searched first promises most.
-  std::vector<Tile> tiles = {};  ///< All that may have a box that reaches the bar.
-  int last_layer = 0;            ///< Of translations.
+  std::size_t bound = 0;    ///< No box of any tile can have more points in contact.
+  std::size_t promise = 0;  ///< What is searched first promises most.
+  /// All that may have a box that reaches the bar: of a grid those of the top level, and else of the one
+  /// below, if there is one.
+  std::vector<Tile> tiles = {};
+  int last_layer = 0;  ///< Of translations.
 };
 
 /// A first look at an interval, and what was found by the way.
@@ -144,6 +149,7 @@ class IntervalSearch {
   [[nodiscard]] FirstLook look(std::size_t rotation) {
     const std::vector<CellPoints> points = problem_.boxes.cells(problem_.pyramid.top_level(), rotation);
     const Translations all = problem_.boxes.translations(points, least_);
+    last_layer_ = all.last_layer;
     Interval interval{.rotation = rotation, .tiles = top_tiles(rotation, all), .last_layer = all.last_layer};
     if (problem_.all_poses != nullptr) {
       keep_promising(interval, points);
@@ -156,7 +162,12 @@ class IntervalSearch {
   /// Begins the search below a first look. Given up after `most_looks`: what is found is then not all.
   void begin(const Interval& interval) {
     last_layer_ = interval.last_layer;
-    open_.push_back({problem_.pyramid.top_level(), interval.rotation, interval.tiles});
+    const int top = problem_.pyramid.top_level();
+    if (problem_.all_poses == nullptr || top == 0) {
+      open_.push_back({top, interval.rotation, interval.tiles});
+    } else {
+      open_below(top, interval.rotation, interval.tiles);
+    }
   }
 
   /// Goes on for about so many looks, at least one part, until it is over. Returns how many were taken.
@@ -214,12 +225,19 @@ class IntervalSearch {
     // With fewer clusters in contact, and all points that are in none, the bar is not reached.
     const std::size_t loose = problem_.all_poses->points_without_cluster();
     const std::size_t least_clusters = least_ > loose ? (least_ - loose - 1) / AllPoses::cluster_size + 1 : 0;
-    std::erase_if(interval.tiles, [&](const Tile& tile) {
-      if (least_clusters > 0 && !reaches(top, clusters, tile, least_clusters)) return true;
-      if (!reaches(top, points, tile, least_)) return true;
+    const WantedBoxes wanted(problem_, top, interval.rotation);
+    std::vector<Tile> promising;
+    for (const Tile& tile : interval.tiles) {
+      if (least_clusters > 0 && !reaches(top, clusters, tile, least_clusters)) continue;
+      if (!reaches(top, points, tile, least_)) continue;
       interval.bound = std::max(interval.bound, counts_.largest());
-      return false;
-    });
+      if (top > 0) {
+        add_quarters(top, tile, wanted, promising);
+      } else {
+        promising.push_back(tile);
+      }
+    }
+    interval.tiles = std::move(promising);
     interval.promise = interval.bound;
   }
 
@@ -260,26 +278,34 @@ class IntervalSearch {
     const WantedBoxes wanted(problem_, level, rotation);
     std::vector<Tile> quarters;
     for (const Tile& tile : tiles) {
+      if (tile.bound < least_) continue;
       if (!wanted.any(tile, TileCounts::columns << level, TileCounts::rows << level)) continue;
       if (found_.looks > most_looks_) return;
       if (reaches(level, points_, tile, least_)) add_quarters(level, tile, wanted, quarters);
     }
-    if (quarters.empty()) return;
+    open_below(level, rotation, std::move(quarters));
+  }
+
+  /// Tiles of the level below, in each half of an interval.
+  void open_below(int level, std::size_t rotation, std::vector<Tile> tiles) {
+    if (tiles.empty()) return;
     if (problem_.all_poses == nullptr) {
-      open_.push_back({level - 1, rotation, std::move(quarters)});
+      open_.push_back({level - 1, rotation, std::move(tiles)});
     } else {
-      open_.push_back({level - 1, 2 * rotation + 1, quarters});
-      open_.push_back({level - 1, 2 * rotation, std::move(quarters)});
+      open_.push_back({level - 1, 2 * rotation + 1, tiles});
+      open_.push_back({level - 1, 2 * rotation, std::move(tiles)});
     }
   }
 
   void look_at_bottom(std::size_t rotation, const std::vector<Tile>& tiles) {
     Bottom bottom(problem_, rotation);
     for (const Tile& tile : tiles) {
-      if (!bottom.wanted.any(tile, TileCounts::columns, TileCounts::rows)) continue;
+      if (tile.bound < least_ || !bottom.wanted.any(tile, TileCounts::columns, TileCounts::rows)) continue;
       if (found_.looks > most_looks_) return;
       if (reaches(0, points_, tile, least_)) add_boxes(bottom, tile, least_);
     }
+    // What is worse than as many of this interval as are wanted is not among the best of all.
+    least_ = std::max(least_, keep_best(found_.places, problem_.rule.most_places));
   }
 
   /// A quarter of the boxes of the tile just counted makes a tile of the level below; where boxes are higher
@@ -301,7 +327,7 @@ class IntervalSearch {
           }
         }
         for (int layer = tile.layer; any && layer < end_layer; layer += layers)
-          quarters.push_back({tile.column + (i << level), tile.row + (k << level), layer});
+          quarters.push_back({tile.column + (i << level), tile.row + (k << level), layer, counts_.largest()});
       }
     }
   }

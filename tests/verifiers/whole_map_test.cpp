@@ -135,16 +135,18 @@ TEST(WholeMap, ASearchThatGoesOnSaysTheSameInTheEnd) {
 
 TEST(WholeMap, ASearchGoesOnForTheSamePoseInTheSameFrameOnly) {
   const auto map = map_of({corner(0.0F, 0.0F), corner(7.03F, 4.01F)});
-  WholeMap verifier({}, StageSetup{.map = map, .looks_per_step = 3000});
+  WholeMap verifier({}, StageSetup{.map = map, .looks_per_step = 2000});
   const Pose2 declared{1.0, 1.0, 0.0};
   LocalMap local = before_a_corner();
   const int calls = asked_again(verifier, local, declared).second;
   ASSERT_GT(calls, 3);
+  const Pose2 other{8.03, 5.01, 0.0};
+  const int calls_for_other = asked_again(verifier, local, other).second;
   const auto begin = [&] { ASSERT_TRUE(verifier.verify(local, Pose3(declared), {}).goes_on); };
   begin();
   EXPECT_EQ(asked_again(verifier, local, {1.1, 1.0, 0.0}).second, calls - 1) << "nearly the same pose";
   begin();
-  EXPECT_EQ(asked_again(verifier, local, {8.03, 5.01, 0.0}).second, calls) << "another pose";
+  EXPECT_EQ(asked_again(verifier, local, other).second, calls_for_other) << "another pose";
   begin();
   verifier.reset();
   EXPECT_EQ(asked_again(verifier, local, declared).second, calls) << "after a reset";

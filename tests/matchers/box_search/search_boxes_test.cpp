@@ -261,6 +261,27 @@ TEST(SearchBoxes, AnswersAlikeForAnyNumberOfThreadsAndGivesUpWhenToldTo) {
   EXPECT_FALSE(search(pyramid, points, {2.0, 1.5, 0.0}, rule).is_complete);
 }
 
+TEST(SearchBoxes, AFewPlacesAreTheBestOfAll) {
+  Points map = room(0.0F, 0.0F, true);
+  add(map, room(10.0F, 3.0F, false));
+  const Points points = seen_in_room();
+  for (const BoxPyramid::Of of : {BoxPyramid::Of::all_poses, BoxPyramid::Of::pose_grid}) {
+    const BoxPyramid pyramid(of, map, cell, epsilon, BoxPyramid::default_top_level(of));
+    const auto best = [&](std::size_t most) {
+      return search_boxes(pyramid, points, {}, {.least = points.size() / 2, .most_places = most},
+                          Exclusion{Pose2{2.0, 1.5, 0.0}}, 1);
+    };
+    const BoxSearchResult all = best(100'000);
+    const BoxSearchResult few = best(3);
+    ASSERT_GT(all.poses.size(), 10U);
+    ASSERT_EQ(few.poses.size(), 3U);
+    EXPECT_EQ(few.at_most, all.at_most);
+    for (std::size_t i = 0; i < few.poses.size(); ++i)
+      EXPECT_EQ(few.poses[i].in_contact, all.poses[i].in_contact);
+    EXPECT_LT(few.looks, all.looks);
+  }
+}
+
 TEST(BoxSearch, InPiecesFindsTheSame) {
   Points map = room(0.0F, 0.0F, true);
   add(map, room(10.0F, 3.0F, false));
