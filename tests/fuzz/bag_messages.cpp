@@ -5,7 +5,7 @@
 #include "sources/bags/cdr_writer.hpp"
 #include "sources/bags/messages.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_bag_messages(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   if (size < 2) return 0;
   constexpr std::array readers = {

@@ -3,7 +3,7 @@
 
 #include "fuzz/harness.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_board_entry(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   const auto file = fuzz::write("mine.json", fuzz::text_of(data, size));
   return fuzz::answer([&] {

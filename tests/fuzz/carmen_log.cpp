@@ -2,7 +2,7 @@
 #include "fuzz/harness.hpp"
 #include "sources/carmen/log_drive.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_carmen_log(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   carmen::LogParams params;
   params.path.resolved = fuzz::write("drive.log", fuzz::text_of(data, size));

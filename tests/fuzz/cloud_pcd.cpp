@@ -2,6 +2,6 @@
 #include "fuzz/cloud.hpp"
 #include "sources/clouds/pcd_reader.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_cloud_pcd(const std::uint8_t* data, std::size_t size) {
   return glocal::fuzz::try_cloud(data, size, glocal::clouds::read_pcd_cloud);
 }

@@ -25,7 +25,7 @@ void check_effective(Experiment& experiment) {
 }  // namespace
 }  // namespace glocal::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_experiment(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   static const bool are_written = (fuzz::write_inputs(), true);
   static_cast<void>(are_written);

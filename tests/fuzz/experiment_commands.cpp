@@ -55,7 +55,7 @@ std::string drawn_experiment(Draw& draw) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_experiment_commands(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   fuzz::Draw draw(data, size);
   std::string world = "size: [" + draw.digits(6) + ", " + draw.digits(4) + "]\n";

@@ -8,7 +8,7 @@
 #include "app/foxglove_client.hpp"
 #include "fuzz/harness.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_foxglove(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   constexpr std::size_t most_bytes = 2000;
   const auto map = std::make_shared<const app::FoxgloveMessage>();

@@ -12,9 +12,6 @@
 #include "glocal/catalog.hpp"
 #include "glocal/error.hpp"
 
-// The name that libFuzzer calls. NOLINTNEXTLINE(readability-identifier-naming)
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-
 namespace glocal::fuzz {
 
 [[nodiscard]] inline std::string text_of(const std::uint8_t* data, std::size_t size) {

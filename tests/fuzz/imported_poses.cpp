@@ -3,7 +3,7 @@
 #include "evaluation/leaderboard/imported.hpp"
 #include "fuzz/harness.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_imported_poses(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   Suite suite;
   suite.name = "toy";

@@ -4,7 +4,7 @@
 #include "fuzz/drawn_recording.hpp"
 #include "fuzz/harness.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_localize_contents(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   fuzz::Draw draw(data, size);
   const std::size_t kind = draw.one_of(4);

@@ -34,7 +34,7 @@ std::vector<Override> overrides_of(const std::string& input) {
 }  // namespace
 }  // namespace glocal::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_overrides(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   static const YamlNode base = fuzz::base();
   return fuzz::answer([&] {

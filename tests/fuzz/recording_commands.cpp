@@ -3,7 +3,7 @@
 #include "fuzz/drawn_recording.hpp"
 #include "fuzz/harness.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_recording_commands(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   fuzz::Draw draw(data, size);
   const std::size_t command = draw.one_of(7);

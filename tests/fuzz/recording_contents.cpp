@@ -5,7 +5,7 @@
 #include "sources/bags/bag_drive.hpp"
 #include "sources/bags/bag_map.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_recording_contents(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   fuzz::Draw draw(data, size);
   const Motion motion = draw.byte() % 4 == 0 ? Motion::free : Motion::planar;

@@ -49,7 +49,7 @@ struct Watched {
 }  // namespace
 }  // namespace glocal::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_requests(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   static fuzz::Watched watched;
   fuzz::Conversation conversation(fuzz::text_of(data, size));

@@ -36,7 +36,7 @@ void read_all(const std::filesystem::path& folder) {
 }  // namespace
 }  // namespace glocal::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_results(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   const auto folder = fuzz::write_folder(fuzz::text_of(data, size));
   return fuzz::answer([&] { fuzz::read_all(folder); });

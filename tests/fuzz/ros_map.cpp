@@ -3,7 +3,7 @@
 
 #include "fuzz/harness.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_ros_map(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   const auto parts = fuzz::parts(fuzz::text_of(data, size), 2);
   const auto file = fuzz::write("map.yaml", parts[0]);

@@ -31,7 +31,7 @@ std::string repaired(std::string png) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_ros_map_png(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   static const auto map =
       fuzz::write("map.yaml", "image: map.png\nresolution: 0.05\norigin: [0, 0, 0]\nmode: scale\n");

@@ -5,7 +5,7 @@
 #include "evaluation/sharding/status.hpp"
 #include "fuzz/harness.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_shards(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   const auto parts = fuzz::parts(fuzz::text_of(data, size), 2);
   std::string journal;

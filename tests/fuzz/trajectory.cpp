@@ -24,7 +24,7 @@ void check_trajectory(const clouds::Trajectory& trajectory) {
 }  // namespace
 }  // namespace glocal::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_trajectory(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   return fuzz::answer([&] { fuzz::check_trajectory(clouds::parse_trajectory(content, "poses")); });

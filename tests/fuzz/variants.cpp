@@ -13,7 +13,7 @@ const std::string of_suite = "schema: 1\nmethods: paper\nsuite: suite.yaml\n";
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_variants(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   static const auto world = fuzz::write("world.yaml", "");
   const auto parts = fuzz::parts(fuzz::text_of(data, size), 2);

@@ -4,7 +4,7 @@
 #include "fuzz/harness.hpp"
 #include "sources/simulation/simulation.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int fuzz_world(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   const auto file = fuzz::write("world.yaml", fuzz::text_of(data, size));
   return fuzz::answer([&] {
