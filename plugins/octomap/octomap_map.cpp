@@ -129,7 +129,7 @@ MapData OctomapMap::load() {
     if (!occupied) {
       grid.cells[cell] = Cell::free;
       if (in_space) map.free_voxels.add(v.x - middle, v.y - middle, v.z - middle);
-      if (map.free_voxels.bricks().size() > most_bricks)
+      if (map.free_voxels.bricks() > most_bricks)
         refuse(
             "has free space in more than 4 million cubes of 8 voxels a side; cut it smaller, or reduce its "
             "depth");

@@ -151,6 +151,15 @@ void bind_maps(py::module_& module) {
       .def_property_readonly(
           "resolution", [](const Map& map) { return map->resolution(); },
           "Side of the grid's cells, or distance of points, m; 0 if not known.")
+      .def(
+          "place_of",
+          [](const Map& map, const py::object& map_from_robot) {
+            const MapPlace place = map->place_of(pose_of(map_from_robot));
+            return py::make_tuple(place.map, place.map_from_robot);
+          },
+          py::arg("map_from_robot"),
+          "Of several maps side by side (source `several`): the name of the one that the pose lies on, and "
+          "the pose in that map's own frame. Of one map: '' and the pose.")
       .def("__repr__", [](const Map& map) {
         return fmt::format("<GlobalMap: {} points, {} x {} cells>", map->points().size(), map->grid().width,
                            map->grid().height);

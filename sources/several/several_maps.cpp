@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <set>
@@ -62,23 +61,6 @@ Columns columns_of(const MapData& map, const Lattice& lattice) {
           static_cast<int>(std::floor(x.high / lattice.side)) + 1};
 }
 
-/// Calls `use(column, row, layer)` for each of the voxels.
-template <class Use>
-void for_each_voxel(const FreeVoxels& voxels, Use use) {
-  constexpr std::uint64_t axis = (std::uint64_t{1} << 21U) - 1;
-  for (const FreeVoxels::Brick& brick : voxels.bricks()) {
-    const auto corner = [&](unsigned shift) {
-      return static_cast<int>((brick.place >> shift & axis) << 3U) - FreeVoxels::reach;
-    };
-    for (int layer = 0; layer < 8; ++layer) {
-      for (std::uint64_t bits = brick.bits[static_cast<std::size_t>(layer)]; bits != 0; bits &= bits - 1) {
-        const int bit = std::countr_zero(bits);
-        use(corner(0) + bit % 8, corner(21) + bit / 8, corner(42) + layer);
-      }
-    }
-  }
-}
-
 void append(const Points& more, Points& all) {
   all.x.insert(all.x.end(), more.x.begin(), more.x.end());
   all.y.insert(all.y.end(), more.y.begin(), more.y.end());
@@ -97,8 +79,7 @@ class SideBySide {
     const Pose2 at{corner_.x + shift * lattice_.side, corner_.y, 0.0};
     const Pose2 common_from_map = at * inverse(lattice.map_from_lattice);
     place(name, map, common_from_map, corner_.x + (shift + columns.first - between() / 2) * lattice_.side);
-    for_each_voxel(map.free_voxels,
-                   [&](int column, int row, int layer) { all_.free_voxels.add(column + shift, row, layer); });
+    all_.free_voxels.add_shifted(map.free_voxels, shift);
     if (lattice.kind == Lattice::Kind::cells) grids_.push_back({shift, std::move(map.grid)});
     end_ = shift + columns.end;
   }

@@ -216,6 +216,26 @@ def test_the_localizer_of_an_experiment_steps_as_its_run_does(room, tmp_path):
     assert localizer.step(samples[0].observation).omega_best == steps["omega_best"][0]
 
 
+def test_of_several_maps_the_map_says_which_one_a_pose_is_on(room):
+    world = "source: {simulation: {world: world.yaml}}"
+    room.write_text(f"""\
+schema: 1
+name: floors
+map: {{several: {{maps: [{{name: ground, {world}}}, {{name: first, {world}}}]}}}}
+observations: {{several: {{drives: [{{map: ground, {world}}}, {{map: first, {world}}}]}}}}
+""")
+    experiment = glocal.Experiment.load(room)
+    known, samples = experiment.load_map(), experiment.load_samples()
+    half = len(samples) // 2
+    below, above = known.place_of(samples[0].map_from_robot), known.place_of(samples[half].map_from_robot)
+    assert (below[0], above[0]) == ("ground", "first")
+    # The same drive on both, which lie far apart in the common frame.
+    assert (below[1].x, below[1].y) == pytest.approx((above[1].x, above[1].y))
+    assert samples[half].map_from_robot.x > samples[0].map_from_robot.x + 40
+    alone = glocal.GlobalMap([[1, 2]], resolution=0.1).place_of((1, 2, 0))
+    assert (alone[0], alone[1].x, alone[1].y) == ("", 1, 2)
+
+
 def test_a_localizer_takes_values_by_path_and_observations_of_numpy(room):
     experiment = glocal.Experiment.load(room)
     known = experiment.load_map()

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -16,10 +15,6 @@ namespace glocal {
 /// memory.
 class FreeVoxels {
  public:
-  struct Brick {
-    std::uint64_t place = 0;              ///< Its column, row and layer, 21 bits each.
-    std::array<std::uint64_t, 8> bits{};  ///< A layer of 8 rows each, the lowest first.
-  };
   /// Voxels along each axis lie in [-reach, reach[.
   static constexpr int reach = 8 << 20;
 
@@ -30,6 +25,8 @@ class FreeVoxels {
   FreeVoxels(const Pose2& map_from_voxels, double side);
 
   void add(int column, int row, int layer);
+  /// Those of `other`, shifted by so many columns.
+  void add_shifted(const FreeVoxels& other, int columns);
 
   [[nodiscard]] bool empty() const { return bricks_.empty(); }
   /// Whether a point of the map (m) is in one of the voxels; not for NaN.
@@ -37,10 +34,15 @@ class FreeVoxels {
 
   [[nodiscard]] double side() const { return side_; }
   [[nodiscard]] const Pose2& map_from_voxels() const { return map_from_voxels_; }
-  /// In the order in which their first voxels came.
-  [[nodiscard]] std::span<const Brick> bricks() const { return bricks_; }
+  /// How many bricks have some.
+  [[nodiscard]] std::size_t bricks() const { return bricks_.size(); }
 
  private:
+  struct Brick {
+    std::uint64_t place = 0;              ///< Its column, row and layer, 21 bits each.
+    std::array<std::uint64_t, 8> bits{};  ///< A layer of 8 rows each, the lowest first.
+  };
+
   Pose2 map_from_voxels_;
   double side_ = 1.0;
   Transform voxels_from_map_{Pose2{}};

@@ -1,9 +1,16 @@
 #include "glocal/free_voxels.hpp"
 
+#include <bit>
 #include <cmath>
 
 namespace glocal {
 namespace {
+
+/// The first voxel of a brick along an axis: 0 for columns, 1 for rows, 2 for layers.
+int corner_of(std::uint64_t place, unsigned axis) {
+  constexpr std::uint64_t of_axis = (std::uint64_t{1} << 21U) - 1;
+  return static_cast<int>((place >> 21U * axis & of_axis) << 3U) - FreeVoxels::reach;
+}
 
 std::uint64_t place_of(int column, int row, int layer) {
   const auto brick = [](int voxel) { return static_cast<std::uint64_t>(voxel + FreeVoxels::reach) >> 3U; };
@@ -29,6 +36,18 @@ void FreeVoxels::add(int column, int row, int layer) {
   const auto [number, is_new] = numbers_.try_emplace(place, static_cast<std::uint32_t>(bricks_.size()));
   if (is_new) bricks_.push_back({place});
   bricks_[number->second].bits[layer_in_brick(layer)] |= bit_of(column, row);
+}
+
+void FreeVoxels::add_shifted(const FreeVoxels& other, int columns) {
+  for (const auto& [place, layers] : other.bricks_) {
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+      for (std::uint64_t left = layers[layer]; left != 0; left &= left - 1) {
+        const int bit = std::countr_zero(left);
+        add(corner_of(place, 0) + bit % 8 + columns, corner_of(place, 1) + bit / 8,
+            corner_of(place, 2) + static_cast<int>(layer));
+      }
+    }
+  }
 }
 
 bool FreeVoxels::contains(const Point& p) const {

@@ -51,7 +51,9 @@ TEST(FreeVoxels, AnswerAsASetOfAllOfThem) {
     const auto [column, row, layer] = *all.emplace(coordinate(), coordinate(), coordinate()).first;
     voxels.add(column, row, layer);
   }
-  EXPECT_LE(voxels.bricks().size(), 64U);
+  EXPECT_LE(voxels.bricks(), 64U);
+  FreeVoxels shifted(map_from_voxels, side);
+  shifted.add_shifted(voxels, 13);
   std::size_t free = 0;
   std::size_t asked = 0;
   for (int column = -18; column < 18; ++column) {
@@ -65,6 +67,7 @@ TEST(FreeVoxels, AnswerAsASetOfAllOfThem) {
                            static_cast<float>(side * (layer + 0.5))};
         const bool is_free = all.contains({column, row, layer});
         ASSERT_EQ(voxels.contains(middle), is_free) << column << " " << row << " " << layer;
+        ASSERT_EQ(shifted.contains(middle), all.contains({column - 13, row, layer}));
         free += is_free ? 1 : 0;
         ++asked;
       }
