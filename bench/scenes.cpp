@@ -17,6 +17,9 @@ namespace {
 
 constexpr float tile_width = 26.16F;
 constexpr float tile_height = 26.7F;
+/// Of the reference loop.
+constexpr std::size_t late_step = 110;
+constexpr unsigned table_bits = 19;
 
 Scene load(const std::string& file, const std::vector<Override>& overrides) {
   Scene scene;
@@ -126,32 +129,32 @@ int run_registered(int argc, char** argv, void (*register_all)()) {
   return 0;
 }
 
-void reference_loop(benchmark::State& state) {
-  constexpr std::size_t late_step = 110;
+ReferenceLoop::ReferenceLoop()
+    : local_(local_map_at(simulation(), 0, late_step)), table_(std::size_t{1} << table_bits) {}
+
+void ReferenceLoop::run() {
   constexpr std::uint32_t iterations = 200'000;
-  constexpr unsigned table_bits = 19;
   constexpr TriangleRule rule{.cell = 0.15, .min_side = 1.5, .min_height = 1.0};
   const Points& map = simulation().map();
-  const LocalMap local = local_map_at(simulation(), 0, late_step);
-
-  std::vector<std::uint64_t> table(std::size_t{1} << table_bits);
   const auto entry = [&](Relation relation) -> std::uint64_t& {
-    return table[relation * std::uint64_t{0x9e3779b97f4a7c15} >> (64U - table_bits)];
+    return table_[relation * std::uint64_t{0x9e3779b97f4a7c15} >> (64U - table_bits)];
   };
-  Rng rng(1);
   std::size_t hits = 0;
-  for ([[maybe_unused]] auto _ : state) {
-    std::fill(table.begin(), table.end(), 0);
-    for (std::uint32_t i = 0; i < iterations; ++i) {
-      const auto triangle = plain::canonical_triangle(map, plain::draw(map, rng), rule);
-      if (triangle) entry(triangle->relation) = std::uint64_t{i} << 32U | triangle->relation;
-    }
-    for (std::uint32_t i = 0; i < iterations; ++i) {
-      const auto triangle = plain::canonical_triangle(local.points, plain::draw(local.points, rng), rule);
-      if (triangle && static_cast<Relation>(entry(triangle->relation)) == triangle->relation) ++hits;
-    }
-    benchmark::DoNotOptimize(hits);
+  std::fill(table_.begin(), table_.end(), 0);
+  for (std::uint32_t i = 0; i < iterations; ++i) {
+    const auto triangle = plain::canonical_triangle(map, plain::draw(map, rng_), rule);
+    if (triangle) entry(triangle->relation) = std::uint64_t{i} << 32U | triangle->relation;
   }
+  for (std::uint32_t i = 0; i < iterations; ++i) {
+    const auto triangle = plain::canonical_triangle(local_.points, plain::draw(local_.points, rng_), rule);
+    if (triangle && static_cast<Relation>(entry(triangle->relation)) == triangle->relation) ++hits;
+  }
+  benchmark::DoNotOptimize(hits);
+}
+
+void reference_loop(benchmark::State& state) {
+  ReferenceLoop loop;
+  for ([[maybe_unused]] auto _ : state) loop.run();
 }
 
 }  // namespace glocal::bench

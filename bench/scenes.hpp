@@ -4,13 +4,16 @@
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "evaluation/running/experiment_loader.hpp"
 #include "glocal/experiment.hpp"
 #include "glocal/global_map.hpp"
 #include "glocal/local_map.hpp"
+#include "glocal/rng.hpp"
 
 namespace glocal::bench {
 
@@ -67,9 +70,21 @@ struct Scene {
 /// main() of a program that registers its benchmarks itself; the reference loop is there already.
 int run_registered(int argc, char** argv, void (*register_all)());
 
-/// To be registered in every benchmark, so that times can be compared over machines and days as multiples of
-/// it: 200,000 triples of the map and as many of a late local map, drawn one at a time in plain code, hashed
-/// and looked up in a table of 8-byte entries, and nothing else.
+/// So that times can be compared over machines and days as multiples of it: 200,000 triples of the map and as
+/// many of a late local map, drawn one at a time in plain code, hashed and looked up in a table of 8-byte
+/// entries, and nothing else.
+class ReferenceLoop {
+ public:
+  ReferenceLoop();
+  void run();
+
+ private:
+  LocalMap local_;
+  std::vector<std::uint64_t> table_;
+  Rng rng_{1};
+};
+
+/// To be registered in every benchmark.
 void reference_loop(benchmark::State& state);
 
 }  // namespace glocal::bench

@@ -1,6 +1,9 @@
 #include "matchers/common/beam_evidence.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "glocal/beams.hpp"
 #include "glocal/pose_tolerance.hpp"
@@ -63,13 +66,12 @@ double BeamEvidence::blocked_share(const ClearanceGrid& grid, const Pose2& map_f
   double all = 0.0;
   for (const Beams& beams : scans_) all += static_cast<double>(beams.ends.size());
   double blocked = 0.0;
+  std::vector<std::uint8_t> are_blocked;
   for (const Beams& beams : scans_) {
-    const Point from = transform(beams.origin);
-    for (std::size_t i = 0; i < beams.ends.size(); ++i) {
-      if (grid.is_blocked(from, transform(beams.ends[i]), rule_.margin)) blocked += 1.0;
-      // One beam more, so that no rounding brings the answer back to `most`.
-      if (blocked > most * all + 1.0) return blocked / all;
-    }
+    grid.find_blocked(transform(beams.origin), beams.ends, transform, rule_.margin, are_blocked);
+    blocked += static_cast<double>(std::count(are_blocked.begin(), are_blocked.end(), 1));
+    // One beam more, so that no rounding brings the answer back to `most`.
+    if (blocked > most * all + 1.0) break;
   }
   return all == 0.0 ? 0.0 : blocked / all;
 }
@@ -78,13 +80,14 @@ double BeamEvidence::support(const ContactIndex& contact, const ClearanceGrid& g
                              const Pose2& map_from_local) const {
   const Transform transform(map_from_local);
   double sum = 0.0;
+  std::vector<std::uint8_t> are_blocked;
   for (const Beams& beams : places_) {
-    const Point from = transform(beams.origin);
+    grid.find_blocked(transform(beams.origin), beams.ends, transform, rule_.margin, are_blocked);
     double support = 0.0;
     for (std::size_t i = 0; i < beams.ends.size(); ++i) {
       if (i < beams.hits && contact.count(beams.ends, i, 1, transform) > 0) {
         support += 1.0;
-      } else if (grid.is_blocked(from, transform(beams.ends[i]), rule_.margin)) {
+      } else if (are_blocked[i] != 0) {
         support -= blocked_against_contact;
       }
     }

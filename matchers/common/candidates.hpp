@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -29,7 +30,10 @@ inline constexpr double candidate_rotation = radians(11.5);
 /// Of robot poses in the plane (Pose2) or in space (Pose3).
 template <class Pose>
 [[nodiscard]] bool is_same_candidate(const Pose& a, const Pose& b) {
-  return distance(a, b) < candidate_distance && rotation_between(a, b) < candidate_rotation;
+  // Most are far apart, and seen to be so along one axis.
+  const auto are_near = [](double u, double v) { return std::abs(u - v) < candidate_distance; };
+  return are_near(a.x, b.x) && are_near(a.y, b.y) && distance(a, b) < candidate_distance &&
+         rotation_between(a, b) < candidate_rotation;
 }
 
 /// The best first, at most `most`, leaving out those that only repeat a better one: the same robot pose.

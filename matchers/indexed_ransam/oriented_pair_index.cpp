@@ -102,7 +102,7 @@ std::span<const OrientedPairIndex::OrientedPair> OrientedPairIndex::find(
 std::optional<std::uint32_t> OrientedPairIndex::bin(const OrientedPoints& s, const OrientedPair& pair) const {
   const float dx = s.x[pair.second] - s.x[pair.first];
   const float dy = s.y[pair.second] - s.y[pair.first];
-  const float length = std::hypot(dx, dy);
+  const auto length = static_cast<float>(std::sqrt(double{dx} * dx + double{dy} * dy));
   if (!(length >= rule_.min_length && length < rule_.max_length)) return std::nullopt;
   const auto length_cell = static_cast<std::uint32_t>((length - rule_.min_length) / rule_.length_cell);
   const float direction = std::atan2(dy, dx);

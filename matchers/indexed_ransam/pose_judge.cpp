@@ -27,10 +27,11 @@ PoseJudge::PoseJudge(const JudgeRule& rule, std::shared_ptr<const GlobalMap> map
 std::vector<Hypothesis> PoseJudge::best_of(const std::vector<Candidate>& candidates, const LocalMap& local,
                                            const Points& sample) const {
   std::vector<Hypothesis> at_most;
+  LookUps memory;
   for (const Candidate& candidate : candidates) {
     Hypothesis h = Hypothesis::by_contact(candidate.map_from_local,
                                           contact_->share(local.points, Transform(candidate.map_from_local)));
-    const PlaceEvidence evidence = evidence_at(candidate.map_from_local, sample);
+    const PlaceEvidence evidence = evidence_at(candidate.map_from_local, sample, memory);
     h.score += rule_.unknown_weight * evidence.unknown - rule_.fit_weight * evidence.misfit;
     h.score -= rule_.free_space_weight * evidence.in_free_space;
     at_most.push_back(h);
@@ -53,22 +54,23 @@ Hypothesis PoseJudge::to_hypothesis(Hypothesis judged, const LocalMap& local, co
   const Pose2 map_from_robot = map_from_local * seen_from_above(local.local_from_robot);
   judged.score = std::min(judged.score, 1.0);
   judged.covariance = pose_covariance(*field_, sample, map_from_local, map_from_robot, rule_.kernel);
-  judged.free_space_violation = evidence_at(map_from_local, sample).in_free_space;
+  LookUps memory;
+  judged.free_space_violation = evidence_at(map_from_local, sample, memory).in_free_space;
   judged.beam_evidence = beams_.support(*contact_, *clearance_, map_from_local);
   return judged;
 }
 
-PoseJudge::PlaceEvidence PoseJudge::evidence_at(const Pose2& map_from_local, const Points& sample) const {
-  const Transform map(map_from_local);
-  const CellsUnder cell_under(map_->grid(), map_from_local);
+PoseJudge::PlaceEvidence PoseJudge::evidence_at(const Pose2& map_from_local, const Points& sample,
+                                                LookUps& memory) const {
+  CellsUnder(map_->grid(), map_from_local).find(sample, memory.cells);
+  field_->at(sample, Transform(map_from_local), memory.field);
   std::size_t in_unknown = 0, in_free_space = 0;
   double misfit = 0.0;
   for (std::size_t i = 0; i < sample.size(); ++i) {
-    const Cell cell = cell_under(sample[i]);
-    const Point p = map(sample[i]);
-    const double to_map = field_->at(p.x, p.y).distance;
-    if (cell == Cell::unknown) ++in_unknown;
-    if (cell == Cell::free && to_map > rule_.contact_epsilon) ++in_free_space;
+    const Cell cell = memory.cells[i];
+    const double to_map = memory.field.distance[i];
+    in_unknown += cell == Cell::unknown ? 1U : 0U;
+    in_free_space += cell == Cell::free && to_map > rule_.contact_epsilon ? 1U : 0U;
     misfit += std::min(1.0, to_map / rule_.contact_epsilon);
   }
   const auto size = static_cast<double>(sample.size());

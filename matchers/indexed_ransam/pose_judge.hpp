@@ -58,7 +58,13 @@ class PoseJudge {
     double in_free_space = 0.0;  ///< In cells known to be free, out of contact.
     double misfit = 0.0;         ///< Mean distance to the map over contact_epsilon, each at most 1.
   };
-  [[nodiscard]] PlaceEvidence evidence_at(const Pose2& map_from_local, const Points& sample) const;
+  /// Memory to look places up in.
+  struct LookUps {
+    std::vector<Cell> cells;
+    FieldValues field;
+  };
+  [[nodiscard]] PlaceEvidence evidence_at(const Pose2& map_from_local, const Points& sample,
+                                          LookUps& memory) const;
 
   JudgeRule rule_;
   std::shared_ptr<const GlobalMap> map_;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "glocal/error.hpp"
 #include "sources/simulation/clear_cells.hpp"
@@ -38,11 +38,14 @@ void describe(ParamVisitor& v, RandomScans::Params& p) {
 }
 
 RandomScans::RandomScans(const Params& params, const SourceSetup& setup)
+    : RandomScans(params, ros_map::RosMap(params.map, setup).load(), setup.seed) {}
+
+RandomScans::RandomScans(const Params& params, MapData map, std::uint64_t seed)
     : params_(params),
-      map_(ros_map::RosMap(params.map, setup).load()),
+      map_(std::move(map)),
       clear_cells_(marked(clear_cells(map_.grid, params.clearance))),
       scan_limits_(scan_limits(params.laser)),
-      rng_(setup.seed) {
+      rng_(seed) {
   if (!clear_cells_.empty()) return;
   throw ConfigError({{params.map.path.resolved.string(), 0, 0,
                       fmt::format("has no free cell {} m away from all that is not free; lower clearance, or "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ class RandomScans final : public ObservationSource {
 
   /// Throws ConfigError where ros_map::RosMap does, and for a map without a cell that is free and clear.
   RandomScans(const Params& params, const SourceSetup& setup);
+  /// On a map that is in no file.
+  RandomScans(const Params& params, MapData map, std::uint64_t seed);
 
   [[nodiscard]] std::optional<Sample> next() override;
 

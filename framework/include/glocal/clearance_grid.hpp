@@ -28,6 +28,10 @@ class ClearanceGrid {
   [[nodiscard]] bool is_blocked(const Point& from, const Point& to, double margin) const {
     return first_occupied(from, to, margin).has_value();
   }
+  /// Whether there is one on the way to each of the ends, once moved: 1, or else 0. What `blocked` had is
+  /// lost.
+  void find_blocked(const Point& from, const Points& ends, const Transform& map_from_ends, double margin,
+                    std::vector<std::uint8_t>& blocked) const;
 
  private:
   [[nodiscard]] std::size_t index(int column, int row) const {
@@ -38,7 +42,7 @@ class ClearanceGrid {
   Transform grid_from_map_;
   float resolution_;
   int width_, height_;
-  std::vector<std::uint8_t> clearance_;
+  std::vector<std::uint8_t> clearance_;  ///< And three more, as ClearanceView asks for.
 };
 
 /// That of a map, shared by all who ask for it.

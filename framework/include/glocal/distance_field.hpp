@@ -15,6 +15,13 @@
 
 namespace glocal {
 
+/// The field at many places (m), as DistanceField::Value has it.
+struct FieldValues {
+  std::vector<float> x, y;
+  std::vector<float> distance, dx, dy;
+};
+struct FieldView;
+
 /// Distances in the plane from the centres of square cells to the nearest point, up to `reach`, and in
 /// between by bilinear interpolation. A distance is kept as one of 256 steps up to the reach; cells come in
 /// tiles, and those beyond the reach of all points take no memory.
@@ -30,17 +37,20 @@ class DistanceField {
     float dy = 0.0F;
   };
   [[nodiscard]] Value at(float x, float y) const;
+  /// At all points once moved, in the time of a few: what `values` had is lost.
+  void at(const Points& points, const Transform& map_from_points, FieldValues& values) const;
   [[nodiscard]] float reach() const { return reach_; }
   [[nodiscard]] std::size_t memory_bytes() const {
     return cells_.size() + tiles_.size() * sizeof(std::uint32_t);
   }
 
- private:
   /// Cells of a tile along either axis. It has those of its neighbours' first column and row, too.
   static constexpr int tile_shift = 6;
   static constexpr int tile_side = 1 << tile_shift;
   static constexpr int stride = tile_side + 1;
   static constexpr std::size_t tile_cells = static_cast<std::size_t>(stride) * stride;
+
+ private:
   static constexpr std::uint8_t beyond_reach = 255;
 
   struct Place {
@@ -64,7 +74,7 @@ class DistanceField {
   int columns_ = 0, rows_ = 0;
   int tile_columns_ = 0, tile_rows_ = 0;
   std::vector<std::uint32_t> tiles_;  ///< Which of those in `cells_` it is; the first one is beyond reach.
-  std::vector<std::uint8_t> cells_;
+  std::vector<std::uint8_t> cells_;   ///< And two more, as FieldView asks for.
 };
 
 inline DistanceField::Value DistanceField::at(float x, float y) const {

@@ -45,6 +45,8 @@ class CellsUnder {
   CellsUnder(const OccupancyGrid& grid, const Pose2& map_from_points);
   /// Outside the grid everything is unknown.
   [[nodiscard]] Cell operator()(const Point& p) const;
+  /// Of all points: what `cells` had is lost.
+  void find(const Points& points, std::vector<Cell>& cells) const;
 
  private:
   const OccupancyGrid& grid_;

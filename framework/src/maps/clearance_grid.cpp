@@ -3,14 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/look_up.hpp"
+
 namespace glocal {
+namespace {
+
+constexpr std::size_t padding = 3;
+
+}  // namespace
 
 ClearanceGrid::ClearanceGrid(const OccupancyGrid& grid)
     : grid_from_map_(inverse(grid.map_from_grid)),
       resolution_(static_cast<float>(grid.resolution)),
       width_(grid.width),
       height_(grid.height),
-      clearance_(grid.cells.size()) {
+      clearance_(grid.cells.size() + padding) {
   constexpr int most = 255;
   const auto at = [&](int column, int row) -> int {
     const bool inside = column >= 0 && row >= 0 && column < width_ && row < height_;
@@ -20,7 +27,7 @@ ClearanceGrid::ClearanceGrid(const OccupancyGrid& grid)
     std::uint8_t& cell = clearance_[index(column, row)];
     cell = static_cast<std::uint8_t>(std::min<int>(cell, std::min(neighbour + 1, most)));
   };
-  for (std::size_t i = 0; i < clearance_.size(); ++i)
+  for (std::size_t i = 0; i < grid.cells.size(); ++i)
     clearance_[i] = grid.cells[i] == Cell::occupied ? 0 : most;
   // Two passes over the neighbours already visited give the chessboard distance (Rosenfeld and Pfaltz 1966).
   for (int row = 0; row < height_; ++row) {
@@ -43,7 +50,7 @@ std::optional<double> ClearanceGrid::first_occupied(const Point& from, const Poi
   const float dx = b.x - a.x;
   const float dy = b.y - a.y;
   const float length = std::sqrt(dx * dx + dy * dy);
-  if (clearance_.empty() || !(length > 0.0F)) return std::nullopt;
+  if (clearance_.size() == padding || !(length > 0.0F)) return std::nullopt;
   const float scale = 1.0F / resolution_;
   const float end = (length - static_cast<float>(margin)) * scale;
   const float columns = dx / length, rows = dy / length;
@@ -61,6 +68,16 @@ std::optional<double> ClearanceGrid::first_occupied(const Point& from, const Poi
     t += std::max(0.5F, static_cast<float>(clearance - 1));
   }
   return std::nullopt;
+}
+
+void ClearanceGrid::find_blocked(const Point& from, const Points& ends, const Transform& map_from_ends,
+                                 double margin, std::vector<std::uint8_t>& blocked) const {
+  blocked.assign(ends.size(), 0);
+  if (clearance_.size() == padding) return;
+  const ClearanceView view{
+      .cells = clearance_.data(), .width = width_, .height = height_, .resolution = resolution_};
+  glocal::find_blocked(view, grid_from_map_(from), ends, map_from_ends, grid_from_map_,
+                       static_cast<float>(margin), blocked);
 }
 
 std::shared_ptr<const ClearanceGrid> clearance_grid(const GlobalMap& map) {

@@ -10,6 +10,7 @@
 
 #include "glocal/error.hpp"
 #include "glocal/parallel.hpp"
+#include "maps/look_up.hpp"
 
 namespace glocal {
 
@@ -77,7 +78,8 @@ void DistanceField::place_tiles(const Points& points, int around) {
   const auto n = static_cast<std::size_t>(std::count(reached.begin(), reached.end(), true)) + 1;
   constexpr std::size_t largest_bytes = std::size_t{1} << 30U;
   if (n * tile_cells > largest_bytes) refuse_size();
-  cells_.assign(n * tile_cells, beyond_reach);
+  constexpr std::size_t padding = 2;
+  cells_.assign(n * tile_cells + padding, beyond_reach);
   tiles_.assign(reached.size(), 0);
   std::uint32_t next = 1;
   for (std::size_t i = 0; i < reached.size(); ++i) {
@@ -139,6 +141,22 @@ void DistanceField::stamp(std::size_t tile, const Points& points, std::span<cons
     cells[i] = static_cast<std::uint8_t>(std::lround(std::sqrt(squares[i]) / farthest * beyond_reach));
 }
 
+void DistanceField::at(const Points& points, const Transform& map_from_points, FieldValues& values) const {
+  for (auto* of_each : {&values.x, &values.y, &values.distance, &values.dx, &values.dy})
+    of_each->resize(points.size());
+  look_up({.cells = cells_.data(),
+           .tiles = tiles_.data(),
+           .min_x = min_x_,
+           .min_y = min_y_,
+           .scale = scale_,
+           .step = step_,
+           .reach = reach_,
+           .columns = columns_,
+           .rows = rows_,
+           .tile_columns = tile_columns_},
+          points, map_from_points, values);
+}
+
 std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, int threads) {
   // Half a metre is as far as a pose is ever refined from.
   return map.index<DistanceField>("", [&] { return DistanceField(map.points(), 0.05, 0.5, threads); });
@@ -154,24 +172,38 @@ struct NormalEquations {
   float squares = 0.0F;  ///< m^2
 };
 
+/// `values` is memory to work with.
 NormalEquations normal_equations(const DistanceField& field, const Points& points,
-                                 const Pose2& map_from_points, const Pose2& about, double kernel) {
+                                 const Pose2& map_from_points, const Pose2& about, double kernel,
+                                 FieldValues& values) {
   const auto squared_kernel = static_cast<float>(kernel * kernel);
   const auto x = static_cast<float>(about.x);
   const auto y = static_cast<float>(about.y);
-  const Transform transform(map_from_points);
+  field.at(points, Transform(map_from_points), values);
   NormalEquations e;
+  // A sum for each number, in the order of the points, and no branch: half of them may be out of reach.
+  std::array<std::array<float, 3>, 3> h{};
+  std::array<float, 3> g{};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point p = transform(points[i]);
-    const DistanceField::Value value = field.at(p.x, p.y);
-    if (value.dx == 0.0F && value.dy == 0.0F) continue;
-    const float share = squared_kernel / (squared_kernel + value.distance * value.distance);
-    const float weight = share * share;  // Geman-McClure
-    const Eigen::Vector3f j(value.dx, value.dy, value.dy * (p.x - x) - value.dx * (p.y - y));
-    e.h += weight * j * j.transpose();
-    e.g += weight * value.distance * j;
+    const float distance = values.distance[i];
+    const float dx = values.dx[i];
+    const float dy = values.dy[i];
+    const bool tells = dx != 0.0F || dy != 0.0F;
+    const float share = squared_kernel / (squared_kernel + distance * distance);
+    const float weight = tells ? share * share : 0.0F;  // Geman-McClure
+    const float turn = dy * (values.x[i] - x) - dx * (values.y[i] - y);
+    const std::array<float, 3> j = {dx, dy, tells ? turn : 0.0F};
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t column = 0; column < 3; ++column) h[row][column] += weight * j[row] * j[column];
+      g[row] += weight * distance * j[row];
+    }
     e.weights += weight;
-    e.squares += weight * value.distance * value.distance;
+    e.squares += weight * distance * distance;
+  }
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      e.h(row, column) = h[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+    e.g[row] = g[static_cast<std::size_t>(row)];
   }
   return e;
 }
@@ -182,8 +214,9 @@ Pose2 refined_pose(const DistanceField& field, const Points& points, const Pose2
                    const PoseRefinement& refinement) {
   constexpr double settled = 1e-3;  // m, rad; a hundredth of what counts as contact
   Pose2 pose = map_from_points;
+  FieldValues values;
   for (int iteration = 0; iteration < refinement.iterations; ++iteration) {
-    NormalEquations e = normal_equations(field, points, pose, pose, refinement.kernel);
+    NormalEquations e = normal_equations(field, points, pose, pose, refinement.kernel, values);
     constexpr float damping = 1e-3F;
     e.h.diagonal() *= 1.0F + damping;
     const Eigen::LDLT<Eigen::Matrix3f> solver(e.h);
@@ -201,7 +234,8 @@ PoseCovariance pose_covariance(const DistanceField& field, const Points& points,
   constexpr double least_deviation = 0.01;   // m; of a point, whatever its residual
   constexpr double correlated_points = 8.0;  // so many err alike, and count as one
   constexpr double drift = radians(0.2);
-  const NormalEquations e = normal_equations(field, points, map_from_points, map_from_robot, kernel);
+  FieldValues values;
+  const NormalEquations e = normal_equations(field, points, map_from_points, map_from_robot, kernel, values);
   const double least = least_deviation * least_deviation;
   const double variance = e.weights > 0.0F ? std::max(least, double{e.squares / e.weights}) : least;
   Eigen::Matrix3d information = e.h.cast<double>() / (variance * correlated_points);

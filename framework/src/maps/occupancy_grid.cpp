@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "maps/look_up.hpp"
+
 namespace glocal {
 
 Cell OccupancyGrid::at(double map_x, double map_y) const {
@@ -25,6 +27,11 @@ Cell CellsUnder::operator()(const Point& p) const {
   const bool inside = column >= 0.0F && row >= 0.0F && column < static_cast<float>(grid_.width) &&
                       row < static_cast<float>(grid_.height);
   return inside ? grid_.cell(static_cast<int>(column), static_cast<int>(row)) : Cell::unknown;
+}
+
+void CellsUnder::find(const Points& points, std::vector<Cell>& cells) const {
+  cells.resize(points.size());
+  find_cells(grid_, scale_, points, grid_from_points_, cells);
 }
 
 Points occupied_centres(const OccupancyGrid& grid) {

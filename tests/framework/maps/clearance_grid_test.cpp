@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "glocal/rng.hpp"
+#include "instruction_sets.hpp"
 
 namespace glocal::clearance_grid_test {
 namespace {
@@ -66,8 +71,38 @@ TEST(ClearanceGrid, TheFirstOccupiedCellIsWhereSmallStepsWouldMeetIt) {
   EXPECT_LT(far_off, met / 10);
 }
 
+TEST(ClearanceGrid, ManyBeamsAreBlockedAsEachByItself) {
+  Rng rng(10);
+  OccupancyGrid grid{{1.0, -2.0, 0.4}, 0.1, 60, 50, std::vector<Cell>(3000, Cell::free)};
+  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.02 ? Cell::occupied : Cell::free;
+  grid.cells.back() = Cell::occupied;
+  const ClearanceGrid clearance(grid);
+  const Transform map_from_ends(Pose2{0.5, 1.0, 0.7});
+  Points ends;
+  for (int i = 0; i < 1003; ++i)
+    ends.push_back(
+        {static_cast<float>(rng.uniform(-9.0, 9.0)), static_cast<float>(rng.uniform(-9.0, 9.0)), 0.0F});
+  const Point from{2.0F, 1.0F, 0.0F};
+  ends.set(5, {std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F});
+  std::vector<std::uint8_t> expected;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    expected.push_back(clearance.is_blocked(from, map_from_ends(ends[i]), 0.3) ? 1 : 0);
+  test::with_every_instruction_set([&] {
+    std::vector<std::uint8_t> blocked(7, 1);
+    clearance.find_blocked(from, ends, map_from_ends, 0.3, blocked);
+    EXPECT_EQ(blocked, expected);
+  });
+  EXPECT_GT(std::count(expected.begin(), expected.end(), 1), 200);
+}
+
 TEST(ClearanceGrid, AMapWithoutAGridBlocksNothing) {
-  EXPECT_FALSE(ClearanceGrid(OccupancyGrid{}).is_blocked({}, {5.0F, 0.0F, 0.0F}, 0.3));
+  const ClearanceGrid none(OccupancyGrid{});
+  EXPECT_FALSE(none.is_blocked({}, {5.0F, 0.0F, 0.0F}, 0.3));
+  Points ends;
+  ends.push_back({5.0F, 0.0F, 0.0F});
+  std::vector<std::uint8_t> blocked;
+  none.find_blocked({}, ends, Transform(Pose2{}), 0.3, blocked);
+  EXPECT_EQ(blocked, std::vector<std::uint8_t>{0});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "glocal/error.hpp"
 #include "glocal/rng.hpp"
+#include "instruction_sets.hpp"
 #include "test_world.hpp"
 
 namespace glocal::distance_field_test {
@@ -43,6 +44,30 @@ TEST(DistanceField, ItsDerivativesAreThoseOfItsValues) {
     ++checked;
   }
   EXPECT_GT(checked, 2700);
+}
+
+TEST(DistanceField, ManyPlacesAreLookedUpAsEachByItself) {
+  const DistanceField field(test::small_world_points(), 0.05, 0.5);
+  const Transform map_from_points(Pose2{0.3, -0.2, 0.5});
+  Rng rng(4);
+  Points points;
+  for (int i = 0; i < 1003; ++i)
+    points.push_back(
+        {static_cast<float>(rng.uniform(-2.0, 10.0)), static_cast<float>(rng.uniform(-2.0, 11.0)), 0.0F});
+  points.set(3, {1e30F, 0.0F, 0.0F});
+  test::with_every_instruction_set([&] {
+    FieldValues values;
+    field.at(points, map_from_points, values);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Point p = map_from_points(points[i]);
+      const DistanceField::Value expected = field.at(p.x, p.y);
+      EXPECT_EQ(values.x[i], p.x);
+      EXPECT_EQ(values.y[i], p.y);
+      EXPECT_EQ(values.distance[i], expected.distance);
+      EXPECT_EQ(values.dx[i], expected.dx);
+      EXPECT_EQ(values.dy[i], expected.dy);
+    }
+  });
 }
 
 TEST(DistanceField, FarAwayAndNotANumberAreBeyondReach) {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "glocal/rng.hpp"
+#include "instruction_sets.hpp"
 
 namespace glocal::occupancy_grid_test {
 namespace {
@@ -39,13 +41,22 @@ TEST(CellsUnder, AreThoseOfTheGridPointByPoint) {
   const Pose2 pose{0.4, 2.0, -1.1};
   const CellsUnder cell_under(grid, pose);
   int differ = 0;
-  for (int i = 0; i < 5000; ++i) {
+  Points points;
+  std::vector<Cell> one_by_one;
+  for (int i = 0; i < 5003; ++i) {
     const Point p{static_cast<float>(rng.uniform(-5.0, 5.0)), static_cast<float>(rng.uniform(-5.0, 5.0)),
                   0.0F};
     const Pose2 in_map = pose * Pose2{p.x, p.y, 0.0};
-    differ += cell_under(p) == grid.at(in_map.x, in_map.y) ? 0 : 1;
+    points.push_back(p);
+    one_by_one.push_back(cell_under(p));
+    differ += one_by_one.back() == grid.at(in_map.x, in_map.y) ? 0 : 1;
   }
   EXPECT_LE(differ, 2);  // at the borders of cells, where numbers are rounded
+  test::with_every_instruction_set([&] {
+    std::vector<Cell> at_once;
+    cell_under.find(points, at_once);
+    EXPECT_EQ(at_once, one_by_one);
+  });
 }
 
 TEST(CellsUnder, AreUnknownWithoutAGridAndForWhatIsNoNumber) {
