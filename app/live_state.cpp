@@ -54,7 +54,7 @@ std::string fingerprint(const GlobalMap& map) {
                                   map.grid().resolution, map.origin().x(), map.origin().y());
   for (const std::vector<float>* column : {&points.x, &points.y, &points.z})
     parts += sha256_of_text(bytes_of(*column));
-  parts += sha256_of_text(bytes_of(map.grid().cells));
+  parts += sha256_of_text(bytes_of(map.grid().cells.words()));
   return sha256_of_text(parts);
 }
 

@@ -39,7 +39,7 @@ inline Points small_world_points() {
 inline std::shared_ptr<const GlobalMap> small_world() {
   MapData data;
   data.points = small_world_points();
-  data.grid = {{-0.05, -0.05, 0.0}, 0.1, 82, 92, std::vector<Cell>(std::size_t{82} * 92, Cell::free)};
+  data.grid = {{-0.05, -0.05, 0.0}, 0.1, 82, 92, PackedCells(std::size_t{82} * 92, Cell::free)};
   return std::make_shared<const GlobalMap>(std::move(data));
 }
 

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "glocal/contact.hpp"
@@ -18,6 +21,30 @@ void place_hits(const Scan& scan, const Pose3& map_from_robot, std::size_t most,
   for (const std::size_t k : evenly_chosen(placed.size(), most)) ends.push_back(placed[k]);
 }
 
+/// Those of many points that may be within `reach` (m) of one of some others, and more: an index of a whole
+/// map takes more memory than the map.
+Points points_near(const Points& points, const Points& others, double reach) {
+  const auto square = [&](double x, double y) {
+    return std::pair(static_cast<std::int64_t>(std::floor(x / reach)),
+                     static_cast<std::int64_t>(std::floor(y / reach)));
+  };
+  std::vector<std::pair<std::int64_t, std::int64_t>> squares;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    for (const double dx : {-reach, 0.0, reach}) {
+      for (const double dy : {-reach, 0.0, reach})
+        squares.push_back(square(others.x[i] + dx, others.y[i] + dy));
+    }
+  }
+  std::sort(squares.begin(), squares.end());
+  squares.erase(std::unique(squares.begin(), squares.end()), squares.end());
+  Points near;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::binary_search(squares.begin(), squares.end(), square(points.x[i], points.y[i])))
+      near.push_back(points[i]);
+  }
+  return near;
+}
+
 }  // namespace
 
 std::optional<double> reference_fit(const Drive& drive, const GlobalMap& map, double epsilon) {
@@ -30,8 +57,10 @@ std::optional<double> reference_fit(const Drive& drive, const GlobalMap& map, do
   Points ends;
   for (const std::size_t i : evenly_chosen(judged.size(), scans))
     place_hits(judged[i]->observation.scan, map.relative(*judged[i]->map_from_robot), hits_of_scan, ends);
+  const Points near = points_near(map.points(), ends, epsilon);
+  if (near.empty()) return 0.0;
   // Not one of the map's indexes, whose time to build is counted when a strategy asks for them.
-  return KdTreeContact(map.points(), epsilon).share(ends, Transform(Pose2{}));
+  return KdTreeContact(near, epsilon).share(ends, Transform(Pose2{}));
 }
 
 std::optional<double> fit_among_scans(const Drive& drive,

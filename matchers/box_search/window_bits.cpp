@@ -143,6 +143,16 @@ int low_bits(int value, int n) {
   return value & ((1 << n) - 1);
 }
 
+/// Bits 0, 2, 4, … beside each other.
+std::uint64_t every_second(std::uint64_t bits) {
+  bits &= 0x5555555555555555ULL;
+  bits = (bits | bits >> 1U) & 0x3333333333333333ULL;
+  bits = (bits | bits >> 2U) & 0x0f0f0f0f0f0f0f0fULL;
+  bits = (bits | bits >> 4U) & 0x00ff00ff00ff00ffULL;
+  bits = (bits | bits >> 8U) & 0x0000ffff0000ffffULL;
+  return (bits | bits >> 16U) & 0x00000000ffffffffULL;
+}
+
 }  // namespace
 
 void CellPoints::push_back(std::int32_t column, std::int32_t row, std::int32_t layer) {
@@ -215,25 +225,43 @@ void LayerBits::reserve() {
   words_.reserve((numbers_.size() + 1) * block_words);
 }
 
-void LayerBits::add_row(int row, int first_column, std::span<const std::uint8_t> windows) {
-  const std::uint8_t* begin = windows.data();
-  const std::uint8_t* end = begin + windows.size();
-  for (const std::uint8_t* next = next_set(begin, end); next != end; next = next_set(next + 1, end))
-    set(first_column + static_cast<int>(next - begin), row);
+void LayerBits::add_row(int row, std::span<const std::uint64_t> windows) {
+  // Every second one at a time goes to either side, once for each bit of a place within 2^level cells.
+  struct Part {
+    std::vector<std::uint64_t> windows;
+    int phase;
+  };
+  std::vector<Part> parts;
+  parts.push_back({{windows.begin(), windows.end()}, 0});
+  for (int i = 0; i < layout_.level; ++i) {
+    std::vector<Part> halves;
+    for (const Part& part : parts) {
+      for (const int odd : {0, 1}) {
+        Part& half = halves.emplace_back();
+        half.phase = part.phase | odd << i;
+        half.windows.resize((part.windows.size() + 1) / 2);
+        for (std::size_t w = 0; w < part.windows.size(); ++w)
+          half.windows[w / 2] |= every_second(part.windows[w] >> odd) << (w % 2 * word_bits / 2);
+      }
+    }
+    parts = std::move(halves);
+  }
+  for (const Part& part : parts) add_phase(row, part.phase, part.windows);
 }
 
-void LayerBits::set(int column, int row) {
+void LayerBits::add_phase(int row, int column_phase, std::span<const std::uint64_t> windows) {
   const int level = layout_.level;
-  const int phase = low_bits(row, level) << level | low_bits(column, level);
-  const int bit = (column >> level) + TileCounts::columns;
+  const int phase = low_bits(row, level) << level | column_phase;
   const int line = (row >> level) + TileCounts::rows;
   const int in_block = low_bits(line, std::bit_width(unsigned{BitsLayout::block_rows - 1}));
-  const auto place = static_cast<std::size_t>((phase * layout_.words + bit / word_bits) * layout_.row_blocks +
-                                              line / BitsLayout::block_rows);
-  const std::uint64_t mask = std::uint64_t{1} << static_cast<unsigned>(bit % word_bits);
-  block(place)[in_block] |= mask;
-  if (in_block < TileCounts::rows && line >= BitsLayout::block_rows)
-    block(place - 1)[BitsLayout::block_rows + in_block] |= mask;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    if (windows[w] == 0) continue;
+    const auto place = static_cast<std::size_t>(
+        (phase * layout_.words + static_cast<int>(w)) * layout_.row_blocks + line / BitsLayout::block_rows);
+    block(place)[in_block] |= windows[w];
+    if (in_block < TileCounts::rows && line >= BitsLayout::block_rows)
+      block(place - 1)[BitsLayout::block_rows + in_block] |= windows[w];
+  }
 }
 
 std::uint64_t* LayerBits::block(std::size_t place) {

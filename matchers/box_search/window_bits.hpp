@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -33,12 +32,6 @@ struct TileLooks {
   std::vector<std::uint32_t> next;    ///< The one behind it in that row.
   std::vector<std::uint32_t> shifts;  ///< The bit in the first.
 };
-
-/// The first of some bytes of windows that is set, or their end.
-[[nodiscard]] inline const std::uint8_t* next_set(const std::uint8_t* begin, const std::uint8_t* end) {
-  const void* found = std::memchr(begin, 1, static_cast<std::size_t>(end - begin));
-  return found == nullptr ? end : static_cast<const std::uint8_t*>(found);
-}
 
 /// How the bits of a layer of windows lie: for each place that a window can begin at within 2^level cells,
 /// columns of words, which are cut into blocks of rows.
@@ -99,13 +92,17 @@ class LayerBits {
   /// leave as much behind in each thread as they take.
   void reserve();
 
-  /// Those windows of a row which have a cell in contact: a byte for each, the first of column
-  /// `first_column`.
-  void add_row(int row, int first_column, std::span<const std::uint8_t> windows);
+  /// How many columns before column 0 the bits of a row begin: as many as a tile has.
+  [[nodiscard]] static int columns_before(int level) { return TileCounts::columns << level; }
+
+  /// Those windows of a row which have a cell in contact: a bit for each, the first of column
+  /// -columns_before(level).
+  void add_row(int row, std::span<const std::uint64_t> windows);
 
  private:
   friend class WindowBits;
-  void set(int column, int row);
+  /// Those of them that begin at one place within 2^level cells, neighbours beside each other.
+  void add_phase(int row, int column_phase, std::span<const std::uint64_t> windows);
   /// Where a block begins in `words_`, which takes it in if it was empty.
   [[nodiscard]] std::uint64_t* block(std::size_t place);
 

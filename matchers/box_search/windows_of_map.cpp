@@ -1,7 +1,6 @@
 #include "matchers/box_search/windows_of_map.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -32,133 +31,156 @@ struct LayerCells {
   }
 };
 
-/// Those of a layer that are within `epsilon` (m) of a point of the map: by their centres, or, with
-/// `anywhere`, by the nearest of their places.
-LayerCells cells_in_contact(const Points& map_points, const CellFrame& frame, double epsilon, bool anywhere,
-                            int layer) {
-  const std::size_t words = static_cast<std::size_t>(frame.columns) / LayerCells::word_bits + 1;
-  LayerCells cells{.words = words,
-                   .bits = std::vector<std::uint64_t>(words * static_cast<std::size_t>(frame.rows)),
-                   .first_row = frame.rows};
-  const double half_cell = anywhere ? 0.5 : 0.0;
-  const double reach = epsilon / frame.cell;
-  const auto first = [&](double centre) {
-    return std::max(0, static_cast<int>(std::ceil(centre - reach - half_cell)));
-  };
+/// Which cells count as in contact, and in which layer.
+struct ContactRule {
+  double epsilon;  ///< m; within so much of a point of the map are their centres, or …
+  bool anywhere;   ///< … the nearest of their places.
+  int layer;
+};
+
+/// Marks those of the rows from `begin` on and before `end`.
+void mark_contact(const Points& map_points, const CellFrame& frame, const ContactRule& rule, int begin,
+                  int end, LayerCells& cells) {
+  const double half_cell = rule.anywhere ? 0.5 : 0.0;
+  const double reach = rule.epsilon / frame.cell;
+  const auto first = [&](double centre) { return static_cast<int>(std::ceil(centre - reach - half_cell)); };
+  const auto last = [&](double centre) { return static_cast<int>(std::floor(centre + reach + half_cell)); };
   const auto square = [&](double distance) {
     const double beyond = std::max(0.0, std::abs(distance) - half_cell);
     return beyond * beyond;
   };
+  const double farthest = reach + half_cell;
+  const double low = frame.min_y + frame.cell * (begin - farthest - 1.0);
+  const double high = frame.min_y + frame.cell * (end + farthest + 1.0);
+  std::vector<double> by_column;
   for (std::size_t i = 0; i < map_points.size(); ++i) {
+    if (map_points.y[i] < low || map_points.y[i] > high) continue;
     // In cells, relative to the centre of cell (0, 0, 0).
     const double x = (map_points.x[i] - frame.min_x) / frame.cell - 0.5;
     const double y = (map_points.y[i] - frame.min_y) / frame.cell - 0.5;
     const double z = frame.in_space ? (map_points.z[i] - frame.min_z) / frame.cell - 0.5 : 0.0;
-    if (layer < z - reach - half_cell || layer > z + reach + half_cell) continue;
-    for (int row = first(y); row < frame.rows && row <= y + reach + half_cell; ++row) {
-      cells.first_row = std::min(cells.first_row, row);
-      cells.end_row = std::max(cells.end_row, row + 1);
-      for (int column = first(x); column < frame.columns && column <= x + reach + half_cell; ++column) {
-        if (square(column - x) + square(row - y) + square(layer - z) <= reach * reach) cells.set(column, row);
+    if (rule.layer < z - reach - half_cell || rule.layer > z + reach + half_cell) continue;
+    const double by_layer = square(rule.layer - z);
+    const int first_column = std::max(0, first(x));
+    by_column.clear();
+    for (int column = first_column; column <= std::min(frame.columns - 1, last(x)); ++column)
+      by_column.push_back(square(column - x));
+    for (int row = std::max(begin, first(y)); row <= std::min(end - 1, last(y)); ++row) {
+      const double by_row = square(row - y);
+      for (std::size_t k = 0; k < by_column.size(); ++k) {
+        if (by_column[k] + by_row + by_layer <= reach * reach)
+          cells.set(first_column + static_cast<int>(k), row);
       }
     }
+  }
+}
+
+/// The cells of a layer that are in contact.
+LayerCells cells_in_contact(const Points& map_points, const CellFrame& frame, const ContactRule& rule,
+                            int threads) {
+  const std::size_t words = static_cast<std::size_t>(frame.columns) / LayerCells::word_bits + 1;
+  LayerCells cells{.words = words,
+                   .bits = std::vector<std::uint64_t>(words * static_cast<std::size_t>(frame.rows)),
+                   .first_row = frame.rows};
+  // Each band looks at all points, but no two at the same rows.
+  const int bands = threads > 1 ? 4 * threads : 1;
+  const auto begin_of = [&](std::size_t band) {
+    return static_cast<int>(static_cast<std::int64_t>(frame.rows) * static_cast<int>(band) / bands);
+  };
+  parallel_for(threads, static_cast<std::size_t>(bands), [&](std::size_t band) {
+    mark_contact(map_points, frame, rule, begin_of(band), begin_of(band + 1), cells);
+  });
+  for (int row = 0; row < frame.rows; ++row) {
+    const auto begin =
+        cells.bits.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row) * words);
+    if (std::all_of(begin, begin + static_cast<std::ptrdiff_t>(words),
+                    [](std::uint64_t w) { return w == 0; }))
+      continue;
+    cells.first_row = std::min(cells.first_row, row);
+    cells.end_row = row + 1;
   }
   return cells;
 }
 
-/// Says of each window along one axis that has one of the cells from `begin` on and before `end`, whether one
-/// of the cells from `behind` before to `ahead` - 1 after its own is marked: calls mark(window) after
-/// entered(cell) for all cells up to its last one.
-template <class Entered, class Mark>
-void slide(int begin, int end, int behind, int ahead, Entered entered, Mark mark) {
-  for (int window = begin + 1 - ahead; window < end + behind; ++window) {
-    const int cell = window + ahead - 1;
-    if (cell < end) entered(cell);
-    mark(window);
+/// Joins each bit of a row with the n - 1 before it.
+void widen(std::vector<std::uint64_t>& row, int n) {
+  constexpr std::size_t word_bits = LayerCells::word_bits;
+  for (int joined = 1, more = 0; joined < n; joined += more) {
+    more = std::min(joined, n - joined);
+    const std::size_t words = static_cast<std::size_t>(more) / word_bits;
+    const std::size_t bits = static_cast<std::size_t>(more) % word_bits;
+    for (std::size_t w = row.size(); w-- > words;) {
+      std::uint64_t moved = row[w - words] << bits;
+      if (bits > 0 && w > words) moved |= row[w - words - 1] >> (word_bits - bits);
+      row[w] |= moved;
+    }
   }
 }
 
-/// The bits of one layer of windows, over layers of cells that are at hand: row after row, as a byte for each
-/// window would take more memory than all bits.
+/// The bits of one layer of windows, over layers of cells that are at hand: row after row, as all of them at
+/// once would take more memory than the bits that are made of them.
 class WindowRows {
  public:
   WindowRows(std::span<const LayerCells> layers, const CellFrame& frame, const WindowKind& kind)
       : layers_(layers),
-        columns_(frame.columns),
-        rows_(frame.rows),
         behind_(kind.wider),
         ahead_(1 << kind.level),
-        cells_(static_cast<std::size_t>(columns_)),
-        windows_(static_cast<std::size_t>(columns_ + behind_ + ahead_ - 1)),
-        last_rows_(windows_.size(), never),
-        bits_(kind.level, columns_ + behind_, rows_ + behind_) {
+        columns_before_(static_cast<std::size_t>(LayerBits::columns_before(kind.level))),
+        last_(static_cast<std::size_t>(behind_ + ahead_)),
+        bits_(kind.level, frame.columns + behind_, frame.rows + behind_) {
+    const std::size_t windows = columns_before_ + static_cast<std::size_t>(frame.columns + behind_);
+    for (std::vector<std::uint64_t>& row : last_) row.resize(windows / LayerCells::word_bits + 1);
     // In space most blocks of most layers are empty.
     if (!frame.in_space) bits_.reserve();
   }
 
   [[nodiscard]] LayerBits bits() {
-    int begin = rows_;
-    int end = 0;
+    int begin = layers_.front().first_row;
+    int end = layers_.front().end_row;
     for (const LayerCells& layer : layers_) {
       begin = std::min(begin, layer.first_row);
       end = std::max(end, layer.end_row);
     }
-    slide(
-        begin, end, behind_, ahead_, [&](int row) { enter(row); }, [&](int row) { mark(row); });
+    std::vector<std::uint64_t> windows(last_.front().size());
+    for (int row = begin; row < end + behind_ + ahead_ - 1; ++row) {
+      take_in(row, row < end);
+      std::fill(windows.begin(), windows.end(), 0);
+      for (const std::vector<std::uint64_t>& last : last_) {
+        for (std::size_t w = 0; w < windows.size(); ++w) windows[w] |= last[w];
+      }
+      bits_.add_row(row + 1 - ahead_, windows);
+    }
     return std::move(bits_);
   }
 
  private:
-  static constexpr int never = std::numeric_limits<int>::min() / 2;
-
-  /// Takes in a row of cells: the columns of windows that meet one in contact.
-  void enter(int row) {
-    if (!join(row)) return;
-    const std::uint8_t* cells = cells_.data();
-    std::uint8_t* windows = windows_.data() + ahead_ - 1;
-    int last = never;
-    slide(
-        0, columns_, behind_, ahead_,
-        [&](int column) {
-          if (cells[column] != 0) last = column;
-        },
-        [&](int column) { windows[column] = last >= column - behind_ ? 1 : 0; });
-    int* last_rows = last_rows_.data();
-    const std::uint8_t* first = windows_.data();
-    const std::size_t width = windows_.size();
-    for (std::size_t i = 0; i < width; ++i) last_rows[i] = first[i] != 0 ? row : last_rows[i];
-  }
-
-  /// Which cells of a row are in contact in one of the layers. Returns whether one is.
-  bool join(int row) {
-    std::fill(cells_.begin(), cells_.end(), std::uint8_t{0});
-    bool any = false;
+  /// A row of cells: the columns of windows that meet one in contact, in place of the oldest row.
+  void take_in(int row, bool is_any) {
+    std::vector<std::uint64_t>& columns = last_[static_cast<std::size_t>(row) % last_.size()];
+    std::fill(columns.begin(), columns.end(), 0);
+    if (!is_any) return;
+    // A window begins so many columns before the first that it can meet.
+    const std::size_t first = columns_before_ + 1 - static_cast<std::size_t>(ahead_);
+    const std::size_t bits = first % LayerCells::word_bits;
+    std::uint64_t any = 0;
     for (std::size_t number = 0; number < layers_.front().words; ++number) {
       std::uint64_t word = 0;
       for (const LayerCells& layer : layers_) word |= layer.word(row, number);
-      any = any || word != 0;
-      for (; word != 0; word &= word - 1)
-        cells_[number * LayerCells::word_bits + static_cast<std::size_t>(std::countr_zero(word))] = 1;
+      if (word == 0) continue;
+      any = word;
+      const std::size_t w = first / LayerCells::word_bits + number;
+      columns[w] |= word << bits;
+      if (const std::uint64_t rest = bits > 0 ? word >> (LayerCells::word_bits - bits) : 0; rest != 0)
+        columns[w + 1] |= rest;
     }
-    return any;
-  }
-
-  /// The windows of a row, all of whose cells have been taken in.
-  void mark(int row) {
-    const int first = row - behind_;
-    const int* last_rows = last_rows_.data();
-    std::uint8_t* windows = windows_.data();
-    const std::size_t width = windows_.size();
-    for (std::size_t i = 0; i < width; ++i) windows[i] = last_rows[i] >= first ? 1 : 0;
-    bits_.add_row(row, 1 - ahead_, windows_);
+    if (any != 0) widen(columns, behind_ + ahead_);
   }
 
   std::span<const LayerCells> layers_;
-  int columns_, rows_;
-  int behind_, ahead_;                 ///< Cells of a window before the one that names it, and from that on.
-  std::vector<std::uint8_t> cells_;    ///< Of a row, a byte for each.
-  std::vector<std::uint8_t> windows_;  ///< Of a row; the first of column 1 - `ahead_`.
-  std::vector<int> last_rows_;         ///< For each of these columns the last row that it met.
+  int behind_, ahead_;  ///< Cells of a window before the one that names it, and from that on.
+  std::size_t columns_before_;
+  /// Of the last rows of cells, as many as a window has, the columns of windows that meet one in contact.
+  std::vector<std::vector<std::uint64_t>> last_;
   LayerBits bits_;
 };
 
@@ -211,9 +233,11 @@ class WindowBuilder {
     cells_.erase(cells_.begin(), cells_.end() - static_cast<std::ptrdiff_t>(known));
     first_ = layer;
     cells_.resize(static_cast<std::size_t>(std::min(layers, frame_.layers - layer)));
+    // In the plane, where there is one layer, it is divided.
+    const int threads_each = frame_.in_space ? 1 : threads_;
     parallel_for(threads_, cells_.size() - known, [&](std::size_t i) {
-      cells_[known + i] =
-          cells_in_contact(map_points_, frame_, epsilon_, anywhere_, layer + static_cast<int>(known + i));
+      const ContactRule rule{epsilon_, anywhere_, layer + static_cast<int>(known + i)};
+      cells_[known + i] = cells_in_contact(map_points_, frame_, rule, threads_each);
     });
   }
 

@@ -33,7 +33,8 @@ struct OrientedPointRule {
 
 /// The map's: normals by principal components of what lies on one line with a point, turned to the free
 /// cells; a wall that is free on both sides gives two points, one that is free on neither as well. Where a
-/// wall's two sides are on the map, 0.15 m apart or more, each has its own normal.
+/// wall's two sides are on the map, 0.15 m apart or more, each has its own normal. Of more than 3 million
+/// squares an even share gives points.
 [[nodiscard]] OrientedPoints oriented_points_of(const GlobalMap& map, const OrientedPointRule& rule,
                                                 int threads = 1);
 

@@ -98,23 +98,27 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
 IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
     : params_(params),
       map_(setup.map),
-      contact_(contact_index(*map_, "bitset", setup.epsilon(params.contact_epsilon))),
       relation_(relation_rule(params)),
+      index_(built_index(setup.threads)),
+      draws_(draws_on(points_of(*index_), params.iterations)),
+      contact_(contact_index(*map_, "bitset", setup.epsilon(params.contact_epsilon), setup.threads)),
       refiner_(static_cast<std::size_t>(params.candidates), params.refinement,
                distance_field(*map_, setup.threads), contact_),
       judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
-             distance_field(*map_, setup.threads)),
+             distance_field(*map_, setup.threads), setup.threads),
       exact_search_(params.exact_search, *map_, setup.epsilon(params.contact_epsilon), setup.threads,
-                    setup.looks_per_step) {
+                    setup.looks_per_step) {}
+
+std::shared_ptr<const RelationIndex> IndexedRansam::built_index(int threads) {
   const auto start = std::chrono::steady_clock::now();
-  index_ = relation_index(*map_, relation_, setup.threads);
+  auto built = relation_index(*map_, relation_, threads);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   map_index_ = std::visit(
       [&](const auto& index) {
         return MapIndexInfo{index.size(), index.memory_bytes(), time.count()};
       },
-      *index_);
-  draws_ = draws_on(points_of(*index_), params.iterations);
+      *built);
+  return built;
 }
 
 std::size_t IndexedRansam::draws_on(std::size_t points, int iterations) {

@@ -62,17 +62,20 @@ class IndexedRansam final : public Matcher {
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override { return map_index_; }
 
  private:
+  /// Says in `map_index_` what it took.
+  [[nodiscard]] std::shared_ptr<const RelationIndex> built_index(int threads);
   [[nodiscard]] std::size_t draws_of_step();
   [[nodiscard]] std::vector<Hypothesis> settled(StepCandidates& candidates, const LocalMap& local,
                                                 const Points& sample, MatchResult& result) const;
 
   Params params_;
   std::shared_ptr<const GlobalMap> map_;
-  std::shared_ptr<const ContactIndex> contact_;
   RelationRule relation_;
-  std::shared_ptr<const RelationIndex> index_;
   MapIndexInfo map_index_;
+  /// Made before the other indexes: while it is made it takes much more memory than in the end.
+  std::shared_ptr<const RelationIndex> index_;
   std::size_t draws_ = 0;  ///< In a step.
+  std::shared_ptr<const ContactIndex> contact_;
   CandidateRefiner refiner_;
   PoseJudge judge_;
   ExactSearch exact_search_;

@@ -14,12 +14,13 @@ bool has_better_score(const Hypothesis& a, const Hypothesis& b) {
 }  // namespace
 
 PoseJudge::PoseJudge(const JudgeRule& rule, std::shared_ptr<const GlobalMap> map,
-                     std::shared_ptr<const ContactIndex> contact, std::shared_ptr<const DistanceField> field)
+                     std::shared_ptr<const ContactIndex> contact, std::shared_ptr<const DistanceField> field,
+                     int threads)
     : rule_(rule),
       map_(std::move(map)),
       contact_(std::move(contact)),
       field_(std::move(field)),
-      clearance_(clearance_grid(*map_)),
+      clearance_(clearance_grid(*map_, threads)),
       beams_(rule.beams) {}
 
 /// Beams take most of the time, and only take from a score: candidates are looked at in the order of what

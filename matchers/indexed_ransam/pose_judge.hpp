@@ -35,7 +35,8 @@ struct JudgeRule {
 class PoseJudge {
  public:
   PoseJudge(const JudgeRule& rule, std::shared_ptr<const GlobalMap> map,
-            std::shared_ptr<const ContactIndex> contact, std::shared_ptr<const DistanceField> field);
+            std::shared_ptr<const ContactIndex> contact, std::shared_ptr<const DistanceField> field,
+            int threads = 1);
 
   /// Takes in the beams of a scan, made where the robot is now; forget() forgets them all.
   void take_in(const LocalMap& local, const Scan& scan) { beams_.add(local, scan); }

@@ -47,7 +47,7 @@ Mcl::Mcl(const Params& params, const StageSetup& setup)
       beam_rule_{.z_hit = params.z_hit, .max_range = params.laser_max_range},
       averages_(params.recovery_alpha_slow, params.recovery_alpha_fast) {
   if (params.laser_model_type.starts_with("beam")) {
-    grid_ = clearance_grid(*setup.map);
+    grid_ = clearance_grid(*setup.map, setup.threads);
   } else {
     field_ = setup.map->index<LikelihoodField>(field_key(params), [&] {
       return LikelihoodField(*setup.map, {.z_hit = params.z_hit, .max_range = params.laser_max_range},

@@ -27,7 +27,7 @@ Ransam::Ransam(const Params& params, const StageSetup& setup)
           contact_index(*setup.map, params.triples.contact, setup.epsilon(params.triples.contact_epsilon))),
       matching_(setup.map->points(), find_relations, matching_rule(params.triples), setup.threads),
       beams_(params.beams) {
-  if (params.beams.weight > 0.0) clearance_ = clearance_grid(*setup.map);
+  if (params.beams.weight > 0.0) clearance_ = clearance_grid(*setup.map, setup.threads);
 }
 
 MatchResult Ransam::match(const MatchRequest& request, Rng& rng) {

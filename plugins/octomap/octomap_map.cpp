@@ -123,7 +123,7 @@ MapData OctomapMap::load() {
   const auto cells = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
   if (in_space) map.free_voxels = FreeVoxels(map_from_tree, side);
   std::vector<int> occupied_voxels(cells, 0);
-  grid.cells.assign(cells, Cell::unknown);
+  grid.cells = PackedCells(cells);
   for_each_voxel(*tree, params_, [&](const Voxel& v, bool occupied) {
     const std::size_t cell = grid.index(v.x - extent.min_x, v.y - extent.min_y);
     if (!occupied) {

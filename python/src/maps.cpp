@@ -47,13 +47,13 @@ OccupancyGrid grid_of(const py::object& cells, double resolution, const py::obje
   grid.resolution = resolution;
   grid.height = static_cast<int>(array.shape(0));
   grid.width = static_cast<int>(array.shape(1));
-  grid.cells.reserve(static_cast<std::size_t>(array.size()));
+  grid.cells = PackedCells(static_cast<std::size_t>(array.size()));
   for (py::ssize_t i = 0; i < array.size(); ++i) {
     const std::uint8_t cell = array.data()[i];
     if (cell > static_cast<std::uint8_t>(Cell::occupied))
       throw py::value_error(
           fmt::format("a cell of a grid is 0 (unknown), 1 (free) or 2 (occupied), not {}", cell));
-    grid.cells.push_back(static_cast<Cell>(cell));
+    grid.cells[static_cast<std::size_t>(i)] = static_cast<Cell>(cell);
   }
   return grid;
 }
@@ -72,8 +72,11 @@ void bind_grid(py::module_& module) {
       .def_property_readonly(
           "cells",
           [](const Bound& g) {
-            const Layout layout{{g->height, g->width}, {g->width, 1}};
-            return numbers(reinterpret_cast<const std::uint8_t*>(g->cells.data()), layout, g.owner());
+            py::array_t<std::uint8_t> array({g->height, g->width});
+            std::transform(g->cells.begin(), g->cells.end(), array.mutable_data(),
+                           [](Cell cell) { return static_cast<std::uint8_t>(cell); });
+            array.attr("setflags")(py::arg("write") = false);
+            return array;
           },
           "Rows x columns, row 0 at the lowest y; 0 unknown, 1 free, 2 occupied.")
       .def_property_readonly(

@@ -96,8 +96,7 @@ MapData map_of(const GridMessage& grid, const std::string& source, const std::st
   const Vector3 corner = grid.frame_from_grid.translation();
   map.origin = origin_near({corner.x(), corner.y(), 0.0});
   map.grid = {seen_from_above(shifted(grid.frame_from_grid, -map.origin)), grid.resolution,
-              static_cast<int>(grid.width), static_cast<int>(grid.height),
-              std::vector<Cell>(grid.cells.size())};
+              static_cast<int>(grid.width), static_cast<int>(grid.height), PackedCells(grid.cells.size())};
   std::transform(grid.cells.begin(), grid.cells.end(), map.grid.cells.begin(), cell_of);
   map.points = occupied_centres(map.grid);
   if (map.points.empty()) fail(of_topic + " has no occupied cell, none above 65 %; take another topic");

@@ -93,7 +93,7 @@ OccupancyGrid make_grid(const Box& box, double resolution, const std::string& fi
           "wrong reference poses"}});
   }
   OccupancyGrid grid{{x, y, 0.0}, resolution, static_cast<int>(width), static_cast<int>(height), {}};
-  grid.cells.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  grid.cells = PackedCells(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
   return grid;
 }
 
@@ -196,7 +196,7 @@ MapData LogMap::load() {
   for (int row = 0; row < map.grid.height; ++row) {
     for (int column = 0; column < map.grid.width; ++column) {
       const Count& count = counter.counts()[map.grid.index(column, row)];
-      Cell& cell = map.grid.cell(column, row);
+      PackedCells::Reference cell = map.grid.cell(column, row);
       cell = classify(count, params_);
       if (cell != Cell::occupied) continue;
       map.points.push_back(point_of(map.grid, column, row, count));

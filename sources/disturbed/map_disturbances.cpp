@@ -171,7 +171,7 @@ void keep_if(MapData& map, Cell instead, IsKept is_kept) {
   for (int row = 0; row < map.grid.height; ++row) {
     for (int column = 0; column < map.grid.width; ++column) {
       const Pose2 centre = map.grid.centre(column, row);
-      Cell& cell = map.grid.cell(column, row);
+      PackedCells::Reference cell = map.grid.cell(column, row);
       const bool is_changed = instead == Cell::unknown ? cell != Cell::unknown : cell == Cell::occupied;
       if (is_changed && !is_kept(centre.x, centre.y)) cell = instead;
     }
@@ -225,11 +225,12 @@ void coarsen(MapData& map, double factor, Rng& /*rng*/) {
                        .width = (fine.width + n - 1) / n,
                        .height = (fine.height + n - 1) / n,
                        .cells = {}};
-  coarse.cells.resize(static_cast<std::size_t>(coarse.width) * static_cast<std::size_t>(coarse.height));
+  coarse.cells =
+      PackedCells(static_cast<std::size_t>(coarse.width) * static_cast<std::size_t>(coarse.height));
   for (int row = 0; row < fine.height; ++row) {
     for (int column = 0; column < fine.width; ++column) {
-      Cell& cell = coarse.cell(column / n, row / n);
-      cell = std::max(cell, fine.cell(column, row));
+      PackedCells::Reference cell = coarse.cell(column / n, row / n);
+      cell = std::max<Cell>(cell, fine.cell(column, row));
     }
   }
   map.grid = std::move(coarse);

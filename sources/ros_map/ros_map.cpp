@@ -68,11 +68,13 @@ OccupancyGrid grid_of(const RosMapFile& file, const Vector3& origin) {
     if (row.row == 0) {
       grid.width = row.width;
       grid.height = row.height;
-      grid.cells.resize(static_cast<std::size_t>(row.width) * static_cast<std::size_t>(row.height));
+      grid.cells = PackedCells(static_cast<std::size_t>(row.width) * static_cast<std::size_t>(row.height));
     }
-    Cell* cells = &grid.cell(0, grid.height - 1 - row.row);
-    for (std::size_t i = 0; i < row.grey.size(); ++i)
-      cells[i] = i > 0 && is_same_pixel(row, i, i - 1) ? cells[i - 1] : classify(row, i, file);
+    const std::size_t begin = grid.index(0, grid.height - 1 - row.row);
+    for (std::size_t i = 0, end = 0; i < row.grey.size(); i = end) {
+      for (end = i + 1; end < row.grey.size() && is_same_pixel(row, end, i);) ++end;
+      grid.cells.fill(begin + i, end - i, classify(row, i, file));
+    }
   };
   read_image(file.image.resolved, take);
   return grid;

@@ -146,11 +146,10 @@ class SideBySide {
           fmt::format("side by side they have {:.0f} million cells, and 1000 million are allowed; give fewer "
                       "maps, or coarser ones",
                       cells / 1e6));
-    joined.cells.resize(static_cast<std::size_t>(cells), Cell::unknown);
+    joined.cells = PackedCells(static_cast<std::size_t>(cells));
     for (const auto& [column, grid] : grids_) {
       for (int row = 0; row < grid.height; ++row) {
-        const Cell* from = &grid.cells[grid.index(0, row)];
-        std::copy(from, from + grid.width, &joined.cell(column, row));
+        for (int i = 0; i < grid.width; ++i) joined.cell(column + i, row) = grid.cell(i, row);
       }
     }
     return joined;

@@ -38,7 +38,7 @@ class Raster {
     grid_.resolution = resolution;
     grid_.width = column_of(last[0]) + 1;
     grid_.height = row_of(last[1]) + 1;
-    grid_.cells.resize(static_cast<std::size_t>(grid_.width) * static_cast<std::size_t>(grid_.height));
+    grid_.cells = PackedCells(static_cast<std::size_t>(grid_.width) * static_cast<std::size_t>(grid_.height));
   }
 
   void draw(const Shapes& shapes) {

@@ -99,7 +99,7 @@ std::shared_ptr<const GlobalMap> world_in(const Pose2& map_from_world) {
 std::shared_ptr<const GlobalMap> drawn(const std::vector<std::string>& rows) {
   MapData data;
   data.grid = {{}, 0.1, static_cast<int>(rows.front().size()), static_cast<int>(rows.size()), {}};
-  data.grid.cells.assign(rows.size() * rows.front().size(), Cell::unknown);
+  data.grid.cells = PackedCells(rows.size() * rows.front().size(), Cell::unknown);
   for (int row = 0; row < data.grid.height; ++row) {
     const std::string& line = rows[rows.size() - 1 - static_cast<std::size_t>(row)];
     for (int column = 0; column < data.grid.width; ++column) {
@@ -251,7 +251,7 @@ TEST_F(Mrpt, ParticlesBeginWhereTheMapIsFree) {
   data.points = glocal::test::moved(glocal::test::small_world_points(), map_from_world);
   data.grid = glocal::test::small_world()->grid();
   data.grid.map_from_grid = map_from_world * data.grid.map_from_grid;
-  data.grid.cells.assign(data.grid.cells.size(), Cell::unknown);
+  data.grid.cells = PackedCells(data.grid.cells.size(), Cell::unknown);
   data.grid.cell(40, 20) = Cell::free;
   const auto made = matcher(few, std::make_shared<const GlobalMap>(std::move(data)));
   Observation observation;
@@ -402,12 +402,12 @@ TEST_F(Mrpt, SaysNothingOnTheTerminal) {
 TEST_F(Mrpt, MapsWithoutPlaceForParticlesAreRefused) {
   MapData data;
   data.points = glocal::test::small_world_points();
-  data.grid = {{}, 0.1, 10, 10, std::vector<Cell>(100, Cell::unknown)};
+  data.grid = {{}, 0.1, 10, 10, PackedCells(100, Cell::unknown)};
   const auto refused = [&](const MapData& map) {
     return config_error(folder_ / "", [&] { (void)matcher("", std::make_shared<const GlobalMap>(map)); });
   };
   EXPECT_THAT(refused(data), HasSubstr("no cell that is known to be free"));
-  data.grid.cells.front() = Cell::free;
+  data.grid.cells[0] = Cell::free;
   EXPECT_EQ(refused(data), "");
   data.points.push_back({2000.0F, 2000.0F, 0.0F});
   EXPECT_THAT(refused(data),

@@ -97,17 +97,16 @@ TEST_F(Octomap, InSpaceThePlanIsFreeOverAFloor) {
                                     {.x = 32769, .z = 32770},
                                     {.x = 32770, .log_odds = -1.0F}},
                                    0.1);
-  EXPECT_EQ(load(tree).grid.cells, (std::vector<Cell>{Cell::occupied, Cell::occupied, Cell::free}));
-  EXPECT_EQ(load(tree, "points: space\n").grid.cells,
-            (std::vector<Cell>{Cell::free, Cell::occupied, Cell::free}));
+  EXPECT_EQ(load(tree).grid.cells, (PackedCells{Cell::occupied, Cell::occupied, Cell::free}));
+  EXPECT_EQ(load(tree, "points: space\n").grid.cells, (PackedCells{Cell::free, Cell::occupied, Cell::free}));
 }
 
 TEST_F(Octomap, OnlyTheBandOfHeightsCounts) {
   const std::string tree = bt_file({{}, {.z = 32778}, {.x = 32769, .z = 32778, .log_odds = -1.0F}}, 0.1);
   const MapData low = load(tree, "max_height: 0.5\n");
-  EXPECT_EQ(low.grid.cells, std::vector<Cell>{Cell::occupied});
+  EXPECT_EQ(low.grid.cells, PackedCells{Cell::occupied});
   const MapData high = load(tree, "min_height: 0.5\n");
-  EXPECT_EQ(high.grid.cells, (std::vector<Cell>{Cell::occupied, Cell::free}));
+  EXPECT_EQ(high.grid.cells, (PackedCells{Cell::occupied, Cell::free}));
   EXPECT_THAT(fault(tree, "min_height: 2\n"), HasSubstr("no voxel between min_height and max_height"));
   EXPECT_THAT(fault(tree, "min_height: 2\nmax_height: 1\n"), HasSubstr("must be above min_height"));
 }
@@ -115,7 +114,7 @@ TEST_F(Octomap, OnlyTheBandOfHeightsCounts) {
 TEST_F(Octomap, AColumnMayNeedSeveralVoxels) {
   const std::string tree = bt_file({{}, {.z = 32769}, {.x = 32769}, {.x = 32770, .log_odds = -1.0F}}, 0.1);
   const MapData map = load(tree, "min_voxels: 2\n");
-  EXPECT_EQ(map.grid.cells, (std::vector<Cell>{Cell::occupied, Cell::unknown, Cell::free}));
+  EXPECT_EQ(map.grid.cells, (PackedCells{Cell::occupied, Cell::unknown, Cell::free}));
   EXPECT_EQ(map.points.size(), 1U);
 }
 

@@ -91,7 +91,7 @@ TEST_F(Pcl, RansamTakesPclsKdTree) {
 TEST_F(Pcl, AMapWithoutFreeSpaceIsRefused) {
   MapData data;
   data.points = glocal::test::small_world_points();
-  data.grid = {{}, 0.1, 10, 10, std::vector<Cell>(100, Cell::unknown)};
+  data.grid = {{}, 0.1, 10, 10, PackedCells(100, Cell::unknown)};
   const auto map = std::make_shared<const GlobalMap>(std::move(data));
   EXPECT_NE(config_error(folder_ / "",
                          [&] {

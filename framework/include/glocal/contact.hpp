@@ -69,6 +69,7 @@ class ContactIndex {
 struct ContactSetup {
   const Points* map_points = nullptr;  ///< Not empty; there only while the index is made.
   double epsilon = 0.0;                ///< m
+  int threads = 1;                     ///< The index is the same for any number of them.
 };
 
 /// All contact indexes by name.
@@ -85,9 +86,9 @@ class BitsetContact final : public ContactIndex {
   struct Params {};
 
   /// Throws ConfigError if it would need more than 1 GiB.
-  BitsetContact(const Points& points, double epsilon);
+  BitsetContact(const Points& points, double epsilon, int threads = 1);
   BitsetContact(const Params& /*params*/, const ContactSetup& setup)
-      : BitsetContact(*setup.map_points, setup.epsilon) {}
+      : BitsetContact(*setup.map_points, setup.epsilon, setup.threads) {}
 
   [[nodiscard]] std::size_t count(const Points& points, std::size_t begin, std::size_t n,
                                   const Transform& map_from_points) const override;
@@ -101,10 +102,10 @@ class BitsetContact final : public ContactIndex {
   }
 
  private:
-  void dilate(const Point& p, double epsilon);
-  void set(const std::array<std::size_t, 3>& voxel);
+  void dilate(const Points& points, double epsilon, int threads);
+  void dilate(const Point& p, double epsilon, int begin_row, int end_row);
+  void set(std::size_t first_column, std::size_t last_column, std::size_t row, std::size_t layer);
   std::size_t place_bricks(const Points& points, double epsilon);
-  [[nodiscard]] std::size_t word_of(const std::array<std::size_t, 3>& voxel) const;
   [[nodiscard]] VoxelGrid grid() const;
 
   Point min_;                            ///< Outer corner of voxel (0, 0, 0).
@@ -161,7 +162,8 @@ class ContactChoice {
   void describe_as(const char* name, ParamVisitor& v);
 
  private:
-  friend std::shared_ptr<const ContactIndex> contact_index(const GlobalMap&, const ContactChoice&, double);
+  friend std::shared_ptr<const ContactIndex> contact_index(const GlobalMap&, const ContactChoice&, double,
+                                                           int);
 
   StrategyChoice choice_;
   const ContactIndexes* indexes_ = nullptr;  ///< Null: the two above.
@@ -174,6 +176,7 @@ void describe_contact_epsilon(ParamVisitor& v, std::optional<double>& epsilon);
 /// The chosen index over a map for an epsilon (m), built once per map. Throws ConfigError if it does not fit
 /// into memory, std::out_of_range for an unknown name.
 [[nodiscard]] std::shared_ptr<const ContactIndex> contact_index(const GlobalMap& map,
-                                                                const ContactChoice& choice, double epsilon);
+                                                                const ContactChoice& choice, double epsilon,
+                                                                int threads = 1);
 
 }  // namespace glocal

@@ -56,7 +56,7 @@ struct MapData {
 /// The known map, immutable, with indexes that are built once for all who ask.
 class GlobalMap {
  public:
-  explicit GlobalMap(MapData data) : data_(std::move(data)) {}
+  explicit GlobalMap(MapData data);
 
   [[nodiscard]] const MapData& data() const { return data_; }
   [[nodiscard]] const Points& points() const { return data_.points; }

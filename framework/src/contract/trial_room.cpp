@@ -41,7 +41,7 @@ MapData planar_room() {
   constexpr double cell = 0.1;  // m
   MapData data;
   add_walls(data.points, 0.05, 0.0);
-  data.grid = {{-0.05, -0.05, 0.0}, cell, 82, 92, std::vector<Cell>(std::size_t{82} * 92, Cell::free)};
+  data.grid = {{-0.05, -0.05, 0.0}, cell, 82, 92, PackedCells(std::size_t{82} * 92, Cell::free)};
   return data;
 }
 

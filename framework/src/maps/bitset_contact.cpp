@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 #include "glocal/contact.hpp"
 #include "glocal/error.hpp"
 #include "glocal/extent.hpp"
+#include "glocal/parallel.hpp"
 #include "maps/count_contacts.hpp"
 
 namespace glocal {
@@ -33,9 +35,21 @@ VoxelAxis axis_of(const Extent& range, double epsilon, double scale) {
   return {begin, std::ceil((range.high + margin - begin) * scale) + 1.0};
 }
 
+/// Sets the bits of a row from the first to the last; word(n) is the one that has those from 32 n on.
+template <class Word>
+void set_bits(std::size_t first, std::size_t last, Word word) {
+  const std::size_t first_word = first / voxels_per_word, last_word = last / voxels_per_word;
+  for (std::size_t n = first_word; n <= last_word; ++n) {
+    std::uint32_t bits = ~std::uint32_t{0};
+    if (n == first_word) bits &= ~std::uint32_t{0} << first % voxels_per_word;
+    if (n == last_word) bits &= ~std::uint32_t{0} >> (voxels_per_word - 1 - last % voxels_per_word);
+    word(n) |= bits;
+  }
+}
+
 }  // namespace
 
-BitsetContact::BitsetContact(const Points& points, double epsilon) {
+BitsetContact::BitsetContact(const Points& points, double epsilon, int threads) {
   if (points.empty()) {
     words_.assign(1, 0);  // a place to look at, although nothing is there
     coarse_words_.assign(1, 0);
@@ -82,7 +96,7 @@ BitsetContact::BitsetContact(const Points& points, double epsilon) {
   const auto joined = [](std::size_t n) { return ((n - 1) >> VoxelGrid::coarse_shift) + 1; };
   coarse_rows_ = joined(rows_);
   coarse_words_.assign(joined(columns_) * coarse_rows_ * joined(layers_) / voxels_per_word, 0);
-  for (std::size_t i = 0; i < points.size(); ++i) dilate(points[i], epsilon);
+  dilate(points, epsilon, threads);
 }
 
 /// In the order in which the points come to them, so that neighbours are near each other. Returns how many
@@ -148,7 +162,25 @@ void BitsetContact::count_at_most(const Points& points, std::size_t n, const Mot
   count_coarse(grid(), points, n, motions, size, begins, at_most);
 }
 
-void BitsetContact::dilate(const Point& p, double epsilon) {
+/// Each band of rows by itself, as no two of them share a word.
+void BitsetContact::dilate(const Points& points, double epsilon, int threads) {
+  constexpr int rows_together = 32;  // of a brick, of coarse voxels
+  const int bands = threads > 1 ? 4 * threads : 1;
+  const int rows = static_cast<int>(rows_);
+  const int band_rows = (rows / bands / rows_together + 1) * rows_together;
+  parallel_for(threads, static_cast<std::size_t>(bands), [&](std::size_t band) {
+    const int begin = static_cast<int>(band) * band_rows;
+    const int end = std::min(rows, begin + band_rows);
+    const double low = min_.y + begin / double{scale_} - 2.0 * epsilon;
+    const double high = min_.y + end / double{scale_} + 2.0 * epsilon;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points.y[i] >= low && points.y[i] <= high) dilate(points[i], epsilon, begin, end);
+    }
+  });
+}
+
+/// Those of the rows from one on and before another.
+void BitsetContact::dilate(const Point& p, double epsilon, int begin_row, int end_row) {
   // In voxels, relative to voxel (0, 0, 0).
   const double reach = epsilon * scale_;
   const double x = (static_cast<double>(p.x) - min_.x) * scale_;
@@ -165,34 +197,33 @@ void BitsetContact::dilate(const Point& p, double epsilon) {
   const int last_layer = planar ? 0 : last(z);
   for (int layer = first_layer; layer <= last_layer; ++layer) {
     const double left_by_z = reach * reach - (planar ? 0.0 : squared(z, layer));
-    for (int row = first(y); row <= last(y); ++row) {
+    for (int row = std::max(begin_row, first(y)); row < end_row && row <= last(y); ++row) {
       const double left_by_y = left_by_z - squared(y, row);
-      for (int column = first(x); column <= last(x); ++column) {
-        if (squared(x, column) > left_by_y) continue;
-        set({static_cast<std::size_t>(column), static_cast<std::size_t>(row),
-             static_cast<std::size_t>(layer)});
-      }
+      int left = first(x), right = last(x);
+      while (left <= right && squared(x, left) > left_by_y) ++left;
+      while (left <= right && squared(x, right) > left_by_y) --right;
+      if (left > right) continue;
+      set(static_cast<std::size_t>(left), static_cast<std::size_t>(right), static_cast<std::size_t>(row),
+          static_cast<std::size_t>(layer));
     }
   }
 }
 
-void BitsetContact::set(const std::array<std::size_t, 3>& voxel) {
-  const auto [column, row, layer] = voxel;
-  words_[word_of(voxel)] |= std::uint32_t{1} << (column % voxels_per_word);
-  constexpr unsigned shift = VoxelGrid::coarse_shift;
-  const std::size_t coarse =
-      ((layer >> shift) * coarse_rows_ + (row >> shift)) * (columns_ >> shift) + (column >> shift);
-  coarse_words_[coarse / voxels_per_word] |= std::uint32_t{1} << (coarse % voxels_per_word);
-}
-
-std::size_t BitsetContact::word_of(const std::array<std::size_t, 3>& voxel) const {
-  const auto [column, row, layer] = voxel;
+/// Some neighbours in a row, the last one included.
+void BitsetContact::set(std::size_t first_column, std::size_t last_column, std::size_t row,
+                        std::size_t layer) {
   const std::size_t row_words = columns_ / voxels_per_word;
-  if (bricks_.empty()) return row * row_words + column / voxels_per_word;
   constexpr std::size_t within = (std::size_t{1} << brick_shift) - 1;
-  const std::size_t brick =
-      ((layer >> brick_shift) * brick_rows_ + (row >> brick_shift)) * row_words + column / voxels_per_word;
-  return bricks_[brick] + ((layer & within) << brick_shift) + (row & within);
+  set_bits(first_column, last_column, [&](std::size_t word) -> std::uint32_t& {
+    if (bricks_.empty()) return words_[row * row_words + word];
+    const std::size_t brick =
+        ((layer >> brick_shift) * brick_rows_ + (row >> brick_shift)) * row_words + word;
+    return words_[bricks_[brick] + ((layer & within) << brick_shift) + (row & within)];
+  });
+  constexpr unsigned shift = VoxelGrid::coarse_shift;
+  const std::size_t coarse_row = ((layer >> shift) * coarse_rows_ + (row >> shift)) * (row_words >> shift);
+  set_bits(first_column >> shift, last_column >> shift,
+           [&](std::size_t word) -> std::uint32_t& { return coarse_words_[coarse_row + word]; });
 }
 
 }  // namespace glocal

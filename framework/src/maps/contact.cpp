@@ -66,12 +66,12 @@ void describe_contact_epsilon(ParamVisitor& v, std::optional<double>& epsilon) {
 }
 
 std::shared_ptr<const ContactIndex> contact_index(const GlobalMap& map, const ContactChoice& choice,
-                                                  double epsilon) {
+                                                  double epsilon, int threads) {
   const std::string params = choice.choice_.params ? write_yaml(*choice.choice_.params) : "";
   const std::string key = fmt::format("{} {} {}", choice.choice_.name, epsilon, params);
   const auto owner = map.index<std::unique_ptr<ContactIndex>>(key, [&] {
     return with_indexes(choice.indexes_, [&](const ContactIndexes& indexes) {
-      return indexes.make(choice.choice_, {&map.points(), epsilon});
+      return indexes.make(choice.choice_, {&map.points(), epsilon, threads});
     });
   });
   return {owner, owner->get()};

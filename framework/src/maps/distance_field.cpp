@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "glocal/error.hpp"
+#include "glocal/extent.hpp"
 #include "glocal/parallel.hpp"
 #include "maps/look_up.hpp"
 
@@ -119,26 +120,38 @@ void DistanceField::stamp(std::size_t tile, const Points& points, std::span<cons
   const int first_column = static_cast<int>(tile % static_cast<std::size_t>(tile_columns_)) * tile_side;
   const int first_row = static_cast<int>(tile / static_cast<std::size_t>(tile_columns_)) * tile_side;
   const float farthest = reach_ * scale_;
-  std::array<float, tile_cells> squares;  // in cells
+  constexpr std::size_t padded = (stride + 3) / 4 * 4;  // whole vectors
+  std::array<float, padded * stride> squares;           // in cells
   squares.fill(farthest * farthest);
+  std::array<float, padded> across;
   for (const std::uint32_t i : near) {
     const auto [u, v] = place_of(points.x[i], points.y[i]);
     const float x = u - static_cast<float>(first_column);
     const float y = v - static_cast<float>(first_row);
-    const int column = static_cast<int>(std::lround(u)) - first_column;
-    const int row = static_cast<int>(std::lround(v)) - first_row;
-    for (int r = std::max(0, row - around); r <= std::min(stride - 1, row + around); ++r) {
+    const auto beside = static_cast<float>(around);
+    constexpr auto end = static_cast<float>(stride);
+    if (x < -beside || x > end + beside || y < -beside || y > end + beside) continue;
+    for (std::size_t c = 0; c < padded; ++c) {
+      const float dx = static_cast<float>(static_cast<int>(c)) - x;
+      across[c] = dx * dx;
+    }
+    const int first = std::max(0, static_cast<int>(y + 1.0F) - around - 1);
+    const int last = std::min(stride - 1, static_cast<int>(y + 1.0F) + around);
+    for (int r = first; r <= last; ++r) {
       const float dy = static_cast<float>(r) - y;
-      float* line = &squares[static_cast<std::size_t>(r) * stride];
-      for (int c = std::max(0, column - around); c <= std::min(stride - 1, column + around); ++c) {
-        const float dx = static_cast<float>(c) - x;
-        line[c] = std::min(line[c], dx * dx + dy * dy);
-      }
+      float* line = &squares[static_cast<std::size_t>(r) * padded];
+      for (std::size_t c = 0; c < padded; ++c) line[c] = std::min(line[c], across[c] + dy * dy);
     }
   }
   std::uint8_t* cells = cells_.data() + tiles_[tile] * tile_cells;
-  for (std::size_t i = 0; i < tile_cells; ++i)
-    cells[i] = static_cast<std::uint8_t>(std::lround(std::sqrt(squares[i]) / farthest * beyond_reach));
+  for (std::size_t r = 0; r < stride; ++r) {
+    for (std::size_t c = 0; c < stride; ++c) {
+      // Rounded in a way that a vector loop can, half up.
+      const float steps = std::sqrt(squares[r * padded + c]) / farthest * beyond_reach;
+      const int whole = static_cast<int>(steps);
+      *cells++ = static_cast<std::uint8_t>(steps - static_cast<float>(whole) >= 0.5F ? whole + 1 : whole);
+    }
+  }
 }
 
 void DistanceField::at(const Points& points, const Transform& map_from_points, FieldValues& values) const {
@@ -158,8 +171,12 @@ void DistanceField::at(const Points& points, const Transform& map_from_points, F
 }
 
 std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, int threads) {
+  constexpr double huge_area = 25e4;  // m^2; where cells of 5 cm would take most of the memory
+  const Points& points = map.points();
+  const bool is_huge = extent_of(points.x).length() * extent_of(points.y).length() > huge_area;
+  const double cell = is_huge ? 0.1 : 0.05;
   // Half a metre is as far as a pose is ever refined from.
-  return map.index<DistanceField>("", [&] { return DistanceField(map.points(), 0.05, 0.5, threads); });
+  return map.index<DistanceField>("", [&] { return DistanceField(points, cell, 0.5, threads); });
 }
 
 namespace {

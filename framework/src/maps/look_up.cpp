@@ -131,11 +131,6 @@ void look_up_in_vectors(const FieldView& f, const Points& points, const Transfor
   });
 }
 
-/// Row by row; of places that are not inside, 0.
-HWY_INLINE I cell_of(M inside, V column, V row, int width) {
-  return hn::Add(hn::Mul(whole(inside, row), hn::Set(Ints(), width)), whole(inside, column));
-}
-
 void find_cells_in_vectors(const OccupancyGrid& grid, float scale, const Points& points,
                            const Transform& grid_from_points, std::span<Cell> cells) {
   const Floats d;
@@ -146,12 +141,29 @@ void find_cells_in_vectors(const OccupancyGrid& grid, float scale, const Points&
     const V row = hn::Mul(at.y, hn::Set(d, scale));
     const M inside = is_inside(column, row, static_cast<float>(grid.width), static_cast<float>(grid.height));
     std::array<std::int32_t, 16> found{};
-    hn::StoreU(hn::IfThenElse(hn::RebindMask(ints, inside), cell_of(inside, column, row, grid.width),
-                              hn::Set(ints, -1)),
-               ints, found.data());
+    const I cell = hn::Add(hn::Mul(whole(inside, row), hn::Set(ints, grid.width)), whole(inside, column));
+    hn::StoreU(hn::IfThenElse(hn::RebindMask(ints, inside), cell, hn::Set(ints, -1)), ints, found.data());
     for (std::size_t k = 0; k < size; ++k)
       cells[i + k] = found[k] < 0 ? Cell::unknown : grid.cells[static_cast<std::size_t>(found[k])];
   });
+}
+
+/// ClearanceGrid::clearance() of cells.
+HWY_INLINE V clearance_at(const ClearanceView& grid, I column, I row) {
+  const Ints ints;
+  constexpr int shift = ClearanceGrid::block_shift;
+  const I block = hn::Mul(hn::Add(hn::Mul(hn::ShiftRight<shift>(row), hn::Set(ints, grid.block_columns)),
+                                  hn::ShiftRight<shift>(column)),
+                          hn::Set(ints, static_cast<std::int32_t>(ClearanceGrid::block_bytes)));
+  const I within = hn::Set(ints, ClearanceGrid::block_side - 1);
+  const I place = hn::Add(hn::ShiftLeft<shift>(hn::And(row, within)), hn::And(column, within));
+  // The number of the block, and, behind it, 32 bits of what its cells have more.
+  const auto words = [&](const std::uint8_t* bytes) {
+    return hn::GatherOffset(ints, reinterpret_cast<const std::int32_t*>(bytes), block);
+  };
+  const I more = hn::Shr(words(grid.blocks + 1), hn::ShiftLeft<1>(place));
+  return hn::ConvertTo(
+      Floats(), hn::Add(hn::And(words(grid.blocks), hn::Set(ints, 255)), hn::And(more, hn::Set(ints, 3))));
 }
 
 void find_blocked_in_vectors(const ClearanceView& grid, const Point& from, const Points& ends,
@@ -181,8 +193,8 @@ void find_blocked_in_vectors(const ClearanceView& grid, const Point& from, const
           is_on_way, is_inside(column, row, static_cast<float>(grid.width), static_cast<float>(grid.height)));
       is_on_way = hn::AndNot(hn::AndNot(inside, was_inside), is_on_way);
       was_inside = inside;
-      const I cell = cell_of(inside, column, row, grid.width);
-      const V clearance = hn::IfThenElse(inside, pair_at(grid.cells, cell).first, hn::Set(d, 1.0F));
+      const V clearance = hn::IfThenElse(
+          inside, clearance_at(grid, whole(inside, column), whole(inside, row)), hn::Set(d, 1.0F));
       const M met = hn::And(is_on_way, hn::Eq(clearance, hn::Zero(d)));
       is_blocked = hn::Or(is_blocked, met);
       t = hn::Add(t, hn::Max(hn::Set(d, 0.5F), hn::Sub(clearance, hn::Set(d, 1.0F))));

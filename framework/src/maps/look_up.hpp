@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "glocal/clearance_grid.hpp"
 #include "glocal/distance_field.hpp"
 #include "glocal/occupancy_grid.hpp"
 #include "glocal/points.hpp"
@@ -28,9 +29,10 @@ void look_up(const FieldView& field, const Points& points, const Transform& map_
 void find_cells(const OccupancyGrid& grid, float scale, const Points& points,
                 const Transform& grid_from_points, std::span<Cell> cells);
 
-/// What a ClearanceGrid has. A look-up may read three bytes behind the last cell.
+/// What a ClearanceGrid has.
 struct ClearanceView {
-  const std::uint8_t* cells;
+  const std::uint8_t* blocks;
+  std::int32_t block_columns;
   int width, height;
   float resolution;
 };

@@ -167,9 +167,10 @@ void Localizer::use_epsilon(double epsilon) {
   stage_setup_.contact_epsilon = epsilon;
   auto found = by_epsilon_.find(epsilon);
   if (found == by_epsilon_.end()) {
+    // Matchers first: while some of their indexes are made, these take more memory than in the end.
+    auto matcher = make(catalog_.matchers, config_.matcher, stages_.matcher);
     auto verifier = make(catalog_.verifiers, config_.verifier, stages_.verifier);
     stage_setup_.has_verifier = verifier != nullptr;
-    auto matcher = make(catalog_.matchers, config_.matcher, stages_.matcher);
     UnknownPlaceMonitor unknown_place(config_.unknown_place, stage_setup_.map, epsilon);
     found = by_epsilon_
                 .emplace(epsilon,

@@ -119,7 +119,7 @@ TEST(TrialStarts, LieNearFreeCellsWhereThePathIsNotKnown) {
   MapData data;
   data.points.push_back({});
   // Cells of 1 m from (-0.5, -0.5) on: the third is free, the sixth occupied, all others unknown.
-  data.grid = {{-0.5, -0.5, 0.0}, 1.0, 11, 1, std::vector<Cell>(11, Cell::unknown)};
+  data.grid = {{-0.5, -0.5, 0.0}, 1.0, 11, 1, PackedCells(11, Cell::unknown)};
   data.grid.cell(2, 0) = Cell::free;
   data.grid.cell(5, 0) = Cell::occupied;
   const GlobalMap map(std::move(data));
@@ -140,7 +140,7 @@ TEST(TrialStarts, AreLookedForInTheFrameOfAMapFarAway) {
   MapData data;
   data.points.push_back({4.0F, 0.5F, 0.0F});
   EXPECT_THAT(starts_on(data), ElementsAre(4)) << "near points";
-  data.grid = {{-0.5, -0.5, 0.0}, 1.0, 11, 1, std::vector<Cell>(11, Cell::unknown)};
+  data.grid = {{-0.5, -0.5, 0.0}, 1.0, 11, 1, PackedCells(11, Cell::unknown)};
   data.grid.cell(2, 0) = Cell::free;
   EXPECT_THAT(starts_on(data), ElementsAre(1, 2, 3)) << "near free cells";
   data.path = {Pose2{8, 1, 0}};

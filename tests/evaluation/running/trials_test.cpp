@@ -61,7 +61,7 @@ class TrialTest : public testing::Test {
     };
     MapData data;
     data.points.push_back({});
-    data.grid = {{-0.5, -0.5, 0.0}, 1.0, 6, 1, std::vector<Cell>(6, Cell::free)};
+    data.grid = {{-0.5, -0.5, 0.0}, 1.0, 6, 1, PackedCells(6, Cell::free)};
     const auto map = std::make_shared<const GlobalMap>(std::move(data));
     Localizer localizer(experiment_.localizer, catalog_, {map, 1}, experiment_.seed);
     return run_trial(localizer, drive_, *map, experiment_, 7, start, callbacks);

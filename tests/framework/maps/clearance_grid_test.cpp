@@ -16,8 +16,8 @@ namespace {
 
 TEST(ClearanceGrid, BlocksWhatLookingAtEveryHalfCellWouldBlock) {
   Rng rng(9);
-  OccupancyGrid grid{{1.0, -2.0, 0.4}, 0.1, 60, 50, std::vector<Cell>(3000, Cell::free)};
-  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.01 ? Cell::occupied : Cell::free;
+  OccupancyGrid grid{{1.0, -2.0, 0.4}, 0.1, 60, 50, PackedCells(3000, Cell::free)};
+  for (auto&& cell : grid.cells) cell = rng.uniform() < 0.01 ? Cell::occupied : Cell::free;
   const ClearanceGrid clearance(grid);
   int blocked = 0;
   int differ = 0;
@@ -44,8 +44,8 @@ TEST(ClearanceGrid, BlocksWhatLookingAtEveryHalfCellWouldBlock) {
 
 TEST(ClearanceGrid, TheFirstOccupiedCellIsWhereSmallStepsWouldMeetIt) {
   Rng rng(11);
-  OccupancyGrid grid{{-1.0, 2.0, -0.3}, 0.1, 70, 60, std::vector<Cell>(4200, Cell::free)};
-  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.02 ? Cell::occupied : Cell::free;
+  OccupancyGrid grid{{-1.0, 2.0, -0.3}, 0.1, 70, 60, PackedCells(4200, Cell::free)};
+  for (auto&& cell : grid.cells) cell = rng.uniform() < 0.02 ? Cell::occupied : Cell::free;
   const ClearanceGrid clearance(grid);
   int met = 0;
   int far_off = 0;
@@ -73,9 +73,9 @@ TEST(ClearanceGrid, TheFirstOccupiedCellIsWhereSmallStepsWouldMeetIt) {
 
 TEST(ClearanceGrid, ManyBeamsAreBlockedAsEachByItself) {
   Rng rng(10);
-  OccupancyGrid grid{{1.0, -2.0, 0.4}, 0.1, 60, 50, std::vector<Cell>(3000, Cell::free)};
-  for (Cell& cell : grid.cells) cell = rng.uniform() < 0.02 ? Cell::occupied : Cell::free;
-  grid.cells.back() = Cell::occupied;
+  OccupancyGrid grid{{1.0, -2.0, 0.4}, 0.1, 60, 50, PackedCells(3000, Cell::free)};
+  for (auto cell : grid.cells) cell = rng.uniform() < 0.02 ? Cell::occupied : Cell::free;
+  grid.cells[2999] = Cell::occupied;
   const ClearanceGrid clearance(grid);
   const Transform map_from_ends(Pose2{0.5, 1.0, 0.7});
   Points ends;
@@ -93,6 +93,28 @@ TEST(ClearanceGrid, ManyBeamsAreBlockedAsEachByItself) {
     EXPECT_EQ(blocked, expected);
   });
   EXPECT_GT(std::count(expected.begin(), expected.end(), 1), 200);
+}
+
+TEST(ClearanceGrid, InTheMiddleOfAGridThatIsMadeInPiecesAWallIsWhereItIs) {
+  // Walls at distances that are told over the border of a piece, and farther than a number tells.
+  OccupancyGrid grid{{}, 1.0, 6, 3001, PackedCells(std::size_t{6} * 3001, Cell::free)};
+  for (const int row : {0, 1020, 1500, 1503, 3000}) {
+    for (int column = 0; column < 6; ++column) grid.cell(column, row) = Cell::occupied;
+  }
+  for (const int threads : {1, 2, 3}) {
+    const ClearanceGrid clearance(grid, threads);
+    EXPECT_LT(clearance.memory_bytes(), grid.cells.size());
+    for (int row = 1; row < 3000; row += 7) {
+      const float y = static_cast<float>(row) + 0.25F;
+      const int next = row <= 1020 ? 1020 : row <= 1500 ? 1500 : row <= 1503 ? 1503 : 3000;
+      const double to_wall = next - double{y};
+      const auto found = clearance.first_occupied({2.5F, y, 0.0F}, {2.5F, 3200.0F, 0.0F}, 0.0);
+      ASSERT_TRUE(found.has_value()) << row;
+      if (row == next) continue;
+      EXPECT_GE(*found, to_wall) << row;
+      EXPECT_LE(*found, to_wall + 1.0) << row;
+    }
+  }
 }
 
 TEST(ClearanceGrid, AMapWithoutAGridBlocksNothing) {

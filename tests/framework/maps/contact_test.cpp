@@ -58,6 +58,24 @@ TEST(ContactIndex, AgreesWithBruteForceInThePlane) {
   expect_as_by_brute_force(KdTreeContact(points, epsilon), points, epsilon, 0.0, false);
 }
 
+TEST(BitsetContact, IsTheSameForAnyNumberOfThreads) {
+  const Points planar = test::small_world_points();
+  Points in_space = planar;
+  for (std::size_t i = 0; i < in_space.size(); ++i) in_space.z[i] = static_cast<float>(i % 7) * 0.2F;
+  for (const Points& points : {planar, in_space}) {
+    const BitsetContact one(points, 0.1);
+    for (const int threads : {2, 3}) {
+      const BitsetContact more(points, 0.1, threads);
+      Rng rng(5);
+      for (int i = 0; i < 20000; ++i) {
+        const Point p{static_cast<float>(rng.uniform(-0.5, 8.5)), static_cast<float>(rng.uniform(-0.5, 9.5)),
+                      static_cast<float>(rng.uniform(0.0, 1.2))};
+        ASSERT_EQ(contact(more, p), contact(one, p));
+      }
+    }
+  }
+}
+
 TEST(ContactIndex, AgreesWithBruteForceInSpace) {
   Points points;
   Rng rng(3);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -20,6 +21,40 @@ OccupancyGrid two_cells() {
   return {{1.0, 2.0, quarter}, 0.5, 2, 1, {Cell::occupied, Cell::free}};
 }
 
+TEST(PackedCells, AreThoseOfAListOneByOne) {
+  Rng rng(3);
+  std::vector<Cell> expected(1000, Cell::free);
+  PackedCells cells(1000, Cell::free);
+  for (int i = 0; i < 300; ++i) {
+    const auto kind = static_cast<Cell>(rng.below(3));
+    const std::size_t begin = rng.below(1000);
+    const std::size_t n = std::min<std::size_t>(rng.below(70), 1000 - begin);
+    std::fill_n(expected.begin() + static_cast<std::ptrdiff_t>(begin), n, kind);
+    cells.fill(begin, n, kind);
+    const std::size_t one = rng.below(1000);
+    cells[one] = expected[one] = static_cast<Cell>(rng.below(3));
+  }
+  ASSERT_TRUE(std::equal(cells.begin(), cells.end(), expected.begin(), expected.end()));
+  for (const std::size_t begin : {0U, 31U, 32U, 517U}) {
+    std::vector<std::size_t> occupied, visited;
+    for (std::size_t i = begin; i < 900; ++i) {
+      if (expected[i] == Cell::occupied) occupied.push_back(i);
+    }
+    cells.for_occupied(begin, 900, [&](std::size_t i) { visited.push_back(i); });
+    EXPECT_EQ(visited, occupied);
+  }
+}
+
+TEST(PackedCells, AreEqualIfEachOfThemIs) {
+  const PackedCells cells{Cell::occupied, Cell::unknown, Cell::free};
+  PackedCells others(3);
+  EXPECT_NE(cells, others);
+  others[0] = Cell::occupied;
+  others[2] = Cell::free;
+  EXPECT_EQ(cells, others);
+  EXPECT_NE(cells, PackedCells(4));
+}
+
 TEST(CellsUnder, AreThoseWhereAMotionPutsPoints) {
   const OccupancyGrid grid = two_cells();
   // The cells lie from x 0.5 to 1, the first from y 2 to 2.5, the second from y 2.5 to 3.
@@ -36,8 +71,8 @@ TEST(CellsUnder, AreThoseWhereAMotionPutsPoints) {
 
 TEST(CellsUnder, AreThoseOfTheGridPointByPoint) {
   Rng rng(1);
-  OccupancyGrid grid{{-3.0, 1.0, 0.3}, 0.1, 60, 40, std::vector<Cell>(std::size_t{60} * 40)};
-  for (Cell& cell : grid.cells) cell = static_cast<Cell>(rng.below(3));
+  OccupancyGrid grid{{-3.0, 1.0, 0.3}, 0.1, 60, 40, PackedCells(std::size_t{60} * 40)};
+  for (auto&& cell : grid.cells) cell = static_cast<Cell>(rng.below(3));
   const Pose2 pose{0.4, 2.0, -1.1};
   const CellsUnder cell_under(grid, pose);
   int differ = 0;

@@ -99,7 +99,7 @@ TEST(StartInLocalMap, MovesAlongByOdometryWhenTheLocalMapBeginsAnew) {
 GlobalMap map_of_one_free_cell() {
   MapData data;
   data.points.push_back({10.0F, 20.0F, 0.0F});
-  data.grid = {{10, 20, 0}, 1.0, 3, 2, std::vector<Cell>(6, Cell::unknown)};
+  data.grid = {{10, 20, 0}, 1.0, 3, 2, PackedCells(6, Cell::unknown)};
   data.grid.cell(1, 0) = Cell::free;
   return GlobalMap(std::move(data));
 }

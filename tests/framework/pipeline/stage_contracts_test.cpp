@@ -74,7 +74,7 @@ TEST(StageContracts, MapsHavePointsAndAWholeGrid) {
   expect_broken([](MapData& map) { map.points = {}; });
   expect_broken([](MapData& map) { map.points.x[0] = std::numeric_limits<float>::quiet_NaN(); });
   expect_broken([](MapData& map) { map.normals.push_back({1, 0, 0}), map.normals.push_back({1, 0, 0}); });
-  expect_broken([](MapData& map) { map.grid.cells.pop_back(); });
+  expect_broken([](MapData& map) { map.grid.cells = PackedCells(1); });
   expect_broken([](MapData& map) { map.grid.width = map.grid.height = -1; });
   expect_broken([](MapData& map) { map.grid.resolution = not_a_number; });
   expect_broken([](MapData& map) { map.grid.map_from_grid.x = infinite; });

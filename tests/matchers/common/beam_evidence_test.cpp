@@ -7,7 +7,7 @@ namespace {
 
 /// 4 m x 4 m of free cells with an occupied column from x = 2 to 2.1 m, and unknown ones from x = 3 m on.
 ClearanceGrid grid_with_a_wall() {
-  OccupancyGrid grid{{0.0, 0.0, 0.0}, 0.1, 40, 40, std::vector<Cell>(1600, Cell::free)};
+  OccupancyGrid grid{{0.0, 0.0, 0.0}, 0.1, 40, 40, PackedCells(1600, Cell::free)};
   for (int row = 0; row < 40; ++row) {
     grid.cell(20, row) = Cell::occupied;
     for (int column = 30; column < 40; ++column) grid.cell(column, row) = Cell::unknown;

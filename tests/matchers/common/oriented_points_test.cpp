@@ -17,7 +17,7 @@ namespace {
 GlobalMap wall(bool free_left, bool free_right) {
   MapData data;
   test::add_wall(data.points, {{2.025, 0.0}, {2.025, 4.0}});
-  data.grid = {{0.0, 0.0, 0.0}, 0.05, 80, 80, std::vector<Cell>(std::size_t{80} * 80, Cell::unknown)};
+  data.grid = {{0.0, 0.0, 0.0}, 0.05, 80, 80, PackedCells(std::size_t{80} * 80, Cell::unknown)};
   for (int row = 0; row < 80; ++row) {
     for (int column = 0; column < 80; ++column) {
       if ((column < 40 && free_left) || (column > 40 && free_right)) data.grid.cell(column, row) = Cell::free;
@@ -35,7 +35,7 @@ template <class IsFree>
 GlobalMap walls(const std::vector<std::vector<std::pair<double, double>>>& lines, IsFree is_free) {
   MapData data;
   for (const auto& line : lines) test::add_wall(data.points, line);
-  data.grid = {{-1.0, -1.0, 0.0}, 0.05, 120, 120, std::vector<Cell>(std::size_t{120} * 120, Cell::unknown)};
+  data.grid = {{-1.0, -1.0, 0.0}, 0.05, 120, 120, PackedCells(std::size_t{120} * 120, Cell::unknown)};
   for (int row = 0; row < 120; ++row) {
     for (int column = 0; column < 120; ++column) {
       const Pose2 centre = data.grid.centre(column, row);
@@ -96,7 +96,7 @@ TEST(OrientedPoints, ASlantedCornerInCellsKeepsItsNormals) {
   Points exact;
   test::add_wall(exact, {{0.0, 2.0}, {0.0, 0.0}, {2.0, 0.0}});
   MapData data;
-  data.grid = {{-1.0, -1.0, 0.0}, 0.05, 120, 120, std::vector<Cell>(std::size_t{120} * 120, Cell::free)};
+  data.grid = {{-1.0, -1.0, 0.0}, 0.05, 120, 120, PackedCells(std::size_t{120} * 120, Cell::free)};
   const Points walls_in_map = test::moved(exact, turn);
   for (std::size_t i = 0; i < walls_in_map.size(); ++i) {
     data.grid.cell(static_cast<int>((walls_in_map.x[i] + 1.0F) / 0.05F),

@@ -82,7 +82,7 @@ TEST(IndexedRansam, BlockedBeamsLowerTheScoreAndLeaveTheQuality) {
   through_the_wall.scan.free_ends.push_back({9.0F, 0.0F, 0.0F});
   MapData data;
   data.points = test::small_world_points();
-  data.grid = {{-0.05, -0.05, 0.0}, 0.1, 82, 92, std::vector<Cell>(std::size_t{82} * 92, Cell::free)};
+  data.grid = {{-0.05, -0.05, 0.0}, 0.1, 82, 92, PackedCells(std::size_t{82} * 92, Cell::free)};
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     data.grid.cell(static_cast<int>((data.points.x[i] + 0.05) / 0.1),
                    static_cast<int>((data.points.y[i] + 0.05) / 0.1)) = Cell::occupied;
@@ -211,7 +211,7 @@ Points pillars() {
 TEST(IndexedRansam, TrianglesFindARobotAmongPillarsWherePairsCannot) {
   MapData data;
   data.points = pillars();
-  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 180, 180, std::vector<Cell>(std::size_t{180} * 180, Cell::free)};
+  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 180, 180, PackedCells(std::size_t{180} * 180, Cell::free)};
   const auto map = std::make_shared<const GlobalMap>(std::move(data));
   Rng rng(9);
   for (int place = 0; place < 10; ++place) {

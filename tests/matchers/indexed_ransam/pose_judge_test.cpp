@@ -13,7 +13,7 @@ namespace {
 /// A wall along x = 4 m, from y = 0 to 8 m, in free cells; from x = 6 m on nothing is known.
 std::shared_ptr<const GlobalMap> map_with_a_wall() {
   MapData data;
-  data.grid = {{0.0, 0.0, 0.0}, 0.1, 80, 80, std::vector<Cell>(6400, Cell::free)};
+  data.grid = {{0.0, 0.0, 0.0}, 0.1, 80, 80, PackedCells(6400, Cell::free)};
   for (int row = 0; row < 80; ++row) {
     data.grid.cell(40, row) = Cell::occupied;
     for (int column = 60; column < 80; ++column) data.grid.cell(column, row) = Cell::unknown;

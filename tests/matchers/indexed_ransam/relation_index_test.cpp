@@ -17,7 +17,7 @@ std::shared_ptr<const GlobalMap> wall_and_poles() {
     for (int column = 0; column < 5; ++column)
       data.points.push_back({static_cast<float>(column), 2.0F + static_cast<float>(row), 0.0F});
   }
-  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 80, 80, std::vector<Cell>(std::size_t{80} * 80, Cell::free)};
+  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 80, 80, PackedCells(std::size_t{80} * 80, Cell::free)};
   return std::make_shared<const GlobalMap>(std::move(data));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 TEST(FreeSpace, PlacesAndHeadingsAreUniformWhereCellsAreFree) {
   // Three free cells of six, in a grid that is turned and moved.
-  OccupancyGrid grid{{2.0, -1.0, 0.7}, 0.5, 3, 2, std::vector<Cell>(6, Cell::unknown)};
+  OccupancyGrid grid{{2.0, -1.0, 0.7}, 0.5, 3, 2, PackedCells(6, Cell::unknown)};
   grid.cell(0, 0) = grid.cell(2, 0) = grid.cell(1, 1) = Cell::free;
   grid.cell(1, 0) = Cell::occupied;
   const FreeSpace space(grid);

@@ -224,7 +224,7 @@ TEST(Ransam, AFloodIsMergedWithoutLosingItsPoses) {
 /// x = 6.5 m of it; where the third may have one, cells are unknown.
 std::shared_ptr<const GlobalMap> three_rooms() {
   MapData data;
-  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 520, 110, std::vector<Cell>(std::size_t{520} * 110, Cell::free)};
+  data.grid = {{-1.0, -1.0, 0.0}, 0.1, 520, 110, PackedCells(std::size_t{520} * 110, Cell::free)};
   for (const double room : {0.0, 20.0, 40.0}) {
     const Points walls = test::moved(test::small_world_points(), {room, 0.0, 0.0});
     for (std::size_t i = 0; i < walls.size(); ++i) data.points.push_back(walls[i]);

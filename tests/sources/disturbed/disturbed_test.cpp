@@ -42,7 +42,7 @@ class Room final : public MapSource {
   MapData load() override {
     MapData map;
     map.grid = {.map_from_grid = {}, .resolution = 0.5, .width = 20, .height = 8, .cells = {}};
-    map.grid.cells.assign(160, Cell::free);
+    map.grid.cells = PackedCells(160, Cell::free);
     for (int column = 0; column < 20; ++column) {
       for (const int row : {0, 7}) map.grid.cell(column, row) = Cell::occupied;
     }
@@ -129,7 +129,7 @@ TEST(DisturbedMaps, ATableMappedBelowItsTopIsFourLegs) {
   // A table of 0.6 m x 0.8 m in cells of 5 cm, and a wall of 3 m.
   MapData map;
   map.grid = {.map_from_grid = {}, .resolution = 0.05, .width = 60, .height = 40, .cells = {}};
-  map.grid.cells.assign(2400, Cell::free);
+  map.grid.cells = PackedCells(2400, Cell::free);
   for (int column = 0; column < 60; ++column) map.grid.cell(column, 0) = Cell::occupied;
   for (int column = 20; column < 32; ++column) {
     for (int row = 10; row < 26; ++row) map.grid.cell(column, row) = Cell::occupied;

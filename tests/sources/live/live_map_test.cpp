@@ -34,7 +34,7 @@ TEST(LiveMap, IsWhatTheMapServerSends) {
   ASSERT_EQ(map.points.size(), 1U);
   EXPECT_NEAR(map.points.x[0] + map.origin.x(), 2.25, 1e-6);
   EXPECT_NEAR(map.points.y[0] + map.origin.y(), 2.25, 1e-6);
-  EXPECT_EQ(map.grid.cells, (std::vector{Cell::unknown, Cell::free, Cell::occupied}));
+  EXPECT_EQ(map.grid.cells, (PackedCells{Cell::unknown, Cell::free, Cell::occupied}));
 }
 
 TEST(LiveMap, OfSeveralOneIsToBeNamed) {

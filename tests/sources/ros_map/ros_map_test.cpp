@@ -215,8 +215,8 @@ TEST(RosMapWriter, IsReadBack) {
 }
 
 TEST(RosMapWriter, WritesTheSameImagePieceByPiece) {
-  OccupancyGrid grid{{0.0, 0.0, 0.0}, 0.1, 3, 700, {}};
-  for (int i = 0; i < 2100; ++i) grid.cells.push_back(i % 7 == 0 ? o : i % 5 == 0 ? u : f);
+  OccupancyGrid grid{{0.0, 0.0, 0.0}, 0.1, 3, 700, PackedCells(2100)};
+  for (std::size_t i = 0; i < 2100; ++i) grid.cells[i] = i % 7 == 0 ? o : i % 5 == 0 ? u : f;
   std::string image;
   int pieces = 0;
   write_trinary_pgm(grid, [&](std::string_view piece) {

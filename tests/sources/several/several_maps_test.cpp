@@ -17,7 +17,7 @@ namespace {
 /// 3 x 2 cells of 0.5 m, one of them occupied: column 2 of row 0.
 MapData small_map(const Pose2& corner) {
   MapData map;
-  map.grid = {corner, 0.5, 3, 2, std::vector<Cell>(6, Cell::free)};
+  map.grid = {corner, 0.5, 3, 2, PackedCells(6, Cell::free)};
   map.grid.cell(2, 0) = Cell::occupied;
   map.points = occupied_centres(map.grid);
   map.path = {Pose2{corner.x + 0.25, corner.y + 0.25, 0.5}};

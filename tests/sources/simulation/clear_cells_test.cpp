@@ -17,7 +17,7 @@ double between_borders(int columns, int rows) {
 }
 
 TEST(ClearCells, AreFarFromAllThatIsNotFree) {
-  OccupancyGrid grid{{}, 0.1, 23, 17, std::vector<Cell>(23U * 17U, Cell::free)};
+  OccupancyGrid grid{{}, 0.1, 23, 17, PackedCells(23U * 17U, Cell::free)};
   Rng rng(3);
   for (int i = 0; i < 6; ++i) {
     const Cell kind = i % 2 == 0 ? Cell::occupied : Cell::unknown;
@@ -44,7 +44,7 @@ TEST(ClearCells, AreFarFromAllThatIsNotFree) {
 }
 
 TEST(NearCells, AreThoseWithinTheDistance) {
-  const OccupancyGrid grid{{}, 0.5, 9, 7, std::vector<Cell>(63, Cell::free)};
+  const OccupancyGrid grid{{}, 0.5, 9, 7, PackedCells(63, Cell::free)};
   std::vector<char> marks(63, 0);
   NearCells(1.1, grid).mark(-1, 2, marks);  // beside the grid; 2.2 cells
   for (int row = 0; row < 7; ++row) {

@@ -96,7 +96,7 @@ TEST(ClearRegion, GoesAroundCorners) {
 
 /// Random rooms, with walls and clutter.
 OccupancyGrid random_grid(std::uint64_t seed) {
-  OccupancyGrid grid{{3.0, -2.0, 0.4}, 0.1, 80, 60, std::vector<Cell>(80U * 60U, Cell::free)};
+  OccupancyGrid grid{{3.0, -2.0, 0.4}, 0.1, 80, 60, PackedCells(80U * 60U, Cell::free)};
   Rng rng(seed);
   for (int i = 0; i < 25; ++i) {
     const int column = static_cast<int>(rng.below(70));
@@ -184,7 +184,7 @@ TEST(ClearRegion, WaysAreShortAndStayClear) {
 
 TEST(ClearRegion, WaysThroughOpenSpaceHaveNoCornersOfTheGrid) {
   // Around one pillar in a hall, at angles that steps from cell to cell do not have.
-  OccupancyGrid grid{{}, 0.1, 100, 60, std::vector<Cell>(6000, Cell::free)};
+  OccupancyGrid grid{{}, 0.1, 100, 60, PackedCells(6000, Cell::free)};
   for (int row = 25; row < 35; ++row) {
     for (int column = 45; column < 55; ++column) grid.cell(column, row) = Cell::occupied;
   }
