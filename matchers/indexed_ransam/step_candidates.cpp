@@ -15,7 +15,8 @@ StepCandidates::StepCandidates(const ContactIndex& contact, const Points& sample
       batch_(std::max<std::size_t>(1, (sample.size() + looks - 1) / looks)),
       bar_(static_cast<std::size_t>(std::ceil(min_contact * static_cast<double>(sample.size())))),
       found_(sample.size() + 1, 0),
-      first_look_(std::min<std::size_t>(16, sample.size())) {
+      first_look_(std::min<std::size_t>(16, sample.size())),
+      waiting_(first_look_ + 1) {
   set_least();
 }
 
@@ -33,32 +34,35 @@ void StepCandidates::test(const MotionBatch& map_from_local, std::size_t size) {
   tested_ += size;
   for (std::size_t i = 0; i < size; ++i) {
     // Even the coarse look is below what is asked for.
-    if (at_most[i] < least_at_first_)
+    if (at_most[i] < least_at_first_) {
       points_tested_ += first_look_;
-    else
-      waiting_.push_back({map_from_local[i], at_most[i]});
+      continue;
+    }
+    waiting_[at_most[i]].push_back(map_from_local[i]);
+    ++all_waiting_;
   }
   constexpr std::size_t most_waiting = 4096;
-  if (waiting_.size() >= most_waiting) look_closer();
+  if (all_waiting_ >= most_waiting) look_closer();
 }
 
 /// The best at first sight come first: what they have soon raises the bar for the others.
 void StepCandidates::look_closer() {
-  std::stable_sort(waiting_.begin(), waiting_.end(),
-                   [](const Waiting& a, const Waiting& b) { return a.at_most > b.at_most; });
-  for (const auto& [map_from_local, at_most] : waiting_) {
-    if (at_most < least_at_first_) {
-      points_tested_ += first_look_;
-      continue;
+  for (std::size_t at_most = first_look_ + 1; at_most-- > 0;) {
+    for (const Transform& map_from_local : waiting_[at_most]) {
+      if (at_most < least_at_first_) {
+        points_tested_ += first_look_;
+        continue;
+      }
+      if (!gate_.is_open() && !gate_.allows(map_from_local.pose())) continue;
+      const ContactIndex::Count count =
+          contact_.count_while(sample_, 0, sample_.size(), batch_, least_, map_from_local);
+      points_tested_ += count.looked_at;
+      if (count.looked_at == sample_.size() && count.in_contact >= bar_)
+        take(map_from_local.pose(), count.in_contact);
     }
-    if (!gate_.is_open() && !gate_.allows(map_from_local.pose())) continue;
-    const ContactIndex::Count count =
-        contact_.count_while(sample_, 0, sample_.size(), batch_, least_, map_from_local);
-    points_tested_ += count.looked_at;
-    if (count.looked_at == sample_.size() && count.in_contact >= bar_)
-      take(map_from_local.pose(), count.in_contact);
+    waiting_[at_most].clear();
   }
-  waiting_.clear();
+  all_waiting_ = 0;
 }
 
 void StepCandidates::take(const Pose2& map_from_local, std::size_t in_contact) {

@@ -54,13 +54,11 @@ class StepCandidates {
   std::vector<std::size_t> found_;          ///< How many have so many points in contact.
   std::size_t found_above_ = 0;             ///< How many have the bar at least.
   std::array<std::uint32_t, looks> least_;  ///< What a promising pose has after each look.
-  struct Waiting {
-    Transform map_from_local;
-    std::uint32_t at_most;  ///< Points in contact at the first look.
-  };
-  std::size_t first_look_;            ///< Points of it.
-  std::uint32_t least_at_first_ = 0;  ///< What a promising pose has then.
-  std::vector<Waiting> waiting_;
+  std::size_t first_look_;                  ///< Points of it.
+  std::uint32_t least_at_first_ = 0;        ///< What a promising pose has then.
+  /// Poses by the points that they have in contact at the first look, and how many they are.
+  std::vector<std::vector<Transform>> waiting_;
+  std::size_t all_waiting_ = 0;
   std::vector<Candidate> candidates_;
   std::size_t tested_ = 0;
   std::size_t points_tested_ = 0;
