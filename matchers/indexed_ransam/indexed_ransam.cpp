@@ -25,7 +25,7 @@ JudgeRule judge_rule(const IndexedRansam::Params& p, double contact_epsilon) {
           .kernel = p.refinement.kernel};
 }
 
-/// Steps in which first_iterations are drawn: from then on the best poses of the steps before are there.
+/// Steps in which there are first_iterations: from then on the best poses of the steps before are there.
 constexpr int first_steps = 4;
 
 /// Points of the local map that judge a proposal's contact before it is refined.
@@ -36,14 +36,13 @@ constexpr std::size_t contact_points = 128;
 void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field(
       "iterations", p.iterations,
-      {.doc = "Oriented point pairs or triangles drawn from the local map in a step; on a map of more than "
-              "80,000 oriented points as many more as it has more of them, up to 12,000.",
+      {.doc = "Poses proposed in a step, by oriented point pairs or triangles drawn from the local map; on a "
+              "map of more than 80,000 oriented points as many more as it has more of them, up to 24,000.",
        .min = 0,
        .max = 10e6,
        .audience = Audience::tuner});
   v.field("first_iterations", p.first_iterations,
-          {.doc = "Oriented point pairs or triangles drawn from the local map in each of the first four "
-                  "steps at least, when nothing is carried on yet.",
+          {.doc = "Poses proposed in each of the first four steps at least, when nothing is carried on yet.",
            .min = 0,
            .max = 10e6});
   v.removed("adaptive", "the number of draws is fixed; set iterations and first_iterations");
@@ -100,7 +99,7 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
       map_(setup.map),
       relation_(relation_rule(params)),
       index_(built_index(setup.threads)),
-      draws_(draws_on(points_of(*index_), params.iterations)),
+      proposals_(proposals_on(points_of(*index_), params.iterations)),
       contact_(contact_index(*map_, "bitset", setup.epsilon(params.contact_epsilon), setup.threads)),
       refiner_(static_cast<std::size_t>(params.candidates), params.refinement,
                distance_field(*map_, setup.threads), contact_),
@@ -121,11 +120,11 @@ std::shared_ptr<const RelationIndex> IndexedRansam::built_index(int threads) {
   return built;
 }
 
-std::size_t IndexedRansam::draws_on(std::size_t points, int iterations) {
+std::size_t IndexedRansam::proposals_on(std::size_t points, int iterations) {
   constexpr double points_per_iterations = 80000.0;
-  constexpr int most = 12000;
-  const double draws = iterations * std::max(1.0, static_cast<double>(points) / points_per_iterations);
-  return static_cast<std::size_t>(std::min<double>(draws, std::max(iterations, most)));
+  constexpr int most = 24000;
+  const double proposals = iterations * std::max(1.0, static_cast<double>(points) / points_per_iterations);
+  return static_cast<std::size_t>(std::min<double>(proposals, std::max(iterations, most)));
 }
 
 void IndexedRansam::reset() {
@@ -145,12 +144,12 @@ MatchResult IndexedRansam::match(const MatchRequest& request, Rng& rng) {
   judge_.take_in(local, request.latest.scan);
   const Points sample = sample_of(local.points, contact_points, rng);
 
-  constexpr std::size_t proposals_per_candidate = 10;  // as many lie near each other
+  constexpr std::size_t proposals_per_candidate = 5;  // as many lie near each other
   StepCandidates candidates(*contact_, sample, params_.min_contact,
                             proposals_per_candidate * static_cast<std::size_t>(params_.candidates),
                             request.gate);
   for (const Pose2& pose : carried_) candidates.add(pose);
-  propose(*index_, relation_, local, draws_of_step(), rng,
+  propose(*index_, relation_, local, proposals_of_step(), rng,
           [&](const MotionBatch& poses, std::size_t size) { candidates.test(poses, size); });
   std::vector<Hypothesis> best = settled(candidates, local, sample, result);
   if (exact_search_.is_due(best)) {
@@ -187,9 +186,9 @@ std::vector<Hypothesis> IndexedRansam::rescore(std::vector<Hypothesis> found, co
 }
 
 /// More in the first steps, when nothing is carried yet.
-std::size_t IndexedRansam::draws_of_step() {
+std::size_t IndexedRansam::proposals_of_step() {
   const bool is_first = steps_++ < first_steps;
-  return is_first ? std::max(static_cast<std::size_t>(params_.first_iterations), draws_) : draws_;
+  return is_first ? std::max(static_cast<std::size_t>(params_.first_iterations), proposals_) : proposals_;
 }
 
 /// The best of the candidates, once these are distinct and refined.

@@ -32,8 +32,8 @@ namespace glocal::indexed_ransam {
 class IndexedRansam final : public Matcher {
  public:
   struct Params {
-    int iterations = 600;
-    int first_iterations = 1500;
+    int iterations = 1200;
+    int first_iterations = 4800;
     std::optional<double> contact_epsilon = {};
     double min_contact = 0.2;
     int candidates = 40;
@@ -50,10 +50,9 @@ class IndexedRansam final : public Matcher {
   /// Throws ConfigError where the map is too large for a contact grid, a distance field or a pyramid.
   IndexedRansam(const Params& params, const StageSetup& setup);
 
-  /// Draws of a step on an index of so many points, where `iterations` are enough for 80,000: the chance that
-  /// a draw meets its own place in the map falls with the number of places. At most 12,000, but for
-  /// `iterations`.
-  [[nodiscard]] static std::size_t draws_on(std::size_t points, int iterations);
+  /// Proposals of a step on an index of so many points, where `iterations` are enough for 80,000: the chance
+  /// that one is right falls with the number of places. At most 24,000, but for `iterations`.
+  [[nodiscard]] static std::size_t proposals_on(std::size_t points, int iterations);
 
   [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
   [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
@@ -64,7 +63,7 @@ class IndexedRansam final : public Matcher {
  private:
   /// Says in `map_index_` what it took.
   [[nodiscard]] std::shared_ptr<const RelationIndex> built_index(int threads);
-  [[nodiscard]] std::size_t draws_of_step();
+  [[nodiscard]] std::size_t proposals_of_step();
   [[nodiscard]] std::vector<Hypothesis> settled(StepCandidates& candidates, const LocalMap& local,
                                                 const Points& sample, MatchResult& result) const;
 
@@ -74,7 +73,7 @@ class IndexedRansam final : public Matcher {
   MapIndexInfo map_index_;
   /// Made before the other indexes: while it is made it takes much more memory than in the end.
   std::shared_ptr<const RelationIndex> index_;
-  std::size_t draws_ = 0;  ///< In a step.
+  std::size_t proposals_ = 0;  ///< In a step.
   std::shared_ptr<const ContactIndex> contact_;
   CandidateRefiner refiner_;
   PoseJudge judge_;

@@ -40,8 +40,13 @@ void prefetch(const OrientedPoints& s, const OrientedPair& pair) {
   }
 }
 
+/// Poses that one oriented point pair proposes at most, one for each even part of its partners. A pose takes
+/// less time than another pair, and a pair with few partners is soon through with them: what is rare tells
+/// most.
+constexpr std::uint32_t most_partners = 8;
+
 void propose_by(const OrientedPairIndex& index, const RelationRule& rule, const LocalMap& local,
-                std::size_t draws, Rng& rng, const TakePoses& take) {
+                std::size_t most_poses, Rng& rng, const TakePoses& take) {
   const OrientedPoints points = oriented_points_of(local, rule.points);
   if (points.size() < 2) return;
   // A large index is not in the cache: what a block of draws needs is fetched while others are at work.
@@ -51,17 +56,23 @@ void propose_by(const OrientedPairIndex& index, const RelationRule& rule, const 
     const OrientedPair* partner;
   };
   std::vector<Draw> drawn;
-  drawn.reserve(block);
+  drawn.reserve(block * most_partners);
   MotionBatch motions;
   std::size_t size = 0;
+  const std::size_t draws = (most_poses + most_partners - 1) / most_partners;
   for (std::size_t i = 0; i < draws; i += block) {
     drawn.clear();
     for (std::size_t k = i; k < std::min(draws, i + block); ++k) {
       const OrientedPair pair = draw_pair(points, rule.pairs, rng);
       const auto partners = index.find(points, pair);
-      if (partners.empty()) continue;
-      drawn.push_back({pair, &partners[rng.below(static_cast<std::uint32_t>(partners.size()))]});
-      __builtin_prefetch(drawn.back().partner);
+      const auto all = static_cast<std::uint32_t>(partners.size());
+      const std::uint32_t parts = std::min(all, most_partners);
+      for (std::uint32_t part = 0; part < parts; ++part) {
+        const auto begin = static_cast<std::uint32_t>(std::uint64_t{part} * all / parts);
+        const auto end = static_cast<std::uint32_t>((std::uint64_t{part} + 1) * all / parts);
+        drawn.push_back({pair, &partners[begin + rng.below(end - begin)]});
+        __builtin_prefetch(drawn.back().partner);
+      }
     }
     for (const Draw& draw : drawn) prefetch(index.oriented_points(), *draw.partner);
     for (const Draw& draw : drawn) {
@@ -110,9 +121,9 @@ void propose_by(const TriangleIndex& index, const RelationRule& rule, const Loca
 
 }  // namespace
 
-void propose(const RelationIndex& index, const RelationRule& rule, const LocalMap& local, std::size_t draws,
-             Rng& rng, const TakePoses& take) {
-  std::visit([&](const auto& one) { propose_by(one, rule, local, draws, rng, take); }, index);
+void propose(const RelationIndex& index, const RelationRule& rule, const LocalMap& local,
+             std::size_t most_poses, Rng& rng, const TakePoses& take) {
+  std::visit([&](const auto& one) { propose_by(one, rule, local, most_poses, rng, take); }, index);
 }
 
 }  // namespace glocal::indexed_ransam

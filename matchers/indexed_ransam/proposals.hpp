@@ -14,9 +14,10 @@ namespace glocal::indexed_ransam {
 /// Takes the first `size` poses of a batch.
 using TakePoses = std::function<void(const MotionBatch& map_from_local, std::size_t size)>;
 
-/// Draws so many oriented point pairs or triangles from the local map, whichever the index has; lays each on
-/// one of those in the map that are like it, picked at random; and hands on the poses that this gives.
-void propose(const RelationIndex& index, const RelationRule& rule, const LocalMap& local, std::size_t draws,
-             Rng& rng, const TakePoses& take);
+/// Draws oriented point pairs or triangles from the local map, whichever the index has; lays each pair on up
+/// to eight of those in the map that are like it, and each triangle on one, picked at random; and hands on
+/// the poses that this gives: `most_poses` (rounded up to eight) where all have partners enough.
+void propose(const RelationIndex& index, const RelationRule& rule, const LocalMap& local,
+             std::size_t most_poses, Rng& rng, const TakePoses& take);
 
 }  // namespace glocal::indexed_ransam

@@ -25,9 +25,11 @@ class StepCandidates {
 
   /// A pose that is known to be worth it.
   void add(const Pose2& map_from_local);
-  /// Adds those of the first `size` poses of a batch that have enough contact.
+  /// Takes in the first `size` poses of a batch. Those that look good enough wait for a closer look.
   void test(const MotionBatch& map_from_local, std::size_t size);
-  /// Leaves the distinct ones, refined.
+  /// Adds those that wait and have enough contact.
+  void look_closer();
+  /// Looks closer, and leaves the distinct ones, refined.
   void refine(const CandidateRefiner& refiner, const Pose2& local_from_robot);
 
   [[nodiscard]] const std::vector<Candidate>& all() const { return candidates_; }
@@ -37,7 +39,7 @@ class StepCandidates {
 
  private:
   /// Batches of points in which a pose is looked at, as far as it is promising.
-  static constexpr std::size_t looks = 4;
+  static constexpr std::size_t looks = 8;
 
   void take(const Pose2& map_from_local, std::size_t in_contact);
   [[nodiscard]] std::uint32_t promising(std::size_t n) const;
@@ -52,6 +54,11 @@ class StepCandidates {
   std::vector<std::size_t> found_;          ///< How many have so many points in contact.
   std::size_t found_above_ = 0;             ///< How many have the bar at least.
   std::array<std::uint32_t, looks> least_;  ///< What a promising pose has after each look.
+  std::size_t first_look_;                  ///< Points of it.
+  std::uint32_t least_at_first_ = 0;        ///< What a promising pose has then.
+  /// Poses by the points that they have in contact at the first look, and how many they are.
+  std::vector<std::vector<Transform>> waiting_;
+  std::size_t all_waiting_ = 0;
   std::vector<Candidate> candidates_;
   std::size_t tested_ = 0;
   std::size_t points_tested_ = 0;

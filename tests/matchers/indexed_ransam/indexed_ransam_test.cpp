@@ -37,12 +37,12 @@ TEST(IndexedRansam, FindsThePoseFromAnywhereWithFewDraws) {
   EXPECT_GE(first, places - 2);
 }
 
-TEST(IndexedRansam, DrawsGrowWithTheMapUpToABound) {
-  EXPECT_EQ(IndexedRansam::draws_on(1'000, 600), 600U);
-  EXPECT_EQ(IndexedRansam::draws_on(80'000, 600), 600U);
-  EXPECT_EQ(IndexedRansam::draws_on(200'000, 600), 1500U);
-  EXPECT_EQ(IndexedRansam::draws_on(10'000'000, 600), 12'000U);
-  EXPECT_EQ(IndexedRansam::draws_on(10'000'000, 20'000), 20'000U);
+TEST(IndexedRansam, ProposalsGrowWithTheMapUpToABound) {
+  EXPECT_EQ(IndexedRansam::proposals_on(1'000, 600), 600U);
+  EXPECT_EQ(IndexedRansam::proposals_on(80'000, 600), 600U);
+  EXPECT_EQ(IndexedRansam::proposals_on(200'000, 600), 1500U);
+  EXPECT_EQ(IndexedRansam::proposals_on(10'000'000, 600), 24'000U);
+  EXPECT_EQ(IndexedRansam::proposals_on(10'000'000, 30'000), 30'000U);
 }
 
 TEST(IndexedRansam, HypothesesAreDistinctPoses) {

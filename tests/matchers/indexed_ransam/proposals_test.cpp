@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -51,6 +53,20 @@ TEST_P(Proposals, AreNoneWithoutDrawsOrPoints) {
   one.points.push_back({1.0F, 0.0F, 0.0F});
   one.ends = {1};
   EXPECT_TRUE(proposed(rule, one, 100).empty());
+}
+
+TEST(OrientedPairProposals, APairIsLaidOnUpToEightDifferentOnes) {
+  const LocalMap local = test::local_map_at(truth, 3.0);
+  const RelationRule rule{.relation = "oriented_pair"};
+  std::size_t most = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const std::vector<Pose2> poses = proposed(rule, local, 1, seed);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) EXPECT_NE(poses[i], poses[k]);
+    }
+    most = std::max(most, poses.size());
+  }
+  EXPECT_EQ(most, 8U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Relations, Proposals, testing::Values("oriented_pair", "triangle"));

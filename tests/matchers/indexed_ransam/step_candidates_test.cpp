@@ -44,6 +44,8 @@ TEST_F(StepCandidatesTest, AreThePosesWithEnoughContact) {
   for (const double least : {0.0, 0.2, 0.6}) {
     StepCandidates candidates(*contact_, sample_, least, 1000, open_);
     candidates.test(batch, 200);
+    EXPECT_TRUE(candidates.all().empty());
+    candidates.look_closer();
     // The cheap look spares the closer one where even it is below the least, and loses next to nothing.
     std::size_t expected = 0;
     for (std::size_t i = 0; i < 200; ++i) expected += contact_->share(sample_, batch[i]) >= least ? 1 : 0;
@@ -67,6 +69,8 @@ TEST_F(StepCandidatesTest, OfManyTheBestAreThere) {
     all.test(batch, 200);
     best.test(batch, 200);
   }
+  all.look_closer();
+  best.look_closer();
   std::vector<double> qualities;
   for (const Candidate& candidate : all.all()) qualities.push_back(candidate.quality);
   std::sort(qualities.begin(), qualities.end(), std::greater<>());
@@ -98,6 +102,8 @@ TEST_F(StepCandidatesTest, LeaveOutWhatThePriorExcludes) {
   StepCandidates allowed(*contact_, sample_, 0.2, 1000, gate);
   all.test(batch, 200);
   allowed.test(batch, 200);
+  all.look_closer();
+  allowed.look_closer();
   std::size_t expected = 0;
   for (const Candidate& candidate : all.all())
     expected += distance(candidate.map_from_local, truth) <= 0.12 ? 1 : 0;
