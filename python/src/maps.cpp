@@ -71,14 +71,14 @@ void bind_grid(py::module_& module) {
            "cell (0, 0) in the map.")
       .def_property_readonly(
           "cells",
-          [](const Bound& g) {
+          [](const Bound& g) -> py::array {
             py::array_t<std::uint8_t> array({g->height, g->width});
             std::transform(g->cells.begin(), g->cells.end(), array.mutable_data(),
                            [](Cell cell) { return static_cast<std::uint8_t>(cell); });
             array.attr("setflags")(py::arg("write") = false);
             return array;
           },
-          "Rows x columns, row 0 at the lowest y; 0 unknown, 1 free, 2 occupied.")
+          "Rows x columns, row 0 at the lowest y; 0 unknown, 1 free, 2 occupied. A copy.")
       .def_property_readonly(
           "resolution", [](const Bound& g) { return g->resolution; }, "Side of a cell, m.")
       .def_property_readonly(

@@ -113,8 +113,8 @@ test("significant steps of the history are marked, and one renewal alone has no 
   assert.deepEqual(rows.slice(1).map((cells) => cells.slice(0, 3)), [["paper 1", "0", "207"], ["paper 2", "0", "200"], ["paper 3", "0", "290"]]);
   assert.equal(rows[3].at(-1), "< 0.001");
   assert.ok(Number(rows[2].at(-1)) > 0.5);
-  assert.equal(await suitePart("single@1").locator("[data-share=renewals]").count(), 0);
-  assert.match(await suitePart("single@1").locator(".table").last().innerText(), /indexed_single 1/);
+  assert.equal(await suitePart("stress_space@1").locator("[data-share=renewals]").count(), 0);
+  assert.match(await suitePart("stress_space@1").locator(".table").last().innerText(), /lidar_upright 1/);
 });
 
 test("nothing scrolls aside on a telephone, and all can be reached", { skip }, async () => {

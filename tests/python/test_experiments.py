@@ -223,15 +223,18 @@ schema: 1
 name: floors
 map: {{several: {{maps: [{{name: ground, {world}}}, {{name: first, {world}}}]}}}}
 observations: {{several: {{drives: [{{map: ground, {world}}}, {{map: first, {world}}}]}}}}
+trials: {{every_scan: 1000, max_steps: 1}}
 """)
     experiment = glocal.Experiment.load(room)
     known, samples = experiment.load_map(), experiment.load_samples()
-    half = len(samples) // 2
-    below, above = known.place_of(samples[0].map_from_robot), known.place_of(samples[half].map_from_robot)
+    assert (samples[0].map, samples[len(samples) // 2].map) == ("ground", "first")
+    # The same walls twice, side by side.
+    x = known.points.x
+    shift = float(x[len(x) // 2] - x[0])
+    assert shift > 40
+    below, above = known.place_of((1, 3, 0.5)), known.place_of((1 + shift, 3, 0.5))
     assert (below[0], above[0]) == ("ground", "first")
-    # The same drive on both, which lie far apart in the common frame.
-    assert (below[1].x, below[1].y) == pytest.approx((above[1].x, above[1].y))
-    assert samples[half].map_from_robot.x > samples[0].map_from_robot.x + 40
+    assert (above[1].x, above[1].y, above[1].heading) == pytest.approx((below[1].x, below[1].y, 0.5), abs=1e-4)
     alone = glocal.GlobalMap([[1, 2]], resolution=0.1).place_of((1, 2, 0))
     assert (alone[0], alone[1].x, alone[1].y) == ("", 1, 2)
 
