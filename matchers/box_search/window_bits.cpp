@@ -256,8 +256,9 @@ void LayerBits::add_phase(int row, int column_phase, std::span<const std::uint64
   const int in_block = low_bits(line, std::bit_width(unsigned{BitsLayout::block_rows - 1}));
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (windows[w] == 0) continue;
-    const auto place = static_cast<std::size_t>(
-        (phase * layout_.words + static_cast<int>(w)) * layout_.row_blocks + line / BitsLayout::block_rows);
+    const std::size_t column = static_cast<std::size_t>(phase) * static_cast<std::size_t>(layout_.words) + w;
+    const std::size_t place = column * static_cast<std::size_t>(layout_.row_blocks) +
+                              static_cast<std::size_t>(line / BitsLayout::block_rows);
     block(place)[in_block] |= windows[w];
     if (in_block < TileCounts::rows && line >= BitsLayout::block_rows)
       block(place - 1)[BitsLayout::block_rows + in_block] |= windows[w];

@@ -60,7 +60,7 @@ std::vector<PlacedScan> placed_scans(const LogDrive& drive, const LogMap::Params
 Vector3 take_origin_from(std::vector<PlacedScan>& placed) {
   if (placed.empty()) return Vector3::Zero();
   const Pose2 first = placed.front().map_from_robot;
-  const Vector3 origin = origin_near({first.x, first.y, 0.0});
+  Vector3 origin = origin_near({first.x, first.y, 0.0});
   for (PlacedScan& p : placed) {
     p.map_from_robot.x -= origin.x();
     p.map_from_robot.y -= origin.y();

@@ -78,7 +78,8 @@ class SideBySide {
     const int shift = all_.parts.empty() ? 0 : end_ + between() - columns.first;
     const Pose2 at{corner_.x + shift * lattice_.side, corner_.y, 0.0};
     const Pose2 common_from_map = at * inverse(lattice.map_from_lattice);
-    place(name, map, common_from_map, corner_.x + (shift + columns.first - between() / 2) * lattice_.side);
+    const int first_column = shift + columns.first - between() / 2;
+    place(name, map, common_from_map, corner_.x + first_column * lattice_.side);
     all_.free_voxels.add_shifted(map.free_voxels, shift);
     if (lattice.kind == Lattice::Kind::cells) grids_.push_back({shift, std::move(map.grid)});
     end_ = shift + columns.end;

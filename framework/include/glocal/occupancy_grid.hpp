@@ -37,6 +37,7 @@ class PackedCells {
       *word_ = (*word_ & ~(mask << shift_)) | static_cast<std::uint64_t>(cell) << shift_;
       return *this;
     }
+    // It is read before it is written. NOLINTNEXTLINE(bugprone-unhandled-self-assignment)
     Reference& operator=(const Reference& other) { return *this = static_cast<Cell>(other); }
 
    private:
