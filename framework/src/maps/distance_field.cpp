@@ -121,7 +121,7 @@ void DistanceField::stamp(std::size_t tile, const Points& points, std::span<cons
   const int first_row = static_cast<int>(tile / static_cast<std::size_t>(tile_columns_)) * tile_side;
   const float farthest = reach_ * scale_;
   constexpr std::size_t padded = std::size_t{(stride + 3) / 4} * 4;  // whole vectors
-  std::array<float, padded * stride> squares;                              // in cells
+  std::array<float, padded * stride> squares;                        // in cells
   squares.fill(farthest * farthest);
   std::array<float, padded> across;
   for (const std::uint32_t i : near) {
