@@ -87,8 +87,8 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
       looks_per_step_(setup.looks_per_step),
       most_rivals_(most_rivals_on_map * std::max<std::size_t>(1, setup.map->parts().size())) {
   most_looks_ = looks_on(*setup.map, max_looks * (in_space_ ? more_looks_in_space : 1.0));
-  contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(*setup.map)), epsilon_,
-                           setup.threads);
+  contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(setup.map->points())),
+                           epsilon_, setup.threads);
   if (!in_space_) field_ = distance_field(*setup.map, setup.threads);
   const double automatic = in_space_ ? automatic_box_cell_in_space(*setup.map, epsilon_)
                                      : automatic_box_cell(*setup.map, epsilon_);

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <thread>
@@ -68,6 +69,15 @@ void parallel_for(int threads, std::size_t n, const std::function<void(std::size
     });
   });
   add_cpu_time_of_others(of_others_ns.load(std::memory_order_relaxed));
+}
+
+void for_bands(int threads, int rows, int together, const std::function<void(int begin, int end)>& work) {
+  const int bands = threads > 1 ? 4 * threads : 1;  // some have more to do than others
+  const int size = ((rows - 1) / bands / together + 1) * together;
+  parallel_for(threads, static_cast<std::size_t>(bands), [&](std::size_t band) {
+    const int begin = static_cast<int>(band) * size;
+    if (begin < rows) work(begin, std::min(rows, begin + size));
+  });
 }
 
 }  // namespace glocal

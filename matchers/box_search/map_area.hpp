@@ -11,17 +11,11 @@
 namespace glocal {
 
 constexpr double large_area = 2e4;  ///< m^2
-constexpr double huge_area = 25e4;  ///< m^2
-
-/// Of the rectangle about all points, seen from above, m^2.
-[[nodiscard]] inline double area_of(const GlobalMap& map) {
-  return extent_of(map.points().x).length() * extent_of(map.points().y).length();
-}
 
 /// Side of the smallest boxes of poses, m: small ones bound more tightly, and take memory and time by the
 /// area. At most `epsilon`.
 [[nodiscard]] inline double automatic_box_cell(const GlobalMap& map, double epsilon) {
-  const double area = area_of(map);
+  const double area = area_of(map.points());
   const double cell = area > huge_area ? 0.1 : area > large_area ? 0.05 : 0.025;
   return std::min(cell, epsilon);
 }
@@ -30,13 +24,13 @@ constexpr double huge_area = 25e4;  ///< m^2
 [[nodiscard]] inline double automatic_box_cell_in_space(const GlobalMap& map, double epsilon) {
   constexpr double many_cells = 4e8;
   const double half = epsilon / 2.0;
-  const double cells = area_of(map) * extent_of(map.points().z).length() / (half * half * half);
+  const double cells = area_of(map.points()) * extent_of(map.points().z).length() / (half * half * half);
   return cells > many_cells ? epsilon : half;
 }
 
 /// So many looks of a point are allowed on a map of large_area, and as many more as a map is larger.
 [[nodiscard]] inline std::size_t looks_on(const GlobalMap& map, double looks) {
-  return static_cast<std::size_t>(looks * std::max(1.0, area_of(map) / large_area));
+  return static_cast<std::size_t>(looks * std::max(1.0, area_of(map.points()) / large_area));
 }
 
 }  // namespace glocal

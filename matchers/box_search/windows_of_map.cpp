@@ -83,13 +83,8 @@ LayerCells cells_in_contact(const Points& map_points, const CellFrame& frame, co
                    .bits = std::vector<std::uint64_t>(words * static_cast<std::size_t>(frame.rows)),
                    .first_row = frame.rows};
   // Each band looks at all points, but no two at the same rows.
-  const int bands = threads > 1 ? 4 * threads : 1;
-  const auto begin_of = [&](std::size_t band) {
-    return static_cast<int>(static_cast<std::int64_t>(frame.rows) * static_cast<int>(band) / bands);
-  };
-  parallel_for(threads, static_cast<std::size_t>(bands), [&](std::size_t band) {
-    mark_contact(map_points, frame, rule, begin_of(band), begin_of(band + 1), cells);
-  });
+  for_bands(threads, frame.rows, 1,
+            [&](int begin, int end) { mark_contact(map_points, frame, rule, begin, end, cells); });
   for (int row = 0; row < frame.rows; ++row) {
     const auto begin =
         cells.bits.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row) * words);

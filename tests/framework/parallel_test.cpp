@@ -51,6 +51,22 @@ TEST(ParallelFor, CountsTheTimeOfAllProcessors) {
   }
 }
 
+TEST(ForBands, TakeEachRowOnceAndCutNoneApart) {
+  for (const int threads : {1, 2, 3}) {
+    for (const int rows : {1, 31, 32, 33, 1000}) {
+      for (const int together : {1, 32}) {
+        std::vector<int> taken(static_cast<std::size_t>(rows));
+        for_bands(threads, rows, together, [&](int begin, int end) {
+          EXPECT_LT(begin, end);
+          EXPECT_EQ(begin % together, 0);
+          for (int row = begin; row < end; ++row) ++taken[static_cast<std::size_t>(row)];
+        });
+        EXPECT_THAT(taken, testing::Each(1)) << threads << " " << rows << " " << together;
+      }
+    }
+  }
+}
+
 TEST(ParallelFor, CountsNoTimeOfWaiting) {
   const std::int64_t begin = cpu_time_ns();
   parallel_for(2, 4, [](std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(20)); });

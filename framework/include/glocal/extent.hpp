@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "glocal/points.hpp"
+
 namespace glocal {
 
 /// From the lowest to the highest of some coordinates; (0, 0) of none.
@@ -19,5 +21,13 @@ struct Extent {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return {*low, *high};
 }
+
+/// Of the rectangle about all points, seen from above, m^2.
+[[nodiscard]] inline double area_of(const Points& points) {
+  return extent_of(points.x).length() * extent_of(points.y).length();
+}
+
+/// m^2; on larger maps cells are larger, too, as small ones would take most of the memory.
+inline constexpr double huge_area = 25e4;
 
 }  // namespace glocal

@@ -10,4 +10,8 @@ namespace glocal {
 /// and whatever they produce must be merged in index order. An exception of a call is thrown here.
 void parallel_for(int threads, std::size_t n, const std::function<void(std::size_t)>& work);
 
+/// Cuts rows into bands, and calls work(begin, end) for the rows of each, on at most `threads` threads. So
+/// many rows, from the first on, are never cut apart. What is produced must not depend on the bands.
+void for_bands(int threads, int rows, int together, const std::function<void(int begin, int end)>& work);
+
 }  // namespace glocal

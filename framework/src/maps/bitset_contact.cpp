@@ -165,12 +165,7 @@ void BitsetContact::count_at_most(const Points& points, std::size_t n, const Mot
 /// Each band of rows by itself, as no two of them share a word.
 void BitsetContact::dilate(const Points& points, double epsilon, int threads) {
   constexpr int rows_together = 32;  // of a brick, of coarse voxels
-  const int bands = threads > 1 ? 4 * threads : 1;
-  const int rows = static_cast<int>(rows_);
-  const int band_rows = (rows / bands / rows_together + 1) * rows_together;
-  parallel_for(threads, static_cast<std::size_t>(bands), [&](std::size_t band) {
-    const int begin = static_cast<int>(band) * band_rows;
-    const int end = std::min(rows, begin + band_rows);
+  for_bands(threads, static_cast<int>(rows_), rows_together, [&](int begin, int end) {
     const double low = min_.y + begin / double{scale_} - 2.0 * epsilon;
     const double high = min_.y + end / double{scale_} + 2.0 * epsilon;
     for (std::size_t i = 0; i < points.size(); ++i) {

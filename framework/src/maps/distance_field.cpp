@@ -171,12 +171,9 @@ void DistanceField::at(const Points& points, const Transform& map_from_points, F
 }
 
 std::shared_ptr<const DistanceField> distance_field(const GlobalMap& map, int threads) {
-  constexpr double huge_area = 25e4;  // m^2; where cells of 5 cm would take most of the memory
-  const Points& points = map.points();
-  const bool is_huge = extent_of(points.x).length() * extent_of(points.y).length() > huge_area;
-  const double cell = is_huge ? 0.1 : 0.05;
+  const double cell = area_of(map.points()) > huge_area ? 0.1 : 0.05;
   // Half a metre is as far as a pose is ever refined from.
-  return map.index<DistanceField>("", [&] { return DistanceField(points, cell, 0.5, threads); });
+  return map.index<DistanceField>("", [&] { return DistanceField(map.points(), cell, 0.5, threads); });
 }
 
 namespace {

@@ -14,7 +14,7 @@ GlobalMap square(float side) {
 }
 
 TEST(MapArea, IsThatOfTheRectangleAboutThePoints) {
-  EXPECT_NEAR(area_of(square(100.0F)), 1e4, 1e-6);
+  EXPECT_NEAR(area_of(square(100.0F).points()), 1e4, 1e-6);
 }
 
 TEST(MapArea, BoxesGrowWithTheMapUpToTheContact) {
