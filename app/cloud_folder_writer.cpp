@@ -18,17 +18,16 @@ void CloudFolderWriter::write(const conversion::DriveScan& scan) {
   if (is_interrupted()) throw RunError("interrupted; nothing is left of " + folder_.path().string());
   const auto* const cloud = std::get_if<bags::PointCloud>(&scan.rays);
   if (cloud == nullptr)
-    throw ConfigError(
-        {{file_, 0, 0,
-          "has planar scans, which are no clouds in space; name --out *.mcap or *.log, or choose "
-          "a topic with clouds with --scans"}});
+    throw ConfigError(file_,
+                      "has planar scans, which are no clouds in space; name --out *.mcap or *.log, or choose "
+                      "a topic with clouds with --scans");
   if (!robot_from_sensor_) robot_from_sensor_ = scan.robot_from_sensor;
   constexpr double tolerance = 1e-3;  // m, rad
   if (distance(*robot_from_sensor_, scan.robot_from_sensor) > tolerance ||
       rotation_between(*robot_from_sensor_, scan.robot_from_sensor) > tolerance)
-    throw ConfigError({{file_, 0, 0,
-                        "has a sensor that moves on the robot, and a folder of clouds has one that is fixed; "
-                        "name --out *.mcap"}});
+    throw ConfigError(file_,
+                      "has a sensor that moves on the robot, and a folder of clouds has one that is fixed; "
+                      "name --out *.mcap");
   const std::string stamp =
       fmt::format("{}.{:06}", scan.stamp_ns / 1'000'000'000, scan.stamp_ns / 1000 % 1'000'000);
   folder_.append(below_ / (stamp + ".pcd"), pcd(cloud->points));

@@ -30,7 +30,7 @@ struct CompareOptions {
 };
 
 /// The comparison as the ending of a file's name asks for it.
-std::string content_of(const ComparisonOutput& output, const std::string& file) {
+std::string written_as(const ComparisonOutput& output, const std::string& file) {
   if (file.ends_with(".csv")) return output.csv;
   return file.ends_with(".md") ? as_markdown(output.full) : output.json_text(2) + "\n";
 }
@@ -49,15 +49,15 @@ std::string why_no_folder(const std::string& folder) {
 void compare_runs(const CompareOptions& options, Context& context) {
   std::vector<NamedRun> runs = read_runs(options.folders);
   if (runs.size() < 2) {
-    throw ConfigError({{options.folders.front(), 0, 0,
-                        "there is nothing to compare it with; name two folders of results or more"}});
+    throw ConfigError(options.folders.front(),
+                      "there is nothing to compare it with; name two folders of results or more");
   }
   const std::size_t baseline = find_baseline(runs, options.baseline);
   if (options.time_anew) measure_times_anew(runs, options.trust_plugins, context);
   const ComparisonOutput output =
       comparison_output(runs, baseline, options.no_times ? measures_but_time() : measures());
   AtomicFiles files(options.force);
-  for (const std::string& file : options.out) files.add(file, content_of(output, file));
+  for (const std::string& file : options.out) files.add(file, written_as(output, file));
   files.commit();
   if (options.json) {
     answer(output.json_text(2) + "\n");

@@ -34,10 +34,10 @@ struct Rerun {
 };
 
 [[noreturn]] void refuse(const Rerun& rerun, std::size_t trial, const std::string& what) {
-  throw ConfigError({{rerun.of.results.folder.string(), 0, 0,
-                      fmt::format("trial {} {}: its program, plugins or inputs were others; run it anew, and "
-                                  "compare that",
-                                  trial, what)}});
+  throw ConfigError(rerun.of.results.folder,
+                    fmt::format("trial {} {}: its program, plugins or inputs were others; run it anew, and "
+                                "compare that",
+                                trial, what));
 }
 
 double median_step_cpu_ms(const TrialRecord& record) {

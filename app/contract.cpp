@@ -28,9 +28,8 @@ StrategyChoice chosen_strategy(const ContractOptions& options, const Catalog& ca
   const RegistryBase* registry = registry_of(options.kind, catalog);
   if (registry == nullptr) throw ConfigError({unknown_kind(options.kind, catalog)});
   if (registry->find(options.name) == nullptr)
-    throw ConfigError({{"", 0, 0,
-                        fmt::format("there is no {} '{}'{}", options.kind, options.name,
-                                    suggestion(options.name, names_of(*registry), "there are"))}});
+    throw ConfigError("", fmt::format("there is no {} '{}'{}", options.kind, options.name,
+                                      suggestion(options.name, names_of(*registry), "there are")));
   StrategyChoice choice = registry->choose(options.name);
   const auto origin = std::make_shared<Origin>(Origin{options.name, std::filesystem::current_path()});
   fill(*choice.params, make_node(NodeKind::null, {origin}), options.parameters.overrides());

@@ -36,10 +36,6 @@ struct ConvertOptions {
   bool force = false;
 };
 
-[[noreturn]] void refuse(const std::string& file, const std::string& what) {
-  throw ConfigError({{file, 0, 0, what}});
-}
-
 void warn(const std::string& text) {
   spdlog::warn("{}", text);
 }
@@ -106,9 +102,10 @@ void to_mcap(const ConvertOptions& options) {
 
 void to_carmen(const ConvertOptions& options) {
   const LogKind kind = kind_of_log(options.in.file);
-  if (kind == LogKind::carmen) refuse(options.in.file, "is a CARMEN log already; name --out *.mcap");
+  if (kind == LogKind::carmen)
+    throw ConfigError(options.in.file, "is a CARMEN log already; name --out *.mcap");
   if (kind == LogKind::clouds)
-    refuse(
+    throw ConfigError(
         options.in.file,
         "has clouds, which cannot be written as a CARMEN log: it has planar scans only; name --out *.mcap");
   ReadingBar bar;
@@ -128,9 +125,10 @@ void tell_mount(const Pose3& robot_from_sensor) {
 
 void to_folder(const ConvertOptions& options, const Context& context) {
   const LogKind kind = kind_of_log(options.in.file);
-  if (kind == LogKind::clouds) refuse(options.in.file, "is a folder of clouds already; name --out *.mcap");
+  if (kind == LogKind::clouds)
+    throw ConfigError(options.in.file, "is a folder of clouds already; name --out *.mcap");
   if (kind == LogKind::carmen)
-    refuse(options.in.file, "has planar scans, which are no clouds in space; name --out *.mcap");
+    throw ConfigError(options.in.file, "has planar scans, which are no clouds in space; name --out *.mcap");
   ReadingBar bar;
   const auto reader = options.in.open(warn, bar.call());
   OutputFolder folder(options.out, options.force);
@@ -150,7 +148,8 @@ void convert(const ConvertOptions& options, const Context& context) {
   if (out.extension() == ".mcap") return to_mcap(options);
   if (out.extension() == ".log") return to_carmen(options);
   if (!out.has_filename() || fs::is_directory(out)) return to_folder(options, context);
-  refuse(options.out, "the name says no format; name a file *.mcap or *.log (CARMEN), or a folder NAME/");
+  throw ConfigError(options.out,
+                    "the name says no format; name a file *.mcap or *.log (CARMEN), or a folder NAME/");
 }
 
 }  // namespace

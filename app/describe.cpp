@@ -21,7 +21,7 @@ namespace {
   for (const RegistryBase* registry : catalog.registries()) {
     for (std::string& other : names_of(*registry)) names.push_back(std::move(other));
   }
-  throw ConfigError({{"", 0, 0, "nothing is called '" + name + "'" + suggestion(name, names, "there are")}});
+  throw ConfigError("", "nothing is called '" + name + "'" + suggestion(name, names, "there are"));
 }
 
 void describe_name(const std::string& name, bool as_json, const Catalog& catalog) {

@@ -49,8 +49,7 @@ std::unique_ptr<DriveReader> open_clouds(const DriveOptions& options, const Warn
        {std::pair("--scans", options.scans), std::pair("--odom-frame", options.odom_frame),
         std::pair("--base-frame", options.base_frame)}) {
     if (!value.empty())
-      throw ConfigError(
-          {{options.file, 0, 0, fmt::format("a folder of clouds has no topics: leave out {}", name)}});
+      throw ConfigError(options.file, fmt::format("a folder of clouds has no topics: leave out {}", name));
   }
   return std::make_unique<conversion::CloudFolderReader>(cloud_files(options), warn, progress);
 }
@@ -90,7 +89,7 @@ void DriveOptions::refuse_choices(const std::string& why) const {
   for (const auto& [name, value] :
        {std::pair("--scans", scans), std::pair("--odometry", odometry), std::pair("--odom-frame", odom_frame),
         std::pair("--base-frame", base_frame), std::pair("--reference", reference)}) {
-    if (!value.empty()) throw ConfigError({{file, 0, 0, fmt::format("{}: leave out {}", why, name)}});
+    if (!value.empty()) throw ConfigError(file, fmt::format("{}: leave out {}", why, name));
   }
 }
 

@@ -84,9 +84,9 @@ std::vector<std::string> ExperimentOptions::words() const {
 void ExperimentOptions::require_file() const {
   if (!file.empty() || (!methods.empty() && (!cases.empty() || !suite.empty()))) return;
   throw ConfigError(
-      {{"", 0, 0,
-        "what is to be run? Give an experiment file, or --method and --case or --suite (glocal list methods, "
-        "glocal list cases, glocal list suites)"}});
+      "",
+      "what is to be run? Give an experiment file, or --method and --case or --suite (glocal list methods, "
+      "glocal list cases, glocal list suites)");
 }
 
 std::vector<Override> ExperimentOptions::load_plugins(const std::string& other_file, Context& context) const {

@@ -35,10 +35,6 @@ struct ExplainedRun {
   std::size_t trial = 0, step = 0;
 };
 
-[[noreturn]] void refuse_run(const std::string& file, const std::string& message) {
-  throw ConfigError({{file, 0, 0, message}});
-}
-
 /// How far the local map's robot pose is off the reference, both counted from where the trial began.
 struct Drift {
   double translation_m = 0.0, rotation_rad = 0.0;
@@ -79,16 +75,16 @@ std::optional<Drift> drift_of(const std::optional<Pose3>& map_from_start, const 
 Replayed replay(const std::string& folder, const ExplainedRun& run, const Catalog& catalog,
                 LoadedExperiment& loaded, Threshold threshold) {
   if (run.trial >= loaded.starts.size())
-    refuse_run(folder,
-               fmt::format("there is no trial {}: the last one is {}", run.trial, loaded.starts.size() - 1));
+    throw ConfigError(
+        folder, fmt::format("there is no trial {}: the last one is {}", run.trial, loaded.starts.size() - 1));
   const std::size_t start = loaded.starts[run.trial];
   const std::size_t index = start + run.step;
   const auto& samples = loaded.drive.samples;
   const bool runs_so_far = run.step < step_limit(run.experiment.trials) && index < samples.size() &&
                            samples[index].segment == samples[start].segment;
-  if (!runs_so_far) refuse_run(folder, fmt::format("trial {} has no step {}", run.trial, run.step));
+  if (!runs_so_far) throw ConfigError(folder, fmt::format("trial {} has no step {}", run.trial, run.step));
   if (!samples[index].map_from_robot)
-    refuse_run(folder, "the observations have no reference pose to compare with");
+    throw ConfigError(folder, "the observations have no reference pose to compare with");
 
   const bool is_whole = run.experiment.trials.whole || threshold == Threshold::none;
   Localizer localizer = make_localizer(run.experiment, catalog, loaded);
@@ -98,8 +94,8 @@ Replayed replay(const std::string& folder, const ExplainedRun& run, const Catalo
   StartInLocalMap begin;
   for (std::size_t i = start; i <= index; ++i) {
     if (result.verdict.kind == VerdictKind::localized && !is_whole) {
-      refuse_run(folder, fmt::format("trial {} has no step {}: it ended with a declaration in step {}",
-                                     run.trial, run.step, result.step));
+      throw ConfigError(folder, fmt::format("trial {} has no step {}: it ended with a declaration in step {}",
+                                            run.trial, run.step, result.step));
     }
     result = localizer.step(samples[i].observation);
     begin.follow(localizer.local_map(), samples[i].observation.odom_from_robot);
@@ -128,7 +124,7 @@ bool agree(const Pose3& a, const Pose3& b, const EvaluationConfig& limits) {
          rotation_between(a, b) <= radians(limits.max_rotation_error_deg);
 }
 
-std::string text_of(const Pose3& pose) {
+std::string pose_text(const Pose3& pose) {
   const std::string place = pose.is_planar()
                                 ? fmt::format("x {:.2f} m, y {:.2f} m", pose.x, pose.y)
                                 : fmt::format("x {:.2f} m, y {:.2f} m, z {:.2f} m", pose.x, pose.y, pose.z);
@@ -186,7 +182,7 @@ Fit fit_of(const Replayed& step, const GlobalMap& map) {
 }
 
 /// What the hits of the latest scan say where the best pose is right.
-std::string text_of(const std::vector<HitKind>& hits) {
+std::string hits_text(const std::vector<HitKind>& hits) {
   const auto share = [&](HitKind kind) {
     return 100.0 * static_cast<double>(std::count(hits.begin(), hits.end(), kind)) /
            static_cast<double>(hits.size());
@@ -263,14 +259,15 @@ std::string rivals_elsewhere(const Replayed& step, const LoadedExperiment& loade
                   100.0 * found.certificate->contact, 100.0 * found.certificate->at_most);
   if (missing == found.rivals.end()) return "none is missing: " + bound;
   return fmt::format("missing: {:.0f} % contact at {}, where no hypothesis is; {}", 100.0 * missing->quality,
-                     text_of(robot_at(*missing)), bound);
+                     pose_text(robot_at(*missing)), bound);
 }
 
 /// What is asked for of a run, all of whose files must be in order.
 ExplainedRun explained_run(const ExplainOptions& options, Context& context) {
   const std::vector<std::filesystem::path> folders = results_folders(options.folder);
   if (folders.size() > 1)
-    refuse_run(options.folder, fmt::format("holds {} folders of results; name one of them", folders.size()));
+    throw ConfigError(options.folder,
+                      fmt::format("holds {} folders of results; name one of them", folders.size()));
   std::size_t last_trial = 0;
   std::optional<std::size_t> steps;  // Of the trial.
   LineReaders lines;
@@ -280,8 +277,8 @@ ExplainedRun explained_run(const ExplainOptions& options, Context& context) {
   };
   static_cast<void>(read_results(folders.front(), lines));
   if (!options.step && !steps)
-    refuse_run(options.folder,
-               fmt::format("there is no trial {}: the last one is {}", options.trial, last_trial));
+    throw ConfigError(options.folder,
+                      fmt::format("there is no trial {}: the last one is {}", options.trial, last_trial));
   const std::size_t last = steps.value_or(0) > 0 ? *steps - 1 : 0;
   return {read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context),
           options.trial, options.step.value_or(last)};
@@ -314,7 +311,7 @@ void explain(const ExplainOptions& options, Context& context) {
   };
 
   answer("{}, trial {}, step {}, after {:.1f} m\n", experiment.name, run.trial, run.step, step.driven_m);
-  answer("  reference   {}\n", text_of(truth));
+  answer("  reference   {}\n", pose_text(truth));
   answer(
       "  contact     {:.0f} % at the reference, {:.0f} % at the best fit near by ({:.2f} m, {:.1f} deg off), "
       "{:.0f} % of the latest scan alone\n",
@@ -323,7 +320,7 @@ void explain(const ExplainOptions& options, Context& context) {
   if (step.drift)
     answer("  local map   {:.2f} m and {:.1f} deg off the reference since the trial began\n",
            step.drift->translation_m, degrees(step.drift->rotation_rad));
-  if (!result.hit_kinds.empty()) answer("  hits        {}\n", text_of(result.hit_kinds));
+  if (!result.hit_kinds.empty()) answer("  hits        {}\n", hits_text(result.hit_kinds));
   answer("  threshold   {:.2f}; best {}\n", result.omega_max, worth(result.score_best, result.omega_best));
   answer("  hypothesis  {}\n", rank_text(result.hypotheses, hypothesis, truth));
   answer("  cluster     {}\n", rank_text(result.clusters, cluster, truth));

@@ -40,7 +40,7 @@ fs::path script_of(const FiguresOptions& options) {
 
 /// Only a folder that figures were drawn in before, or a new one, is written to.
 void check_out(const FiguresOptions& options) {
-  const auto refuse = [&](const char* why) { throw ConfigError({{options.out, 0, 0, why}}); };
+  const auto refuse = [&](const char* why) { throw ConfigError(options.out, why); };
   if (!fs::exists(options.out)) return;
   if (!fs::is_directory(options.out)) refuse("is no folder; name one for the figures");
   if (!options.force && !fs::is_empty(options.out) && !fs::exists(script_of(options)))
@@ -75,9 +75,7 @@ void write_script(const FiguresOptions& options) {
 
 /// What glocal sweep tells of the one folder.
 std::string checked_sweep(const FiguresOptions& options) {
-  const auto refuse = [](const std::string& folder, const char* why) {
-    throw ConfigError({{folder, 0, 0, why}});
-  };
+  const auto refuse = [](const std::string& folder, const char* why) { throw ConfigError(folder, why); };
   if (options.folders.size() > 1)
     refuse(options.folders.at(1), "is one folder too many; name that of one sweep");
   check_out(options);

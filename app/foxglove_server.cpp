@@ -166,8 +166,8 @@ tcp::endpoint endpoint_of(const std::string& address, int port) {
   error_code error;
   const auto ip = asio::ip::make_address(address, error);
   if (error)
-    throw ConfigError({{fmt::format("--address={}", address), 0, 0,
-                        "is no IP address: 127.0.0.1 is this machine alone, 0.0.0.0 all of its networks"}});
+    throw ConfigError(fmt::format("--address={}", address),
+                      "is no IP address: 127.0.0.1 is this machine alone, 0.0.0.0 all of its networks");
   return {ip, static_cast<std::uint16_t>(port)};
 }
 
@@ -220,12 +220,11 @@ class FoxgloveServer::Server {
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(static_cast<int>(shared_.limits.connection.connections), error);
     if (error == asio::error::address_in_use)
-      throw ConfigError({{fmt::format("--port={}", endpoint.port()), 0, 0,
-                          "the port is taken; choose another one, or --port 0 for any that is free"}});
+      throw ConfigError(fmt::format("--port={}", endpoint.port()),
+                        "the port is taken; choose another one, or --port 0 for any that is free");
     if (error)
-      throw ConfigError(
-          {{fmt::format("--address={}", endpoint.address().to_string()), 0, 0,
-            fmt::format("port {} cannot be listened to: {}", endpoint.port(), error.message())}});
+      throw ConfigError(fmt::format("--address={}", endpoint.address().to_string()),
+                        fmt::format("port {} cannot be listened to: {}", endpoint.port(), error.message()));
   }
 
   void accept() {

@@ -33,9 +33,8 @@ void help_on(const std::string& topic, const CLI::App& app, const Catalog& catal
     answer(*text);
     return;
   }
-  throw ConfigError({{"", 0, 0,
-                      "there is no command, strategy or part of an experiment called '" + topic + "'" +
-                          suggestion(topic, commands, "there are the commands")}});
+  throw ConfigError("", "there is no command, strategy or part of an experiment called '" + topic + "'" +
+                            suggestion(topic, commands, "there are the commands"));
 }
 
 }  // namespace

@@ -54,10 +54,6 @@ struct BoardOptions {
   }
 };
 
-[[noreturn]] void refuse(const std::string& place, const std::string& what) {
-  throw ConfigError({{place, 0, 0, what}});
-}
-
 ExperimentLoader plain_loader(const Context& context) {
   return {context.catalog, [](const std::string& text) { spdlog::warn(text); }};
 }
@@ -84,13 +80,15 @@ std::vector<BoardEntry> entries_of(const BoardOptions& options, const Suite& sui
 }
 
 [[noreturn]] void refuse_empty(const BoardOptions& options) {
-  refuse(options.folder().string(), fmt::format("has no results{}{} yet; glocal leaderboard add brings some",
-                                                options.suite.empty() ? "" : " of ", options.suite));
+  throw ConfigError(options.folder(),
+                    fmt::format("has no results{}{} yet; glocal leaderboard add brings some",
+                                options.suite.empty() ? "" : " of ", options.suite));
 }
 
 void check_case_names(const BoardOptions& options, const Suite& suite) {
   for (const std::string& name : options.cases) {
-    if (suite.find_case(name) == nullptr) refuse("--case " + name, suite.id() + " has no such case");
+    if (suite.find_case(name) == nullptr)
+      throw ConfigError("--case " + name, suite.id() + " has no such case");
   }
 }
 
@@ -138,7 +136,7 @@ std::string renewal(const BoardEntry& entry) {
 void store(const BoardOptions& options, const BoardEntry& entry) {
   const fs::path file = entry_file(options.folder(), entry.suite, entry.method);
   if (fs::exists(file)) {
-    if (!options.force) refuse(file.string(), "is there already; --force replaces it, and compares both");
+    if (!options.force) throw ConfigError(file, "is there already; --force replaces it, and compares both");
     answer("{}", paired_text(read_entry(file), entry));
   }
   const Renewal now = renewal_of(entry);
@@ -155,7 +153,7 @@ void store(const BoardOptions& options, const BoardEntry& entry) {
 Suite suite_of_entry(const BoardOptions& options, const BoardEntry& entry) {
   Suite suite = read_suite(options.suite.empty() ? entry.suite : options.suite);
   if (suite.id() != entry.suite)
-    refuse(options.results, fmt::format("has results of {}, not of {}", entry.suite, suite.id()));
+    throw ConfigError(options.results, fmt::format("has results of {}, not of {}", entry.suite, suite.id()));
   return suite;
 }
 
@@ -216,13 +214,13 @@ void check_suite(const BoardOptions& options, const Suite& suite, Context& conte
                       [&](std::size_t number) { return stored->find(number) != nullptr; }));
     for (std::string& line : differences(*stored, fresh)) check.different.push_back(std::move(line));
   });
-  constexpr std::size_t most_lines = 20;
+  constexpr std::size_t most_shown = 20;
   for (const Check& check : checks) {
     const std::size_t n = check.different.size();
     answer("{}, {}: {} starts run anew, {}\n", suite.id(), check.stored.method, check.starts,
            n == 0 ? "as they are stored" : fmt::format("{} are not as they are stored:", n));
-    for (std::size_t i = 0; i < std::min(n, most_lines); ++i) answer("  {}\n", check.different[i]);
-    if (n > most_lines) answer("  and {} more\n", n - most_lines);
+    for (std::size_t i = 0; i < std::min(n, most_shown); ++i) answer("  {}\n", check.different[i]);
+    if (n > most_shown) answer("  and {} more\n", n - most_shown);
     if (n > 0)
       answer("renew {} with:\n  {}\n", entry_file("leaderboard", suite.id(), check.stored.method).string(),
              renewal(check.stored));
@@ -277,10 +275,10 @@ void pin(const BoardOptions& options, Context& context) {
     const Variant& variant = variants[i];
     const auto [known, is_new] = starts.emplace(variant.case_name, loaded.all_starts);
     if (!is_new && known->second != loaded.all_starts)
-      refuse(options.suite,
-             fmt::format("the case {} has {} starts with one seed and {} with another; give it a "
-                         "suite with one seed, or other trials",
-                         variant.case_name, known->second, loaded.all_starts));
+      throw ConfigError(options.suite,
+                        fmt::format("the case {} has {} starts with one seed and {} with another; give it a "
+                                    "suite with one seed, or other trials",
+                                    variant.case_name, known->second, loaded.all_starts));
     for (const auto& [name, hash] : input_hashes(*variant.suite, loaded.inputs, loader.hashes()))
       inputs[name] = hash;
   });

@@ -29,8 +29,7 @@ std::string_view bytes_of(const std::vector<T>& values) {
 }
 
 [[noreturn]] void refuse_state(const std::filesystem::path& file, const std::string& what) {
-  throw ConfigError(
-      {{file.string(), 0, 0, fmt::format("{}; remove it, and the robot begins without a place", what)}});
+  throw ConfigError(file, fmt::format("{}; remove it, and the robot begins without a place", what));
 }
 
 Json json_of(const Pose3& pose) {
@@ -38,7 +37,7 @@ Json json_of(const Pose3& pose) {
   return {pose.x, pose.y, pose.z, q.w(), q.x(), q.y(), q.z()};
 }
 
-Pose3 pose_of(const Json& json) {
+Pose3 stored_pose(const Json& json) {
   const Quaternion q(json.at(3).get<double>(), json.at(4).get<double>(), json.at(5).get<double>(),
                      json.at(6).get<double>());
   constexpr double unit = 1e-6;
@@ -66,7 +65,7 @@ std::optional<LiveState> read_state(const std::filesystem::path& file) {
     if (json.at("schema") != schema)
       refuse_state(file, fmt::format("is of schema {}, not {}", json.at("schema").dump(), schema));
     LiveState state{.map = json.at("map").get<std::string>(),
-                    .map_from_robot = pose_of(json.at("pose")),
+                    .map_from_robot = stored_pose(json.at("pose")),
                     .stamp = json.at("stamp").get<double>(),
                     .way_since_m = json.at("way_since_m").get<double>()};
     if (const Json& c = json.at("covariance"); !c.is_null())

@@ -38,10 +38,6 @@ std::string path_entry(const std::string& name, const fs::path& path) {
   return entry(name, fs::absolute(path).lexically_normal().string());
 }
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-  throw ConfigError({{file.string(), 0, 0, what}});
-}
-
 /// How a map is read.
 struct MapChoice {
   std::string yaml, text;
@@ -72,9 +68,10 @@ MapChoice choose_map(const fs::path& map, bool is_strict, const Catalog& catalog
   if (clouds::has_name_of_cloud(map))
     return {fmt::format("point_cloud: {{{}}}", path), "a cloud of points", true};
   if (map.extension() != ".yaml" && map.extension() != ".yml")
-    refuse(map,
-           "is no map that is known: a map server's YAML, a cloud (PCD, PLY), an octree (.bt, .ot) or a "
-           "recording with a nav_msgs/OccupancyGrid");
+    throw ConfigError(
+        map,
+        "is no map that is known: a map server's YAML, a cloud (PCD, PLY), an octree (.bt, .ot) or a "
+        "recording with a nav_msgs/OccupancyGrid");
   ParamsOf<ros_map::RosMapFile> file;
   read_yaml(map, file);
   return {fmt::format("ros_map: {{{}}}", path),
@@ -211,7 +208,7 @@ LogChoice choose_log(const LocalizeRequest& request, const MapChoice& map) {
   if (kind == LogKind::clouds) return choose_clouds(request);
   if (!request.scans.empty() || !request.odometry.empty() || !request.odom_frame.empty() ||
       !request.base_frame.empty() || !request.reference.empty())
-    refuse(
+    throw ConfigError(
         request.log,
         "is taken for a CARMEN log, which has its scans, odometry and reference poses in itself: leave out "
         "--scans, --odometry, --odom-frame, --base-frame and --reference");

@@ -12,7 +12,7 @@ namespace glocal::app {
 namespace fs = std::filesystem;
 
 void expect_there(const fs::path& path) {
-  if (!fs::exists(path)) throw ConfigError({{path.string(), 0, 0, "there is no such file or folder"}});
+  if (!fs::exists(path)) throw ConfigError(path, "there is no such file or folder");
 }
 
 LogKind kind_of_log(const fs::path& log) {
@@ -23,7 +23,7 @@ LogKind kind_of_log(const fs::path& log) {
   if (std::any_of(begin(files), end(files),
                   [](const auto& file) { return clouds::has_name_of_cloud(file.path()); }))
     return LogKind::clouds;
-  throw ConfigError({{log.string(), 0, 0, "is a folder with neither clouds nor .db3 or .mcap files"}});
+  throw ConfigError(log, "is a folder with neither clouds nor .db3 or .mcap files");
 }
 
 fs::path odometry_of_clouds(const fs::path& folder) {

@@ -79,7 +79,7 @@ void write(const MapData& map, const MapOptions& options) {
     files.add(image_file, options.image == "png" ? ros_map::png(image) : ros_map::pgm(image));
     files.add(out, ros_map::ros_map_yaml(map.grid, image_file.filename().string(), map.origin));
   } else {
-    throw ConfigError({{options.out, 0, 0, "the name must end in .yaml (ROS map) or .pcd (points)"}});
+    throw ConfigError(options.out, "the name must end in .yaml (ROS map) or .pcd (points)");
   }
   files.commit();
 }

@@ -88,9 +88,9 @@ ReferencePoses references_of(const PrepareOptions& options, const DriveTrack& dr
   references.shift_ns = nanoseconds(options.shift_s);
   references.max_gap_ns = nanoseconds(options.max_gap_s);
   if (references.track.size() == 0)
-    throw ConfigError({{options.log.file, 0, 0,
-                        "has no reference poses; give a trajectory with --corrected, or a recording's topic "
-                        "with --reference"}});
+    throw ConfigError(options.log.file,
+                      "has no reference poses; give a trajectory with --corrected, or a recording's topic "
+                      "with --reference");
   return references;
 }
 
@@ -108,11 +108,10 @@ std::vector<TrackedScan> with_references(const PrepareOptions& options, const Dr
                                                                    seconds(drive.scans.front().stamp_ns),
                                                                    seconds(drive.scans.back().stamp_ns));
   throw ConfigError(
-      {{options.log.file, 0, 0,
-        fmt::format(
-            "no two scans have a reference pose: {}, reference poses from {:.3f} to {:.3f} s; if both "
-            "clocks differ, give --shift",
-            scans_span, seconds(first), seconds(last))}});
+      options.log.file,
+      fmt::format("no two scans have a reference pose: {}, reference poses from {:.3f} to {:.3f} s; if both "
+                  "clocks differ, give --shift",
+                  scans_span, seconds(first), seconds(last)));
 }
 
 CaseFacts facts_of(const PrepareOptions& options, const ReferencePoses& references, const DriveTrack& drive) {
@@ -128,9 +127,9 @@ CaseFacts facts_of(const PrepareOptions& options, const ReferencePoses& referenc
     facts.relations = conversion::relation_errors(conversion::read_relations(options.relations), facts.scans,
                                                   references.max_gap_ns);
     if (!facts.relations)
-      throw ConfigError({{options.relations, 0, 0,
-                          "has no relation both of whose times have a reference pose; its times are those "
-                          "of the log's scans"}});
+      throw ConfigError(options.relations,
+                        "has no relation both of whose times have a reference pose; its times are those "
+                        "of the log's scans");
   }
   const bool is_given = options.map_share > 0.0 || options.blocks > 1;
   facts.split = is_given ? conversion::split_drive(facts.scans, options.blocks,
@@ -243,8 +242,8 @@ void write_map(const MapData& map, bool has_clouds, OutputFolder& folder) {
 
 void prepare(const PrepareOptions& options, Context& context) {
   if (!options.corrected.empty() && !options.log.reference.empty())
-    throw ConfigError({{options.corrected, 0, 0,
-                        "gives the reference poses, and --reference others: leave out one of them"}});
+    throw ConfigError(options.corrected,
+                      "gives the reference poses, and --reference others: leave out one of them");
   OutputFolder::check(options.out, options.force);
   listen_to_interrupts();
   ReadingBar bar;

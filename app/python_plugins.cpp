@@ -107,13 +107,12 @@ LoadPythonPlugin start_python() {
 
 void load_python_plugin(const fs::path& file, Catalog& catalog) {
   if (std::error_code error; !fs::is_regular_file(file, error))
-    throw ConfigError(
-        {{file.string(), 0, 0, "there is no such file; name a Python file that registers strategies"}});
+    throw ConfigError(file, "there is no such file; name a Python file that registers strategies");
   static LoadPythonPlugin load = nullptr;
   try {
     if (load == nullptr) load = start_python();
   } catch (const std::runtime_error& why) {
-    throw ConfigError({{file.string(), 0, 0, why.what()}});
+    throw ConfigError(file, why.what());
   }
   load(file, catalog);
 }

@@ -162,7 +162,7 @@ void register_pair(const RegisterOptions& options, const Registering& registerin
   const Cloud target = read(options.target, options);
   // Before any work is done for it.
   if (!options.out.empty() && !options.force && std::filesystem::exists(options.out))
-    throw ConfigError({{options.out, 0, 0, "there is a file already; give another name, or --force"}});
+    throw ConfigError(options.out, "there is a file already; give another name, or --force");
   for (const std::string& method : registering.methods) {
     const PairOutcome outcome = outcome_of({options.source, options.target, options.source, options.target},
                                            source, target, method, options, registering);
@@ -223,11 +223,10 @@ void run(const RegisterOptions& options, const CloudRegistrars& registrars) {
   const Registering registering = registering_of(options, registrars);
   if (!options.pairs.empty()) {
     if (!options.source.empty() || !options.out.empty())
-      throw ConfigError(
-          {{"--pairs", 0, 0, "names the clouds by itself; leave out SOURCE, TARGET and --out"}});
+      throw ConfigError("--pairs", "names the clouds by itself; leave out SOURCE, TARGET and --out");
     register_pairs(options, registering);
   } else if (options.source.empty() || options.target.empty()) {
-    throw ConfigError({{"register", 0, 0, "needs two clouds, SOURCE and TARGET, or --pairs FILE.csv"}});
+    throw ConfigError("register", "needs two clouds, SOURCE and TARGET, or --pairs FILE.csv");
   } else {
     register_pair(options, registering);
   }

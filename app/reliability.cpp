@@ -70,8 +70,8 @@ double limit(const StoredRun& run, const std::string& path) {
   const std::string text = setting == run.settings.end() ? "" : setting->second.text;
   const double value = number_of<double>(text).value_or(0.0);
   if (!(value > 0.0)) {
-    throw ConfigError({{(run.folder / "effective.yaml").string(), 0, 0,
-                        fmt::format("{} is no positive number; run the experiment again", path)}});
+    throw ConfigError(run.folder / "effective.yaml",
+                      fmt::format("{} is no positive number; run the experiment again", path));
   }
   return value;
 }

@@ -48,7 +48,7 @@ fs::path ResultsAtHand::put_together(const fs::path& shared) {
   fs::path out = temporary_ / std::to_string(folders_.size()) / own_name(shared);
   const MergeResult result = merge_shards(manifest, scan, {out});
   if (result.run.variants.empty())
-    throw ConfigError({{shared.string(), 0, 0, "no trial has come to an end yet; wait for the first"}});
+    throw ConfigError(shared, "no trial has come to an end yet; wait for the first");
   spdlog::info("{}: as far as it is: {} of {} trials", shared.string(),
                manifest.count_trials() - result.count_missing(), manifest.count_trials());
   return out;

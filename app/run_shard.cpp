@@ -201,10 +201,10 @@ Shard shard_of(const std::string& text) {
                       ? std::nullopt
                       : number_of<std::size_t>(std::string_view(text).substr(slash + 1));
   if (!number || !of || *number < 1 || *number > *of || *of > most_shards)
-    throw ConfigError({{"--shard " + text, 0, 0,
-                        fmt::format("is no shard; give its number and how many there are, from 1/1 to "
-                                    "{0}/{0}, as in 3/64",
-                                    most_shards)}});
+    throw ConfigError("--shard " + text,
+                      fmt::format("is no shard; give its number and how many there are, from 1/1 to "
+                                  "{0}/{0}, as in 3/64",
+                                  most_shards));
   return {*number, *of};
 }
 

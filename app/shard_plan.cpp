@@ -12,9 +12,9 @@ namespace {
 
 void check_free(const std::filesystem::path& shared) {
   if (is_results_folder(shared))
-    throw ConfigError({{shared.string(), 0, 0,
-                        "output: the folder has results of a run without shards; choose another one with "
-                        "--out"}});
+    throw ConfigError(shared,
+                      "output: the folder has results of a run without shards; choose another one with "
+                      "--out");
 }
 
 }  // namespace

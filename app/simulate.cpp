@@ -53,10 +53,10 @@ SimulatedFiles simulated_experiment(const ExperimentOptions& options, Context& c
   };
   auto drive = catalog.observation_sources.make(experiment.observations, setup)->recording();
   if (!drive) {
-    throw ConfigError({{options.file, 0, 0,
-                        fmt::format("observations: come from {}; only a simulation of a planar laser can be "
-                                    "written to files",
-                                    experiment.observations.name)}});
+    throw ConfigError(options.file,
+                      fmt::format("observations: come from {}; only a simulation of a planar laser can be "
+                                  "written to files",
+                                  experiment.observations.name));
   }
   MapData map = load_map(experiment, catalog, setup);
   SimulatedFiles files{std::move(*drive), std::move(map.grid), {}, experiment.threads, map.origin};
@@ -69,14 +69,14 @@ SimulatedFiles simulated_experiment(const ExperimentOptions& options, Context& c
 std::uint64_t seed_of_site(const SimulateOptions& options) {
   const std::string text = options.experiment.seed.value_or("1");
   const auto seed = whole_number_in(text);
-  if (!seed) throw ConfigError({{"--seed " + text, 0, 0, "must be a whole number from 0 to 2^64 - 1"}});
+  if (!seed) throw ConfigError("--seed " + text, "must be a whole number from 0 to 2^64 - 1");
   return *seed;
 }
 
 void simulate(const SimulateOptions& options, Context& context) {
   const bool is_site = !options.site.site.empty();
   if (is_site == !options.experiment.file.empty())
-    throw ConfigError({{"simulate", 0, 0, "takes an experiment file, or --site office in its place"}});
+    throw ConfigError("simulate", "takes an experiment file, or --site office in its place");
   OutputFolder::check(options.out, options.force);
   std::set<std::filesystem::path> inputs;
   const SimulatedFiles files = is_site ? simulated_site(options.site, seed_of_site(options), context.catalog)

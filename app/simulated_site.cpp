@@ -67,7 +67,7 @@ void SiteOptions::add_to(CLI::App& command) {
           ->check(CLI::IsMember({"office"}))
           ->excludes(command.get_option("--set"))
           ->excludes(command.get_option("--threads"));
-  command.add_option("--side", side, "Side of the site (m)")->check(within(20.0, 1000.0))->needs(kind);
+  command.add_option("--side", side, "Side of the site (m)")->check(within(20.0, 2000.0))->needs(kind);
   command.add_option("--resolution", resolution, "Side of a cell of its map (m)")
       ->check(within(0.01, 1.0))
       ->capture_default_str()
@@ -81,8 +81,7 @@ void SiteOptions::add_to(CLI::App& command) {
 }
 
 SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed, const Catalog& catalog) {
-  if (options.side == 0.0)
-    throw ConfigError({{"--site " + options.site, 0, 0, "needs --side, its side in metres"}});
+  if (options.side == 0.0) throw ConfigError("--site " + options.site, "needs --side, its side in metres");
   simulation::World world = sites::office_site(options.side, length_of(options), seed);
   OccupancyGrid grid = simulation::plan_of(world, options.resolution);
   SimulatedFiles files{*simulation::Simulation(sites::office_drive(), std::move(world), seed).recording(),

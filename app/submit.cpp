@@ -73,19 +73,19 @@ std::string ask_slurm(const std::vector<std::string>& words) {
 void check_sbatch() {
   const Ended ended = ask_program({"sbatch", "--version"});
   if (ended.error == 0) return;
-  throw ConfigError({{"--slurm", 0, 0,
-                      fmt::format("sbatch cannot be run: {}; give this command where Slurm is, as on a login "
-                                  "node, or take --dry-run for the scripts alone, or --parallel",
-                                  words_of(ended))}});
+  throw ConfigError("--slurm",
+                    fmt::format("sbatch cannot be run: {}; give this command where Slurm is, as on a login "
+                                "node, or take --dry-run for the scripts alone, or --parallel",
+                                words_of(ended)));
 }
 
 /// Debian has another program of that name, too.
 void check_parallel() {
   const Ended ended = ask_program({"parallel", "--version"});
   if (ended.error == 0 && ended.out.starts_with("GNU parallel")) return;
-  throw ConfigError({{"--parallel", 0, 0,
-                      fmt::format("there is no GNU parallel ({}); install the package parallel",
-                                  ended.error == 0 ? "parallel is another program" : words_of(ended))}});
+  throw ConfigError("--parallel",
+                    fmt::format("there is no GNU parallel ({}); install the package parallel",
+                                ended.error == 0 ? "parallel is another program" : words_of(ended)));
 }
 
 /// How many tasks an array may have: each index must be less than MaxArraySize.
@@ -307,7 +307,7 @@ void add_submit(CLI::App& app, Context& context) {
       ->needs(parallel);
   command->callback([options, &context] {
     if (!options->slurm && !options->parallel) {
-      throw ConfigError({{"", 0, 0, "how are the shards to be run? Say --slurm or --parallel"}});
+      throw ConfigError("", "how are the shards to be run? Say --slurm or --parallel");
     }
     options->slurm ? submit_to_slurm(*options, context) : submit_to_parallel(*options, context);
   });

@@ -45,9 +45,8 @@ StepRange range_of(const std::string& text) {
   const auto from = number_of<std::size_t>(text.substr(0, colon));
   const auto to = number_of<std::size_t>(text.substr(colon + 1));
   if (!from || !to || *to <= *from)
-    throw ConfigError(
-        {{"--steps " + text, 0, 0,
-          "is no range of steps; give the first one and the one behind the last, as in 100:200"}});
+    throw ConfigError("--steps " + text,
+                      "is no range of steps; give the first one and the one behind the last, as in 100:200");
   return {*from, *to};
 }
 
@@ -135,9 +134,9 @@ void summarize(const SummarizeOptions& options) {
   std::vector<Row> rows = rows_of(options);
   if (options.pool) rows = {pooled(rows)};
   if (!options.name.empty() && rows.size() > 1) {
-    throw ConfigError({{"--name " + options.name, 0, 0,
-                        fmt::format("there are {} rows; name one folder of results, or pool them with --pool",
-                                    rows.size())}});
+    throw ConfigError(
+        "--name " + options.name,
+        fmt::format("there are {} rows; name one folder of results, or pool them with --pool", rows.size()));
   }
   if (!options.name.empty()) rows.front().name = options.name;
   Json json = Json::array();

@@ -51,8 +51,8 @@ class WatchServer::Server {
       port_ = port;
     }
     if (port_ < 0) {
-      throw ConfigError({{fmt::format("--watch={}", port), 0, 0,
-                          "the port is taken; choose another one, or --watch alone for any that is free"}});
+      throw ConfigError(fmt::format("--watch={}", port),
+                        "the port is taken; choose another one, or --watch alone for any that is free");
     }
   }
 

@@ -16,7 +16,7 @@ float squared_distance(const Point& a, const Point& b) {
 }
 
 /// How far a coordinate is from the block `block`, m.
-float gap(float value, std::int32_t block, float side) {
+float gap_to_block(float value, std::int32_t block, float side) {
   const float low = static_cast<float>(block) * side;
   return std::max({low - value, value - (low + side), 0.0F});
 }
@@ -168,13 +168,13 @@ std::optional<std::size_t> SurfaceMap::nearest(const Point& p, double within) co
   };
   look_into(centre);  // First, as little is left to look at afterwards.
   for (std::int32_t x = centre[0] - blocks; x <= centre[0] + blocks; ++x) {
-    const float dx = gap(p.x, x, block_side_);
+    const float dx = gap_to_block(p.x, x, block_side_);
     if (dx * dx > least) continue;
     for (std::int32_t y = centre[1] - blocks; y <= centre[1] + blocks; ++y) {
-      const float dy = gap(p.y, y, block_side_);
+      const float dy = gap_to_block(p.y, y, block_side_);
       if (dx * dx + dy * dy > least) continue;
       for (std::int32_t z = centre[2] - blocks; z <= centre[2] + blocks; ++z) {
-        const float dz = gap(p.z, z, block_side_);
+        const float dz = gap_to_block(p.z, z, block_side_);
         const Block block{x, y, z};
         if (dx * dx + dy * dy + dz * dz <= least && block != centre) look_into(block);
       }

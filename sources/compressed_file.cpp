@@ -21,10 +21,6 @@ namespace {
 
 namespace io = boost::iostreams;
 
-[[noreturn]] void refuse_file(const std::filesystem::path& file, std::string message) {
-  throw ConfigError({{file.string(), 0, 0, std::move(message)}});
-}
-
 /// Collects what is read, chunk by chunk, up to the limit: a file of a few kilobytes can decompress to more
 /// than any memory holds.
 class Content {
@@ -36,10 +32,10 @@ class Content {
     constexpr double bytes_per_gb = 1e9;
     if (static_cast<double>(text_.size()) <= max_size_gb_ * bytes_per_gb) return;
     std::string().swap(text_);
-    refuse_file(file_,
-                fmt::format("has more than {} GB (decompressed, if it is compressed); if it is the right "
-                            "file, thin it out, or take a part of it",
-                            max_size_gb_));
+    throw ConfigError(
+        file_, fmt::format("has more than {} GB (decompressed, if it is compressed); if it is the right "
+                           "file, thin it out, or take a part of it",
+                           max_size_gb_));
   }
   [[nodiscard]] std::string take() { return std::move(text_); }
 
@@ -52,13 +48,13 @@ class Content {
 using Chunk = std::array<char, 1U << 16U>;
 
 std::string read_raw(const std::filesystem::path& file, Content content) {
-  if (std::filesystem::is_directory(file)) refuse_file(file, "is a folder; a file is needed");
+  if (std::filesystem::is_directory(file)) throw ConfigError(file, "is a folder; a file is needed");
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  if (!in) refuse_file(file, "cannot be opened: " + std::string(std::strerror(errno)));
+  if (!in) throw ConfigError(file, "cannot be opened: " + std::string(std::strerror(errno)));
   Chunk chunk{};
   while (in.read(chunk.data(), chunk.size()) || in.gcount() > 0) content.append(chunk.data(), in.gcount());
-  if (in.bad()) refuse_file(file, "cannot be read: " + std::string(std::strerror(errno)));
+  if (in.bad()) throw ConfigError(file, "cannot be read: " + std::string(std::strerror(errno)));
   return content.take();
 }
 
@@ -73,7 +69,7 @@ std::string decompress(const std::filesystem::path& file, const std::string& raw
     for (std::streamsize n = 0; (n = in.sgetn(chunk.data(), chunk.size())) > 0;)
       content.append(chunk.data(), n);
   } catch (const std::ios_base::failure&) {
-    refuse_file(
+    throw ConfigError(
         file, std::string("the ") + format + " data is damaged or ends early; get a fresh copy of the file");
   }
   return content.take();

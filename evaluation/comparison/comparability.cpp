@@ -23,7 +23,7 @@ constexpr double many_overlaps = 0.1;
 /// Reference poses of one start that differ by more than rounding: another drive, or another frame.
 constexpr double same_reference_m = 1e-3;
 
-constexpr std::size_t most_listed = 3;
+constexpr std::size_t most_named = 3;
 
 std::string joined(Sentences items, std::size_t most = SIZE_MAX) {
   if (items.size() > most) {
@@ -50,7 +50,7 @@ void add_missing_trials(const Compared& compared, Sentences& warnings) {
   const PairedTrials& paired = compared.paired;
   if (!paired.left_out.empty())
     warnings.push_back(
-        fmt::format("Left out, as not all methods have them: {}.", joined(paired.left_out, most_listed)));
+        fmt::format("Left out, as not all methods have them: {}.", joined(paired.left_out, most_named)));
   Sentences interrupted, others;
   for (std::size_t m = 0; m < compared.methods.size(); ++m) {
     std::size_t trials = 0;
@@ -64,7 +64,7 @@ void add_missing_trials(const Compared& compared, Sentences& warnings) {
   }
   if (!interrupted.empty())
     warnings.push_back(fmt::format("{} {} interrupted: later trials are missing.",
-                                   joined(interrupted, most_listed),
+                                   joined(interrupted, most_named),
                                    interrupted.size() == 1 ? "was" : "were"));
   if (!others.empty())
     warnings.push_back(fmt::format("Only the {} starts that all methods have are compared. Left out: {}.",
@@ -143,7 +143,7 @@ void add_settings(const Compared& compared, std::size_t method, std::size_t base
       const Sentences found =
           differences(compared.run(cell, method).results, compared.run(cell, baseline).results, section.path);
       if (!found.empty())
-        add_once(fmt::format(fmt::runtime(section.message), name, other, joined(found, most_listed)),
+        add_once(fmt::format(fmt::runtime(section.message), name, other, joined(found, most_named)),
                  warnings);
     }
   }

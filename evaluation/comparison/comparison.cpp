@@ -316,9 +316,9 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline_run,
                    std::span<const Measure> measured) {
   const std::vector<Method> methods = methods_of(runs);
   if (methods.size() < 2)
-    throw ConfigError({{runs.front().results.folder.string(), 0, 0,
-                        fmt::format("all runs are of one method, {}; name those of another one, too",
-                                    methods.front().name)}});
+    throw ConfigError(
+        runs.front().results.folder,
+        fmt::format("all runs are of one method, {}; name those of another one, too", methods.front().name));
   const PairedTrials paired = pair_trials(runs, methods);
   if (paired.trials.empty()) refuse_unpaired(runs, methods, paired);
   const std::size_t baseline = method_of(baseline_run, methods);

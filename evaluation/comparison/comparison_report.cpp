@@ -42,16 +42,16 @@ std::string share(const Proportion& proportion) {
   return fmt::format("{:.1f} ({:.0f}-{:.0f})", 100.0 * proportion.value, 100.0 * proportion.low,
                      100.0 * proportion.high);
 }
-std::string number_of(std::size_t n, const char* what) {
+std::string counted(std::size_t n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
 std::string heading(const Comparison& comparison) {
   const bool has_cases = comparison.cases.size() > 1 || !comparison.cases.front().empty();
-  return fmt::format("{} compared with {}, by {}: {}{}{}", number_of(comparison.methods.size() - 1, "method"),
-                     comparison.baseline, number_of(comparison.starts, "start"),
-                     number_of(comparison.places, "place"),
-                     has_cases ? fmt::format(" of {}", number_of(comparison.cases.size(), "case")) : "",
+  return fmt::format("{} compared with {}, by {}: {}{}{}", counted(comparison.methods.size() - 1, "method"),
+                     comparison.baseline, counted(comparison.starts, "start"),
+                     counted(comparison.places, "place"),
+                     has_cases ? fmt::format(" of {}", counted(comparison.cases.size(), "case")) : "",
                      comparison.seeds.size() > 1 ? fmt::format(", {} seeds", comparison.seeds.size()) : "");
 }
 

@@ -34,7 +34,7 @@ void for_each_results_folder(const std::vector<std::string>& paths, FaultCollect
   std::set<fs::path> seen;
   const auto hand_over = [&](const fs::path& folder) {
     if (!seen.insert(fs::canonical(folder)).second)
-      throw ConfigError({{folder.string(), 0, 0, "is named twice; name each folder of results once"}});
+      throw ConfigError(folder, "is named twice; name each folder of results once");
     work(folder);
   };
   for (const std::string& path : paths) {
@@ -72,9 +72,8 @@ std::size_t find_baseline(const std::vector<NamedRun>& runs, const std::string& 
   if (index >= 0) return static_cast<std::size_t>(index);
   std::vector<std::string> names;
   for (const Method& method : methods) names.push_back(method.name);
-  throw ConfigError(
-      {{"--baseline " + name, 0, 0,
-        "names none, or more than one, of the methods" + suggestion(name, names, "there are")}});
+  throw ConfigError("--baseline " + name,
+                    "names none, or more than one, of the methods" + suggestion(name, names, "there are"));
 }
 
 }  // namespace glocal

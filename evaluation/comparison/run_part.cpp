@@ -35,7 +35,7 @@ RunPart read_part(const Json& json) {
 }  // namespace
 
 void refuse_provenance(const NamedRun& run, const std::string& what) {
-  throw ConfigError({{(run.results.folder / "provenance.json").string(), 0, 0, what}});
+  throw ConfigError(run.results.folder / "provenance.json", what);
 }
 
 std::optional<RunPart> part_of(const NamedRun& run) {

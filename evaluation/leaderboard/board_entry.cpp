@@ -240,7 +240,7 @@ std::string to_text(const BoardEntry& entry) {
 }
 
 BoardEntry read_entry(const fs::path& file) {
-  if (const auto why = why_unreadable(file)) throw ConfigError({{file.string(), 0, 0, *why}});
+  if (const auto why = why_unreadable(file)) throw ConfigError(file, *why);
   try {
     const Json json = parse_json(content_of(file));
     if (json.at("format") != entry_format) throw std::invalid_argument("it is of another version");
@@ -250,10 +250,9 @@ BoardEntry read_entry(const fs::path& file) {
     for (const Json& result : json.at("results")) entry.results.push_back(result_of(result, entry.share));
     return entry;
   } catch (const std::exception& error) {
-    throw ConfigError(
-        {{file.string(), 0, 0,
-          fmt::format("is no entry of a leaderboard ({}); glocal leaderboard add writes it anew",
-                      reason(error))}});
+    throw ConfigError(file,
+                      fmt::format("is no entry of a leaderboard ({}); glocal leaderboard add writes it anew",
+                                  reason(error)));
   }
 }
 

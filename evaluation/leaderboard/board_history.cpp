@@ -53,7 +53,7 @@ std::string to_line(const Renewal& renewal) {
 
 std::vector<Renewal> read_history(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return {};
-  if (const auto why = why_unreadable(file)) throw ConfigError({{file.string(), 0, 0, *why}});
+  if (const auto why = why_unreadable(file)) throw ConfigError(file, *why);
   std::vector<Renewal> renewals;
   std::vector<Fault> faults;
   std::istringstream lines(content_of(file));

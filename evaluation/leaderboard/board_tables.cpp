@@ -180,8 +180,7 @@ Report board_tables(const Suite& suite, const std::vector<BoardEntry>& entries, 
 Report kinds_table(const Suite& suite, const std::vector<BoardEntry>& entries) {
   const std::vector<DisturbedKind> kinds = disturbed_kinds(suite);
   if (kinds.empty())
-    throw ConfigError(
-        {{suite.file.string(), 0, 0, fmt::format("{} has no disturbances; leave --kinds out", suite.id())}});
+    throw ConfigError(suite.file, fmt::format("{} has no disturbances; leave --kinds out", suite.id()));
   std::vector<DisturbedCase> all;
   for (const DisturbedKind& kind : kinds) all.insert(all.end(), kind.cases.begin(), kind.cases.end());
   std::vector<const BoardEntry*> best_first;
@@ -206,18 +205,18 @@ Report kinds_table(const Suite& suite, const std::vector<BoardEntry>& entries) {
 }
 
 Report board_overview(const std::vector<std::string>& suites, const std::vector<BoardEntry>& entries) {
-  struct Method {
+  struct MethodRow {
     std::string name;
     std::vector<std::string> cells;
     double score = 0.0;
   };
   Table table{{"method: wrong / right of starts"}, {}};
   table.header.insert(table.header.end(), suites.begin(), suites.end());
-  std::vector<Method> methods;
+  std::vector<MethodRow> methods;
   for (const BoardEntry& entry : entries) {
     const auto column = std::find(suites.begin(), suites.end(), entry.suite) - suites.begin();
-    auto method =
-        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == entry.method; });
+    auto method = std::find_if(methods.begin(), methods.end(),
+                               [&](const MethodRow& m) { return m.name == entry.method; });
     if (method == methods.end())
       method = methods.insert(methods.end(), {entry.method, std::vector<std::string>(suites.size(), "–")});
     const BoardCounts counts = counts_of(entry);
@@ -226,8 +225,8 @@ Report board_overview(const std::vector<std::string>& suites, const std::vector<
     method->score += counts.score();
   }
   std::stable_sort(methods.begin(), methods.end(),
-                   [](const Method& a, const Method& b) { return a.score > b.score; });
-  for (Method& method : methods) {
+                   [](const MethodRow& a, const MethodRow& b) { return a.score > b.score; });
+  for (MethodRow& method : methods) {
     std::vector<std::string> row = {method.name};
     std::move(method.cells.begin(), method.cells.end(), std::back_inserter(row));
     table.rows.push_back(std::move(row));

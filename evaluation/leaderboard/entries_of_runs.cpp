@@ -19,10 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-[[noreturn]] void refuse_results(const fs::path& folder, const std::string& what) {
-  throw ConfigError({{folder.string(), 0, 0, what}});
-}
-
 /// Two digits say all that a time on a machine that does other things is worth.
 double two_digits(double value) {
   return std::stod(fmt::format("{:.2g}", value));
@@ -54,10 +50,10 @@ class RunReader {
   explicit RunReader(const fs::path& folder)
       : run_(read_results(
             folder, {.trial = [](const Json&) {}, .step = [this](const Json& step) { add_step(step); }})) {
-    if (!run_.complete) refuse_results(folder, "is not complete; run it again, and it goes on");
+    if (!run_.complete) throw ConfigError(folder, "is not complete; run it again, and it goes on");
     const Json variant = run_.provenance.value("variant", Json::object());
     if (!variant.is_object() || !variant.contains("suite"))
-      refuse_results(folder, "was not run with --suite; run a suite");
+      throw ConfigError(folder, "was not run with --suite; run a suite");
     suite_ = variant.at("suite");
     method_ = variant.at("setting");
     share_ = variant.value("share", 1.0);
@@ -83,14 +79,15 @@ class RunReader {
       entry = std::prev(entries.end());
       entry->provenance = provenance_of_entry(run_, entry->command());
     } else if (entry->share != share_) {
-      refuse_results(run_.folder, fmt::format("has a share of {} of the starts, and the results beside it {}",
-                                              share_, entry->share));
+      throw ConfigError(
+          run_.folder,
+          fmt::format("has a share of {} of the starts, and the results beside it {}", share_, entry->share));
     } else if (entry->provenance.at("revision") != run_.provenance.value("revision", "")) {
-      refuse_results(run_.folder,
-                     fmt::format("is by another version of the program than the results beside it "
-                                 "({} and {}); run all with one",
-                                 run_.provenance.value("revision", ""),
-                                 entry->provenance.at("revision").get<std::string>()));
+      throw ConfigError(run_.folder,
+                        fmt::format("is by another version of the program than the results beside it "
+                                    "({} and {}); run all with one",
+                                    run_.provenance.value("revision", ""),
+                                    entry->provenance.at("revision").get<std::string>()));
     }
     entry->results.push_back(std::move(result_));
   }

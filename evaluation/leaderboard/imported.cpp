@@ -42,7 +42,7 @@ class PosesReader {
   PosesReader(const fs::path& file, const Suite& suite) : suite_(suite) { poses_.file = file; }
 
   ImportedPoses read() {
-    if (const auto why = why_unreadable(poses_.file)) throw ConfigError({{poses_.file.string(), 0, 0, *why}});
+    if (const auto why = why_unreadable(poses_.file)) throw ConfigError(poses_.file, *why);
     std::istringstream lines(content_of(poses_.file));
     std::string line;
     std::getline(lines, line);

@@ -21,11 +21,10 @@ void AtomicFiles::add(const fs::path& file, std::string_view content) {
   const fs::path target = fs::absolute(file).lexically_normal();
   std::error_code error;
   if (fs::is_directory(target, error)) {
-    throw ConfigError({{file.string(), 0, 0, "is a folder; name a file"}});
+    throw ConfigError(file, "is a folder; name a file");
   }
   if (!replace_ && fs::exists(target, error)) {
-    throw ConfigError(
-        {{file.string(), 0, 0, "the file exists; choose another name, or replace it with --force"}});
+    throw ConfigError(file, "the file exists; choose another name, or replace it with --force");
   }
   std::vector<fs::path> changed;
   check_written(make_folders(target.parent_path(), changed), file);

@@ -42,7 +42,7 @@ fs::path follow(const fs::path& path, int& links) {
   // As many as Linux follows.
   constexpr int most_links = 40;
   if (++links > most_links)
-    throw ConfigError({{here.string(), 0, 0, "is a symbolic link that leads in a circle; name a folder"}});
+    throw ConfigError(here, "is a symbolic link that leads in a circle; name a folder");
   return follow(parent / fs::read_symlink(here, ignored), links);
 }
 

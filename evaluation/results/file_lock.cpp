@@ -37,9 +37,9 @@ FileLock::FileLock(std::filesystem::path file, const std::filesystem::path& show
       const bool taken = errno == EWOULDBLOCK;
       ::close(fd_);
       if (!taken) fail(shown);
-      throw ConfigError({{shown.string(), 0, 0,
-                          "output: another run is writing this folder; wait for its end, or choose another "
-                          "one with --out"}});
+      throw ConfigError(shown,
+                        "output: another run is writing this folder; wait for its end, or choose another "
+                        "one with --out");
     }
     if (is_current(fd_, file_)) return;
     ::close(fd_);

@@ -183,7 +183,7 @@ std::string changes_file(std::size_t trial) {
 
 nlohmann::ordered_json read_changes(const std::filesystem::path& file) {
   const auto refuse = [&](const char* what) {
-    throw ConfigError({{file.string(), 0, 0, fmt::format("{}; run the experiment again", what)}});
+    throw ConfigError(file, fmt::format("{}; run the experiment again", what));
   };
   if (why_unreadable(file)) refuse("cannot be read");
   auto json = nlohmann::ordered_json::parse(content_of(file), nullptr, false);

@@ -74,7 +74,7 @@ Json grid_json(const OccupancyGrid& grid, const Vector3& origin) {
 
 Json read_grid(const std::filesystem::path& file) {
   const auto refuse = [&](const char* what) {
-    throw ConfigError({{file.string(), 0, 0, fmt::format("{}; run the experiment again", what)}});
+    throw ConfigError(file, fmt::format("{}; run the experiment again", what));
   };
   if (why_unreadable(file)) refuse("cannot be read");
   Json grid = Json::parse(content_of(file), nullptr, false);

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse_output(const fs::path& path, const std::string& why) {
-  throw ConfigError({{path.string(), 0, 0, "output: " + why}});
+  throw ConfigError(path, "output: " + why);
 }
 
 /// Why this process may not change what is in a folder; no error if it may.

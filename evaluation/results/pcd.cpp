@@ -30,7 +30,7 @@ std::string header(std::size_t points, std::size_t size) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-  throw ConfigError({{file.string(), 0, 0, what + "; run the experiment again"}});
+  throw ConfigError(file, what + "; run the experiment again");
 }
 
 /// What a header as header() makes it announces.

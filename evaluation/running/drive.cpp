@@ -68,11 +68,10 @@ std::vector<std::size_t> starts_at(const std::vector<double>& places_m, const Dr
 std::vector<double> every(double distance_m, double length_m) {
   constexpr double most = 1e6;
   if (length_m / distance_m > most) {
-    throw ConfigError(
-        {{"", 0, 0,
-          fmt::format("trials: every_m {} m makes {:.3g} starts along the drive of {:.1f} m, at "
-                      "most a million are allowed; raise it",
-                      distance_m, length_m / distance_m, length_m)}});
+    throw ConfigError("",
+                      fmt::format("trials: every_m {} m makes {:.3g} starts along the drive of {:.1f} m, at "
+                                  "most a million are allowed; raise it",
+                                  distance_m, length_m / distance_m, length_m));
   }
   std::vector<double> places;
   for (std::size_t i = 0; static_cast<double>(i) * distance_m <= length_m; ++i) {
@@ -118,8 +117,7 @@ Drive read_drive(ObservationSource& source) {
 
 std::vector<std::size_t> trial_starts(const TrialsConfig& config, const Drive& drive, const GlobalMap& map) {
   if (drive.samples.empty()) {
-    throw ConfigError(
-        {{"", 0, 0, "observations: the drive has no observation; check the source and its segments"}});
+    throw ConfigError("", "observations: the drive has no observation; check the source and its segments");
   }
   std::vector<std::size_t> starts = wanted_starts(config, drive);
   std::sort(starts.begin(), starts.end());
@@ -132,12 +130,11 @@ std::vector<std::size_t> trial_starts(const TrialsConfig& config, const Drive& d
   });
   if (starts.empty()) {
     throw ConfigError(
-        {{"", 0, 0,
-          fmt::format(
-              "trials: none of {} starts along the drive of {:.1f} m lies within {} m of the mapped "
-              "area with at least {} observations left; use other starts, another segment of the drive, "
-              "a larger trials.within_map_m or a smaller trials.min_steps",
-              wanted, drive.path_m.back(), config.within_map_m, config.min_steps)}});
+        "", fmt::format(
+                "trials: none of {} starts along the drive of {:.1f} m lies within {} m of the mapped "
+                "area with at least {} observations left; use other starts, another segment of the drive, "
+                "a larger trials.within_map_m or a smaller trials.min_steps",
+                wanted, drive.path_m.back(), config.within_map_m, config.min_steps));
   }
   return starts;
 }
@@ -147,9 +144,8 @@ std::vector<std::size_t> chosen_starts(const TrialsConfig& config, const std::ve
   std::vector<std::size_t> chosen;
   for (const double number : config.only) {
     if (number >= static_cast<double>(all.size()))
-      throw ConfigError({{"", 0, 0,
-                          fmt::format("trials.only: there is no start {:g}; the starts are 0 to {}", number,
-                                      all.size() - 1)}});
+      throw ConfigError("", fmt::format("trials.only: there is no start {:g}; the starts are 0 to {}", number,
+                                        all.size() - 1));
     chosen.push_back(all[static_cast<std::size_t>(number)]);
   }
   return chosen;

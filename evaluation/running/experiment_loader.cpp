@@ -29,8 +29,7 @@ void require_contract(const char* kind, const StrategyChoice& source, Check chec
   try {
     check();
   } catch (const BrokenContract& broken) {
-    throw ConfigError(
-        {{"", 0, 0, fmt::format("{} '{}' breaks its contract: {}", kind, source.name, broken.what())}});
+    throw ConfigError("", fmt::format("{} '{}' breaks its contract: {}", kind, source.name, broken.what()));
   }
 }
 
@@ -76,11 +75,11 @@ void bring_to_common_frame(Drive& drive, const GlobalMap& map, const Warn& warn)
       std::vector<std::string> names;
       for (const MapPart& p : map.parts()) names.push_back(p.name);
       throw ConfigError(
-          {{"", 0, 0,
-            fmt::format("observations: reference poses are on a map '{}', and there is {}; name one that is "
-                        "there",
-                        sample.map,
-                        names.empty() ? "only one map" : fmt::format("only {}", fmt::join(names, ", ")))}});
+          "",
+          fmt::format("observations: reference poses are on a map '{}', and there is {}; name one that is "
+                      "there",
+                      sample.map,
+                      names.empty() ? "only one map" : fmt::format("only {}", fmt::join(names, ", "))));
     }
     sample.map_from_robot = part->common_from_part * *sample.map_from_robot;
   }
@@ -116,7 +115,7 @@ MapData load_map(const Experiment& experiment, const Catalog& catalog, SourceSet
   const StageScope scope(&stage);
   MapData map = catalog.map_sources.make(experiment.map, setup)->load();
   if (const std::string fault = fault_of_map(map); !fault.empty())
-    throw ConfigError({{file, 0, 0, fmt::format("map source '{}': {}", experiment.map.name, fault)}});
+    throw ConfigError(file, fmt::format("map source '{}': {}", experiment.map.name, fault));
   require_contract("map source", experiment.map, [&] { check_map(map, experiment.localizer.motion); });
   return map;
 }

@@ -117,10 +117,9 @@ class WindowRun {
 void require_references(const Drive& drive) {
   for (std::size_t i = 0; i < drive.samples.size(); ++i) {
     if (drive.samples[i].map_from_robot) continue;
-    throw ConfigError(
-        {{"", 0, 0,
-          "observations: number " + std::to_string(i + 1) +
-              " has no reference pose; judge mapping on a drive where every observation has one"}});
+    throw ConfigError("",
+                      "observations: number " + std::to_string(i + 1) +
+                          " has no reference pose; judge mapping on a drive where every observation has one");
   }
 }
 

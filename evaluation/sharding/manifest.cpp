@@ -316,9 +316,7 @@ void write_manifest(const fs::path& shared, const Manifest& manifest) {
 
 Manifest read_manifest(const fs::path& shared) {
   const fs::path file = manifest_file(shared);
-  const auto refuse = [&](const fs::path& place, const std::string& what) {
-    throw ConfigError({{place.string(), 0, 0, what}});
-  };
+  const auto refuse = [&](const fs::path& place, const std::string& what) { throw ConfigError(place, what); };
   if (!is_shared_folder(shared))
     refuse(shared,
            "no shards have run here: there is no .shards/manifest.json; name the folder that "

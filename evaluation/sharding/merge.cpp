@@ -80,9 +80,9 @@ std::optional<Json> VariantMerge::kept() const {
       same("inputs_sha256"))
     return read_results(folder_).summary;
   if (!options_.force)
-    throw ConfigError({{folder_.string(), 0, 0,
-                        "output: the folder has results of another run; remove them, or replace them with "
-                        "--force"}});
+    throw ConfigError(folder_,
+                      "output: the folder has results of another run; remove them, or replace them with "
+                      "--force");
   return std::nullopt;
 }
 

@@ -176,8 +176,8 @@ void check_setting(const std::string& name, const std::vector<TalliedSetting>& s
   std::vector<std::string> names;
   for (const TalliedSetting& setting : settings) names.push_back(setting.result.name);
   if (std::find(names.begin(), names.end(), name) == names.end())
-    throw ConfigError(
-        {{"--baseline " + name, 0, 0, "there is no such setting" + suggestion(name, names, "there are")}});
+    throw ConfigError("--baseline " + name,
+                      "there is no such setting" + suggestion(name, names, "there are"));
 }
 
 /// The parameter of this path or end of a path. Throws ConfigError.
@@ -191,9 +191,8 @@ std::size_t number_of_parameter(const std::string& name, const std::vector<Param
   }
   if (found.size() == 1) return found.front();
   if (found.size() > 1)
-    throw ConfigError({{"--map " + name, 0, 0, "more than one parameter ends so; name its whole path"}});
-  throw ConfigError(
-      {{"--map " + name, 0, 0, "no such parameter varies" + suggestion(name, paths, "there are")}});
+    throw ConfigError("--map " + name, "more than one parameter ends so; name its whole path");
+  throw ConfigError("--map " + name, "no such parameter varies" + suggestion(name, paths, "there are"));
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> chosen_axes(const MapChoice& choice,
@@ -203,8 +202,8 @@ std::optional<std::pair<std::size_t, std::size_t>> chosen_axes(const MapChoice& 
   const std::pair axes(number_of_parameter(choice->first, effects),
                        number_of_parameter(choice->second, effects));
   if (axes.first == axes.second)
-    throw ConfigError({{fmt::format("--map {} {}", choice->first, choice->second), 0, 0,
-                        "is one parameter twice; name two"}});
+    throw ConfigError(fmt::format("--map {} {}", choice->first, choice->second),
+                      "is one parameter twice; name two");
   return axes;
 }
 

@@ -8,7 +8,7 @@
 namespace glocal {
 namespace {
 
-std::string join(const std::vector<Fault>& faults) {
+std::string listed(const std::vector<Fault>& faults) {
   std::string text;
   for (const Fault& fault : faults) {
     if (!text.empty()) text += '\n';
@@ -40,6 +40,9 @@ std::string to_string(const Fault& fault) {
 }
 
 ConfigError::ConfigError(std::vector<Fault> faults)
-    : std::runtime_error(join(sorted(faults))), faults_(sorted(std::move(faults))) {}
+    : std::runtime_error(listed(sorted(faults))), faults_(sorted(std::move(faults))) {}
+
+ConfigError::ConfigError(const std::filesystem::path& place, const std::string& message)
+    : ConfigError({{place.string(), 0, 0, message}}) {}
 
 }  // namespace glocal

@@ -12,10 +12,9 @@ namespace glocal {
 void check_cell(double cell, double epsilon) {
   if (cell <= epsilon) return;
   throw ConfigError(
-      {{"", 0, 0,
-        fmt::format("the cell of {} m of an exact search is larger than contact_epsilon, which is "
-                    "{:.3g} m on this map; take a smaller cell or a larger contact_epsilon",
-                    cell, epsilon)}});
+      "", fmt::format("the cell of {} m of an exact search is larger than contact_epsilon, which is "
+                      "{:.3g} m on this map; take a smaller cell or a larger contact_epsilon",
+                      cell, epsilon));
 }
 
 CellFrame cell_frame(const Points& map_points, double cell, double epsilon, Motion motion) {
@@ -32,10 +31,9 @@ CellFrame cell_frame(const Points& map_points, double cell, double epsilon, Moti
   const double layers = in_space ? cells(map_points.z) : 1.0;
   constexpr double largest = 1024.0 * 1024.0 * 1024.0;
   if (!(columns * rows * layers <= largest)) {
-    throw ConfigError({{"", 0, 0,
-                        fmt::format("the map is too large for a grid of cells of {} m: it would need more "
-                                    "than 1 GiB; cut the map, or take a larger cell",
-                                    cell)}});
+    throw ConfigError("", fmt::format("the map is too large for a grid of cells of {} m: it would need more "
+                                      "than 1 GiB; cut the map, or take a larger cell",
+                                      cell));
   }
   return {.cell = cell,
           .min_x = least(map_points.x),

@@ -15,9 +15,9 @@ FreeSpace::FreeSpace(const OccupancyGrid& grid)
   }
   if (cells_.empty()) {
     throw ConfigError(
-        {{"", 0, 0,
-          "the map has no cell that is known to be free, so there is no place for particles; take a map with "
-          "free space, or another matcher"}});
+        "",
+        "the map has no cell that is known to be free, so there is no place for particles; take a map with "
+        "free space, or another matcher");
   }
 }
 

@@ -57,10 +57,9 @@ std::shared_ptr<const SurfacePoints> surfaces_of(const GlobalMap& map, float vox
   auto surfaces = map.index<SurfacePoints>(
       fmt::format("{}", voxel_size), [&] { return SurfacePoints(map.points(), map.points(), voxel_size); });
   if (surfaces->points.empty()) {
-    throw ConfigError({{"", 0, 0,
-                        fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: "
-                                    "triangle_ransam needs them",
-                                    voxel_size)}});
+    throw ConfigError("", fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: "
+                                      "triangle_ransam needs them",
+                                      voxel_size));
   }
   return surfaces;
 }

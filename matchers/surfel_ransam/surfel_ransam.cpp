@@ -91,9 +91,8 @@ SurfelRansam::SurfelRansam(const Params& params, const StageSetup& setup)
       index_(surfel_index(*setup.map, rule_)) {
   if (index_->pairs.size() == 0) {
     throw ConfigError(
-        {{"", 0, 0,
-          fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: surfel_ransam needs them",
-                      rule_.voxel_size)}});
+        "", fmt::format("the map has no surfaces to be found by voxels of {:.2f} m: surfel_ransam needs them",
+                        rule_.voxel_size));
   }
 }
 

@@ -19,10 +19,10 @@ VoxelRegion::VoxelRegion(const Points& points, float side, int margin) : side_(s
     bricks[axis] = std::ceil((static_cast<double>(high - low) / side + 2.0 * margin + 2.0) / 8.0);
   }
   if (bricks[0] * bricks[1] * bricks[2] > most_bricks)
-    throw ConfigError({{"", 0, 0,
-                        fmt::format("points reach over {:.0f} m x {:.0f} m x {:.0f} m, too far for voxels of "
-                                    "{} m; remove far points, or take larger voxels",
-                                    extents[0].length(), extents[1].length(), extents[2].length(), side)}});
+    throw ConfigError("",
+                      fmt::format("points reach over {:.0f} m x {:.0f} m x {:.0f} m, too far for voxels of "
+                                  "{} m; remove far points, or take larger voxels",
+                                  extents[0].length(), extents[1].length(), extents[2].length(), side));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     size_[axis] = static_cast<std::uint32_t>(8.0 * bricks[axis]);
     most_[axis] = static_cast<float>(size_[axis]);

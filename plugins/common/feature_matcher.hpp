@@ -111,11 +111,10 @@ class FeatureMatcher final : public Matcher {
       return made;
     });
     if (result->cloud.size() >= fewest_points) return result;
-    throw ConfigError(
-        {{"", 0, 0,
-          fmt::format("the map has {} voxels of {:.2f} m with points; features need {} or more: "
-                      "take a smaller voxel_size",
-                      result->cloud.size(), voxel_size, fewest_points)}});
+    throw ConfigError("",
+                      fmt::format("the map has {} voxels of {:.2f} m with points; features need {} or more: "
+                                  "take a smaller voxel_size",
+                                  result->cloud.size(), voxel_size, fewest_points));
   }
 
   Params params_;

@@ -37,7 +37,7 @@ std::vector<CellOfGrid> cells_of(const Points& points, const OccupancyGrid& grid
 }
 
 ConfigError fault(std::string message) {
-  return ConfigError({{"", 0, 0, std::move(message)}});
+  return ConfigError("", std::move(message));
 }
 
 }  // namespace

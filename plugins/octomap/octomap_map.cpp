@@ -92,9 +92,7 @@ OctomapMap::OctomapMap(const Params& params, const SourceSetup& setup) : params_
 }
 
 MapData OctomapMap::load() {
-  const auto refuse = [&](const char* why) {
-    throw ConfigError({{params_.path.resolved.string(), 0, 0, why}});
-  };
+  const auto refuse = [&](const char* why) { throw ConfigError(params_.path.resolved, why); };
   const std::unique_ptr<octomap::OcTree> tree = read_tree(params_.path.resolved);
   const bool in_space = params_.points == "space";
   Extent extent;

@@ -18,10 +18,6 @@ constexpr std::string_view binary_begin = "# Octomap OcTree binary file";
 constexpr std::string_view full_begin = "# Octomap OcTree file";
 constexpr int depth_of_tree = 16;
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-  throw ConfigError({{file.string(), 0, 0, why}});
-}
-
 struct Header {
   std::string id;
   double size = -1.0;
@@ -87,26 +83,26 @@ std::string content_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream content;
   content << stream.rdbuf();
-  if (!stream) refuse(file, "cannot be read");
+  if (!stream) throw ConfigError(file, "cannot be read");
   return std::move(content).str();
 }
 
 Header checked_header(const std::filesystem::path& file, const std::string& content, bool binary) {
   const std::optional<Header> header = read_header(content);
-  if (!header) refuse(file, "ends within its header; get the whole file");
+  if (!header) throw ConfigError(file, "ends within its header; get the whole file");
   if (header->id != "OcTree") {
-    refuse(file, "holds a tree of kind '" + header->id +
-                     "'; only OcTree can be read: convert it with octomap's tools");
+    throw ConfigError(file, "holds a tree of kind '" + header->id +
+                                "'; only OcTree can be read: convert it with octomap's tools");
   }
   if (!(header->resolution > 0.0 && std::isfinite(header->resolution))) {
-    refuse(file, "has no resolution: its header needs a line `res` with a number above 0");
+    throw ConfigError(file, "has no resolution: its header needs a line `res` with a number above 0");
   }
-  if (header->size == 0.0) refuse(file, "its tree is empty");
+  if (header->size == 0.0) throw ConfigError(file, "its tree is empty");
   NodeWalk nodes(std::string_view(content).substr(header->length), binary);
-  if (!nodes.walk()) refuse(file, "is damaged: it ends before its nodes do; get the whole file");
+  if (!nodes.walk()) throw ConfigError(file, "is damaged: it ends before its nodes do; get the whole file");
   if (static_cast<double>(nodes.count()) != header->size) {
-    refuse(file, "is damaged: its header tells of another number of nodes than the " +
-                     std::to_string(nodes.count()) + " it has");
+    throw ConfigError(file, "is damaged: its header tells of another number of nodes than the " +
+                                std::to_string(nodes.count()) + " it has");
   }
   return *header;
 }
@@ -117,8 +113,8 @@ std::unique_ptr<octomap::OcTree> read_tree(const std::filesystem::path& file) {
   const std::string content = content_of(file);
   const bool binary = content.starts_with(binary_begin);
   if (!binary && !content.starts_with(full_begin)) {
-    refuse(file, "is no file of OctoMap: it does not begin with '" + std::string(full_begin) + "' or '" +
-                     std::string(binary_begin) + "'");
+    throw ConfigError(file, "is no file of OctoMap: it does not begin with '" + std::string(full_begin) +
+                                "' or '" + std::string(binary_begin) + "'");
   }
   const Header header = checked_header(file, content, binary);
   std::istringstream nodes(content);

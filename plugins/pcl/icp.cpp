@@ -100,9 +100,9 @@ PclIcp::PclIcp(const Params& params, const StageSetup& setup)
       aligner_(setup.map->points()) {
   if (!map_from_robot_starts_.empty()) return;
   throw ConfigError(
-      {{"", 0, 0,
-        "localizer.matcher.pcl_icp: start_spacing: the map has no free cell to start from; take a "
-        "smaller spacing, or a map with free space"}});
+      "",
+      "localizer.matcher.pcl_icp: start_spacing: the map has no free cell to start from; take a "
+      "smaller spacing, or a map with free space");
 }
 
 MatchResult PclIcp::match(const MatchRequest& request, Rng& /*rng*/) {

@@ -41,10 +41,10 @@ bool is_ros_name(std::string_view topic) {
 
 std::string dds_topic(const std::string& topic) {
   if (!is_ros_name(topic)) {
-    throw ConfigError({{"", 0, 0,
-                        "the topic '" + topic +
-                            "' must be words of letters, digits and '_' that begin with no digit, each after "
-                            "a '/': as /robot/scan"}});
+    throw ConfigError("",
+                      "the topic '" + topic +
+                          "' must be words of letters, digits and '_' that begin with no digit, each after "
+                          "a '/': as /robot/scan");
   }
   return "rt" + topic;
 }
@@ -70,9 +70,8 @@ const dds_topic_descriptor_t& layout_of(const LiveTopic& topic) {
     if (type == topic.type) return *layout;
     known += (known.empty() ? "" : ", ") + type;
   }
-  throw ConfigError({{"", 0, 0,
-                      "the topic '" + topic.name + "': messages of the type '" + topic.type +
-                          "' cannot be exchanged; there are " + known}});
+  throw ConfigError("", "the topic '" + topic.name + "': messages of the type '" + topic.type +
+                            "' cannot be exchanged; there are " + known);
 }
 
 }  // namespace glocal::ros2_plugin

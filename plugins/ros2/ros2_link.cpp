@@ -20,7 +20,7 @@ namespace {
 constexpr int last_domain = 232;
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw ConfigError({{"", 0, 0, why}});
+  throw ConfigError("", why);
 }
 
 dds_domainid_t domain_of(const Ros2Link::Params& params) {

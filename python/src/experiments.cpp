@@ -86,9 +86,9 @@ class File {
   /// The experiment that has no variants.
   [[nodiscard]] const Experiment& only() const {
     if (variants_.size() > 1)
-      throw ConfigError({{file_.string(), 0, 0,
-                          "has variants, and one experiment is wanted; take one without, or choose "
-                          "the values of one with with_()"}});
+      throw ConfigError(file_,
+                        "has variants, and one experiment is wanted; take one without, or choose "
+                        "the values of one with with_()");
     return variants_.front().experiment;
   }
   [[nodiscard]] const std::shared_ptr<Session>& session() const { return session_; }

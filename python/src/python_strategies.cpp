@@ -49,8 +49,7 @@ py::object make_object(const PythonStrategy& strategy, const AnyParams& params, 
     return strategy.make(dynamic_cast<const PythonParams&>(params).values(), setup);
   } catch (const py::error_already_set& error) {
     throw ConfigError(
-        {{"", 0, 0,
-          fmt::format("the {} '{}' cannot be made: {}", strategy.kind, strategy.name, told(error))}});
+        "", fmt::format("the {} '{}' cannot be made: {}", strategy.kind, strategy.name, told(error)));
   }
 }
 

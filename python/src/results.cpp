@@ -136,8 +136,8 @@ py::tuple compared(const std::vector<std::string>& folders, const std::string& b
     const py::gil_scoped_release others_may;
     const std::vector<NamedRun> runs = read_runs(folders);
     if (runs.size() < 2)
-      throw ConfigError({{folders.empty() ? "" : folders.front(), 0, 0,
-                          "there is nothing to compare it with; name two folders of results or more"}});
+      throw ConfigError(folders.empty() ? "" : folders.front(),
+                        "there is nothing to compare it with; name two folders of results or more");
     const ComparisonOutput output =
         comparison_output(runs, find_baseline(runs, baseline), times ? measures() : measures_but_time());
     text = as_text(output.brief);

@@ -74,7 +74,7 @@ void load_python_plugin(const std::filesystem::path& file, Catalog& catalog) {
   try {
     add_all(registered().attr("execute")(file.string()), catalog);
   } catch (const py::error_already_set& error) {
-    throw ConfigError({{file.string(), 0, 0, "cannot be loaded: " + told(error)}});
+    throw ConfigError(file, "cannot be loaded: " + told(error));
   }
 }
 

@@ -16,10 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
-  throw ConfigError({{file.string(), 0, 0, why}});
-}
-
 void check_number(const Json& json, const char* key) {
   static_cast<void>(json.at(key).get<double>());
 }
@@ -60,8 +56,11 @@ void check_files(const fs::path& folder, std::size_t trial) {
   };
   require_steps(read_results(folder, {note_trial, look_at_step}));
   const fs::path file = folder / "trials.jsonl";
-  if (!steps) refuse(file, fmt::format("has no trial {}; choose one from 0 to {} with --trial", trial, last));
-  if (*steps == 0) refuse(file, fmt::format("trial {} has no steps; choose another with --trial", trial));
+  if (!steps)
+    throw ConfigError(file,
+                      fmt::format("has no trial {}; choose one from 0 to {} with --trial", trial, last));
+  if (*steps == 0)
+    throw ConfigError(file, fmt::format("trial {} has no steps; choose another with --trial", trial));
 }
 
 void check_point_clouds(const fs::path& folder, std::size_t trial, FaultCollector& faults) {

@@ -117,7 +117,7 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
   const bool has_clouds = std::any_of(contents_.scans.begin(), contents_.scans.end(),
                                       [](const bags::ScanTopic& scan) { return scan.are_clouds; });
   if (is_planar_ && has_clouds && params.heights.empty()) {
-    throw ConfigError({{file, 0, 0, clouds_need_heights}});
+    throw ConfigError(file, clouds_need_heights);
   }
   pick(frames_of_first_topic());
   join_other_topics();
@@ -158,11 +158,11 @@ std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
     warn_(fmt::format("{}: {} scans are left out, as their stamps stand still or run backwards", at,
                       backwards));
   if (frames.empty()) {
-    throw ConfigError({{params_.path.resolved.string(), 0, 0,
-                        fmt::format("{} has {} scans, and for none of them is it known where the robot and "
-                                    "its sensor were within {} s; "
-                                    "check the stamps, or set odometry, odom_frame or base_frame",
-                                    shown(scans.topic), scans.stamps_ns.size(), seconds(longest_gap_ns))}});
+    throw ConfigError(params_.path.resolved,
+                      fmt::format("{} has {} scans, and for none of them is it known where the robot and "
+                                  "its sensor were within {} s; "
+                                  "check the stamps, or set odometry, odom_frame or base_frame",
+                                  shown(scans.topic), scans.stamps_ns.size(), seconds(longest_gap_ns)));
   }
   if (lost > 0)
     warn_(fmt::format("{}: {} of {} scans are left out, as {} is not known within {} s of their stamps", at,

@@ -94,10 +94,10 @@ BagInformation read_metadata(const fs::path& file) {
   const std::string& format = information.compression_format;
   if (!information.compression_mode.empty() && information.compression_mode != "NONE" && format != "zstd")
     throw ConfigError(
-        {{file.string(), 0, 0,
-          fmt::format("says that the recording is compressed with '{}'; only zstd can be read: write it anew "
-                      "with ROS (ros2 bag convert)",
-                      format)}});
+        file,
+        fmt::format("says that the recording is compressed with '{}'; only zstd can be read: write it anew "
+                    "with ROS (ros2 bag convert)",
+                    format));
   return information;
 }
 
@@ -146,8 +146,7 @@ BagFolder read_bag_folder(const fs::path& folder) {
   const fs::path metadata = folder / metadata_name;
   const BagInformation information = is_metadata(metadata) ? read_metadata(metadata) : BagInformation{};
   if (information.files.empty() && there.empty())
-    throw ConfigError(
-        {{folder.string(), 0, 0, "is a folder without .db3 or .mcap files; a recording of ROS 2 has them"}});
+    throw ConfigError(folder, "is a folder without .db3 or .mcap files; a recording of ROS 2 has them");
   BagFolder bag;
   bag.files = unpacked_parts(information.files.empty() ? there : named_parts(information, folder));
   for (const TopicCount& topic : information.topics) bag.messages[topic.topic.name] += topic.messages;

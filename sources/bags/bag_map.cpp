@@ -22,7 +22,7 @@ constexpr double free_thresh = 0.196;
 constexpr const char* grid_type = "nav_msgs/OccupancyGrid";
 
 [[noreturn]] void fail(const BagMap::Params& params, const std::string& message) {
-  throw ConfigError({{params.path.resolved.string(), 0, 0, message}});
+  throw ConfigError(params.path.resolved, message);
 }
 
 std::string topic_of(const bags::Recording& recording, const BagMap::Params& params) {
@@ -85,7 +85,7 @@ MapData BagMap::load() {
 
 MapData map_of(const GridMessage& grid, const std::string& source, const std::string& topic) {
   const std::string of_topic = "the map of " + shown(topic);
-  const auto fail = [&](const std::string& message) { throw ConfigError({{source, 0, 0, message}}); };
+  const auto fail = [&](const std::string& message) { throw ConfigError(source, message); };
   if (static_cast<double>(grid.cells.size()) > max_grid_cells)
     fail(fmt::format("{} has {} x {} cells, more than {:g}; record it with a coarser resolution", of_topic,
                      grid.width, grid.height, max_grid_cells));

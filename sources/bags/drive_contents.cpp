@@ -54,7 +54,7 @@ class TopicChecker {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const { throw ConfigError({{file_, 0, 0, message}}); }
+  [[noreturn]] void fail(const std::string& message) const { throw ConfigError(file_, message); }
 
   void check_topic(const std::string& topic, const std::vector<std::string>& there, const std::string& what,
                    const std::string& key) const {
@@ -142,7 +142,7 @@ void ContentsReader::forget_before(std::int64_t stamp_ns) {
 }
 
 void ContentsReader::fail(const std::string& message) const {
-  throw ConfigError({{source_, 0, 0, message}});
+  throw ConfigError(source_, message);
 }
 
 std::string ContentsReader::name_of(std::string_view key) const {

@@ -15,7 +15,7 @@ namespace glocal::bags {
 namespace {
 
 [[noreturn]] void refuse_open(const std::string& file) {
-  throw ConfigError({{file, 0, 0, std::string("cannot be opened: ") + std::strerror(errno)}});
+  throw ConfigError(file, std::string("cannot be opened: ") + std::strerror(errno));
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ void Place::refuse(std::size_t at, const std::string& message) const {
   std::string where = fmt::format("byte {}", offset + at);
   if (chunk) where += fmt::format(" of the unpacked chunk at byte {}", *chunk);
   if (record) where += fmt::format(" of message {}", *record);
-  throw ConfigError({{std::string(file), 0, 0, where + ": " + message}});
+  throw ConfigError(std::string(file), where + ": " + message);
 }
 
 FileBytes::FileBytes(const std::filesystem::path& file)
@@ -33,7 +33,7 @@ FileBytes::FileBytes(const std::filesystem::path& file)
   struct stat status {};
   if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     close(descriptor_);
-    throw ConfigError({{name_, 0, 0, "is no file that can be read piece by piece"}});
+    throw ConfigError(name_, "is no file that can be read piece by piece");
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
 }

@@ -79,7 +79,7 @@ void McapWriter::emit(std::string_view bytes) {
 std::uint16_t McapWriter::add_channel(const std::string& topic, const std::string& type,
                                       const std::string& definition) {
   if (messages_.size() == std::numeric_limits<std::uint16_t>::max())
-    throw ConfigError({{topic, 0, 0, "is one topic more than the 65,535 that MCAP can have"}});
+    throw ConfigError(topic, "is one topic more than the 65,535 that MCAP can have");
   const auto channel = static_cast<std::uint16_t>(messages_.size() + 1);
   // Types of the same name may differ from file to file of a recording.
   const auto [schema, is_new] =

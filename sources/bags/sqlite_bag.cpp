@@ -83,7 +83,7 @@ class SqliteBag final : public RecordingFile {
 
   [[noreturn]] void refuse(const std::string& what) const {
     const char* const why = database_ ? sqlite3_errmsg(database_.get()) : "no memory";
-    throw ConfigError({{name_, 0, 0, fmt::format("{} as a bag of ROS 2: {}; get a fresh copy", what, why)}});
+    throw ConfigError(name_, fmt::format("{} as a bag of ROS 2: {}; get a fresh copy", what, why));
   }
 
   [[nodiscard]] Statement prepare(const char* query) const {
@@ -125,9 +125,8 @@ class SqliteBag final : public RecordingFile {
         prepare("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ? AND rootpage > 0");
     sqlite3_bind_text(query.get(), 1, table, -1, SQLITE_STATIC);
     if (!step(query))
-      throw ConfigError(
-          {{name_, 0, 0,
-            fmt::format("is an SQLite database without the table '{}' of a bag of ROS 2", table)}});
+      throw ConfigError(name_,
+                        fmt::format("is an SQLite database without the table '{}' of a bag of ROS 2", table));
   }
 
   void read_topics() {

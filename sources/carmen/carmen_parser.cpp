@@ -122,7 +122,7 @@ class Parser {
 
   std::vector<CarmenScan> parse(std::string_view content) {
     if (content.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-      throw ConfigError({{file_, 0, 0, "is empty; a CARMEN log with laser scans is needed"}});
+      throw ConfigError(file_, "is empty; a CARMEN log with laser scans is needed");
     }
     ends_in_newline_ = content.ends_with('\n');
     while (!content.empty() && faults_.size() < max_faults) {

@@ -73,9 +73,8 @@ LogDrive read_log_drive(const LogParams& params) {
   const std::string file = params.path.resolved.string();
   LogDrive drive{of_laser(read_carmen_log(params.path.resolved), params.laser), {}};
   if (drive.scans.empty()) {
-    throw ConfigError({{file, 0, 0,
-                        "has no scan of the " + params.laser + " laser; set laser to " +
-                            (params.laser == "front" ? "rear" : "front")}});
+    throw ConfigError(file, "has no scan of the " + params.laser + " laser; set laser to " +
+                                (params.laser == "front" ? "rear" : "front"));
   }
   const auto places = places_on(params.segments, path_lengths(drive.scans), file, "scan");
   for (std::size_t segment = 0; segment < places.size(); ++segment) {

@@ -88,9 +88,9 @@ OccupancyGrid make_grid(const Box& box, double resolution, const std::string& fi
   constexpr double most_counted = 64e6;
   if (!(width * height <= most_counted)) {
     throw ConfigError(
-        {{file, 0, 0,
-          "its map would have more than 64 million cells; raise resolution, lower max_range, or look for "
-          "wrong reference poses"}});
+        file,
+        "its map would have more than 64 million cells; raise resolution, lower max_range, or look for "
+        "wrong reference poses");
   }
   OccupancyGrid grid{{x, y, 0.0}, resolution, static_cast<int>(width), static_cast<int>(height), {}};
   grid.cells = PackedCells(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
@@ -203,7 +203,7 @@ MapData LogMap::load() {
     }
   }
   if (map.points.empty()) {
-    throw ConfigError({{file, 0, 0, "its map has no occupied cell; lower min_hits, or use more scans"}});
+    throw ConfigError(file, "its map has no occupied cell; lower min_hits, or use more scans");
   }
   map.path = path_of(placed);
   return map;

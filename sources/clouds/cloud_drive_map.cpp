@@ -100,9 +100,9 @@ MapData CloudDriveMap::load() {
   map.resolution = params_.resolution;
   map.path = sparse_path(path);
   if (map.points.empty()) {
-    throw ConfigError({{params_.drive.folder.resolved.string(), 0, 0,
-                        "its map has no point; lower min_clouds, raise max_range, or use more "
-                        "clouds with reference poses"}});
+    throw ConfigError(params_.drive.folder.resolved,
+                      "its map has no point; lower min_clouds, raise max_range, or use more "
+                      "clouds with reference poses");
   }
   return map;
 }

@@ -28,8 +28,7 @@ CloudPair pair_of(const CloudPairParams& params, const SourceSetup& setup) {
   std::vector<CloudPair> pairs = read_cloud_pairs(file);
   const auto number = static_cast<std::size_t>(params.number);
   if (number > pairs.size())
-    throw ConfigError(
-        {{file.string(), 0, 0, fmt::format("has {} pairs, and no pair {}", pairs.size(), number)}});
+    throw ConfigError(file, fmt::format("has {} pairs, and no pair {}", pairs.size(), number));
   return std::move(pairs[number - 1]);
 }
 

@@ -21,10 +21,9 @@ CloudVoxels::CloudVoxels(const Cloud& cloud, double side, const std::string& fil
   constexpr double most_cubes = 4e9;
   if (!(cubes(points.x) * cubes(points.y) * cubes(points.z) <= most_cubes)) {
     throw ConfigError(
-        {{file, 0, 0,
-          fmt::format("its extent is more than 4000 million cubes of {} m; cut it smaller, or, if it "
-                      "is no octree, raise cloud_voxel_size",
-                      side_)}});
+        file, fmt::format("its extent is more than 4000 million cubes of {} m; cut it smaller, or, if it "
+                          "is no octree, raise cloud_voxel_size",
+                          side_));
   }
   // Points of an octree lie in the middle of its voxels.
   const double margin = cloud.voxel_size / 2.0;

@@ -18,18 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse_drive(const fs::path& file, std::string message) {
-  throw ConfigError({{file.string(), 0, 0, std::move(message)}});
-}
-
 std::vector<DriveCloud> clouds_in(const fs::path& folder) {
   std::error_code error;
   std::vector<DriveCloud> clouds;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (has_name_of_cloud(entry.path())) clouds.push_back({entry.path(), 0.0, {}, {}});
   }
-  if (error) refuse_drive(folder, "cannot be read as a folder: " + error.message());
-  if (clouds.empty()) refuse_drive(folder, "has no clouds (*.pcd, *.ply, *.bin); give another folder");
+  if (error) throw ConfigError(folder, "cannot be read as a folder: " + error.message());
+  if (clouds.empty()) throw ConfigError(folder, "has no clouds (*.pcd, *.ply, *.bin); give another folder");
   return clouds;
 }
 
@@ -51,8 +47,8 @@ void sort_clouds(std::vector<DriveCloud>& clouds, bool have_stamps) {
     if (!have_stamps) {
       clouds[i].stamp = static_cast<double>(i);
     } else if (i > 0 && clouds[i].stamp == clouds[i - 1].stamp) {
-      refuse_drive(clouds[i].file, fmt::format("has the same number as '{}'; remove one of the two",
-                                               clouds[i - 1].file.filename().string()));
+      throw ConfigError(clouds[i].file, fmt::format("has the same number as '{}'; remove one of the two",
+                                                    clouds[i - 1].file.filename().string()));
     }
   }
 }
@@ -89,9 +85,10 @@ std::size_t give_poses(std::vector<DriveCloud>& clouds, bool have_stamps, const 
   }
   if (given > 0) return given;
   if (trajectory.poses.size() != clouds.size())
-    refuse_drive(file, fmt::format("has {} poses for {} clouds in {}, and no stamp is the number of a cloud; "
-                                   "give the trajectory of these clouds",
-                                   trajectory.poses.size(), clouds.size(), files.folder.string()));
+    throw ConfigError(file,
+                      fmt::format("has {} poses for {} clouds in {}, and no stamp is the number of a cloud; "
+                                  "give the trajectory of these clouds",
+                                  trajectory.poses.size(), clouds.size(), files.folder.string()));
   for (std::size_t i = 0; i < clouds.size(); ++i) clouds[i].*pose = trajectory.poses[i].pose;
   return clouds.size();
 }
@@ -121,7 +118,7 @@ std::vector<DriveCloud> drive_clouds(const DriveFiles& files, const Warn& warn) 
     if (given < clouds.size()) {
       const auto without =
           std::find_if(clouds.begin(), clouds.end(), [](const DriveCloud& c) { return !c.odometry; });
-      refuse_drive(
+      throw ConfigError(
           files.odometry,
           fmt::format("has a pose for {} of {} clouds; there is none within {} s of '{}'; move the "
                       "clouds without odometry away",

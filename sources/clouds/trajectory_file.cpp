@@ -111,7 +111,7 @@ Trajectory parse_trajectory(std::string_view content, const std::string& file) {
     trajectory.poses.push_back({stamp, trajectory.has_stamps ? lines.tum_pose() : lines.kitti_pose()});
   }
   if (trajectory.poses.empty())
-    throw ConfigError({{file, 0, 0, "has no poses; TUM's or KITTI's are needed, one a line"}});
+    throw ConfigError(file, "has no poses; TUM's or KITTI's are needed, one a line");
   return trajectory;
 }
 

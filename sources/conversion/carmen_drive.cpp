@@ -45,11 +45,10 @@ LevelPose level_pose(const DriveScan& scan, const std::string& topic, const std:
   const double tilt_deg = degrees(pose.tilt());
   if (tilt_deg <= tolerance_deg) return {seen_from_above(pose), false};
   if (180.0 - tilt_deg > tolerance_deg)
-    throw ConfigError(
-        {{file, 0, 0,
-          fmt::format("the sensor of {} is tilted by {:.1f} deg, and lasers of a CARMEN log are "
-                      "level; convert to MCAP, or choose another topic with --scans",
-                      shown(topic), tilt_deg)}});
+    throw ConfigError(file,
+                      fmt::format("the sensor of {} is tilted by {:.1f} deg, and lasers of a CARMEN log are "
+                                  "level; convert to MCAP, or choose another topic with --scans",
+                                  shown(topic), tilt_deg));
   const Pose3 half_turn(Quaternion{0.0, 1.0, 0.0, 0.0});  // About x.
   return {seen_from_above(pose * half_turn), true};
 }
@@ -82,9 +81,9 @@ CarmenScan carmen_scan(const DriveScan& scan, const std::string& file) {
   const auto* const laser = std::get_if<bags::LaserScan>(&scan.rays);
   if (laser == nullptr)
     throw ConfigError(
-        {{file, 0, 0,
-          "has clouds, which cannot be written as a CARMEN log: it has planar scans only; convert to MCAP "
-          "or to a folder"}});
+        file,
+        "has clouds, which cannot be written as a CARMEN log: it has planar scans only; convert to MCAP "
+        "or to a folder");
   const LevelPose level = level_pose(scan, laser->header.frame, file);
   CarmenScan out;
   out.laser = CarmenLaser::robotlaser1;
@@ -104,10 +103,10 @@ CarmenScan carmen_scan(const DriveScan& scan, const std::string& file) {
     std::reverse(out.ranges.begin(), out.ranges.end());
   }
   if (out.ranges.empty() || !(out.angle_step > 0.0) || std::abs(span) > 2.0 * std::numbers::pi + 1e-6)
-    throw ConfigError({{file, 0, 0,
-                        fmt::format("a scan has {} readings over {:.1f} deg; a CARMEN log has some, within a "
-                                    "turn; convert to MCAP",
-                                    out.ranges.size(), degrees(std::abs(span)))}});
+    throw ConfigError(file,
+                      fmt::format("a scan has {} readings over {:.1f} deg; a CARMEN log has some, within a "
+                                  "turn; convert to MCAP",
+                                  out.ranges.size(), degrees(std::abs(span))));
   out.stamp = static_cast<double>(scan.stamp_ns) / 1e9;
   out.odom_from_robot = seen_from_above(scan.odom_from_robot);
   out.robot_from_laser = level.robot_from_sensor;

@@ -13,9 +13,9 @@ CloudFolderReader::CloudFolderReader(const clouds::DriveFiles& files, const Warn
       progress_(std::move(progress)) {
   for (const clouds::DriveCloud& cloud : clouds_) {
     if (!cloud.odometry)
-      throw ConfigError({{files.folder.string(), 0, 0,
-                          "has no odometry.tum, and a recording says where the robot was at each scan; give "
-                          "the file with --odometry"}});
+      throw ConfigError(files.folder,
+                        "has no odometry.tum, and a recording says where the robot was at each scan; give "
+                        "the file with --odometry");
     check_stamp(cloud.stamp, cloud.file.string());
   }
 }

@@ -30,8 +30,8 @@ class RecordingCopier {
     recording_.rewind();
     while (const auto message = recording_.next()) take(*message);
     if (copied_.messages == 0)
-      throw ConfigError({{recording_.files().front().string(), 0, 0,
-                          "has no message that can be written as MCAP; glocal bag info shows what it has"}});
+      throw ConfigError(recording_.files().front(),
+                        "has no message that can be written as MCAP; glocal bag info shows what it has");
     writer_.finish();
     for (const auto& [topic, lost] : lost_)
       copied_.remarks.push_back(

@@ -40,8 +40,7 @@ DriveCounts pass_on(DriveReader& reader, DriveWriter& writer, const std::string&
     warn(fmt::format("{}: {} scans are left out, as their stamps stand still or run backwards", file,
                      backwards));
   if (counts.scans == 0)
-    throw ConfigError(
-        {{file, 0, 0, "has no scan that can be written; glocal bag info shows what a recording has"}});
+    throw ConfigError(file, "has no scan that can be written; glocal bag info shows what a recording has");
   writer.finish();
   return counts;
 }

@@ -41,10 +41,9 @@ bags::PoseTrack track_of_trajectory(const std::string& content, const std::files
                                     const DriveTrack& drive) {
   const clouds::Trajectory trajectory = clouds::parse_trajectory(content, file.string());
   if (!trajectory.has_stamps && trajectory.poses.size() != drive.scans.size())
-    throw ConfigError({{file.string(), 0, 0,
-                        fmt::format("has {} poses without stamps, and there are {} scans; write the "
-                                    "trajectory with stamps, as TUM's format has them",
-                                    trajectory.poses.size(), drive.scans.size())}});
+    throw ConfigError(file, fmt::format("has {} poses without stamps, and there are {} scans; write the "
+                                        "trajectory with stamps, as TUM's format has them",
+                                        trajectory.poses.size(), drive.scans.size()));
   bags::PoseTrack track;
   for (std::size_t i = 0; i < trajectory.poses.size(); ++i) {
     const clouds::StampedPose& pose = trajectory.poses[i];
@@ -86,8 +85,7 @@ bags::PoseTrack read_corrected(const std::filesystem::path& file, const DriveTra
   bags::PoseTrack track =
       is_carmen_text(content) ? track_of_log(file) : track_of_trajectory(content, file, drive);
   track.settle();
-  if (track.size() < 2)
-    throw ConfigError({{file.string(), 0, 0, "has a single pose, and a trajectory has several"}});
+  if (track.size() < 2) throw ConfigError(file, "has a single pose, and a trajectory has several");
   return track;
 }
 

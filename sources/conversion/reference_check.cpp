@@ -161,7 +161,7 @@ std::vector<Relation> read_relations(const std::filesystem::path& file) {
     relations.push_back({nanoseconds_of(values[0]), nanoseconds_of(values[1]),
                          pose_of({values[2], values[3], values[4], values[5], values[6], values[7]})});
   }
-  if (relations.empty()) throw ConfigError({{file.string(), 0, 0, "has no relations"}});
+  if (relations.empty()) throw ConfigError(file, "has no relations");
   return relations;
 }
 

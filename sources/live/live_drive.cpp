@@ -112,10 +112,9 @@ void LiveDrive::choose_scans(const std::vector<LiveTopic>& there) {
   if (named == there.end()) return;
   if (topics_.scans.empty() && there.size() > 1)
     throw ConfigError(
-        {{"", 0, 0,
-          fmt::format("there are several topics with scans; set scans to one of {}", listed(names(there)))}});
+        "", fmt::format("there are several topics with scans; set scans to one of {}", listed(names(there))));
   if (is_planar_ && named->type == "sensor_msgs/PointCloud2" && topics_.heights.empty())
-    throw ConfigError({{"", 0, 0, fmt::format("{} {}", shown(named->name), bags::clouds_need_heights)}});
+    throw ConfigError("", fmt::format("{} {}", shown(named->name), bags::clouds_need_heights));
   topics_.scans = named->name;
   contents_.add_scans(named->name);
   subscribe(*named, Delivery::newest);
@@ -264,8 +263,8 @@ void LiveDrive::forget(std::int64_t now_ns) {
 void LiveDrive::check_first_wait() const {
   if (has_delivered_ || Clock::now() - *first_call_ < std::chrono::duration<double>(topics_.longest_wait))
     return;
-  throw ConfigError(
-      {{robot, 0, 0, fmt::format("no observation within {} s: {}", topics_.longest_wait, why_nothing())}});
+  throw ConfigError(robot,
+                    fmt::format("no observation within {} s: {}", topics_.longest_wait, why_nothing()));
 }
 
 std::string LiveDrive::why_nothing() const {

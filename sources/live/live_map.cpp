@@ -20,13 +20,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds longest_wait{10};
-constexpr std::chrono::milliseconds between_looks{100};
+constexpr std::chrono::milliseconds longest_look{100};
 const char* const grid_type = "nav_msgs/OccupancyGrid";
-/// What errors name.
-const char* const robot = "the robot";
+const char* const place_of_faults = "the robot";
 
 [[noreturn]] void fail(const std::string& message) {
-  throw ConfigError({{robot, 0, 0, message}});
+  throw ConfigError(place_of_faults, message);
 }
 
 std::vector<std::string> maps_of(MessageLink& link) {
@@ -49,7 +48,7 @@ MapData map_in(const LiveMessage& message) {
   const bags::Connection connection{message.topic.name, grid_type, "cdr", ""};
   const auto grid =
       bags::read_occupancy_grid({&connection, message.stamp_ns, message.bytes, {.file = connection.topic}});
-  return bags::map_of(grid, robot, message.topic.name);
+  return bags::map_of(grid, place_of_faults, message.topic.name);
 }
 
 /// Probability of being occupied; -1 is unknown.
@@ -82,7 +81,7 @@ MapData live_map(MessageLink& link, std::string topic, const std::function<bool(
       link.subscribe({topic, grid_type}, Delivery::kept);
       is_subscribed = true;
     }
-    const auto message = link.next(between_looks);
+    const auto message = link.next(longest_look);
     if (message && message->topic.name == topic) return map_in(*message);
     if (!message && link.has_ended()) break;
   }

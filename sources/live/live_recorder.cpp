@@ -8,10 +8,9 @@ namespace {
 
 std::ofstream opened(const std::filesystem::path& file) {
   if (std::filesystem::exists(file))
-    throw ConfigError({{file.string(), 0, 0, "is there already; give another name, or remove it"}});
+    throw ConfigError(file, "is there already; give another name, or remove it");
   std::ofstream stream(file, std::ios::binary);
-  if (!stream)
-    throw ConfigError({{file.string(), 0, 0, "cannot be written; check the folder and its permissions"}});
+  if (!stream) throw ConfigError(file, "cannot be written; check the folder and its permissions");
   return stream;
 }
 
@@ -33,7 +32,7 @@ void LiveRecorder::write(const LiveTopic& topic, std::int64_t stamp_ns, std::str
     channel = channels_.emplace(topic.name, id).first;
   }
   writer_.write(channel->second, stamp_ns, bytes);
-  if (!file_) throw ConfigError({{name_, 0, 0, "cannot be written any further; is the disk full?"}});
+  if (!file_) throw ConfigError(name_, "cannot be written any further; is the disk full?");
 }
 
 }  // namespace glocal::live

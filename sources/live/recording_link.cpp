@@ -17,9 +17,9 @@ namespace {
 
 void require_known(const LiveTopic& topic) {
   if (!bags::definition_of(topic.type).empty()) return;
-  throw ConfigError({{topic.name, 0, 0,
-                      fmt::format("messages of {} are not known; types are written as sensor_msgs/LaserScan",
-                                  shown(topic.type))}});
+  throw ConfigError(topic.name,
+                    fmt::format("messages of {} are not known; types are written as sensor_msgs/LaserScan",
+                                shown(topic.type)));
 }
 
 /// As ROS 2 has it; none where nobody knows how.

@@ -17,19 +17,16 @@
 namespace glocal::ros_map {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string message) {
-  throw ConfigError({{file.string(), 0, 0, std::move(message)}});
-}
-
 /// Refuses what cannot be held, before it takes any memory.
 void check_size(const std::filesystem::path& file, double width, double height, double max_pixels) {
   if (width < 1.0 || height < 1.0)
-    fail(file, fmt::format("is an empty image ({} x {} pixels)", width, height));
+    throw ConfigError(file, fmt::format("is an empty image ({} x {} pixels)", width, height));
   if (width * height > max_pixels) {
-    fail(file,
-         fmt::format(
-             "is too large to hold ({} x {} pixels, at most {:.0f} million); crop it or lower its resolution",
-             width, height, max_pixels / 1e6));
+    throw ConfigError(
+        file,
+        fmt::format(
+            "is too large to hold ({} x {} pixels, at most {:.0f} million); crop it or lower its resolution",
+            width, height, max_pixels / 1e6));
   }
 }
 
@@ -45,7 +42,7 @@ class PgmReader {
     const int height = number("height");
     const int maximum = number("maximum grey");
     if (maximum < 1 || maximum > 65535)
-      fail(file_, fmt::format("maximum grey must be 1 to 65535, not {}", maximum));
+      throw ConfigError(file_, fmt::format("maximum grey must be 1 to 65535, not {}", maximum));
     check_size(file_, width, height, max_grid_cells);
     const double bytes_per_pixel = binary && maximum < 256 ? 1.0 : 2.0;  // a digit and a blank are two, too
     if (static_cast<double>(bytes_.size() - at_) + 1.0 < bytes_per_pixel * width * height)
@@ -84,7 +81,7 @@ class PgmReader {
     const auto [stop, error] = std::from_chars(bytes_.data() + at_, end, value);
     if (error == std::errc::result_out_of_range) value = std::numeric_limits<int>::max();
     if (error == std::errc::invalid_argument || value < 0)
-      fail(file_, fmt::format("has no number where its {} should be", what));
+      throw ConfigError(file_, fmt::format("has no number where its {} should be", what));
     at_ = static_cast<std::size_t>(stop - bytes_.data());
     return value;
   }
@@ -106,7 +103,8 @@ class PgmReader {
   }
 
   [[noreturn]] void truncated(const char* what) const {
-    fail(file_, fmt::format("ends before the end of its {}: the image is truncated; get a fresh copy", what));
+    throw ConfigError(
+        file_, fmt::format("ends before the end of its {}: the image is truncated; get a fresh copy", what));
   }
 
   std::filesystem::path file_;
@@ -213,7 +211,8 @@ class PngReader {
   }
 
   [[noreturn]] void refuse() const {
-    fail(file_, fmt::format("is a damaged or truncated PNG image ({}); get a fresh copy", error_));
+    throw ConfigError(file_,
+                      fmt::format("is a damaged or truncated PNG image ({}); get a fresh copy", error_));
   }
 
   static void on_error(png_structp png, png_const_charp message) {
@@ -245,7 +244,7 @@ void read_image(const std::filesystem::path& file, const TakeRow& take) {
   const std::string bytes = read_decompressed(file);
   if (bytes.starts_with("P5") || bytes.starts_with("P2")) return PgmReader(file, bytes).read(take);
   if (bytes.starts_with("\x89PNG")) return PngReader(file, bytes).read(take);
-  fail(file, "is neither a PGM (P2, P5) nor a PNG image; convert it to one of these");
+  throw ConfigError(file, "is neither a PGM (P2, P5) nor a PNG image; convert it to one of these");
 }
 
 std::string pgm(const ByteImage& image) {

@@ -133,8 +133,8 @@ MapData RosMap::load() {
   map.points = occupied_centres(map.grid);
   if (map.points.empty()) {
     throw ConfigError(
-        {{name_, 0, 0,
-          "its image has no occupied cell; check negate, occupied_thresh and mode, or take another image"}});
+        name_,
+        "its image has no occupied cell; check negate, occupied_thresh and mode, or take another image");
   }
   return map;
 }

@@ -116,11 +116,10 @@ std::vector<Rectangle> drawn_boxes(int count, const OccupancyGrid& grid, const C
   std::vector<Rectangle> boxes;
   for (int draws = 0; boxes.size() < static_cast<std::size_t>(count); ++draws) {
     if (draws == most_draws) {
-      throw ConfigError(
-          {{file, 0, 0,
-            fmt::format("boxes: room was found for {} of {} boxes on free space off the ways of "
-                        "robot and people; lower boxes, people or clearance",
-                        boxes.size(), count)}});
+      throw ConfigError(file,
+                        fmt::format("boxes: room was found for {} of {} boxes on free space off the ways of "
+                                    "robot and people; lower boxes, people or clearance",
+                                    boxes.size(), count));
     }
     const Rectangle box = drawn_box(region, rng);
     const std::vector<std::size_t> cells = cells_under(box, grid);

@@ -23,14 +23,14 @@ struct Step {
 constexpr std::uint32_t straight_cost = 12;
 constexpr std::uint32_t diagonal_cost = 17;
 constexpr std::size_t sides = 4;
-constexpr std::array<Step, 2 * sides> steps{{{1, 0, straight_cost},
-                                             {0, 1, straight_cost},
-                                             {-1, 0, straight_cost},
-                                             {0, -1, straight_cost},
-                                             {1, 1, diagonal_cost},
-                                             {-1, 1, diagonal_cost},
-                                             {-1, -1, diagonal_cost},
-                                             {1, -1, diagonal_cost}}};
+constexpr std::array<Step, 2 * sides> steps_of_grid{{{1, 0, straight_cost},
+                                                     {0, 1, straight_cost},
+                                                     {-1, 0, straight_cost},
+                                                     {0, -1, straight_cost},
+                                                     {1, 1, diagonal_cost},
+                                                     {-1, 1, diagonal_cost},
+                                                     {-1, -1, diagonal_cost},
+                                                     {1, -1, diagonal_cost}}};
 
 /// Cells to be looked at, the cheapest first and of equal ones the last: a bucket for each cost (Dial,
 /// "Algorithm 360: Shortest-path forest with topological ordering", CACM 1969). What is put in costs at most
@@ -201,9 +201,9 @@ std::vector<std::uint32_t> ClearRegion::cells_between(std::uint32_t from, std::u
     const auto [cell, cost] = open.take();
     is_there = cell == to;
     if (costs[cell] - 1 + cost_left(cell) != cost) continue;  // a cheaper way to it was found meanwhile
-    std::array<bool, steps.size()> is_open{};
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const Step& step = steps[i];
+    std::array<bool, steps_of_grid.size()> is_open{};
+    for (std::size_t i = 0; i < steps_of_grid.size(); ++i) {
+      const Step& step = steps_of_grid[i];
       const bool is_beside_open = i < sides || (is_open[i - sides] && is_open[(i + 1) % sides]);
       is_open[i] = is_beside_open && holds_cell(column_of(cell) + step.columns, row_of(cell) + step.rows);
       if (!is_open[i]) continue;
@@ -218,7 +218,7 @@ std::vector<std::uint32_t> ClearRegion::cells_between(std::uint32_t from, std::u
   }
   std::vector<std::uint32_t> cells{to};
   while (cells.back() != from) {
-    const Step& step = steps[last_steps[cells.back()]];
+    const Step& step = steps_of_grid[last_steps[cells.back()]];
     cells.push_back(static_cast<std::uint32_t>(row_of(cells.back()) - step.rows) * width +
                     static_cast<std::uint32_t>(column_of(cells.back()) - step.columns));
   }

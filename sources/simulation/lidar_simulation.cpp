@@ -14,7 +14,7 @@ namespace glocal::simulation {
 namespace {
 
 /// A share of the way from pose to pose, as the robot drives it: straight, and turning evenly.
-Pose2 between(const Pose2& from, const Pose2& to, double share) {
+Pose2 pose_between(const Pose2& from, const Pose2& to, double share) {
   return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
           wrap_angle(from.theta + share * wrap_angle(to.theta - from.theta))};
 }
@@ -51,7 +51,7 @@ std::optional<Sample> LidarSimulation::next() {
 
 Pose3 LidarSimulation::pose_at(const DriveStep& step, double time) const {
   const double share = time == 0.0 ? 0.0 : time / step_seconds_;
-  const Pose2 above = step.map_from_last ? between(*step.map_from_last, step.map_from_robot, 1.0 + share)
+  const Pose2 above = step.map_from_last ? pose_between(*step.map_from_last, step.map_from_robot, 1.0 + share)
                                          : step.map_from_robot;
   return {{above.x, above.y, world_.floor + lidar_.height},
           composed(turn_about_z(above.theta), swaying_.at(static_cast<double>(step.number) + share))};
@@ -70,10 +70,9 @@ Pose3 LidarSimulation::odometry(const DriveStep& step) const {
 void LidarSimulation::check_height() const {
   if (world_.ceiling == 0.0 || lidar_.height < world_.ceiling) return;
   throw ConfigError(
-      {{file_, 0, 0,
-        fmt::format("ceiling: a lidar at a height of {} m is not below the ceiling of {} m; lower "
-                    "lidar.height, or raise the ceiling",
-                    lidar_.height, world_.ceiling)}});
+      file_, fmt::format("ceiling: a lidar at a height of {} m is not below the ceiling of {} m; lower "
+                         "lidar.height, or raise the ceiling",
+                         lidar_.height, world_.ceiling));
 }
 
 /// A robot cannot drive through points either.
@@ -88,11 +87,10 @@ void LidarSimulation::check_ways() const {
     const Vector3 origin{from.x, from.y, world_.floor + lidar_.height};
     const Vector3 direction{(to.x - from.x) / way, (to.y - from.y) / way, 0.0};
     if (scene_.cloud_distance(origin, direction, way) == std::numeric_limits<double>::infinity()) continue;
-    throw ConfigError(
-        {{file_, 0, 0,
-          fmt::format("way_points: {} m over the floor the way from [{:.2f}, {:.2f}] to [{:.2f}, "
-                      "{:.2f}] meets a point of the cloud; move the way points, or change floor",
-                      lidar_.height, from.x, from.y, to.x, to.y)}});
+    throw ConfigError(file_,
+                      fmt::format("way_points: {} m over the floor the way from [{:.2f}, {:.2f}] to [{:.2f}, "
+                                  "{:.2f}] meets a point of the cloud; move the way points, or change floor",
+                                  lidar_.height, from.x, from.y, to.x, to.y));
   }
 }
 

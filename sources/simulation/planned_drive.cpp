@@ -21,9 +21,9 @@ constexpr double most_observations = 1e6;
 /// Adds equal steps from the last pose to `target`, none larger than allowed by `size` of the largest.
 void add_steps(std::vector<Pose2>& poses, const Pose2& target, double size) {
   if (static_cast<double>(poses.size()) + size > most_observations) {
-    throw ConfigError({{"", 0, 0,
-                        "simulation: the drive has more than a million observations; raise step_length and "
-                        "step_turn_deg, or lower tour_legs"}});
+    throw ConfigError("",
+                      "simulation: the drive has more than a million observations; raise step_length and "
+                      "step_turn_deg, or lower tour_legs");
   }
   const Pose2 from = poses.back();
   // A remainder that is only rounding makes no step of its own.

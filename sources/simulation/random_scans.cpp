@@ -47,10 +47,10 @@ RandomScans::RandomScans(const Params& params, MapData map, std::uint64_t seed)
       scan_limits_(scan_limits(params.laser)),
       rng_(seed) {
   if (!clear_cells_.empty()) return;
-  throw ConfigError({{params.map.path.resolved.string(), 0, 0,
-                      fmt::format("has no free cell {} m away from all that is not free; lower clearance, or "
-                                  "take another map",
-                                  params.clearance)}});
+  throw ConfigError(params.map.path.resolved,
+                    fmt::format("has no free cell {} m away from all that is not free; lower clearance, or "
+                                "take another map",
+                                params.clearance));
 }
 
 Pose2 RandomScans::draw_pose() const {

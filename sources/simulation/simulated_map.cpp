@@ -28,10 +28,9 @@ MapData SimulatedMap::load() {
   const std::string file = params_.world.resolved.string();
   const World world = read_world(params_.world.resolved);
   if (!(world.size[0] / params_.resolution * (world.size[1] / params_.resolution) <= max_grid_cells)) {
-    throw ConfigError(
-        {{file, 0, 0,
-          fmt::format("its map would have more than 1000 million cells of {} m; raise resolution",
-                      params_.resolution)}});
+    throw ConfigError(file,
+                      fmt::format("its map would have more than 1000 million cells of {} m; raise resolution",
+                                  params_.resolution));
   }
   MapData map;
   map.grid = plan_of(world, params_.resolution);
@@ -44,7 +43,7 @@ MapData SimulatedMap::load() {
     map.resolution = params_.resolution;
   }
   if (map.points.empty()) {
-    throw ConfigError({{file, 0, 0, "has nothing on its map; give it walls with on_map: true"}});
+    throw ConfigError(file, "has nothing on its map; give it walls with on_map: true");
   }
   return map;
 }

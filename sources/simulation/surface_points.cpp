@@ -121,10 +121,10 @@ Points surface_points(const World& world, const OccupancyGrid& plan, const std::
   const Shapes shapes = shapes_on_map(world);
   constexpr double most_points = 16e6;
   if (!(area_of(shapes) / (spacing * spacing) <= most_points)) {
-    throw ConfigError({{file, 0, 0,
-                        fmt::format("its surfaces would have more than 16 million points {} m apart; raise "
-                                    "resolution",
-                                    spacing)}});
+    throw ConfigError(file,
+                      fmt::format("its surfaces would have more than 16 million points {} m apart; raise "
+                                  "resolution",
+                                  spacing));
   }
   SurfacePainter things(world.floor, spacing);
   for (const Segment& segment : shapes.segments) things.draw(segment);

@@ -103,11 +103,10 @@ std::string MapWays::text_of(const Position& place) const {
 
 ClearRegion checked_region(ClearRegion region, double clearance, const std::string& file) {
   if (region.size() >= 2) return region;
-  throw ConfigError(
-      {{file, 0, 0,
-        fmt::format("has no two free cells side by side that are {} m away from all that is not "
-                    "free; lower clearance, or take another map",
-                    clearance)}});
+  throw ConfigError(file,
+                    fmt::format("has no two free cells side by side that are {} m away from all that is not "
+                                "free; lower clearance, or take another map",
+                                clearance));
 }
 
 }  // namespace glocal::simulation

@@ -147,11 +147,10 @@ Raster raster_around(const std::vector<Position>& places, const CloudVoxels& clo
   const double side = cloud.side();
   constexpr double most_columns = 64e6;
   if (!((high[0] - low[0]) / side * ((high[1] - low[1]) / side) <= most_columns))
-    throw ConfigError(
-        {{file, 0, 0,
-          fmt::format("cloud: the drive leads past more than 64 million columns of voxels of {} "
-                      "m; leave out boxes and people, drive less far, or take larger voxels",
-                      side)}});
+    throw ConfigError(file,
+                      fmt::format("cloud: the drive leads past more than 64 million columns of voxels of {} "
+                                  "m; leave out boxes and people, drive less far, or take larger voxels",
+                                  side));
   const Vector3 first = cloud.centre_near({low[0], low[1], 0.0});
   return {{first.x(), first.y()}, high, side};
 }
@@ -245,12 +244,11 @@ OccupancyGrid floor_near(const std::vector<Position>& places, const World& world
   const std::vector<char> is_near = grown(is_place, near_places, raster.grid());
   const std::vector<char> is_over_floor = cells_over_floor(raster.grid(), is_near, cloud, world.floor);
   if (std::find(is_over_floor.begin(), is_over_floor.end(), 1) == is_over_floor.end())
-    throw ConfigError(
-        {{file, 0, 0,
-          fmt::format("cloud: has no points within {} m of the floor of {} m near the drive, so "
-                      "that boxes and people have nothing to stand on; change floor, leave them "
-                      "out, or list them in the file of the world",
-                      floor_tolerance, world.floor)}});
+    throw ConfigError(file,
+                      fmt::format("cloud: has no points within {} m of the floor of {} m near the drive, so "
+                                  "that boxes and people have nothing to stand on; change floor, leave them "
+                                  "out, or list them in the file of the world",
+                                  floor_tolerance, world.floor));
   raster.keep_to(is_over_floor);
   raster.draw(shapes_in_reality(world));
   OccupancyGrid floor = raster.grid();

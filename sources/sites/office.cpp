@@ -9,7 +9,7 @@ namespace glocal::sites {
 namespace {
 
 void describe_office(ParamVisitor& v, OfficeParams& p) {
-  v.field("side", p.side, {.doc = "Side of the office, a square.", .unit = "m", .min = 20.0, .max = 1000.0});
+  v.field("side", p.side, {.doc = "Side of the office, a square.", .unit = "m", .min = 20.0, .max = 2000.0});
   v.field("length", p.length,
           {.doc = "Way driven; auto is five times the side, and at most 3000 m.",
            .unit = "m",

@@ -153,7 +153,7 @@ TEST_F(SimulateCommand, RefusesSitesThatCannotBe) {
   EXPECT_THAT(refusal("--site office --side 50 --seed x"),
               HasSubstr("--seed x: error: must be a whole number from 0 to 2^64 - 1"));
   EXPECT_THAT(refusal("--site office --side 50 --set seed=3"), HasSubstr("--set excludes --site"));
-  for (const char* options : {"--side 19", "--side 1001", "--side nan", "--side 50 --resolution 0.001",
+  for (const char* options : {"--side 19", "--side 2001", "--side nan", "--side 50 --resolution 0.001",
                               "--side 50 --length 5", "--side 50 --length 1e6"}) {
     EXPECT_THAT(refusal(std::string("--site office ") + options), HasSubstr("is not a number from"));
   }

@@ -1,6 +1,7 @@
 // What is wrong with the input, said so that it can be put right.
 #pragma once
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ class ConfigError : public std::runtime_error {
   /// Faults are sorted by place; what() has one on each line. Of more than 200, the last says how many more
   /// there are.
   explicit ConfigError(std::vector<Fault> faults);
+  /// One fault without a line. The place is a file, a folder, or an option; empty if there is none.
+  ConfigError(const std::filesystem::path& place, const std::string& message);
   [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
 
  private:

@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::uintmax_t max_bytes = 1U << 20U;
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string message) {
-  throw ConfigError({{file.string(), 0, 0, std::move(message)}});
-}
-
 /// Length of the UTF-8 sequence the bytes begin with; 0 if it is none (RFC 3629: no overlong forms, no
 /// surrogates, at most U+10FFFF).
 std::size_t utf8_length(std::string_view bytes) {
@@ -61,14 +57,14 @@ std::optional<std::string> why_unreadable(const std::filesystem::path& file) {
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
-  if (const auto why = why_unreadable(file)) fail(file, *why);
+  if (const auto why = why_unreadable(file)) throw ConfigError(file, *why);
   std::ifstream stream(file, std::ios::binary);
   std::string bytes;
   std::array<char, 4096> chunk{};
   while (bytes.size() <= max_bytes && (stream.read(chunk.data(), chunk.size()), stream.gcount() > 0))
     bytes.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
-  if (stream.bad()) fail(file, "cannot be read: " + file.string());
-  if (bytes.size() > max_bytes) fail(file, "is larger than 1 MiB: not a configuration file");
+  if (stream.bad()) throw ConfigError(file, "cannot be read: " + file.string());
+  if (bytes.size() > max_bytes) throw ConfigError(file, "is larger than 1 MiB: not a configuration file");
   return bytes;
 }
 

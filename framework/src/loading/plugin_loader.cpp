@@ -15,10 +15,6 @@
 namespace glocal {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& message) {
-  throw ConfigError({{file.string(), 0, 0, message}});
-}
-
 /// What the dynamic linker said last, without the file's name in front.
 std::string linker_error(const std::filesystem::path& file) {
   const char* said = dlerror();
@@ -28,7 +24,7 @@ std::string linker_error(const std::filesystem::path& file) {
 }
 
 void* open_library(const std::filesystem::path& file) {
-  if (const auto why = why_no_shared_object(file)) refuse(file, *why);
+  if (const auto why = why_no_shared_object(file)) throw ConfigError(file, *why);
   void* library = nullptr;
   // dlopen() is declared to throw nothing, and yet passes on what a plugin's static objects throw. Called by
   // its name, it would leave the compiler no reason to catch anything.
@@ -37,16 +33,16 @@ void* open_library(const std::filesystem::path& file) {
     // RTLD_LOCAL: plugins do not see each other. RTLD_NODELETE: what they made may outlive everything.
     library = open(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   } catch (const std::exception& error) {
-    refuse(file, fmt::format("threw an exception while it was loaded: {}", error.what()));
+    throw ConfigError(file, fmt::format("threw an exception while it was loaded: {}", error.what()));
   } catch (...) {
-    refuse(file, "threw something that is no std::exception while it was loaded");
+    throw ConfigError(file, "threw something that is no std::exception while it was loaded");
   }
   if (library != nullptr) return library;
   const std::string said = linker_error(file);
   if (said.find("undefined symbol") != std::string::npos) {
-    refuse(file, said + "; build it against this glocal, with all libraries it needs");
+    throw ConfigError(file, said + "; build it against this glocal, with all libraries it needs");
   }
-  refuse(file, said + "; install what is missing, or add its folder to LD_LIBRARY_PATH");
+  throw ConfigError(file, said + "; install what is missing, or add its folder to LD_LIBRARY_PATH");
 }
 
 using Properties = std::map<std::string, std::string>;
@@ -83,20 +79,22 @@ std::string differences(const std::string& its_tag, const std::string& own_tag) 
 const Plugin& plugin_of(void* library, const std::filesystem::path& file) {
   void* symbol = dlsym(library, plugin_entry);
   if (symbol == nullptr) {
-    refuse(file, fmt::format("not a glocal plugin: it has no function '{}'; define it with GLOCAL_PLUGIN",
-                             plugin_entry));
+    throw ConfigError(
+        file, fmt::format("not a glocal plugin: it has no function '{}'; define it with GLOCAL_PLUGIN",
+                          plugin_entry));
   }
   const Plugin* plugin = nullptr;
   try {
     plugin = reinterpret_cast<PluginEntry>(symbol)();
   } catch (const std::exception& error) {
-    refuse(file, fmt::format("'{}' threw an exception: {}", plugin_entry, error.what()));
+    throw ConfigError(file, fmt::format("'{}' threw an exception: {}", plugin_entry, error.what()));
   }
   if (plugin == nullptr || plugin->build_tag == nullptr) {
-    refuse(file, fmt::format("'{}' returned nothing; define it with GLOCAL_PLUGIN", plugin_entry));
+    throw ConfigError(file, fmt::format("'{}' returned nothing; define it with GLOCAL_PLUGIN", plugin_entry));
   }
   const std::string different = differences(plugin->build_tag, build_tag());
-  if (!different.empty()) refuse(file, "built otherwise than this glocal: " + different + "; build it again");
+  if (!different.empty())
+    throw ConfigError(file, "built otherwise than this glocal: " + different + "; build it again");
   return *plugin;
 }
 
@@ -123,11 +121,12 @@ void register_all(const std::filesystem::path& file, const Work& work) {
   } catch (const ConfigError&) {
     throw;
   } catch (const std::invalid_argument& taken) {
-    refuse(file, std::string(taken.what()) + "; rename one, or load only one of them");
+    throw ConfigError(file, std::string(taken.what()) + "; rename one, or load only one of them");
   } catch (const std::exception& thrown) {
-    refuse(file, fmt::format("threw an exception while it registered its strategies: {}", thrown.what()));
+    throw ConfigError(
+        file, fmt::format("threw an exception while it registered its strategies: {}", thrown.what()));
   } catch (...) {
-    refuse(file, "threw something that is no std::exception while it registered its strategies");
+    throw ConfigError(file, "threw something that is no std::exception while it registered its strategies");
   }
 }
 
@@ -166,8 +165,9 @@ void PluginLoader::load_folders(const std::string& path) {
       if (entry.path().extension() == ".so") files.push_back(entry.path());
     }
     if (error) {
-      refuse(folder, fmt::format("a folder of plugins (GLOCAL_PLUGIN_PATH) that cannot be read: {}",
-                                 error.message()));
+      throw ConfigError(
+          folder,
+          fmt::format("a folder of plugins (GLOCAL_PLUGIN_PATH) that cannot be read: {}", error.message()));
     }
     std::sort(files.begin(), files.end());
     for (const auto& file : files) load(file);

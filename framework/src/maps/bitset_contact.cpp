@@ -70,11 +70,10 @@ BitsetContact::BitsetContact(const Points& points, double epsilon, int threads) 
     constexpr double largest_bytes = 1024.0 * 1024.0 * 1024.0;
     if (bytes <= largest_bytes) return;
     throw ConfigError(
-        {{"", 0, 0,
-          fmt::format("a contact grid over {:.0f} m x {:.0f} m x {:.0f} m with contact_epsilon {} m would "
-                      "need {:.1f} GiB, at most 1 GiB is allowed; use a larger contact_epsilon or a "
-                      "smaller map",
-                      x.high - x.low, y.high - y.low, z.high - z.low, epsilon, bytes / largest_bytes)}});
+        "", fmt::format("a contact grid over {:.0f} m x {:.0f} m x {:.0f} m with contact_epsilon {} m would "
+                        "need {:.1f} GiB, at most 1 GiB is allowed; use a larger contact_epsilon or a "
+                        "smaller map",
+                        x.high - x.low, y.high - y.low, z.high - z.low, epsilon, bytes / largest_bytes));
   };
   const auto bricks = [](double lines) { return std::ceil(lines / (1U << brick_shift)); };
   const double words = columns / voxels_per_word * (planar ? rows : bricks(rows) * bricks(layers));

@@ -34,8 +34,8 @@ PointsByTile sorted_by_tile(std::size_t points, std::size_t tiles, TileOf tile_o
 }
 
 [[noreturn]] void refuse_size() {
-  throw ConfigError(
-      {{"", 0, 0, "the map is too large for a distance field: it would need more than 1 GiB; cut the map"}});
+  throw ConfigError("",
+                    "the map is too large for a distance field: it would need more than 1 GiB; cut the map");
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
       seed_(seed),
       rng_(seed_.stream({0})) {
   if (const auto why = why_nowhere(config_.prior, *stage_setup_.map))
-    throw ConfigError({{"", 0, 0, "localizer.prior.region: " + *why}});
+    throw ConfigError("", "localizer.prior.region: " + *why);
   if (motion_ == Motion::planar) origin_.z() = 0.0;
   if (config.setup_check.enabled && motion_ == Motion::planar) setup_.emplace(config.setup_check);
   stage_setup_.motion = motion_;
@@ -157,7 +157,7 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
 template <class Strategy>
 std::unique_ptr<Strategy> Localizer::make(const Registry<Strategy, StageSetup>& registry,
                                           const StrategyChoice& choice, RunningStage& stage) const {
-  if (const auto why = why_unfit(choice, registry, motion_)) throw ConfigError({{"", 0, 0, *why}});
+  if (const auto why = why_unfit(choice, registry, motion_)) throw ConfigError("", *why);
   stage = {.kind = registry.kind(), .name = choice.name};
   const StageScope scope(&stage);
   return registry.make(choice, stage_setup_);

@@ -14,7 +14,7 @@ namespace {
 /// Directions to each side of a wall's middle: 60 degrees in all. Wider walls are rare, narrower ones hardly
 /// bulge.
 constexpr std::size_t to_each_side = 15;
-constexpr std::size_t window = 2 * to_each_side + 1;
+constexpr std::size_t rays_of_window = 2 * to_each_side + 1;
 constexpr std::size_t least_seen = 28;
 /// Directions from one middle to the next.
 constexpr std::size_t step = 5;
@@ -47,14 +47,14 @@ Rays rays_of(const ReadingByDirection& readings) {
 
 /// The rays of a window.
 struct Seen {
-  std::array<Ray, window> rays;
+  std::array<Ray, rays_of_window> rays;
   std::size_t size = 0;
   [[nodiscard]] std::span<const Ray> all() const { return {rays.data(), size}; }
 };
 
 Seen seen_around(const Rays& rays, std::size_t middle) {
   Seen seen;
-  for (std::size_t k = 0; k < window; ++k) {
+  for (std::size_t k = 0; k < rays_of_window; ++k) {
     const auto& ray = rays[(middle + directions + k - to_each_side) % directions];
     if (ray) seen.rays[seen.size++] = *ray;
   }

@@ -161,7 +161,7 @@ struct ToyLink final : MessageLink {
   using Params = Wrong;
   explicit ToyLink(const Params& params) : wrong(params.wrong) {}
   void subscribe(const LiveTopic& /*topic*/, Delivery /*delivery*/) override {
-    if (wrong != "subscribes") throw ConfigError({{"", 0, 0, "no type is known"}});
+    if (wrong != "subscribes") throw ConfigError("", "no type is known");
   }
   std::optional<LiveMessage> next(std::chrono::milliseconds longest) override {
     if (wrong == "waits") std::this_thread::sleep_for(11 * longest);
@@ -169,7 +169,7 @@ struct ToyLink final : MessageLink {
     return std::nullopt;
   }
   void publish(const LiveTopic& /*topic*/, Delivery /*delivery*/, std::string_view /*bytes*/) override {
-    if (wrong != "publishes") throw ConfigError({{"", 0, 0, "no type is known"}});
+    if (wrong != "publishes") throw ConfigError("", "no type is known");
   }
   std::vector<LiveTopic> topics() override { return {}; }
   std::string wrong;

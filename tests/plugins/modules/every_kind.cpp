@@ -173,7 +173,7 @@ class Mute final : public MessageLink {
 
  private:
   static void refuse(const LiveTopic& topic) {
-    throw ConfigError({{"", 0, 0, "the type '" + topic.type + "' is not known; none is"}});
+    throw ConfigError("", "the type '" + topic.type + "' is not known; none is");
   }
 };
 
