@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "files.hpp"
-#include "local_mappers/boxes.hpp"
+#include "local_mappers/scanned_room.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 
 namespace glocal::local_mappers::lidar_odometry_test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "local_mappers/boxes.hpp"
+#include "local_mappers/scanned_room.hpp"
 
 namespace glocal::local_mappers::plane_registration_test {
 namespace {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "boxes.hpp"
 #include "files.hpp"
 #include "glocal/error.hpp"
 #include "sources/clouds/cloud_drive.hpp"
@@ -18,13 +19,11 @@
 namespace glocal::surfel_ransam::surfel_ransam_test {
 namespace {
 
-/// A box along the axes, m.
-struct Box {
-  std::array<double, 3> least, most;
-};
+using test::Box;
+using test::crossing;
 
-constexpr Box hall{{0.0, 0.0, 0.0}, {12.0, 8.0, 3.0}};
-constexpr Box cupboard{{5.0, 3.0, 0.0}, {5.5, 5.5, 1.6}};
+const Box hall{{0.0, 0.0, 0.0}, {12.0, 8.0, 3.0}};
+const Box cupboard{{5.0, 3.0, 0.0}, {5.5, 5.5, 1.6}};
 const std::vector<Box> furniture = {{{0.0, 6.0, 0.0}, {3.0, 8.0, 1.2}},
                                     {{8.5, 0.0, 0.0}, {9.0, 3.0, 3.0}},
                                     {{10.0, 5.0, 0.0}, {11.0, 7.0, 0.8}}};
@@ -32,17 +31,17 @@ const std::vector<Box> furniture = {{{0.0, 6.0, 0.0}, {3.0, 8.0, 1.2}},
 /// Points of a box's six faces, 0.08 m apart.
 void add_faces(Points& points, const Box& box) {
   constexpr double apart = 0.08;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t u = (axis + 1) % 3;
-    const std::size_t v = (axis + 2) % 3;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
     for (double a = box.least[u]; a <= box.most[u]; a += apart) {
       for (double b = box.least[v]; b <= box.most[v]; b += apart) {
         for (const double side : {box.least[axis], box.most[axis]}) {
-          std::array<double, 3> p{};
+          Vector3 p;
           p[axis] = side;
           p[u] = a;
           p[v] = b;
-          points.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+          points.push_back(as_point(p));
         }
       }
     }
@@ -60,20 +59,6 @@ std::shared_ptr<const GlobalMap> map_of(const std::vector<Box>& boxes) {
 const std::shared_ptr<const GlobalMap>& furnished() {
   static const auto map = map_of(furniture);
   return map;
-}
-
-/// Where a ray that starts at `from` enters and leaves a box.
-std::array<double, 2> crossing(const Box& box, const Vector3& from, const Vector3& direction) {
-  const std::array<double, 3> o = {from.x(), from.y(), from.z()};
-  const std::array<double, 3> d = {direction.x(), direction.y(), direction.z()};
-  std::array<double, 2> t = {-std::numeric_limits<double>::infinity(),
-                             std::numeric_limits<double>::infinity()};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double a = (box.least[axis] - o[axis]) / d[axis];
-    const double b = (box.most[axis] - o[axis]) / d[axis];
-    t = {std::max(t[0], std::min(a, b)), std::min(t[1], std::max(a, b))};
-  }
-  return t;
 }
 
 /// A lidar of 16 beams in the furnished hall, ray by ray.
@@ -239,11 +224,8 @@ TEST(SurfelRansam, WhatTheLatestScanLookedThroughSpeaksAgainstAPose) {
 
 constexpr double voxel_side = 0.1;
 
-bool is_inside(const Box& box, const std::array<double, 3>& p) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (p[axis] < box.least[axis] || p[axis] > box.most[axis]) return false;
-  }
-  return true;
+bool is_inside(const Box& box, const Vector3& p) {
+  return (p.array() >= box.least.array()).all() && (p.array() <= box.most.array()).all();
 }
 
 /// All voxels in the hall whose middle is in none of the boxes.
@@ -252,7 +234,7 @@ FreeVoxels free_around(const std::vector<Box>& boxes) {
   for (int i = 0; i < 120; ++i) {
     for (int j = 0; j < 80; ++j) {
       for (int k = 0; k < 30; ++k) {
-        const std::array middle = {voxel_side * (i + 0.5), voxel_side * (j + 0.5), voxel_side * (k + 0.5)};
+        const Vector3 middle{voxel_side * (i + 0.5), voxel_side * (j + 0.5), voxel_side * (k + 0.5)};
         if (std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return is_inside(box, middle); }))
           free.add(i, j, k);
       }
@@ -292,16 +274,13 @@ TEST(SurfelRansam, PointsWhereTheMapIsFreeSpeakAgainstAPose) {
   const Points in_map = moved(seen.local.points, known.map_from_local);
   std::size_t violating = 0;
   for (std::size_t i = 0; i < in_map.size(); ++i) {
-    const Vector3 p = as_vector(in_map[i]);
-    const std::array<double, 3> at = {p.x(), p.y(), p.z()};
+    const Vector3 at = as_vector(in_map[i]);
     Box smaller = hall;
     Box larger = furniture[0];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      smaller.least[axis] += 0.1;
-      smaller.most[axis] -= 0.1;
-      larger.least[axis] -= 0.1;
-      larger.most[axis] += 0.1;
-    }
+    smaller.least.array() += 0.1;
+    smaller.most.array() -= 0.1;
+    larger.least.array() -= 0.1;
+    larger.most.array() += 0.1;
     if (is_inside(smaller, at) && !is_inside(larger, at)) ++violating;
   }
   const double share = static_cast<double>(violating) / static_cast<double>(in_map.size());

@@ -1,21 +1,17 @@
 // A hall with things in it, and what a lidar sees of it.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
-#include <optional>
 #include <vector>
 
+#include "boxes.hpp"
 #include "glocal/points.hpp"
 #include "glocal/pose3.hpp"
 
 namespace glocal::test {
-
-/// A box with sides along the axes, m.
-struct Box {
-  Vector3 least, most;
-};
 
 /// A hall of 14 m x 9 m x 4 m without any symmetry; its first box is seen from inside.
 inline std::vector<Box> hall() {
@@ -27,20 +23,9 @@ inline std::vector<Box> hall() {
 
 /// How far a ray reaches, m: from inside the first box, and outside all others.
 inline double range_of_ray(const std::vector<Box>& boxes, const Vector3& from, const Vector3& direction) {
-  const std::array<double, 3> o = {from.x(), from.y(), from.z()};
-  const std::array<double, 3> d = {direction.x(), direction.y(), direction.z()};
   double range = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const std::array<double, 3> least = {boxes[i].least.x(), boxes[i].least.y(), boxes[i].least.z()};
-    const std::array<double, 3> most = {boxes[i].most.x(), boxes[i].most.y(), boxes[i].most.z()};
-    double enter = -range;
-    double leave = std::numeric_limits<double>::infinity();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double a = (least[axis] - o[axis]) / d[axis];
-      const double b = (most[axis] - o[axis]) / d[axis];
-      enter = std::max(enter, std::min(a, b));
-      leave = std::min(leave, std::max(a, b));
-    }
+    const auto [enter, leave] = crossing(boxes[i], from, direction);
     if (i == 0) {
       range = leave;
     } else if (enter > 0.0 && enter < leave) {

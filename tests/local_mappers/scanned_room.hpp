@@ -2,23 +2,17 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
 
+#include "boxes.hpp"
 #include "glocal/observation.hpp"
 #include "glocal/rng.hpp"
 
 namespace glocal::test {
-
-/// A box with its edges along the axes, m; seen from within it is a room.
-struct Box {
-  std::array<double, 3> low{};
-  std::array<double, 3> high{};
-};
 
 /// A room of 10 m x 7 m x 3 m with two cupboards, a table and a beam under the ceiling.
 inline std::vector<Box> furnished_hall() {
@@ -29,18 +23,9 @@ inline std::vector<Box> furnished_hall() {
           {{6, 0, 2.6}, {6.4, 7, 3}}};
 }
 
-/// Distance along a ray to the first face in its way, by the slabs between opposite faces.
+/// Distance along a ray to the first face in its way.
 inline std::optional<double> ray_length(const Vector3& origin, const Vector3& direction, const Box& box) {
-  const std::array<double, 3> from{origin.x(), origin.y(), origin.z()};
-  const std::array<double, 3> along{direction.x(), direction.y(), direction.z()};
-  double enter = -std::numeric_limits<double>::infinity();
-  double leave = std::numeric_limits<double>::infinity();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double a = (box.low[axis] - from[axis]) / along[axis];
-    const double b = (box.high[axis] - from[axis]) / along[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
+  const auto [enter, leave] = crossing(box, origin, direction);
   if (enter > leave || leave <= 0.0) return std::nullopt;
   return enter > 0.0 ? enter : leave;
 }
