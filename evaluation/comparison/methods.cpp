@@ -50,7 +50,7 @@ using RunsByCell = std::map<CellKey, std::map<std::size_t, std::size_t>>;  ///< 
 
 /// "intel with seeds 1, 2"; without seeds where any will do.
 std::string cell_words(const std::string& case_name, const std::vector<std::string>& seeds) {
-  const std::string name = case_name.empty() ? "runs without a case" : case_name;
+  std::string name = case_name.empty() ? "runs without a case" : case_name;
   if (seeds.empty()) return name;
   return fmt::format("{} with {} {}", name, seeds.size() == 1 ? "seed" : "seeds", fmt::join(seeds, ", "));
 }

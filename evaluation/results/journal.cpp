@@ -151,8 +151,12 @@ void Journal::begin(const TrialId& id, const Json& start) {
 
 void Journal::finish(const TrialId& id, double ms, const TrialOutput& output) {
   const std::string of_trial = to_string(id);
-  for (const auto& [name, content] : output.files)
-    add_line(journal_words::file, of_trial + " " + in_one_line(name + '\0' + content), false);
+  for (const auto& [name, content] : output.files) {
+    std::string file = name;
+    file += '\0';
+    file += content;
+    add_line(journal_words::file, fmt::format("{} {}", of_trial, in_one_line(file)), false);
+  }
   add_line(journal_words::trial,
            fmt::format("{} {:.0f} {} {} {}", of_trial, ms, to_string(output.entry.figures.outcome),
                        output.files.size(), to_json(output.entry).dump()),

@@ -26,7 +26,7 @@ struct Differences {
   /// Sum with these signs, as a multiple of the spread.
   [[nodiscard]] double size(const std::vector<int>& signs) const {
     long sum = 0;
-    for (const auto& [place, difference] : at) sum += signs[place] * difference;
+    for (const auto& [place, difference] : at) sum += long{signs[place]} * difference;
     return static_cast<double>(std::labs(sum)) / spread;
   }
 };

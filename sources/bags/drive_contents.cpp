@@ -66,7 +66,7 @@ class TopicChecker {
   }
 
   [[nodiscard]] std::vector<std::string> scans() const {
-    const std::vector<std::string> there = topics_of(recording_, has_scans);
+    std::vector<std::string> there = topics_of(recording_, has_scans);
     if (there.empty())
       fail(
           "has no scans (sensor_msgs/LaserScan, sensor_msgs/PointCloud2); glocal bag info shows what it has");

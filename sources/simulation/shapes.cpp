@@ -68,7 +68,8 @@ struct SpatialRay {
     if (level_distance == infinite || run == 0.0) return infinite;
     const double distance = level_distance / run;
     const double at = z + distance * rise;
-    return at >= 0.0 && at <= height ? distance : infinite;
+    if (!(at >= 0.0 && at <= height)) return infinite;
+    return distance;
   }
 
   /// Where the ray meets a level surface that is `inside` of some places only.

@@ -135,7 +135,7 @@ class Contract : public ::testing::Test {
     });
     bags::RobotRecording recording;
     for (const int i : {0, 1}) {
-      const std::int64_t stamp = i * 100'000'000;
+      const std::int64_t stamp = 100'000'000L * i;
       recording.transform("odom", "base_link", stamp, Pose2{0.5 * i, 0.0, 0.0});
       recording.scan("/scan", stamp, {.frame = "base_link", .angle_increment = 0.5F, .ranges = {2.0F, 3.0F}});
     }

@@ -46,7 +46,7 @@ TEST(FreeSpaceCheck, SaysNothingFromTooFewHits) {
   Scan scan;
   for (std::size_t i = 0; i < 49; ++i) scan.hits.push_back(all[14 * i]);
   EXPECT_EQ(latest.violation(scan, {}), 0.0);
-  scan.hits.push_back(all[14 * 49]);
+  scan.hits.push_back(all[std::size_t{14} * 49]);
   EXPECT_EQ(latest.violation(scan, {}), 1.0);
 }
 

@@ -30,7 +30,7 @@ class Bags : public testing::Test {
   void drive(double metres_a_second, double rad_a_second, int seconds) {
     for (int i = 0; i <= 10 * seconds; ++i) {
       const double t = 0.1 * i;
-      recording_.transform("odom", "base_link", i * 100 * ms,
+      recording_.transform("odom", "base_link", 100 * ms * i,
                            Pose2{metres_a_second * t, 0.0, rad_a_second * t});
     }
   }
@@ -122,7 +122,7 @@ TEST_F(Bags, ALaserUpsideDownSeesLeftWhatIsLeft) {
 TEST_F(Bags, KeyframesAndSegmentsAreThoseOfOdometry) {
   drive(1.0, 0.0, 4);
   mount({});
-  for (int i = 0; i < 40; ++i) recording_.scan("/scan", i * 100 * ms, {.ranges = {2.0F}});
+  for (int i = 0; i < 40; ++i) recording_.scan("/scan", 100 * ms * i, {.ranges = {2.0F}});
   params_.keyframes = {0.5, 90.0};
   params_.segments = {{0.0, 0.25}, {0.5, 1.0}};
   const auto samples = read();
@@ -169,7 +169,7 @@ TEST_F(Bags, AnObservationWithoutAScanOfTheOtherTopicIsTold) {
 TEST_F(Bags, ReferencesAreOfATopicMovedAndShifted) {
   drive(1.0, 0.0, 2);
   mount({});
-  for (int i = 0; i <= 20; ++i) recording_.pose("/truth", i * 100 * ms, "world", Pose2{0.1 * i, 0.0, 0.0});
+  for (int i = 0; i <= 20; ++i) recording_.pose("/truth", 100 * ms * i, "world", Pose2{0.1 * i, 0.0, 0.0});
   recording_.scan("/scan", 1000 * ms, {.ranges = {2.0F}});
   params_.reference = {.topic = "/truth", .x = 10.0, .yaw_deg = 90.0, .time_shift = 0.25};
   const auto reference = read().at(0).map_from_robot;
@@ -192,8 +192,8 @@ TEST_F(Bags, ReferencesAreOfAFrame) {
 TEST_F(Bags, AReferenceThatEndsEarlyIsTold) {
   drive(1.0, 0.0, 2);
   mount({});
-  for (const int i : {0, 5}) recording_.pose("/truth", i * 100 * ms, "world", Pose2{0.1 * i, 0.0, 0.0});
-  for (const int i : {4, 8}) recording_.scan("/scan", i * 100 * ms, {.ranges = {2.0F}});
+  for (const int i : {0, 5}) recording_.pose("/truth", 100 * ms * i, "world", Pose2{0.1 * i, 0.0, 0.0});
+  for (const int i : {4, 8}) recording_.scan("/scan", 100 * ms * i, {.ranges = {2.0F}});
   params_.reference.topic = "/truth";
   const auto samples = read();
   EXPECT_TRUE(samples.at(0).map_from_robot);
@@ -205,7 +205,7 @@ TEST_F(Bags, StampsThatRunBackwardsAreToldAndLeftOut) {
   drive(1.0, 0.0, 2);
   mount({});
   int received = 0;
-  for (const int i : {2, 4, 4, 3, 6}) recording_.scan("/scan", i * 100 * ms, {.ranges = {2.0F}}, received++);
+  for (const int i : {2, 4, 4, 3, 6}) recording_.scan("/scan", 100 * ms * i, {.ranges = {2.0F}}, received++);
   EXPECT_EQ(read().size(), 3U);
   EXPECT_THAT(warnings_,
               ElementsAre(HasSubstr("2 scans are left out, as their stamps stand still or run backwards")));
@@ -215,10 +215,10 @@ TEST_F(Bags, AfterAJumpOfTheClockADriveOfItsOwnBegins) {
   mount({});
   for (const std::int64_t hour : {0, 1}) {
     for (int i = 0; i <= 5; ++i)
-      recording_.transform("odom", "base_link", hour * 3600 * second + i * 100 * ms,
+      recording_.transform("odom", "base_link", 3600 * second * hour + 100 * ms * i,
                            Pose2{0.1 * i, 0.0, 0.0});
     for (const int i : {1, 2})
-      recording_.scan("/scan", hour * 3600 * second + i * 100 * ms, {.ranges = {2.0F}});
+      recording_.scan("/scan", 3600 * second * hour + 100 * ms * i, {.ranges = {2.0F}});
   }
   const auto samples = read();
   ASSERT_EQ(samples.size(), 4U);
@@ -230,7 +230,7 @@ TEST_F(Bags, AfterAJumpOfTheClockADriveOfItsOwnBegins) {
 TEST_F(Bags, ScansWithoutOdometryAreToldAndLeftOut) {
   drive(1.0, 0.0, 1);
   mount({});
-  for (const int i : {5, 15}) recording_.scan("/scan", i * 100 * ms, {.ranges = {2.0F}});
+  for (const int i : {5, 15}) recording_.scan("/scan", 100 * ms * i, {.ranges = {2.0F}});
   EXPECT_EQ(read().size(), 1U);
   EXPECT_THAT(warnings_,
               ElementsAre(HasSubstr("1 of 2 scans are left out, as tf is not known within 0.5 s")));
@@ -301,7 +301,7 @@ TEST_F(Bags, InSpaceCloudsKeepTheirHeightsAndOdometryItsTilt) {
 
 TEST_F(Bags, WithoutTfTheSensorIsGiven) {
   for (const int i : {3, 7})
-    recording_.odometry("/odom", i * 100 * ms, "odom", "base", Pose2{0.1 * i, 0.0, 0.0});
+    recording_.odometry("/odom", 100 * ms * i, "odom", "base", Pose2{0.1 * i, 0.0, 0.0});
   recording_.scan("/scan", 500 * ms, {.ranges = {2.0F}});
   EXPECT_THAT(fault(), HasSubstr("tf does not connect laser, the frame of /scan, with base"));
   params_.sensor_from = "given";

@@ -95,7 +95,7 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 
 [[nodiscard]] inline std::string ros1_fields(const Fields& fields) {
   std::string bytes;
-  for (const auto& [name, value] : fields) bytes += sized(name + "=" + value);
+  for (const auto& [name, value] : fields) bytes += sized(std::string(name).append("=").append(value));
   return bytes;
 }
 [[nodiscard]] inline std::string ros1_record(const Fields& header, const std::string& data) {

@@ -53,7 +53,7 @@ TEST_F(CloudPairTest, HasTheSourceAsItsOnlyScan) {
 
 TEST_F(CloudPairTest, RefusesAPairThatIsNotThere) {
   try {
-    CloudPairScan({{list_, 3}}, setup_);
+    const CloudPairScan scan({{list_, 3}}, setup_);
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("pairs.csv: error: has 2 pairs, and no pair 3"));

@@ -64,7 +64,7 @@ TEST(DriveDisturbances, ADriverThatHangsRepeatsItself) {
   const auto left = disturbed(RepeatedScans(3.0, Rng(1)), drive(7));
   ASSERT_EQ(left.size(), 7U);
   for (std::size_t i = 0; i < 7; ++i)
-    EXPECT_EQ(left[i].observation.scan.hits.x[0], static_cast<float>(i / 3 * 3));
+    EXPECT_EQ(left[i].observation.scan.hits.x[0], static_cast<float>(i - i % 3));
 }
 
 TEST(DriveDisturbances, AMountThatLooksToTheLeftPutsThingsToTheRight) {

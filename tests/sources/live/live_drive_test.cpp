@@ -44,10 +44,10 @@ TEST(LiveDrive, DeliversWhatARecordingOfTheSameMessagesDoes) {
     // It stands still for 2 s, then drives and turns; odometry is silent for 1 s.
     const double way = std::max(0.0, t - 2.0);
     if (t < 5.0 || t > 6.0)
-      recording.transform("odom", "base_link", i * 50 * ms, Pose2{0.7 * way, 0.1 * way, 0.2 * way});
+      recording.transform("odom", "base_link", 50 * ms * i, Pose2{0.7 * way, 0.1 * way, 0.2 * way});
     if (i % 3 == 0)
-      recording.scan("/scan", i * 50 * ms + 7 * ms, scan_fields(2.0F + 0.01F * static_cast<float>(i)));
-    if (i == 90) recording.scan("/scan", 30 * ms, scan_fields(9.0F), i * 50 * ms + 8 * ms);
+      recording.scan("/scan", 50 * ms * i + 7 * ms, scan_fields(2.0F + 0.01F * static_cast<float>(i)));
+    if (i == 90) recording.scan("/scan", 30 * ms, scan_fields(9.0F), 50 * ms * i + 8 * ms);
   }
   TemporaryFolder folder;
   const FilePath path = file_path(folder.write("drive.mcap", recording.bytes()));
@@ -126,7 +126,7 @@ TEST_F(Live, WaitsUntilItIsKnownWhereTheRobotWas) {
 }
 
 TEST_F(Live, OfSeveralObservationsTheNewestWins) {
-  for (int i = 0; i <= 20; ++i) odometry(i * 100 * ms);
+  for (int i = 0; i <= 20; ++i) odometry(100 * ms * i);
   for (const std::int64_t stamp : {100 * ms, 600 * ms, 650 * ms, 1100 * ms}) scan(stamp);
   const auto sample = drive().next();
   ASSERT_TRUE(sample);
@@ -136,7 +136,7 @@ TEST_F(Live, OfSeveralObservationsTheNewestWins) {
 
 TEST_F(Live, ARobotThatStandsStillIsLookedAtOnce) {
   for (int i = 0; i < 10; ++i)
-    link_->put(tf_, i * 100 * ms, transform("odom", "base_link", i * 100 * ms, Pose2{1.0, 2.0, 0.0}));
+    link_->put(tf_, 100 * ms * i, transform("odom", "base_link", 100 * ms * i, Pose2{1.0, 2.0, 0.0}));
   scan(50 * ms);
   EXPECT_TRUE(drive().next());
   scan(150 * ms);
@@ -168,8 +168,8 @@ TEST_F(Live, OdometryMayBeATopic) {
   const LiveTopic wheels{"/wheels", "nav_msgs/Odometry"};
   for (int i = 0; i < 3; ++i)
     link_->put(
-        wheels, i * 100 * ms,
-        Writer("cdr").header("start", i * 100 * ms).text("base_link").pose(Pose2{2.0, 0.0, 0.0}).bytes());
+        wheels, 100 * ms * i,
+        Writer("cdr").header("start", 100 * ms * i).text("base_link").pose(Pose2{2.0, 0.0, 0.0}).bytes());
   scan(100 * ms);
   const auto sample = drive().next();
   ASSERT_TRUE(sample);
@@ -182,8 +182,8 @@ TEST_F(Live, ANamespaceChoosesTheRobot) {
   for (const char* robot : {"/a", "/b"}) {
     const double x = std::string(robot) == "/a" ? 1.0 : 2.0;
     for (int i = 0; i < 3; ++i)
-      link_->put({std::string(robot) + "/tf", tf_.type}, i * 100 * ms,
-                 transform("odom", "base_link", i * 100 * ms, Pose2{x, 0.0, 0.0}));
+      link_->put({std::string(robot) + "/tf", tf_.type}, 100 * ms * i,
+                 transform("odom", "base_link", 100 * ms * i, Pose2{x, 0.0, 0.0}));
     link_->put({std::string(robot) + "/scan", scan_.type}, 100 * ms, scan_bytes(100 * ms));
   }
   topics_.longest_wait = 10.0;
@@ -201,7 +201,7 @@ TEST_F(Live, MessagesOfOthersAreHandedOn) {
 }
 
 TEST_F(Live, DamagedMessagesAreToldOnceAndPassedOver) {
-  for (int i = 0; i < 3; ++i) odometry(i * 100 * ms);
+  for (int i = 0; i < 3; ++i) odometry(100 * ms * i);
   for (const std::int64_t stamp : {100 * ms, 120 * ms}) link_->put(scan_, 0, scan_bytes(stamp).substr(0, 50));
   link_->put(tf_, 0, "rubbish");
   scan(150 * ms);
@@ -237,13 +237,13 @@ TEST_F(Live, TellsThatNobodySaysWhereTheRobotIs) {
 }
 
 TEST_F(Live, TellsThatNobodySaysWhereTheSensorIs) {
-  for (int i = 0; i < 3; ++i) odometry(i * 100 * ms);
+  for (int i = 0; i < 3; ++i) odometry(100 * ms * i);
   scan(100 * ms, "laser");
   EXPECT_THAT(fault(), HasSubstr("tf does not connect laser, the frame of /scan, with base_link"));
 }
 
 TEST_F(Live, TellsThatClocksDisagree) {
-  for (int i = 0; i < 3; ++i) odometry(i * 100 * ms);
+  for (int i = 0; i < 3; ++i) odometry(100 * ms * i);
   scan(70 * second);
   EXPECT_THAT(fault(), HasSubstr("do both clocks agree?"));
 }

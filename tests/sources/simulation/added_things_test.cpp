@@ -48,7 +48,7 @@ class Hall : public testing::Test {
     return places;
   }
 
-  OccupancyGrid grid_{{2.0, 1.0, 0.3}, 0.1, 120, 80, PackedCells(120U * 80U, Cell::free)};
+  OccupancyGrid grid_{{2.0, 1.0, 0.3}, 0.1, 120, 80, PackedCells(std::size_t{120} * 80, Cell::free)};
   std::vector<std::vector<Position>> ways_;
 };
 

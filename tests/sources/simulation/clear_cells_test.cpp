@@ -17,7 +17,7 @@ double between_borders(int columns, int rows) {
 }
 
 TEST(ClearCells, AreFarFromAllThatIsNotFree) {
-  OccupancyGrid grid{{}, 0.1, 23, 17, PackedCells(23U * 17U, Cell::free)};
+  OccupancyGrid grid{{}, 0.1, 23, 17, PackedCells(std::size_t{23} * 17, Cell::free)};
   Rng rng(3);
   for (int i = 0; i < 6; ++i) {
     const Cell kind = i % 2 == 0 ? Cell::occupied : Cell::unknown;

@@ -96,7 +96,7 @@ TEST(ClearRegion, GoesAroundCorners) {
 
 /// Random rooms, with walls and clutter.
 OccupancyGrid random_grid(std::uint64_t seed) {
-  OccupancyGrid grid{{3.0, -2.0, 0.4}, 0.1, 80, 60, PackedCells(80U * 60U, Cell::free)};
+  OccupancyGrid grid{{3.0, -2.0, 0.4}, 0.1, 80, 60, PackedCells(std::size_t{80} * 60, Cell::free)};
   Rng rng(seed);
   for (int i = 0; i < 25; ++i) {
     const int column = static_cast<int>(rng.below(70));

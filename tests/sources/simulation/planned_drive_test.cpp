@@ -392,7 +392,8 @@ TEST_F(OctreeHall, ShowsThemToALidar) {
     scene.look_around({pose.x, pose.y}, 30.0, time);
     for (int ray = 0; ray < 2000; ++ray) {
       const double azimuth = 0.1 + 2.0 * pi * ray / 100.0;
-      const double elevation = radians(-15.0 + 1.4 * (ray / 100));
+      const int ring = ray / 100;
+      const double elevation = radians(-15.0 + 1.4 * ring);
       const Vector3 origin{pose.x, pose.y, floor + 1.0};
       const Vector3 direction{std::cos(elevation) * std::cos(azimuth),
                               std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
