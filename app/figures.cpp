@@ -75,15 +75,15 @@ void write_script(const FiguresOptions& options) {
 
 /// What glocal sweep tells of the one folder.
 std::string checked_sweep(const FiguresOptions& options) {
-  const auto refuse = [](const std::string& folder, const char* why) { throw ConfigError(folder, why); };
   if (options.folders.size() > 1)
-    refuse(options.folders.at(1), "is one folder too many; name that of one sweep");
+    throw ConfigError(options.folders.at(1), "is one folder too many; name that of one sweep");
   check_out(options);
   const SweepAnalysis analysis = analyse_sweep(read_sweep(options.folders.front()));
   if (analysis.parameters.effects.empty())
-    refuse(options.folders.front(),
-           "no parameter varies, so that there is nothing to draw; name the folder of an experiment with "
-           "variants.grid, zip or sample");
+    throw ConfigError(
+        options.folders.front(),
+        "no parameter varies, so that there is nothing to draw; name the folder of an experiment with "
+        "variants.grid, zip or sample");
   return json_text(analysis);
 }
 

@@ -82,17 +82,8 @@ void SiteOptions::add_to(CLI::App& command) {
 
 SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed, const Catalog& catalog) {
   if (options.side == 0.0) throw ConfigError("--site " + options.site, "needs --side, its side in metres");
-  // Its outer walls lie in one more row and column.
-  const double cells = std::pow(std::floor(options.side / options.resolution) + 1.0, 2);
-  if (cells > max_grid_cells) {
-    throw ConfigError(
-        fmt::format("--resolution {}", options.resolution),
-        fmt::format("the map of a site of {} m would have {:.1e} cells, more than {:.0e}; choose {} or more",
-                    options.side, cells, max_grid_cells,
-                    std::ceil(options.side / std::sqrt(max_grid_cells) * 100.0) / 100.0));
-  }
   simulation::World world = sites::office_site(options.side, length_of(options), seed);
-  OccupancyGrid grid = simulation::plan_of(world, options.resolution);
+  OccupancyGrid grid = simulation::plan_of(world, options.resolution, fmt::format("--site {}", options.site));
   SimulatedFiles files{*simulation::Simulation(sites::office_drive(), std::move(world), seed).recording(),
                        std::move(grid),
                        {},

@@ -8,7 +8,7 @@
 namespace glocal {
 namespace {
 
-std::string listed(const std::vector<Fault>& faults) {
+std::string in_lines(const std::vector<Fault>& faults) {
   std::string text;
   for (const Fault& fault : faults) {
     if (!text.empty()) text += '\n';
@@ -40,7 +40,7 @@ std::string to_string(const Fault& fault) {
 }
 
 ConfigError::ConfigError(std::vector<Fault> faults)
-    : std::runtime_error(listed(sorted(faults))), faults_(sorted(std::move(faults))) {}
+    : std::runtime_error(in_lines(sorted(faults))), faults_(sorted(std::move(faults))) {}
 
 ConfigError::ConfigError(const std::filesystem::path& place, const std::string& message)
     : ConfigError({{place.string(), 0, 0, message}}) {}

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "glocal/error.hpp"
 #include "glocal/limits.hpp"
 #include "sources/simulation/simulation.hpp"
@@ -27,13 +25,8 @@ SimulatedMap::SimulatedMap(const Params& params, const SourceSetup& setup) : par
 MapData SimulatedMap::load() {
   const std::string file = params_.world.resolved.string();
   const World world = read_world(params_.world.resolved);
-  if (!(world.size[0] / params_.resolution * (world.size[1] / params_.resolution) <= max_grid_cells)) {
-    throw ConfigError(file,
-                      fmt::format("its map would have more than 1000 million cells of {} m; raise resolution",
-                                  params_.resolution));
-  }
   MapData map;
-  map.grid = plan_of(world, params_.resolution);
+  map.grid = plan_of(world, params_.resolution, file);
   map.points = params_.points == "space" ? surface_points(world, map.grid, file) : occupied_centres(map.grid);
   const bool is_of_cloud = params_.points == "space" && !world.cloud.text.empty();
   if (is_of_cloud) {

@@ -217,7 +217,14 @@ std::vector<char> cells_over_floor(const OccupancyGrid& grid, const std::vector<
 
 }  // namespace
 
-OccupancyGrid plan_of(const World& world, double resolution) {
+OccupancyGrid plan_of(const World& world, double resolution, const std::string& origin) {
+  const double whole_area = world.size[0] * world.size[1];
+  if (!(whole_area / resolution / resolution <= max_grid_cells)) {
+    throw ConfigError(
+        origin,
+        fmt::format("its map would have more than 1000 million cells of {} m; raise resolution to {} or more",
+                    resolution, std::ceil(std::sqrt(whole_area / max_grid_cells) * 100.0) / 100.0));
+  }
   Raster raster = drawn(world, shapes_on_map(world), resolution);
   for (const Position& place : world.free_from) raster.flood(place);
   for (const UnmappedArea& area : world.unmapped) raster.forget(area);

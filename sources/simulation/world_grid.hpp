@@ -11,8 +11,9 @@
 namespace glocal::simulation {
 
 /// What the map of a world shows, seen from above: outlines, one cell thick, and the free space around the
-/// places of `free_from`. Cells are centred on multiples of the resolution (m).
-[[nodiscard]] OccupancyGrid plan_of(const World& world, double resolution);
+/// places of `free_from`. Cells are centred on multiples of the resolution (m). Throws ConfigError at
+/// `place`, a file or an option, if there were more than max_grid_cells.
+[[nodiscard]] OccupancyGrid plan_of(const World& world, double resolution, const std::string& origin);
 
 /// What is there in reality but for people and a cloud, in the same way; free space is where the drive
 /// begins. Cells have a side of 0.05 m, or more in worlds of over a hectare.

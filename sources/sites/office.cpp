@@ -55,7 +55,7 @@ void describe(ParamVisitor& v, OfficeMap::Params& p) {
 
 MapData OfficeMap::load() {
   MapData map;
-  map.grid = simulation::plan_of(office_of(params_), params_.resolution);
+  map.grid = simulation::plan_of(office_of(params_), params_.resolution, "");
   map.points = occupied_centres(map.grid);
   return map;
 }

@@ -158,8 +158,8 @@ TEST_F(SimulateCommand, RefusesSitesThatCannotBe) {
     EXPECT_THAT(refusal(std::string("--site office ") + options), HasSubstr("is not a number from"));
   }
   EXPECT_THAT(refusal("--site office --side 2000"),
-              HasSubstr("--resolution 0.05: error: the map of a site of 2000 m would have 1.6e+09 cells, "
-                        "more than 1e+09; choose 0.07 or more"));
+              HasSubstr("--site office: error: its map would have more than 1000 million cells of 0.05 m; "
+                        "raise resolution to 0.07 or more"));
   EXPECT_THAT(refusal("--site office --side 50 --starts 0"), HasSubstr("not in range"));
 }
 

@@ -89,7 +89,7 @@ TEST(OfficeSite, TheDriveIsFree) {
 
 TEST(OfficeSite, TheDriveIsWhereTheMapIsFree) {
   const World world = office_site(60.0, 400.0, 4);
-  const OccupancyGrid map = simulation::plan_of(world, 0.05);
+  const OccupancyGrid map = simulation::plan_of(world, 0.05, "");
   // The map is freed from one place: all that the drive comes to is connected to it.
   for (const Position& place : world.way_points) EXPECT_EQ(map.at(place[0], place[1]), Cell::free);
 }
@@ -122,7 +122,7 @@ TEST(OfficeSite, SomeThingsHaveChangedSinceTheMapWasMade) {
 
 TEST(OfficeSite, WhatIsNewIsNotOnTheMap) {
   const World world = office_site(60.0, 100.0, 5);
-  const OccupancyGrid map = simulation::plan_of(world, 0.05);
+  const OccupancyGrid map = simulation::plan_of(world, 0.05, "");
   int on_free_cells = 0;
   for (const simulation::Rectangle& box : world.rectangles) {
     if (!is_only_in_reality(box.presence)) continue;
@@ -168,7 +168,7 @@ TEST(OfficeSite, RaysMeetWhatIsThereInReality) {
 
 TEST(OfficeSite, NothingIsKnownOfRoomsThatWereShut) {
   const World world = office_site(100.0, 500.0, 2);
-  const OccupancyGrid map = simulation::plan_of(world, 0.05);
+  const OccupancyGrid map = simulation::plan_of(world, 0.05, "");
   std::map<Cell, int> cells;
   for (const Cell cell : map.cells) ++cells[cell];
   const double all = static_cast<double>(map.cells.size());

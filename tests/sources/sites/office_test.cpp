@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "files.hpp"
+
 namespace glocal::test::office_test {
 namespace {
 
@@ -44,6 +46,15 @@ TEST(OfficeTest, TheSeedDrawsNoiseAndTheNumberTheOffice) {
   EXPECT_EQ(one.back().map_from_robot->x, noisy.back().map_from_robot->x);
   EXPECT_NE(one.back().observation.odom_from_robot.x, noisy.back().observation.odom_from_robot.x);
   EXPECT_NE(map_of(30.0, 2).points.x, map_of(30.0, 3).points.x);
+}
+
+TEST(OfficeTest, RefusesAMapOfTooManyCells) {
+  sites::OfficeMap::Params params;
+  params.side = 400.0;
+  params.resolution = 0.01;
+  EXPECT_EQ(
+      config_error("", [&] { static_cast<void>(sites::OfficeMap(params).load()); }),
+      "error: its map would have more than 1000 million cells of 0.01 m; raise resolution to 0.02 or more");
 }
 
 TEST(OfficeTest, WithoutALengthTheWayIsFiveTimesTheSide) {
