@@ -7,11 +7,6 @@
 
 namespace glocal {
 
-void BestOfCell::take_in(const BestOfCell& other) {
-  if (bound == 0 || other.best.is_better_than(best)) best = other.best;
-  bound = std::max(bound, other.bound);
-}
-
 RobotCells::RobotCells(const Pose2& robot_at_zero, double height_at_zero, double cell, double distance,
                        double rotation)
     : robot_at_zero_(robot_at_zero),
@@ -26,33 +21,34 @@ RobotCell RobotCells::of(const Box& box) const {
           static_cast<std::int64_t>(std::floor(height / binning_.side))};
 }
 
-void BestPlaces::add(const BestOfCells& found) {
-  for (const auto& [cell, place] : found) {
-    if (place.bound >= least_) places_[cell].take_in(place);
-  }
+void take_in(BestOfCells& places, const RobotCell& cell, const Box& box) {
+  const auto [known, is_new] = places.try_emplace(cell, box);
+  if (!is_new && box.is_better_than(known->second)) known->second = box;
 }
 
 std::size_t keep_best(BestOfCells& places, std::size_t most) {
   if (places.size() < most) return 0;
-  std::vector<std::size_t> bounds;
-  for (const auto& [cell, place] : places) bounds.push_back(place.bound);
-  const auto last = bounds.begin() + static_cast<std::ptrdiff_t>(most) - 1;
-  std::nth_element(bounds.begin(), last, bounds.end(), std::greater<>());
-  std::erase_if(places, [&](const auto& entry) { return entry.second.bound < *last; });
+  std::vector<std::size_t> in_contact;
+  for (const auto& [cell, box] : places) in_contact.push_back(box.at_middle);
+  const auto last = in_contact.begin() + static_cast<std::ptrdiff_t>(most) - 1;
+  std::nth_element(in_contact.begin(), last, in_contact.end(), std::greater<>());
+  std::erase_if(places, [&](const auto& entry) { return entry.second.at_middle < *last; });
   return *last;
 }
 
-void BestPlaces::raise() {
-  const std::size_t last = keep_best(places_, most_);
-  if (last > 0) bar_ = last + 1;
+void BestPlaces::add(const BestOfCells& found) {
+  for (const auto& [cell, box] : found) take_in(places_, cell, box);
 }
 
-std::vector<BestOfCell> BestPlaces::falling(bool is_grid) const {
-  std::vector<BestOfCell> falling;
-  for (const auto& [cell, place] : places_) falling.push_back(place);
-  std::stable_sort(falling.begin(), falling.end(), [&](const BestOfCell& a, const BestOfCell& b) {
-    return is_grid ? a.best.is_better_than(b.best) : a.bound > b.bound;
-  });
+void BestPlaces::raise() {
+  bar_ = std::max(bar_, keep_best(places_, most_) + 1);
+}
+
+std::vector<Box> BestPlaces::falling() const {
+  std::vector<Box> falling;
+  for (const auto& [cell, box] : places_) falling.push_back(box);
+  std::stable_sort(falling.begin(), falling.end(),
+                   [](const Box& a, const Box& b) { return a.is_better_than(b); });
   if (falling.size() > most_) falling.resize(most_);
   return falling;
 }

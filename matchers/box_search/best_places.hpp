@@ -27,14 +27,6 @@ struct Box {
   }
 };
 
-/// Boxes whose robots are in one cell.
-struct BestOfCell {
-  std::size_t bound = 0;  ///< No box has more points in contact.
-  Box best = {};
-
-  void take_in(const BestOfCell& other);
-};
-
 /// A cell of robot poses.
 struct RobotCell {
   PoseCell place;
@@ -62,40 +54,41 @@ class RobotCells {
   PoseBinning binning_;  ///< Of robot poses.
 };
 
-using BestOfCells = std::map<RobotCell, BestOfCell>;
+/// The best box of each cell.
+using BestOfCells = std::map<RobotCell, Box>;
 
-/// Leaves those that are as good as the last of the best `most`, at least one, and returns its bound; 0, and
-/// leaves all, if there are fewer.
+void take_in(BestOfCells& places, const RobotCell& cell, const Box& box);
+
+/// Leaves those that are as good as the last of the best `most`, at least one, and returns how many points
+/// are in contact there; 0, and leaves all, if there are fewer.
 std::size_t keep_best(BestOfCells& places, std::size_t most);
 
 /// What has been found in one interval of rotations.
 struct FoundPlaces {
   BestOfCells places = {};
-  std::size_t tested = 0;  ///< Boxes of level 0 whose points were counted.
-  std::size_t looks = 0;   ///< At a point; what one look serves depends on the search.
-
-  void take_in(const RobotCell& cell, const BestOfCell& place) { places[cell].take_in(place); }
+  std::size_t at_most = 0;  ///< No pose of these places and of those left out has more points in contact.
+  std::size_t tested = 0;   ///< Boxes of level 0 whose points were counted.
+  std::size_t looks = 0;    ///< At a point; what one look serves depends on the search.
 };
 
 /// The best places so far, and what a box must reach to be one of them.
 class BestPlaces {
  public:
-  /// The best `most` of those with at least `least` points in contact.
-  BestPlaces(std::size_t most, std::size_t least) : most_(most), least_(least), bar_(least) {}
+  /// The best `most` of those whose boxes can have at least `least` points in contact.
+  BestPlaces(std::size_t most, std::size_t least) : most_(most), bar_(least) {}
 
   void add(const BestOfCells& found);
-  /// If there are as many as are wanted, only what beats the last of them will do from now on. For all that
-  /// was added, or places that are as good as the last are lost.
+  /// If there are as many as are wanted, only boxes that can beat the last of them will do from now on. For
+  /// all that was added, or places that are as good as the last are lost.
   void raise();
 
   /// Points in contact.
   [[nodiscard]] std::size_t bar() const { return bar_; }
-  /// Falling bounds. Of several as high, the first poses of a grid come first, or else the first cells.
-  [[nodiscard]] std::vector<BestOfCell> falling(bool is_grid) const;
+  /// The best first.
+  [[nodiscard]] std::vector<Box> falling() const;
 
  private:
   std::size_t most_;
-  std::size_t least_;
   std::size_t bar_;
   BestOfCells places_;
 };

@@ -260,8 +260,9 @@ class IntervalSearch {
         if (reaches(0, points, tile, 1)) add_boxes(bottom, tile, counts_.largest());
       }
     }
-    for (const auto& [cell, place] : found_.places)
-      interval.promise = std::max(interval.promise, place.bound);
+    for (const auto& [cell, box] : found_.places)
+      interval.promise = std::max(interval.promise, box.at_middle);
+    std::erase_if(found_.places, [&](const auto& place) { return place.second.at_middle < least_; });
   }
 
   static std::array<int, 2> first_of(const TileCounts::Mask& boxes) {
@@ -343,7 +344,8 @@ class IntervalSearch {
         const std::size_t bound = counts_.at(i, k);
         const std::size_t at_middle = problem_.all_poses != nullptr ? middle_counts_.at(i, k) : bound;
         const Box box{bottom.rotation, tile.row + k, tile.column + i, tile.layer, at_middle};
-        found_.take_in(bottom.robots.of(box), {bound, box});
+        take_in(found_.places, bottom.robots.of(box), box);
+        found_.at_most = std::max(found_.at_most, bound);
       }
     }
   }
@@ -418,11 +420,10 @@ class State {
     BoxSearchResult result = result_;
     if (!result.is_complete) return result;
     const double middle = problem_.middle_of_box();
-    for (const auto& [bound, box] : best_.falling(problem_.all_poses == nullptr)) {
+    for (const Box& box : best_.falling()) {
       result.poses.push_back({boxes_->pose(0, box.rotation, box.column + middle, box.row + middle),
-                              boxes_->height(box.layer + middle), bound});
+                              boxes_->height(box.layer + middle), box.at_middle});
     }
-    if (!result.poses.empty()) result.at_most = result.poses.front().in_contact;
     return result;
   }
 
@@ -486,6 +487,7 @@ class State {
   void take_in(const FoundPlaces& found) {
     result_.tested += found.tested;
     result_.looks += found.looks;
+    result_.at_most = std::max(result_.at_most, found.at_most);
     best_.add(found.places);
   }
 

@@ -39,13 +39,13 @@ struct BoxSearchResult {
   struct FoundPose {
     Pose2 map_from_local;        ///< Seen from above.
     double z = 0.0;              ///< Of the local frame's origin in the map, m; 0 in the plane.
-    std::size_t in_contact = 0;  ///< Points that can be in contact in the cell; on a grid, that are.
+    std::size_t in_contact = 0;  ///< Points, by the cells that they lie in.
 
     [[nodiscard]] Pose3 upright() const {
       return {{map_from_local.x, map_from_local.y, z}, turn_about_z(map_from_local.theta)};
     }
   };
-  std::vector<FoundPose> poses = {};  ///< At least `least`; falling contact.
+  std::vector<FoundPose> poses = {};  ///< Falling contact.
   /// No pose that was searched for has more points in contact. If nothing was found, `least` - 1.
   std::size_t at_most = 0;
   std::size_t tested = 0;    ///< Boxes of the lowest level whose points were counted.
@@ -53,14 +53,14 @@ struct BoxSearchResult {
   bool is_complete = false;  ///< If not, the search was given up, and says nothing.
 };
 
-/// The best places of a local map: of each cell of robot poses the best box that can bring at least `least`
-/// of the points into contact, of the pyramid's grid or of all poses. What is left out cannot reach it
-/// anywhere in its box. Of all poses, the smallest boxes are one cell wide, and their rotations move the
-/// farthest point by one. At least one point, and of more than TileCounts::most_points the search is given
-/// up.
+/// The best places of a local map: of each cell of robot poses, among the boxes that can bring at least
+/// `least` of the points into contact, the one with the most contact at its middle; of the pyramid's grid or
+/// of all poses. What is left out cannot reach `least` anywhere in its box. Of all poses, the smallest boxes
+/// are one cell wide, and their rotations move the farthest point by one. At least one point, and of more
+/// than TileCounts::most_points the search is given up.
 ///
 /// Where there would be more than `most_places`, these are the best of them (any, where several are equally
-/// good as the last). As soon as so many are known, nothing that does not beat the last of them is searched.
+/// good as the last). As soon as so many are known, no box that cannot beat the last of them is searched.
 /// The answer does not depend on the number of threads.
 ///
 /// Over a pyramid in the plane the poses are those of the plane. In space they are those at which the local

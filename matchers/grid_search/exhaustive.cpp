@@ -57,7 +57,7 @@ class Candidates {
       found.looks += looked_at;
       if (in_contact < least_) continue;
       poses_[i].at_middle = in_contact;
-      found.take_in(robots.of(poses_[i]), {in_contact, poses_[i]});
+      take_in(found.places, robots.of(poses_[i]), poses_[i]);
     }
     size_ = 0;
   }
@@ -120,8 +120,8 @@ BoxSearchResult Exhaustive::search(const Points& points, const Pose3& local_from
     }
     best.raise();
   }
-  for (const auto& [bound, box] : best.falling(true))
-    result.poses.push_back({grid.pose(0, box.rotation, box.column, box.row), 0.0, bound});
+  for (const Box& box : best.falling())
+    result.poses.push_back({grid.pose(0, box.rotation, box.column, box.row), 0.0, box.at_middle});
   return result;
 }
 
