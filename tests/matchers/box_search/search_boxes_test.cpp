@@ -182,6 +182,7 @@ TEST(SearchBoxes, FindsTheOtherRoomThatLooksAlike) {
   EXPECT_EQ(found.at_most, points.size());
   EXPECT_GE(found.poses.front().in_contact, least);
   for (const auto& r : found.poses) {
+    EXPECT_GE(brute_count(map, points, r.map_from_local, epsilon + pyramid.delta() + 1e-6), least);
     EXPECT_GT(std::hypot(r.map_from_local.x - 2.0, r.map_from_local.y - 1.5), 0.9);
   }
 }
