@@ -9,6 +9,8 @@
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
 
+#include "matchers/common/put_chosen-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace glocal::HWY_NAMESPACE {
 namespace {
@@ -98,13 +100,12 @@ HWY_INLINE std::size_t find_looks(const TileLayout& tile, const std::int32_t* co
     // Of points that do not meet the tile, those of the first.
     const auto place = hn::IfThenElseZero(meets, block);
     const auto row = hn::BitCast(words, hn::And(line, hn::Set(d, BitsLayout::block_rows - 1)));
-    const auto word = hn::Add(hn::GatherIndex(words, tile.blocks, place), row);
-    const auto next = hn::Add(hn::GatherIndex(words, tile.blocks + bits.row_blocks, place), row);
+    const auto block_of_word = hn::GatherIndex(words, tile.blocks, place);
+    const auto block_of_next = hn::GatherIndex(words, tile.blocks + bits.row_blocks, place);
     const auto found = hn::RebindMask(words, meets);
-    hn::CompressStore(hn::BitCast(words, hn::And(first, hn::Set(d, 63))), found, words,
-                      looks.shifts.data() + size);
-    hn::CompressStore(next, found, words, looks.next.data() + size);
-    size += hn::CompressStore(word, found, words, looks.words.data() + size);
+    put_chosen(words, hn::BitCast(words, hn::And(first, hn::Set(d, 63))), found, looks.shifts.data() + size);
+    put_chosen(words, hn::Add(block_of_next, row), found, looks.next.data() + size);
+    size += put_chosen(words, hn::Add(block_of_word, row), found, looks.words.data() + size);
   }
   return size;
 }

@@ -7,6 +7,8 @@
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
 
+#include "matchers/common/put_chosen-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace glocal::HWY_NAMESPACE {
 namespace {
@@ -131,8 +133,8 @@ void find_relations_in_vectors(const Points& points, const TripleBatch& batch, c
           hn::Or(hn::ShiftLeft<2 * relation_side_bits>(first), hn::ShiftLeft<relation_side_bits>(second)),
           third);
       const auto mask = hn::RebindMask(words, admitted);
-      hn::CompressStore(numbers, mask, words, &relations.numbers[relations.size]);
-      relations.size += hn::CompressStore(relation, mask, words, &relations.relations[relations.size]);
+      put_chosen(words, numbers, mask, &relations.numbers[relations.size]);
+      relations.size += put_chosen(words, relation, mask, &relations.relations[relations.size]);
     };
     store(a.own, b.own, c.own);
     if (!neighbours) continue;
