@@ -7,11 +7,14 @@
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
 
+#include "matchers/common/put_chosen-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace glocal::ransam::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using glocal::HWY_NAMESPACE::put_chosen;
 using Entries = hn::ScalableTag<std::uint64_t>;
 using Indexes = hn::RebindToSigned<Entries>;
 using Words = hn::Rebind<std::uint32_t, Entries>;
@@ -31,22 +34,19 @@ void slots_in_vectors(const RelationBatch& batch, unsigned bits, std::uint64_t* 
   }
 }
 
-/// Slots and entries of those of the relations [from, to) whose slot is in [begin, end); how many they are.
-std::size_t entries_in_vectors(const RelationBatch& batch, std::size_t from, std::size_t to,
-                               std::uint64_t first, unsigned bits, std::uint64_t begin, std::uint64_t end,
-                               std::uint64_t* slots, std::uint64_t* entries) {
-  const Entries d;
+/// Which of the relations [from, to) have a slot in [begin, end), and these slots; how many they are.
+std::size_t share_in_vectors(const RelationBatch& batch, std::size_t from, std::size_t to, unsigned bits,
+                             std::uint32_t begin, std::uint32_t end, std::uint32_t* chosen,
+                             std::uint32_t* slots) {
+  const Words words;
   std::size_t size = 0;
-  for (std::size_t i = from; i < to; i += hn::Lanes(d)) {
-    const auto relation = hn::PromoteTo(d, hn::LoadU(Words(), &batch.relations[i]));
-    const auto number = hn::Add(hn::PromoteTo(d, hn::LoadU(Words(), &batch.numbers[i])), hn::Set(d, first));
-    const auto slot = slots_of(relation, bits);
-    const auto outside =
-        hn::Or(hn::Lt(hn::BitCast(Indexes(), slot), hn::Set(Indexes(), static_cast<std::int64_t>(begin))),
-               hn::Gt(hn::BitCast(Indexes(), slot), hn::Set(Indexes(), static_cast<std::int64_t>(end) - 1)));
-    const auto mine = hn::AndNot(hn::RebindMask(d, outside), hn::FirstN(d, to - i));
-    hn::CompressStore(hn::Or(hn::ShiftLeft<relation_bits>(number), relation), mine, d, entries + size);
-    size += hn::CompressStore(slot, mine, d, slots + size);
+  for (std::size_t i = from; i < to; i += hn::Lanes(words)) {
+    const auto relation = hn::PromoteTo(Entries(), hn::LoadU(words, &batch.relations[i]));
+    const auto slot = hn::TruncateTo(words, slots_of(relation, bits));
+    const auto within = hn::AndNot(hn::Lt(slot, hn::Set(words, begin)), hn::Lt(slot, hn::Set(words, end)));
+    const auto mine = hn::And(within, hn::FirstN(words, to - i));
+    put_chosen(words, hn::Iota(words, static_cast<std::uint32_t>(i)), mine, chosen + size);
+    size += put_chosen(words, slot, mine, slots + size);
   }
   return size;
 }
@@ -65,10 +65,10 @@ std::size_t find_in_vectors(const std::uint64_t* table, const std::uint64_t* slo
     const auto draw = hn::BitCast(indexes, hn::Sub(hn::ShiftRight<relation_bits>(entry), hn::Set(d, first)));
     const auto of_this_fill = hn::RebindMask(d, hn::Gt(draw, hn::Set(indexes, -1)));
     const auto same = hn::Eq(hn::And(entry, relation_mask), relation);
-    const auto hit = hn::And(hn::And(of_this_fill, same), hn::FirstN(d, batch.size - i));
-    const auto number = hn::PromoteTo(d, hn::LoadU(words, &batch.numbers[i]));
-    const auto pair = hn::Or(hn::ShiftLeft<32>(number), hn::BitCast(d, draw));
-    size += hn::CompressStore(pair, hit, d, &found.pairs[size]);
+    const auto is_hit = hn::TruncateTo(words, hn::VecFromMask(d, hn::And(of_this_fill, same)));
+    const auto hit = hn::And(hn::Ne(is_hit, hn::Zero(words)), hn::FirstN(words, batch.size - i));
+    put_chosen(words, hn::LoadU(words, &batch.numbers[i]), hit, &found.numbers[size]);
+    size += put_chosen(words, hn::TruncateTo(words, hn::BitCast(d, draw)), hit, &found.partners[size]);
   }
   return size;
 }
@@ -82,7 +82,7 @@ namespace glocal::ransam {
 namespace {
 
 HWY_EXPORT(slots_in_vectors);
-HWY_EXPORT(entries_in_vectors);
+HWY_EXPORT(share_in_vectors);
 HWY_EXPORT(find_in_vectors);
 
 }  // namespace
@@ -98,14 +98,18 @@ void RelationTable::begin_fill(std::uint64_t draws) {
 
 void RelationTable::fill(const RelationBatch& batch, std::size_t share, std::size_t shares) {
   constexpr std::size_t ahead = TripleBatch::capacity;
-  std::array<std::uint64_t, ahead> slots;
-  std::array<std::uint64_t, ahead> entries;
+  std::array<std::uint32_t, ahead> chosen;
+  std::array<std::uint32_t, ahead> slots;
+  const auto begin_of = [&](std::size_t which) {
+    return static_cast<std::uint32_t>((which << bits_) / shares);
+  };
   for (std::size_t i = 0; i < batch.size; i += ahead) {
-    const std::size_t size = HWY_DYNAMIC_DISPATCH(entries_in_vectors)(
-        batch, i, std::min(i + ahead, batch.size), first_, bits_, (share << bits_) / shares,
-        ((share + 1) << bits_) / shares, slots.data(), entries.data());
+    const std::size_t size = HWY_DYNAMIC_DISPATCH(share_in_vectors)(
+        batch, i, std::min(i + ahead, batch.size), bits_, begin_of(share), begin_of(share + 1), chosen.data(),
+        slots.data());
     for (std::size_t k = 0; k < size; ++k) __builtin_prefetch(&slots_[slots[k]], 1);
-    for (std::size_t k = 0; k < size; ++k) slots_[slots[k]] = entries[k];
+    for (std::size_t k = 0; k < size; ++k)
+      slots_[slots[k]] = (first_ + batch.numbers[chosen[k]]) << relation_bits | batch.relations[chosen[k]];
   }
 }
 

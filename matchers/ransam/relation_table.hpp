@@ -13,13 +13,8 @@ namespace glocal::ransam {
 /// Draws of one side with draws of the other side that had the same relation.
 struct PartnerBatch {
   std::size_t size = 0;
-  std::array<std::uint64_t, RelationBatch::capacity> pairs;
-
-  /// The draw that was looked up, and the one in the table.
-  [[nodiscard]] std::uint32_t number(std::size_t i) const {
-    return static_cast<std::uint32_t>(pairs[i] >> 32U);
-  }
-  [[nodiscard]] std::uint32_t partner(std::size_t i) const { return static_cast<std::uint32_t>(pairs[i]); }
+  std::array<std::uint32_t, RelationBatch::capacity> numbers;   ///< Of the draws that were looked up.
+  std::array<std::uint32_t, RelationBatch::capacity> partners;  ///< Of those in the table.
 };
 
 /// Entries of 8 bytes: the quantised relation, compared on look-up (a hash collision is not a relation
@@ -31,7 +26,7 @@ class RelationTable {
  public:
   static constexpr unsigned number_bits = 64 - relation_bits;
 
-  /// 2^bits slots.
+  /// 2^bits slots; fewer than 2^32.
   explicit RelationTable(unsigned bits) : bits_(bits), slots_(std::size_t{1} << bits, 0) {}
 
   /// Forgets everything; at most `draws` draws follow, numbered from 0.

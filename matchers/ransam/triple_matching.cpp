@@ -117,8 +117,8 @@ MatchResult TripleMatching::match_local_triples(const Points& local, const Tripl
                            std::min(begin + TripleBatch::capacity, end), relations);
     table_.find(relations, partners);  // eq. 2
     for (std::size_t i = 0; i < partners.size; ++i) {
-      local_triples.add_number(partners.number(i));
-      map_triples.add_number(partners.partner(i));
+      local_triples.add_number(partners.numbers[i]);
+      map_triples.add_number(partners.partners[i]);
       if (local_triples.full()) test_collisions();
     }
   }

@@ -22,8 +22,8 @@ std::optional<std::uint32_t> find(const RelationTable& table, Relation relation)
   table.find(batch, found);
   if (found.size == 0) return std::nullopt;
   EXPECT_EQ(found.size, 1U);
-  EXPECT_EQ(found.number(0), 17U);
-  return found.partner(0);
+  EXPECT_EQ(found.numbers[0], 17U);
+  return found.partners[0];
 }
 
 void fill(RelationTable& table, Relation relation, std::uint32_t draw) {
@@ -96,8 +96,8 @@ TEST(RelationTable, ABatchFindsWhatEachOfItsRelationsFinds) {
     const auto alone = find(table, batch.relations[i]);
     if (!alone) continue;
     ASSERT_LT(n, found.size);
-    EXPECT_EQ(found.number(n), batch.numbers[i]);
-    EXPECT_EQ(found.partner(n), *alone);
+    EXPECT_EQ(found.numbers[n], batch.numbers[i]);
+    EXPECT_EQ(found.partners[n], *alone);
     ++n;
   }
   EXPECT_EQ(n, found.size);
