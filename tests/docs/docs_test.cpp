@@ -53,16 +53,32 @@ std::vector<fs::path> documents() {
   return files;
 }
 
-/// With what stands in the folders of the sources.
-std::vector<fs::path> documents_and_readmes() {
-  std::vector<fs::path> files = documents();
+/// All that is written here, not built.
+std::vector<fs::path> files_of_project() {
+  std::vector<fs::path> files;
   for (auto at = fs::recursive_directory_iterator(root); at != fs::recursive_directory_iterator(); ++at) {
     const std::string name = at->path().filename();
     if (at->is_directory() && (name.starts_with(".") || name == "build" || name == "node_modules"))
       at.disable_recursion_pending();
-    if (name == "README.md" && at.depth() > 0) files.push_back(at->path());
+    if (at->is_regular_file()) files.push_back(at->path());
   }
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// What says what lives in a folder.
+std::vector<fs::path> readmes_of_folders() {
+  std::vector<fs::path> files = files_of_project();
+  std::erase_if(files, [](const fs::path& file) {
+    return file.filename() != "README.md" || file.parent_path() == root ||
+           file.parent_path() == root / "docs";
+  });
+  return files;
+}
+
+std::vector<fs::path> documents_and_readmes() {
+  std::vector<fs::path> files = documents();
+  for (const fs::path& readme : readmes_of_folders()) files.push_back(readme);
   return files;
 }
 
@@ -155,6 +171,20 @@ TEST(Docs, NamedFunctionsExist) {
           << document << " names " << function << " in " << source;
     }
   }
+}
+
+TEST(Docs, FilesThatReadmesOfFoldersNameExist) {
+  std::set<std::string> names;
+  for (const fs::path& file : files_of_project()) names.insert(file.filename());
+  std::size_t named = 0;
+  for (const fs::path& readme : readmes_of_folders()) {
+    const std::string text = read(readme);
+    for (const std::smatch& match : matches(text, R"(`(?:[a-z_0-9/]+/)?([a-z_0-9-]+\.[ch]pp)[`:])")) {
+      ++named;
+      EXPECT_TRUE(names.contains(match[1])) << readme << " names " << match[1];
+    }
+  }
+  EXPECT_GT(named, 100U);
 }
 
 TEST(Docs, ScriptsAndTheirOptionsExist) {
