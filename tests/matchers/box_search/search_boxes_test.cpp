@@ -288,8 +288,9 @@ TEST(SearchBoxes, AFewPlacesAreTheBestOfAll) {
 TEST(SearchBoxes, RoomsThatOnlySeemToFitDoNotHideTheOneThatFits) {
   Points map;
   for (int i = 0; i < 12; ++i) {
+    const int row = i / 4;
     const float x0 = 12.0F * static_cast<float>(i % 4);
-    const float y0 = 12.0F * static_cast<float>(i / 4);
+    const float y0 = 12.0F * static_cast<float>(row);
     Points wide = room(0.0F, 0.0F, true);
     for (std::size_t k = 0; k < wide.size(); ++k)
       map.push_back({x0 + wide.x[k] * 1.11F, y0 + wide.y[k] * 1.15F, 0.0F});
