@@ -15,7 +15,7 @@ class Room {
  public:
   Room() {
     data_.grid = {.map_from_grid = {}, .resolution = 0.05, .width = 160, .height = 120, .cells = {}};
-    data_.grid.cells = PackedCells(160 * 120, Cell::free);
+    data_.grid.cells = PackedCells(std::size_t{160} * 120, Cell::free);
     fill(0, 160, 0, 1);
     fill(0, 160, 119, 120);
     fill(0, 1, 0, 120);

@@ -115,7 +115,7 @@ TEST(Pcd, WithAnOriginHasDoublePrecision) {
   std::string header = header_of_two;
   header.replace(header.find("4 4 4"), 5, "8 8 8");
   ASSERT_EQ(text.substr(0, header.size()), header);
-  ASSERT_EQ(text.size(), header.size() + 2 * 3 * sizeof(double));
+  ASSERT_EQ(text.size(), header.size() + 6 * sizeof(double));
   std::array<double, 6> numbers{};
   std::memcpy(numbers.data(), text.data() + header.size(), sizeof numbers);
   EXPECT_THAT(numbers, testing::ElementsAre(500'001.0, 4'649'774.0, 0.5, 500'000.0, 4'649'780.0, 0.0));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "config/text_file.hpp"
 #include "glocal/error.hpp"
@@ -135,8 +136,8 @@ TEST(DisturbedMaps, ATableMappedBelowItsTopIsFourLegs) {
     for (int row = 10; row < 26; ++row) map.grid.cell(column, row) = Cell::occupied;
   }
   const auto kinds = map_disturbance_kinds();
-  const auto kind =
-      std::find_if(kinds.begin(), kinds.end(), [](const auto& k) { return k.name == "other_height"; });
+  const auto kind = std::find_if(kinds.begin(), kinds.end(),
+                                 [](const auto& k) { return std::string_view(k.name) == "other_height"; });
   ASSERT_NE(kind, kinds.end());
   Rng rng(1);
   kind->change(map, 1.0, rng);
