@@ -58,7 +58,7 @@ TEST_F(ConvertCommand, McapCanBeCopied) {
 TEST_F(ConvertCommand, MessagesOfRos1ThatAreNotKnownAreLeftOut) {
   using namespace bags;
   const std::string header = le<std::uint32_t>(0) + ros1_time(5, 6) + sized("map");
-  const std::string pose(7 * 8, '\0');
+  const std::string pose(std::size_t{7} * 8, '\0');
   folder_.write("a.bag", ros1_magic + ros1_bag_header() +
                              ros1_chunk(ros1_connection(0, "/pose", "geometry_msgs/PoseStamped") +
                                         ros1_connection(1, "/imu", "sensor_msgs/Imu") +

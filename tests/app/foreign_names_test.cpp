@@ -1,4 +1,5 @@
 // Names that files bring, as the program shows them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -30,7 +31,7 @@ class ForeignNames : public CommandLine {
     constexpr std::int64_t ms = 1'000'000;
     bags::RobotRecording recording;
     for (int i = 0; i < 5; ++i) {
-      const std::int64_t stamp = i * 100 * ms;
+      const std::int64_t stamp = 100 * ms * i;
       recording.transform("odom", "base" + name, stamp, Pose2{0.1 * i, 0.0, 0.0});
       recording.transform("base" + name, "laser" + name, stamp, {}, "/tf_static");
       for (int topic = 0; topic < topics; ++topic)
@@ -66,13 +67,16 @@ TEST_F(ForeignNames, OfRecordingsAreFitForATerminal) {
   write_recording("many.mcap", "", 500);
   for (const std::string name : {"odd.mcap", "long.mcap", "many.mcap"}) {
     const std::string recording = file(name);
-    folder_.write("run.yaml", "schema: 1\nname: r\nmap: {bag_map: {path: " + name + "}}\n" +
-                                  "observations: {bag: {path: " + name + "}}\ntrials: {starts_m: [0]}\n");
-    folder_.write("unknown.yaml", "schema: 1\nname: r\nmap: {bag_map: {path: " + name + ", topic: /no}}\n" +
-                                      "observations: {bag: {path: " + name + ", scans: [/no]}}\n");
+    folder_.write("run.yaml", fmt::format("schema: 1\nname: r\nmap: {{bag_map: {{path: {0}}}}}\n"
+                                          "observations: {{bag: {{path: {0}}}}}\ntrials: {{starts_m: [0]}}\n",
+                                          name));
+    folder_.write("unknown.yaml",
+                  fmt::format("schema: 1\nname: r\nmap: {{bag_map: {{path: {0}, topic: /no}}}}\n"
+                              "observations: {{bag: {{path: {0}, scans: [/no]}}}}\n",
+                              name));
     for (const std::string& arguments :
          {"bag info " + recording, "localize " + file("map.yaml") + " " + recording + " --out " + file("a"),
-          "localize " + recording + " " + recording + " --out " + file("b"),
+          fmt::format("localize {0} {0} --out {1}", recording, file("b")),
           "localize " + file("map.yaml") + " " + recording + " --scans /no --out " + file("c"),
           "localize " + file("map.yaml") + " " + recording + " --odom-frame no --out " + file("d"),
           "convert " + recording + " -o " + file(name + ".out.mcap"),
@@ -95,14 +99,15 @@ TEST_F(ForeignNames, OfOtherFilesAreFitForATerminal) {
   const std::string long_name(1'000'000, 'y');
   for (const std::string& name : {on_terminals, long_name}) {
     folder_.write("keys.yaml", "schema: 1\n" + name + ": 1\n");
-    folder_.write("values.yaml", "schema: 1\nname: n\nmap: " + name + "\nobservations: {" + name + ": {}}\n");
+    folder_.write("values.yaml",
+                  fmt::format("schema: 1\nname: n\nmap: {0}\nobservations: {{{0}: {{}}}}\n", name));
     folder_.write("variants.yaml",
                   "schema: 1\nname: n\nmap: {simulation: {world: world.yaml}}\n"
                   "observations: {simulation: {world: world.yaml}}\nvariants: {\"" +
                       (name == long_name ? name.substr(0, 900'000) : "\\e[31m") + "\": {seed: 2}}\n");
     folder_.write("world.yaml", "size: [1, 1]\n" + name + ": 2\n");
     folder_.write("cloud.pcd",
-                  "VERSION .7\nFIELDS x y " + name + "\nSIZE 4 4 4\nTYPE F F F\n" + name + " 1\n");
+                  fmt::format("VERSION .7\nFIELDS x y {0}\nSIZE 4 4 4\nTYPE F F F\n{0} 1\n", name));
     folder_.write("cloud.ply",
                   "ply\nformat ascii 1.0\nelement " + name + " 3\nproperty float x\nend_header\n");
     folder_.write("drive.log", "FLASER " + name + " 1 1\n");
