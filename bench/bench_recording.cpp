@@ -99,7 +99,7 @@ std::string ros1_of(const std::string& compression, Index index) {
 }
 
 void set_rate(benchmark::State& state) {
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations()) * chunks * chunk_bytes);
+  state.SetBytesProcessed(static_cast<std::int64_t>(chunks * chunk_bytes) * state.iterations());
 }
 
 /// Every message of a file, decoded if `decodes`.

@@ -19,8 +19,8 @@
 #include <stdexcept>
 
 // Fast DDS 2.9 frees some of its own objects as others than it made: AddressSanitizer is to pass over that.
-extern "C" const char* __asan_default_options();   // NOLINT(bugprone-reserved-identifier)
-extern "C" const char* __asan_default_options() {  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __asan_default_options();   // NOLINT: its name
+extern "C" const char* __asan_default_options() {  // NOLINT
   return "new_delete_type_mismatch=0";
 }
 
