@@ -100,12 +100,12 @@ HWY_INLINE std::size_t find_looks(const TileLayout& tile, const std::int32_t* co
     // Of points that do not meet the tile, those of the first.
     const auto place = hn::IfThenElseZero(meets, block);
     const auto row = hn::BitCast(words, hn::And(line, hn::Set(d, BitsLayout::block_rows - 1)));
-    const auto block_of_word = hn::GatherIndex(words, tile.blocks, place);
-    const auto block_of_next = hn::GatherIndex(words, tile.blocks + bits.row_blocks, place);
+    const auto word = hn::Add(hn::GatherIndex(words, tile.blocks, place), row);
+    const auto next = hn::Add(hn::GatherIndex(words, tile.blocks + bits.row_blocks, place), row);
     const auto found = hn::RebindMask(words, meets);
     put_chosen(words, hn::BitCast(words, hn::And(first, hn::Set(d, 63))), found, looks.shifts.data() + size);
-    put_chosen(words, hn::Add(block_of_next, row), found, looks.next.data() + size);
-    size += put_chosen(words, hn::Add(block_of_word, row), found, looks.words.data() + size);
+    put_chosen(words, next, found, looks.next.data() + size);
+    size += put_chosen(words, word, found, looks.words.data() + size);
   }
   return size;
 }

@@ -15,8 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace glocal::HWY_NAMESPACE {
 
 /// Stores those values of a vector that are chosen, one behind the other, and returns how many they are.
-/// Writes a whole vector. hwy::CompressStore does not, but for values of four bytes AMD's Zen 4 takes more
-/// than a hundred cycles for that.
+/// Writes a whole vector: hwy::CompressStore writes no more than it must, for which AMD's Zen 4 takes some
+/// seventy cycles. For values of four bytes: of eight, it is no faster (Highway 1.0, GCC 12).
 template <class D, class V, class M>
 HWY_INLINE std::size_t put_chosen(D d, V values, M chosen, hwy::HWY_NAMESPACE::TFromD<D>* to) {
   namespace hn = hwy::HWY_NAMESPACE;

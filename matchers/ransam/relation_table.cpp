@@ -30,9 +30,10 @@ void RelationTable::fill(const RelationBatch& batch, std::size_t share, std::siz
   };
   const std::uint32_t begin = begin_of(share);
   const std::uint32_t end = begin_of(share + 1);
-  for (std::size_t first = 0; first < batch.size; first += ahead) {
+  for (std::size_t from = 0; from < batch.size; from += ahead) {
+    const std::size_t to = std::min(from + ahead, batch.size);
     std::size_t size = 0;
-    for (std::size_t i = first; i < std::min(first + ahead, batch.size); ++i) {
+    for (std::size_t i = from; i < to; ++i) {
       const std::uint32_t slot = slot_of(batch.relations[i], bits_);
       chosen[size] = static_cast<std::uint32_t>(i);
       slots[size] = slot;

@@ -148,7 +148,7 @@ TEST_F(ForeignNames, OfResultsAreFitForATerminal) {
   for (const std::string& arguments :
        {"summarize " + file("a"), "summarize --json " + file("a"), "compare " + file("a") + " " + file("b"),
         "compare --json " + file("a") + " " + file("b"), "explain " + file("a") + " --step 1",
-        "report " + file("a"), "reliability " + file("a")})
+        "report " + file("a") + " -o " + file("report.html"), "reliability " + file("a")})
     expect_fit(arguments);
 }
 
