@@ -31,12 +31,6 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// Whether the first argument should be a command, but is none.
-bool is_unknown(std::string_view argument, const std::vector<std::string>& commands) {
-  return !argument.starts_with('-') &&
-         std::find(commands.begin(), commands.end(), argument) == commands.end();
-}
-
 int report(const ConfigError& error) {
   for (const Fault& fault : error.faults()) say("{}\n", to_string(fault));
   const std::size_t n = error.faults().size();
@@ -69,13 +63,22 @@ std::string advice_on(const std::string& argument, const CLI::App& command) {
 }
 
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = chosen_command(app);
+  const std::vector<std::string> below = command_names(command);
+  const std::vector<std::string> extras = app.remaining(true);
+  if (!below.empty() && !extras.empty() && !extras.front().starts_with("-")) {
+    say("error: unknown command '{}'{}\n", extras.front(), suggestion(extras.front(), below, "there are"));
+    return wrong_input;
+  }
   if (error.get_exit_code() == 0) {  // --help, --version
     app.exit(error);
     flush_answers();
     return 0;
   }
-  const CLI::App& command = chosen_command(app);
-  const std::vector<std::string> extras = app.remaining(true);
+  if (!below.empty() && extras.empty() && error.get_name() == "RequiredError") {
+    say("error: which command of {}?{}\n", command.get_name(), suggestion("", below, "there are"));
+    return wrong_input;
+  }
   say("error: {}{}\nRun with --help for more information.\n", error.what(),
       extras.empty() ? "" : advice_on(extras.front(), command));
   return wrong_input;
@@ -126,11 +129,6 @@ int parse_and_run(CLI::App& app, const Context& context, int argc, char** argv) 
     answer(app.help());
     flush_answers();
     return 0;
-  }
-  const std::vector<std::string> commands = command_names(app);
-  if (is_unknown(argv[1], commands)) {
-    say("error: unknown command '{}'{}\n", argv[1], suggestion(argv[1], commands, "there are"));
-    return wrong_input;
   }
   try {
     app.parse(argc, argv);

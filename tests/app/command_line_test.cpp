@@ -39,6 +39,11 @@ TEST_F(CommandLine, WrongUsageEndsWith2AndSuggests) {
   EXPECT_EQ(run("list matchr").exit_code, 2);
   EXPECT_EQ(run("describe ransamm").err,
             "error: nothing is called 'ransamm' (did you mean 'ransam'?)\n1 error\n");
+  EXPECT_EQ(run("lst --help").err, unknown.err);
+  EXPECT_EQ(run("map bild a b").err, "error: unknown command 'bild' (did you mean 'build'?)\n");
+  EXPECT_EQ(run("map bild a b").exit_code, 2);
+  EXPECT_EQ(run("map").err, "error: which command of map? (there are: build, convert, align, info)\n");
+  EXPECT_EQ(run("map").exit_code, 2);
   EXPECT_EQ(run("describe").exit_code, 2);
   EXPECT_EQ(run("list --frobnicate").exit_code, 2);
   EXPECT_EQ(run("--frobnicate").exit_code, 2);
