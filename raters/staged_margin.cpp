@@ -20,14 +20,16 @@ constexpr PoseTolerance near;
 /// The verdict is ambiguous if the score of a rival is within this of the best one.
 constexpr double candidate_margin = 0.10;
 
-/// A robot that is no farther from where it was stands, and sees the same again.
-constexpr PoseTolerance standing{.translation = 0.05, .rotation = radians(2.0)};
+/// m. A robot that is no farther from where it was sees the same again, whatever way it has turned.
+constexpr double standing = 0.05;
 
 /// A declared pose stays declared while its confidence is at least this.
-constexpr double confidence_to_stay = 0.9866;
+constexpr double confidence_to_stay = 0.965;
+/// Steps over which the margin is averaged: in one of them a rival may be missed.
+constexpr int steps_of_mean_margin = 10;
 /// A scan has lost the best pose if it has a smaller share of the contact that scans have had there so far.
 constexpr double least_of_usual_contact = 0.7;
-/// Steps in which the best pose has been the same and the robot has not stood, before a confidence is enough.
+/// Places from which the best pose has been the same, before a confidence is enough.
 constexpr int first_views_to_be_sure = 2;
 /// No refutation asks for more.
 constexpr int most_views_to_be_sure = 1024;
@@ -44,15 +46,22 @@ double log_odds_before(const StepResult& step) {
   return is_expected ? std::log(step.expected->odds) : 0.0;
 }
 
-/// The probability that the best pose is right: logistic in its margin, in the logarithm of the steps in
-/// which it has been the same and the robot has not stood, and in how much more beams say for it than for any
-/// rival. Fitted to starts in disturbed worlds, one in ten of them on a wrong map; without beams, to starts
-/// in clean worlds (docs/method.md). Never 1, however clear the margin is: a place off the map has no
-/// hypothesis.
-double confidence_of(double margin, int views, const std::optional<double>& beam_lead,
-                     double log_odds_before) {
-  const double seen = beam_lead ? -2.854 + 27.28 * margin + 1.126 * std::log(views) + 0.898 * *beam_lead
-                                : -1.5 + 28.5 * margin + 0.45 * std::log(views);
+/// What the confidence is made of.
+struct Evidence {
+  double margin;                    ///< In this step.
+  double mean_margin;               ///< In the latest steps in which the best pose has been the same.
+  int views;                        ///< Places from which it has been the same.
+  std::optional<double> beam_lead;  ///< How much more beams say for it than for any rival.
+};
+
+/// The probability that the best pose is right: logistic in its mean margin, in the logarithm of the views,
+/// and in the lead. Fitted to starts in disturbed worlds, one in ten of them on a wrong map; without beams,
+/// in the last margin, to starts in clean worlds (docs/method.md). Never 1, however clear the margin is: a
+/// place off the map has no hypothesis.
+double confidence_of(const Evidence& e, double log_odds_before) {
+  const double seen = e.beam_lead
+                          ? -2.568 + 30.72 * e.mean_margin + 0.62 * std::log(e.views) + 0.757 * *e.beam_lead
+                          : -1.5 + 28.5 * e.margin + 0.45 * std::log(e.views);
   return 0.998 / (1.0 + std::exp(-seen - log_odds_before));
 }
 
@@ -178,6 +187,7 @@ void StagedMargin::begin_anew() {
   begin_stages_anew();
   steps_ = 0;
   views_ = 0;
+  mean_margin_ = 0.0;
   distance_ = 0.0;
   sum_of_contact_ = 0.0;
   is_declared_ = false;
@@ -205,7 +215,7 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const Pose3& pose = step.hypotheses.front().map_from_robot;
   best_ = FollowedPose::of(step, pose);
   ++steps_;
-  if (views_ == 0 || !standing.are_near(step.local_from_robot, last_view_)) {
+  if (views_ == 0 || distance(step.local_from_robot, last_view_) > standing) {
     ++views_;
     last_view_ = step.local_from_robot;
   }
@@ -213,12 +223,13 @@ Verdict StagedMargin::judge(const StepResult& step) {
   sum_of_contact_ += contact;
 
   const double margin = margin_of(step);
+  mean_margin_ += (margin - mean_margin_) / std::min(steps_, steps_of_mean_margin);
   const bool is_clear = scan_fits && stages_.is_reached(margin, driven);
   const bool is_clear_if_certified = scan_fits && certified_stages_.is_reached(margin, driven);
   const std::optional<double>& violation = step.hypotheses.front().free_space_violation;
   const bool is_consistent = !violation || *violation <= params_.max_free_space_violation;
   const std::optional<double> lead = beam_lead(step.hypotheses);
-  const double confidence = confidence_of(margin, views_, lead, log_odds_before(step));
+  const double confidence = confidence_of({margin, mean_margin_, views_, lead}, log_odds_before(step));
   const bool is_steady_now = is_steady(turn_rate_deg);
   const bool is_sure = is_steady_now && has_verifier_ && lead && views_ >= views_to_be_sure_ &&
                        confidence >= params_.min_confidence;

@@ -41,7 +41,7 @@ class StagedMargin final : public VerdictRule {
     double max_turn_rate_deg = 60.0;
     double max_free_space_violation = 0.4;
     double min_scan_contact = 0.75;
-    double min_confidence = 0.9975;
+    double min_confidence = 0.993;
   };
 
   StagedMargin(const Params& params, const StageSetup& setup);
@@ -87,6 +87,7 @@ class StagedMargin final : public VerdictRule {
   bool has_verifier_;
   std::optional<FollowedPose> best_;
   int steps_ = 0;                ///< In which the best pose has been the same.
+  double mean_margin_ = 0.0;     ///< In the latest of these.
   int views_ = 0;                ///< Of these, without those that see the same again.
   Pose3 last_view_;              ///< local_from_robot of the last one of them.
   double distance_ = 0.0;        ///< m; driven in these.

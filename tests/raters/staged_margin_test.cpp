@@ -170,7 +170,7 @@ TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
 }
 
 /// A step that only a confidence can declare: little of its scan is on the map, and much of it is in free
-/// space. Log odds of the second one: -2.854 + 27.28 * 0.2 + 1.126 ln 2 + 0.898 * 6.
+/// space. Log odds of the second one: -2.568 + 30.72 * 0.2 + 0.62 ln 2 + 0.757 * 6.
 StepResult cluttered(double driven, double omega_scan = 0.5) {
   StepResult result = step(0.5, 0.3, driven);
   result.omega_scan = omega_scan;
@@ -193,13 +193,36 @@ TEST(StagedMargin, WhatBeamsSayMakesAConfidenceThatIsEnough) {
   const Verdict verdict = rule.judge(cluttered(0.1));
   EXPECT_EQ(verdict.kind, VerdictKind::localized);
   EXPECT_FALSE(verdict.needs_certificate);
-  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9998448, 1e-6);
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9998061, 1e-6);
 
   StagedMargin surer({.min_confidence = 0.9979}, with_verifier());
   StagedMargin unverified({.min_confidence = 0.9975}, {});
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(surer.judge(cluttered(0.1 * i)).kind, VerdictKind::searching) << i;
     EXPECT_EQ(unverified.judge(cluttered(0.1 * i)).kind, VerdictKind::searching) << i;
+  }
+}
+
+TEST(StagedMargin, AMarginThatJumpsIsNotYetBelieved) {
+  StagedMargin rule({}, with_verifier());
+  const auto confidence = [&](double margin) {
+    StepResult result = step(0.5, 0.5 - margin);
+    for (Hypothesis& h : result.hypotheses) h.beam_evidence = 1.0;
+    return rule.judge(result).estimate->confidence;
+  };
+  for (int i = 0; i < 9; ++i) EXPECT_NEAR(confidence(0.1), 0.998 * 0.6233989, 1e-6) << i;
+  // Mean margins of 0.12, then of 0.12 + (0.3 - 0.12) / 10.
+  EXPECT_NEAR(confidence(0.3), 0.998 * 0.7536918, 1e-6);
+  EXPECT_NEAR(confidence(0.3), 0.998 * 0.8417571, 1e-6);
+}
+
+TEST(StagedMargin, ARobotThatTurnsOnTheSpotSeesTheSameAgain) {
+  StagedMargin rule({}, with_verifier());
+  for (int i = 0; i < 5; ++i) {
+    StepResult turned = cluttered(0.0);
+    turned.local_from_robot = Pose2{0.0, 0.0, 0.3 * i};
+    for (Hypothesis& h : turned.hypotheses) h.map_from_robot = h.map_from_local * turned.local_from_robot;
+    EXPECT_EQ(rule.judge(turned).kind, VerdictKind::searching) << i;
   }
 }
 
@@ -222,8 +245,8 @@ TEST(StagedMargin, WithoutARivalBeamsSayNothing) {
   StepResult alone = cluttered(0.0);
   alone.hypotheses.pop_back();
   const Verdict verdict = rule.judge(alone);
-  // Log odds -2.854 + 27.28 * (0.5 - 0.1).
-  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9996835, 1e-6);
+  // Log odds -2.568 + 30.72 * (0.5 - 0.1).
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9999399, 1e-6);
 }
 
 TEST(StagedMargin, AScanWithMuchLessContactThanUsualBeginsAnew) {
