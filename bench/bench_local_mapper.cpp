@@ -92,20 +92,6 @@ BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
 BENCHMARK(last_keyframes_of_a_drive<local_mappers::ScanMatching>)->Apply(drives_of_10_to_640_m);
 BENCHMARK(last_keyframes_of_a_drive<local_mappers::Bounded>)->Apply(drives_of_10_to_640_m);
 
-/// What an observation that fits badly costs, because the wide search runs too.
-void wide_search(benchmark::State& state) {
-  const std::vector<Observation> observations = drive(41);
-  const local_mappers::ScanMatching::Params params;
-  local_mappers::ScanMatching mapper(params);
-  for (const Observation& observation : observations) mapper.add(observation);
-  for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(
-        local_mappers::correlative_search(mapper.grid(), observations.back().scan.hits, mapper.robot(),
-                                          local_mappers::ScanMatching::wide_search, 0.02));
-  }
-}
-BENCHMARK(wide_search)->Unit(benchmark::kMillisecond);
-
 }  // namespace
 }  // namespace glocal::bench
 

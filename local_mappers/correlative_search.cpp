@@ -25,6 +25,8 @@ static_assert(max_points <= 65535 / PointGrid::likelihood_one, "16 bits hold the
 
 /// Hits 3 m away move by a cell.
 constexpr double rotation_step_deg = 1.0;
+/// Largest rotation tried from the predicted one, in steps.
+constexpr int turns = 9;
 
 /// Shifts by first_column … + PointGrid::window_width - 1 and by first_row … + rows - 1 cells, tried
 /// together.
@@ -147,7 +149,6 @@ SearchResult correlative_search(const PointGrid& grid, const Points& hits, const
                                 const CorrelativeSearchParams& params, double odometry_penalty) {
   if (hits.empty()) return {predicted, 0.0};
   Search search(grid, spread_hits(hits), predicted, params.translation, odometry_penalty);
-  const int turns = static_cast<int>(std::lround(params.rotation_deg / rotation_step_deg));
   for (int turn = -turns; turn <= turns; ++turn) {
     search.try_rotation(turn * radians(rotation_step_deg), odometry_penalty * square_share(turn, turns));
   }

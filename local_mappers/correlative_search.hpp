@@ -10,7 +10,6 @@ namespace glocal::local_mappers {
 
 struct CorrelativeSearchParams {
   double translation = 0.1;
-  double rotation_deg = 9.0;  ///< Largest rotation tried from the predicted one. Not in YAML.
 };
 void describe(ParamVisitor& v, CorrelativeSearchParams& p);
 
@@ -20,8 +19,8 @@ struct SearchResult {
   double likelihood = 0.0;  ///< Mean over the points used, in [0, 1].
 };
 
-/// The best of all poses in a box around `predicted` (cell by cell in x and y, degree by degree), by the mean
-/// likelihood of at most 100 hits (robot frame, m; spread evenly) minus `odometry_penalty` times the squared
+/// The best of all poses in a box around `predicted` (cell by cell in x and y, degree by degree up to 9°), by
+/// the mean likelihood of at most 100 hits (robot frame, m; spread evenly) minus `odometry_penalty` times the squared
 /// deviation from `predicted`, in units of the box. Of equally good poses, the one tried first. After Olson,
 /// "Real-time correlative scan matching", ICRA 2009.
 [[nodiscard]] SearchResult correlative_search(const PointGrid& grid, const Points& hits,

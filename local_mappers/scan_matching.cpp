@@ -91,7 +91,8 @@ Pose2 ScanMatching::predict(const Pose2& odom_from_robot) const {
 
 Pose2 ScanMatching::match(const Scan& scan, const Points& normals, const Pose2& predicted) {
   if (map().points.empty() || scan.hits.size() < static_cast<std::size_t>(min_matches)) return predicted;
-  const SearchResult found = search(scan.hits, predicted);
+  const SearchResult found =
+      correlative_search(grid(), scan.hits, predicted, params_.search, odometry_penalty);
   const bool fits = found.likelihood >= min_fit;
   const Pose2 refined = fits ? refine(scan, normals, found.local_from_robot, predicted) : predicted;
   misfits_ = fits && free_space_check_.violation(scan, refined) <= params_.max_free_space_violation
@@ -108,15 +109,6 @@ Pose2 ScanMatching::refine(const Scan& scan, const Points& normals, const Pose2&
                      distance(refined.local_from_robot, found) <= max_correction &&
                      rotation_between(refined.local_from_robot, found) <= radians(max_correction_angle_deg);
   return sound ? refined.local_from_robot : predicted;
-}
-
-SearchResult ScanMatching::search(const Points& hits, const Pose2& predicted) const {
-  const SearchResult near = correlative_search(grid(), hits, predicted, params_.search, near_penalty);
-  if (near.likelihood >= wide_search_below) return near;
-  const SearchResult far = correlative_search(grid(), hits, predicted, wide_search, wide_penalty);
-  // Far from odometry only a good fit is believed: every place resembles some other a little.
-  const double needed = std::max(wide_search_below, near.likelihood + wide_search_gain);
-  return far.likelihood >= needed ? far : near;
 }
 
 }  // namespace glocal::local_mappers

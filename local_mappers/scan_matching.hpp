@@ -29,8 +29,6 @@ class ScanMatching final : public LocalMapper {
     double max_free_space_violation = 0.15;
     int restart_after = 2;  ///< Not in YAML.
   };
-  /// The search that follows where the first finds nothing that fits well: wheels slip, and logs have jumps.
-  static constexpr CorrelativeSearchParams wide_search{.translation = 0.75, .rotation_deg = 86.0};
 
   explicit ScanMatching(const Params& params);
 
@@ -56,15 +54,9 @@ class ScanMatching final : public LocalMapper {
  private:
   /// Mean likelihood that an observation must reach after the search. One that does not fit moves the robot
   /// by odometry and adds no points.
-  static constexpr double min_fit = 0.15;
-  /// What a pose at the border of the search loses in likelihood: odometry holds where hits say nothing …
-  static constexpr double near_penalty = 0.005;
-  /// … and is preferred among places that resemble each other.
-  static constexpr double wide_penalty = 0.02;
-  /// The wide search is tried where the first one's likelihood is below this, and must itself reach it …
-  static constexpr double wide_search_below = 0.5;
-  /// … and be more likely than the first one by this much.
-  static constexpr double wide_search_gain = 0.15;
+  static constexpr double min_fit = 0.3;
+  /// What a pose at the border of the search loses in likelihood: odometry holds where hits say nothing.
+  static constexpr double odometry_penalty = 0.005;
   /// With fewer matched hits odometry is kept.
   static constexpr int min_matches = 15;
   /// A refinement that goes farther from where the search ended has run away, m …
@@ -77,7 +69,6 @@ class ScanMatching final : public LocalMapper {
   [[nodiscard]] Pose2 match(const Scan& scan, const Points& normals, const Pose2& predicted);
   [[nodiscard]] Pose2 refine(const Scan& scan, const Points& normals, const Pose2& found,
                              const Pose2& predicted) const;
-  [[nodiscard]] SearchResult search(const Points& hits, const Pose2& predicted) const;
 
   Params params_;
   VoxelMap map_;

@@ -78,13 +78,14 @@ TEST_F(CorrelativeSearch, ThePenaltyHoldsOdometryWhereHitsSayNothing) {
   EXPECT_EQ(correlative_search(grid, {}, predicted, params, 0.01).local_from_robot, predicted);
 }
 
-TEST_F(CorrelativeSearch, WithoutARangeItOnlyRates) {
+TEST_F(CorrelativeSearch, WithoutTranslationItOnlyTurns) {
   params.translation = 0.0;
-  params.rotation_deg = 0.0;
-  const Pose2 predicted{0.07, -0.08, 0.06};
-  const SearchResult found = correlative_search(grid, hits, predicted, params, 0.0);
-  EXPECT_EQ(found.local_from_robot, predicted);
-  EXPECT_NEAR(found.likelihood, likelihood_at(grid, hits, predicted), 1e-6);
+  const SearchResult found = correlative_search(grid, hits, {0.0, 0.0, radians(9)}, params, 0.0);
+  EXPECT_EQ(found.local_from_robot.x, 0.0);
+  EXPECT_EQ(found.local_from_robot.y, 0.0);
+  EXPECT_NEAR(found.local_from_robot.theta, 0.0, 1e-6);
+  const Pose2 beyond{0.0, 0.0, radians(12)};
+  EXPECT_GE(correlative_search(grid, hits, beyond, params, 0.0).local_from_robot.theta, radians(3) - 1e-6);
 }
 
 }  // namespace

@@ -202,6 +202,27 @@ TEST(ScanMatching, StartsANewMapWhenObservationsStopFitting) {
   EXPECT_EQ(mapper.map().epoch, 0);
 }
 
+TEST(ScanMatching, StartsANewMapWhereAScanFitsOnlyFarFromOdometry) {
+  // Somebody turns the robot by 60 degrees, and its wheels say nothing of it.
+  std::vector<Pose2> poses = circle(10);
+  Pose2 turned = poses.back();
+  turned.theta = wrap_angle(turned.theta + radians(60));
+  poses.insert(poses.end(), 2, turned);
+  Drive carried = drive(test::furnished_room(), poses, {}, {});
+  ScanMatching mapper({});
+  for (std::size_t i = 0; i < 10; ++i) mapper.add(carried.observations[i]);
+  const std::size_t points = mapper.map().points.size();
+  for (std::size_t i = 10; i < 12; ++i)
+    carried.observations[i].odom_from_robot = carried.observations[9].odom_from_robot;
+  mapper.add(carried.observations[10]);
+  EXPECT_EQ(mapper.map().epoch, 0);
+  EXPECT_EQ(mapper.map().points.size(), points);
+  mapper.add(carried.observations[11]);
+  EXPECT_EQ(mapper.map().epoch, 1);
+  EXPECT_EQ(mapper.map().ends.size(), 1U);
+  EXPECT_EQ(mapper.robot(), Pose2{});
+}
+
 /// Two corridors with the same walls and other boxes along them.
 std::vector<test::Wall> corridor_with_boxes(const std::vector<double>& places, double side) {
   std::vector<test::Wall> walls = test::bare_corridor();
