@@ -51,17 +51,19 @@ struct Evidence {
   double margin;                    ///< In this step.
   double mean_margin;               ///< In the latest steps in which the best pose has been the same.
   int views;                        ///< Places from which it has been the same.
+  double contact;                   ///< Of the local map, at the best pose.
   std::optional<double> beam_lead;  ///< How much more beams say for it than for any rival.
 };
 
-/// The probability that the best pose is right: logistic in its mean margin, in the logarithm of the views,
-/// and in the lead. Fitted to starts in disturbed worlds, one in ten of them on a wrong map; without beams,
-/// in the last margin, to starts in clean worlds (docs/method.md). Never 1, however clear the margin is: a
-/// place off the map has no hypothesis.
+/// The probability that the best pose is right: logistic in its mean margin, in the logarithm of the views
+/// times the contact, as they speak for a pose only where the local map fits, and in the lead. Fitted to
+/// starts in disturbed worlds, one in ten of them on a wrong map; without beams, in the last margin, to
+/// starts in clean worlds (docs/method.md). Never 1, however clear the margin is: a place off the map has no
+/// hypothesis.
 double confidence_of(const Evidence& e, double log_odds_before) {
-  const double seen = e.beam_lead
-                          ? -2.568 + 30.72 * e.mean_margin + 0.62 * std::log(e.views) + 0.757 * *e.beam_lead
-                          : -1.5 + 28.5 * e.margin + 0.45 * std::log(e.views);
+  const double seen = e.beam_lead ? -2.74 + 31.93 * e.mean_margin + 1.204 * e.contact * std::log(e.views) +
+                                        0.713 * *e.beam_lead
+                                  : -1.5 + 28.5 * e.margin + 0.45 * std::log(e.views);
   return 0.998 / (1.0 + std::exp(-seen - log_odds_before));
 }
 
@@ -229,7 +231,8 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const std::optional<double>& violation = step.hypotheses.front().free_space_violation;
   const bool is_consistent = !violation || *violation <= params_.max_free_space_violation;
   const std::optional<double> lead = beam_lead(step.hypotheses);
-  const double confidence = confidence_of({margin, mean_margin_, views_, lead}, log_odds_before(step));
+  const Evidence evidence{margin, mean_margin_, views_, step.hypotheses.front().quality, lead};
+  const double confidence = confidence_of(evidence, log_odds_before(step));
   const bool is_steady_now = is_steady(turn_rate_deg);
   const bool is_sure = is_steady_now && has_verifier_ && lead && views_ >= views_to_be_sure_ &&
                        confidence >= params_.min_confidence;

@@ -170,10 +170,11 @@ TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
 }
 
 /// A step that only a confidence can declare: little of its scan is on the map, and much of it is in free
-/// space. Log odds of the second one: -2.568 + 30.72 * 0.2 + 0.62 ln 2 + 0.757 * 6.
+/// space. Log odds of the second one: -2.74 + 31.93 * 0.2 + 1.204 * 0.7 ln 2 + 0.713 * 6.
 StepResult cluttered(double driven, double omega_scan = 0.5) {
   StepResult result = step(0.5, 0.3, driven);
   result.omega_scan = omega_scan;
+  result.hypotheses[0].quality = 0.7;
   result.hypotheses[0].free_space_violation = 0.6;
   result.hypotheses[0].beam_evidence = 7.5;
   result.hypotheses[1].beam_evidence = 1.5;
@@ -193,7 +194,7 @@ TEST(StagedMargin, WhatBeamsSayMakesAConfidenceThatIsEnough) {
   const Verdict verdict = rule.judge(cluttered(0.1));
   EXPECT_EQ(verdict.kind, VerdictKind::localized);
   EXPECT_FALSE(verdict.needs_certificate);
-  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9998061, 1e-6);
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9997982, 1e-6);
 
   StagedMargin surer({.min_confidence = 0.9979}, with_verifier());
   StagedMargin unverified({.min_confidence = 0.9975}, {});
@@ -210,10 +211,10 @@ TEST(StagedMargin, AMarginThatJumpsIsNotYetBelieved) {
     for (Hypothesis& h : result.hypotheses) h.beam_evidence = 1.0;
     return rule.judge(result).estimate->confidence;
   };
-  for (int i = 0; i < 9; ++i) EXPECT_NEAR(confidence(0.1), 0.998 * 0.6233989, 1e-6) << i;
+  for (int i = 0; i < 9; ++i) EXPECT_NEAR(confidence(0.1), 0.998 * 0.6113523, 1e-6) << i;
   // Mean margins of 0.12, then of 0.12 + (0.3 - 0.12) / 10.
-  EXPECT_NEAR(confidence(0.3), 0.998 * 0.7536918, 1e-6);
-  EXPECT_NEAR(confidence(0.3), 0.998 * 0.8417571, 1e-6);
+  EXPECT_NEAR(confidence(0.3), 0.998 * 0.7486829, 1e-6);
+  EXPECT_NEAR(confidence(0.3), 0.998 * 0.8410872, 1e-6);
 }
 
 TEST(StagedMargin, ARobotThatTurnsOnTheSpotSeesTheSameAgain) {
@@ -245,8 +246,8 @@ TEST(StagedMargin, WithoutARivalBeamsSayNothing) {
   StepResult alone = cluttered(0.0);
   alone.hypotheses.pop_back();
   const Verdict verdict = rule.judge(alone);
-  // Log odds -2.568 + 30.72 * (0.5 - 0.1).
-  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9999399, 1e-6);
+  // Log odds -2.74 + 31.93 * (0.5 - 0.1).
+  EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9999560, 1e-6);
 }
 
 TEST(StagedMargin, AScanWithMuchLessContactThanUsualBeginsAnew) {
