@@ -20,9 +20,9 @@ struct SearchResult {
 };
 
 /// The best of all poses in a box around `predicted` (cell by cell in x and y, degree by degree up to 9°), by
-/// the mean likelihood of at most 100 hits (robot frame, m; spread evenly) minus `odometry_penalty` times the squared
-/// deviation from `predicted`, in units of the box. Of equally good poses, the one tried first. After Olson,
-/// "Real-time correlative scan matching", ICRA 2009.
+/// the mean likelihood of at most 100 hits (robot frame, m; spread evenly) minus `odometry_penalty` times the
+/// squared deviation from `predicted`, in units of the box. Of equally good poses, the one tried first. After
+/// Olson, "Real-time correlative scan matching", ICRA 2009.
 [[nodiscard]] SearchResult correlative_search(const PointGrid& grid, const Points& hits,
                                               const Pose2& predicted, const CorrelativeSearchParams& params,
                                               double odometry_penalty);
