@@ -74,7 +74,7 @@ LocalScan ScanMatching::place(const Observation& observation) {
   const Pose2 predicted = predict(odom_from_robot);
   last_odom_from_robot_ = odom_from_robot;
   map_.move_robot(match(observation.scan, normals, predicted));
-  if (!map_.holds_robot() || misfits_ >= params_.restart_after) {
+  if (!map_.holds_robot() || misfits_ >= restart_after) {
     map_.start_over();
     free_space_check_.clear();
     misfits_ = 0;

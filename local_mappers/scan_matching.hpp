@@ -17,8 +17,8 @@ namespace glocal::local_mappers {
 /// against the points of the local map. Time per observation does not grow with the drive; memory grows with
 /// the area seen only.
 ///
-/// Matching is planar; heights are kept. The map starts anew (the next epoch) when `restart_after`
-/// observations in a row do not fit it, or when the robot leaves what the grid can hold.
+/// Matching is planar; heights are kept. The map starts anew (the next epoch) when two observations in a row
+/// do not fit it, or when the robot leaves what the grid can hold.
 class ScanMatching final : public LocalMapper {
  public:
   struct Params {
@@ -27,7 +27,6 @@ class ScanMatching final : public LocalMapper {
     CorrelativeSearchParams search;
     LineRegistrationParams refinement;
     double max_free_space_violation = 0.15;
-    int restart_after = 2;  ///< Not in YAML.
   };
 
   explicit ScanMatching(const Params& params);
@@ -57,6 +56,8 @@ class ScanMatching final : public LocalMapper {
   static constexpr double min_fit = 0.3;
   /// What a pose at the border of the search loses in likelihood: odometry holds where hits say nothing.
   static constexpr double odometry_penalty = 0.005;
+  /// So many observations in a row that do not fit begin a new map.
+  static constexpr int restart_after = 2;
   /// With fewer matched hits odometry is kept.
   static constexpr int min_matches = 15;
   /// A refinement that goes farther from where the search ended has run away, m …
