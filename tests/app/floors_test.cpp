@@ -53,8 +53,7 @@ TEST_F(Floors, EachAnswerNamesItsMapAndThePoseThere) {
     EXPECT_NEAR(trial["pose"]["x"].get<double>() - trial["place"]["pose"]["x"].get<double>(), 60.0, 1.0);
     EXPECT_NEAR(trial["pose"]["y"].get<double>(), trial["place"]["pose"]["y"].get<double>(), 1.0);
   }
-  // Which starts are right depends on rounding, as searches are random: 8 of 11, or 5.
-  EXPECT_GE(right, 4U);
+  EXPECT_GE(right, 6U);
   EXPECT_GE(on_first, 2U);
 }
 
