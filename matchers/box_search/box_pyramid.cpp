@@ -81,8 +81,8 @@ std::size_t BoxPyramid::count(int level, const std::vector<CellPoints>& points, 
   for (const CellPoints& group : points) behind += group.size();
   std::size_t looked_at = 0;
   counts.clear();
-  // Far points first: at more of the wrong rotations than near ones they are not in contact.
-  for (std::size_t group = points.size(); group-- > 0 && counts.largest() + behind >= least;) {
+  // Near points first: their windows are small, and fewer of them are in contact by chance.
+  for (std::size_t group = 0; group < points.size() && counts.largest() + behind >= least; ++group) {
     behind -= points[group].size();
     looked_at += bits[group].add(points[group], column, row, layer / step, least, behind, counts);
   }

@@ -79,8 +79,9 @@ using ContactIndexes = Registry<ContactIndex, ContactSetup>;
 /// cells are as large as epsilon / 2): constant time. A planar map (all points of one height) has a single
 /// layer, which takes in everything within epsilon of that height. A voxel is in contact if its centre is
 /// within epsilon of a point, so an answer can differ from the exact one only where the distance is within
-/// half a voxel's diagonal of epsilon (0.18 epsilon in the plane). In space voxels come in bricks of 32 x 8 x
-/// 8, and empty bricks take no memory.
+/// half a voxel's diagonal of epsilon (0.18 epsilon in the plane). In the plane voxels are twice as wide on
+/// maps of more than huge_area, where they would take more memory than all else. In space they come in bricks
+/// of 32 x 8 x 8, and empty bricks take no memory.
 class BitsetContact final : public ContactIndex {
  public:
   struct Params {};

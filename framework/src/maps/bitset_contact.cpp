@@ -16,6 +16,7 @@ namespace glocal {
 namespace {
 
 constexpr double voxels_per_epsilon = 4.0;
+constexpr double voxels_per_epsilon_on_huge_maps = 2.0;
 constexpr std::size_t voxels_per_word = 32;
 /// Rows of the coarse bits are whole words too.
 constexpr double columns_step = voxels_per_word << VoxelGrid::coarse_shift;
@@ -55,11 +56,12 @@ BitsetContact::BitsetContact(const Points& points, double epsilon, int threads) 
     coarse_words_.assign(1, 0);
     return;
   }
-  scale_ = static_cast<float>(voxels_per_epsilon / epsilon);
   const Extent x = extent_of(points.x);
   const Extent y = extent_of(points.y);
   const Extent z = extent_of(points.z);
   const bool planar = z.low == z.high;
+  const bool is_huge = planar && x.length() * y.length() > huge_area;
+  scale_ = static_cast<float>((is_huge ? voxels_per_epsilon_on_huge_maps : voxels_per_epsilon) / epsilon);
   const VoxelAxis along_x = axis_of(x, epsilon, scale_), along_y = axis_of(y, epsilon, scale_);
   const VoxelAxis along_z =
       planar ? VoxelAxis{static_cast<float>(z.low - epsilon), 1.0} : axis_of(z, epsilon, scale_);

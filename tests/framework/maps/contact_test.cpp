@@ -58,6 +58,16 @@ TEST(ContactIndex, AgreesWithBruteForceInThePlane) {
   expect_as_by_brute_force(KdTreeContact(points, epsilon), points, epsilon, 0.0, false);
 }
 
+TEST(BitsetContact, VoxelsOfAHugeMapAreTwiceAsWide) {
+  Points points = test::small_world_points();
+  points.push_back({700.0F, 700.0F, 0.0F});
+  const double epsilon = 0.1;
+  const BitsetContact index(points, epsilon);
+  expect_as_by_brute_force(index, points, epsilon, epsilon / 2.0 * std::sqrt(2.0) / 2.0, false);
+  // 14,000 x 14,000 bits, and a sixteenth of that joined.
+  EXPECT_LT(index.memory_bytes(), 27'000'000U);
+}
+
 TEST(BitsetContact, IsTheSameForAnyNumberOfThreads) {
   const Points planar = test::small_world_points();
   Points in_space = planar;
