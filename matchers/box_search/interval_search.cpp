@@ -158,6 +158,7 @@ class FirstSearch {
     } else if (interval_.bound > 0) {
       dive();
     }
+    interval_.tiles.shrink_to_fit();
     return {std::move(interval_), std::move(search_.found())};
   }
 
