@@ -93,6 +93,9 @@ struct Bottom {
 
 namespace {
 
+constexpr int quarter_columns = TileCounts::columns / 2;
+constexpr int quarter_rows = TileCounts::rows / 2;
+
 /// The first box of some.
 std::array<int, 2> first_of(const TileCounts::Mask& boxes) {
   int row = 0;
@@ -169,7 +172,7 @@ class FirstSearch {
     if (!search_.reaches(top_, points_, tile, search_.least())) return;
     interval_.bound = std::max(interval_.bound, search_.counts().largest());
     if (top_ > 0) {
-      search_.add_quarters(top_, tile, all_.last_layer, wanted_, interval_.tiles);
+      search_.add_counted(top_, tile, wanted_, interval_.tiles);
     } else {
       interval_.tiles.push_back(tile);
     }
@@ -243,28 +246,22 @@ bool TileSearch::reaches(int level, const std::vector<CellPoints>& points, const
   return counts_.largest() >= least;
 }
 
-void TileSearch::add_quarters(int level, const Tile& tile, int last_layer, const WantedBoxes& wanted,
-                              std::vector<Tile>& quarters) const {
+void TileSearch::add_counted(int level, Tile tile, const WantedBoxes& wanted,
+                             std::vector<Tile>& counted) const {
   const TileCounts::Mask promising = counts_.at_least(least_);
-  constexpr int columns = TileCounts::columns / 2;
-  constexpr int rows = TileCounts::rows / 2;
-  const int layers = problem_.boxes.layers_of_box(level - 1);
-  const int end_layer = std::min(tile.layer + problem_.boxes.layers_of_box(level), last_layer + 1);
-  for (int k = 0; k < TileCounts::rows; k += rows) {
-    for (int i = 0; i < TileCounts::columns; i += columns) {
-      bool any = false;
-      for (int row = k; row < k + rows && !any; ++row) {
-        for (auto left = static_cast<std::uint32_t>(promising[static_cast<std::size_t>(row)] >> i);
-             left != 0 && !any; left &= left - 1) {
-          const int column = tile.column + ((i + std::countr_zero(left)) << level);
-          any = wanted.any({column, tile.row + (row << level), tile.layer}, 1 << level, 1 << level);
-        }
-      }
-      for (int layer = tile.layer; any && layer < end_layer; layer += layers)
-        quarters.push_back({tile.column + (i << level), tile.row + (k << level), layer,
-                            static_cast<std::uint32_t>(counts_.largest())});
+  for (int row = 0; row < TileCounts::rows; ++row) {
+    for (std::uint64_t left = promising[static_cast<std::size_t>(row)]; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      const auto quarter = static_cast<std::uint8_t>(1 << (row / quarter_rows * 2 + i / quarter_columns));
+      if ((tile.quarters & quarter) == 0 &&
+          wanted.any({tile.column + (i << level), tile.row + (row << level), tile.layer}, 1 << level,
+                     1 << level))
+        tile.quarters |= quarter;
     }
   }
+  if (tile.quarters == 0) return;
+  tile.bound = static_cast<std::uint32_t>(counts_.largest());
+  counted.push_back(tile);
 }
 
 void TileSearch::add_boxes(Bottom& bottom, const Tile& tile, std::size_t least) {
@@ -320,22 +317,35 @@ void IntervalSearch::look_at(const Part& part) {
   if (problem_.all_poses != nullptr || points_.empty()) points_ = problem_.boxes.cells(level, rotation);
   if (level == 0) return look_at_bottom(part);
   const WantedBoxes wanted(problem_, level, rotation);
-  std::vector<Tile> quarters;
+  std::vector<Tile> counted;
   for (const Tile& tile : tiles) {
     if (tile.bound < search_.least()) continue;
     if (!wanted.any(tile, TileCounts::columns << level, TileCounts::rows << level)) continue;
     if (found().looks > most_looks_) return;
     if (search_.reaches(level, points_, tile, search_.least()))
-      search_.add_quarters(level, tile, last_layer_, wanted, quarters);
+      search_.add_counted(level, tile, wanted, counted);
   }
-  open_below(level, rotation, quarters);
+  open_below(level, rotation, counted);
 }
 
-/// Tiles of the level below, in each half of an interval. Some neighbouring ones at a time go down to the
-/// bottom in both halves: the bits that they find are at hand then.
-void IntervalSearch::open_below(int level, std::size_t rotation, const std::vector<Tile>& tiles) {
+/// Quarters of tiles are tiles of the level below; where boxes are higher than those there, one for each half
+/// of the layers. Of all poses each half of the interval has them. Some neighbouring ones at a time go down
+/// to the bottom in both halves: the bits that they find are at hand then.
+void IntervalSearch::open_below(int level, std::size_t rotation, const std::vector<Tile>& counted) {
+  const int layers = problem_.boxes.layers_of_box(level - 1);
+  std::vector<Tile> tiles;
+  for (const Tile& tile : counted) {
+    const int end_layer = std::min(tile.layer + problem_.boxes.layers_of_box(level), last_layer_ + 1);
+    for (const int quarter : {0, 1, 2, 3}) {
+      if ((tile.quarters >> quarter & 1) == 0) continue;
+      const int column = tile.column + ((quarter % 2 * quarter_columns) << level);
+      const int row = tile.row + ((quarter / 2 * quarter_rows) << level);
+      for (int layer = tile.layer; layer < end_layer; layer += layers)
+        tiles.push_back({column, row, layer, tile.bound});
+    }
+  }
   if (problem_.all_poses == nullptr) {
-    if (!tiles.empty()) open_.push_back({level - 1, rotation, tiles});
+    if (!tiles.empty()) open_.push_back({level - 1, rotation, std::move(tiles)});
     return;
   }
   constexpr std::size_t most_together = 64;

@@ -30,11 +30,13 @@ struct Problem {
   [[nodiscard]] double middle_of_box() const { return all_poses != nullptr ? 0.5 : 0.0; }
 };
 
-/// A tile of boxes, by its first one's translation.
+/// A tile of boxes, by its first one's translation. There are millions of them on a large map.
 struct Tile {
   int column, row, layer;
-  /// No box of it can have more points in contact. There are millions of tiles on a large map.
+  /// No box of it can have more points in contact.
   std::uint32_t bound = std::numeric_limits<std::uint32_t>::max();
+  /// Once its boxes are counted: bit 2 k + i for the one in column i and row k that has a box worth a look.
+  std::uint8_t quarters = 0;
 };
 
 /// An interval of rotations of the top level, after a first look.
@@ -42,8 +44,7 @@ struct Interval {
   std::size_t rotation = 0;
   std::size_t bound = 0;    ///< No box of any tile can have more points in contact.
   std::size_t promise = 0;  ///< What is searched first promises most.
-  /// All that may have a box that reaches the bar: of a grid those of the top level, and else of the one
-  /// below, if there is one.
+  /// All of the top level that may have a box that reaches the bar; of all poses, those that have one.
   std::vector<Tile> tiles = {};
   int last_layer = 0;  ///< Of translations.
 };
@@ -72,10 +73,9 @@ class TileSearch {
                              std::size_t least);
   [[nodiscard]] const TileCounts& counts() const { return counts_; }
 
-  /// A quarter of the boxes of the tile just counted makes a tile of the level below; where boxes are higher
-  /// than those there, one for each half of the layers, up to the last.
-  void add_quarters(int level, const Tile& tile, int last_layer, const WantedBoxes& wanted,
-                    std::vector<Tile>& quarters) const;
+  /// The tile just counted, with the quarters that have a box worth a look, if any has; it is added to
+  /// others.
+  void add_counted(int level, Tile tile, const WantedBoxes& wanted, std::vector<Tile>& counted) const;
   /// Those of the tile just counted that reach so much, of level 0.
   void add_boxes(Bottom& bottom, const Tile& tile, std::size_t least);
 
@@ -116,7 +116,7 @@ class IntervalSearch {
   };
   void look_at(const Part& part);
   void look_at_bottom(const Part& part);
-  void open_below(int level, std::size_t rotation, const std::vector<Tile>& tiles);
+  void open_below(int level, std::size_t rotation, const std::vector<Tile>& counted);
 
   const Problem& problem_;
   std::size_t most_looks_;

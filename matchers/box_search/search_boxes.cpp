@@ -80,7 +80,8 @@ class State {
   /// At as many intervals as these looks are likely to do for, going by those before.
   void take_first_looks(std::size_t looks) {
     constexpr std::size_t at_first = 8;
-    constexpr std::size_t most_together = 64;
+    // Of a grid, bits are few, and stay in the cache.
+    const std::size_t most_together = problem_.all_poses != nullptr ? 64 : 1;
     const std::size_t done = first_looks_.size();
     const std::size_t likely = done == 0 ? at_first : looks / (looks_ / done + 1);
     const std::size_t size = std::clamp<std::size_t>(likely, 1, rotations_ - done);
