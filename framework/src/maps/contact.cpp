@@ -29,9 +29,11 @@ void ContactIndex::count_at_most(const Points& /*points*/, std::size_t n, const 
 }
 
 void register_contact_indexes(ContactIndexes& indexes) {
-  indexes.add<BitsetContact>("bitset",
-                             "Bits on a grid of epsilon / 4: constant time, exact up to half a voxel.",
-                             stable_since("0.1.0"));
+  indexes.add<BitsetContact>(
+      "bitset",
+      "Bits on a grid of epsilon / 4, or of epsilon / 2 on planar maps of more than 25 hectares: "
+      "constant time, exact up to half a voxel.",
+      stable_since("0.1.0"));
   indexes.add<KdTreeContact>("kd_tree", "Exact, and twenty-five times slower.", stable_since("0.1.0"));
 }
 
