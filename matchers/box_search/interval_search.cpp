@@ -161,7 +161,6 @@ class FirstSearch {
     } else if (interval_.bound > 0) {
       dive();
     }
-    interval_.tiles.shrink_to_fit();
     return {std::move(interval_), std::move(search_.found())};
   }
 
@@ -352,9 +351,9 @@ void IntervalSearch::open_below(int level, std::size_t rotation, const std::vect
   for (std::size_t end = tiles.size(); end > 0;) {
     const std::size_t size = std::min(end, most_together);
     const auto last = tiles.begin() + static_cast<std::ptrdiff_t>(end);
-    const std::vector<Tile> some(last - static_cast<std::ptrdiff_t>(size), last);
+    std::vector<Tile> some(last - static_cast<std::ptrdiff_t>(size), last);
     open_.push_back({level - 1, 2 * rotation + 1, some});
-    open_.push_back({level - 1, 2 * rotation, some});
+    open_.push_back({level - 1, 2 * rotation, std::move(some)});
     end -= size;
   }
 }

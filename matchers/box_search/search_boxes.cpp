@@ -109,15 +109,13 @@ class State {
   [[nodiscard]] std::size_t intervals_at_a_time() const { return problem_.all_poses != nullptr ? 8 : 32; }
 
   void begin_batch() {
-    const auto rest = std::span(first_looks_).subspan(next_);
+    const auto rest = std::span<const FirstLook>(first_looks_).subspan(next_);
     const auto some = rest.first(std::min(intervals_at_a_time(), rest.size()));
     next_ += some.size();
     const bool is_given_up = result_.looks > rule_.most_looks;
     // Of each interval, as all of them are searched before the next count.
     looks_each_ = is_given_up ? 0 : (rule_.most_looks - result_.looks) / 4;
-    for (FirstLook& look : some) {
-      // Tiles that are taken here take no memory there.
-      const Interval interval = std::move(look.interval);
+    for (const auto& [interval, found] : some) {
       if (interval.bound < best_.bar()) continue;
       if (is_given_up) return end(false);
       batch_.emplace_back(problem_, interval, best_.bar(), looks_each_);
