@@ -70,15 +70,14 @@ std::optional<carmen::CarmenScan> DriveSimulator::next() {
 }
 
 carmen::CarmenScan DriveSimulator::measure(const DriveStep& step) const {
-  const Pose2 map_from_laser = step.map_from_robot * robot_from_laser(laser_);
   // A map is looked at from beyond the last cell that matters, as rays stop before the cell they end in.
   const double reach = laser_.max_range + (map_ ? 2.0 * map_->resolution : 0.0);
   // Noise, of never more than nine standard deviations, brings things into range.
-  Shapes shapes = reality_.around({map_from_laser.x, map_from_laser.y}, reach + 9.0 * laser_.noise);
-  const std::vector<Circle> people = people_at(world_, step.stamp);
-  shapes.circles.insert(shapes.circles.end(), people.begin(), people.end());
+  const double reach_of_things = reach + 9.0 * laser_.noise;
+  const Shapes people{.circles = people_at(world_, step.stamp)};
   const auto distance_to_anything = [&](const Position& origin, const Position& direction) {
-    const double thing = ray_distance(shapes, origin, direction);
+    const double thing = std::min(reality_.ray_distance(origin, direction, reach_of_things),
+                                  ray_distance(people, origin, direction));
     if (!map_) return thing;
     return ray_distance(*map_, origin, direction, reach, max_unknown_, thing);
   };

@@ -39,9 +39,8 @@ LidarSimulation::LidarSimulation(const Params& params, const SourceSetup& setup,
 std::optional<Sample> LidarSimulation::next() {
   const std::optional<DriveStep> step = robot_.next();
   if (!step) return std::nullopt;
-  const Pose2& place = step->map_from_robot;
-  const double way_in_scan = step->map_from_last ? distance(*step->map_from_last, place) : 0.0;
-  scene_.look_around({place.x, place.y}, lidar_.max_range + way_in_scan, step->stamp);
+  // Noise, of never more than nine standard deviations, brings things into range.
+  scene_.look_around(lidar_.max_range + 9.0 * lidar_.noise, step->stamp);
   Scan scan = lidar_scan(
       lidar_, [&](double time) { return pose_at(*step, time); },
       [&](const Vector3& origin, const Vector3& direction) { return scene_.ray_distance(origin, direction); },

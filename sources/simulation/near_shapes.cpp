@@ -4,104 +4,125 @@
 #include <cmath>
 #include <limits>
 
+#include "sources/grid_ray.hpp"
+
 namespace glocal::simulation {
 namespace {
 
-constexpr double least_side = 10.0;  // m
-constexpr double most_cells_a_side = 256.0;
-constexpr std::size_t most_cells_a_shape = 64;
+constexpr double least_side = 2.5;  // m
+constexpr double most_cells_a_side = 512.0;
+constexpr int most_cells_a_shape = 256;
+/// m; more than rounding puts a shape or a ray beside its cell.
+constexpr double hair = 1e-6;
 
 struct Bounds {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   Position low{infinite, infinite};
   Position high{-infinite, -infinite};
 
-  void add(const Position& place) {
+  void add(const Position& place, double around) {
     for (std::size_t axis = 0; axis < place.size(); ++axis) {
-      low[axis] = std::min(low[axis], place[axis]);
-      high[axis] = std::max(high[axis], place[axis]);
+      low[axis] = std::min(low[axis], place[axis] - around);
+      high[axis] = std::max(high[axis], place[axis] + around);
     }
   }
 };
 
-Bounds bounds_of(const Segment& segment) {
-  Bounds bounds;
-  bounds.add(segment.from);
-  bounds.add(segment.to);
-  return bounds;
+void add(Bounds& bounds, const Segment& segment) {
+  bounds.add(segment.from, hair);
+  bounds.add(segment.to, hair);
 }
 
-Bounds bounds_of(const Circle& circle) {
-  const auto& [x, y] = circle.centre;
-  return {{x - circle.radius, y - circle.radius}, {x + circle.radius, y + circle.radius}};
+void add(Bounds& bounds, const Circle& circle) {
+  bounds.add(circle.centre, circle.radius + hair);
+}
+
+void add(Bounds& bounds, const Top& top) {
+  for (const Position& corner : top.corners) bounds.add(corner, hair);
+}
+
+template <class Visit>
+void visit_each(const Shapes& shapes, Visit visit) {
+  for (const Segment& segment : shapes.segments) visit(segment, &Shapes::segments);
+  for (const Circle& circle : shapes.circles) visit(circle, &Shapes::circles);
+  for (const Top& top : shapes.tops) visit(top, &Shapes::tops);
 }
 
 }  // namespace
 
-NearShapes::NearShapes(const Shapes& shapes) : shapes_{shapes.segments, shapes.circles, {}} {
+NearShapes::NearShapes(const Shapes& shapes) {
   Bounds all;
-  const auto add = [&](const Bounds& bounds) {
-    all.add(bounds.low);
-    all.add(bounds.high);
-  };
-  for (const Segment& segment : shapes_.segments) add(bounds_of(segment));
-  for (const Circle& circle : shapes_.circles) add(bounds_of(circle));
-  if (shapes_.segments.empty() && shapes_.circles.empty()) all.low = all.high = {};
+  visit_each(shapes, [&](const auto& shape, auto /*list*/) { add(all, shape); });
+  if (all.low[0] > all.high[0]) all.low = all.high = {};
   low_ = all.low;
-  const Position extent{all.high[0] - all.low[0], all.high[1] - all.low[1]};
+  high_ = all.high;
+  const Position extent{high_[0] - low_[0], high_[1] - low_[1]};
   side_ = std::max(least_side, std::max(extent[0], extent[1]) / most_cells_a_side);
-  columns_ = static_cast<std::size_t>(extent[0] / side_) + 1;
-  cells_.resize(columns_ * (static_cast<std::size_t>(extent[1] / side_) + 1));
-  std::uint32_t index = 0;
-  const auto sort = [&](const Bounds& bounds) { sort_in(index++, bounds.low, bounds.high); };
-  for (const Segment& segment : shapes_.segments) sort(bounds_of(segment));
-  for (const Circle& circle : shapes_.circles) sort(bounds_of(circle));
+  for (std::size_t axis = 0; axis < extent.size(); ++axis)
+    numbers_[axis] = static_cast<int>(extent[axis] / side_) + 1;
+  cells_.resize(static_cast<std::size_t>(numbers_[0]) * static_cast<std::size_t>(numbers_[1]));
+  visit_each(shapes, [&](const auto& shape, auto list) { sort_in(shape, list); });
 }
 
-Shapes NearShapes::around(const Position& place, double reach) const {
-  const CellRange columns = cells_from(0, place[0] - reach, place[0] + reach);
-  const CellRange rows = cells_from(1, place[1] - reach, place[1] + reach);
-  std::vector<std::uint32_t> found = wide_;
-  for (std::size_t row = rows.first; row <= rows.last; ++row) {
-    for (std::size_t column = columns.first; column <= columns.last; ++column) {
-      const std::vector<std::uint32_t>& cell = cells_[row * columns_ + column];
-      found.insert(found.end(), cell.begin(), cell.end());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  Shapes near;
-  for (const std::uint32_t i : found) {
-    if (i < shapes_.segments.size()) {
-      near.segments.push_back(shapes_.segments[i]);
-    } else {
-      near.circles.push_back(shapes_.circles[i - shapes_.segments.size()]);
-    }
-  }
-  return near;
+double NearShapes::ray_distance(const Position& origin, const Position& direction, double reach) const {
+  return nearest_along(origin, direction, reach, [&](const Shapes& shapes) {
+    return simulation::ray_distance(shapes, origin, direction);
+  });
 }
 
-NearShapes::CellRange NearShapes::cells_from(std::size_t axis, double from, double to) const {
-  const std::size_t count = axis == 0 ? columns_ : cells_.size() / columns_;
-  const auto cell_at = [&](double x) {
-    return static_cast<std::size_t>(
-        std::clamp(std::floor((x - low_[axis]) / side_), 0.0, static_cast<double>(count - 1)));
+double NearShapes::ray_distance_in_space(const Vector3& origin, const Vector3& direction,
+                                         double reach) const {
+  return nearest_along(
+      {origin.x(), origin.y()}, {direction.x(), direction.y()}, reach,
+      [&](const Shapes& shapes) { return simulation::ray_distance_in_space(shapes, origin, direction); });
+}
+
+/// `level`: the way seen from above for 1 m along the ray, m.
+template <class DistanceTo>
+double NearShapes::nearest_along(const Position& origin, const Position& level, double reach,
+                                 DistanceTo distance_to) const {
+  // No shape is beyond the farthest corner.
+  const auto farthest = [&](std::size_t axis) {
+    return std::max(std::abs(origin[axis] - low_[axis]), std::abs(high_[axis] - origin[axis]));
   };
-  return {cell_at(from), cell_at(to)};
+  const double run = std::hypot(level[0], level[1]);
+  const double length = run > 0.0 ? std::min(reach, std::hypot(farthest(0), farthest(1)) / run) : 0.0;
+  const Position from{in_cells(0, origin[0]), in_cells(1, origin[1])};
+  const Position end{in_cells(0, origin[0] + length * level[0]), in_cells(1, origin[1] + length * level[1])};
+  double nearest = distance_to(wide_);
+  bool is_found = false;
+  visit_cells_before_end(from[0], from[1], end[0], end[1], [&](int column, int row, double share) {
+    is_found = share * length > nearest + hair;
+    if (!is_found) nearest = std::min(nearest, distance_to(shapes_in(column, row)));
+    return !is_found;
+  });
+  if (is_found) return nearest;
+  const auto [column, row] = end;
+  return std::min(nearest, distance_to(shapes_in(static_cast<int>(std::floor(column)),
+                                                 static_cast<int>(std::floor(row)))));
 }
 
-void NearShapes::sort_in(std::uint32_t shape, const Position& low, const Position& high) {
-  const CellRange columns = cells_from(0, low[0], high[0]);
-  const CellRange rows = cells_from(1, low[1], high[1]);
-  const std::size_t n = (columns.last - columns.first + 1) * (rows.last - rows.first + 1);
-  if (n > most_cells_a_shape) {
-    wide_.push_back(shape);
-    return;
+template <class Shape>
+void NearShapes::sort_in(const Shape& shape, std::vector<Shape> Shapes::*list) {
+  Bounds bounds;
+  add(bounds, shape);
+  const auto cell_at = [&](std::size_t axis, double at) {
+    return std::clamp(static_cast<int>(in_cells(axis, at)), 0, numbers_[axis] - 1);
+  };
+  const int first_column = cell_at(0, bounds.low[0]), last_column = cell_at(0, bounds.high[0]);
+  const int first_row = cell_at(1, bounds.low[1]), last_row = cell_at(1, bounds.high[1]);
+  if ((last_column - first_column + 1) * (last_row - first_row + 1) > most_cells_a_shape)
+    return (wide_.*list).push_back(shape);
+  for (int row = first_row; row <= last_row; ++row) {
+    for (int column = first_column; column <= last_column; ++column)
+      (cells_[index(column, row)].*list).push_back(shape);
   }
-  for (std::size_t row = rows.first; row <= rows.last; ++row) {
-    for (std::size_t column = columns.first; column <= columns.last; ++column)
-      cells_[row * columns_ + column].push_back(shape);
-  }
+}
+
+const Shapes& NearShapes::shapes_in(int column, int row) const {
+  static const Shapes nothing;
+  if (column < 0 || row < 0 || column >= numbers_[0] || row >= numbers_[1]) return nothing;
+  return cells_[index(column, row)];
 }
 
 }  // namespace glocal::simulation

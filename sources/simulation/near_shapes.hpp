@@ -1,40 +1,43 @@
 // Shapes sorted by where they are.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "sources/simulation/shapes.hpp"
 
 namespace glocal::simulation {
 
-/// Segments and circles of a world of any size, of which a laser sees those around it.
+/// The shapes of a world of any size, of which a ray looks at those along its way only.
 class NearShapes {
  public:
   explicit NearShapes(const Shapes& shapes);
 
-  /// All segments and circles with a part nearer to a place than `reach` (m), and some others, in the order
-  /// in which they were given.
-  [[nodiscard]] Shapes around(const Position& place, double reach) const;
+  /// The same as among all shapes (shapes.hpp), up to `reach` (m); if nothing is so near, more than that.
+  [[nodiscard]] double ray_distance(const Position& origin, const Position& direction, double reach) const;
+  [[nodiscard]] double ray_distance_in_space(const Vector3& origin, const Vector3& direction,
+                                             double reach) const;
 
  private:
-  /// Columns or rows of cells that a part of an axis meets.
-  struct CellRange {
-    std::size_t first = 0;
-    std::size_t last = 0;
-  };
+  template <class DistanceTo>
+  [[nodiscard]] double nearest_along(const Position& origin, const Position& level, double reach,
+                                     DistanceTo distance_to) const;
+  template <class Shape>
+  void sort_in(const Shape& shape, std::vector<Shape> Shapes::*list);
+  /// The cells of an axis, m from the lowest corner.
+  [[nodiscard]] double in_cells(std::size_t axis, double at) const { return (at - low_[axis]) / side_; }
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(numbers_[0]) +
+           static_cast<std::size_t>(column);
+  }
+  [[nodiscard]] const Shapes& shapes_in(int column, int row) const;
 
-  [[nodiscard]] CellRange cells_from(std::size_t axis, double from, double to) const;
-  void sort_in(std::uint32_t shape, const Position& low, const Position& high);
-
-  Shapes shapes_;
-  Position low_{};
-  double side_ = 0.0;  ///< Of a cell, m.
-  std::size_t columns_ = 0;
-  /// Shapes by their indexes: segments, then circles.
-  std::vector<std::vector<std::uint32_t>> cells_;
-  std::vector<std::uint32_t> wide_;  ///< Those that are in too many cells.
+  Position low_{}, high_{};       ///< Of what is around all shapes.
+  double side_ = 0.0;             ///< Of a cell, m.
+  std::array<int, 2> numbers_{};  ///< Of columns and rows.
+  std::vector<Shapes> cells_;     ///< Row after row; a shape is in each cell that its bounds meet.
+  Shapes wide_;                   ///< Those that would be in too many.
 };
 
 }  // namespace glocal::simulation

@@ -22,16 +22,15 @@ double distance_to_level(double height, double z, double rise) {
 Scene::Scene(World world, std::optional<clouds::CloudVoxels> cloud)
     : world_(std::move(world)), reality_(shapes_in_reality(world_)), cloud_(std::move(cloud)) {}
 
-void Scene::look_around(const Position& place, double reach, double time) {
+void Scene::look_around(double reach, double time) {
   reach_ = reach;
-  near_ = shapes_within(reality_, place, reach);
-  const std::vector<Circle> people = people_at(world_, time);
-  near_.circles.insert(near_.circles.end(), people.begin(), people.end());
+  people_.circles = people_at(world_, time);
 }
 
 double Scene::ray_distance(const Vector3& origin, const Vector3& direction) const {
   const Vector3 over_floor = origin - world_.floor * Vector3::UnitZ();
-  double nearest = ray_distance_in_space(near_, over_floor, direction);
+  double nearest = std::min(reality_.ray_distance_in_space(over_floor, direction, reach_),
+                            ray_distance_in_space(people_, over_floor, direction));
   if (world_.ceiling > 0.0)
     nearest = std::min(nearest, distance_to_level(world_.ceiling, over_floor.z(), direction.z()));
   if (!cloud_) return std::min(nearest, distance_to_level(0.0, over_floor.z(), direction.z()));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sources/clouds/cloud_voxels.hpp"
+#include "sources/simulation/near_shapes.hpp"
 #include "sources/simulation/world.hpp"
 
 namespace glocal::simulation {
@@ -14,19 +15,19 @@ class Scene {
   /// `cloud`: the world's, if it has one.
   explicit Scene(World world, std::optional<clouds::CloudVoxels> cloud = {});
 
-  /// What may be within `reach` (m) of a place at a time (s after the start).
-  void look_around(const Position& place, double reach, double time);
-  /// Distance from a place along a unit vector to what a ray meets, m; infinite if there is nothing within
-  /// the reach.
+  /// Rays meet what is within `reach` (m) at a time (s after the start) from now on.
+  void look_around(double reach, double time);
+  /// Distance from a place along a unit vector to what a ray meets, m; beyond the reach, or infinite, if
+  /// there is nothing within it.
   [[nodiscard]] double ray_distance(const Vector3& origin, const Vector3& direction) const;
   /// The same to the cloud alone.
   [[nodiscard]] double cloud_distance(const Vector3& origin, const Vector3& direction, double reach) const;
 
  private:
   World world_;
-  Shapes reality_;
+  NearShapes reality_;
   std::optional<clouds::CloudVoxels> cloud_;
-  Shapes near_;         ///< What look_around() has found.
+  Shapes people_;
   double reach_ = 0.0;  ///< m
 };
 

@@ -132,20 +132,6 @@ double ray_distance_in_space(const Shapes& shapes, const Vector3& origin, const 
   return nearest;
 }
 
-Shapes shapes_within(const Shapes& shapes, const Position& place, double reach) {
-  const auto is_far = [&](const auto& shape) { return distance_to(shape, place) > reach; };
-  Shapes near = shapes;
-  std::erase_if(near.segments, is_far);
-  std::erase_if(near.circles, is_far);
-  std::erase_if(near.tops, [&](const Top& top) {
-    // The diagonals are nearer than the box is wide.
-    const Segment diagonal{top.corners[0], top.corners[2]};
-    return distance_to(diagonal, place) >
-           reach + std::hypot(diagonal.to[0] - diagonal.from[0], diagonal.to[1] - diagonal.from[1]);
-  });
-  return near;
-}
-
 double clearance(const Shapes& shapes, const Position& place) {
   double nearest = infinite;
   for (const Segment& s : shapes.segments) nearest = std::min(nearest, distance_to(s, place));

@@ -40,9 +40,9 @@ struct Top {
 };
 
 struct Shapes {
-  std::vector<Segment> segments;
-  std::vector<Circle> circles;
-  std::vector<Top> tops;
+  std::vector<Segment> segments = {};
+  std::vector<Circle> circles = {};
+  std::vector<Top> tops = {};
 };
 
 /// Distance from `origin` along the unit vector `direction` to the first shape, m; infinite if there is none.
@@ -53,9 +53,6 @@ struct Shapes {
 /// height over the floor, which is no shape.
 [[nodiscard]] double ray_distance_in_space(const Shapes& shapes, const Vector3& origin,
                                            const Vector3& direction);
-
-/// The shapes with a part nearer to a place than `reach` (m), seen from above.
-[[nodiscard]] Shapes shapes_within(const Shapes& shapes, const Position& place, double reach);
 
 /// Distance from a place to the nearest shape's outline, m.
 [[nodiscard]] double clearance(const Shapes& shapes, const Position& place);

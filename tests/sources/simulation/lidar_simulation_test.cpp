@@ -179,7 +179,7 @@ TEST_F(LidarDrive, HasNoiseOutliersAndGaps) {
   double rays = 0.0;
   double outliers = 0.0;
   Scene scene(read_world(params_.world.resolved));
-  scene.look_around({3.0, 2.0}, 30.0, 0.0);
+  scene.look_around(30.0, 0.0);
   const auto off = [&](const Sample& sample, std::size_t i) {
     const Vector3 ray = hit(sample.observation.scan, i);
     const Vector3 direction = sample.map_from_robot->rotation * (1.0 / ray.norm() * ray);

@@ -389,7 +389,7 @@ TEST_F(OctreeHall, ShowsThemToALidar) {
   Scene scene(drive.world, drive.cloud);
   for (const Pose2& pose : drive.route.poses) {
     const double time = static_cast<double>(step++) * params_.step_seconds;
-    scene.look_around({pose.x, pose.y}, 30.0, time);
+    scene.look_around(30.0, time);
     for (int ray = 0; ray < 2000; ++ray) {
       const double azimuth = 0.1 + 2.0 * pi * ray / 100.0;
       const int ring = ray / 100;

@@ -74,16 +74,5 @@ TEST(RayDistanceInSpace, MeetsTops) {
   EXPECT_DOUBLE_EQ(ray_distance_in_space(shapes, {0, 0, 0.5}, {1, 0, 0}), 2.0) << "the side";
 }
 
-TEST(ShapesWithin, AreThoseThatMayBeMet) {
-  Shapes shapes;
-  shapes.segments = {{{2, -9}, {2, 9}, 1.0}, {{5, -1}, {5, 1}, 1.0}};
-  shapes.circles = {{{-3, 0}, 0.5, 1.0}, {{-9, 0}, 0.5, 1.0}};
-  shapes.tops = {{{{{2, 0}, {9, 0}, {9, 1}, {2, 1}}}, 1.0}, {{{{20, 0}, {21, 0}, {21, 1}, {20, 1}}}, 1.0}};
-  const Shapes near = shapes_within(shapes, {0, 0}, 3.0);
-  EXPECT_EQ(near.segments.size(), 1U);
-  EXPECT_EQ(near.circles.size(), 1U);
-  EXPECT_EQ(near.tops.size(), 1U);
-}
-
 }  // namespace
 }  // namespace glocal::simulation::shapes_test
