@@ -65,7 +65,7 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
   v.field(
       "looks_per_step", c.looks_per_step,
       {.doc = "Searches of the whole map (whole_map, and exact_search of indexed_ransam) stop after so "
-              "many looks at a point in a step, each about 50 ns, and go on in the next; 0 lets them come "
+              "many looks at a point in a step, each about 10 ns, and go on in the next; 0 lets them come "
               "to their end.",
        .min = 0,
        .audience = Audience::tuner});
