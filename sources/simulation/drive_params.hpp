@@ -11,6 +11,10 @@
 
 namespace glocal::simulation {
 
+/// Noise is of never more standard deviations than this (Rng::normal()), and brings into range what is so far
+/// beyond.
+constexpr double most_deviations = 9.0;
+
 /// Each step's motion is measured with an error that always is the same and one that is drawn anew: shares of
 /// distances and turns, which are not in YAML, and turns that are measured when driving straight.
 struct OdometryParams {

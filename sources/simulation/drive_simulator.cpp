@@ -72,8 +72,7 @@ std::optional<carmen::CarmenScan> DriveSimulator::next() {
 carmen::CarmenScan DriveSimulator::measure(const DriveStep& step) const {
   // A map is looked at from beyond the last cell that matters, as rays stop before the cell they end in.
   const double reach = laser_.max_range + (map_ ? 2.0 * map_->resolution : 0.0);
-  // Noise, of never more than nine standard deviations, brings things into range.
-  const double reach_of_things = reach + 9.0 * laser_.noise;
+  const double reach_of_things = reach + most_deviations * laser_.noise;
   const Shapes people{.circles = people_at(world_, step.stamp)};
   const auto distance_to_anything = [&](const Position& origin, const Position& direction) {
     const double thing = std::min(reality_.ray_distance(origin, direction, reach_of_things),

@@ -39,8 +39,7 @@ LidarSimulation::LidarSimulation(const Params& params, const SourceSetup& setup,
 std::optional<Sample> LidarSimulation::next() {
   const std::optional<DriveStep> step = robot_.next();
   if (!step) return std::nullopt;
-  // Noise, of never more than nine standard deviations, brings things into range.
-  scene_.look_around(lidar_.max_range + 9.0 * lidar_.noise, step->stamp);
+  scene_.look_around(lidar_.max_range + most_deviations * lidar_.noise, step->stamp);
   Scan scan = lidar_scan(
       lidar_, [&](double time) { return pose_at(*step, time); },
       [&](const Vector3& origin, const Vector3& direction) { return scene_.ray_distance(origin, direction); },
