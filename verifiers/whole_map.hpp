@@ -16,8 +16,9 @@ namespace glocal::verifiers {
 /// Searches the whole map for poses with about as much contact as the declared one, by branch and bound on
 /// boxes of poses (search_boxes.hpp). If none is found, no pose has it: the certificate holds for every pose
 /// of the plane, not for those of a grid alone. Where the motion is upright, it holds for every x, y, z and
-/// yaw of the local map, which does not tilt: the robot's roll and pitch are those of the declared pose. In
-/// space 600 of its points count, spread evenly.
+/// yaw of the local map, which does not tilt: the robot's roll and pitch are those of the declared pose.
+/// Where it is free, it holds for every pose at which the local map is tilted by at most
+/// TiltSquares::most_tilt. In space 600 of its points count, or 300 where it tilts, spread evenly.
 ///
 /// The search counts contact (Omega, eq. 4) and nothing else. What the matcher thinks of a pose beyond that,
 /// it says of the rivals that the search brings (Matcher::rescore).
@@ -29,7 +30,7 @@ namespace glocal::verifiers {
 /// the same pose is to be declared in the same local frame.
 class WholeMap final : public Verifier {
  public:
-  static constexpr Motions motions{.planar = true, .upright = true};
+  static constexpr Motions motions = all_motions;
 
   struct Params {
     double margin = 0.05;

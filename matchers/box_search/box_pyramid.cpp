@@ -21,17 +21,17 @@ std::vector<WindowKind> kinds_of_grid(int top_level, const CellFrame& frame) {
 }
 
 /// Of boxes of all poses: wider by what the rotations of a box move a point. In space they are twice as high
-/// as a box, so that a point meets one of them wherever it lies in its own.
-std::vector<WindowKind> kinds_of_all_poses(int top_level, const CellFrame& frame) {
+/// as a box, so that a point meets one of them wherever it lies in its own, and higher by what tilts move it.
+std::vector<WindowKind> kinds_of_all_poses(int top_level, const CellFrame& frame, Motion motion) {
   std::vector<WindowKind> kinds;
   for (int level = 0; level <= top_level; ++level) {
-    const int groups = level == top_level ? AllPoses::cluster_groups(level) : AllPoses::groups(level);
-    const int step = AllPoses::layers_of_box(level, frame);
+    const bool are_wide = level == top_level || motion == Motion::free;
+    const int groups = are_wide ? AllPoses::wide_groups(level) : AllPoses::groups(level);
     for (int group = 1; group <= groups; ++group) {
       kinds.push_back({.level = level,
                        .wider = AllPoses::wider(level, group),
-                       .height = frame.in_space ? 2 * step : 1,
-                       .step = step});
+                       .height = AllPoses::layers_of_window(level, frame, motion),
+                       .step = AllPoses::layers_of_box(level, frame)});
     }
   }
   return kinds;
@@ -42,12 +42,13 @@ std::vector<WindowKind> kinds_of_all_poses(int top_level, const CellFrame& frame
 BoxPyramid::BoxPyramid(Of of, const Points& map_points, double cell, double epsilon, int top_level,
                        int threads, Motion motion)
     : of_(of),
+      motion_(motion),
       // At the nearest of their places, cells a little farther away are in contact, too.
       frame_(cell_frame(map_points, cell, of == Of::pose_grid ? epsilon : epsilon + cell, motion)) {
   const bool is_grid = of == Of::pose_grid;
   if (!is_grid) middles_ = windows_of_map(map_points, frame_, epsilon, false, {WindowKind{}}, threads);
   const std::vector<WindowKind> kinds =
-      is_grid ? kinds_of_grid(top_level, frame_) : kinds_of_all_poses(top_level, frame_);
+      is_grid ? kinds_of_grid(top_level, frame_) : kinds_of_all_poses(top_level, frame_, motion);
   std::vector<WindowBits> bits = windows_of_map(map_points, frame_, epsilon, !is_grid, kinds, threads);
   levels_.resize(static_cast<std::size_t>(top_level) + 1);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
@@ -57,11 +58,12 @@ BoxPyramid::BoxPyramid(Of of, const Points& map_points, double cell, double epsi
   }
 }
 
-/// At the middle of a box a point lies in the middle one of three cells along either axis, or half a cell
-/// beside it; in space it lies in two layers, half a cell from their middle at most.
+/// At the middle of a box a point lies in the middle one of three cells along either axis; in space it lies
+/// in two layers, half a cell from their middle at most. Where poses tilt, windows are a cell wider, and
+/// higher to either side.
 double BoxPyramid::delta() const {
-  constexpr double aside = 2.0;
-  constexpr double above = 1.5;
+  const double aside = motion_ == Motion::free ? 2.5 : 2.0;
+  const double above = 1.5 + AllPoses::rise(0, motion_);
   return frame_.cell * std::hypot(aside, aside, frame_.in_space ? above : 0.0);
 }
 
@@ -105,7 +107,7 @@ std::shared_ptr<const BoxPyramid> box_pyramid(BoxPyramid::Of of, const GlobalMap
                             ? BoxPyramid::default_top_level(of, motion)
                             : std::max(0, static_cast<int>(std::lround(std::log2(top_box / cell))));
   const std::string key =
-      fmt::format("{} {}{}{}", cell, epsilon, in_space ? " in space" : "", is_grid ? " of a grid" : "");
+      fmt::format("{} {} {}{}", cell, epsilon, to_string(motion), is_grid ? " of a grid" : "");
   return map.index<BoxPyramid>(
       key, [&] { return BoxPyramid(of, map.points(), cell, epsilon, top_level, threads, motion); });
 }

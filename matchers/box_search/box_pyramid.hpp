@@ -36,6 +36,7 @@ class BoxPyramid {
              Motion motion = Motion::planar);
 
   [[nodiscard]] Of of() const { return of_; }
+  [[nodiscard]] Motion motion() const { return motion_; }
   /// All cells in contact lie in it.
   [[nodiscard]] const CellFrame& frame() const { return frame_; }
   [[nodiscard]] int top_level() const { return static_cast<int>(levels_.size()) - 1; }
@@ -61,6 +62,7 @@ class BoxPyramid {
     std::vector<WindowBits> bits;  ///< One for each group of points.
   };
   Of of_;
+  Motion motion_;
   CellFrame frame_;
   std::vector<WindowBits> middles_;  ///< None, or one.
   std::vector<Level> levels_;

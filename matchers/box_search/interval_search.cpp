@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numbers>
+#include <ranges>
 #include <utility>
 
 #include "matchers/box_search/allowed_translations.hpp"
@@ -17,8 +19,8 @@ class WantedBoxes {
       : cell_(problem.boxes.frame().cell), beyond_(problem.all_poses != nullptr ? 1 : 0) {
     if (problem.rule.gate.is_open() && !problem.exclusion) return;
     const Pose2 at_zero = problem.boxes.pose(level, rotation, 0.0, 0.0);
-    allowed_.emplace(widened(problem.rule.gate, problem.boxes, level), at_zero, cell_);
-    if (problem.exclusion) exclude(problem, level, at_zero * problem.above_from_robot);
+    allowed_.emplace(widened(problem.rule.gate, problem.boxes, level, rotation), at_zero, cell_);
+    if (problem.exclusion) exclude(problem, level, at_zero, problem.tilted_from_robot(level, rotation));
   }
 
   /// Some of whose poses are allowed, and not near an excluded one: of a rectangle of translations, in cells,
@@ -29,29 +31,33 @@ class WantedBoxes {
   }
 
  private:
-  void exclude(const Problem& problem, int level, const Pose2& robot_at_zero) {
+  void exclude(const Problem& problem, int level, const Pose2& tilted_at_zero,
+               const Pose3& tilted_from_robot) {
     const auto& [excluded, near] = *problem.exclusion;
+    const Pose3 robot_at_zero = Pose3(tilted_at_zero) * tilted_from_robot;
     // If some of the rotations are no longer near, no box is.
-    if (rotation_between(robot_at_zero, seen_from_above(excluded)) + problem.boxes.half_width(level) >
-        near.rotation)
-      return;
-    const Pose3& robot = problem.local_from_robot;
-    robot_at_zero_ = robot_at_zero;
-    height_at_zero_ = problem.boxes.height(0.0) + robot.z;
+    if (rotation_between(robot_at_zero, excluded) + problem.boxes.half_width(level) > near.rotation) return;
+    robot_at_zero_ = robot_at_zero.translation();
+    robot_at_zero_.z() += problem.boxes.height(0.0);
     layer_height_ = problem.boxes.frame().in_space ? cell_ : 0.0;
     box_height_ = layer_height_ * problem.boxes.layers_of_box(level);
     excluded_ = excluded.translation();
-    near_ = near.translation - problem.boxes.sway(level, robot.x, robot.y);
+    near_ = near.translation - problem.boxes.sway(level, problem.local_from_robot.translation());
   }
 
-  /// A gate that allows the middle of an interval if it allows any of its poses.
-  static PoseGate widened(const PoseGate& gate, const PoseBoxes& boxes, int level) {
+  /// A gate that allows the middle of an interval, after its tilt, if it allows any of its poses.
+  static PoseGate widened(const PoseGate& gate, const PoseBoxes& boxes, int level, std::size_t rotation) {
     Prior prior = gate.prior();
-    const Pose3& start = gate.local_from_start();
-    if (prior.region.is_given()) *prior.region.radius += boxes.sway(level, start.x, start.y);
-    if (prior.heading.is_given())
-      prior.heading.width_deg =
-          std::min(360.0, *prior.heading.width_deg + 2.0 * degrees(boxes.half_width(level)));
+    const Pose3 start = boxes.tilted_from_local(level, rotation) * gate.local_from_start();
+    if (prior.region.is_given())
+      *prior.region.radius += boxes.sway(level, gate.local_from_start().translation());
+    if (prior.heading.is_given()) {
+      // A tilt turns what is seen from above, the more the steeper it points.
+      const double half_width = boxes.half_width(level);
+      const double rises = std::asin(std::abs((start.rotation * Vector3::UnitX()).z()));
+      const double flat = boxes.tilt() ? std::cos(std::min(rises + half_width, std::numbers::pi / 2.0)) : 1.0;
+      prior.heading.width_deg = std::min(360.0, *prior.heading.width_deg + 2.0 * degrees(half_width) / flat);
+    }
     return {prior, start};
   }
 
@@ -59,10 +65,10 @@ class WantedBoxes {
     const auto farther = [](double low, double size, double excluded) {
       return std::max(std::abs(low - excluded), std::abs(low + size - excluded));
     };
-    return std::hypot(farther(robot_at_zero_.x + cell_ * tile.column, cell_ * columns, excluded_->x()),
-                      farther(robot_at_zero_.y + cell_ * tile.row, cell_ * rows, excluded_->y()),
-                      farther(height_at_zero_ + layer_height_ * tile.layer, box_height_, excluded_->z())) <=
-           near_;
+    return std::hypot(farther(robot_at_zero_.x() + cell_ * tile.column, cell_ * columns, excluded_->x()),
+                      farther(robot_at_zero_.y() + cell_ * tile.row, cell_ * rows, excluded_->y()),
+                      farther(robot_at_zero_.z() + layer_height_ * tile.layer, box_height_,
+                              excluded_->z())) <= near_;
   }
 
   double cell_;
@@ -70,8 +76,7 @@ class WantedBoxes {
   std::optional<AllowedTranslations> allowed_ = {};  ///< Where not all are.
   std::optional<Vector3> excluded_ = {};  ///< If all rotations are near those of the excluded pose …
   double near_ = 0.0;  ///< … a robot at most so far from it is near it at all of them, m.
-  Pose2 robot_at_zero_ = {};
-  double height_at_zero_ = 0.0;  ///< m; all heights are 0 in the plane.
+  Vector3 robot_at_zero_ = Vector3::Zero();  ///< m; all heights are 0 in the plane.
   double layer_height_ = 0.0, box_height_ = 0.0;
 };
 
@@ -81,8 +86,8 @@ struct Bottom {
       : rotation(number),
         wanted(problem, 0, rotation),
         robots(problem.boxes.pose(0, rotation, problem.middle_of_box(), problem.middle_of_box()) *
-                   problem.above_from_robot,
-               problem.boxes.height(problem.middle_of_box()) + problem.local_from_robot.z,
+                   seen_from_above(problem.tilted_from_robot(0, rotation)),
+               problem.boxes.height(problem.middle_of_box()) + problem.tilted_from_robot(0, rotation).z,
                problem.boxes.frame().cell, problem.rule.cell_distance, problem.rule.cell_rotation) {}
 
   std::size_t rotation;
@@ -328,8 +333,8 @@ void IntervalSearch::look_at(const Part& part) {
 }
 
 /// Quarters of tiles are tiles of the level below; where boxes are higher than those there, one for each half
-/// of the layers. Of all poses each half of the interval has them. Some neighbouring ones at a time go down
-/// to the bottom in both halves: the bits that they find are at hand then.
+/// of the layers. Each part of the interval has them. Of all poses some neighbouring ones at a time go down
+/// to the bottom in all parts: the bits that they find are at hand then.
 void IntervalSearch::open_below(int level, std::size_t rotation, const std::vector<Tile>& counted) {
   const int layers = problem_.boxes.layers_of_box(level - 1);
   std::vector<Tile> tiles;
@@ -343,17 +348,13 @@ void IntervalSearch::open_below(int level, std::size_t rotation, const std::vect
         tiles.push_back({column, row, layer, tile.bound});
     }
   }
-  if (problem_.all_poses == nullptr) {
-    if (!tiles.empty()) open_.push_back({level - 1, rotation, std::move(tiles)});
-    return;
-  }
-  constexpr std::size_t most_together = 64;
+  const std::vector<std::size_t> parts = problem_.boxes.parts(level, rotation);
+  const std::size_t most_together = problem_.all_poses != nullptr ? 64 : tiles.size();
   for (std::size_t end = tiles.size(); end > 0;) {
     const std::size_t size = std::min(end, most_together);
     const auto last = tiles.begin() + static_cast<std::ptrdiff_t>(end);
-    std::vector<Tile> some(last - static_cast<std::ptrdiff_t>(size), last);
-    open_.push_back({level - 1, 2 * rotation + 1, some});
-    open_.push_back({level - 1, 2 * rotation, std::move(some)});
+    const std::vector<Tile> some(last - static_cast<std::ptrdiff_t>(size), last);
+    for (const std::size_t part : std::views::reverse(parts)) open_.push_back({level - 1, part, some});
     end -= size;
   }
 }

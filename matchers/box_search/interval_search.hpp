@@ -22,10 +22,13 @@ struct Problem {
   const PoseBoxes& boxes;
   const AllPoses* all_poses;  ///< The boxes, if they are not of a grid.
   const Pose3& local_from_robot;
-  Pose2 above_from_robot;  ///< The same, seen from above.
   const BoxSearchRule& rule;
   const std::optional<Exclusion>& exclusion;
 
+  /// After the tilt of an interval's middle.
+  [[nodiscard]] Pose3 tilted_from_robot(int level, std::size_t rotation) const {
+    return boxes.tilt() ? boxes.tilted_from_local(level, rotation) * local_from_robot : local_from_robot;
+  }
   /// Where in a box of level 0 its middle is, in cells: a pose of a grid is a box.
   [[nodiscard]] double middle_of_box() const { return all_poses != nullptr ? 0.5 : 0.0; }
 };

@@ -11,8 +11,16 @@
 
 namespace glocal {
 
-PoseBoxes::PoseBoxes(const Points& points, const CellFrame& frame)
-    : frame_(frame), middle_x_(extent_of(points.x).middle()), middle_y_(extent_of(points.y).middle()) {}
+PoseBoxes::PoseBoxes(const Points& points, const CellFrame& frame, Motion motion)
+    : frame_(frame), middle_x_(extent_of(points.x).middle()), middle_y_(extent_of(points.y).middle()) {
+  if (motion == Motion::free) tilt_height_ = extent_of(points.z).middle();
+}
+
+double PoseBoxes::sway(int level, const Vector3& local) const {
+  const Vector3 from_middle = local - middle();
+  const double aside = std::hypot(from_middle.x(), from_middle.y());
+  return (tilt() ? std::hypot(aside, from_middle.z()) : aside) * half_width(level);
+}
 
 Pose2 PoseBoxes::pose(int level, std::size_t rotation, double column, double row) const {
   const Pose2 moved{frame_.min_x + frame_.cell * column, frame_.min_y + frame_.cell * row,
@@ -22,7 +30,7 @@ Pose2 PoseBoxes::pose(int level, std::size_t rotation, double column, double row
 
 PoseGrid::PoseGrid(const Points& points, const CellFrame& frame, double min_rotation_step,
                    double robot_height)
-    : PoseBoxes(points, frame), points_(points), robot_height_(robot_height) {
+    : PoseBoxes(points, frame, Motion::upright), points_(points), robot_height_(robot_height) {
   constexpr double max_rotation_step = 0.1;
   double radius = 0.0;
   layers_.reserve(points.size());
@@ -67,27 +75,84 @@ Translations PoseGrid::translations(const std::vector<CellPoints>& cells, std::s
   return all;
 }
 
-AllPoses::AllPoses(const Points& points, const CellFrame& frame, int top_level)
-    : PoseBoxes(points, frame), top_level_(top_level) {
+AllPoses::AllPoses(const Points& points, const CellFrame& frame, int top_level, Motion motion)
+    : PoseBoxes(points, frame, motion), top_level_(top_level) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = points.x[i] - middle_x();
     const double y = points.y[i] - middle_y();
-    const double layer = frame.in_space ? points.z[i] / frame.cell : 0.0;
-    points_.push_back({.x = x, .y = y, .distance = std::hypot(x, y), .layer = layer});
+    const double z = points.z[i] - middle().z();
+    points_.push_back({.x = x,
+                       .y = y,
+                       .distance = tilt() ? std::hypot(x, y, z) : std::hypot(x, y),
+                       .layer = frame.in_space ? z / frame.cell : 0.0});
   }
   std::stable_sort(points_.begin(), points_.end(),
                    [](const Turning& a, const Turning& b) { return a.distance < b.distance; });
   constexpr double smallest_radius = 0.5;
   radius_ = std::max(points_.back().distance, smallest_radius);
   const double widest = std::ldexp(frame.cell / radius_, top_level);
-  top_rotations_ = static_cast<std::size_t>(std::ceil(2.0 * std::numbers::pi / widest));
-  find_clusters(std::ldexp(frame.cell, top_level) / 2.0);
+  top_turns_ = static_cast<std::size_t>(std::ceil(2.0 * std::numbers::pi / widest));
+  if (tilt()) {
+    tilts_ = largest_tilts();
+  } else {
+    find_clusters(std::ldexp(frame.cell, top_level) / 2.0);
+  }
   put_rare_first(points_);
   put_rare_first(clusters_);
 }
 
+/// That move points by no more than their windows are wider and higher, which are halved as tilts are.
+TiltSquares AllPoses::largest_tilts() const {
+  const double box = std::ldexp(frame().cell, top_level_);
+  const double rise = frame().cell * AllPoses::rise(top_level_, Motion::free);
+  return TiltSquares([&](double reach) {
+    return std::all_of(points_.begin(), points_.end(), [&](const Turning& point) {
+      const double height =
+          std::abs(point.layer) * frame().cell + TiltSquares::largest(reach) * point.distance;
+      return 2.0 * TiltSquares::aside(reach, height, point.distance) < box && reach * point.distance < rise;
+    });
+  });
+}
+
+std::size_t AllPoses::rotations(int level) const {
+  const int halvings = top_level_ - level;
+  return tilts_ ? (top_turns_ * tilts_->size()) << (3 * halvings) : top_turns_ << halvings;
+}
+
+std::vector<std::size_t> AllPoses::parts(int level, std::size_t rotation) const {
+  if (!tilts_) return {2 * rotation, 2 * rotation + 1};
+  std::vector<std::size_t> parts;
+  for (std::size_t part = 8 * rotation; part < 8 * (rotation + 1); ++part) {
+    if (tilts_->is_of_interest(rotations_of(level - 1, part).tilt, top_level_ - level + 1))
+      parts.push_back(part);
+  }
+  return parts;
+}
+
+/// Where poses tilt, the last bit of a part's number says which half of the turns it has, and the two before
+/// which quarter of the tilts.
+AllPoses::Rotations AllPoses::rotations_of(int level, std::size_t rotation) const {
+  if (!tilts_) return {rotation};
+  const int halvings = top_level_ - level;
+  const std::size_t first = rotation >> (3 * halvings);
+  std::size_t turn = first % top_turns_;
+  std::size_t quarters = 0;
+  for (int bit = 3 * (halvings - 1); bit >= 0; bit -= 3) {
+    turn = 2 * turn + (rotation >> bit & 1);
+    quarters = 4 * quarters + (rotation >> (bit + 1) & 3);
+  }
+  return {turn, tilts_->middle(first / top_turns_, quarters, halvings)};
+}
+
+Pose3 AllPoses::tilted_from_local(int level, std::size_t rotation) const {
+  if (!tilts_) return {};
+  const Quaternion tilt = exponential(rotations_of(level, rotation).tilt);
+  return Pose3(middle()) * Pose3(tilt) * Pose3(Vector3(-middle()));
+}
+
 std::int32_t AllPoses::box_of_layers(int level, const Turning& one) const {
-  return static_cast<std::int32_t>(std::floor(one.layer / layers_of_box(level)));
+  const int rise = AllPoses::rise(level, motion());
+  return static_cast<std::int32_t>(std::floor((one.layer - rise) / layers_of_box(level)));
 }
 
 /// Those in boxes of layers with few of them before the others: a floor is in contact nearly everywhere, so
@@ -149,35 +214,55 @@ AllPoses::Turning AllPoses::disc_about(const std::vector<std::uint32_t>& members
 }
 
 double AllPoses::angle(int level, std::size_t rotation) const {
-  return 2.0 * half_width(level) * (static_cast<double>(rotation) + 0.5);
+  return 2.0 * half_turn(level) * (static_cast<double>(rotations_of(level, rotation).turn) + 0.5);
 }
 
 double AllPoses::half_width(int level) const {
-  return std::numbers::pi / static_cast<double>(rotations(level));
+  return half_turn(level) + (tilts_ ? tilts_->reach(top_level_ - level) : 0.0);
+}
+
+double AllPoses::half_turn(int level) const {
+  return std::numbers::pi / static_cast<double>(top_turns_ << (top_level_ - level));
 }
 
 std::vector<CellPoints> AllPoses::cells(int level, std::size_t rotation) const {
-  return cells_of(points_, groups(level), level, rotation);
+  return cells_of(points_, tilt() ? wide_groups(level) : groups(level), level, rotation);
 }
 
 std::vector<CellPoints> AllPoses::cluster_cells(std::size_t rotation) const {
-  return cells_of(clusters_, cluster_groups(top_level_), top_level_, rotation);
+  return cells_of(clusters_, wide_groups(top_level_), top_level_, rotation);
+}
+
+AllPoses::Turning AllPoses::tilted(const Turning& one, const Quaternion& tilt) const {
+  const Vector3 place = tilt * Vector3{one.x, one.y, one.layer * frame().cell};
+  Turning tilted = one;
+  tilted.x = place.x();
+  tilted.y = place.y();
+  tilted.layer = place.z() / frame().cell;
+  return tilted;
 }
 
 std::vector<CellPoints> AllPoses::cells_of(const std::vector<Turning>& all, int groups, int level,
                                            std::size_t rotation) const {
   const double c = std::cos(angle(level, rotation));
   const double s = std::sin(angle(level, rotation));
+  const Quaternion tilt_of_middle = tilted_from_local(level, rotation).rotation;
   // Rounding must not leave a point a hair beside its window.
   constexpr double hair = 1e-6;
   std::vector<CellPoints> cells(static_cast<std::size_t>(groups));
   const double parts = AllPoses::groups(level);
   const double box = std::ldexp(frame().cell, level);
-  for (const Turning& one : all) {
-    const double share = one.distance / radius_ + 2.0 * one.radius / box;
+  for (const Turning& any : all) {
+    const Turning one = tilt() ? tilted(any, tilt_of_middle) : any;
+    double beside = one.radius;
+    if (tilts_)
+      beside += TiltSquares::aside(tilts_->reach(top_level_ - level), std::abs(one.layer) * frame().cell,
+                                   one.distance);
+    const double share = one.distance / radius_ + 2.0 * beside / box;
     const int group = std::clamp(static_cast<int>(std::ceil(parts * share - hair)), 1, groups);
-    const double moved = (one.distance * half_width(level) + one.radius) / frame().cell + hair;
     const int wider = AllPoses::wider(level, group);
+    // As much wider to either side, so that boxes are bounded alike however near the middle a point is.
+    const double moved = (wider - 1) / 2.0 + hair;
     const auto cell_of = [&](double coordinate) {
       return static_cast<std::int32_t>(std::floor(coordinate / frame().cell - moved)) + wider;
     };
@@ -190,13 +275,16 @@ std::vector<CellPoints> AllPoses::cells_of(const std::vector<Turning>& all, int 
 CellPoints AllPoses::middle_cells(std::size_t rotation) const {
   const double c = std::cos(angle(0, rotation));
   const double s = std::sin(angle(0, rotation));
+  const Quaternion tilt_of_middle = tilted_from_local(0, rotation).rotation;
   const auto cell_of = [&](double coordinate) {
     return static_cast<std::int32_t>(std::floor(coordinate / frame().cell + 0.5));
   };
   CellPoints cells;
-  for (const Turning& point : points_)
+  for (const Turning& any : points_) {
+    const Turning point = tilt() ? tilted(any, tilt_of_middle) : any;
     cells.push_back(cell_of(c * point.x - s * point.y), cell_of(s * point.x + c * point.y),
                     static_cast<std::int32_t>(std::floor(point.layer + 0.5)));
+  }
   return cells;
 }
 
@@ -224,7 +312,8 @@ Translations AllPoses::translations(const std::vector<CellPoints>& cells, std::s
   const auto [low, high] =
       range(first_window, frame().rows - 1, true, [](const CellPoints& p) { return p.rows(); });
   const int step = layers_of_box(top_level_);
-  const auto [bottom, ceiling] = range(frame().in_space ? -1 : 0, (frame().layers - 1) / step, false,
+  const int window = layers_of_window(top_level_, frame(), motion());
+  const auto [bottom, ceiling] = range(-(window - 1) / step, (frame().layers - 1) / step, false,
                                        [](const CellPoints& p) { return p.layers(); });
   return {left, right, low, high, step * bottom, step * (ceiling + 1) - 1};
 }

@@ -17,7 +17,7 @@ std::unique_ptr<const PoseBoxes> boxes_of(const BoxPyramid& pyramid, const Point
                                           double robot_height, double min_rotation_step) {
   if (pyramid.of() == BoxPyramid::Of::pose_grid)
     return std::make_unique<PoseGrid>(points, pyramid.frame(), min_rotation_step, robot_height);
-  return std::make_unique<AllPoses>(points, pyramid.frame(), pyramid.top_level());
+  return std::make_unique<AllPoses>(points, pyramid.frame(), pyramid.top_level(), pyramid.motion());
 }
 
 }  // namespace
@@ -38,7 +38,6 @@ class State {
                  .boxes = *boxes_,
                  .all_poses = dynamic_cast<const AllPoses*>(boxes_.get()),
                  .local_from_robot = local_from_robot_,
-                 .above_from_robot = seen_from_above(local_from_robot_),
                  .rule = rule_,
                  .exclusion = exclusion_},
         best_(rule.most_places, rule.least),
@@ -72,6 +71,7 @@ class State {
     for (const Box& box : best_.falling()) {
       result.poses.push_back({boxes_->pose(0, box.rotation, box.column + middle, box.row + middle),
                               boxes_->height(box.layer + middle), box.at_middle});
+      if (boxes_->tilt()) result.poses.back().tilted_from_local = boxes_->tilted_from_local(0, box.rotation);
     }
     return result;
   }

@@ -37,12 +37,14 @@ struct Exclusion {
 struct BoxSearchResult {
   /// The pose at the middle of the best box of a cell of robot poses.
   struct FoundPose {
-    Pose2 map_from_local;        ///< Seen from above.
+    Pose2 map_from_local;        ///< Seen from above; where poses tilt, after the tilt.
     double z = 0.0;              ///< Of the local frame's origin in the map, m; 0 in the plane.
     std::size_t in_contact = 0;  ///< Points, by the cells that they lie in.
+    std::optional<Pose3> tilted_from_local = {};  ///< Where poses tilt.
 
-    [[nodiscard]] Pose3 upright() const {
-      return {{map_from_local.x, map_from_local.y, z}, turn_about_z(map_from_local.theta)};
+    [[nodiscard]] Pose3 pose() const {
+      const Pose3 upright({map_from_local.x, map_from_local.y, z}, turn_about_z(map_from_local.theta));
+      return tilted_from_local ? upright * *tilted_from_local : upright;
     }
   };
   std::vector<FoundPose> poses = {};  ///< Falling contact.
@@ -63,8 +65,9 @@ struct BoxSearchResult {
 /// good as the last). As soon as so many are known, no box that cannot beat the last of them is searched.
 /// The answer does not depend on the number of threads.
 ///
-/// Over a pyramid in the plane the poses are those of the plane. In space they are those at which the local
-/// frame stands upright in the map: x, y, z and yaw.
+/// Over a pyramid in the plane the poses are those of the plane. Over one of upright motion they are those at
+/// which the local frame stands upright in the map: x, y, z and yaw. Over one of free motion they are those
+/// at which it is tilted by at most TiltSquares::most_tilt.
 [[nodiscard]] BoxSearchResult search_boxes(const BoxPyramid& pyramid, const Points& points,
                                            const Pose3& local_from_robot, const BoxSearchRule& rule,
                                            const std::optional<Exclusion>& exclusion, int threads);

@@ -24,7 +24,7 @@ MatchResult UprightBranchAndBound::match(const MatchRequest& request, Rng& rng) 
   result.proposals = search_result.tested;
   result.points_tested = search_result.looks;
   for (const BoxSearchResult::FoundPose& pose : search_result.poses) {
-    const Pose3 map_from_local = pose.upright();
+    const Pose3 map_from_local = pose.pose();
     const Pose3 robot = map_from_local * local.local_from_robot;
     // Neighbours of a better pose that lie in another cell of robot poses.
     const bool is_known =

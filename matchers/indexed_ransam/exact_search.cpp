@@ -76,7 +76,7 @@ std::size_t ExactSearch::advance(std::vector<Hypothesis> best, const Settle& set
     open_->looks += result.looks;
     std::vector<Pose2> poses;
     for (const BoxSearchResult::FoundPose& found : result.poses)
-      poses.push_back(seen_from_above(found.upright()));
+      poses.push_back(seen_from_above(found.pose()));
     if (!poses.empty()) best = settle(poses);
     const double bar = open_->bar;
     const bool is_settled = !best.empty() && best.front().score >= bar - lower;

@@ -27,6 +27,24 @@ inline Points random_points(Rng& rng, std::size_t n, double width, double depth,
   return points;
 }
 
+/// Points nearer to one of the map than this, each looked at.
+inline std::size_t brute_count(const Points& map, const Points& points, const Pose3& map_from_local,
+                               double near) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3 p = map_from_local * Vector3{points.x[i], points.y[i], points.z[i]};
+    bool found = false;
+    for (std::size_t k = 0; k < map.size() && !found; ++k) {
+      const double dx = map.x[k] - p.x();
+      const double dy = map.y[k] - p.y();
+      const double dz = map.z[k] - p.z();
+      found = dx * dx + dy * dy + dz * dz <= near * near;
+    }
+    n += found ? 1 : 0;
+  }
+  return n;
+}
+
 /// Floor and walls of a room of 4 m x 2.8 m x 2 m, with a wall into it, at the left or elsewhere: it looks
 /// different from every side. Its corner is at (x, y, z).
 inline Points room(double x, double y, double z, bool is_left, double apart = 0.2) {

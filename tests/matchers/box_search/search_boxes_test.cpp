@@ -123,6 +123,34 @@ TEST(BoxPyramid, BoundsEveryPoseOfABoxAndNotByMuchMore) {
   EXPECT_GT(poses_with_contact, 500U);  // or there was nothing to be bounded
 }
 
+TEST(BoxPyramid, CountsNothingThatIsFartherThanItSaysNearTheMiddleEither) {
+  Rng rng(8);
+  Points points;
+  points.push_back({-4.0F, 0.0F, 0.0F});
+  points.push_back({4.0F, 0.0F, 0.0F});
+  for (int i = 0; i < 20; ++i)
+    points.push_back(
+        {static_cast<float>(rng.uniform(-0.3, 0.3)), static_cast<float>(rng.uniform(-0.3, 0.3)), 0.0F});
+  std::size_t counted = 0;
+  TileCounts counts;
+  for (int i = 0; i < 60; ++i) {
+    const Points map = random_points(rng, 1, 1.0, 1.0);
+    const BoxPyramid pyramid = pyramid_of(map);
+    const AllPoses boxes(points, pyramid.frame(), pyramid.top_level());
+    const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(0)));
+    pyramid.count(0, boxes.cells(0, rotation), -20, 0, 0, 0, counts);
+    for (int row = 0; row < TileCounts::rows; ++row) {
+      for (int column = 0; column < TileCounts::columns; ++column) {
+        const Pose2 middle = boxes.pose(0, rotation, column - 19.5, row + 0.5);
+        const double near = epsilon + pyramid.delta() + 1e-6;
+        ASSERT_LE(counts.at(column, row), brute_count(map, points, middle, near));
+        counted += counts.at(column, row);
+      }
+    }
+  }
+  EXPECT_GT(counted, 10'000U);
+}
+
 TEST(BoxPyramid, ClustersBoundEveryPoseOfABox) {
   Rng rng(5);
   const Points map = random_points(rng, 200, 9.0, 5.0);

@@ -15,23 +15,6 @@ using namespace test::rooms_in_space;
 constexpr double cell = 0.1;
 constexpr double epsilon = 0.2;
 
-/// Points nearer to one of the map than this, each looked at.
-std::size_t brute_count(const Points& map, const Points& points, const Pose3& map_from_local, double near) {
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector3 p = map_from_local * Vector3{points.x[i], points.y[i], points.z[i]};
-    bool found = false;
-    for (std::size_t k = 0; k < map.size() && !found; ++k) {
-      const double dx = map.x[k] - p.x();
-      const double dy = map.y[k] - p.y();
-      const double dz = map.z[k] - p.z();
-      found = dx * dx + dy * dy + dz * dz <= near * near;
-    }
-    n += found ? 1 : 0;
-  }
-  return n;
-}
-
 BoxPyramid pyramid_of(const Points& map, int threads = 1) {
   constexpr auto all_poses = BoxPyramid::Of::all_poses;
   const int top_level = BoxPyramid::default_top_level(all_poses, Motion::upright);
@@ -170,7 +153,7 @@ TEST(SearchBoxesInSpace, NoPoseElsewhereHasMoreContactThanItSays) {
   // Close to the best ones, and to the edge of the neighbourhood, above and below it, too.
   ASSERT_FALSE(found.poses.empty());
   for (int i = 0; i < 600; ++i) {
-    const Pose3 near = found.poses[rng.below(static_cast<std::uint32_t>(found.poses.size()))].upright();
+    const Pose3 near = found.poses[rng.below(static_cast<std::uint32_t>(found.poses.size()))].pose();
     look_at({near.translation() + Vector3{up_to(0.1), up_to(0.1), up_to(0.1)}, turn(0.05) * near.rotation});
     const Vector3 way{up_to(1.0), up_to(1.0), up_to(1.0)};
     const Pose3 robot(declared.translation() + (rng.uniform(1.0, 1.1) / way.norm()) * way,
@@ -227,8 +210,7 @@ TEST(SearchBoxesInSpace, AnswersAlikeForAnyNumberOfThreads) {
   EXPECT_EQ(one.at_most, two.at_most);
   ASSERT_FALSE(one.poses.empty());
   ASSERT_EQ(one.poses.size(), two.poses.size());
-  for (std::size_t i = 0; i < one.poses.size(); ++i)
-    EXPECT_EQ(one.poses[i].upright(), two.poses[i].upright());
+  for (std::size_t i = 0; i < one.poses.size(); ++i) EXPECT_EQ(one.poses[i].pose(), two.poses[i].pose());
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ TEST(GridSearchInSpace, PosesBringAsManyPointsIntoContactAsTheySay) {
                    {.least = (6 * local.size() + 9) / 10, .min_rotation_step = 0.1}, std::nullopt, 1);
   ASSERT_FALSE(found.poses.empty());
   for (const auto& pose : found.poses) {
-    const Points there = moved(local, pose.upright());
+    const Points there = moved(local, pose.pose());
     std::size_t in_contact = 0;
     for (std::size_t i = 0; i < there.size(); ++i) {
       const auto number = [](double value, double least) {
