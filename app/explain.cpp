@@ -80,9 +80,9 @@ Replayed replay(const std::string& folder, const ExplainedRun& run, const Catalo
   const std::size_t start = loaded.starts[run.trial];
   const std::size_t index = start + run.step;
   const auto& samples = loaded.drive.samples;
-  const bool runs_so_far = run.step < step_limit(run.experiment.trials) && index < samples.size() &&
-                           samples[index].segment == samples[start].segment;
-  if (!runs_so_far) throw ConfigError(folder, fmt::format("trial {} has no step {}", run.trial, run.step));
+  const std::size_t steps = steps_left(loaded.drive, run.experiment.trials, start);
+  if (run.step >= steps)
+    throw ConfigError(folder, fmt::format("trial {} has no step {}", run.trial, run.step));
   if (!samples[index].map_from_robot)
     throw ConfigError(folder, "the observations have no reference pose to compare with");
 
@@ -98,6 +98,7 @@ Replayed replay(const std::string& folder, const ExplainedRun& run, const Catalo
                                             run.trial, run.step, result.step));
     }
     result = localizer.step(samples[i].observation);
+    if (i + 1 == start + steps) result = waited_for(localizer, std::move(result));
     begin.follow(localizer.local_map(), samples[i].observation.odom_from_robot);
   }
   const Pose3& truth = *samples[index].map_from_robot;

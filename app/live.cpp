@@ -55,10 +55,12 @@ class LiveLocalizer {
         loaded_(loaded(experiment, context.catalog)),
         localizer_(make_localizer(experiment, context.catalog, loaded_)),
         link_(link_of(options, context.catalog, viewers)),
-        drive_(params().topics, setup(experiment), link_,
-               [this](const LiveMessage& message) {
-                 is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
-               }),
+        drive_(
+            params().topics, setup(experiment), link_,
+            [this](const LiveMessage& message) {
+              is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
+            },
+            [this] { return go_on(); }),
         answers_(*link_, *loaded_.map, params().topics.name_space, frames(options)),
         steps_file_(options.out + ".steps.jsonl"),
         steps_(steps_file_, std::ios::binary),
@@ -77,7 +79,10 @@ class LiveLocalizer {
       if (observations_ > 0 && (is_asked_to_begin_ || sample->segment != segment_)) begin_anew();
       segment_ = sample->segment;
       step(*sample);
+      // A robot drives on meanwhile; a recording waits.
+      if (!link_->is_live()) wait();
     }
+    wait();
     answer(
         "{} observations, {} declarations{}\n", observations_, declarations_,
         drive_.passed_over() > 0 ? fmt::format(", {} observations passed over", drive_.passed_over()) : "");
@@ -144,6 +149,7 @@ class LiveLocalizer {
     localizer_.reset(++trial_);
     way_ = 0.0;
     last_.reset();
+    open_.reset();
     state_.reset();
   }
 
@@ -194,9 +200,30 @@ class LiveLocalizer {
     const Pose3 driven = last_ ? inverse(*last_) * observation.odom_from_robot : Pose3{};
     way_ += driven.translation().norm();
     last_ = observation.odom_from_robot;
-    const StepRecord record = record_of(localizer_.step(observation), sample, *loaded_.map);
-    const StepResult& result = record.result;
     ++observations_;
+    tell(sample, localizer_.step(observation), driven);
+  }
+
+  void wait() {
+    while (!is_interrupted() && go_on()) continue;
+  }
+
+  /// With the verification that the last step has left open. Says whether it is still open, and tells what it
+  /// has come to.
+  bool go_on() {
+    if (!open_ || is_asked_to_begin_) return false;
+    StepResult result = localizer_.go_on();
+    if (result.verification->goes_on) return true;
+    tell(Sample(*open_), std::move(result), {});
+    return false;
+  }
+
+  void tell(const Sample& sample, StepResult found, const Pose3& driven) {
+    const Observation& observation = sample.observation;
+    const StepRecord record = record_of(std::move(found), sample, *loaded_.map);
+    const StepResult& result = record.result;
+    open_.reset();
+    if (result.verification && result.verification->goes_on) open_ = sample;
     const bool is_declared = result.verdict.kind == VerdictKind::localized;
     const bool is_newly_declared = is_declared && !was_declared_;
     if (is_newly_declared) ++declarations_;
@@ -225,6 +252,7 @@ class LiveLocalizer {
   std::size_t trial_ = 0, observations_ = 0, declarations_ = 0;
   double way_ = 0.0;  ///< m, as odometry has it.
   std::optional<Pose3> last_;
+  std::optional<Sample> open_;  ///< The last one, while the verification of its step goes on.
   std::optional<VerdictKind> last_verdict_;
   std::string state_file_, fingerprint_;  ///< Empty where nothing is kept.
   std::optional<LiveState> state_;

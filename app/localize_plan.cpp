@@ -274,6 +274,18 @@ std::string live_drive_yaml(const LiveRequest& request) {
   return yaml;
 }
 
+/// What searches of the whole map may take of a step of a robot that drives: some 30 ms in the plane, and
+/// 100 ms in space.
+constexpr int looks_in_the_plane = 3'000'000;
+constexpr int looks_in_space = 10'000'000;
+
+/// Whether a method sets this key of the localizer.
+bool is_set(const std::string& method, const std::string& key, const Catalog& catalog) {
+  ExperimentFileParams params(catalog);
+  const YamlNode keys = read_method(method, params);
+  return find_entry(find_entry(keys, "localizer")->value, key) != nullptr;
+}
+
 }  // namespace
 
 LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog) {
@@ -283,6 +295,9 @@ LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog) {
   widen_contact(map, plan, changes);
   const std::string method = request.method.empty() ? default_method(map.in_space) : request.method;
   plan.choices.push_back(fmt::format("method      {}", shown(method)));
+  const bool is_recorded = !request.recording.empty() && !request.in_real_time;
+  if (!is_recorded && !is_set(method, "looks_per_step", catalog))
+    changes["looks_per_step"] = fmt::format("{}", map.in_space ? looks_in_space : looks_in_the_plane);
   plan.experiment = fmt::format(
       "# Written by glocal live.\n"
       "schema: 1\n"

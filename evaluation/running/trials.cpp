@@ -55,6 +55,11 @@ std::size_t steps_left(const Drive& drive, const TrialsConfig& config, std::size
   return std::min(step_limit(config), static_cast<std::size_t>(end - first));
 }
 
+StepResult waited_for(Localizer& localizer, StepResult last) {
+  while (last.verification && last.verification->goes_on) last = localizer.go_on();
+  return last;
+}
+
 PoseError pose_error(const Pose3& estimate, const Pose3& reference) {
   return {distance(estimate, reference), rotation_between(estimate, reference)};
 }
@@ -132,17 +137,19 @@ TrialRecord begun_trial(const Drive& drive, Motion motion, std::size_t trial, st
 std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, const GlobalMap& map,
                                      const Experiment& experiment, std::size_t trial,
                                      std::size_t start_sample, const TrialCallbacks& callbacks) {
-  const Sample& start = drive.samples[start_sample];
   TrialRecord record = begun_trial(drive, experiment.localizer.motion, trial, start_sample);
   bool going_on = done_or_failed(record, [&] { localizer.reset(start_number(experiment.trials, trial)); });
-  for (std::size_t i = start_sample; going_on && i < drive.samples.size(); ++i) {
+  const std::size_t end_sample = start_sample + steps_left(drive, experiment.trials, start_sample);
+  for (std::size_t i = start_sample; going_on && i < end_sample; ++i) {
     const Sample& sample = drive.samples[i];
-    const bool over = sample.segment != start.segment || i - start_sample >= step_limit(experiment.trials);
-    if (over || (record.pose && !experiment.trials.whole)) break;
+    if (record.pose && !experiment.trials.whole) break;
     if (callbacks.stop && callbacks.stop()) return std::nullopt;
 
     StepResult result;
-    going_on = done_or_failed(record, [&] { result = localizer.step(sample.observation); });
+    going_on = done_or_failed(record, [&] {
+      result = localizer.step(sample.observation);
+      if (i + 1 == end_sample) result = waited_for(localizer, std::move(result));
+    });
     if (!going_on) break;
     make_valid_utf8(result.verdict);
     record.records.push_back(record_of(std::move(result), sample, map));

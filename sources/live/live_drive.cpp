@@ -69,16 +69,19 @@ void describe(ParamVisitor& v, LiveDrive::Params& p) {
 }
 
 LiveDrive::LiveDrive(const Params& params, const SourceSetup& setup)
-    : LiveDrive(params.topics, setup, params.links->make(params.link, setup), [](const LiveMessage&) {}) {}
+    : LiveDrive(
+          params.topics, setup, params.links->make(params.link, setup), [](const LiveMessage&) {},
+          [] { return false; }) {}
 
 LiveDrive::LiveDrive(LiveTopics topics, const SourceSetup& setup, std::shared_ptr<MessageLink> link,
-                     TakeOther other)
+                     TakeOther other, Meanwhile meanwhile)
     : topics_(std::move(topics)),
       is_planar_(setup.motion == Motion::planar),
       warn_(setup.warn),
       is_stopped_(setup.is_stopped),
       link_(std::move(link)),
       take_other_(std::move(other)),
+      meanwhile_(std::move(meanwhile)),
       contents_(wanted(topics_), robot) {
   subscribe({topics_.name_space + "/tf", transforms_type}, Delivery::reliable);
   subscribe({topics_.name_space + "/tf_static", transforms_type}, Delivery::kept);
@@ -189,6 +192,7 @@ std::optional<Sample> LiveDrive::next() {
     if (message) continue;
     if (link_->has_ended() || is_stopped_()) return std::nullopt;
     check_first_wait();
+    if (meanwhile_()) continue;
     if ((message = link_->next(between_looks))) take(*message);
   }
 }

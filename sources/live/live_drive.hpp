@@ -51,10 +51,13 @@ class LiveDrive final : public ObservationSource {
   };
   /// Takes messages of topics that it has not asked for.
   using TakeOther = std::function<void(const LiveMessage&)>;
+  /// Does some work while there is no message, and says whether there is more to do.
+  using Meanwhile = std::function<bool()>;
 
   LiveDrive(const Params& params, const SourceSetup& setup);
-  /// On a link that others use, too. `other` is called in next().
-  LiveDrive(LiveTopics topics, const SourceSetup& setup, std::shared_ptr<MessageLink> link, TakeOther other);
+  /// On a link that others use, too. `other` and `meanwhile` are called in next().
+  LiveDrive(LiveTopics topics, const SourceSetup& setup, std::shared_ptr<MessageLink> link, TakeOther other,
+            Meanwhile meanwhile);
 
   /// Waits for an observation; none once the link has ended, or the setup says to stop. Of several that have
   /// come since the last one, the newest. Throws ConfigError if there is none within `longest_wait` of the
@@ -102,6 +105,7 @@ class LiveDrive final : public ObservationSource {
   std::function<bool()> is_stopped_;
   std::shared_ptr<MessageLink> link_;
   TakeOther take_other_;
+  Meanwhile meanwhile_;
 
   std::map<std::string, bags::Connection> connections_;  ///< By topic that is asked for.
   std::optional<Clock::time_point> first_call_, first_scans_seen_;

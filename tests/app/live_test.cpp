@@ -72,6 +72,17 @@ TEST_F(Live, FindsWhatLocalizeFindsOnTheRecording) {
   expect_same(steps, steps_of_localize("drive.mcap"));
 }
 
+TEST_F(Live, AVerificationInPiecesGoesOnBetweenSteps) {
+  const std::string pieces = " --set localizer.looks_per_step=500";
+  ASSERT_EQ(live("drive.mcap", "--out " + file("live") + pieces).exit_code, 0);
+  std::vector<Json> steps = comparable(file("live.steps.jsonl"));
+  const auto waits = [](const Json& step) {
+    return step.contains("verification") && step["verification"].contains("goes_on");
+  };
+  EXPECT_EQ(std::erase_if(steps, waits), 1);
+  expect_same(steps, steps_of_localize("drive.mcap"));
+}
+
 TEST_F(Live, GoesOnThoughStepsCannotBeWrittenButDoesNotBeginSo) {
   std::filesystem::create_symlink("/dev/full", file("live.steps.jsonl"));
   const Answer full = live("drive.mcap", "--out " + file("live"));

@@ -62,6 +62,12 @@ class Localizer {
   /// reset() makes it good again.
   [[nodiscard]] StepResult step(const Observation& observation);
 
+  /// Goes on with the verification that the last step or go_on() has left open (Verification::goes_on), as a
+  /// robot may while it stands still, or has nothing else to do. Takes as many looks as a step. The result is
+  /// that of the step, with what the search says by now, and with the time that it took. Throws as step();
+  /// std::logic_error where none is open.
+  [[nodiscard]] StepResult go_on();
+
   /// Forgets everything; the steps that follow draw their random numbers from a stream of the trial's own.
   /// Throws StrategyError if a strategy throws an exception.
   void reset(std::uint64_t trial);
@@ -117,6 +123,8 @@ class Localizer {
   void check_setup(const Observation& observation, const LocalMap& local, StepResult& result);
   /// Lets the verifier look for rivals of a pose when it is declared: with one, it is not.
   void verify(const LocalMap& local, StepResult& result);
+  /// Verifies, and says what is to be said of any step.
+  [[nodiscard]] StepResult ended(const LocalMap& local, StepResult result);
   /// One that goes on: what it is about is not declared.
   void forget_verification(std::size_t step);
 
@@ -141,7 +149,7 @@ class Localizer {
   Pose3 expected_map_from_local_;         ///< Relative to the map's origin, after the first step.
   int expected_epoch_ = 0;                ///< Of that local map.
   bool is_verified_ = false;              ///< What is declared since some steps.
-  bool is_being_verified_ = false;        ///< What would be declared.
+  std::optional<StepResult> unverified_;  ///< The last step before its verification, where that goes on.
   Rng seed_;
   std::uint64_t trial_ = 0;
   Rng rng_;  ///< Of the trial.

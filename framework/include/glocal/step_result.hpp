@@ -57,7 +57,7 @@ struct Verification {
   double score = 0.0;             ///< Of the declared pose. The localizer sets it.
   bool is_refuted = false;        ///< The localizer sets it.
   std::size_t points_tested = 0;  ///< Looks at a point.
-  bool goes_on = false;           ///< The search has not come to its end, and goes on in the next step.
+  bool goes_on = false;  ///< The search has not come to its end, and goes on in the next step, or before.
   std::optional<Certificate> certificate = {};  ///< None where the search goes on, or was given up.
   /// Contact of the mirrored local map at the pose where it fits best; none where it fits nowhere better
   /// by the margin than the local map at the declared pose.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -203,6 +204,15 @@ StepResult Localizer::step(const Observation& observation) {
   rate(result);
   judge(result);
   check_setup(observation, local, result);
+  return ended(local, std::move(result));
+}
+
+StepResult Localizer::go_on() {
+  if (!unverified_) throw std::logic_error("no verification is open that could go on");
+  return ended(local_mapper_->map(), *unverified_);
+}
+
+StepResult Localizer::ended(const LocalMap& local, StepResult result) {
   verify(local, result);
   add_misfit(result);
   if (!gate_.is_open()) add_prior(result.verdict, config_.prior);

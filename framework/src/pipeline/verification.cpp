@@ -33,15 +33,16 @@ std::string why_refuted(const Verification& v, std::size_t rivals) {
                      100.0 * v.certificate->contact, 100.0 * v.certificate->at_most);
 }
 
+/// Until a search that goes on has come to its end.
+void put_off(Verdict& verdict) {
+  verdict.kind = VerdictKind::searching;
+  verdict.map_from_robot.reset();
+  verdict.why = "the best pose is not declared yet: the search of the whole map goes on";
+}
+
 /// Takes the verdict back where a rival is about as good, or the search was given up; else tells the
-/// certificate, or waits for a search that goes on. Whether it was taken back is noted in the verification.
+/// certificate. Whether it was taken back is noted in the verification.
 void settle(Verification& v, Verdict& verdict) {
-  if (v.goes_on) {
-    verdict.kind = VerdictKind::searching;
-    verdict.map_from_robot.reset();
-    verdict.why = "the best pose is not declared yet: the search of the whole map goes on";
-    return;
-  }
   std::vector<Pose3> candidates = {*verdict.map_from_robot};
   for (const Hypothesis& rival : v.rivals) {
     if (v.is_about_as_good(rival)) candidates.push_back(rival.map_from_robot);
@@ -80,7 +81,13 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
     });
     check_verification(found, motion_);
   });
-  is_being_verified_ = found.goes_on;
+  if (result.verification) found.points_tested += result.verification->points_tested;
+  unverified_.reset();
+  if (found.goes_on) {
+    result.verification = std::move(found);
+    unverified_ = result;
+    return put_off(result.verdict);
+  }
   in_stage(stages_.matcher, result.step, [&] {
     timed(&StageTimes::verify, result,
           [&] { found.rivals = by_contact_->matcher->rescore(std::move(found.rivals), local); });
@@ -93,7 +100,7 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
   });
   found.score = score_near(declared, found.near, result);
   settle(found, result.verdict);
-  is_verified_ = !found.is_refuted && !found.goes_on;
+  is_verified_ = !found.is_refuted;
   if (found.is_mirrored) {
     result.setup = result.setup.value_or(SetupCheck{});
     result.setup->fault = SetupFault::mirrored;
@@ -105,8 +112,8 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
 }
 
 void Localizer::forget_verification(std::size_t step) {
-  if (!is_being_verified_) return;
-  is_being_verified_ = false;
+  if (!unverified_) return;
+  unverified_.reset();
   in_stage(stages_.verifier, step, [&] {
     for (const auto& [epsilon, stages] : by_epsilon_) stages.verifier->reset();
   });

@@ -199,6 +199,38 @@ TEST_F(WithVerifier, ASearchThatGoesOnIsForgottenOnceNothingIsToBeDeclared) {
   EXPECT_THAT(script_->calls, Contains("forget verification"));
 }
 
+TEST_F(WithVerifier, ASearchGoesOnWithoutAStepToTheSameAnswer) {
+  EXPECT_THROW(static_cast<void>(localizer_.go_on()), std::logic_error);
+  script_->verify = [](const Pose3&) { return Verification{.points_tested = 10, .goes_on = true}; };
+  const StepResult first = step();
+  const StepResult second = localizer_.go_on();
+  EXPECT_EQ(second.verdict.why, first.verdict.why);
+  EXPECT_EQ(second.verification->points_tested, 20U);
+  find({});
+  script_->calls.clear();
+  const StepResult last = localizer_.go_on();
+  EXPECT_THAT(script_->calls, ElementsAre("verify", "rescore"));
+  EXPECT_EQ(last.step, first.step);
+  EXPECT_EQ(last.verdict.kind, VerdictKind::localized);
+  EXPECT_EQ(last.verdict.map_from_robot, declared_);
+  EXPECT_EQ(last.verdict.why, "sure; 90 % contact, and at most 85 % at any pose elsewhere");
+  EXPECT_EQ(last.verification->points_tested, 20U);
+  EXPECT_THROW(static_cast<void>(localizer_.go_on()), std::logic_error);
+  EXPECT_EQ(step().verdict.why, "sure") << "it is verified";
+}
+
+TEST_F(WithVerifier, WhatGoesOnWithoutAStepMayBeRefutedAndIsForgottenByAReset) {
+  script_->verify = [](const Pose3&) { return Verification{.goes_on = true}; };
+  step();
+  find({0.9});
+  EXPECT_EQ(localizer_.go_on().verdict.kind, VerdictKind::ambiguous);
+  EXPECT_THAT(script_->calls, Contains("refute"));
+  script_->verify = [](const Pose3&) { return Verification{.goes_on = true}; };
+  step();
+  localizer_.reset(1);
+  EXPECT_THROW(static_cast<void>(localizer_.go_on()), std::logic_error);
+}
+
 TEST_F(WithVerifier, WithoutOneDeclarationsStand) {
   Localizer unverified(follow(script_), catalog_, {map_of_one_point(), 1}, 1);
   const StepResult result = unverified.step({});

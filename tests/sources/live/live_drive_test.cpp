@@ -54,9 +54,9 @@ TEST(LiveDrive, DeliversWhatARecordingOfTheSameMessagesDoes) {
   BagDrive::Params params;
   params.path = path;
   BagDrive bag(params, {});
-  LiveDrive live(LiveTopics{}, {},
-                 std::make_shared<RecordingLink>(RecordingLink::Params{path}, SourceSetup{}),
-                 [](const LiveMessage&) {});
+  LiveDrive live(
+      LiveTopics{}, {}, std::make_shared<RecordingLink>(RecordingLink::Params{path}, SourceSetup{}),
+      [](const LiveMessage&) {}, [] { return false; });
   std::size_t n = 0;
   while (const auto expected = bag.next()) {
     const auto got = live.next();
@@ -97,9 +97,10 @@ class Live : public testing::Test {
   }
   LiveDrive& drive() {
     if (!drive_)
-      drive_.emplace(topics_,
-                     SourceSetup{.warn = [&](const std::string& text) { warnings_.push_back(text); }}, link_,
-                     [&](const LiveMessage& other) { others_.push_back(other.topic.name); });
+      drive_.emplace(
+          topics_, SourceSetup{.warn = [&](const std::string& text) { warnings_.push_back(text); }}, link_,
+          [&](const LiveMessage& other) { others_.push_back(other.topic.name); },
+          [&] { return meanwhile_(); });
     return *drive_;
   }
   std::string fault() {
@@ -110,6 +111,7 @@ class Live : public testing::Test {
   std::shared_ptr<FakeLink> link_ = std::make_shared<FakeLink>();
   LiveTopics topics_{.scans = "/scan", .longest_wait = 0.05};
   std::vector<std::string> warnings_, others_;
+  LiveDrive::Meanwhile meanwhile_ = [] { return false; };
   std::optional<LiveDrive> drive_;
 };
 
@@ -123,6 +125,26 @@ TEST_F(Live, WaitsUntilItIsKnownWhereTheRobotWas) {
   ASSERT_TRUE(sample);
   EXPECT_NEAR(sample->observation.odom_from_robot.x, 0.1, 1e-9);
   EXPECT_EQ(sample->observation.scan.hits.size(), 2U);
+}
+
+TEST_F(Live, WorksWhileNoMessageComesAndNoLonger) {
+  link_->announce(scan_);
+  odometry(0);
+  int pieces = 0;
+  meanwhile_ = [&] {
+    if (++pieces == 3) {
+      odometry(200 * ms);
+      scan(100 * ms);
+    }
+    if (pieces == 1000) link_->end();
+    return true;
+  };
+  EXPECT_TRUE(drive().next());
+  EXPECT_EQ(pieces, 3);
+  for (const std::int64_t stamp : {300 * ms, 400 * ms, 500 * ms, 600 * ms}) odometry(stamp);
+  scan(500 * ms);
+  EXPECT_TRUE(drive().next());
+  EXPECT_EQ(pieces, 3) << "though there was a message";
 }
 
 TEST_F(Live, OfSeveralObservationsTheNewestWins) {
@@ -254,7 +276,8 @@ TEST_F(Live, CloudsInThePlaneNeedHeights) {
 }
 
 TEST_F(Live, StopsWhenItIsToldTo) {
-  LiveDrive drive(topics_, {.is_stopped = [] { return true; }}, link_, [](const LiveMessage&) {});
+  LiveDrive drive(
+      topics_, {.is_stopped = [] { return true; }}, link_, [](const LiveMessage&) {}, [] { return false; });
   EXPECT_FALSE(drive.next());
 }
 
