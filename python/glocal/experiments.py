@@ -204,6 +204,13 @@ class Localizer:
         """
         return self._core.step(observation)
 
+    def go_on(self) -> StepResult:
+        """Goes on with the verification that the last step has left open (Verification.goes_on), without an observation.
+
+        The result is that of the step, with what the search says by now. Raises RuntimeError if none is open, and StrategyError as step().
+        """
+        return self._core.go_on()
+
     def reset(self, trial: int = 0) -> None:
         """Forgets everything; the steps that follow draw random numbers from a stream of the trial's own."""
         self._core.reset(trial)

@@ -216,6 +216,22 @@ def test_the_localizer_of_an_experiment_steps_as_its_run_does(room, tmp_path):
     assert localizer.step(samples[0].observation).omega_best == steps["omega_best"][0]
 
 
+def test_a_verification_in_pieces_goes_on_without_a_step(room):
+    experiment = glocal.Experiment.load(room).with_(**{"localizer.verifier": "whole_map"})
+    whole = experiment.localizer()
+    pieces = experiment.with_(**{"localizer.looks_per_step": 100}).localizer()
+    waits = 0
+    for sample in experiment.load_samples():
+        wanted, found = whole.step(sample.observation), pieces.step(sample.observation)
+        while found.verification and found.verification.goes_on:
+            waits += 1
+            found = pieces.go_on()
+        assert (found.step, found.verdict.kind, found.verdict.why) == (wanted.step, wanted.verdict.kind, wanted.verdict.why)
+    assert waits > 0
+    with pytest.raises(RuntimeError, match="no verification is open"):
+        pieces.go_on()
+
+
 def test_of_several_maps_the_map_says_which_one_a_pose_is_on(room):
     world = "source: {simulation: {world: world.yaml}}"
     room.write_text(f"""\
