@@ -15,10 +15,10 @@ using namespace test::rooms_in_space;
 constexpr double cell = 0.1;
 constexpr double epsilon = 0.2;
 
-BoxPyramid pyramid_of(const Points& map, int threads = 1) {
+BoxPyramid pyramid_of(const Points& map, int threads = 1, Motion motion = Motion::upright) {
   constexpr auto all_poses = BoxPyramid::Of::all_poses;
-  const int top_level = BoxPyramid::default_top_level(all_poses, Motion::upright);
-  return {all_poses, map, cell, epsilon, top_level, threads, Motion::upright};
+  const int top_level = BoxPyramid::default_top_level(all_poses, motion);
+  return {all_poses, map, cell, epsilon, top_level, threads, motion};
 }
 
 /// All poses but those near this one.
@@ -27,50 +27,67 @@ BoxSearchResult search(const BoxPyramid& pyramid, const Points& points, const Po
   return search_boxes(pyramid, points, local_from_robot, rule, Exclusion{map_from_declared}, threads);
 }
 
-/// An upright pose of a box, turned about the middle of the points.
-Pose3 somewhere_in_box(const PoseBoxes& boxes, const CellFrame& frame, int level, std::size_t rotation,
-                       double first_column, double first_row, int layer, Rng& rng) {
-  const Pose2 middle = boxes.pose(level, rotation, 0.0, 0.0);
-  const double angle = rng.uniform(-1.0, 1.0) * boxes.half_width(level);
-  const Pose2 at_zero{frame.min_x, frame.min_y, 0.0};
-  const Pose2 turned = at_zero * Pose2{0.0, 0.0, angle} * inverse(at_zero) * middle;
-  const int size = 1 << level;
-  const double height = AllPoses::layers_of_box(level, frame) * (layer + rng.uniform());
-  return {{turned.x + cell * (first_column + rng.uniform() * size),
-           turned.y + cell * (first_row + rng.uniform() * size), boxes.height(height)},
-          turn_about_z(turned.theta)};
+/// Of the box that the points fill, at height 0 where they do not tilt.
+Vector3 middle_of(const Points& points, const AllPoses& boxes) {
+  const auto middle = [](const auto& of) {
+    const auto [low, high] = std::minmax_element(of.begin(), of.end());
+    return (static_cast<double>(*low) + static_cast<double>(*high)) / 2.0;
+  };
+  return {middle(points.x), middle(points.y), boxes.tilt() ? middle(points.z) : 0.0};
 }
 
-TEST(BoxPyramidInSpace, BoundsEveryPoseOfABoxAndNotByMuchMore) {
+/// A pose of a box: the points tilted about their middle, turned about it, and moved.
+Pose3 somewhere_in_box(const AllPoses& boxes, const Points& points, int level, std::size_t rotation,
+                       const Vector3& first_cell, Rng& rng) {
+  Vector3 tilt = logarithm(boxes.tilted_from_local(level, rotation).rotation);
+  if (boxes.tilts()) {
+    const double half_side = boxes.tilts()->side(4 - level) / 2.0;
+    tilt += Vector3{rng.uniform(-half_side, half_side), rng.uniform(-half_side, half_side), 0.0};
+  }
+  const double turn = boxes.angle(level, rotation) + rng.uniform(-1.0, 1.0) * boxes.half_turn(level);
+  const double size = 1 << level;
+  const Vector3 cells = first_cell + Vector3{size * rng.uniform(), size * rng.uniform(),
+                                             boxes.layers_of_box(level) * rng.uniform()};
+  const CellFrame& frame = boxes.frame();
+  const Vector3 place = Vector3{frame.min_x, frame.min_y, frame.min_z} + frame.cell * cells;
+  return Pose3(place, turn_about_z(turn) * exponential(tilt)) * Pose3(Vector3(-middle_of(points, boxes)));
+}
+
+class BoxPyramidOfMotion : public testing::TestWithParam<Motion> {};
+
+INSTANTIATE_TEST_SUITE_P(InSpace, BoxPyramidOfMotion, testing::Values(Motion::upright, Motion::free),
+                         [](const auto& of) { return to_string(of.param); });
+
+TEST_P(BoxPyramidOfMotion, BoundsEveryPoseOfABoxAndNotByMuchMore) {
   Rng rng(1);
   const Points map = random_points(rng, 300, 7.0, 5.0, 3.0);
-  const BoxPyramid pyramid = pyramid_of(map);
+  const BoxPyramid pyramid = pyramid_of(map, 1, GetParam());
+  ASSERT_EQ(pyramid.top_level(), 4);
   TileCounts counts;
   std::size_t poses_with_contact = 0;
   for (int i = 0; i < 120; ++i) {
     const Points points = random_points(rng, 40, 3.0, 2.0, 2.0);
-    const AllPoses boxes(points, pyramid.frame(), pyramid.top_level());
-    const int level = static_cast<int>(rng.below(4));
+    const AllPoses boxes(points, pyramid.frame(), pyramid.top_level(), GetParam());
+    const int level = static_cast<int>(rng.below(5));
     const std::size_t rotation = rng.below(static_cast<std::uint32_t>(boxes.rotations(level)));
     const int size = 1 << level;
     const int column = static_cast<int>(rng.below(80)) - 40 * size;
     const int row = static_cast<int>(rng.below(60)) - 4 * size;
-    const int high = AllPoses::layers_of_box(level, pyramid.frame());
-    const int layer = (static_cast<int>(rng.below(35)) - 15) / high;
-    pyramid.count(level, boxes.cells(level, rotation), column, row, high * layer, 0, counts);
+    const int high = boxes.layers_of_box(level);
+    const int layer = high * ((static_cast<int>(rng.below(35)) - (boxes.tilt() ? 5 : 15)) / high);
+    pyramid.count(level, boxes.cells(level, rotation), column, row, layer, 0, counts);
     for (int k = 0; k < 60; ++k) {
       const int node_column = static_cast<int>(rng.below(TileCounts::columns));
       const int node_row = static_cast<int>(rng.below(TileCounts::rows));
-      const double first_column = column + node_column * size;
-      const double first_row = row + node_row * size;
-      const Pose3 pose =
-          somewhere_in_box(boxes, pyramid.frame(), level, rotation, first_column, first_row, layer, rng);
+      const Vector3 first(column + node_column * size, row + node_row * size, layer);
+      const Pose3 pose = somewhere_in_box(boxes, points, level, rotation, first, rng);
       const std::size_t contact = brute_count(map, points, pose, epsilon);
-      ASSERT_LE(contact, counts.at(node_column, node_row));
+      ASSERT_LE(contact, counts.at(node_column, node_row)) << "level " << level;
       poses_with_contact += contact > 0 ? 1 : 0;
       if (level > 0) continue;
-      const Pose2 above = boxes.pose(0, rotation, first_column + 0.5, first_row + 0.5);
-      const Pose3 centre({above.x, above.y, boxes.height(layer + 0.5)}, turn_about_z(above.theta));
+      const Pose2 above = boxes.pose(0, rotation, first.x() + 0.5, first.y() + 0.5);
+      const Pose3 centre = Pose3({above.x, above.y, boxes.height(layer + 0.5)}, turn_about_z(above.theta)) *
+                           boxes.tilted_from_local(0, rotation);
       ASSERT_LE(counts.at(node_column, node_row),
                 brute_count(map, points, centre, epsilon + pyramid.delta() + 1e-6));
     }
@@ -99,9 +116,9 @@ TEST(BoxPyramidInSpace, ClustersBoundEveryPoseOfABox) {
     for (int k = 0; k < 10; ++k) {
       const int node_column = static_cast<int>(rng.below(TileCounts::columns));
       const int node_row = static_cast<int>(rng.below(TileCounts::rows));
-      const Pose3 pose =
-          somewhere_in_box(boxes, pyramid.frame(), top, rotation, column + node_column * (1 << top),
-                           row + node_row * (1 << top), layer, rng);
+      const Vector3 first(column + node_column * (1 << top), row + node_row * (1 << top),
+                          boxes.layers_of_box(top) * layer);
+      const Pose3 pose = somewhere_in_box(boxes, points, top, rotation, first, rng);
       const std::size_t at_most = loose + AllPoses::cluster_size * counts.at(node_column, node_row);
       ASSERT_LE(brute_count(map, points, pose, epsilon), at_most);
       bounded += at_most < points.size() ? 1 : 0;
