@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <ranges>
 #include <utility>
 
 #include "matchers/box_search/allowed_translations.hpp"
@@ -354,7 +353,7 @@ void IntervalSearch::open_below(int level, std::size_t rotation, const std::vect
     const std::size_t size = std::min(end, most_together);
     const auto last = tiles.begin() + static_cast<std::ptrdiff_t>(end);
     const std::vector<Tile> some(last - static_cast<std::ptrdiff_t>(size), last);
-    for (const std::size_t part : std::views::reverse(parts)) open_.push_back({level - 1, part, some});
+    for (auto part = parts.rbegin(); part != parts.rend(); ++part) open_.push_back({level - 1, *part, some});
     end -= size;
   }
 }

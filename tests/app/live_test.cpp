@@ -83,6 +83,18 @@ TEST_F(Live, AVerificationInPiecesGoesOnBetweenSteps) {
   expect_same(steps, steps_of_localize("drive.mcap"));
 }
 
+TEST_F(Live, StepsAreBoundedWhereARobotDrivesOnMeanwhile) {
+  const auto experiment = [&](const std::string& options) {
+    const Answer answer = live("drive.mcap", options + " --set localizer.none=1 --out " + file("live"));
+    EXPECT_THAT(answer.err, HasSubstr("localizer.none"));
+    return content(file("live.yaml"));
+  };
+  EXPECT_THAT(experiment("--real-time"), HasSubstr("looks_per_step: 3000000\n"));
+  EXPECT_THAT(experiment(""), testing::Not(HasSubstr("looks_per_step")));
+  folder_.write("own.yaml", "localizer: {verifier: whole_map, looks_per_step: 7}\n");
+  EXPECT_THAT(experiment("--real-time --method " + file("own.yaml")), HasSubstr("looks_per_step: 7\n"));
+}
+
 TEST_F(Live, GoesOnThoughStepsCannotBeWrittenButDoesNotBeginSo) {
   std::filesystem::create_symlink("/dev/full", file("live.steps.jsonl"));
   const Answer full = live("drive.mcap", "--out " + file("live"));
