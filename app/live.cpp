@@ -201,7 +201,10 @@ class LiveLocalizer {
     way_ += driven.translation().norm();
     last_ = observation.odom_from_robot;
     ++observations_;
-    tell(sample, localizer_.step(observation), driven);
+    StepResult result = localizer_.step(observation);
+    open_.reset();
+    if (result.verification && result.verification->goes_on) open_ = sample;
+    tell(sample, std::move(result), driven);
   }
 
   void wait() {
@@ -214,7 +217,8 @@ class LiveLocalizer {
     if (!open_ || is_asked_to_begin_) return false;
     StepResult result = localizer_.go_on();
     if (result.verification->goes_on) return true;
-    tell(Sample(*open_), std::move(result), {});
+    tell(*open_, std::move(result), {});
+    open_.reset();
     return false;
   }
 
@@ -222,8 +226,6 @@ class LiveLocalizer {
     const Observation& observation = sample.observation;
     const StepRecord record = record_of(std::move(found), sample, *loaded_.map);
     const StepResult& result = record.result;
-    open_.reset();
-    if (result.verification && result.verification->goes_on) open_ = sample;
     const bool is_declared = result.verdict.kind == VerdictKind::localized;
     const bool is_newly_declared = is_declared && !was_declared_;
     if (is_newly_declared) ++declarations_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "glocal/evenly.hpp"
@@ -18,26 +19,26 @@ constexpr std::size_t most_rivals_on_map = 10;
 /// A search that looks at more points is given up, and nothing is declared in that step. On maps of more than
 /// 2 hectares it may look at as many more as they are larger.
 constexpr double max_looks = 40e6;
-/// How many more points a search in space looks at: there are heights, too, and scans have many points. Where
-/// poses tilt, there are some hundred tilts for each turn.
-constexpr double more_looks_in_space = 10.0;
-constexpr double more_looks_with_tilts = 100.0;
+/// What a search may take.
+struct Effort {
+  double more_looks = 1.0;  ///< So many times those of the plane.
+  /// Of a local map that count. A share of contact of 80 % among 600 has a standard deviation of 1.6 %, a
+  /// third of the margin, and among 300 of 2.3 %.
+  std::size_t most_points = std::numeric_limits<std::size_t>::max();
+};
 
-/// Points of a local map in space that count. A share of contact of 80 % among them has a standard deviation
-/// of 1.6 %, a third of the margin. Where poses tilt, half of them do: 2.3 %.
-constexpr std::size_t most_points_in_space = 600;
-constexpr std::size_t most_points_with_tilts = 300;
-
-double more_looks(Motion motion) {
+/// In space there are heights, too, and scans have many points. Where poses tilt, there are some hundred
+/// tilts for each turn.
+Effort effort_of(Motion motion) {
   switch (motion) {
     case Motion::planar:
       break;
     case Motion::upright:
-      return more_looks_in_space;
+      return {.more_looks = 10.0, .most_points = 600};
     case Motion::free:
-      return more_looks_with_tilts;
+      return {.more_looks = 100.0, .most_points = 300};
   }
-  return 1.0;
+  return {};
 }
 
 /// Points that are enough to find a mirrored pose that fits clearly better; all of them judge it then.
@@ -101,7 +102,7 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
       threads_(setup.threads),
       looks_per_step_(setup.looks_per_step),
       most_rivals_(most_rivals_on_map * std::max<std::size_t>(1, setup.map->parts().size())) {
-  most_looks_ = looks_on(*setup.map, max_looks * more_looks(setup.motion));
+  most_looks_ = looks_on(*setup.map, max_looks * effort_of(setup.motion).more_looks);
   contact_ = contact_index(*setup.map, in_space_ ? "bitset" : contact_for(area_of(setup.map->points())),
                            epsilon_, setup.threads);
   if (!in_space_) field_ = distance_field(*setup.map, setup.threads);
@@ -143,9 +144,7 @@ bool WholeMap::is_about(const LocalMap& local, const Pose3& map_from_local) cons
 
 WholeMap::Search WholeMap::begin(const LocalMap& local, const Pose3& map_from_local,
                                  const PoseGate& gate) const {
-  const bool tilt = pyramid_->motion() == Motion::free;
-  Points points =
-      in_space_ ? some_of(local.points, tilt ? most_points_with_tilts : most_points_in_space) : local.points;
+  Points points = some_of(local.points, effort_of(pyramid_->motion()).most_points);
   const double contact = contact_of(points, map_from_local);
   const auto least_of = [](double share, const Points& of) {
     return static_cast<std::size_t>(std::max(1.0, std::ceil(share * static_cast<double>(of.size()))));

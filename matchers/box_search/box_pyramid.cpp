@@ -25,8 +25,8 @@ std::vector<WindowKind> kinds_of_grid(int top_level, const CellFrame& frame) {
 std::vector<WindowKind> kinds_of_all_poses(int top_level, const CellFrame& frame, Motion motion) {
   std::vector<WindowKind> kinds;
   for (int level = 0; level <= top_level; ++level) {
-    const bool are_wide = level == top_level || motion == Motion::free;
-    const int groups = are_wide ? AllPoses::wide_groups(level) : AllPoses::groups(level);
+    const int groups =
+        level == top_level ? AllPoses::wide_groups(level) : AllPoses::groups_of_points(level, motion);
     for (int group = 1; group <= groups; ++group) {
       kinds.push_back({.level = level,
                        .wider = AllPoses::wider(level, group),
@@ -58,12 +58,11 @@ BoxPyramid::BoxPyramid(Of of, const Points& map_points, double cell, double epsi
   }
 }
 
-/// At the middle of a box a point lies in the middle one of three cells along either axis; in space it lies
-/// in two layers, half a cell from their middle at most. Where poses tilt, windows are a cell wider, and
-/// higher to either side.
+/// At the middle of a box a point lies in the middle of its window, or half a cell or a layer beside it.
 double BoxPyramid::delta() const {
-  const double aside = motion_ == Motion::free ? 2.5 : 2.0;
-  const double above = 1.5 + AllPoses::rise(0, motion_);
+  const int columns = 1 + AllPoses::wider(0, AllPoses::groups_of_points(0, motion_));
+  const double aside = (columns + 1) / 2.0;
+  const double above = (AllPoses::layers_of_window(0, frame_, motion_) + 1) / 2.0;
   return frame_.cell * std::hypot(aside, aside, frame_.in_space ? above : 0.0);
 }
 

@@ -79,15 +79,18 @@ class WantedBoxes {
   double layer_height_ = 0.0, box_height_ = 0.0;
 };
 
+static RobotCells robots_of(const Problem& problem, std::size_t rotation) {
+  const double middle = problem.middle_of_box();
+  const Pose3 robot = problem.tilted_from_robot(0, rotation);
+  return {problem.boxes.pose(0, rotation, middle, middle) * seen_from_above(robot),
+          problem.boxes.height(middle) + robot.z, problem.boxes.frame().cell, problem.rule.cell_distance,
+          problem.rule.cell_rotation};
+}
+
 /// The boxes of level 0 of one rotation.
 struct Bottom {
   Bottom(const Problem& problem, std::size_t number)
-      : rotation(number),
-        wanted(problem, 0, rotation),
-        robots(problem.boxes.pose(0, rotation, problem.middle_of_box(), problem.middle_of_box()) *
-                   seen_from_above(problem.tilted_from_robot(0, rotation)),
-               problem.boxes.height(problem.middle_of_box()) + problem.tilted_from_robot(0, rotation).z,
-               problem.boxes.frame().cell, problem.rule.cell_distance, problem.rule.cell_rotation) {}
+      : rotation(number), wanted(problem, 0, rotation), robots(robots_of(problem, rotation)) {}
 
   std::size_t rotation;
   WantedBoxes wanted;

@@ -226,7 +226,7 @@ double AllPoses::half_turn(int level) const {
 }
 
 std::vector<CellPoints> AllPoses::cells(int level, std::size_t rotation) const {
-  return cells_of(points_, tilt() ? wide_groups(level) : groups(level), level, rotation);
+  return cells_of(points_, groups_of_points(level, motion()), level, rotation);
 }
 
 std::vector<CellPoints> AllPoses::cluster_cells(std::size_t rotation) const {

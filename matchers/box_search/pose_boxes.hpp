@@ -166,6 +166,9 @@ class AllPoses final : public PoseBoxes {
   }
   /// Of clusters, and of points that tilt, which may move twice as far.
   [[nodiscard]] static int wide_groups(int level) { return 2 * groups(level); }
+  [[nodiscard]] static int groups_of_points(int level, Motion motion) {
+    return motion == Motion::free ? wide_groups(level) : groups(level);
+  }
   /// The cells that the points of level 0 lie in at the middle of each box.
   [[nodiscard]] CellPoints middle_cells(std::size_t rotation) const;
 

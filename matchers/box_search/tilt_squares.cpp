@@ -17,7 +17,7 @@ TiltSquares::TiltSquares(const std::function<bool(double reach)>& fit) : first_s
   for (std::size_t row = 0; row < along_axis; ++row) {
     for (std::size_t column = 0; column < along_axis; ++column) {
       const Vector3 middle{middle_of(column, first_side_), middle_of(row, first_side_), 0.0};
-      if (is_of_interest(middle, first_side_)) first_.push_back({column, row});
+      if (is_of_interest(middle, 0)) first_.push_back({column, row});
     }
   }
 }
@@ -31,8 +31,9 @@ Vector3 TiltSquares::middle(std::size_t number, std::size_t quarters, int halvin
   return {middle_of(column, side(halvings)), middle_of(row, side(halvings)), 0.0};
 }
 
-bool TiltSquares::is_of_interest(const Vector3& middle, double side) {
-  const auto nearest = [&](double coordinate) { return std::max(0.0, std::abs(coordinate) - side / 2.0); };
+bool TiltSquares::is_of_interest(const Vector3& middle, int halvings) const {
+  const double half_side = side(halvings) / 2.0;
+  const auto nearest = [&](double coordinate) { return std::max(0.0, std::abs(coordinate) - half_side); };
   return std::hypot(nearest(middle.x()), nearest(middle.y())) <= most_tilt;
 }
 

@@ -32,9 +32,7 @@ class TiltSquares {
   /// two bits of `quarters` say which quarter the last halving has taken, the two before them the one before.
   [[nodiscard]] Vector3 middle(std::size_t number, std::size_t quarters, int halvings) const;
   /// Whether a square with this middle has a tilt of interest.
-  [[nodiscard]] bool is_of_interest(const Vector3& middle, int halvings) const {
-    return is_of_interest(middle, side(halvings));
-  }
+  [[nodiscard]] bool is_of_interest(const Vector3& middle, int halvings) const;
 
   /// How far the tilts of a square move a point aside from where its middle puts it, m. The point is so high
   /// over what it is tilted about, then, and so far from it.
@@ -43,8 +41,6 @@ class TiltSquares {
   [[nodiscard]] static double largest(double reach) { return most_tilt + 2.0 * reach; }
 
  private:
-  [[nodiscard]] static bool is_of_interest(const Vector3& middle, double side);
-
   double first_side_;
   std::vector<std::array<std::size_t, 2>> first_;  ///< Column and row of each.
 };
