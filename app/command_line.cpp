@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <exception>
 #include <new>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/commands.hpp"
 #include "app/job_scripts.hpp"
 #include "app/standard_streams.hpp"
 #include "config/nearest.hpp"

@@ -1,11 +1,12 @@
 // From arguments to an exit code.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <vector>
 
-#include "app/commands.hpp"
+namespace CLI {
+class App;
+}
 
 namespace glocal::app {
 
