@@ -11,21 +11,20 @@ commands_of() { "$program" "$@" --help | sed -n '/^Subcommands:$/,/^$/s/^  \([a-
 
 # check_page WORD…: of one command, and of those below it.
 check_page() {
-  local name page option below
+  local name page text option below
   name=$(IFS=-; echo "glocal${*:+-$*}")
   page=$pages/$name.1
   [ -f "$page" ] || fail "$name has no page"
   said=$(groff -man -ww -z "$page" 2>&1)
   [ -z "$said" ] || fail "$page: $said"
-  groff -man -Tutf8 -P -cbou -rLL=200n "$page" >"$page.txt"
+  text=$(groff -man -Tutf8 -P -cbou -rLL=200n "$page")
   while read -r option; do
-    grep -q -- "$option" "$page.txt" || fail "$page does not tell of $option"
+    grep -q -- "$option" <<<"$text" || fail "$page does not tell of $option"
   done < <("$program" "$@" --help | sed -n 's/^  \(-[a-z],\)\{0,1\}\(--[a-z-]\{1,\}\).*/\2/p')
   for below in $(commands_of "$@"); do
-    grep -q -- "$name-$below(1)" "$page.txt" || fail "$page does not tell of $below"
+    grep -q -- "$name-$below(1)" <<<"$text" || fail "$page does not tell of $below"
     check_page "$@" "$below"
   done
-  rm "$page.txt"
 }
 [ "$(commands_of | wc -l)" -gt 20 ] || fail "the commands of --help are not found"
 check_page
