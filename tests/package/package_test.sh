@@ -7,7 +7,7 @@ build=$(cd "$1" && pwd) work=$2
 rm -rf "$work"
 mkdir -p "$work/outside"
 # As for glocal itself; make, CMake's own choice, need not be there.
-export CMAKE_GENERATOR=Ninja
+export CMAKE_GENERATOR=Ninja CXXFLAGS=--param=ggc-min-heapsize=500000
 fail() { echo "FAILED: $1" >&2; exit 1; }
 prefix=$work/prefix
 
@@ -34,7 +34,7 @@ for header in "$prefix"/include/glocal/*.hpp; do
   name=$(basename "$header")
   echo "#include <glocal/$name>" >"$work/headers/${name%.hpp}.cpp"
 done
-check_header() { c++ -std=c++20 -fsyntax-only -MD -MF "$1.d" -Wall -Wextra -Werror -I "$prefix/include" -isystem /usr/include/eigen3 "$1"; }
+check_header() { c++ $CXXFLAGS -std=c++20 -fsyntax-only -MD -MF "$1.d" -Wall -Wextra -Werror -I "$prefix/include" -isystem /usr/include/eigen3 "$1"; }
 export -f check_header
 export prefix
 find "$work/headers" -name '*.cpp' -print0 | xargs -0 -n 1 -P "$(nproc)" bash -c 'check_header "$0"' || fail "a header does not compile alone"
@@ -49,7 +49,7 @@ kinds=$("$prefix/bin/glocal" list | grep -E '^[a-z_]+$')
 try_kind() {
   local kind=$1 folder=$work/outside/$1
   "$prefix/bin/glocal" new-plugin "$kind" "my_$kind" -o "$folder" >/dev/null
-  cmake -S "$folder" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+  cmake -S "$folder" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS_RELEASE=-Og >/dev/null
   cmake --build "$folder/build" >/dev/null
   ctest --test-dir "$folder/build" >/dev/null
   grep -q "my_$kind 0.1.0" "$folder/build/results/provenance.json"
@@ -104,11 +104,11 @@ diff "$work/run_by_program/trials.jsonl" "$work/run_by_cmake/trials.jsonl" || fa
 if command -v pkg-config >/dev/null; then
   export PKG_CONFIG_PATH
   PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name glocal.pc)")
-  c++ -shared -fPIC "$work/outside/matcher/my_matcher.cpp" $(pkg-config --cflags --libs glocal) -o "$work/by_hand.so"
+  c++ $CXXFLAGS -shared -fPIC "$work/outside/matcher/my_matcher.cpp" $(pkg-config --cflags --libs glocal) -o "$work/by_hand.so"
   "$prefix/bin/glocal" list matcher --plugin "$work/by_hand.so" | grep -q my_matcher || fail "pkg-config"
   ! readelf -d "$work/by_hand.so" | grep -Eq 'glocal_(builtin|evaluation)' || fail "a plugin is linked with all of glocal"
   for example in embed run_experiment; do
-    c++ "$root/examples/$example/$example.cpp" $(pkg-config --cflags --libs glocal) \
+    c++ $CXXFLAGS "$root/examples/$example/$example.cpp" $(pkg-config --cflags --libs glocal) \
       "-Wl,-rpath,$(pkg-config --variable=libdir glocal)" -o "$work/${example}_by_hand"
   done
   try_examples pkg_config "$work/embed_by_hand" "$work/run_experiment_by_hand"
