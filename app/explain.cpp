@@ -97,8 +97,7 @@ Replayed replay(const std::string& folder, const ExplainedRun& run, const Catalo
       throw ConfigError(folder, fmt::format("trial {} has no step {}: it ended with a declaration in step {}",
                                             run.trial, run.step, result.step));
     }
-    result = localizer.step(samples[i].observation);
-    if (i + 1 == start + steps) result = waited_for(localizer, std::move(result));
+    result = waited_for(localizer, localizer.step(samples[i].observation));
     begin.follow(localizer.local_map(), samples[i].observation.odom_from_robot);
   }
   const Pose3& truth = *samples[index].map_from_robot;

@@ -203,7 +203,7 @@ class LiveLocalizer {
     ++observations_;
     StepResult result = localizer_.step(observation);
     open_.reset();
-    if (result.verification && result.verification->goes_on) open_ = sample;
+    if (result.goes_on()) open_ = sample;
     tell(sample, std::move(result), driven);
   }
 
@@ -211,12 +211,13 @@ class LiveLocalizer {
     while (!is_interrupted() && go_on()) continue;
   }
 
-  /// With the verification that the last step has left open. Says whether it is still open, and tells what it
-  /// has come to.
+  /// With the search that the last step has left open. Says whether it is still open, and tells what it has
+  /// come to.
   bool go_on() {
     if (!open_ || is_asked_to_begin_) return false;
-    StepResult result = localizer_.go_on();
-    if (result.verification->goes_on) return true;
+    constexpr std::size_t looks = 3'000'000;  // Some 30 ms.
+    StepResult result = localizer_.go_on(looks);
+    if (result.goes_on()) return true;
     tell(*open_, std::move(result), {});
     open_.reset();
     return false;
@@ -254,7 +255,7 @@ class LiveLocalizer {
   std::size_t trial_ = 0, observations_ = 0, declarations_ = 0;
   double way_ = 0.0;  ///< m, as odometry has it.
   std::optional<Pose3> last_;
-  std::optional<Sample> open_;  ///< The last one, while the verification of its step goes on.
+  std::optional<Sample> open_;  ///< The last one, while a search of its step goes on.
   std::optional<VerdictKind> last_verdict_;
   std::string state_file_, fingerprint_;  ///< Empty where nothing is kept.
   std::optional<LiveState> state_;

@@ -274,10 +274,8 @@ std::string live_drive_yaml(const LiveRequest& request) {
   return yaml;
 }
 
-/// What searches of the whole map may take of a step of a robot that drives: some 30 ms in the plane, and
-/// 100 ms in space.
-constexpr int looks_in_the_plane = 3'000'000;
-constexpr int looks_in_space = 10'000'000;
+/// What searches of the whole map may take of a step of a robot that drives: some 30 ms.
+constexpr const char* looks_of_step = "3000000";
 
 /// Whether a method sets this key of the localizer.
 bool is_set(const std::string& method, const std::string& key, const Catalog& catalog) {
@@ -296,8 +294,10 @@ LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog) {
   const std::string method = request.method.empty() ? default_method(map.in_space) : request.method;
   plan.choices.push_back(fmt::format("method      {}", shown(method)));
   const bool is_recorded = !request.recording.empty() && !request.in_real_time;
-  if (!is_recorded && !is_set(method, "looks_per_step", catalog))
-    changes["looks_per_step"] = fmt::format("{}", map.in_space ? looks_in_space : looks_in_the_plane);
+  if (is_recorded)
+    changes["looks_per_step"] = "0";
+  else if (!is_set(method, "looks_per_step", catalog))
+    changes["looks_per_step"] = looks_of_step;
   plan.experiment = fmt::format(
       "# Written by glocal live.\n"
       "schema: 1\n"

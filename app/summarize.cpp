@@ -83,7 +83,8 @@ Json to_json(const Row& row) {
   json.update(summary.figures());
   // What is not known is not 0.
   if (!row.has_steps) {
-    for (const char* key : {"steps", "after_declaration", "step_ms", "stage_ms"}) json.erase(key);
+    for (const char* key : {"steps", "after_declaration", "step_ms", "answer_ms", "stage_ms"})
+      json.erase(key);
   }
   return json;
 }

@@ -113,12 +113,17 @@ WholeMap::WholeMap(const Params& params, const StageSetup& setup)
 }
 
 Verification WholeMap::verify(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate) {
+  return go_on(local, map_from_local, gate, looks_per_step_);
+}
+
+Verification WholeMap::go_on(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate,
+                             std::size_t looks) {
   if (!open_ || !is_about(local, map_from_local)) open_.emplace(begin(local, map_from_local, gate));
   Search& search = *open_;
   Verification result{.near = search.declared.near, .margin = params_.margin};
-  result.points_tested = search.rivals.advance(looks_per_step_);
-  if (search.mirrored && result.points_tested < looks_per_step_)
-    result.points_tested += search.mirrored->advance(looks_per_step_ - result.points_tested);
+  result.points_tested = search.rivals.advance(looks);
+  if (search.mirrored && result.points_tested < looks)
+    result.points_tested += search.mirrored->advance(looks - result.points_tested);
   result.goes_on = !search.rivals.is_over() || (search.mirrored && !search.mirrored->is_over());
   if (result.goes_on) return result;
   const BoxSearchResult found = search.rivals.result();

@@ -45,6 +45,8 @@ class WholeMap final : public Verifier {
 
   [[nodiscard]] Verification verify(const LocalMap& local, const Pose3& map_from_local,
                                     const PoseGate& gate) override;
+  [[nodiscard]] Verification go_on(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate,
+                                   std::size_t looks) override;
   void reset() override { open_.reset(); }
 
  private:

@@ -33,7 +33,7 @@ Declaration declaration_of(const Json& json) {
 Json to_json(const TrialFigures& figures) {
   Json step_ms = Json::array();
   for (const StageTimes& ms : figures.step_ms)
-    step_ms.push_back({ms.local_map, ms.match, ms.cluster, ms.rate, ms.verify});
+    step_ms.push_back({ms.local_map, ms.match, ms.cluster, ms.rate, ms.verify, ms.after});
   Json later_errors = Json::array();
   for (const PoseError& error : figures.later_errors) later_errors.push_back(to_json(error));
   Json json = {{"outcome", to_string(figures.outcome)}, {"steps", figures.steps},
@@ -49,8 +49,11 @@ TrialFigures figures_of(const Json& json) {
   figures.steps = json.at("steps");
   figures.distance_m = json.at("distance_m");
   figures.error = error_of(json.at("error"));
-  for (const Json& ms : json.at("step_ms"))
-    figures.step_ms.push_back({ms.at(0), ms.at(1), ms.at(2), ms.at(3), ms.at(4)});
+  for (const Json& ms : json.at("step_ms")) {
+    // No search went on where the sixth is missing.
+    const double after = ms.size() > 5 ? ms.at(5).get<double>() : 0.0;
+    figures.step_ms.push_back({ms.at(0), ms.at(1), ms.at(2), ms.at(3), ms.at(4), after});
+  }
   for (const Json& error : json.at("later_errors")) figures.later_errors.push_back(error_of(error));
   if (json.contains("declaration")) figures.declaration = declaration_of(json.at("declaration"));
   return figures;

@@ -296,7 +296,8 @@ void ResultsReader::check_all_steps(const fs::path& file, std::size_t lines) con
 
 StageTimes stage_times(const Json& step, const char* key) {
   const Json& ms = step.at(key);
-  return {ms.at("local_map"), ms.at("match"), ms.at("cluster"), ms.at("rate"), ms.value("verify", 0.0)};
+  return {ms.at("local_map"), ms.at("match"),          ms.at("cluster"),
+          ms.at("rate"),      ms.value("verify", 0.0), ms.value("after", 0.0)};
 }
 
 bool is_results_folder(const fs::path& folder) {

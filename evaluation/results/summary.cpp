@@ -63,6 +63,7 @@ void Summary::add(const TrialFigures& trial) {
     ms_.rate.push_back(ms.rate);
     if (ms.verify > 0.0) ms_.verify.push_back(ms.verify);
     ms_.total.push_back(ms.total());
+    ms_.answer.push_back(ms.answer());
   }
   for (const PoseError& error : trial.later_errors) {
     later_translations_m_.push_back(error.translation_m);
@@ -83,6 +84,8 @@ Json Summary::figures() const {
                    {"cluster", spread(ms_.cluster)},
                    {"rate", spread(ms_.rate)}};
   if (!ms_.verify.empty()) stage_ms["verify"] = spread(ms_.verify);
+  Json answer_ms = spread(ms_.answer);
+  answer_ms["p99"] = quantile(ms_.answer, 0.99);
   return {{"trials", std::move(trials)},
           {"steps", ms_.total.size()},
           {"success_rate", glocal::to_json(wilson(right_, count_))},
@@ -96,6 +99,7 @@ Json Summary::figures() const {
             {"translation_error_m", spread(later_translations_m_)},
             {"rotation_error_deg", spread(later_rotations_deg_)}}},
           {"step_ms", spread(ms_.total)},
+          {"answer_ms", std::move(answer_ms)},
           {"stage_ms", std::move(stage_ms)}};
 }
 

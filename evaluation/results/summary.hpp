@@ -39,7 +39,7 @@ class Summary {
 
  private:
   struct Values {
-    std::vector<double> local_map, match, cluster, rate, verify, total;
+    std::vector<double> local_map, match, cluster, rate, verify, total, answer;
   };
   std::size_t count_ = 0, right_ = 0, wrong_ = 0, undecided_ = 0, declared_ = 0, failed_ = 0;
   std::vector<double> steps_, distances_m_;             ///< Of right trials.

@@ -71,6 +71,7 @@ Json to_json(const Verification& v, Motion motion) {
 Json to_json(const StageTimes& ms, bool is_verified) {
   Json json = {{"local_map", ms.local_map}, {"match", ms.match}, {"cluster", ms.cluster}, {"rate", ms.rate}};
   if (is_verified) json["verify"] = ms.verify;
+  if (ms.after > 0.0) json["after"] = ms.after;
   return json;
 }
 

@@ -55,9 +55,9 @@ std::size_t steps_left(const Drive& drive, const TrialsConfig& config, std::size
   return std::min(step_limit(config), static_cast<std::size_t>(end - first));
 }
 
-StepResult waited_for(Localizer& localizer, StepResult last) {
-  while (last.verification && last.verification->goes_on) last = localizer.go_on();
-  return last;
+StepResult waited_for(Localizer& localizer, StepResult result) {
+  while (result.goes_on()) result = localizer.go_on();
+  return result;
 }
 
 PoseError pose_error(const Pose3& estimate, const Pose3& reference) {
@@ -146,10 +146,8 @@ std::optional<TrialRecord> run_trial(Localizer& localizer, const Drive& drive, c
     if (callbacks.stop && callbacks.stop()) return std::nullopt;
 
     StepResult result;
-    going_on = done_or_failed(record, [&] {
-      result = localizer.step(sample.observation);
-      if (i + 1 == end_sample) result = waited_for(localizer, std::move(result));
-    });
+    going_on =
+        done_or_failed(record, [&] { result = waited_for(localizer, localizer.step(sample.observation)); });
     if (!going_on) break;
     make_valid_utf8(result.verdict);
     record.records.push_back(record_of(std::move(result), sample, map));

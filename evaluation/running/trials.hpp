@@ -79,8 +79,8 @@ struct TrialCallbacks {
 [[nodiscard]] std::size_t steps_left(const Drive& drive, const TrialsConfig& config,
                                      std::size_t start_sample);
 
-/// The last step of a trial, after the verification that it has left open: the robot waits where it is.
-[[nodiscard]] StepResult waited_for(Localizer& localizer, StepResult last);
+/// The last step, after the searches that it has left open: the next scan comes later.
+[[nodiscard]] StepResult waited_for(Localizer& localizer, StepResult result);
 
 /// A trial before its first step.
 [[nodiscard]] TrialRecord begun_trial(const Drive& drive, Motion motion, std::size_t trial,

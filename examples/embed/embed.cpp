@@ -43,7 +43,9 @@ int main(int argc, char** argv) try {
                               glocal::seed_of(glocal::RandomPart::localizer, experiment));
 
   for (std::string line; std::getline(std::cin, line);) {
-    const glocal::StepResult step = localizer.step(parse(line));
+    glocal::StepResult step = localizer.step(parse(line));
+    // Until the next scan comes: here the robot waits.
+    while (step.goes_on()) step = localizer.go_on();
     std::cout << step.step << ' ' << glocal::to_string(step.verdict.kind);
     if (const auto& pose = step.verdict.map_from_robot)
       std::cout << ' ' << pose->x << ' ' << pose->y << ' ' << pose->heading();

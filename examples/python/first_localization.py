@@ -41,6 +41,8 @@ print(f"{len(samples)} observations; the first has {len(hits)} hits, up to {np.h
 localizer = experiment.localizer(map)
 for sample in samples:
     step = localizer.step(sample.observation)
+    while step.goes_on:  # until the next scan comes: here the robot waits
+        step = localizer.go_on()
     print(f"step {step.step}: {step.verdict.kind}: {step.verdict.why}")
     if step.verdict.kind == "localized":
         break
@@ -89,6 +91,8 @@ for turn in np.radians(np.arange(0.0, 360.0, 10.0)):
     odom_from_robot = glocal.Pose(0.0, 0.0, turn)
     ranges = ranges_at(start * odom_from_robot)
     step = localizer.step(glocal.observation_from_ranges(ranges, ANGLES, MAX_RANGE, odom_from_robot))
+    while step.goes_on:
+        step = localizer.go_on()
     print(f"step {step.step}: {step.verdict.kind}: {step.verdict.why}")
     if step.verdict.kind == "localized":
         break

@@ -79,7 +79,7 @@ class State {
  private:
   /// At as many intervals as these looks are likely to do for, going by those before.
   void take_first_looks(std::size_t looks) {
-    constexpr std::size_t at_first = 8;
+    constexpr std::size_t at_first = 1;
     // Of a grid, bits are few, and stay in the cache.
     const std::size_t most_together = problem_.all_poses != nullptr ? 64 : 1;
     const std::size_t done = first_looks_.size();

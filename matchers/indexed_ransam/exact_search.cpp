@@ -20,12 +20,8 @@ void describe(ParamVisitor& v, ExactSearchRule& p) {
 }
 
 ExactSearch::ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon,
-                         int threads, std::size_t looks_per_step)
-    : rule_(rule),
-      most_looks_(looks_on(map, rule.max_looks)),
-      looks_per_step_(looks_per_step),
-      threads_(threads),
-      wait_(rule.after_steps) {
+                         int threads)
+    : rule_(rule), most_looks_(looks_on(map, rule.max_looks)), threads_(threads), wait_(rule.after_steps) {
   if (rule.after_steps == 0) return;
   const double cell = rule.cell.value_or(automatic_box_cell(map, contact_epsilon));
   pyramid_ = box_pyramid(BoxPyramid::Of::all_poses, map, cell, contact_epsilon, Motion::planar, threads);
@@ -64,12 +60,12 @@ BoxSearch ExactSearch::round_of(const Search& search, const std::vector<Hypothes
   return {*pyramid_, search.points, search.local_from_robot, rule, known, threads_};
 }
 
-std::size_t ExactSearch::advance(std::vector<Hypothesis> best, const Settle& settle) {
+std::size_t ExactSearch::advance(std::vector<Hypothesis> best, std::size_t most_looks, const Settle& settle) {
   constexpr double lower = 0.1;
   std::size_t looks = 0;
-  while (open_ && looks < looks_per_step_) {
+  while (open_ && looks < most_looks) {
     if (!open_->round) open_->round = round_of(*open_, best);
-    looks += open_->round->advance(looks_per_step_ - looks);
+    looks += open_->round->advance(most_looks - looks);
     if (!open_->round->is_over()) break;
     const BoxSearchResult result = open_->round->result();
     open_->round.reset();

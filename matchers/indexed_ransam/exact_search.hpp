@@ -38,8 +38,7 @@ void describe(ParamVisitor& v, ExactSearchRule& p);
 class ExactSearch {
  public:
   /// Throws ConfigError where the map is too large for a pyramid.
-  ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon, int threads,
-              std::size_t looks_per_step);
+  ExactSearch(const ExactSearchRule& rule, const GlobalMap& map, double contact_epsilon, int threads);
 
   /// Takes in the best poses of a step, and says whether a search is due now: after `after_steps` steps in a
   /// row in which no pose was clearly the best. The next search is due after twice as many such steps, and so
@@ -58,9 +57,10 @@ class ExactSearch {
   /// Searches in rounds, each of which asks for less contact than the one before, and hands what it finds to
   /// `settle`. What is near the best pose so far is not searched for (Exclusion). The last round is the one
   /// after which a pose has a score that those of the next round would hardly reach, the one of
-  /// `min_contact`, or the one that takes too many looks. Without a search that has begun, or once a step's
-  /// looks are taken, nothing happens until the next call. Returns how many points were looked at.
-  std::size_t advance(std::vector<Hypothesis> best, const Settle& settle);
+  /// `min_contact`, or the one that takes too many looks. Without a search that has begun, or once
+  /// `most_looks` are taken, nothing happens until the next call. Returns how many points were looked at.
+  std::size_t advance(std::vector<Hypothesis> best, std::size_t most_looks, const Settle& settle);
+  [[nodiscard]] bool goes_on() const { return open_.has_value(); }
 
  private:
   /// A search that has begun.
@@ -77,7 +77,6 @@ class ExactSearch {
   ExactSearchRule rule_;
   std::shared_ptr<const BoxPyramid> pyramid_;  ///< Null where no search is ever due.
   std::size_t most_looks_;
-  std::size_t looks_per_step_;
   int threads_;
   std::optional<Search> open_ = {};
   int undecided_ = 0;  ///< Steps without a clear best pose.

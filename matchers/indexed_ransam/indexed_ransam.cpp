@@ -30,6 +30,7 @@ constexpr int first_steps = 4;
 
 /// Points of the local map that judge a proposal's contact before it is refined.
 constexpr std::size_t contact_points = 128;
+constexpr std::size_t proposals_per_candidate = 5;  // As many lie near each other.
 
 }  // namespace
 
@@ -105,8 +106,16 @@ IndexedRansam::IndexedRansam(const Params& params, const StageSetup& setup)
                distance_field(*map_, setup.threads), contact_),
       judge_(judge_rule(params, setup.epsilon(params.contact_epsilon)), map_, contact_,
              distance_field(*map_, setup.threads), setup.threads),
-      exact_search_(params.exact_search, *map_, setup.epsilon(params.contact_epsilon), setup.threads,
-                    setup.looks_per_step) {}
+      exact_search_(params.exact_search, *map_, setup.epsilon(params.contact_epsilon), setup.threads),
+      looks_per_step_(setup.looks_per_step) {}
+
+IndexedRansam::OpenStep::OpenStep(Points some_points, const MatchRequest& request,
+                                  const ContactIndex& contact, const Params& params)
+    : sample(std::move(some_points)),
+      gate(request.gate),
+      omega_max(request.omega_max),
+      candidates(contact, sample, params.min_contact,
+                 proposals_per_candidate * static_cast<std::size_t>(params.candidates), gate) {}
 
 std::shared_ptr<const RelationIndex> IndexedRansam::built_index(int threads) {
   const auto start = std::chrono::steady_clock::now();
@@ -130,6 +139,7 @@ std::size_t IndexedRansam::proposals_on(std::size_t points, int iterations) {
 void IndexedRansam::reset() {
   judge_.forget();
   exact_search_.reset();
+  open_.reset();
   carried_.clear();
   epoch_ = 0;
   steps_ = 0;
@@ -137,38 +147,42 @@ void IndexedRansam::reset() {
 
 MatchResult IndexedRansam::match(const MatchRequest& request, Rng& rng) {
   const LocalMap& local = request.local;
-  MatchResult result;
-  if (local.points.empty()) return result;
+  if (local.points.empty()) return {};
   if (local.epoch != epoch_) reset();
   epoch_ = local.epoch;
   judge_.take_in(local, request.latest.scan);
-  const Points sample = sample_of(local.points, contact_points, rng);
-
-  constexpr std::size_t proposals_per_candidate = 5;  // as many lie near each other
-  StepCandidates candidates(*contact_, sample, params_.min_contact,
-                            proposals_per_candidate * static_cast<std::size_t>(params_.candidates),
-                            request.gate);
-  for (const Pose2& pose : carried_) candidates.add(pose);
+  open_ =
+      std::make_unique<OpenStep>(sample_of(local.points, contact_points, rng), request, *contact_, params_);
+  OpenStep& step = *open_;
+  for (const Pose2& pose : carried_) step.candidates.add(pose);
   propose(*index_, relation_, local, proposals_of_step(), rng,
-          [&](const MotionBatch& poses, std::size_t size) { candidates.test(poses, size); });
-  std::vector<Hypothesis> best = settled(candidates, local, sample, result);
-  if (exact_search_.is_due(best)) {
+          [&](const MotionBatch& poses, std::size_t size) { step.candidates.test(poses, size); });
+  settle(step, local);
+  if (exact_search_.is_due(step.best)) {
     exact_search_.begin(sample_of(local.points, exact_search_.points(), rng),
                         seen_from_above(local.local_from_robot), request.gate);
   }
-  result.points_tested += exact_search_.advance(best, [&](const std::vector<Pose2>& poses) {
-    for (const Pose2& pose : poses) candidates.add(pose);
-    result.proposals += poses.size();
-    return best = settled(candidates, local, sample, result);
-  });
-  result.proposals += candidates.tested();
-  result.points_tested += candidates.points_tested();
+  return go_on(local, looks_per_step_);
+}
 
+MatchResult IndexedRansam::go_on(const LocalMap& local, std::size_t looks) {
+  OpenStep& step = *open_;
+  const std::size_t looked_at = exact_search_.advance(step.best, looks, [&](const std::vector<Pose2>& poses) {
+    for (const Pose2& pose : poses) step.candidates.add(pose);
+    step.proposals += poses.size();
+    settle(step, local);
+    return step.best;
+  });
+  step.points_tested += looked_at;
+  MatchResult result{.hypotheses = {},
+                     .proposals = step.proposals + step.candidates.tested(),
+                     .points_tested = step.points_tested + step.candidates.points_tested(),
+                     .goes_on = exact_search_.goes_on()};
   carried_.clear();
-  for (const Hypothesis& h : best) {
+  for (const Hypothesis& h : step.best) {
     if (carried_.size() < static_cast<std::size_t>(params_.carried))
       carried_.push_back(seen_from_above(h.map_from_local));
-    if (h.score >= request.omega_max) result.hypotheses.push_back(judge_.to_hypothesis(h, local, sample));
+    if (h.score >= step.omega_max) result.hypotheses.push_back(judge_.to_hypothesis(h, local, step.sample));
   }
   return result;
 }
@@ -191,12 +205,11 @@ std::size_t IndexedRansam::proposals_of_step() {
   return is_first ? std::max(static_cast<std::size_t>(params_.first_iterations), proposals_) : proposals_;
 }
 
-/// The best of the candidates, once these are distinct and refined.
-std::vector<Hypothesis> IndexedRansam::settled(StepCandidates& candidates, const LocalMap& local,
-                                               const Points& sample, MatchResult& result) const {
-  candidates.refine(refiner_, seen_from_above(local.local_from_robot));
-  result.points_tested += candidates.all().size() * local.points.size();
-  return judge_.best_of(candidates.all(), local, sample);
+/// Leaves the distinct candidates, refined, and the best of them.
+void IndexedRansam::settle(OpenStep& step, const LocalMap& local) const {
+  step.candidates.refine(refiner_, seen_from_above(local.local_from_robot));
+  step.points_tested += step.candidates.all().size() * local.points.size();
+  step.best = judge_.best_of(step.candidates.all(), local, step.sample);
 }
 
 }  // namespace glocal::indexed_ransam

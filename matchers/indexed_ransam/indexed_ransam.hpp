@@ -55,6 +55,7 @@ class IndexedRansam final : public Matcher {
   [[nodiscard]] static std::size_t proposals_on(std::size_t points, int iterations);
 
   [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
+  [[nodiscard]] MatchResult go_on(const LocalMap& local, std::size_t looks) override;
   [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                 const LocalMap& local) override;
   void reset() override;
@@ -64,8 +65,21 @@ class IndexedRansam final : public Matcher {
   /// Says in `map_index_` what it took.
   [[nodiscard]] std::shared_ptr<const RelationIndex> built_index(int threads);
   [[nodiscard]] std::size_t proposals_of_step();
-  [[nodiscard]] std::vector<Hypothesis> settled(StepCandidates& candidates, const LocalMap& local,
-                                                const Points& sample, MatchResult& result) const;
+  /// The last step, until its exact search is over, or the next one.
+  struct OpenStep {
+    OpenStep(Points some_points, const MatchRequest& request, const ContactIndex& contact,
+             const Params& params);
+    OpenStep(const OpenStep&) = delete;  // Candidates refer to what is here.
+    OpenStep& operator=(const OpenStep&) = delete;
+
+    Points sample;
+    PoseGate gate;
+    double omega_max;
+    StepCandidates candidates;
+    std::vector<Hypothesis> best = {};
+    std::size_t proposals = 0, points_tested = 0;  ///< Apart from those of the candidates.
+  };
+  void settle(OpenStep& step, const LocalMap& local) const;
 
   Params params_;
   std::shared_ptr<const GlobalMap> map_;
@@ -78,6 +92,8 @@ class IndexedRansam final : public Matcher {
   CandidateRefiner refiner_;
   PoseJudge judge_;
   ExactSearch exact_search_;
+  std::size_t looks_per_step_;
+  std::unique_ptr<OpenStep> open_ = {};
   std::vector<Pose2> carried_;  ///< map_from_local of the last step's best.
   int epoch_ = 0;               ///< Of the local map in whose frame they are.
   int steps_ = 0;               ///< In that frame.

@@ -204,12 +204,13 @@ class Localizer:
         """
         return self._core.step(observation)
 
-    def go_on(self) -> StepResult:
-        """Goes on with the verification that the last step has left open (Verification.goes_on), without an observation.
+    def go_on(self, looks: int | None = None) -> StepResult:
+        """Goes on with the search that the last step has left open (StepResult.goes_on), without an observation.
 
-        The result is that of the step, with what the search says by now. Raises RuntimeError if none is open, and StrategyError as step().
+        By so many looks at points, or to its end. The result is that of the step, with what a verification says by now. Raises RuntimeError if
+        none is open, and StrategyError as step().
         """
-        return self._core.go_on()
+        return self._core.go_on(looks)
 
     def reset(self, trial: int = 0) -> None:
         """Forgets everything; the steps that follow draw random numbers from a stream of the trial's own."""

@@ -148,10 +148,10 @@ class BoundLocalizer {
     const std::lock_guard lock(one_at_a_time_);
     return Seen<StepResult>(localizer_->step(given));
   }
-  Seen<StepResult> go_on() {
+  Seen<StepResult> go_on(std::optional<std::size_t> looks) {
     const py::gil_scoped_release others_may;
     const std::lock_guard lock(one_at_a_time_);
-    return Seen<StepResult>(localizer_->go_on());
+    return Seen<StepResult>(looks ? localizer_->go_on(*looks) : localizer_->go_on());
   }
   void reset(std::uint64_t trial) {
     const py::gil_scoped_release others_may;
@@ -189,7 +189,7 @@ void bind_experiments(py::module_& module) {
       .def(py::init(&localizer_with), py::arg("map"), py::arg("overrides"), py::arg("seed"),
            py::arg("threads"))
       .def("step", &BoundLocalizer::step, py::arg("observation"))
-      .def("go_on", &BoundLocalizer::go_on)
+      .def("go_on", &BoundLocalizer::go_on, py::arg("looks") = std::nullopt)
       .def("reset", &BoundLocalizer::reset, py::arg("trial"))
       .def_property_readonly("local_map", &BoundLocalizer::local_map)
       .def_property_readonly("map", &BoundLocalizer::map);

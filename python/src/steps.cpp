@@ -143,6 +143,7 @@ py::dict times_of(const StepResult& step) {
   times["cluster"] = t.cluster;
   times["rate"] = t.rate;
   times["verify"] = t.verify;
+  times["after"] = t.after;
   return times;
 }
 
@@ -188,6 +189,9 @@ void bind_steps(py::module_& module) {
       .def_property_readonly(
           "estimate", [](const BoundStep& s) { return s->estimate(); },
           "Pose the verdict rule believes in, else that of the best cluster; None without either.")
+      .def_property_readonly(
+          "goes_on", [](const BoundStep& s) { return s->goes_on(); },
+          "Whether a search is open with which Localizer.go_on() can go on.")
       .def_property_readonly(
           "stage_ms", [](const BoundStep& s) { return times_of(*s); }, "Wall-clock time by stage, ms.")
       .def("__repr__", [](const BoundStep& s) {

@@ -24,7 +24,7 @@ inline std::vector<Json> json_lines(const fs::path& file) {
 
 /// Times are all that may differ between two runs of the same experiment.
 inline Json without_times(Json json) {
-  for (const char* key : {"stage_ms", "stage_cpu_ms", "step_ms", "peak_rss_mb", "others_load"})
+  for (const char* key : {"stage_ms", "stage_cpu_ms", "step_ms", "answer_ms", "peak_rss_mb", "others_load"})
     json.erase(key);
   if (json.contains("map")) {
     json["map"].erase("build_ms");

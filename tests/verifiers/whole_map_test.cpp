@@ -133,6 +133,20 @@ TEST(WholeMap, ASearchThatGoesOnSaysTheSameInTheEnd) {
   EXPECT_EQ(calls_before, 1);
 }
 
+TEST(WholeMap, WithoutAStepASearchTakesAsManyLooksAsItIsGiven) {
+  const auto map = map_of({corner(0.0F, 0.0F), corner(7.03F, 4.01F)});
+  const Pose3 declared{Pose2{1.0, 1.0, 0.0}};
+  WholeMap verifier({}, StageSetup{.map = map, .looks_per_step = 1});
+  const LocalMap local = before_a_corner();
+  ASSERT_TRUE(verifier.verify(local, declared, {}).goes_on);
+  const Verification more = verifier.go_on(local, declared, {}, 1000);
+  EXPECT_TRUE(more.goes_on);
+  EXPECT_GE(more.points_tested, 1000U);
+  const Verification last = verifier.go_on(local, declared, {}, BoxSearch::to_the_end);
+  EXPECT_FALSE(last.goes_on);
+  EXPECT_EQ(last.certificate.value().at_most, verification(map, {1.0, 1.0, 0.0}).certificate.value().at_most);
+}
+
 TEST(WholeMap, ASearchGoesOnForTheSamePoseInTheSameFrameOnly) {
   const auto map = map_of({corner(0.0F, 0.0F), corner(7.03F, 4.01F)});
   WholeMap verifier({}, StageSetup{.map = map, .looks_per_step = 2000});

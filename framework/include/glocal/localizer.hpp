@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -62,11 +63,11 @@ class Localizer {
   /// reset() makes it good again.
   [[nodiscard]] StepResult step(const Observation& observation);
 
-  /// Goes on with the verification that the last step or go_on() has left open (Verification::goes_on), as a
-  /// robot may while it stands still, or has nothing else to do. Takes as many looks as a step. The result is
-  /// that of the step, with what the search says by now, and with the time that it took. Throws as step();
+  /// Goes on with the search that the last step or go_on() has left open (StepResult::goes_on), as a robot
+  /// may until its next scan comes, by so many looks at points: without a number to its end. The result is
+  /// that of the step, with what is known by now, and with the time that it took. Throws as step();
   /// std::logic_error where none is open.
-  [[nodiscard]] StepResult go_on();
+  [[nodiscard]] StepResult go_on(std::size_t looks = std::numeric_limits<std::size_t>::max());
 
   /// Forgets everything; the steps that follow draw their random numbers from a stream of the trial's own.
   /// Throws StrategyError if a strategy throws an exception.
@@ -114,6 +115,10 @@ class Localizer {
   void follow_noise(const Scan& scan, StepResult& result);
   const LocalMap& add(const Observation& observation, StepResult& result);
   void match(const LocalMap& local, const Observation& latest, StepResult& result);
+  void take_in(MatchResult match, StepResult& result) const;
+  /// From the hypotheses to the verdict, and ended().
+  [[nodiscard]] StepResult judged(const LocalMap& local, const Observation& latest, StepResult result,
+                                  std::optional<std::size_t> looks_after = {});
   /// Puts the expected pose among the hypotheses of the first step, and follows it.
   void follow_expected(const LocalMap& local, StepResult& result);
   void cluster(StepResult& result);
@@ -122,9 +127,11 @@ class Localizer {
   /// Takes back what the verdict rule declares where the set-up of the robot is wrong, or in doubt.
   void check_setup(const Observation& observation, const LocalMap& local, StepResult& result);
   /// Lets the verifier look for rivals of a pose when it is declared: with one, it is not.
-  void verify(const LocalMap& local, StepResult& result);
+  /// After the step has answered it goes on by so many looks.
+  void verify(const LocalMap& local, StepResult& result, std::optional<std::size_t> looks_after);
   /// Verifies, and says what is to be said of any step.
-  [[nodiscard]] StepResult ended(const LocalMap& local, StepResult result);
+  [[nodiscard]] StepResult ended(const LocalMap& local, StepResult result,
+                                 std::optional<std::size_t> looks_after);
   /// One that goes on: what it is about is not declared.
   void forget_verification(std::size_t step);
 
@@ -149,7 +156,9 @@ class Localizer {
   Pose3 expected_map_from_local_;         ///< Relative to the map's origin, after the first step.
   int expected_epoch_ = 0;                ///< Of that local map.
   bool is_verified_ = false;              ///< What is declared since some steps.
-  std::optional<StepResult> unverified_;  ///< The last step before its verification, where that goes on.
+  bool is_verifying_ = false;             ///< A verification goes on.
+  std::optional<StepResult> open_;        ///< The last step as far as it has come, where a search goes on.
+  Observation open_observation_;          ///< Its observation.
   Rng seed_;
   std::uint64_t trial_ = 0;
   Rng rng_;  ///< Of the trial.

@@ -131,8 +131,11 @@ struct StageTimes {
   double cluster = 0.0;
   double rate = 0.0;
   double verify = 0.0;
+  double after = 0.0;  ///< Searches that went on after the step had answered (Localizer::go_on).
 
-  [[nodiscard]] double total() const { return local_map + match + cluster + rate + verify; }
+  /// Until the step answered.
+  [[nodiscard]] double answer() const { return local_map + match + cluster + rate + verify; }
+  [[nodiscard]] double total() const { return answer() + after; }
 };
 
 /// Everything a localization step has found out.
@@ -165,11 +168,15 @@ struct StepResult {
   std::vector<Cluster> clusters;  ///< Falling rating.
   std::vector<Rating> ratings;    ///< One for each cluster.
   Verdict verdict;
+  bool is_matching = false;                  ///< The match goes on, and the step is not judged yet.
   std::optional<Verification> verification;  ///< Of a pose that was declared, or would have been.
   std::optional<SetupCheck> setup;           ///< None where it is not checked: in space.
   StageTimes stage_ms;                       ///< On the wall.
   StageTimes stage_cpu_ms;                   ///< Of all processors that worked for it.
 
+  [[nodiscard]] bool is_verifying() const { return verification && verification->goes_on; }
+  /// Whether a search is open with which Localizer::go_on() can go on.
+  [[nodiscard]] bool goes_on() const { return is_matching || is_verifying(); }
   /// Robot pose the verdict rule believes in, else that of the best-rated cluster; declared or not.
   [[nodiscard]] std::optional<Pose3> estimate() const {
     if (verdict.estimate) return verdict.estimate->map_from_robot;

@@ -91,6 +91,7 @@ struct MatchResult {
   std::vector<Hypothesis> hypotheses;
   std::size_t proposals = 0;      ///< Poses proposed before any of them was judged.
   std::size_t points_tested = 0;  ///< Single points tested for contact.
+  bool goes_on = false;           ///< A search is open that go_on(), or the next match(), goes on with.
 };
 
 /// What a matcher looks things up in, made once from the map.
@@ -115,6 +116,9 @@ class Matcher {
                                                         const LocalMap& /*local*/) {
     return found;
   }
+  /// Goes on with a match that goes on, on the same local map, by so many looks at points. Never called where
+  /// none does.
+  [[nodiscard]] virtual MatchResult go_on(const LocalMap& /*local*/, std::size_t /*looks*/) { return {}; }
   virtual void reset() = 0;
   /// For the record of a run; none if there is no index worth a word.
   [[nodiscard]] virtual std::optional<MapIndexInfo> map_index() const { return std::nullopt; }
@@ -174,6 +178,11 @@ class Verifier {
   /// goes on is asked for again in the next step, if that one would declare a pose, too.
   [[nodiscard]] virtual Verification verify(const LocalMap& local, const Pose3& map_from_local,
                                             const PoseGate& gate) = 0;
+  /// Goes on with an answer that goes on without a step, by so many looks at points; here by those of a step.
+  [[nodiscard]] virtual Verification go_on(const LocalMap& local, const Pose3& map_from_local,
+                                           const PoseGate& gate, std::size_t /*looks*/) {
+    return verify(local, map_from_local, gate);
+  }
   /// Forgets an answer that goes on: nothing is to be declared any more.
   virtual void reset() {}
 };

@@ -64,9 +64,10 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
        .audience = Audience::tuner});
   v.field(
       "looks_per_step", c.looks_per_step,
-      {.doc = "Searches of the whole map (whole_map, and exact_search of indexed_ransam) stop after so "
-              "many looks at a point in a step, each about 10 ns, and go on in the next; 0 lets them come "
-              "to their end.",
+      {.doc =
+           "A step answers after so many looks at points by searches of the whole map (whole_map, and "
+           "exact_search of indexed_ransam), each about 10 ns; then these go on until the next scan comes, "
+           "in runs to their end; 0 lets the step wait for them.",
        .min = 0,
        .audience = Audience::tuner});
   v.field("prior", c.prior,

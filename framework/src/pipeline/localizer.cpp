@@ -68,6 +68,13 @@ void add_prior(Verdict& verdict, const Prior& prior) {
                   verdict.kind == VerdictKind::unknown_place ? ": the robot is perhaps outside" : "");
 }
 
+/// Until a search that goes on has come to its end.
+void put_off(Verdict& verdict) {
+  verdict.kind = VerdictKind::searching;
+  verdict.map_from_robot.reset();
+  verdict.why = "the best pose is not declared yet: the search of the whole map goes on";
+}
+
 /// By how much a distance that counts as contact must be larger, in halves, so that most hits of scans with
 /// this noise (m) are within it.
 double epsilon_factor(double range_noise, double epsilon) {
@@ -186,6 +193,11 @@ void Localizer::use(std::unique_ptr<ThresholdPolicy> threshold_policy) {
 }
 
 StepResult Localizer::step(const Observation& observation) {
+  if (auto last = std::exchange(open_, std::nullopt); last && last->is_matching) {
+    last->is_matching = false;
+    static_cast<void>(judged(local_mapper_->map(), open_observation_, *std::move(last), 0));
+    open_.reset();
+  }
   StepResult result;
   result.step = step_++;
   result.stamp = observation.stamp;
@@ -193,27 +205,53 @@ StepResult Localizer::step(const Observation& observation) {
   const LocalMap& local = add(observation, result);
   follow_noise(observation.scan, result);
   match(local, observation, result);
-  follow_expected(local, result);
-  result.omega_place = by_contact_->unknown_place.update(local, result.hypotheses);
-  if (!result.hypotheses.empty() && motion_ == Motion::planar) {
-    result.hit_kinds = by_contact_->unknown_place.kinds_of(
-        observation.scan, seen_from_above(result.hypotheses.front().map_from_robot));
-    result.omega_scan = share_on_map(result.hit_kinds);
+  return judged(local, observation, std::move(result));
+}
+
+StepResult Localizer::go_on(std::size_t looks) {
+  if (!open_) throw std::logic_error("no search is open that could go on");
+  StepResult result = *std::exchange(open_, std::nullopt);
+  const LocalMap& local = local_mapper_->map();
+  if (!result.is_matching) return ended(local, std::move(result), looks);
+  in_stage(stages_.matcher, result.step, [&] {
+    MatchResult match;
+    timed(&StageTimes::after, result, [&] { match = by_contact_->matcher->go_on(local, looks); });
+    take_in(std::move(match), result);
+  });
+  const Observation latest = std::move(open_observation_);
+  return judged(local, latest, std::move(result), looks);
+}
+
+StepResult Localizer::judged(const LocalMap& local, const Observation& latest, StepResult result,
+                             std::optional<std::size_t> looks_after) {
+  for (Hypothesis& h : result.hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
+  note_best(result);
+  if (!result.is_matching) {
+    in_stage(stages_.threshold_policy, result.step, [&] { threshold_policy_->update(result.hypotheses); });
+    follow_expected(local, result);
+    result.omega_place = by_contact_->unknown_place.update(local, result.hypotheses);
+    if (!result.hypotheses.empty() && motion_ == Motion::planar) {
+      result.hit_kinds = by_contact_->unknown_place.kinds_of(
+          latest.scan, seen_from_above(result.hypotheses.front().map_from_robot));
+      result.omega_scan = share_on_map(result.hit_kinds);
+    }
+    cluster(result);
+    rate(result);
+    judge(result);
+    check_setup(latest, local, result);
   }
-  cluster(result);
-  rate(result);
-  judge(result);
-  check_setup(observation, local, result);
-  return ended(local, std::move(result));
+  StepResult answer = ended(local, std::move(result), looks_after);
+  if (open_) open_observation_ = latest;
+  return answer;
 }
 
-StepResult Localizer::go_on() {
-  if (!unverified_) throw std::logic_error("no verification is open that could go on");
-  return ended(local_mapper_->map(), *unverified_);
-}
-
-StepResult Localizer::ended(const LocalMap& local, StepResult result) {
-  verify(local, result);
+StepResult Localizer::ended(const LocalMap& local, StepResult result,
+                            std::optional<std::size_t> looks_after) {
+  if (!result.is_matching) verify(local, result, looks_after);
+  if (result.goes_on()) {
+    open_ = result;
+    put_off(result.verdict);
+  }
   add_misfit(result);
   if (!gate_.is_open()) add_prior(result.verdict, config_.prior);
   if (!origin_.isZero(0.0)) add_origin(result, origin_);
@@ -267,15 +305,17 @@ void Localizer::match(const LocalMap& local, const Observation& latest, StepResu
     timed(&StageTimes::match, result, [&] {
       match = by_contact_->matcher->match({local, latest, result.omega_max, gate_}, rng);
     });
-    check_match(match, result.omega_max, motion_);
-    result.hypotheses = std::move(match.hypotheses);
-    std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return !gate_.allows(h.map_from_local); });
-    result.proposals = match.proposals;
-    result.points_tested = match.points_tested;
+    take_in(std::move(match), result);
   });
-  for (Hypothesis& h : result.hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
-  note_best(result);
-  in_stage(stages_.threshold_policy, result.step, [&] { threshold_policy_->update(result.hypotheses); });
+}
+
+void Localizer::take_in(MatchResult match, StepResult& result) const {
+  check_match(match, result.omega_max, motion_);
+  result.hypotheses = std::move(match.hypotheses);
+  std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return !gate_.allows(h.map_from_local); });
+  result.is_matching = match.goes_on;
+  result.proposals = match.proposals;
+  result.points_tested = match.points_tested;
 }
 
 void Localizer::follow_expected(const LocalMap& local, StepResult& result) {
@@ -360,6 +400,7 @@ void Localizer::reset(std::uint64_t trial) {
   trial_ = trial;
   rng_ = seed_.stream({trial});
   step_ = 0;
+  open_.reset();
   expected_.reset();
   if (setup_) setup_->reset();
   start_.reset();

@@ -33,13 +33,6 @@ std::string why_refuted(const Verification& v, std::size_t rivals) {
                      100.0 * v.certificate->contact, 100.0 * v.certificate->at_most);
 }
 
-/// Until a search that goes on has come to its end.
-void put_off(Verdict& verdict) {
-  verdict.kind = VerdictKind::searching;
-  verdict.map_from_robot.reset();
-  verdict.why = "the best pose is not declared yet: the search of the whole map goes on";
-}
-
 /// Takes the verdict back where a rival is about as good, or the search was given up; else tells the
 /// certificate. Whether it was taken back is noted in the verification.
 void settle(Verification& v, Verdict& verdict) {
@@ -67,29 +60,32 @@ void settle(Verification& v, Verdict& verdict) {
 
 }  // namespace
 
-void Localizer::verify(const LocalMap& local, StepResult& result) {
+void Localizer::verify(const LocalMap& local, StepResult& result, std::optional<std::size_t> looks_after) {
   if (result.verdict.kind != VerdictKind::localized) {
     is_verified_ = false;
     return forget_verification(result.step);
   }
   if (is_verified_ || local.points.empty() || !by_contact_->verifier) return;
+  const auto stage = looks_after ? &StageTimes::after : &StageTimes::verify;
   const Pose3 declared = *result.verdict.map_from_robot;
+  const Pose3 map_from_local = declared * inverse(local.local_from_robot);
+  Verifier& verifier = *by_contact_->verifier;
   Verification found;
   in_stage(stages_.verifier, result.step, [&] {
-    timed(&StageTimes::verify, result, [&] {
-      found = by_contact_->verifier->verify(local, declared * inverse(local.local_from_robot), gate_);
+    timed(stage, result, [&] {
+      found = looks_after ? verifier.go_on(local, map_from_local, gate_, *looks_after)
+                          : verifier.verify(local, map_from_local, gate_);
     });
     check_verification(found, motion_);
   });
   if (result.verification) found.points_tested += result.verification->points_tested;
-  unverified_.reset();
-  if (found.goes_on) {
+  is_verifying_ = found.goes_on;
+  if (is_verifying_) {
     result.verification = std::move(found);
-    unverified_ = result;
-    return put_off(result.verdict);
+    return;
   }
   in_stage(stages_.matcher, result.step, [&] {
-    timed(&StageTimes::verify, result,
+    timed(stage, result,
           [&] { found.rivals = by_contact_->matcher->rescore(std::move(found.rivals), local); });
     for (Hypothesis& h : found.rivals) h.map_from_robot = h.map_from_local * local.local_from_robot;
     check_hypotheses(found.rivals, 0.0, motion_);
@@ -112,8 +108,8 @@ void Localizer::verify(const LocalMap& local, StepResult& result) {
 }
 
 void Localizer::forget_verification(std::size_t step) {
-  if (!unverified_) return;
-  unverified_.reset();
+  if (!is_verifying_) return;
+  is_verifying_ = false;
   in_stage(stages_.verifier, step, [&] {
     for (const auto& [epsilon, stages] : by_epsilon_) stages.verifier->reset();
   });

@@ -24,7 +24,7 @@ constexpr TrialId first{1, 2}, second{3, 0xfedcba9876543210}, third{5, 6};
 
 TrialOutput output(std::size_t trial) {
   TrialOutput output{{trial, {Outcome::right, 2.0, 1.0 / 3.0}, "a line\n", "some \"steps\"\n"}, {}};
-  output.entry.figures.step_ms = {{0.1, 1e-17, 2.0 / 3.0, 4.0, 0.0}};
+  output.entry.figures.step_ms = {{0.1, 1e-17, 2.0 / 3.0, 4.0, 0.0, 5.0}};
   output.files = {{"maps/a.bin", std::string("\0\xff\n\\\x80n\\n\\", 8)}, {"trajectories/b.tum", "1 2 3\n"}};
   return output;
 }
@@ -85,6 +85,7 @@ TEST_F(JournalScanTest, WhatAShardWritesIsRead) {
   EXPECT_EQ(found.step_lines, "some \"steps\"\n");
   EXPECT_EQ(found.figures.distance_m, 1.0 / 3.0);
   EXPECT_EQ(found.figures.step_ms[0].match, 1e-17);
+  EXPECT_EQ(found.figures.step_ms[0].after, 5.0);
   EXPECT_EQ(files(read, first), output(7).files) << "bytes that are no text, too";
   ASSERT_THAT(read.begun(), SizeIs(1));
   EXPECT_EQ(read.text_at(read.begun().at(second)), "{\"sample\":8}");

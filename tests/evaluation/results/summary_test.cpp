@@ -66,10 +66,12 @@ TEST(Summary, TimesAreOfAllStepsOfAllTrials) {
   first.records = {step_record(0, {}), step_record(1, {})};
   TrialRecord second = trial(Outcome::undecided, 1, 0.0, {});
   second.records = {step_record(0, {})};
-  second.records[0].result.stage_ms = {10.0, 20.0, 30.0, 40.0};
+  second.records[0].result.stage_ms = {10.0, 20.0, 30.0, 40.0, 0.0, 100.0};
   const Json json = sum_up({first, second});
   EXPECT_EQ(json["steps"], 3);
-  expect_spread(json["step_ms"], 10.0, 91.0, 100.0);
+  expect_spread(json["step_ms"], 10.0, 181.0, 200.0);
+  expect_spread(json["answer_ms"], 10.0, 91.0, 100.0);
+  EXPECT_DOUBLE_EQ(json["answer_ms"]["p99"].get<double>(), 98.2);
   expect_spread(json["stage_ms"]["local_map"], 1.0, 9.1, 10.0);
   expect_spread(json["stage_ms"]["match"], 2.0, 18.2, 20.0);
   expect_spread(json["stage_ms"]["cluster"], 3.0, 27.3, 30.0);

@@ -21,6 +21,7 @@ struct Script {
   double omega_max = 0.3;          ///< Before the first update.
   double updated_omega_max = 0.3;  ///< After it.
   std::function<MatchResult(double omega_max, Rng& rng)> match = [](double, Rng&) { return MatchResult{}; };
+  std::size_t searches = 0;  ///< Calls of the matcher's go_on() until the match is over.
   std::function<void(Rng& rng)> cluster = [](Rng&) {};
   std::vector<double> r;         ///< Of the clusters, in the order of their hypotheses.
   PoseGate gate;                 ///< What the matcher was told last.
@@ -62,7 +63,16 @@ struct FakeMatcher final : Fake<Matcher> {
   [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override {
     note("match");
     script_->gate = request.gate;
-    return script_->match(request.omega_max, rng);
+    MatchResult result = script_->match(request.omega_max, rng);
+    result.goes_on = script_->searches > 0;
+    return result;
+  }
+  [[nodiscard]] MatchResult go_on(const LocalMap& /*local*/, std::size_t looks) override {
+    note("match " + std::to_string(looks));
+    Rng rng(0);
+    MatchResult result = script_->match(script_->omega_max, rng);
+    result.goes_on = --script_->searches > 0;
+    return result;
   }
   [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                 const LocalMap& /*local*/) override {

@@ -219,6 +219,42 @@ TEST_F(WithVerifier, ASearchGoesOnWithoutAStepToTheSameAnswer) {
   EXPECT_EQ(step().verdict.why, "sure") << "it is verified";
 }
 
+TEST_F(WithVerifier, AStepIsJudgedOnceItsMatchHasComeToItsEnd) {
+  script_->verify = [](const Pose3&) { return Verification{.goes_on = true}; };
+  script_->searches = 2;
+  const StepResult first = step();
+  EXPECT_TRUE(first.goes_on());
+  EXPECT_EQ(first.verdict.kind, VerdictKind::searching);
+  EXPECT_THAT(first.verdict.why, HasSubstr("goes on"));
+  EXPECT_THAT(script_->calls, Not(Contains("judge")));
+  script_->calls.clear();
+  EXPECT_TRUE(localizer_.go_on(5).is_matching);
+  const StepResult matched = localizer_.go_on(6);
+  EXPECT_THAT(script_->calls,
+              ElementsAre("match 5", "match 6", "update", "cluster", "rate", "judge", "verify"));
+  EXPECT_TRUE(matched.is_verifying());
+  EXPECT_EQ(matched.verdict.kind, VerdictKind::searching);
+  find({});
+  const StepResult last = localizer_.go_on(7);
+  EXPECT_EQ(last.verdict.kind, VerdictKind::localized);
+  EXPECT_FALSE(last.goes_on());
+  EXPECT_EQ(last.step, first.step);
+  EXPECT_GT(last.stage_ms.after, matched.stage_ms.after);
+  EXPECT_EQ(last.stage_ms.match, first.stage_ms.match);
+  EXPECT_THROW(static_cast<void>(localizer_.go_on()), std::logic_error);
+}
+
+TEST_F(WithVerifier, WhereTheNextScanComesTheLastStepIsJudgedByWhatWasFound) {
+  script_->searches = 1;
+  step();
+  script_->searches = 0;
+  EXPECT_FALSE(step().goes_on());
+  std::vector<std::string> judged;
+  for (const std::string& call : script_->calls)
+    if (call == "judge" || call == "add") judged.push_back(call);
+  EXPECT_THAT(judged, ElementsAre("judge", "add", "judge"));
+}
+
 TEST_F(WithVerifier, WhatGoesOnWithoutAStepMayBeRefutedAndIsForgottenByAReset) {
   script_->verify = [](const Pose3&) { return Verification{.goes_on = true}; };
   step();

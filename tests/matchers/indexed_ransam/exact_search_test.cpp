@@ -12,7 +12,7 @@ namespace glocal::indexed_ransam::exact_search_test {
 namespace {
 
 ExactSearch search_after(int steps) {
-  return {{.after_steps = steps, .margin = 0.1}, *test::small_world(), 0.1, 1, BoxSearch::to_the_end};
+  return {{.after_steps = steps, .margin = 0.1}, *test::small_world(), 0.1, 1};
 }
 
 std::vector<Hypothesis> best_two(double first, double second) {
@@ -66,12 +66,12 @@ struct Rounds {
 };
 
 Rounds rounds(const ExactSearchRule& rule, double score, std::size_t looks_per_step = BoxSearch::to_the_end) {
-  ExactSearch search(rule, *test::small_world(), 0.1, 1, looks_per_step);
+  ExactSearch search(rule, *test::small_world(), 0.1, 1);
   search.begin(test::seen_from(test::small_world_points(), truth, 3.0), {}, {});
   Rounds rounds;
   std::vector<Hypothesis> best;
   for (std::size_t looks = 1; looks > 0; ++rounds.steps) {
-    looks = search.advance(best, [&](const std::vector<Pose2>& poses) {
+    looks = search.advance(best, looks_per_step, [&](const std::vector<Pose2>& poses) {
       rounds.poses.push_back(poses);
       return best = {Hypothesis::by_contact(poses.front(), score)};
     });
@@ -121,9 +121,9 @@ TEST(ExactSearch, InManyStepsFindsTheSame) {
 }
 
 TEST(ExactSearch, NoneIsDueWhileOneGoesOnAndAClearBestPoseEndsIt) {
-  ExactSearch search({.after_steps = 1, .margin = 0.1}, *test::small_world(), 0.1, 1, 1);
+  ExactSearch search({.after_steps = 1, .margin = 0.1}, *test::small_world(), 0.1, 1);
   const auto advance = [&] {
-    return search.advance({}, [](const std::vector<Pose2>&) { return std::vector<Hypothesis>{}; });
+    return search.advance({}, 1, [](const std::vector<Pose2>&) { return std::vector<Hypothesis>{}; });
   };
   EXPECT_EQ(advance(), 0U);
   ASSERT_TRUE(search.is_due(best_two(0.8, 0.75)));

@@ -263,6 +263,25 @@ TEST(IndexedRansam, AnExactSearchFindsWhatDrawsDoNot) {
   EXPECT_FALSE(match(restarted).empty());
 }
 
+TEST(IndexedRansam, AMatchInPiecesComesToTheSameEnd) {
+  const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
+  IndexedRansam::Params params{.iterations = 0, .first_iterations = 0};
+  params.exact_search = {.after_steps = 1, .margin = 1.0};
+  IndexedRansam whole(params, {test::small_world(), 1});
+  StageSetup setup{test::small_world(), 1};
+  setup.looks_per_step = 1;
+  IndexedRansam in_pieces(params, setup);
+  Rng rng(1), same(1);
+  const MatchResult wanted = whole.match({local, {}, 0.1}, rng);
+  EXPECT_FALSE(wanted.goes_on);
+  MatchResult found = in_pieces.match({local, {}, 0.1}, same);
+  ASSERT_TRUE(found.goes_on);
+  EXPECT_TRUE(found.hypotheses.empty());
+  for (std::size_t looks = 1; found.goes_on; looks *= 2) found = in_pieces.go_on(local, looks);
+  test::expect_same_answer(found, wanted);
+  EXPECT_EQ(found.proposals, wanted.proposals);
+}
+
 TEST(IndexedRansam, AClearBestPoseNeedsNoExactSearch) {
   const LocalMap local = local_map_at({5.5, 2.5, 0.7}, 3.0);
   IndexedRansam::Params params{.iterations = 0};
