@@ -215,8 +215,7 @@ class LiveLocalizer {
   /// come to.
   bool go_on() {
     if (!open_ || is_asked_to_begin_) return false;
-    constexpr std::size_t looks = 3'000'000;  // Some 30 ms.
-    StepResult result = localizer_.go_on(looks);
+    StepResult result = localizer_.go_on(looks_of_piece);
     if (result.goes_on()) return true;
     tell(*open_, std::move(result), {});
     open_.reset();

@@ -274,9 +274,6 @@ std::string live_drive_yaml(const LiveRequest& request) {
   return yaml;
 }
 
-/// What searches of the whole map may take of a step of a robot that drives: some 30 ms.
-constexpr const char* looks_of_step = "3000000";
-
 /// Whether a method sets this key of the localizer.
 bool is_set(const std::string& method, const std::string& key, const Catalog& catalog) {
   ExperimentFileParams params(catalog);
@@ -297,7 +294,7 @@ LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog) {
   if (is_recorded)
     changes["looks_per_step"] = "0";
   else if (!is_set(method, "looks_per_step", catalog))
-    changes["looks_per_step"] = looks_of_step;
+    changes["looks_per_step"] = fmt::format("{}", looks_of_piece);
   plan.experiment = fmt::format(
       "# Written by glocal live.\n"
       "schema: 1\n"

@@ -1,6 +1,7 @@
 // From a map and a log to an experiment: what `glocal localize` chooses by itself.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -11,6 +12,9 @@
 #include "glocal/prior.hpp"
 
 namespace glocal::app {
+
+/// Of searches of the whole map at a time, where a robot drives on meanwhile: some 30 ms.
+constexpr std::size_t looks_of_piece = 3'000'000;
 
 /// What is to be localized, and from where on. At most one of every_m and whole is given.
 struct LocalizeRequest {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/scenes.hpp"
+#include "evaluation/running/trials.hpp"
 
 namespace glocal::bench {
 namespace {
@@ -17,7 +18,8 @@ void steps(benchmark::State& state, const std::string& name, std::size_t begin, 
   Localizer localizer(s.experiment.localizer, catalog(), {s.loaded.map, threads},
                       seed_of(RandomPart::localizer, s.experiment));
   const auto step = [&](std::size_t i) {
-    return localizer.step(s.loaded.drive.samples[s.loaded.starts.front() + i].observation);
+    const Sample& sample = s.loaded.drive.samples[s.loaded.starts.front() + i];
+    return waited_for(localizer, localizer.step(sample.observation));
   };
   StageTimes times;
   for ([[maybe_unused]] auto _ : state) {

@@ -207,8 +207,8 @@ class Localizer:
     def go_on(self, looks: int | None = None) -> StepResult:
         """Goes on with the search that the last step has left open (StepResult.goes_on), without an observation.
 
-        By so many looks at points, or to its end. The result is that of the step, with what a verification says by now. Raises RuntimeError if
-        none is open, and StrategyError as step().
+        By so many looks at points, or to its end. The result is that of the step, with what is known by now. Raises RuntimeError if none is open,
+        and StrategyError as step().
         """
         return self._core.go_on(looks)
 

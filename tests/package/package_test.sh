@@ -43,7 +43,7 @@ for made_of in "$work"/headers/*.d; do
   [ -z "$brought" ] || fail "$(basename "$made_of" .cpp.d).hpp brings in $brought"
 done
 
-# A plugin of every kind, outside of the tree: as new-plugin writes them, they build, pass their test and run.
+# A plugin of every kind, outside of the tree: as new-plugin writes them, they build, pass their test and run. They only have to compile quickly.
 kinds=$("$prefix/bin/glocal" list | grep -E '^[a-z_]+$')
 [ "$(wc -w <<<"$kinds")" -eq 12 ] || fail "the kinds of strategies are: $kinds"
 try_kind() {
