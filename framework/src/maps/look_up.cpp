@@ -166,6 +166,12 @@ HWY_INLINE V clearance_at(const ClearanceView& grid, I column, I row) {
       Floats(), hn::Add(hn::And(words(grid.blocks), hn::Set(ints, 255)), hn::And(more, hn::Set(ints, 3))));
 }
 
+/// How far before the first column (or row) or behind the last one something is; 0 within.
+float outside(float at, int size) {
+  const auto end = static_cast<float>(size);
+  return at < 0.0F ? at : (at >= end ? at - end : 0.0F);
+}
+
 void find_blocked_in_vectors(const ClearanceView& grid, const Point& from, const Points& ends,
                              const Transform& map_from_ends, const Transform& grid_from_map, float margin,
                              std::span<std::uint8_t> blocked) {
@@ -174,6 +180,8 @@ void find_blocked_in_vectors(const ClearanceView& grid, const Point& from, const
   const V scale = hn::Set(d, 1.0F / grid.resolution);
   const V from_column = hn::Mul(hn::Set(d, from.x), scale);
   const V from_row = hn::Mul(hn::Set(d, from.y), scale);
+  const float outside_columns = outside(hn::GetLane(from_column), grid.width);
+  const float outside_rows = outside(hn::GetLane(from_row), grid.height);
   for_all(ends, [&](std::size_t i, std::size_t size, const Place& p) {
     const Place to = moved(grid_from_map, moved(map_from_ends, p));
     const V dx = hn::Sub(to.x, hn::Set(d, from.x));
@@ -183,7 +191,17 @@ void find_blocked_in_vectors(const ClearanceView& grid, const Point& from, const
     const V columns = hn::Div(dx, length);
     const V rows = hn::Div(dy, length);
     V t = hn::Set(d, 0.5F);
-    M is_on_way = hn::And(hn::Gt(length, hn::Zero(d)), hn::Le(t, end));
+    M is_on_way = hn::Gt(length, hn::Zero(d));
+    // A beam from beyond the grid begins a cell or two before the first one that it meets, if it meets any.
+    const auto enter = [&](float beyond, V along) {
+      if (beyond == 0.0F) return;
+      const V entry = hn::Div(hn::Set(d, -beyond), along);
+      is_on_way = hn::And(is_on_way, hn::Gt(entry, hn::Zero(d)));
+      t = hn::Max(t, hn::Sub(hn::Floor(entry), hn::Set(d, 1.0F)));
+    };
+    enter(outside_columns, columns);
+    enter(outside_rows, rows);
+    is_on_way = hn::And(is_on_way, hn::Le(t, end));
     M was_inside = hn::Lt(t, hn::Zero(d));
     M is_blocked = was_inside;
     while (!hn::AllFalse(d, is_on_way)) {
