@@ -308,13 +308,15 @@ IntervalSearch::IntervalSearch(const Problem& problem, const Interval& interval,
 }
 
 std::size_t IntervalSearch::advance(std::size_t looks) {
-  const std::size_t before = found().looks;
-  while (!is_over() && found().looks - before < looks) {
+  std::size_t taken = 0;
+  while (!is_over() && taken < looks) {
+    const std::size_t before = found().looks;
     const Part part = std::move(open_.back());
     open_.pop_back();
     look_at(part);
+    taken += found().looks - before + problem_.looks_of_interval;
   }
-  return found().looks - before;
+  return taken;
 }
 
 void IntervalSearch::look_at(const Part& part) {

@@ -24,6 +24,8 @@ struct Problem {
   const Pose3& local_from_robot;
   const BoxSearchRule& rule;
   const std::optional<Exclusion>& exclusion;
+  /// As many take the time of what is not counted: to lay all points of an interval of rotations into cells.
+  std::size_t looks_of_interval;
 
   /// After the tilt of an interval's middle.
   [[nodiscard]] Pose3 tilted_from_robot(int level, std::size_t rotation) const {
@@ -105,7 +107,8 @@ class IntervalSearch {
   /// Given up after `most_looks`: what is found is then not all.
   IntervalSearch(const Problem& problem, const Interval& interval, std::size_t least, std::size_t most_looks);
 
-  /// Goes on for about so many looks, at least one part, until it is over. Returns how many were taken.
+  /// Goes on for the time of about so many looks, at least one part, until it is over. Returns how many it
+  /// was.
   std::size_t advance(std::size_t looks);
   [[nodiscard]] bool is_over() const { return open_.empty(); }
   [[nodiscard]] const FoundPlaces& found() const { return search_.found(); }
