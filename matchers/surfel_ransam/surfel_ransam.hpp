@@ -42,18 +42,18 @@ class SurfelRansam final : public Matcher {
   SurfelRansam(const Params& params, const StageSetup& setup);
 
   [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) override;
+  [[nodiscard]] MatchResult go_on(const LocalMap& local, std::size_t looks) override;
   [[nodiscard]] std::vector<Hypothesis> rescore(std::vector<Hypothesis> found,
                                                 const LocalMap& local) override;
-  void reset() override { carried_.clear(); }
+  void reset() override;
   [[nodiscard]] std::optional<MapIndexInfo> map_index() const override;
 
  private:
-  [[nodiscard]] surfels::PoseSearchParams search_params(const PoseGate& gate) const;
-  /// Poses of the prepared local map beside the known ones, judged; the points tested are added to.
-  [[nodiscard]] std::vector<surfels::FoundPose> find(const LocalMap& local,
-                                                     const surfels::PoseSearchParams& params,
-                                                     std::span<const RigidMotion> known, Rng& rng,
-                                                     surfels::SearchEffort& effort) const;
+  /// Rounds of a step at most.
+  [[nodiscard]] std::size_t rounds_of_step() const;
+  /// For poses of the prepared local map, beside those that are known.
+  [[nodiscard]] surfels::PoseSearch search_of(const LocalMap& local, const PoseGate& gate, std::size_t rounds,
+                                              std::span<const RigidMotion> known, const Rng& rng) const;
   [[nodiscard]] Hypothesis to_hypothesis(const surfels::FoundPose& pose, const LocalMap& local) const;
   /// Share of points where the map is known to be free, away from its points.
   [[nodiscard]] double free_space_violation(const Points& points, const Pose3& map_from_points) const;
@@ -64,9 +64,16 @@ class SurfelRansam final : public Matcher {
   SurfelIndexRule rule_;
   std::shared_ptr<const ContactIndex> contact_;
   std::shared_ptr<const SurfelIndex> index_;
+  std::size_t looks_per_step_;
   std::optional<surfels::PreparedCloud> prepared_;  ///< The local map of the last match().
-  std::vector<RigidMotion> carried_;                ///< map_from_local of the last step's best.
-  int epoch_ = 0;                                   ///< Of the local map in whose frame they are.
+  /// That of the last match().
+  struct OpenStep {
+    surfels::PoseSearch search;
+    double omega_max;
+  };
+  std::optional<OpenStep> open_;
+  std::vector<RigidMotion> carried_;  ///< map_from_local of the last step's best.
+  int epoch_ = 0;                     ///< Of the local map in whose frame they are.
 };
 void describe(ParamVisitor& v, SurfelRansam::Params& p);
 

@@ -1,8 +1,8 @@
 #include "matchers/surfels/pose_search.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "matchers/surfels/point_to_plane.hpp"
 
@@ -54,20 +54,12 @@ float evidence(const SurfelSample& sample, std::size_t begin, std::size_t end, c
   return sum;
 }
 
-/// Both clouds, and samples of them.
-struct Scene {
-  const PreparedCloud& target;
-  const PreparedCloud& source;
-  SurfelSample target_sample, source_sample;
-  SearchEffort effort;
-};
-
 bool is_allowed(const RigidMotion& motion, const PoseGate& gate) {
   return gate.is_open() || gate.allows(motion.pose());
 }
 
 /// What pairs of a round propose, seen off by a few surfels.
-std::vector<Proposal> proposals(Scene& scene, const PairTable& pairs, const PairSampler& sampler,
+std::vector<Proposal> proposals(SearchScene& scene, const PairTable& pairs, const PairSampler& sampler,
                                 const PairRule& rule, const PoseSearchParams& params, Rng& rng) {
   constexpr std::size_t tries_for_a_pair = 40;
   std::vector<Proposal> result;
@@ -107,7 +99,7 @@ std::vector<Proposal> proposals(Scene& scene, const PairTable& pairs, const Pair
 }
 
 /// Refines proposals a little, and judges them by samples of both clouds.
-void look_closer(std::vector<Proposal>& proposals, Scene& scene, const PoseSearchParams& params) {
+void look_closer(std::vector<Proposal>& proposals, SearchScene& scene, const PoseSearchParams& params) {
   constexpr int steps = 2;
   const auto weight = static_cast<float>(params.seen_through_weight);
   for (Proposal& proposal : proposals) {
@@ -154,8 +146,7 @@ double looked_through(const RigidMotion& motion, const PreparedCloud& target, co
   return all > 0.0 ? seen_through / all : 0.0;
 }
 
-FoundPose judged(const RigidMotion& motion, Scene& scene, const PointJudge& judge_points,
-                 const PoseSearchParams& params) {
+FoundPose judged(const RigidMotion& motion, SearchScene& scene, const PoseSearchParams& params) {
   FoundPose pose{.target_from_source = motion};
   const Agreement of_source = agreement_of(scene.source.surfels, motion, scene.target);
   pose.contact = of_source.contact;
@@ -167,8 +158,9 @@ FoundPose judged(const RigidMotion& motion, Scene& scene, const PointJudge& judg
   } else if (scene.source.view) {
     pose.seen_through = looked_through(motion, scene.target, scene.source);
   }
-  if (judge_points) {
-    const PointEvidence evidence = judge_points(motion);
+  if (scene.judge_points) {
+    const PointEvidence evidence = scene.judge_points(motion);
+    scene.effort.points_tested += evidence.points;
     pose.contact = (pose.contact + evidence.contact) / 2.0;
     pose.in_free_space = evidence.in_free_space;
   }
@@ -179,11 +171,11 @@ FoundPose judged(const RigidMotion& motion, Scene& scene, const PointJudge& judg
 }
 
 /// A pose refined by a sample of the source, and judged by all of it.
-FoundPose settled(const RigidMotion& motion, const SurfelSample& sample, int steps, Scene& scene,
-                  const PointJudge& judge_points, const PoseSearchParams& params) {
+FoundPose settled(const RigidMotion& motion, const SurfelSample& sample, int steps, SearchScene& scene,
+                  const PoseSearchParams& params) {
   const RigidMotion best =
       refined(motion, sample, sample.size(), scene.target.contact, steps, params.upright);
-  return judged(best, scene, judge_points, params);
+  return judged(best, scene, params);
 }
 
 bool has_higher_score(const FoundPose& a, const FoundPose& b) {
@@ -191,15 +183,14 @@ bool has_higher_score(const FoundPose& a, const FoundPose& b) {
 }
 
 /// Refines the best few once more, by a larger sample and to the end.
-void polish(std::vector<FoundPose>& found, Scene& scene, const PointJudge& judge_points,
-            const PoseSearchParams& params, Rng& rng) {
+void polish(std::vector<FoundPose>& found, SearchScene& scene, const PoseSearchParams& params, Rng rng) {
   constexpr std::size_t few = 3;
   constexpr std::size_t large_sample = 1500;
   constexpr int steps = 10;
   constexpr double slack = 0.02;  // contact hardly tells centimetres, the sum of many residuals does
   const SurfelSample sample = sample_of(scene.source.surfels, large_sample, rng);
   for (std::size_t i = 0; i < std::min(few, found.size()); ++i) {
-    FoundPose pose = settled(found[i].target_from_source, sample, steps, scene, judge_points, params);
+    FoundPose pose = settled(found[i].target_from_source, sample, steps, scene, params);
     pose.rounds = found[i].rounds;
     if (pose.score + slack >= found[i].score && is_allowed(pose.target_from_source, params.gate))
       found[i] = pose;
@@ -242,47 +233,69 @@ PairRule pair_rule(float voxel_size, bool both_sides) {
           .both_sides = both_sides};
 }
 
-std::vector<FoundPose> PoseSearch::find(const PreparedCloud& source, Rng rng,
-                                        std::span<const RigidMotion> known, const PointJudge& judge_points,
-                                        SearchEffort* effort) const {
+PoseSearch::PoseSearch(const PreparedCloud& target, const PairTable& target_pairs, const PairRule& rule,
+                       const PreparedCloud& source, const PoseSearchParams& params, Rng rng,
+                       std::span<const RigidMotion> known, PointJudge judge_points)
+    : pairs_(target_pairs),
+      rule_(rule),
+      params_(params),
+      rng_(rng),
+      scene_{.target = target, .source = source, .judge_points = std::move(judge_points)},
+      sampler_(source.surfels, rule),
+      rounds_end_(params.rounds) {
+  if (source.surfels.size() < 2 || target.surfels.size() < 2) {
+    rounds_end_ = 0;
+    return;
+  }
+  scene_.source_sample = sample_of(source.surfels, whole_sample, rng_);
+  if (target.view) scene_.target_sample = sample_of(target.surfels, third_look, rng_);
+  for (const RigidMotion& motion : known) settle(motion);
+  std::stable_sort(found_.begin(), found_.end(), has_higher_score);
+  if (known.empty()) return;
+  ++round_;
+  ++rounds_end_;
+}
+
+bool PoseSearch::is_over() const {
+  return round_ == rounds_end_ || is_beyond_doubt(found_);
+}
+
+void PoseSearch::advance(std::size_t looks) {
+  const std::size_t before = scene_.effort.points_tested;
+  while (!is_over() && scene_.effort.points_tested - before < looks) search_round();
+}
+
+void PoseSearch::search_round() {
   constexpr std::size_t alike = 4;  // proposals of the same pose that may be among the best
+  std::vector<Proposal> proposed = proposals(scene_, pairs_, sampler_, rule_, params_, rng_);
+  keep_best(proposed, params_.looked_at);
+  look_closer(proposed, scene_, params_);
+  keep_best(proposed, alike * params_.refined);
+  std::vector<RigidMotion> distinct;
+  for (const Proposal& proposal : proposed) {
+    const auto is_same_here = [&](const RigidMotion& other) {
+      return is_same(other, proposal.motion, scene_.target.contact.reach());
+    };
+    if (distinct.size() < params_.refined && std::none_of(distinct.begin(), distinct.end(), is_same_here))
+      distinct.push_back(proposal.motion);
+  }
+  for (const RigidMotion& motion : distinct) settle(motion);
+  std::stable_sort(found_.begin(), found_.end(), has_higher_score);
+  ++round_;
+}
+
+void PoseSearch::settle(const RigidMotion& motion) {
   constexpr int steps = 6;
-  std::vector<FoundPose> found;
-  if (source.surfels.size() < 2 || target_.surfels.size() < 2) return found;
-  const float voxel_size = target_.contact.reach();
-  Scene scene{target_, source, {}, {}, {}};
-  scene.source_sample = sample_of(source.surfels, whole_sample, rng);
-  if (target_.view) scene.target_sample = sample_of(target_.surfels, third_look, rng);
-  const auto settle = [&](const RigidMotion& motion, std::size_t round) {
-    const FoundPose pose = settled(motion, scene.source_sample, steps, scene, judge_points, params_);
-    if (is_allowed(pose.target_from_source, params_.gate)) add(found, pose, round, voxel_size);
-  };
-  for (const RigidMotion& motion : known) settle(motion, 0);
-  std::stable_sort(found.begin(), found.end(), has_higher_score);
-  const std::size_t first_round = known.empty() ? 0 : 1;
-  const PairSampler sampler(source.surfels, rule_);
-  for (std::size_t round = first_round; round < first_round + params_.rounds && !is_beyond_doubt(found);
-       ++round) {
-    std::vector<Proposal> proposed = proposals(scene, pairs_, sampler, rule_, params_, rng);
-    keep_best(proposed, params_.looked_at);
-    look_closer(proposed, scene, params_);
-    keep_best(proposed, alike * params_.refined);
-    std::vector<RigidMotion> distinct;
-    for (const Proposal& proposal : proposed) {
-      if (distinct.size() < params_.refined &&
-          std::none_of(distinct.begin(), distinct.end(),
-                       [&](const auto& other) { return is_same(other, proposal.motion, voxel_size); }))
-        distinct.push_back(proposal.motion);
-    }
-    for (const RigidMotion& motion : distinct) settle(motion, round);
-    std::stable_sort(found.begin(), found.end(), has_higher_score);
-  }
-  polish(found, scene, judge_points, params_, rng);
-  if (effort != nullptr) {
-    effort->proposals += scene.effort.proposals;
-    effort->points_tested += scene.effort.points_tested;
-  }
-  return found;
+  const FoundPose pose = settled(motion, scene_.source_sample, steps, scene_, params_);
+  if (is_allowed(pose.target_from_source, params_.gate))
+    add(found_, pose, round_, scene_.target.contact.reach());
+}
+
+PoseSearchResult PoseSearch::result() const {
+  SearchScene scene = scene_;
+  std::vector<FoundPose> poses = found_;
+  polish(poses, scene, params_, rng_);
+  return {std::move(poses), scene.effort};
 }
 
 }  // namespace glocal::surfels

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -52,33 +53,59 @@ struct SearchEffort {
 struct PointEvidence {
   double contact = 0.0;
   double in_free_space = 0.0;  ///< Where the target is known to be free, away from anything.
+  std::size_t points = 0;      ///< Tested for contact.
 };
 using PointJudge = std::function<PointEvidence(const RigidMotion& target_from_source)>;
 
 /// The rule for pairs in voxels of a side (m).
 [[nodiscard]] PairRule pair_rule(float voxel_size, bool both_sides);
 
-/// Finds poses of clouds in a target that is made ready once.
+/// Both clouds, and samples of them.
+struct SearchScene {
+  const PreparedCloud& target;
+  const PreparedCloud& source;
+  SurfelSample target_sample = {}, source_sample = {};
+  PointJudge judge_points = {};
+  SearchEffort effort = {};
+};
+
+/// What a search has found so far.
+struct PoseSearchResult {
+  std::vector<FoundPose> poses;  ///< Distinct, falling score; the best few are refined once more.
+  SearchEffort effort;
+};
+
+/// Finds poses of a cloud in a target. It can be interrupted after any round; how it is divided changes
+/// nothing of what it finds.
 class PoseSearch {
  public:
-  /// Target and pairs must outlive it.
-  PoseSearch(const PreparedCloud& target, const PairTable& target_pairs, const PairRule& rule,
-             const PoseSearchParams& params)
-      : target_(target), pairs_(target_pairs), rule_(rule), params_(params) {}
+  static constexpr std::size_t to_the_end = std::numeric_limits<std::size_t>::max();
 
-  /// Distinct poses, falling score. Ends after a round that finds the best pose once more, if that leaves no
-  /// doubt. Known poses (of the source in the target) are refined and judged beside those found; they count
-  /// as a round. `effort` is added to.
-  [[nodiscard]] std::vector<FoundPose> find(const PreparedCloud& source, Rng rng,
-                                            std::span<const RigidMotion> known = {},
-                                            const PointJudge& judge_points = {},
-                                            SearchEffort* effort = nullptr) const;
+  /// Known poses (of the source in the target) are refined and judged beside those to be found; they count as
+  /// a round. Both clouds and the target's pairs must outlive the search.
+  PoseSearch(const PreparedCloud& target, const PairTable& target_pairs, const PairRule& rule,
+             const PreparedCloud& source, const PoseSearchParams& params, Rng rng,
+             std::span<const RigidMotion> known = {}, PointJudge judge_points = {});
+
+  /// Goes on until about so many surfels and points more are tested for contact, by at least one round, or to
+  /// the end: after a round that finds the best pose once more, if that leaves no doubt, or after the last.
+  void advance(std::size_t looks);
+  [[nodiscard]] bool is_over() const;
+  [[nodiscard]] std::size_t rounds_left() const { return rounds_end_ - round_; }
+  [[nodiscard]] PoseSearchResult result() const;
 
  private:
-  const PreparedCloud& target_;
+  void settle(const RigidMotion& motion);
+  void search_round();
+
   const PairTable& pairs_;
   PairRule rule_;
   PoseSearchParams params_;
+  Rng rng_;
+  SearchScene scene_;
+  PairSampler sampler_;
+  std::size_t round_ = 0, rounds_end_;  ///< The next one; behind the last.
+  std::vector<FoundPose> found_ = {};   ///< Falling score.
 };
 
 }  // namespace glocal::surfels

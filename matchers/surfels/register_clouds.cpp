@@ -84,8 +84,9 @@ Registration register_clouds(const Points& source, const Points& target, const R
   const Rng rng(options.seed);
   const surfels::PairRule rule = surfels::pair_rule(voxel_size, !result.sensors_known);
   const surfels::PairTable pairs(to.surfels, rule, pairs_in_table, rng.stream({table}));
-  const std::vector<surfels::FoundPose> found =
-      surfels::PoseSearch(to, pairs, rule, {.rounds = 40}).find(from, rng.stream({search}));
+  surfels::PoseSearch search_of_poses(to, pairs, rule, from, {.rounds = 40}, rng.stream({search}));
+  search_of_poses.advance(surfels::PoseSearch::to_the_end);
+  const std::vector<surfels::FoundPose> found = search_of_poses.result().poses;
   if (found.empty()) {
     result.why = "no two pieces of surface fix a pose: are the clouds flat, or too sparse for their voxels?";
     return result;

@@ -82,17 +82,21 @@ TEST(ClearanceGrid, ManyBeamsAreBlockedAsEachByItself) {
   for (int i = 0; i < 1003; ++i)
     ends.push_back(
         {static_cast<float>(rng.uniform(-9.0, 9.0)), static_cast<float>(rng.uniform(-9.0, 9.0)), 0.0F});
-  const Point from{2.0F, 1.0F, 0.0F};
   ends.set(5, {std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F});
-  std::vector<std::uint8_t> expected;
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    expected.push_back(clearance.is_blocked(from, map_from_ends(ends[i]), 0.3) ? 1 : 0);
-  test::with_every_instruction_set([&] {
-    std::vector<std::uint8_t> blocked(7, 1);
-    clearance.find_blocked(from, ends, map_from_ends, 0.3, blocked);
-    EXPECT_EQ(blocked, expected);
-  });
-  EXPECT_GT(std::count(expected.begin(), expected.end(), 1), 200);
+  // Within the grid, beyond each of its sides, and far away.
+  const std::vector<Point> places{{2.0F, 1.0F, 0.0F}, {-3.0F, 0.0F, 0.0F}, {9.0F, 2.0F, 0.0F},
+                                  {2.0F, 8.0F, 0.0F}, {3.0F, -6.0F, 0.0F}, {-400.0F, -300.0F, 0.0F}};
+  for (const Point& from : places) {
+    std::vector<std::uint8_t> expected;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      expected.push_back(clearance.is_blocked(from, map_from_ends(ends[i]), 0.3) ? 1 : 0);
+    test::with_every_instruction_set([&] {
+      std::vector<std::uint8_t> blocked(7, 1);
+      clearance.find_blocked(from, ends, map_from_ends, 0.3, blocked);
+      EXPECT_EQ(blocked, expected) << from.x << ' ' << from.y;
+    });
+    EXPECT_GT(std::count(expected.begin(), expected.end(), 1), 100) << from.x << ' ' << from.y;
+  }
 }
 
 TEST(ClearanceGrid, InTheMiddleOfAGridThatIsMadeInPiecesAWallIsWhereItIs) {

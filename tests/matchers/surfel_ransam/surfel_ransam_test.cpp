@@ -13,6 +13,7 @@
 #include "boxes.hpp"
 #include "files.hpp"
 #include "glocal/error.hpp"
+#include "matchers/same_answer.hpp"
 #include "sources/clouds/cloud_drive.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 
@@ -335,6 +336,35 @@ TEST(SurfelRansam, TheBestPosesAreCarriedToTheNextStep) {
   EXPECT_GT(carrying.match({seen.local, seen.latest, 0.1}, rng).proposals, 0U);
   carrying.reset();
   EXPECT_GT(carrying.match({seen.local, seen.latest, 0.1}, rng).proposals, 0U);
+}
+
+TEST(SurfelRansam, AMatchInPiecesComesToTheSameEnd) {
+  const Seen seen({{3.0, 2.5, 1.0}, turn_about_z(-2.0)});
+  const SurfelRansam::Params params{.pairs = 100000};
+  Rng rng(1);
+  const MatchResult wanted = matcher(Motion::free, params).match({seen.local, seen.latest, 0.1}, rng);
+  EXPECT_FALSE(wanted.goes_on);
+  for (const std::size_t looks : {1U, 10U, 1'000'000'000U}) {
+    SurfelRansam in_pieces(params, {.map = furnished(), .motion = Motion::free, .looks_per_step = looks});
+    Rng same(1);
+    MatchResult found = in_pieces.match({seen.local, seen.latest, 0.1}, same);
+    EXPECT_EQ(found.goes_on, looks < 1000);
+    EXPECT_FALSE(found.hypotheses.empty()) << "of what was found so far";
+    while (found.goes_on) found = in_pieces.go_on(seen.local, looks);
+    test::expect_same_answer(found, wanted);
+  }
+}
+
+TEST(SurfelRansam, AStepMakesUpForWhatTheOneBeforeHasLeft) {
+  const Seen seen({{3.0, 2.5, 1.0}, turn_about_z(-2.0)});
+  SurfelRansam hurried({.pairs = 100000, .rounds = 0},
+                       {.map = furnished(), .motion = Motion::upright, .looks_per_step = 1});
+  Rng rng(1);
+  const auto match = [&] { return hurried.match({seen.local, seen.latest, 0.1}, rng); };
+  ASSERT_TRUE(match().goes_on);
+  EXPECT_GT(match().proposals, 0U);
+  for (int i = 0; i < 24; ++i) (void)match();
+  EXPECT_EQ(match().proposals, 0U) << "no step has rounds of its own but the first";
 }
 
 TEST(SurfelRansam, PosesThatAVerifierHasFoundAreJudgedAsItsOwnAndCarriedOn) {
