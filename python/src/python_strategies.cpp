@@ -348,7 +348,7 @@ void bind_setups(py::module_& module) {
       .def_property_readonly(
           "motion", [](const StageSetup& s) { return to_string(s.motion); }, "planar, upright or free")
       .def_readonly("looks_per_step", &StageSetup::looks_per_step,
-                    "Looks at points that searches of the whole map may take in a step.")
+                    "Looks at points that searches may take in a step, each about 10 ns.")
       .def_readonly("has_verifier", &StageSetup::has_verifier, "Whether what is declared is verified.")
       .def(
           "note_input", [](const StageSetup& s, const std::string& file) { s.note_input(file); },

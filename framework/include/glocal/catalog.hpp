@@ -44,7 +44,7 @@ struct StageSetup {
   int threads = 1;
   double contact_epsilon = 0.10;   ///< m; said once for all stages.
   Motion motion = Motion::planar;  ///< What of the robot's pose is looked for; said once for all stages.
-  /// For searches of the whole map, at points: what is not done then goes on later.
+  /// For searches, at points, each about 10 ns: what is not done then goes on later.
   std::size_t looks_per_step = std::numeric_limits<std::size_t>::max();
   bool has_verifier = false;  ///< Whether what is declared is verified; known to verdict rules.
   /// To be called with every file read while the stage is made, for the record of a run's inputs.

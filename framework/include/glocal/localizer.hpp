@@ -25,7 +25,7 @@ struct LocalizerConfig {
   /// m; epsilon of eq. 4 for all stages without one of their own. None: twice the map's resolution, and more
   /// where scans are noisier than that.
   std::optional<double> contact_epsilon = {};
-  int looks_per_step = 0;  ///< Of searches of the whole map, at points; 0 is as many as they take.
+  int looks_per_step = 0;  ///< Of searches, at points; 0 is as many as they take.
   Prior prior = {};        ///< Outside of it nothing is looked for.
   StrategyChoice local_mapper;
   StrategyChoice matcher;
