@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "glocal/extent.hpp"
+#include "glocal/rounded_down.hpp"
 #include "matchers/common/squares.hpp"
 
 namespace glocal {
@@ -36,7 +37,7 @@ PoseGrid::PoseGrid(const Points& points, const CellFrame& frame, double min_rota
   layers_.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     radius = std::max(radius, std::hypot(points.x[i] - middle_x(), points.y[i] - middle_y()));
-    layers_.push_back(static_cast<std::int32_t>(std::floor(points.z[i] / frame.cell)));
+    layers_.push_back(rounded_down<std::int32_t>(points.z[i] / frame.cell));
   }
   const double step = std::min(max_rotation_step, std::max(min_rotation_step, frame.cell / radius));
   rotations_ = static_cast<std::size_t>(std::ceil(2.0 * std::numbers::pi / step));
@@ -50,7 +51,7 @@ std::vector<CellPoints> PoseGrid::cells(int level, std::size_t rotation) const {
   const double c = std::cos(angle(level, rotation));
   const double s = std::sin(angle(level, rotation));
   const auto cell_of = [&](double coordinate) {
-    return static_cast<std::int32_t>(std::floor(coordinate / frame().cell));
+    return rounded_down<std::int32_t>(coordinate / frame().cell);
   };
   CellPoints cells;
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -152,7 +153,7 @@ Pose3 AllPoses::tilted_from_local(int level, std::size_t rotation) const {
 
 std::int32_t AllPoses::box_of_layers(int level, const Turning& one) const {
   const int rise = AllPoses::rise(level, motion());
-  return static_cast<std::int32_t>(std::floor((one.layer - rise) / layers_of_box(level)));
+  return rounded_down<std::int32_t>((one.layer - rise) / layers_of_box(level));
 }
 
 /// Those in boxes of layers with few of them before the others: a floor is in contact nearly everywhere, so
@@ -259,12 +260,12 @@ std::vector<CellPoints> AllPoses::cells_of(const std::vector<Turning>& all, int 
       beside += TiltSquares::aside(tilts_->reach(top_level_ - level), std::abs(one.layer) * frame().cell,
                                    one.distance);
     const double share = one.distance / radius_ + 2.0 * beside / box;
-    const int group = std::clamp(static_cast<int>(std::ceil(parts * share - hair)), 1, groups);
+    const int group = std::clamp(-rounded_down<int>(hair - parts * share), 1, groups);
     const int wider = AllPoses::wider(level, group);
     // As much wider to either side, so that boxes are bounded alike however near the middle a point is.
     const double moved = (wider - 1) / 2.0 + hair;
     const auto cell_of = [&](double coordinate) {
-      return static_cast<std::int32_t>(std::floor(coordinate / frame().cell - moved)) + wider;
+      return rounded_down<std::int32_t>(coordinate / frame().cell - moved) + wider;
     };
     cells[static_cast<std::size_t>(group - 1)].push_back(
         cell_of(c * one.x - s * one.y), cell_of(s * one.x + c * one.y), box_of_layers(level, one));
@@ -277,13 +278,13 @@ CellPoints AllPoses::middle_cells(std::size_t rotation) const {
   const double s = std::sin(angle(0, rotation));
   const Quaternion tilt_of_middle = tilted_from_local(0, rotation).rotation;
   const auto cell_of = [&](double coordinate) {
-    return static_cast<std::int32_t>(std::floor(coordinate / frame().cell + 0.5));
+    return rounded_down<std::int32_t>(coordinate / frame().cell + 0.5);
   };
   CellPoints cells;
   for (const Turning& any : points_) {
     const Turning point = tilt() ? tilted(any, tilt_of_middle) : any;
     cells.push_back(cell_of(c * point.x - s * point.y), cell_of(s * point.x + c * point.y),
-                    static_cast<std::int32_t>(std::floor(point.layer + 0.5)));
+                    rounded_down<std::int32_t>(point.layer + 0.5));
   }
   return cells;
 }
@@ -294,6 +295,8 @@ Translations AllPoses::translations(const std::vector<CellPoints>& cells, std::s
   const auto range = [&](int first_window, int last_window, bool are_wider,
                          auto coordinates_of) -> std::pair<int, int> {
     std::vector<int> first, last;
+    first.reserve(points_.size());
+    last.reserve(points_.size());
     for (std::size_t g = 0; g < cells.size(); ++g) {
       const int more = are_wider ? wider(top_level_, static_cast<int>(g) + 1) : 0;
       for (const std::int32_t coordinate : coordinates_of(cells[g])) {
@@ -311,6 +314,7 @@ Translations AllPoses::translations(const std::vector<CellPoints>& cells, std::s
       range(first_window, frame().columns - 1, true, [](const CellPoints& p) { return p.columns(); });
   const auto [low, high] =
       range(first_window, frame().rows - 1, true, [](const CellPoints& p) { return p.rows(); });
+  if (!frame().in_space) return {left, right, low, high};
   const int step = layers_of_box(top_level_);
   const int window = layers_of_window(top_level_, frame(), motion());
   const auto [bottom, ceiling] = range(-(window - 1) / step, (frame().layers - 1) / step, false,

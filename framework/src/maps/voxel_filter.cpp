@@ -1,17 +1,9 @@
 #include "glocal/voxel_filter.hpp"
 
+#include "glocal/rounded_down.hpp"
 #include "glocal/voxel_numbers.hpp"
 
 namespace glocal {
-namespace {
-
-/// Without the call to the library that std::floor is on older processors.
-std::int64_t rounded_down(double value) {
-  const auto towards_zero = static_cast<std::int64_t>(value);
-  return static_cast<double>(towards_zero) > value ? towards_zero - 1 : towards_zero;
-}
-
-}  // namespace
 
 VoxelGroups voxel_groups(const Points& points, double side) {
   VoxelNumbers<std::int64_t> numbers(points.size());
@@ -20,8 +12,8 @@ VoxelGroups voxel_groups(const Points& points, double side) {
   const double per_metre = 1.0 / side;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point p = points[i];
-    groups.of_point.push_back(numbers.find_or_add(
-        {rounded_down(p.x * per_metre), rounded_down(p.y * per_metre), rounded_down(p.z * per_metre)}));
+    const auto voxel = [&](float value) { return rounded_down<std::int64_t>(value * per_metre); };
+    groups.of_point.push_back(numbers.find_or_add({voxel(p.x), voxel(p.y), voxel(p.z)}));
   }
   groups.count = numbers.size();
   return groups;
