@@ -64,10 +64,9 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
        .audience = Audience::tuner});
   v.field(
       "looks_per_step", c.looks_per_step,
-      {.doc =
-           "A step answers after so many looks at points by its searches (whole_map, exact_search of "
-           "indexed_ransam, rounds of surfel_ransam), each about 10 ns; then these go on until the next "
-           "scan comes, in runs to their end; 0 lets the step wait for them.",
+      {.doc = "A step answers after so many looks at points by its searches (whole_map, exact_search of "
+              "indexed_ransam, rounds of surfel_ransam), each about 10 ns; then these go on until the next "
+              "scan comes, in runs to their end; 0 lets the step wait for them.",
        .min = 0,
        .audience = Audience::tuner});
   v.field("prior", c.prior,
