@@ -65,7 +65,8 @@ TEST_F(LiveRoom, TheRobotIsToldWhatLocalizeFindsOnTheRecording) {
   const auto poses = robot.receiver("rt/initialpose", dds_pose, reliable);
   const auto diagnostics = robot.receiver("rt/diagnostics", dds_diagnostics, reliable);
   tf_static->send(transform("base_link", "laser", 0, {}));
-  start("--record " + file("live.mcap"));
+  // Each step waits for its searches, and is told once.
+  start("--set localizer.looks_per_step=0 --record " + file("live.mcap"));
   ASSERT_TRUE(tf->has_receivers(1) && scans->has_receivers(1)) << content(file("live.err"));
   std::size_t answered = 0;
   for (const Sent& sent : sent_) {
