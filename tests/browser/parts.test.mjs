@@ -134,7 +134,7 @@ test("certificates are told with what they prove, and what they do not", () => {
   const verification = { step: 4, refuted: false, score: 0.8, margin: 0.05, rivals: [], certificate: proved };
   assert.equal(certificate.verificationSentence(verification), `${sentence} No rival was found.`);
   const rival = { pose: { x: 3, y: -1.5, theta: 0 }, contact: 0.79, score: 0.78 };
-  assert.match(certificate.verificationSentence({ ...verification, goes_on: true, certificate: undefined }), /goes on in the next step\.$/);
+  assert.match(certificate.verificationSentence({ ...verification, goes_on: true, certificate: undefined }), /the search of the whole map goes on\.$/);
   const refuted = certificate.verificationSentence({ ...verification, refuted: true, rivals: [rival], certificate: undefined });
   assert.match(refuted, /^Refuted\. The search of the whole map was given up, so nothing is proved\./);
   assert.match(refuted, /One rival was found; the best, at 3\.0 m, -1\.5 m, has score 0\.780, and 0\.750 is enough to refute/);

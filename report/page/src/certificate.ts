@@ -30,7 +30,7 @@ function rivalsSentence({ refuted, rivals, score, margin }: Verification): strin
 /** Of a step whose declaration was verified. */
 export function verificationSentence(verification: Verification): string {
   const { certificate, refuted, goes_on } = verification;
-  if (goes_on) return "Not declared yet: the search of the whole map goes on in the next step.";
+  if (goes_on) return "Not declared yet: the search of the whole map goes on.";
   const head = refuted ? "Refuted. " : "";
   const proved = certificate ? certificateSentence(certificate) : "The search of the whole map was given up, so nothing is proved.";
   return `${head}${proved} ${rivalsSentence(verification)}`;

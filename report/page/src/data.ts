@@ -42,7 +42,7 @@ export interface Verification {
   /** A rival refutes if its score is at most this much lower. */
   margin: number;
   rivals: { pose: Pose; contact: number; score: number }[];
-  /** The search has not come to its end, and goes on in the next step. */
+  /** The search has not come to its end. */
   goes_on?: boolean;
   /** Absent where the search goes on, or was given up. */
   certificate?: Certificate;
