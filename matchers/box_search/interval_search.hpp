@@ -108,7 +108,7 @@ class IntervalSearch {
   IntervalSearch(const Problem& problem, const Interval& interval, std::size_t least, std::size_t most_looks);
 
   /// Goes on for the time of about so many looks, at least one part, until it is over. Returns how many it
-  /// was.
+  /// took.
   std::size_t advance(std::size_t looks);
   [[nodiscard]] bool is_over() const { return open_.empty(); }
   [[nodiscard]] const FoundPlaces& found() const { return search_.found(); }

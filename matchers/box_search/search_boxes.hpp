@@ -88,8 +88,8 @@ class BoxSearch {
   BoxSearch& operator=(BoxSearch&&) noexcept;
   ~BoxSearch();
 
-  /// Goes on for the time of about so many looks (a few parts more, at least one), or to the end. Returns how
-  /// many it took.
+  /// Goes on for the time of about so many looks (a few parts more, at least one), or to the end: to lay
+  /// points into cells takes some, too. Returns at how many points it looked.
   std::size_t advance(std::size_t looks);
   [[nodiscard]] bool is_over() const;
   /// Once it is over.

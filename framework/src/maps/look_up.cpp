@@ -166,7 +166,7 @@ HWY_INLINE V clearance_at(const ClearanceView& grid, I column, I row) {
       Floats(), hn::Add(hn::And(words(grid.blocks), hn::Set(ints, 255)), hn::And(more, hn::Set(ints, 3))));
 }
 
-/// How far before the first column (or row) or behind the last one something is; 0 within.
+/// How far behind the last column (or row) something is, or before the first one, then negative; 0 within.
 float outside(float at, int size) {
   const auto end = static_cast<float>(size);
   return at < 0.0F ? at : (at >= end ? at - end : 0.0F);
