@@ -13,7 +13,7 @@
 
 namespace glocal::app {
 
-/// Of searches of the whole map at a time, where a robot drives on meanwhile: some 30 ms.
+/// Of searches at a time, where a robot drives on meanwhile: some 30 ms.
 constexpr std::size_t looks_of_piece = 3'000'000;
 
 /// What is to be localized, and from where on. At most one of every_m and whole is given.

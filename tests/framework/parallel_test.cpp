@@ -41,9 +41,6 @@ void burn(double ms) {
 }
 
 TEST(ParallelFor, CountsTheTimeOfAllProcessors) {
-#ifdef __SANITIZE_THREAD__
-  GTEST_SKIP() << "threads that wake take ThreadSanitizer tens of milliseconds of its own";
-#endif
   for (const int threads : {1, 2, 4}) {
     const auto work = [&] { parallel_for(threads, 20, [](std::size_t) { burn(2.0); }); };
     work();  // Threads begin.
@@ -51,8 +48,10 @@ TEST(ParallelFor, CountsTheTimeOfAllProcessors) {
     work();
     const double ms = 1e-6 * static_cast<double>(cpu_time_ns() - begin);
     EXPECT_GE(ms, 40.0) << threads;
+#ifndef __SANITIZE_THREAD__  // Threads that wake take ThreadSanitizer tens of milliseconds of its own.
     // Not much besides, and nothing twice.
     EXPECT_LT(ms, 60.0) << threads;
+#endif
   }
 }
 
