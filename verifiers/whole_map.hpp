@@ -46,7 +46,7 @@ class WholeMap final : public Verifier {
   [[nodiscard]] Verification verify(const LocalMap& local, const Pose3& map_from_local,
                                     const PoseGate& gate) override;
   [[nodiscard]] Verification go_on(const LocalMap& local, const Pose3& map_from_local, const PoseGate& gate,
-                                   std::size_t looks) override;
+                                   std::size_t looks_left) override;
   void reset() override { open_.reset(); }
 
  private:

@@ -53,17 +53,17 @@ class State {
   State& operator=(const State&) = delete;
 
   /// For the time of so many looks.
-  void advance(std::size_t looks) {
-    const std::size_t before = taken_;
-    while (!is_over_ && taken_ - before < looks) {
-      const std::size_t left = looks - (taken_ - before);
+  void advance(std::size_t& looks_left) {
+    while (!is_over_ && looks_left > 0) {
+      const std::size_t before = taken_;
       if (first_looks_.size() < rotations_) {
-        take_first_looks(left);
+        take_first_looks(looks_left);
       } else if (batch_.empty()) {
         begin_batch();
       } else {
-        search_batch(left);
+        search_batch(looks_left);
       }
+      looks_left -= std::min(looks_left, taken_ - before);
     }
   }
 
@@ -204,10 +204,10 @@ BoxSearch::BoxSearch(BoxSearch&&) noexcept = default;
 BoxSearch& BoxSearch::operator=(BoxSearch&&) noexcept = default;
 BoxSearch::~BoxSearch() = default;
 
-std::size_t BoxSearch::advance(std::size_t looks) {
+std::size_t BoxSearch::advance(std::size_t& looks_left) {
   if (is_over()) return 0;
   const std::size_t before = state_->looks();
-  state_->advance(looks);
+  state_->advance(looks_left);
   return state_->looks() - before;
 }
 
@@ -223,7 +223,8 @@ BoxSearchResult search_boxes(const BoxPyramid& pyramid, const Points& points, co
                              const BoxSearchRule& rule, const std::optional<Exclusion>& exclusion,
                              int threads) {
   BoxSearch search(pyramid, points, local_from_robot, rule, exclusion, threads);
-  search.advance(BoxSearch::to_the_end);
+  std::size_t looks_left = BoxSearch::to_the_end;
+  search.advance(looks_left);
   return search.result();
 }
 

@@ -88,9 +88,10 @@ class BoxSearch {
   BoxSearch& operator=(BoxSearch&&) noexcept;
   ~BoxSearch();
 
-  /// Goes on for the time of about so many looks (a few parts more, at least one), or to the end: to lay
-  /// points into cells takes some, too. Returns at how many points it looked.
-  std::size_t advance(std::size_t looks);
+  /// Goes on for the time of so many looks, or to the end: at least one part, and it may take some more than
+  /// are left. What it took is no longer left: to lay points into cells takes time, too. Returns at how many
+  /// points it looked.
+  std::size_t advance(std::size_t& looks_left);
   [[nodiscard]] bool is_over() const;
   /// Once it is over.
   [[nodiscard]] BoxSearchResult result() const;

@@ -60,12 +60,12 @@ BoxSearch ExactSearch::round_of(const Search& search, const std::vector<Hypothes
   return {*pyramid_, search.points, search.local_from_robot, rule, known, threads_};
 }
 
-std::size_t ExactSearch::advance(std::vector<Hypothesis> best, std::size_t most_looks, const Settle& settle) {
+std::size_t ExactSearch::advance(std::vector<Hypothesis> best, std::size_t looks_left, const Settle& settle) {
   constexpr double lower = 0.1;
   std::size_t looks = 0;
-  while (open_ && looks < most_looks) {
+  while (open_ && looks_left > 0) {
     if (!open_->round) open_->round = round_of(*open_, best);
-    looks += open_->round->advance(most_looks - looks);
+    looks += open_->round->advance(looks_left);
     if (!open_->round->is_over()) break;
     const BoxSearchResult result = open_->round->result();
     open_->round.reset();

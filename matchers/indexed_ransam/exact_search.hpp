@@ -58,8 +58,9 @@ class ExactSearch {
   /// `settle`. What is near the best pose so far is not searched for (Exclusion). The last round is the one
   /// after which a pose has a score that those of the next round would hardly reach, the one of
   /// `min_contact`, or the one that takes too many looks. Without a search that has begun, or once
-  /// `most_looks` are taken, nothing happens until the next call. Returns how many points were looked at.
-  std::size_t advance(std::vector<Hypothesis> best, std::size_t most_looks, const Settle& settle);
+  /// no looks are left (as BoxSearch::advance() takes them), nothing happens until the next call. Returns how
+  /// many points were looked at.
+  std::size_t advance(std::vector<Hypothesis> best, std::size_t looks_left, const Settle& settle);
   [[nodiscard]] bool goes_on() const { return open_.has_value(); }
 
  private:

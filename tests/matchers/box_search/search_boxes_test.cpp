@@ -343,6 +343,11 @@ TEST(SearchBoxes, RoomsThatOnlySeemToFitDoNotHideTheOneThatFits) {
               0.05 * static_cast<double>(points.size()));
 }
 
+/// At how many points a piece of so many looks looks.
+std::size_t looks_of_piece(BoxSearch& search, std::size_t looks) {
+  return search.advance(looks);
+}
+
 TEST(BoxSearch, InPiecesFindsTheSame) {
   Points map = room(0.0F, 0.0F, true);
   add(map, room(10.0F, 3.0F, false));
@@ -358,10 +363,10 @@ TEST(BoxSearch, InPiecesFindsTheSame) {
         std::size_t taken = 0;
         std::size_t pieces = 0;
         BoxSearch search(pyramid, points, {}, rule, declared, pieces_before % 2 == 0 ? 1 : 3);
-        for (; !search.is_over(); ++pieces) taken += search.advance(looks);
+        for (; !search.is_over(); ++pieces) taken += looks_of_piece(search, looks);
         expect_same(search.result(), whole);
         EXPECT_GE(taken, whole.looks);
-        EXPECT_EQ(search.advance(looks), 0U);
+        EXPECT_EQ(looks_of_piece(search, looks), 0U);
         EXPECT_LE(pieces, pieces_before);
         pieces_before = pieces;
       }
@@ -379,8 +384,27 @@ TEST(BoxSearch, APieceTakesFewMoreLooksThanItIsAskedFor) {
   constexpr std::size_t asked = 20000;
   constexpr std::size_t part = 25000;  // of all intervals of a batch
   std::size_t pieces = 0;
-  for (; !search.is_over(); ++pieces) EXPECT_LT(search.advance(asked), asked + part);
+  for (; !search.is_over(); ++pieces) EXPECT_LT(looks_of_piece(search, asked), asked + part);
   EXPECT_GT(pieces, 10U);
+}
+
+TEST(BoxSearch, WhatAPieceTakesIsNotLeftForWhatFollows) {
+  const BoxPyramid pyramid = pyramid_of(room(0.0F, 0.0F, true));
+  const Points points = seen_in_room();
+  const BoxSearchRule rule{.least = points.size() / 2};
+  constexpr std::size_t enough = 1'000'000'000;
+  BoxSearch whole(pyramid, points, {}, rule, {}, 1);
+  std::size_t left = enough;
+  const std::size_t looked = whole.advance(left);
+  EXPECT_TRUE(whole.is_over());
+  EXPECT_GT(enough - left, looked) << "points are laid into cells, too";
+  const std::size_t taken = enough - left;
+  BoxSearch half(pyramid, points, {}, rule, {}, 3);
+  left = taken / 2;
+  half.advance(left);
+  EXPECT_FALSE(half.is_over());
+  EXPECT_EQ(left, 0U);
+  EXPECT_EQ(half.advance(left), 0U);
 }
 
 }  // namespace
