@@ -85,37 +85,15 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error) {
   return wrong_input;
 }
 
+/// In the order in which help names them.
 void add_all(CLI::App& app, Context& context) {
-  add_live(app, context);
-  add_localize(app, context);
-  add_run(app, context);
-  add_status(app, context);
-  add_merge(app, context);
-  add_submit(app, context);
-  add_check(app, context);
-  add_help(app, context);
-  add_leaderboard(app, context);
-  add_list(app, context);
-  add_describe(app, context);
-  add_explain(app, context);
-  add_summarize(app, context);
-  add_sweep(app, context);
-  add_compare(app, context);
-  add_figures(app, context);
-  add_register(app, context);
-  add_reliability(app, context);
-  add_report(app, context);
-  add_schema(app, context);
-  add_reference(app, context);
-  add_simulate(app, context);
-  add_map(app, context);
-  add_bag(app, context);
-  add_convert(app, context);
-  add_prepare(app, context);
-  add_mapping(app, context);
-  add_new_plugin(app, context);
-  add_contract(app, context);
-  add_completion(app, context);
+  for (const auto& add :
+       {add_live,      add_localize, add_run,         add_status,     add_merge,    add_submit,
+        add_check,     add_help,     add_leaderboard, add_list,       add_describe, add_explain,
+        add_summarize, add_sweep,    add_compare,     add_figures,    add_register, add_reliability,
+        add_report,    add_schema,   add_reference,   add_simulate,   add_map,      add_bag,
+        add_convert,   add_prepare,  add_mapping,     add_new_plugin, add_contract, add_completion})
+    add(app, context);
 }
 
 /// As a shell would read them.

@@ -27,35 +27,11 @@ struct Context {
 /// subcommand runs. To be called after the subcommands have been added.
 void add_plugins(CLI::App& app, Context& context);
 
-void add_bag(CLI::App& app, Context& context);
-void add_check(CLI::App& app, Context& context);
-void add_compare(CLI::App& app, Context& context);
-void add_completion(CLI::App& app, Context& context);
-void add_contract(CLI::App& app, Context& context);
-void add_convert(CLI::App& app, Context& context);
-void add_describe(CLI::App& app, Context& context);
-void add_explain(CLI::App& app, Context& context);
-void add_figures(CLI::App& app, Context& context);
-void add_help(CLI::App& app, Context& context);
-void add_leaderboard(CLI::App& app, Context& context);
-void add_list(CLI::App& app, Context& context);
-void add_live(CLI::App& app, Context& context);
-void add_localize(CLI::App& app, Context& context);
-void add_map(CLI::App& app, Context& context);
-void add_mapping(CLI::App& app, Context& context);
-void add_merge(CLI::App& app, Context& context);
-void add_new_plugin(CLI::App& app, Context& context);
-void add_prepare(CLI::App& app, Context& context);
-void add_reference(CLI::App& app, Context& context);
-void add_register(CLI::App& app, Context& context);
-void add_reliability(CLI::App& app, Context& context);
-void add_report(CLI::App& app, Context& context);
-void add_run(CLI::App& app, Context& context);
-void add_schema(CLI::App& app, Context& context);
-void add_simulate(CLI::App& app, Context& context);
-void add_status(CLI::App& app, Context& context);
-void add_submit(CLI::App& app, Context& context);
-void add_summarize(CLI::App& app, Context& context);
-void add_sweep(CLI::App& app, Context& context);
+/// Adds one subcommand, or some.
+using AddCommands = void(CLI::App& app, Context& context);
+AddCommands add_bag, add_check, add_compare, add_completion, add_contract, add_convert, add_describe,
+    add_explain, add_figures, add_help, add_leaderboard, add_list, add_live, add_localize, add_map,
+    add_mapping, add_merge, add_new_plugin, add_prepare, add_reference, add_register, add_reliability,
+    add_report, add_run, add_schema, add_simulate, add_status, add_submit, add_summarize, add_sweep;
 
 }  // namespace glocal::app

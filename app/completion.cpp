@@ -1,8 +1,7 @@
 // glocal completion, and glocal complete, which its scripts call.
-#include "app/completion.hpp"
-
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -18,6 +17,16 @@
 
 namespace glocal::app {
 namespace {
+
+struct Candidate {
+  std::string text;  ///< Of the whole word.
+  std::string doc = {};
+};
+
+struct Completion {
+  std::vector<Candidate> candidates;
+  bool files = false;  ///< Any file or folder may stand there.
+};
 
 /// What stands before the word that is to be completed.
 struct Place {
@@ -228,14 +237,7 @@ Completion unfiltered(const Place& place, const std::string& typed, const CLI::A
   return next == nullptr ? Completion{} : values_of(*next, typed, command, app, catalog);
 }
 
-void print_completion(const std::vector<std::string>& words, const CLI::App& app, const Catalog& catalog) {
-  const Completion completion = complete(words, app, catalog);
-  for (const Candidate& candidate : completion.candidates) answer("{}\t{}\n", candidate.text, candidate.doc);
-  if (completion.files) answer(":files\n");
-}
-
-}  // namespace
-
+/// For the last of these words, which follow the program's name. An empty one has not been begun.
 Completion complete(const std::vector<std::string>& words, const CLI::App& app, const Catalog& catalog) {
   const std::string typed = words.empty() ? "" : words.back();
   Completion completion = unfiltered(place_after(words, app), typed, app, catalog);
@@ -243,6 +245,14 @@ Completion complete(const std::vector<std::string>& words, const CLI::App& app, 
                 [&](const Candidate& candidate) { return !candidate.text.starts_with(typed); });
   return completion;
 }
+
+void print_completion(const std::vector<std::string>& words, const CLI::App& app, const Catalog& catalog) {
+  const Completion completion = complete(words, app, catalog);
+  for (const Candidate& candidate : completion.candidates) answer("{}\t{}\n", candidate.text, candidate.doc);
+  if (completion.files) answer(":files\n");
+}
+
+}  // namespace
 
 void add_completion(CLI::App& app, Context& context) {
   auto shell = std::make_shared<std::string>();

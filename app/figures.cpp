@@ -3,20 +3,22 @@
 #include <spdlog/spdlog.h>
 
 #include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/programs.hpp"
-#include "app/python.hpp"
 #include "app/results_at_hand.hpp"
 #include "config/text_file.hpp"
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/sweeps/analysis.hpp"
 #include "evaluation/sweeps/sweep_report.hpp"
+#include "glocal/error.hpp"
 #include "report/figures/figures_input.hpp"
 #include "report/figures/figures_script.hpp"
 
@@ -85,6 +87,31 @@ std::string checked_sweep(const FiguresOptions& options) {
         "no parameter varies, so that there is nothing to draw; name the folder of an experiment with "
         "variants.grid, zip or sample");
   return json_text(analysis);
+}
+
+/// Why a Python is of no use here; none if it is.
+std::optional<std::string> why_useless(const std::string& python) {
+  const Ended ended = ask_program({python, "-c", "import matplotlib"});
+  if (ended.error != 0) return std::strerror(ended.error);
+  if (ended.exit_code != 0) return "cannot import matplotlib";
+  return std::nullopt;
+}
+
+/// A Python that has matplotlib: `named`, or, if that is empty, python3 of PATH, or else Debian's. Throws
+/// RunError that tells what was tried.
+std::string python_with_matplotlib(const std::string& named) {
+  std::vector<std::string> candidates = {named};
+  if (named.empty()) candidates = {"python3", "/usr/bin/python3"};
+  std::string tried;
+  for (const std::string& python : candidates) {
+    const auto why = why_useless(python);
+    if (!why) return python;
+    tried += fmt::format("{}{}: {}", tried.empty() ? "" : "; ", python, *why);
+  }
+  throw RunError(
+      fmt::format("figures are drawn by Python with matplotlib ({}); install Debian's package "
+                  "python3-matplotlib, or name another Python with --python",
+                  tried));
 }
 
 void run_script(const FiguresOptions& options, const std::string& python,

@@ -12,7 +12,6 @@
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
 #include "app/filled_params.hpp"
-#include "app/map_align.hpp"
 #include "app/standard_streams.hpp"
 #include "config/reader.hpp"
 #include "config/text_file.hpp"
@@ -20,6 +19,8 @@
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/running/experiment_loader.hpp"
+#include "glocal/contact.hpp"
+#include "glocal/distance_field.hpp"
 #include "glocal/error.hpp"
 #include "sources/carmen/log_map.hpp"
 #include "sources/ros_map/ros_map.hpp"
@@ -124,12 +125,45 @@ StrategyChoice matcher_of_maps(const Catalog& catalog, double contact_epsilon) {
   return choice;
 }
 
+struct Alignment {
+  Pose2 map_from_other;
+  double in_contact;  ///< Share of the other map's points.
+};
+
+/// Lays points on a map by a matcher that was made for it, then by Gauss-Newton on the distance field. None
+/// if the matcher finds no pose that it scores at least 0.25.
+std::optional<Alignment> align_maps(const GlobalMap& map, const Points& other, Matcher& matcher,
+                                    double contact_epsilon) {
+  LocalMap local;
+  local.points = other;
+  local.ends = {other.size()};
+  Rng rng(1);
+  // Maps of one place may have little in common: furniture, rooms behind doors.
+  for (const double omega_max : {0.6, 0.4, 0.25}) {
+    const MatchResult result = matcher.match({local, {}, omega_max}, rng);
+    if (result.hypotheses.empty()) continue;
+    // About the middle of the points, so that turning them does not move them.
+    const Vector3 middle = centroid(other);
+    const Pose2 other_from_middle{middle.x(), middle.y(), 0.0};
+    Points centred;
+    const Transform to_middle(inverse(other_from_middle));
+    for (std::size_t i = 0; i < other.size(); ++i) centred.push_back(to_middle(other[i]));
+    const Pose2 map_from_middle = refined_pose(
+        DistanceField(map.points()), centred,
+        seen_from_above(result.hypotheses.front().map_from_local) * other_from_middle, {.iterations = 100});
+    const Pose2 map_from_other = map_from_middle * inverse(other_from_middle);
+    const auto contact = contact_index(map, "bitset", contact_epsilon);
+    return Alignment{map_from_other, contact->share(other, Transform(map_from_other))};
+  }
+  return std::nullopt;
+}
+
 void align(const AlignOptions& options, Context& context) {
   const auto map = std::make_shared<const GlobalMap>(load(options.map, context));
   const MapData other = load(options.other, context);
   const StrategyChoice choice = matcher_of_maps(context.catalog, options.contact_epsilon);
   const auto matcher = context.catalog.matchers.make(choice, {map, 1});
-  const auto found = align_maps(*map, other.points, *matcher, options.contact_epsilon, 1);
+  const auto found = align_maps(*map, other.points, *matcher, options.contact_epsilon);
   if (!found) {
     throw RunError(fmt::format(
         "{} does not fit into {}: no pose brings a quarter of its points within {} m of the map's",

@@ -2,6 +2,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,7 +15,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
-#include "app/simulated_site.hpp"
+#include "app/localize_plan.hpp"
 #include "app/standard_streams.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/provenance.hpp"
@@ -19,10 +23,34 @@
 #include "glocal/error.hpp"
 #include "sources/ros_map/ros_map.hpp"
 #include "sources/ros_map/ros_map_writer.hpp"
+#include "sources/simulation/simulation.hpp"
+#include "sources/simulation/world_grid.hpp"
+#include "sources/sites/office.hpp"
+#include "sources/sites/office_site.hpp"
 #include "sources/text_lines.hpp"
 
 namespace glocal::app {
 namespace {
+
+/// What `glocal simulate` writes.
+struct SimulatedFiles {
+  Recording drive;
+  OccupancyGrid grid;
+  std::string experiment;            ///< YAML, which names the files of both.
+  int threads = 1;                   ///< Of the experiment.
+  Vector3 origin = Vector3::Zero();  ///< That the grid is relative to, m.
+};
+
+struct SiteOptions {
+  std::string site;
+  double side = 0.0;         ///< m
+  double resolution = 0.05;  ///< Of the map, m.
+  double length = 0.0;       ///< Of the drive, m; 0: chosen.
+  int starts = 0;            ///< Of the experiment; 0: chosen.
+
+  /// Adds --site and what goes with it. This object must live as long as the command.
+  void add_to(CLI::App& command);
+};
 
 struct SimulateOptions {
   ExperimentOptions experiment;
@@ -66,6 +94,51 @@ SimulatedFiles simulated_experiment(const ExperimentOptions& options, Context& c
   return files;
 }
 
+constexpr int most_starts = 150;  // unless more are asked for
+
+constexpr double metres_a_start = 10.0;
+
+double length_of(const SiteOptions& options) {
+  return options.length > 0.0 ? options.length : sites::usual_length(options.side);
+}
+
+int starts_of(const SiteOptions& options) {
+  if (options.starts > 0) return options.starts;
+  return std::clamp(static_cast<int>(length_of(options) / metres_a_start), 1, most_starts);
+}
+
+std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const std::string& log,
+                          const Catalog& catalog) {
+  const carmen::LogParams limits = simulation::scan_limits(sites::office_drive().laser);
+  return fmt::format(
+      "# A simulated {} of {:g} m x {:g} m, seed {}. Written by glocal simulate.\n"
+      "schema: 1\n"
+      "name: {}_{:g}_{}\n"
+      "seed: {}\n"
+      "map:\n"
+      "  ros_map: {{path: map.yaml}}\n"
+      "observations:\n"
+      "  carmen_log: {{path: {}, min_range: {}, max_range: {}, free_range: {}}}\n"
+      "trials: {{every_m: {}, max_steps: 41, min_steps: 41}}\n"
+      "{}",
+      options.site, options.side, options.side, seed, options.site, options.side, seed, seed, log,
+      limits.min_range, limits.max_range, limits.free_range, length_of(options) / starts_of(options),
+      localizer_yaml(default_method(false), {}, catalog));
+}
+
+/// Throws ConfigError where there is no side, and for a drive of too many observations.
+SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed, const Catalog& catalog) {
+  if (options.side == 0.0) throw ConfigError("--site " + options.site, "needs --side, its side in metres");
+  simulation::World world = sites::office_site(options.side, length_of(options), seed);
+  OccupancyGrid grid = simulation::plan_of(world, options.resolution, fmt::format("--site {}", options.site));
+  SimulatedFiles files{*simulation::Simulation(sites::office_drive(), std::move(world), seed).recording(),
+                       std::move(grid),
+                       {},
+                       1};
+  files.experiment = experiment_of(options, seed, files.drive.file_name, catalog);
+  return files;
+}
+
 std::uint64_t seed_of_site(const SimulateOptions& options) {
   const std::string text = options.experiment.seed.value_or("1");
   const auto seed = whole_number_in(text);
@@ -91,6 +164,35 @@ void simulate(const SimulateOptions& options, Context& context) {
   folder.commit();
   answer("{} scans, a map of {} x {} cells and an experiment in {}\n", files.drive.observations,
          files.grid.width, files.grid.height, folder.path().string());
+}
+
+/// CLI::Range takes what is no number.
+CLI::Validator within(double low, double high) {
+  const auto fault = [=](const std::string& text) {
+    double value = 0.0;
+    const bool is_within = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+    return is_within ? std::string() : fmt::format("{} is not a number from {} to {}", text, low, high);
+  };
+  return {fault, fmt::format("{} to {}", low, high)};
+}
+
+void SiteOptions::add_to(CLI::App& command) {
+  CLI::Option* kind =
+      command.add_option("--site", site, "Make a site of this kind, in place of an experiment's world")
+          ->check(CLI::IsMember({"office"}))
+          ->excludes(command.get_option("--set"))
+          ->excludes(command.get_option("--threads"));
+  command.add_option("--side", side, "Side of the site (m)")->check(within(20.0, 2000.0))->needs(kind);
+  command.add_option("--resolution", resolution, "Side of a cell of its map (m)")
+      ->check(within(0.01, 1.0))
+      ->capture_default_str()
+      ->needs(kind);
+  command.add_option("--length", length, "Way driven (m); five times the side, at most 3000 m, without it")
+      ->check(within(10.0, 1e5))
+      ->needs(kind);
+  command.add_option("--starts", starts, "Number of starts; one every 10 m, at most 150, without it")
+      ->check(CLI::Range(1, 10000))
+      ->needs(kind);
 }
 
 }  // namespace
