@@ -17,24 +17,6 @@
 namespace glocal::bench {
 namespace {
 
-/// A first match of the local maps of so many keyframes, at every fifth start.
-template <class Kind>
-void match(benchmark::State& state, const Scene& s, const typename Kind::Params& params, double omega_max) {
-  Kind matcher(params, {s.loaded.map, 1});
-  std::vector<LocalMap> locals;
-  for (std::size_t i = 0; i < s.loaded.starts.size(); i += 5) {
-    locals.push_back(local_map_at(s, s.loaded.starts[i], static_cast<std::size_t>(state.range(0))));
-  }
-  Rng rng(1);
-  for ([[maybe_unused]] auto _ : state) {
-    for (const LocalMap& local : locals) {
-      matcher.reset();
-      benchmark::DoNotOptimize(matcher.match({local, {}, omega_max}, rng));
-    }
-  }
-  state.counters["per_match"] = time_per_item(static_cast<double>(locals.size()));
-}
-
 /// A local map's features among those of the whole map; the share of the ten nearest that are found.
 void nearest(benchmark::State& state, const Scene& s, const std::optional<iransac::HashRule>& hashing) {
   const OrientedPoints oriented_points = oriented_points_of(*s.loaded.map, {});
@@ -60,6 +42,8 @@ void nearest(benchmark::State& state, const Scene& s, const std::optional<iransa
   state.counters["per_feature"] = time_per_item(static_cast<double>(features.size()));
 }
 
+}  // namespace
+
 void register_all() {
   const auto add = [](const std::string& name, auto run) {
     return benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
@@ -67,17 +51,18 @@ void register_all() {
   add("exhaustive/paper_lab", [](benchmark::State& state) {
     const grid_search::GridRule grid{
         .contact_epsilon = 0.15, .cell = 0.15, .min_rotation_step_deg = 1.15, .max_points = 100};
-    match<grid_search::Exhaustive>(state, scene("paper_lab"), {.matching = {.grid = grid}}, 0.3);
+    first_matches<grid_search::Exhaustive>(state, scene("paper_lab"), {.matching = {.grid = grid}}, 0.3, 5);
   })->Arg(0);
   if (!has_datasets()) return;
-  add("ransac/intel", [](benchmark::State& state) { match<ransac::Ransac>(state, scene("intel"), {}, 0.55); })
+  add("ransac/intel",
+      [](benchmark::State& state) { first_matches<ransac::Ransac>(state, scene("intel"), {}, 0.55, 5); })
       ->Arg(0)
       ->Arg(20);
   for (const bool lsh : {false, true}) {
     const std::string how = lsh ? "/lsh" : "/all";
     add("iransac/intel" + how,
         [lsh](benchmark::State& state) {
-          match<iransac::IRansac>(state, scene("indexed", "intel"), {.lsh = lsh}, 0.1);
+          first_matches<iransac::IRansac>(state, scene("indexed", "intel"), {.lsh = lsh}, 0.1, 5);
         })
         ->Arg(0)
         ->Arg(20);
@@ -87,9 +72,4 @@ void register_all() {
   }
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

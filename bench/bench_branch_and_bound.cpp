@@ -94,6 +94,8 @@ void verify(benchmark::State& state, const Scene& s) {
   state.counters["per_pose"] = time_per_item(static_cast<double>(maps.size()));
 }
 
+}  // namespace
+
 void register_all() {
   if (!has_datasets()) return;
   const auto add = [](const std::string& log, const std::string& name, auto run) {
@@ -111,9 +113,4 @@ void register_all() {
   }
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

@@ -61,23 +61,18 @@ void merge(benchmark::State& state) {
   state.counters["left"] = static_cast<double>(left);
 }
 
+void many_hypotheses(benchmark::internal::Benchmark* timed) {
+  timed->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})->ArgNames({"hypotheses", "poses"});
+  timed->Unit(benchmark::kMillisecond);
+}
 BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
 BENCHMARK(cluster<clustering::HierarchicalKmeans>)
     ->ArgsProduct({{10, 100, 1000, 5000, 20'000}, {3, 1000}})
     ->ArgNames({"hypotheses", "poses"})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(cluster<clustering::Dbscan>)
-    ->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})
-    ->ArgNames({"hypotheses", "poses"})
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(cluster<clustering::MeanShift>)
-    ->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})
-    ->ArgNames({"hypotheses", "poses"})
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(cluster<clustering::PoseGridClusterer>)
-    ->ArgsProduct({{1000, 10'000, 100'000}, {3, 1000, 100'000}})
-    ->ArgNames({"hypotheses", "poses"})
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(cluster<clustering::Dbscan>)->Apply(many_hypotheses);
+BENCHMARK(cluster<clustering::MeanShift>)->Apply(many_hypotheses);
+BENCHMARK(cluster<clustering::PoseGridClusterer>)->Apply(many_hypotheses);
 BENCHMARK(merge)->Arg(10'000)->Arg(2000)->Unit(benchmark::kMillisecond);
 
 }  // namespace

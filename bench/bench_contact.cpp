@@ -72,6 +72,8 @@ void register_for(const std::string& name, const std::shared_ptr<const Points>& 
   add("kd_tree", index<KdTreeContact>);
 }
 
+}  // namespace
+
 void register_all() {
   if (has_datasets()) register_for("intel", std::make_shared<const Points>(scene("intel").map()));
   for (const std::size_t n : {1'000U, 10'000U, 100'000U, 1'000'000U, 10'000'000U}) {
@@ -79,9 +81,4 @@ void register_all() {
   }
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

@@ -116,6 +116,8 @@ void give_up(benchmark::State& state, const ExtrapolationRule& rule, double thre
   state.counters["local_points"] = static_cast<double>(p.local.points.size());
 }
 
+}  // namespace
+
 void register_all() {
   for (const std::size_t step : {0U, 20U, 110U}) {
     for (const double threshold : {0.4, 0.6, 0.8}) {
@@ -136,9 +138,4 @@ void register_all() {
   }
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

@@ -307,32 +307,25 @@ void match(benchmark::State& state) {
   state.counters["right"] = per_iteration(right);
 }
 
+/// Of 2^16 to 2^22 entries.
+void tables(benchmark::internal::Benchmark* timed) {
+  timed->DenseRange(16, 22)->Unit(benchmark::kMillisecond);
+}
+/// Of 5 to 30 cm.
+void cells(benchmark::internal::Benchmark* timed) {
+  timed->ArgsProduct({{5, 10, 15, 20, 30}})->Unit(benchmark::kMillisecond);
+}
 BENCHMARK(reference_loop)->Unit(benchmark::kMillisecond);
 BENCHMARK(plain_relations);
 BENCHMARK_CAPTURE(batch_relations, own_cell, false);
 BENCHMARK_CAPTURE(batch_relations, neighbour_cells, true);
-BENCHMARK(fill_and_find<Narrow>)->Name("relation_table")->DenseRange(16, 22)->Unit(benchmark::kMillisecond);
-BENCHMARK(fill_and_find<Plain<Entry<1>, true>>)
-    ->Name("entries_of_8_bytes")
-    ->DenseRange(16, 22)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(fill_and_find<Plain<Entry<3>, true>>)
-    ->Name("entries_of_16_bytes")
-    ->DenseRange(16, 22)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(fill_and_find<Plain<Entry<1>, false>>)
-    ->Name("without_prefetch")
-    ->DenseRange(16, 22)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(fill_and_find<Narrow>)->Name("relation_table")->Apply(tables);
+BENCHMARK(fill_and_find<Plain<Entry<1>, true>>)->Name("entries_of_8_bytes")->Apply(tables);
+BENCHMARK(fill_and_find<Plain<Entry<3>, true>>)->Name("entries_of_16_bytes")->Apply(tables);
+BENCHMARK(fill_and_find<Plain<Entry<1>, false>>)->Name("without_prefetch")->Apply(tables);
 BENCHMARK(fill_and_find<Standard>)->Name("unordered_map")->Arg(18)->Unit(benchmark::kMillisecond);
-BENCHMARK(kind<plain::canonical_triangle>)
-    ->Name("canonical_relations")
-    ->ArgsProduct({{5, 10, 15, 20, 30}})
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(kind<as_drawn>)
-    ->Name("relations_as_drawn")
-    ->ArgsProduct({{5, 10, 15, 20, 30}})
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(kind<plain::canonical_triangle>)->Name("canonical_relations")->Apply(cells);
+BENCHMARK(kind<as_drawn>)->Name("relations_as_drawn")->Apply(cells);
 BENCHMARK(match)
     ->ArgsProduct({{5, 10, 15, 20}, {0, 1}})
     ->ArgNames({"cell_cm", "neighbours"})

@@ -114,23 +114,6 @@ void clearances(benchmark::State& state, const Scene& s) {
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(ClearanceGrid(s.loaded.map->grid()));
 }
 
-/// One match of a local map of so many keyframes, as the first one of a drive.
-void first_match(benchmark::State& state, const Scene& s) {
-  indexed_ransam::IndexedRansam matcher({}, {s.loaded.map, 1});
-  std::vector<LocalMap> locals;
-  for (const std::size_t start : s.loaded.starts) {
-    locals.push_back(local_map_at(s, start, static_cast<std::size_t>(state.range(0))));
-  }
-  Rng rng(1);
-  for ([[maybe_unused]] auto _ : state) {
-    for (const LocalMap& local : locals) {
-      matcher.reset();
-      benchmark::DoNotOptimize(matcher.match({local, {}, 0.1}, rng));
-    }
-  }
-  state.counters["per_match"] = time_per_item(static_cast<double>(locals.size()));
-}
-
 /// From a pose a little off, with a hundred points.
 void refinement(benchmark::State& state, const Scene& s) {
   const DistanceField field(s.map());
@@ -142,6 +125,8 @@ void refinement(benchmark::State& state, const Scene& s) {
   const Pose2 off = map_from_local * Pose2{0.1, -0.1, 0.05};
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(refined_pose(field, points, off, {}));
 }
+
+}  // namespace
 
 void register_all() {
   if (!has_datasets()) return;
@@ -165,13 +150,13 @@ void register_all() {
   add("look/both", [](auto& state, const Scene& scene) { looks(state, scene, true, true); })->Arg(0)->Arg(20);
   add("build/distance_field", distances);
   add("build/clearance_grid", clearances);
-  add("first_match", first_match)->Arg(0)->Arg(20);
+  add("first_match",
+      [](auto& state, const Scene& scene) {
+        first_matches<indexed_ransam::IndexedRansam>(state, scene, {}, 0.1, 1);
+      })
+      ->Arg(0)
+      ->Arg(20);
   add("refinement", refinement)->Unit(benchmark::kMicrosecond);
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

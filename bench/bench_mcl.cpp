@@ -89,6 +89,8 @@ void build_field(benchmark::State& state, const Scene& s) {
   }
 }
 
+}  // namespace
+
 void register_all() {
   if (!has_datasets()) return;
   const Scene& s = scene("mcl", "intel");
@@ -107,9 +109,4 @@ void register_all() {
   add("build/field", build_field)->Unit(benchmark::kMillisecond);
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

@@ -57,6 +57,8 @@ void peer(benchmark::State& state, const StrategyChoice& choice, const Catalog& 
   state.counters["per_match"] = time_per_item(static_cast<double>(all.size()));
 }
 
+}  // namespace
+
 void register_all() {
   if (!has_datasets()) return;
   struct Peers : Catalog {
@@ -76,9 +78,4 @@ void register_all() {
   add("pcl_icp", {"pcl_icp"})->Iterations(1);
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +16,7 @@
 #include "sources/bags/message_writer.hpp"
 #include "sources/bags/messages.hpp"
 #include "sources/bags/recording.hpp"
+#include "temporary_folder.hpp"
 
 namespace glocal::bench {
 namespace {
@@ -104,9 +103,8 @@ void set_rate(benchmark::State& state) {
 
 /// Every message of a file, decoded if `decodes`.
 void read(benchmark::State& state, const std::string& content, bool decodes) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("glocal_bench_" + std::to_string(std::rand()));
-  std::ofstream(file, std::ios::binary) << content;
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("recording", content);
   std::size_t seen = 0;
   for ([[maybe_unused]] auto _ : state) {
     bags::Recording recording(file);
@@ -115,7 +113,6 @@ void read(benchmark::State& state, const std::string& content, bool decodes) {
   }
   benchmark::DoNotOptimize(seen);
   set_rate(state);
-  std::filesystem::remove(file);
 }
 
 void unpack(const std::string& compression, const std::string& packed, std::string& bytes) {
@@ -147,6 +144,8 @@ void unpack_all(benchmark::State& state, const std::string& encoding, const std:
   set_rate(state);
 }
 
+}  // namespace
+
 void register_all() {
   const auto add = [](const std::string& name, auto function) {
     return benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMillisecond);
@@ -174,9 +173,4 @@ void register_all() {
   }
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

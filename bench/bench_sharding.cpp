@@ -1,10 +1,8 @@
 // What many trials of many shards cost: to note one, to read all, and to put them together. Journals are
 // synthetic: trials of five steps, without steps.jsonl and trajectories, as large sweeps have them.
 #include <benchmark/benchmark.h>
-#include <unistd.h>
 
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,6 +13,7 @@
 #include "evaluation/sharding/manifest.hpp"
 #include "evaluation/sharding/merge.hpp"
 #include "evaluation/sharding/status.hpp"
+#include "temporary_folder.hpp"
 
 namespace glocal::bench {
 namespace {
@@ -23,21 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t variants = 100;
 constexpr std::size_t shards = 200;
-
-/// A folder that is gone at the end; below $TMPDIR.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("glocal_bench_" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 TrialOutput output_of_trial(std::size_t trial) {
   TrialRecord record;
@@ -109,7 +93,7 @@ std::uintmax_t bytes_in(const fs::path& folder) {
 /// Journals of as many trials as the benchmark's argument says, read by `read` from their folder.
 template <class Read>
 void with_journals(benchmark::State& state, const Read& read) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   const auto trials = static_cast<std::size_t>(state.range(0));
   const Manifest manifest = manifest_of(trials);
   write_journals(folder.path(), manifest);
@@ -143,7 +127,7 @@ BENCHMARK(merge_all)->Name("sharding/merge/trials")->Apply(many_trials);
 
 /// With the wait for the disk, beside the same bytes without it.
 void note_trial(benchmark::State& state) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   Journal journal(folder.path(), {1, 1}, 1);
   const TrialOutput output = output_of_trial(1);
   for ([[maybe_unused]] auto _ : state) journal.finish({1, 2}, 20.0, output);

@@ -133,6 +133,8 @@ void single_scans(benchmark::State& state, const Site& site, int people) {
   state.counters["loops_step_median"] = quantile(step, 0.5) / reference_loop_time();
 }
 
+}  // namespace
+
 /// With sites that are made when they are asked for, and kept.
 void register_all() {
   static std::vector<std::function<const Site&()>> sites;
@@ -159,9 +161,4 @@ void register_all() {
   add("depot_180", [] { return ros_site("nav2_depot/depot.yaml", 180.0); });
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

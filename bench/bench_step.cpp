@@ -55,15 +55,12 @@ void register_steps(const std::string& name, std::size_t begin, std::size_t end)
   }
 }
 
+}  // namespace
+
 void register_all() {
   register_steps("paper_simulation", 0, 5);
   register_steps("paper_simulation", 90, 130);
   if (has_datasets()) register_steps("intel", 0, 40);
 }
 
-}  // namespace
 }  // namespace glocal::bench
-
-int main(int argc, char** argv) {
-  return glocal::bench::run_registered(argc, argv, glocal::bench::register_all);
-}

@@ -121,14 +121,6 @@ Points walls(std::size_t n) {
   return points;
 }
 
-int run_registered(int argc, char** argv, void (*register_all)()) {
-  benchmark::Initialize(&argc, argv);
-  benchmark::RegisterBenchmark("reference_loop", reference_loop)->Unit(benchmark::kMillisecond);
-  register_all();
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
-}
-
 ReferenceLoop::ReferenceLoop()
     : local_(local_map_at(simulation(), 0, late_step)), table_(std::size_t{1} << table_bits) {}
 

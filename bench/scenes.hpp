@@ -67,8 +67,27 @@ struct Scene {
   return {static_cast<double>(total), benchmark::Counter::kAvgIterations};
 }
 
-/// main() of a program that registers its benchmarks itself; the reference loop is there already.
-int run_registered(int argc, char** argv, void (*register_all)());
+/// A first match of the local maps of so many keyframes, at every so many starts.
+template <class Kind>
+void first_matches(benchmark::State& state, const Scene& s, const typename Kind::Params& params,
+                   double omega_max, std::size_t every) {
+  Kind matcher(params, {s.loaded.map, 1});
+  std::vector<LocalMap> locals;
+  for (std::size_t i = 0; i < s.loaded.starts.size(); i += every) {
+    locals.push_back(local_map_at(s, s.loaded.starts[i], static_cast<std::size_t>(state.range(0))));
+  }
+  Rng rng(1);
+  for ([[maybe_unused]] auto _ : state) {
+    for (const LocalMap& local : locals) {
+      matcher.reset();
+      benchmark::DoNotOptimize(matcher.match({local, {}, omega_max}, rng));
+    }
+  }
+  state.counters["per_match"] = time_per_item(static_cast<double>(locals.size()));
+}
+
+/// Registers the benchmarks of a program with bench_main.cpp, which has the reference loop already.
+void register_all();
 
 /// So that times can be compared over machines and days as multiples of it: 200,000 triples of the map and as
 /// many of a late local map, drawn one at a time in plain code, hashed and looked up in a table of 8-byte

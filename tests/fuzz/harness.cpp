@@ -1,41 +1,17 @@
 #include "fuzz/harness.hpp"
 
-#include <unistd.h>
-
 #include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 #include "glocal/builtin.hpp"
+#include "temporary_folder.hpp"
 
 namespace glocal::fuzz {
-namespace {
 
 namespace fs = std::filesystem;
 
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "glocal_fuzz_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("there is no place for temporary files");
-    path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-}  // namespace
-
 fs::path write(const std::string& name, std::string_view content) {
-  static const Folder folder;
+  static const test::TemporaryFolder folder;
   fs::path file = folder.path() / name;
   if (std::ofstream out(file, std::ios::binary); out << content) return file;
   fs::create_directories(file.parent_path());

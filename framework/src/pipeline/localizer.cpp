@@ -79,8 +79,8 @@ void put_off(Verdict& verdict) {
 /// this noise (m) are within it.
 double epsilon_factor(double range_noise, double epsilon) {
   constexpr double deviations = 1.25;
-  constexpr double most = 2.0;
-  return std::clamp(std::ceil(2.0 * deviations * range_noise / epsilon) / 2.0, 1.0, most);
+  constexpr double largest = 2.0;
+  return std::clamp(std::ceil(2.0 * deviations * range_noise / epsilon) / 2.0, 1.0, largest);
 }
 
 double count_of(HitKind kind, const std::vector<HitKind>& hits) {
