@@ -33,7 +33,7 @@ std::vector<Variant*> first_of_cases(std::vector<Variant>& variants) {
 
 void check(const std::string& file, const ExperimentOptions& options, Context& context) {
   std::vector<Variant> variants = options.read_variants(file, context);
-  ExperimentLoader loader(context.catalog, [](const std::string& text) { spdlog::warn(text); });
+  ExperimentLoader loader(context.catalog, warn);
   static_cast<void>(count_trials(variants, loader));
   const std::vector<Variant*> firsts = first_of_cases(variants);
   for (Variant* first : firsts) {

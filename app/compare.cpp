@@ -1,6 +1,5 @@
 // glocal compare: which of several methods on the same starts is better, and whether that can be told.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -59,7 +58,7 @@ struct Rerun {
   Rerun(NamedRun& run, Experiment stored, Context& context)
       : of(run),
         experiment(std::move(stored)),
-        loader(context.catalog, [](const std::string& text) { spdlog::warn(text); }),
+        loader(context.catalog, warn),
         loaded(loader.load(experiment)),
         localizer(make_localizer(experiment, context.catalog, loaded)) {}
 

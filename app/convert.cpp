@@ -1,6 +1,5 @@
 // glocal convert: drives from one format to another one.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <functional>
@@ -35,10 +34,6 @@ struct ConvertOptions {
   std::string out;
   bool force = false;
 };
-
-void warn(const std::string& text) {
-  spdlog::warn("{}", text);
-}
 
 /// A file that is written in large pieces, under a temporary name until it is whole.
 class GrowingFile {

@@ -1,6 +1,5 @@
 // glocal explain: at which stage of a step the true pose was lost.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -288,8 +287,7 @@ void explain(const ExplainOptions& options, Context& context) {
   const ExplainedRun run = explained_run(options, context);
   const Experiment& experiment = run.experiment;
   const EvaluationConfig& limits = experiment.evaluation;
-  LoadedExperiment loaded =
-      load_experiment(experiment, context.catalog, [](const std::string& text) { spdlog::warn(text); });
+  LoadedExperiment loaded = load_experiment(experiment, context.catalog, warn);
   const Replayed step = replay(options.folder, run, context.catalog, loaded, Threshold::configured);
   const StepResult& result = step.result;
   const Pose3& truth = step.map_from_robot;

@@ -1,6 +1,5 @@
 // glocal leaderboard: what methods have come to on suites, kept as data.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -53,10 +52,6 @@ struct BoardOptions {
     return methods.empty() || std::find(methods.begin(), methods.end(), method) != methods.end();
   }
 };
-
-ExperimentLoader plain_loader(const Context& context) {
-  return {context.catalog, [](const std::string& text) { spdlog::warn(text); }};
-}
 
 /// The suites that are meant: the one that is named, or all of which the leaderboard has entries.
 std::vector<Suite> suites_of(const BoardOptions& options) {
@@ -201,7 +196,7 @@ void check_suite(const BoardOptions& options, const Suite& suite, Context& conte
   }
   if (methods.empty()) return answer("{}: no results of such a method are stored\n", suite.id());
   std::vector<Variant> variants = variants_of(options, suite, methods, options.share, context);
-  ExperimentLoader loader = plain_loader(context);
+  ExperimentLoader loader(context.catalog, warn);
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
     const Variant& variant = variants[i];
     Check& check = *std::find_if(checks.begin(), checks.end(),
@@ -247,7 +242,7 @@ void import(const BoardOptions& options, Context& context) {
                     {"imported_sha256", sha256_of_file(options.poses)},
                     {"suite_sha256", sha256_of_file(suite.file)}},
                    {}};
-  ExperimentLoader loader = plain_loader(context);
+  ExperimentLoader loader(context.catalog, warn);
   std::vector<Fault> faults;
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
     entry.results.push_back(judged(poses, variants[i], loaded, faults));
@@ -260,7 +255,7 @@ void import(const BoardOptions& options, Context& context) {
 void export_suite(const BoardOptions& options, Context& context) {
   const Suite suite = read_suite(options.suite);
   std::vector<Variant> variants = variants_of(options, suite, {}, "", context);
-  ExperimentLoader loader = plain_loader(context);
+  ExperimentLoader loader(context.catalog, warn);
   const std::size_t starts = write_plain_suite(suite, variants, loader, options.out, options.force);
   answer("{} starts of {} cases in {}\n", starts, variants.size(), options.out);
 }
@@ -268,7 +263,7 @@ void export_suite(const BoardOptions& options, Context& context) {
 /// Prints what a suite's file has to pin.
 void pin(const BoardOptions& options, Context& context) {
   std::vector<Variant> variants = variants_of(options, read_suite(options.suite), {}, "", context);
-  ExperimentLoader loader = plain_loader(context);
+  ExperimentLoader loader(context.catalog, warn);
   std::map<std::string, std::string> inputs;
   std::map<std::string, std::size_t> starts;
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {

@@ -92,7 +92,7 @@ class LiveLocalizer {
   static SourceSetup setup(const Experiment& experiment) {
     return {.seed = seed_of(RandomPart::observation_source, experiment),
             .motion = experiment.localizer.motion,
-            .warn = [](const std::string& text) { spdlog::warn(text); },
+            .warn = warn,
             .is_stopped = is_interrupted};
   }
 

@@ -58,7 +58,7 @@ class Narrator {
     callbacks.trials = {[this](std::size_t, const StepRecord& record, const Localizer&) { step(record); },
                         [this](const TrialRecord& trial) { finish(trial); }, is_interrupted};
     callbacks.note = [](const std::string& text) { spdlog::info(text); };
-    callbacks.warn = [](const std::string& text) { spdlog::warn(text); };
+    callbacks.warn = warn;
     callbacks.progress = bar_.call();
     return callbacks;
   }

@@ -1,6 +1,5 @@
 // glocal map: build maps from logs, convert maps, show what is in them.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <memory>
@@ -36,12 +35,6 @@ struct MapOptions {
   bool force = false;
 };
 
-SourceSetup warning_setup() {
-  SourceSetup setup;
-  setup.warn = [](const std::string& text) { spdlog::warn(text); };
-  return setup;
-}
-
 /// A map server's file names an image; an experiment does not.
 bool is_ros_map(const std::string& file) {
   std::vector<Fault> faults;
@@ -51,8 +44,8 @@ bool is_ros_map(const std::string& file) {
 
 /// The map of a file; `input` has what may be changed in it.
 MapData load(const ExperimentOptions& input, Context& context) {
-  if (is_ros_map(input.file)) return ros_map::RosMap({{input.file, input.file}}, warning_setup()).load();
-  return load_map(input.read(context), context.catalog, warning_setup());
+  if (is_ros_map(input.file)) return ros_map::RosMap({{input.file, input.file}}, {.warn = warn}).load();
+  return load_map(input.read(context), context.catalog, {.warn = warn});
 }
 
 /// The parameters of log_map, from `--set name=value`.
@@ -196,7 +189,7 @@ void add_map(CLI::App& app, Context& context) {
   options->input.add_set_to(*build, "Change a parameter of log_map: segments=[[0,0.3]] (repeatable)");
   add_output(*build, *options);
   build->callback(
-      [options] { write(carmen::LogMap(log_map_params(options->input), warning_setup()).load(), *options); });
+      [options] { write(carmen::LogMap(log_map_params(options->input), {.warn = warn}).load(), *options); });
 
   constexpr const char* file = "ROS map (YAML), or experiment whose map is meant";
   CLI::App* convert = map->add_subcommand("convert", "Write a map in another format.");

@@ -1,6 +1,5 @@
 // glocal mapping: how far the local mapper of an experiment drifts along its drive.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <iterator>
@@ -27,9 +26,7 @@ struct MappingOptions {
 
 /// Only the drive and the local mapper are made: the map of the experiment has no part in this.
 MappingAccuracy measure(const Experiment& experiment, const Catalog& catalog, const MappingWindows& windows) {
-  SourceSetup setup;
-  setup.warn = [](const std::string& text) { spdlog::warn(text); };
-  const Drive drive = load_drive(experiment, catalog, setup);
+  const Drive drive = load_drive(experiment, catalog, {.warn = warn});
   const StageSetup stage_setup{
       .map = nullptr, .threads = experiment.threads, .motion = experiment.localizer.motion};
   const auto mapper = catalog.local_mappers.make(experiment.localizer.local_mapper, stage_setup);

@@ -52,8 +52,7 @@ void say_missing(const MergeResult& result, const Manifest& manifest, const Jour
 
 void merge(const MergeCommand& command, Context& context) {
   const Manifest manifest = read_manifest(command.folder);
-  const JournalScan scan(journals_folder(command.folder),
-                         [](const std::string& text) { spdlog::warn(text); });
+  const JournalScan scan(journals_folder(command.folder), warn);
   MergeOptions options{command.out.empty() ? command.folder : command.out, command.force};
   if (!command.quiet) options.note = [](const std::string& text) { spdlog::info(text); };
   const MergeResult result = merge_shards(manifest, scan, options);

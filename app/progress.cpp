@@ -93,7 +93,7 @@ RunnerCallbacks Waiting::callbacks() {
               [this](const std::string& text) {
                 if (!quiet_) spdlog::info(text);
               },
-          .warn = [](const std::string& text) { spdlog::warn(text); }};
+          .warn = warn};
 }
 
 void Waiting::begin(const LoadedVariant& variant) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/sharding/merge.hpp"
@@ -43,7 +44,7 @@ fs::path ResultsAtHand::put_together(const fs::path& shared) {
     temporary_ = pattern;
   }
   const Manifest manifest = read_manifest(shared);
-  const JournalScan scan(journals_folder(shared), [](const std::string& text) { spdlog::warn(text); });
+  const JournalScan scan(journals_folder(shared), warn);
   // Pages and tables call runs by the names of their folders.
   fs::path out = temporary_ / std::to_string(folders_.size()) / own_name(shared);
   const MergeResult result = merge_shards(manifest, scan, {out});

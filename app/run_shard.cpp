@@ -16,6 +16,7 @@
 #include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/shard_plan.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/journal_scan.hpp"
 #include "evaluation/results/number_text.hpp"
 #include "evaluation/sharding/run_shard.hpp"
@@ -38,9 +39,7 @@ class Supervisor {
         options_(std::move(options)),
         quiet_(quiet),
         context_(context),
-        scan_(
-            journals_folder(options_.out), [](const std::string& text) { spdlog::warn(text); },
-            JournalScan::Closed::indexed) {
+        scan_(journals_folder(options_.out), warn, JournalScan::Closed::indexed) {
     share_ = share_of(steps_of(manifest_), shard_);
   }
 

@@ -1,9 +1,9 @@
 #include "app/shard_plan.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "app/child_process.hpp"
+#include "app/standard_streams.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "glocal/error.hpp"
 
@@ -34,7 +34,7 @@ std::optional<Manifest> planned_shards(std::vector<Variant>& variants, const std
   }
   // What is loaded to find out leaves threads behind, with which this process could have no children.
   const ChildEnd end = run_in_child([&] {
-    ExperimentLoader loader(context.catalog, [](const std::string& text) { spdlog::warn(text); });
+    ExperimentLoader loader(context.catalog, warn);
     write_manifest(shared, plan(variants, file, plugins, loader));
     return 0;
   });

@@ -1,6 +1,5 @@
 // glocal simulate: a simulated drive and map as files, and an experiment that reads them back.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -75,7 +74,7 @@ SimulatedFiles simulated_experiment(const ExperimentOptions& options, Context& c
   SourceSetup setup;
   setup.seed = seed_of(RandomPart::observation_source, experiment);
   setup.motion = experiment.localizer.motion;
-  setup.warn = [](const std::string& text) { spdlog::warn(text); };
+  setup.warn = warn;
   setup.note_input = [&](const std::filesystem::path& file) {
     inputs.insert(std::filesystem::absolute(file));
   };

@@ -98,6 +98,10 @@ void log_to_stderr() {
   spdlog::set_formatter(std::move(formatter));
 }
 
+void warn(const std::string& text) {
+  spdlog::warn("{}", text);
+}
+
 std::string text_bar(double share) {
   constexpr int width = 30;
   const auto filled = static_cast<int>(share * width);

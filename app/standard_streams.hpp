@@ -35,6 +35,9 @@ void say_over(const std::string& text);
 /// Has spdlog write to stderr in the same way: "warning: …". A warning that has been said is not said again.
 void log_to_stderr();
 
+/// A warning in that log.
+void warn(const std::string& text);
+
 /// "[####......]", for lines that show how much is done, in [0, 1].
 [[nodiscard]] std::string text_bar(double share);
 

@@ -2,7 +2,6 @@
 #include "evaluation/sharding/status.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -97,9 +96,7 @@ void watch(const Manifest& manifest, JournalScan& scan) {
 
 void show_status(const StatusCommand& command) {
   const Manifest manifest = read_manifest(command.folder);
-  JournalScan scan(
-      journals_folder(command.folder), [](const std::string& text) { spdlog::warn(text); },
-      JournalScan::Closed::indexed);
+  JournalScan scan(journals_folder(command.folder), warn, JournalScan::Closed::indexed);
   if (command.watch) {
     watch(manifest, scan);
   } else if (command.json) {
