@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -35,37 +34,13 @@ struct ConvertOptions {
   bool force = false;
 };
 
-/// A file that is written in large pieces, under a temporary name until it is whole.
-class GrowingFile {
- public:
-  GrowingFile(fs::path file, bool replace) : file_(std::move(file)), files_(replace) {
-    files_.add(file_, "");
-  }
-
-  void append(std::string_view bytes) {
-    constexpr std::size_t enough = 1U << 20U;
-    if (is_interrupted()) throw RunError("interrupted; nothing is left of " + file_.string());
-    buffer_ += bytes;
-    if (buffer_.size() >= enough) flush();
-  }
-  void commit() {
-    flush();
-    files_.commit();
-  }
-  [[nodiscard]] std::function<void(std::string_view)> sink() {
-    return [this](std::string_view bytes) { append(bytes); };
-  }
-
- private:
-  void flush() {
-    files_.append(buffer_);
-    buffer_.clear();
-  }
-
-  fs::path file_;
-  AtomicFiles files_;
-  std::string buffer_;
-};
+/// Takes a file's bytes piece by piece.
+auto sink_of(AtomicFiles& files, const std::string& out) {
+  return [&](std::string_view bytes) {
+    if (is_interrupted()) throw RunError("interrupted; nothing is left of " + out);
+    files.append(bytes);
+  };
+}
 
 void tell(const DriveCounts& counts, const ConvertOptions& options) {
   answer("{} scans, {} of them with reference pose, in {}\n", counts.scans, counts.references, options.out);
@@ -76,11 +51,13 @@ void copy_to_mcap(const ConvertOptions& options) {
   ReadingBar bar;
   bags::Recording recording = options.in.open_recording();
   recording.tell_progress(bar.call());
-  GrowingFile file(options.out, options.force);
-  const conversion::CopiedRecording copied = conversion::copy_recording(recording, file.sink());
+  AtomicFiles files(options.force);
+  files.add(options.out, "");
+  const conversion::CopiedRecording copied =
+      conversion::copy_recording(recording, sink_of(files, options.out));
   for (const std::string& text : recording.warnings()) warn(text);
   for (const std::string& remark : copied.remarks) warn(fmt::format("{}: {}", options.in.file, remark));
-  file.commit();
+  files.commit();
   answer("{} messages in {}\n", copied.messages, options.out);
 }
 
@@ -88,10 +65,11 @@ void to_mcap(const ConvertOptions& options) {
   if (kind_of_log(options.in.file) == LogKind::recording) return copy_to_mcap(options);
   ReadingBar bar;
   const auto reader = options.in.open(warn, bar.call());
-  GrowingFile file(options.out, options.force);
-  conversion::McapDriveWriter writer(reader->sensors(), file.sink());
+  AtomicFiles files(options.force);
+  files.add(options.out, "");
+  conversion::McapDriveWriter writer(reader->sensors(), sink_of(files, options.out));
   const DriveCounts counts = conversion::pass_on(*reader, writer, options.in.file, warn);
-  file.commit();
+  files.commit();
   tell(counts, options);
 }
 
@@ -105,10 +83,11 @@ void to_carmen(const ConvertOptions& options) {
         "has clouds, which cannot be written as a CARMEN log: it has planar scans only; name --out *.mcap");
   ReadingBar bar;
   const auto reader = options.in.open(warn, bar.call());
-  GrowingFile file(options.out, options.force);
-  conversion::CarmenDriveWriter writer(options.in.file, file.sink());
+  AtomicFiles files(options.force);
+  files.add(options.out, "");
+  conversion::CarmenDriveWriter writer(options.in.file, sink_of(files, options.out));
   const DriveCounts counts = conversion::pass_on(*reader, writer, options.in.file, warn);
-  file.commit();
+  files.commit();
   tell(counts, options);
 }
 

@@ -34,11 +34,6 @@ struct ExplainedRun {
   std::size_t trial = 0, step = 0;
 };
 
-/// How far the local map's robot pose is off the reference, both counted from where the trial began.
-struct Drift {
-  double translation_m = 0.0, rotation_rad = 0.0;
-};
-
 /// One step of a trial, made again.
 struct Replayed {
   StepResult result;
@@ -47,7 +42,9 @@ struct Replayed {
   Pose3 map_from_robot;  ///< Reference.
   PoseGate gate;
   double driven_m = 0.0;
-  std::optional<Drift> drift;  ///< None without a reference where the trial began.
+  /// How far the local map's robot pose is off the reference, both counted from where the trial began; none
+  /// without a reference there.
+  std::optional<PoseError> drift;
 };
 
 /// Asks for nothing: every pose that is drawn passes.
@@ -63,12 +60,12 @@ class NoThreshold final : public ThresholdPolicy {
 enum class Threshold { configured, none };
 
 /// Of the mapper's motion since it was at `local_from_start` against that of the reference.
-std::optional<Drift> drift_of(const std::optional<Pose3>& map_from_start, const Pose3& map_from_robot,
-                              const Pose3& local_from_start, const LocalMap& local) {
+std::optional<PoseError> drift_of(const std::optional<Pose3>& map_from_start, const Pose3& map_from_robot,
+                                  const Pose3& local_from_start, const LocalMap& local) {
   if (!map_from_start) return std::nullopt;
   const Pose3 wanted = inverse(*map_from_start) * map_from_robot;
   const Pose3 found = inverse(local_from_start) * local.local_from_robot;
-  return Drift{distance(found, wanted), rotation_between(found, wanted)};
+  return pose_error(found, wanted);
 }
 
 Replayed replay(const std::string& folder, const ExplainedRun& run, const Catalog& catalog,

@@ -138,27 +138,6 @@ CaseFacts facts_of(const PrepareOptions& options, const ReferencePoses& referenc
   return facts;
 }
 
-/// Collects what is written to a file into large pieces.
-class FilePart {
- public:
-  FilePart(OutputFolder& folder, std::string name) : folder_(folder), name_(std::move(name)) {}
-
-  void append(std::string_view bytes) {
-    constexpr std::size_t enough = 1U << 20U;
-    if (is_interrupted()) throw RunError("interrupted; nothing is left of " + folder_.path().string());
-    buffer_ += bytes;
-    if (buffer_.size() >= enough) flush();
-  }
-  void flush() {
-    folder_.append(name_, buffer_);
-    buffer_.clear();
-  }
-
- private:
-  OutputFolder& folder_;
-  std::string name_, buffer_;
-};
-
 void write_drive(const PrepareOptions& options, const ReferencePoses& references, bool has_clouds,
                  OutputFolder& folder, const TellProgress& progress) {
   const Warn already_told = [](const std::string&) {};
@@ -168,10 +147,11 @@ void write_drive(const PrepareOptions& options, const ReferencePoses& references
     conversion::pass_on(drive, writer, options.log.file, already_told);
     return;
   }
-  FilePart file(folder, "drive.log");
-  conversion::CarmenDriveWriter writer(options.log.file, [&](std::string_view lines) { file.append(lines); });
+  conversion::CarmenDriveWriter writer(options.log.file, [&](std::string_view lines) {
+    if (is_interrupted()) throw RunError("interrupted; nothing is left of " + folder.path().string());
+    folder.append("drive.log", lines);
+  });
   conversion::pass_on(drive, writer, options.log.file, already_told);
-  file.flush();
 }
 
 /// Of what is said of files in the unfinished folder: they will be in the case's.

@@ -4,7 +4,6 @@
 #include <sys/socket.h>
 
 #include <chrono>
-#include <thread>
 
 #include "app/bounded_server.hpp"
 #include "app/watch_requests.hpp"
@@ -21,51 +20,31 @@ void only_listener(socket_t socket) {
 
 }  // namespace
 
-class WatchServer::Server {
- public:
-  Server(int port, LiveRun& run) {
-    server_.set_socket_options(only_listener);
-    bind(port);
-    server_.lengthen_queue();
-    answer_watchers(server_, run, port_);
-    thread_ = std::thread([this] { server_.listen_after_bind(); });
-    // What does not run yet cannot be stopped.
-    while (!server_.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+WatchServer::WatchServer(int port, LiveRun& run) : server_(std::make_unique<BoundedServer>()) {
+  server_->set_socket_options(only_listener);
+  bind(port);
+  server_->lengthen_queue();
+  answer_watchers(*server_, run, port_);
+  thread_ = std::thread([this] { server_->listen_after_bind(); });
+  // What does not run yet cannot be stopped.
+  while (!server_->is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+WatchServer::~WatchServer() {
+  server_->end();
+  thread_.join();
+}
+
+void WatchServer::bind(int port) {
+  if (port == 0) {
+    port_ = server_->bind_to_any_port(watch_address);
+  } else if (server_->bind_to_port(watch_address, port)) {
+    port_ = port;
   }
-
-  ~Server() {
-    server_.end();
-    thread_.join();
+  if (port_ < 0) {
+    throw ConfigError(fmt::format("--watch={}", port),
+                      "the port is taken; choose another one, or --watch alone for any that is free");
   }
-
-  Server(const Server&) = delete;
-  Server& operator=(const Server&) = delete;
-
-  [[nodiscard]] int port() const { return port_; }
-
- private:
-  void bind(int port) {
-    if (port == 0) {
-      port_ = server_.bind_to_any_port(watch_address);
-    } else if (server_.bind_to_port(watch_address, port)) {
-      port_ = port;
-    }
-    if (port_ < 0) {
-      throw ConfigError(fmt::format("--watch={}", port),
-                        "the port is taken; choose another one, or --watch alone for any that is free");
-    }
-  }
-
-  BoundedServer server_;
-  int port_ = -1;
-  std::thread thread_;
-};
-
-WatchServer::WatchServer(int port, LiveRun& run) : server_(std::make_unique<Server>(port, run)) {}
-WatchServer::~WatchServer() = default;
-
-int WatchServer::port() const {
-  return server_->port();
 }
 
 }  // namespace glocal::app

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <thread>
 
 #include "report/live_run.hpp"
 
 namespace glocal::app {
+
+class BoundedServer;
 
 /// Serves the page and its data to browsers on this machine, from threads of its own, as long as it lives.
 class WatchServer {
@@ -16,11 +19,14 @@ class WatchServer {
   WatchServer(const WatchServer&) = delete;
   WatchServer& operator=(const WatchServer&) = delete;
 
-  [[nodiscard]] int port() const;
+  [[nodiscard]] int port() const { return port_; }
 
  private:
-  class Server;  ///< Its library's header is large.
-  std::unique_ptr<Server> server_;
+  void bind(int port);
+
+  std::unique_ptr<BoundedServer> server_;  ///< Its library's header is large.
+  int port_ = -1;
+  std::thread thread_;
 };
 
 }  // namespace glocal::app

@@ -147,7 +147,14 @@ std::optional<DriveScan> CarmenDriveReader::next() {
 }
 
 void CarmenDriveWriter::write(const DriveScan& scan) {
-  sink_(carmen::carmen_lines(carmen_scan(scan, file_)));
+  constexpr std::size_t enough = 1U << 20U;
+  lines_ += carmen::carmen_lines(carmen_scan(scan, file_));
+  if (lines_.size() >= enough) finish();
+}
+
+void CarmenDriveWriter::finish() {
+  sink_(lines_);
+  lines_.clear();
 }
 
 }  // namespace glocal::conversion

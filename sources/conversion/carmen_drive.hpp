@@ -47,7 +47,7 @@ class CarmenDriveReader final : public DriveReader {
   std::size_t next_ = 0;
 };
 
-/// Writes a CARMEN log.
+/// Writes a CARMEN log, in large pieces.
 class CarmenDriveWriter final : public DriveWriter {
  public:
   /// `file`: where the drive comes from, for what is said of it.
@@ -55,11 +55,12 @@ class CarmenDriveWriter final : public DriveWriter {
       : file_(std::move(file)), sink_(std::move(sink)) {}
 
   void write(const DriveScan& scan) override;
-  void finish() override {}
+  void finish() override;
 
  private:
   std::string file_;
   std::function<void(std::string_view)> sink_;
+  std::string lines_;
 };
 
 }  // namespace glocal::conversion
