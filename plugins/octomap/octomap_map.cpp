@@ -1,9 +1,8 @@
 #include "octomap_map.hpp"
 
-#include <algorithm>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "glocal/error.hpp"
 #include "tree_file.hpp"
@@ -36,20 +35,6 @@ void for_each_voxel(const octomap::OcTree& tree, const OctomapMap::Params& param
     }
   }
 }
-
-struct Extent {
-  int min_x = std::numeric_limits<int>::max();
-  int min_y = std::numeric_limits<int>::max();
-  int max_x = std::numeric_limits<int>::min();
-  int max_y = std::numeric_limits<int>::min();
-
-  void add(const Voxel& v) {
-    min_x = std::min(min_x, v.x);
-    min_y = std::min(min_y, v.y);
-    max_x = std::max(max_x, v.x);
-    max_y = std::max(max_y, v.y);
-  }
-};
 
 }  // namespace
 
@@ -95,10 +80,10 @@ MapData OctomapMap::load() {
   const auto refuse = [&](const char* why) { throw ConfigError(params_.path.resolved, why); };
   const std::unique_ptr<octomap::OcTree> tree = read_tree(params_.path.resolved);
   const bool in_space = params_.points == "space";
-  Extent extent;
-  for_each_voxel(*tree, params_, [&](const Voxel& v, bool /*occupied*/) { extent.add(v); });
-  if (extent.min_x > extent.max_x)
-    refuse("has no voxel between min_height and max_height; take a wider band");
+  Eigen::AlignedBox2i extent;
+  for_each_voxel(*tree, params_,
+                 [&](const Voxel& v, bool /*occupied*/) { extent.extend(Eigen::Vector2i(v.x, v.y)); });
+  if (extent.isEmpty()) refuse("has no voxel between min_height and max_height; take a wider band");
 
   MapData map;
   OccupancyGrid& grid = map.grid;
@@ -109,10 +94,10 @@ MapData OctomapMap::load() {
   const auto corner = [&](int key) {
     return tree->keyToCoord(static_cast<octomap::key_type>(key)) - side / 2.0;
   };
-  grid.map_from_grid = map_from_tree * Pose2{corner(extent.min_x), corner(extent.min_y), 0.0};
+  grid.map_from_grid = map_from_tree * Pose2{corner(extent.min().x()), corner(extent.min().y()), 0.0};
   grid.resolution = side;
-  grid.width = extent.max_x - extent.min_x + 1;
-  grid.height = extent.max_y - extent.min_y + 1;
+  grid.width = extent.sizes().x() + 1;
+  grid.height = extent.sizes().y() + 1;
   constexpr double most_cells = 64e6;
   constexpr std::size_t most_bricks = 4'000'000;
   if (static_cast<double>(grid.width) * grid.height > most_cells) {
@@ -123,7 +108,7 @@ MapData OctomapMap::load() {
   std::vector<int> occupied_voxels(cells, 0);
   grid.cells = PackedCells(cells);
   for_each_voxel(*tree, params_, [&](const Voxel& v, bool occupied) {
-    const std::size_t cell = grid.index(v.x - extent.min_x, v.y - extent.min_y);
+    const std::size_t cell = grid.index(v.x - extent.min().x(), v.y - extent.min().y());
     if (!occupied) {
       grid.cells[cell] = Cell::free;
       if (in_space) map.free_voxels.add(v.x - middle, v.y - middle, v.z - middle);
@@ -135,7 +120,7 @@ MapData OctomapMap::load() {
     }
     ++occupied_voxels[cell];
     if (!in_space) return;
-    const Pose2 centre = grid.centre(v.x - extent.min_x, v.y - extent.min_y);
+    const Pose2 centre = grid.centre(v.x - extent.min().x(), v.y - extent.min().y());
     map.points.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y),
                           static_cast<float>(tree->keyToCoord(static_cast<octomap::key_type>(v.z)))});
   });

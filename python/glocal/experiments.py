@@ -11,7 +11,7 @@ from typing import Any, Callable, Mapping, Sequence, Union
 
 from glocal import _core, strategies
 from glocal._core import GlobalMap, LocalMap, Observation, Sample, StepResult
-from glocal.errors import Interrupted, RunError
+from glocal.errors import Interrupted
 from glocal.results import Results, load_results
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -65,17 +65,6 @@ def _print_progress(now: TrialProgress) -> None:
     end = "\n" if now.finished == now.trials else ""
     failure = f"\ntrial {now.trial} failed: {now.why}\n" if now.outcome == "failed" else ""
     print(f"\r{name}{now.finished} of {now.trials} trials{failure}", end=end, file=sys.stderr, flush=True)
-
-
-class _Texts:
-    """What the core says to a person while it works."""
-
-    def __init__(self, is_quiet: bool) -> None:
-        self._is_quiet = is_quiet
-
-    def tell(self, kind: str, text: str) -> None:
-        if kind == "warning" or not self._is_quiet:
-            print(f"{kind}: {text}", file=sys.stderr, flush=True)
 
 
 class Experiment:
@@ -143,6 +132,11 @@ class Experiment:
             raise ValueError(f"jobs must be between 1 and 256, and not {jobs}")
         tell = _print_progress if progress is True else progress or None
         counted = _Progress(tell)
+
+        def say(kind: str, text: str) -> None:
+            if kind == "warning" or progress is not False:
+                print(f"{kind}: {text}", file=sys.stderr, flush=True)
+
         folder, complete = self._file.run(
             os.fspath(out or ""),
             list(only),
@@ -151,7 +145,7 @@ class Experiment:
             [str(file) for file in strategies.sources()],
             counted.begin,
             counted.trial,
-            _Texts(progress is False).tell,
+            say,
         )
         if not complete:
             raise Interrupted(load_results(folder))
@@ -226,4 +220,4 @@ class Localizer:
         return self._core.map
 
 
-__all__ = ["Experiment", "Localizer", "RunError", "TrialProgress"]
+__all__ = ["Experiment", "Localizer", "TrialProgress"]

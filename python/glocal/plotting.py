@@ -22,12 +22,11 @@ from typing import Any
 import matplotlib
 import matplotlib.style
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from glocal import _figures
+from glocal import _core, _figures
 
 __all__ = ["plot_curves", "plot_map", "plot_outcomes", "plot_sweep"]
 
@@ -290,20 +289,11 @@ def _error(step: Mapping[str, Any]) -> str:
     return f" ({length} and {degrees:.1f}° off)"
 
 
-def _matrix(pose: JsonPose) -> npt.NDArray[np.float64]:
-    """4 × 4, of a planar pose or one in space."""
+def _pose_of(pose: JsonPose) -> _core.Pose:
+    """Of the plane, or of space."""
     if "qw" in pose:
-        x, y, z, w = (pose[key] for key in ("qx", "qy", "qz", "qw"))
-    else:
-        x, y, z, w = 0.0, 0.0, np.sin(0.5 * pose["theta"]), np.cos(0.5 * pose["theta"])
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), pose["x"]],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), pose["y"]],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), pose.get("z", 0.0)],
-            [0.0, 0.0, 0.0, 1.0],
-        ]
-    )
+        return _core.Pose([pose[key] for key in ("x", "y", "z", "qw", "qx", "qy", "qz")])
+    return _core.Pose(pose["x"], pose["y"], pose["theta"])
 
 
 def _local_map_on_global(run: _figures.Run, step: Mapping[str, Any]) -> tuple[list[float], list[float]]:
@@ -312,7 +302,7 @@ def _local_map_on_global(run: _figures.Run, step: Mapping[str, Any]) -> tuple[li
     if "estimate" not in step or not file.exists():
         return [], []
     points = np.reshape(_figures.read_points(file), (-1, 3))
-    map_from_local = _matrix(step["estimate"]) @ np.linalg.inv(_matrix(step["local_from_robot"]))
+    map_from_local = (_pose_of(step["estimate"]) * _pose_of(step["local_from_robot"]).inverse()).matrix()
     x, y, _ = map_from_local[:3, :3] @ points.T + map_from_local[:3, 3:]
     return x.tolist(), y.tolist()
 

@@ -199,6 +199,25 @@ class Verifier(_Stage):
         raise NotImplementedError
 
 
+@dataclass(frozen=True)
+class _Field:
+    """A parameter as the core reads it: what param() says of it, then what its class does."""
+
+    doc: str
+    unit: str
+    min: float
+    max: float
+    above: float
+    choices: list[str]
+    min_items: int
+    max_items: int | None
+    is_folder: bool
+    name: str = ""
+    type: str = ""
+    default: Any = None
+    required: bool = False
+
+
 def param(
     default: Any = dataclasses.MISSING,
     doc: str = "",
@@ -217,17 +236,7 @@ def param(
     unit: "m", "rad", "deg", "s"; empty for a plain number. min, max: inclusive; above: exclusive. choices: of a str.
     Bounds of a list hold for each number in it; min_items and max_items for its length.
     """
-    facts = {
-        "doc": doc,
-        "unit": unit,
-        "min": min,
-        "max": max,
-        "above": above,
-        "choices": list(choices),
-        "min_items": min_items,
-        "max_items": max_items,
-        "is_folder": is_folder,
-    }
+    facts = _Field(doc, unit, min, max, above, list(choices), min_items, max_items, is_folder)
     if isinstance(default, (list, dict, set)):
         copied = default
         return dataclasses.field(default_factory=lambda: type(copied)(copied), metadata={"glocal": facts})
@@ -243,25 +252,6 @@ _TYPES: dict[Any, str] = {
     pathlib.Path: "path",
 }
 _LISTS: dict[Any, str] = {float: "floats", str: "strs", pathlib.Path: "paths"}
-
-
-@dataclass(frozen=True)
-class _Field:
-    """A parameter as the core reads it."""
-
-    name: str
-    type: str
-    default: Any
-    required: bool
-    doc: str
-    unit: str
-    min: float
-    max: float
-    above: float
-    choices: list[str]
-    min_items: int
-    max_items: int | None
-    is_folder: bool
 
 
 @dataclass(frozen=True)
@@ -303,12 +293,12 @@ def _default_of(field: dataclasses.Field[Any]) -> Any:
 
 def _field_of(field: dataclasses.Field[Any], hint: Any) -> _Field:
     facts = field.metadata.get("glocal")
-    if not facts or not facts["doc"].strip():
+    if facts is None or not facts.doc.strip():
         raise TypeError(f"the parameter '{field.name}' has no sentence that says what it is for; give it with glocal.param()")
     kind, choices = _core_type(hint)
     required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
-    facts = {**facts, "choices": facts["choices"] or choices}
-    return _Field(name=field.name, type=kind, default=_default_of(field), required=required, **facts)
+    choices = facts.choices or choices
+    return dataclasses.replace(facts, name=field.name, type=kind, default=_default_of(field), required=required, choices=choices)
 
 
 def _fields_of(params: type | None) -> list[_Field]:

@@ -1,41 +1,15 @@
 #include "python/host/python_host.hpp"
 
-#include <Python.h>
+#include <pybind11/pybind11.h>
 
+#include <cstdint>
+#include <stdexcept>
 #include <string>
 
 namespace glocal {
 namespace {
 
-/// A reference to an object of Python, or null.
-class Reference {
- public:
-  explicit Reference(PyObject* object) : object_(object) {}
-  ~Reference() { Py_XDECREF(object_); }
-  Reference(const Reference&) = delete;
-  Reference& operator=(const Reference&) = delete;
-  [[nodiscard]] PyObject* get() const { return object_; }
-  explicit operator bool() const { return object_ != nullptr; }
-
- private:
-  PyObject* object_;
-};
-
-std::string text_of(PyObject* object) {
-  const Reference text(object == nullptr ? nullptr : PyObject_Str(object));
-  const char* utf8 = text ? PyUnicode_AsUTF8(text.get()) : nullptr;
-  PyErr_Clear();
-  return utf8 == nullptr ? "" : utf8;
-}
-
-/// What was raised last, and forgets it.
-std::string last_error() {
-  PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
-  PyErr_Fetch(&type, &value, &trace);
-  const Reference held_type(type), held_value(value), held_trace(trace);
-  const std::string text = text_of(value);
-  return text.empty() ? "an unknown error" : text;
-}
+namespace py = pybind11;
 
 /// Like the interpreter `executable`, which may be that of a virtual environment. Signals stay the program's.
 std::string start(const char* executable) {
@@ -51,29 +25,16 @@ std::string start(const char* executable) {
   return status.err_msg == nullptr ? "it does not start" : status.err_msg;
 }
 
-bool add_site(const char* site) {
-  PyObject* path = PySys_GetObject("path");
-  const Reference folder(PyUnicode_DecodeFSDefault(site));
-  return path != nullptr && folder && PyList_Append(path, folder.get()) == 0;
-}
-
-/// The loader of the package's module; null, with an error, if there is none that fits.
-LoadPythonPlugin find_loader(const char* build_tag, std::string& error) {
-  const Reference module(PyImport_ImportModule("glocal._core"));
+/// The loader of the package's module. Throws what Python raises, and std::runtime_error for a package of
+/// another build.
+LoadPythonPlugin find_loader(const char* site, const std::string& build_tag) {
+  py::module_::import("sys").attr("path").attr("append")(
+      py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(site)));
   // The package itself is imported with it, and with it the place where strategies are registered.
-  const Reference tag(module ? PyObject_GetAttrString(module.get(), "_build_tag") : nullptr);
-  const Reference loader(tag ? PyObject_GetAttrString(module.get(), "_loader") : nullptr);
-  if (!loader) {
-    error = last_error();
-    return nullptr;
-  }
-  if (text_of(tag.get()) != build_tag) {
-    error = "it was built otherwise than this program; build and install both anew";
-    return nullptr;
-  }
-  void* function = PyLong_AsVoidPtr(loader.get());
-  if (function == nullptr) error = last_error();
-  return reinterpret_cast<LoadPythonPlugin>(function);
+  const py::module_ module = py::module_::import("glocal._core");
+  if (module.attr("_build_tag").cast<std::string>() != build_tag)
+    throw std::runtime_error("it was built otherwise than this program; build and install both anew");
+  return reinterpret_cast<LoadPythonPlugin>(module.attr("_loader").cast<std::uintptr_t>());
 }
 
 }  // namespace
@@ -88,12 +49,14 @@ extern "C" __attribute__((visibility("default"))) glocal::LoadPythonPlugin gloca
     return nullptr;
   }
   glocal::LoadPythonPlugin loader = nullptr;
-  if (glocal::add_site(site)) {
-    loader = glocal::find_loader(build_tag, error);
-  } else {
-    error = glocal::last_error();
+  try {
+    loader = glocal::find_loader(site, build_tag);
+  } catch (const pybind11::error_already_set& raised) {
+    error = pybind11::str(raised.value()).cast<std::string>();  // what() has the traceback, too
+  } catch (const std::runtime_error& refused) {
+    error = refused.what();
   }
-  if (loader == nullptr) tell(error.c_str(), to);
+  if (loader == nullptr) tell(error.empty() ? "an unknown error" : error.c_str(), to);
   // Strategies are called from threads that ask for the lock themselves.
   PyEval_SaveThread();
   return loader;
