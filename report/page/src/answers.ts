@@ -1,4 +1,5 @@
 // What came out of runs, told together where they are of one method or setting, and which of them is best.
+import { quantile } from "./boxes";
 import type { Report, Run, Trial } from "./data";
 
 /** Runs that answer one question together. */
@@ -70,17 +71,19 @@ export function levelsOf(runs: Run[]): Level[] {
   return levels.filter((_, i) => sizes.indexOf(sizes[i]) === i);
 }
 
-export function median(values: number[]): number | null {
-  if (values.length === 0) return null;
-  const sorted = [...values].sort((a, b) => a - b);
-  const half = sorted.length >> 1;
-  return sorted.length % 2 === 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+function median(values: number[]): number | null {
+  return values.length === 0 ? null : quantile([...values].sort((a, b) => a - b), 0.5);
 }
+
+/** What right trials have of a value. */
+export const ofRight = (value: (trial: Trial) => number | undefined) => ({ trials }: Pick<Group, "trials">): number[] =>
+  trials.flatMap((trial) => (trial.outcome === "right" ? (value(trial) ?? []) : []));
+
+export const stepTimes = ({ runs }: Group): number[] => runs.flatMap((run) => run.step_ms ?? []);
 
 export function answerOf(group: Group): Answer {
   const of = (outcome: Trial["outcome"]): number => group.trials.filter((trial) => trial.outcome === outcome).length;
-  const ofRight = (value: (trial: Trial) => number | undefined): number | null =>
-    median(group.trials.flatMap((trial) => (trial.outcome === "right" ? (value(trial) ?? []) : [])));
+  const medianOf = (value: (trial: Trial) => number | undefined): number | null => median(ofRight(value)(group));
   const memory = group.runs.flatMap(({ summary }) => summary?.peak_rss_mb ?? []);
   return {
     ...group,
@@ -89,11 +92,11 @@ export function answerOf(group: Group): Answer {
     undecided: of("undecided"),
     declared: of("declared"),
     failed: of("failed"),
-    steps: ofRight(({ steps }) => steps),
-    way_m: ofRight(({ distance_m }) => distance_m),
-    error_m: ofRight(({ translation_error_m }) => translation_error_m),
-    angle_deg: ofRight(({ rotation_error_deg }) => rotation_error_deg),
-    step_ms: median(group.runs.flatMap((run) => run.step_ms ?? [])),
+    steps: medianOf(({ steps }) => steps),
+    way_m: medianOf(({ distance_m }) => distance_m),
+    error_m: medianOf(({ translation_error_m }) => translation_error_m),
+    angle_deg: medianOf(({ rotation_error_deg }) => rotation_error_deg),
+    step_ms: median(stepTimes(group)),
     memory_mb: memory.length > 0 ? Math.max(...memory) : null,
   };
 }

@@ -7,7 +7,7 @@ import { DataTable, type Column } from "./data_table";
 import { append, el, replace, section, type Child } from "./elements";
 import { count, fixed, percent, proportion } from "./numbers";
 import { startPage, themeButton } from "./page_frame";
-import { IntervalChart, LevelChart, ShareChart, type Mark } from "./share_chart";
+import { intervalChart, levelChart, shareChart, type Mark, type SharePanel } from "./share_chart";
 import { showMeanings } from "./words";
 
 const mostRows = 30;
@@ -82,30 +82,30 @@ function suitePart(board: Board, suite: BoardSuite, i: number): SuitePart {
   return { element, rebuild: () => charts.forEach((each) => each.rebuild()) };
 }
 
-function bySteps({ suite, entries }: BoardSuite, indexOf: (entry: Entry) => number): ShareChart {
+function bySteps({ suite, entries }: BoardSuite, indexOf: (entry: Entry) => number): SharePanel {
   const samples = entries.map((entry) => ({
     label: entry.label,
     index: indexOf(entry),
     values: entry.results.flatMap(({ outcome, steps }) => steps.filter((_, start) => outcome[start] === "r")),
     of: entry.all.starts,
   }));
-  return new ShareChart("steps", `${suite}: right within so many steps`, "step", samples, { label: "share of starts declared right" });
+  return shareChart("steps", `${suite}: right within so many steps`, samples, { xLabel: "step", label: "share of starts declared right" });
 }
 
-function byTime({ suite, entries }: BoardSuite, indexOf: (entry: Entry) => number): IntervalChart[] {
+function byTime({ suite, entries }: BoardSuite, indexOf: (entry: Entry) => number): SharePanel[] {
   const marks = entries.flatMap((entry): Mark[] =>
     entry.step_ms === undefined ? [] : [{ x: entry.step_ms, rate: entry.all.right_rate, index: indexOf(entry), shape: "●", name: entry.label }],
   );
   if (marks.length === 0) return [];
   const powers = marks.map(({ x }) => Math.log10(x));
   const xRange: [number, number] = [10 ** (Math.ceil(Math.min(...powers)) - 1), 10 ** (Math.floor(Math.max(...powers)) + 1)];
-  return [new IntervalChart("time", `${suite}: right, by CPU time of a step`, marks, { xLabel: "CPU time of a step, ms (logarithmic)", label: "share of starts declared right", logX: true, xRange })];
+  return [intervalChart("time", `${suite}: right, by CPU time of a step`, marks, { xLabel: "CPU time of a step, ms (logarithmic)", label: "share of starts declared right", logX: true, xRange })];
 }
 
-function byLevel({ disturbances, entries }: BoardSuite, indexOf: (entry: Entry) => number): LevelChart[] {
+function byLevel({ disturbances, entries }: BoardSuite, indexOf: (entry: Entry) => number): SharePanel[] {
   return disturbances.map((kind, i) => {
     const samples = entries.map((entry) => ({ label: entry.label, index: indexOf(entry), values: entry.kept[i] }));
-    return new LevelChart(`kept-${kind}`, `${kind}: success kept`, samples, { xLabel: "level", label: "share of the undisturbed success", range: [0, 1.1], whole: true });
+    return levelChart(`kept-${kind}`, `${kind}: success kept`, samples, { xLabel: "level", label: "share of the undisturbed success", range: [0, 1.1], whole: true });
   });
 }
 
@@ -134,12 +134,12 @@ function byCase(all: BoardSuite): HTMLElement {
   return el("div", {}, el("h3", {}, "By case: wrong / right"), table.element);
 }
 
-function overRenewals({ suite }: BoardSuite, { method, renewals: all }: Entry): IntervalChart {
+function overRenewals({ suite }: BoardSuite, { method, renewals: all }: Entry): SharePanel {
   const marks = all.flatMap(({ right_rate, wrong_rate, significant }, i): Mark[] => [
     { x: i + 1, rate: right_rate, index: rightColour, shape: "●", isJoined: true, isNoted: significant },
     { x: i + 1, rate: wrong_rate, index: wrongColour, shape: "■", isJoined: true },
   ]);
-  return new IntervalChart("renewals", `${suite}, ${method}: right ● and wrong ■`, marks, {
+  return intervalChart("renewals", `${suite}, ${method}: right ● and wrong ■`, marks, {
     xLabel: "renewal",
     label: "share of starts",
     xRange: [0.5, all.length + 0.5],

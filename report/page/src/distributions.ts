@@ -1,8 +1,7 @@
 // What trials of several runs or settings needed and how well they did, as box plots side by side.
-import type { Group } from "./answers";
+import { ofRight, stepTimes, type Group } from "./answers";
 import { boxOf, type Box, type Dots } from "./boxes";
 import { runColour } from "./colours";
-import type { Trial } from "./data";
 import { el, replace } from "./elements";
 import { saveMenu } from "./export";
 import { count, significant } from "./numbers";
@@ -17,11 +16,6 @@ interface Measure {
   of: string;
   values: (group: Group) => number[];
 }
-
-const ofRight = (value: (trial: Trial) => number | undefined) => (group: Group): number[] =>
-  group.trials.flatMap((trial) => (trial.outcome === "right" ? (value(trial) ?? []) : []));
-
-export const stepTimes = (group: Group): number[] => group.runs.flatMap((run) => run.step_ms ?? []);
 
 const measures: Measure[] = [
   { id: "steps", title: "Steps to localize", unit: "steps", of: "right trials", values: ofRight((t) => t.steps) },

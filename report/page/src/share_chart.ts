@@ -14,7 +14,7 @@ export interface Sample {
   of: number;
 }
 
-abstract class SharePanel {
+export class SharePanel {
   readonly element: HTMLElement;
   private readonly target = el("div", { class: "plot" });
   private drawn: ReturnType<typeof chart> | null = null;
@@ -22,63 +22,44 @@ abstract class SharePanel {
   constructor(
     id: string,
     title: string,
-    private readonly options: Partial<ChartOptions>,
+    private readonly axes: Partial<ChartOptions>,
+    private readonly content: () => Pick<ChartOptions, "x" | "lines" | "hooks">,
   ) {
     this.element = el("div", { class: "panel", "data-share": id }, el("h3", {}, title), this.target);
   }
 
   rebuild(): void {
     this.drawn?.destroy();
-    this.drawn = chart(this.target, { xLabel: "", label: "share", range: [0, 1], height: 190, ...this.content(), ...this.options });
+    this.drawn = chart(this.target, { xLabel: "", label: "share", range: [0, 1], height: 190, ...this.content(), ...this.axes });
   }
-
-  protected abstract content(): Pick<ChartOptions, "x" | "lines" | "hooks">;
 }
 
 /** What part of a sample is no larger than each value. */
-export class ShareChart extends SharePanel {
-  constructor(
-    id: string,
-    title: string,
-    xLabel: string,
-    private readonly samples: Sample[],
-    private readonly axes: Partial<ChartOptions>,
-  ) {
-    super(id, title, { xLabel, ...axes });
-  }
-
-  get isEmpty(): boolean {
-    return this.samples.every((sample) => sample.values.length === 0);
-  }
-
-  protected content(): Pick<ChartOptions, "x" | "lines"> {
-    const all = this.samples.flatMap((sample) => sample.values);
-    const x = [...new Set(this.axes.logX ? all.filter((v) => v > 0) : [0, ...all])].sort((a, b) => a - b);
-    const lines = this.samples.map((sample): Line => ({
+export function shareChart(id: string, title: string, samples: Sample[], axes: Partial<ChartOptions>): SharePanel {
+  return new SharePanel(id, title, axes, () => {
+    const all = samples.flatMap((sample) => sample.values);
+    const x = [...new Set(axes.logX ? all.filter((v) => v > 0) : [0, ...all])].sort((a, b) => a - b);
+    const lines = samples.map((sample): Line => ({
       label: sample.label,
       ...runLine(sample.index),
       values: cumulativeShare(sample, x),
       stepped: true,
     }));
     return { x, lines };
-  }
+  });
 }
 
 /** Shares at 1, 2 and so on. */
-export class LevelChart extends SharePanel {
-  constructor(
-    id: string,
-    title: string,
-    private readonly samples: { label: string; index: number; values: (number | null)[] }[],
-    axes: Partial<ChartOptions>,
-  ) {
-    super(id, title, axes);
-  }
-
-  protected content(): Pick<ChartOptions, "x" | "lines"> {
-    const x = Array.from({ length: Math.max(...this.samples.map(({ values }) => values.length)) }, (_, i) => i + 1);
-    return { x, lines: this.samples.map(({ label, index, values }): Line => ({ label, ...runLine(index), values })) };
-  }
+export function levelChart(
+  id: string,
+  title: string,
+  samples: { label: string; index: number; values: (number | null)[] }[],
+  axes: Partial<ChartOptions>,
+): SharePanel {
+  return new SharePanel(id, title, axes, () => {
+    const x = Array.from({ length: Math.max(...samples.map(({ values }) => values.length)) }, (_, i) => i + 1);
+    return { x, lines: samples.map(({ label, index, values }): Line => ({ label, ...runLine(index), values })) };
+  });
 }
 
 /** A share with its interval. */
@@ -95,32 +76,23 @@ export interface Mark {
   isNoted?: boolean;
 }
 
-export class IntervalChart extends SharePanel {
-  constructor(
-    id: string,
-    title: string,
-    private readonly marks: Mark[],
-    options: Partial<ChartOptions>,
-  ) {
-    super(id, title, options);
-  }
-
-  protected content(): Pick<ChartOptions, "x" | "lines" | "hooks"> {
-    const x = [...new Set(this.marks.map((mark) => mark.x))].sort((a, b) => a - b);
+export function intervalChart(id: string, title: string, marks: Mark[], axes: Partial<ChartOptions>): SharePanel {
+  return new SharePanel(id, title, axes, () => {
+    const x = [...new Set(marks.map((mark) => mark.x))].sort((a, b) => a - b);
     const nothing: Line = { label: "share", colour: themeColour("ink"), dash: [], values: x.map(() => null) };
-    return { x, lines: [nothing], hooks: { draw: [(plot) => this.draw(plot)] } };
-  }
+    return { x, lines: [nothing], hooks: { draw: [(plot) => drawMarks(plot, marks)] } };
+  });
+}
 
-  private draw(plot: uPlot): void {
-    plot.ctx.save();
-    this.marks.forEach((mark, i) => {
-      drawMark(plot, mark);
-      const before = this.marks.slice(0, i).filter(({ index }) => index === mark.index).pop();
-      if (mark.isJoined && before) drawLine(plot, before, mark);
-    });
-    drawNames(plot, this.marks);
-    plot.ctx.restore();
-  }
+function drawMarks(plot: uPlot, marks: Mark[]): void {
+  plot.ctx.save();
+  marks.forEach((mark, i) => {
+    drawMark(plot, mark);
+    const before = marks.slice(0, i).filter(({ index }) => index === mark.index).pop();
+    if (mark.isJoined && before) drawLine(plot, before, mark);
+  });
+  drawNames(plot, marks);
+  plot.ctx.restore();
 }
 
 function drawLine(plot: uPlot, from: Mark, to: Mark): void {

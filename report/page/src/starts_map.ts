@@ -1,4 +1,5 @@
 // Where the trials of the chosen run began, and how they ended: each mark leads to its trial.
+import { ofRight } from "./answers";
 import { ratingColour, themeColour } from "./colours";
 import type { GlobalMap, Outcome, Run, Trial } from "./data";
 import { el, replace } from "./elements";
@@ -45,6 +46,8 @@ function startsOf(trials: Trial[]): Start[] {
     return at ? [{ index, x: at.x, y: at.y, kind: kindOf(trial) }] : [];
   });
 }
+
+const rightSteps = ofRight(({ steps }) => steps);
 
 const fewest = { onMap: 2, alone: 5 };
 
@@ -163,7 +166,7 @@ export class StartsMap {
   }
 
   private mostSteps(): number {
-    return Math.max(1, ...rightSteps(this.store.run.trials));
+    return Math.max(1, ...rightSteps(this.store.run));
   }
 
   private colourOf(trial: Trial, kind: Kind, most: number): string {
@@ -189,7 +192,7 @@ export class StartsMap {
         text,
       );
     // Where all take as many steps, there is nothing to tell apart.
-    const isWorthIt = new Set(rightSteps(this.store.run.trials)).size > 1;
+    const isWorthIt = new Set(rightSteps(this.store.run)).size > 1;
     if (!isWorthIt) this.bySteps = false;
     replace(this.choices, isWorthIt && choice(false, "by outcome"), isWorthIt && choice(true, "by steps"));
   }
@@ -291,10 +294,6 @@ function isAmid(z: number[]): (i: number) => boolean {
   const at = (share: number): number => sorted[Math.floor(share * (sorted.length - 1))];
   const [low, high] = [at(0.005), at(0.995)];
   return (i) => z[i] > low + 0.2 * (high - low) && z[i] < low + 0.7 * (high - low);
-}
-
-function rightSteps(trials: Trial[]): number[] {
-  return trials.flatMap(({ outcome, steps }) => (outcome === "right" && steps !== undefined ? [steps] : []));
 }
 
 /** From viridis's bright end, one step, to its dark one; without the yellow that is lost on white. */

@@ -1,13 +1,13 @@
 // All trials: one run's as a list to choose from, and what all runs make of them.
-import { bestFirst, type Group } from "./answers";
+import { bestFirst, ofRight, stepTimes, type Group } from "./answers";
 import type { ChartOptions } from "./charts";
 import { lineSample } from "./curves";
 import type { Run, Trial } from "./data";
 import { DataTable, type Column } from "./data_table";
-import { BoxPlots, stepTimes } from "./distributions";
+import { BoxPlots } from "./distributions";
 import { el, replace, section } from "./elements";
 import { count, fixed, percent } from "./numbers";
-import { IntervalChart, ShareChart, type Mark, type Sample } from "./share_chart";
+import { intervalChart, shareChart, type Mark, type Sample, type SharePanel } from "./share_chart";
 import { hasStarts, StartsMap } from "./starts_map";
 import type { Store } from "./store";
 
@@ -129,37 +129,29 @@ export class Distributions {
     const runs = [...this.store.shown];
     const groups = bestFirst(runs, "setting");
     const curved = groups.slice(0, mostCurves);
-    const rights = (value: (trial: Trial) => number | undefined) => (group: Group): Pick<Sample, "values" | "of"> => {
-      const right = group.trials.filter((trial) => trial.outcome === "right").map(value);
-      return { values: right.filter((v): v is number => v !== undefined), of: group.trials.length };
-    };
-    const ofRight = (value: (trial: Trial) => number | undefined) => (group: Group): Pick<Sample, "values" | "of"> => {
-      const { values } = rights(value)(group);
-      return { values, of: values.length };
-    };
-    const times = (group: Group): Pick<Sample, "values" | "of"> => {
-      const values = stepTimes(group);
-      return { values, of: values.length };
-    };
+    const ofAll = ({ trials }: Group): number => trials.length;
+    /** Of the values there are, unless `of` says otherwise; no chart where there are none. */
     const share = (
       id: string,
       title: string,
-      xLabel: string,
-      sample: (group: Group) => Pick<Sample, "values" | "of">,
-      options: Partial<ChartOptions> = {},
-    ): ShareChart =>
-      new ShareChart(id, title, xLabel, curved.map((group, index) => ({ label: group.name, index, ...sample(group) })), options);
+      axes: Partial<ChartOptions>,
+      values: (group: Group) => number[],
+      of = (group: Group): number => values(group).length,
+    ): SharePanel[] => {
+      const samples = curved.map((group, index): Sample => ({ label: group.name, index, values: values(group), of: of(group) }));
+      return samples.every((sample) => sample.values.length === 0) ? [] : [shareChart(id, title, samples, axes)];
+    };
     const errors = [
-      share("translation", "Translation error when localized", "error, m", ofRight((trial) => trial.translation_error_m)),
-      share("rotation", "Rotation error when localized", "error, °", ofRight((trial) => trial.rotation_error_deg)),
-      share("time", "Wall time of a step", "time, ms", times, { logX: true }),
+      ...share("translation", "Translation error when localized", { xLabel: "error, m" }, ofRight((trial) => trial.translation_error_m)),
+      ...share("rotation", "Rotation error when localized", { xLabel: "error, °" }, ofRight((trial) => trial.rotation_error_deg)),
+      ...share("time", "Wall time of a step", { xLabel: "time, ms", logX: true }, stepTimes),
     ];
     const curves = [
-      share("over_steps", "Localized, by steps", "steps", rights((trial) => trial.steps)),
-      share("over_distance", "Localized, by distance", "distance, m", rights((trial) => trial.distance_m)),
+      ...share("over_steps", "Localized, by steps", { xLabel: "steps" }, ofRight((trial) => trial.steps), ofAll),
+      ...share("over_distance", "Localized, by distance", { xLabel: "distance, m" }, ofRight((trial) => trial.distance_m), ofAll),
       // Of several, box plots say the same side by side.
       ...(groups.length > 1 ? [] : errors),
-    ].filter((each) => !each.isEmpty);
+    ];
     const isOfRuns = groups.every((group) => group.runs.length === 1 && group.runs[0].summary);
     const success = isOfRuns && groups.length > 1 ? [successChart(groups.map((group) => group.runs[0]))] : [];
     const starts = this.starts ? [this.starts] : [];
@@ -194,7 +186,7 @@ export class Distributions {
 }
 
 /** Right and wrong of all trials, with their 95 % intervals. */
-function successChart(runs: Run[]): IntervalChart {
+function successChart(runs: Run[]): SharePanel {
   const marks = runs.flatMap(({ summary }, index): Mark[] =>
     summary
       ? [
@@ -203,7 +195,7 @@ function successChart(runs: Run[]): IntervalChart {
         ]
       : [],
   );
-  return new IntervalChart("success", "Right (●) and wrong (■), with 95 % intervals", marks, {
+  return intervalChart("success", "Right (●) and wrong (■), with 95 % intervals", marks, {
     xLabel: "run, in the order of the table",
     xRange: [0.5, runs.length + 0.5],
     whole: true,
