@@ -2,7 +2,7 @@
 import type uPlot from "uplot";
 import { font, type ChartOptions, type Line } from "./charts";
 import { themeColour } from "./colours";
-import { SvgPen, type Pen } from "./pen";
+import { drawSegment, SvgPen, type Pen } from "./pen";
 
 /** What uPlot knows of an axis that it has drawn, but does not say in its types. */
 interface DrawnAxis {
@@ -36,10 +36,7 @@ function drawName(pen: Pen, line: Line, y: number): void {
   pen.strokeStyle = line.colour;
   pen.lineWidth = 2;
   pen.setLineDash(line.dash);
-  pen.beginPath();
-  pen.moveTo(12, y);
-  pen.lineTo(38, y);
-  pen.stroke();
+  drawSegment(pen, 12, y, 38, y);
   pen.setLineDash([]);
   pen.fillStyle = themeColour("ink");
   pen.textAlign = "start";
@@ -56,9 +53,8 @@ function drawPlot(pen: SvgPen, plot: uPlot, options: ChartOptions): void {
     for (const line of options.lines) drawLine(pen, plot, options, line, box);
   });
   // Hooks draw in the canvas's own pixels.
-  const canvasBox = { left: plot.bbox.left, top: plot.bbox.top, width: plot.bbox.width, height: plot.bbox.height };
   const drawn = Object.create(plot, { ctx: { value: pen } }) as uPlot;
-  pen.within(canvasBox, 1 / ratio, () => options.hooks?.draw?.forEach((hook) => hook?.(drawn)));
+  pen.within(plot.bbox, 1 / ratio, () => options.hooks?.draw?.forEach((hook) => hook?.(drawn)));
 }
 
 function drawAxis(pen: Pen, plot: uPlot, axis: DrawnAxis, box: { left: number; top: number; width: number; height: number }): void {
@@ -74,10 +70,8 @@ function drawAxis(pen: Pen, plot: uPlot, axis: DrawnAxis, box: { left: number; t
   (axis._splits ?? []).forEach((value, i) => {
     if (value === null) return;
     const at = plot.valToPos(value, scale) + (isAcross ? box.left : box.top);
-    pen.beginPath();
-    pen.moveTo(isAcross ? at : box.left, isAcross ? box.top : at);
-    pen.lineTo(isAcross ? at : box.left + box.width, isAcross ? bottom : at);
-    pen.stroke();
+    if (isAcross) drawSegment(pen, at, box.top, at, bottom);
+    else drawSegment(pen, box.left, at, box.left + box.width, at);
     const text = axis._values?.[i];
     if (text) pen.fillText(text, isAcross ? at : edge, isAcross ? bottom + 6 : at);
   });

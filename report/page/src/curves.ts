@@ -5,6 +5,7 @@ import { runColour, runLine, themeColour } from "./colours";
 import { firstLocalized, type Column, type Run, type Steps, type Trial } from "./data";
 import { el, replace } from "./elements";
 import { count, significant } from "./numbers";
+import { drawSegment } from "./pen";
 import { matchingTrial, type Change, type Store } from "./store";
 import { explained } from "./words";
 
@@ -260,10 +261,7 @@ class Panel {
     ctx.strokeStyle = themeColour("ink");
     ctx.lineWidth = 2 * devicePixelRatio;
     ctx.setLineDash([]);
-    ctx.beginPath();
-    ctx.moveTo(x, bbox.top);
-    ctx.lineTo(x, bbox.top + bbox.height);
-    ctx.stroke();
+    drawSegment(ctx, x, bbox.top, x, bbox.top + bbox.height);
     ctx.restore();
   }
 

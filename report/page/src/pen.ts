@@ -1,28 +1,7 @@
 // What drawings are made with: a canvas on the page, or an SVG file.
 
-export type Pen = Pick<
-  CanvasRenderingContext2D,
-  | "strokeStyle"
-  | "fillStyle"
-  | "lineWidth"
-  | "globalAlpha"
-  | "font"
-  | "textAlign"
-  | "textBaseline"
-  | "beginPath"
-  | "moveTo"
-  | "lineTo"
-  | "closePath"
-  | "arc"
-  | "rect"
-  | "stroke"
-  | "fill"
-  | "fillRect"
-  | "fillText"
-  | "setLineDash"
-  | "save"
-  | "restore"
->;
+/** What SvgPen does as canvases do it. */
+export type Pen = Pick<CanvasRenderingContext2D, keyof SvgPen & keyof CanvasRenderingContext2D>;
 
 const namespace = "http://www.w3.org/2000/svg";
 
@@ -35,15 +14,12 @@ export function tenths(value: number): string {
   return String(Math.round(10 * value) / 10);
 }
 
-interface Look {
-  strokeStyle: string;
-  fillStyle: string;
-  lineWidth: number;
-  globalAlpha: number;
-  font: string;
-  textAlign: CanvasTextAlign;
-  textBaseline: CanvasTextBaseline;
-  dash: number[];
+/** A straight line by itself. */
+export function drawSegment(pen: Pen, x0: number, y0: number, x1: number, y1: number): void {
+  pen.beginPath();
+  pen.moveTo(x0, y0);
+  pen.lineTo(x1, y1);
+  pen.stroke();
 }
 
 const anchors: Partial<Record<CanvasTextAlign, string>> = { center: "middle", right: "end", end: "end" };
@@ -60,7 +36,7 @@ export class SvgPen implements Pen {
   textBaseline: CanvasTextBaseline = "alphabetic";
   private dash: number[] = [];
   private path: string[] = [];
-  private kept: Look[] = [];
+  private kept: object[] = [];
   private readonly parts: string[] = [];
   private clips = 0;
 

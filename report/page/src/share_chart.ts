@@ -4,6 +4,7 @@ import { chart, font, type ChartOptions, type Line } from "./charts";
 import { runLine, themeColour } from "./colours";
 import type { Proportion } from "./data";
 import { el } from "./elements";
+import { drawSegment } from "./pen";
 import { cumulativeShare } from "./shares";
 
 export interface Sample {
@@ -98,10 +99,8 @@ function drawMarks(plot: uPlot, marks: Mark[]): void {
 function drawLine(plot: uPlot, from: Mark, to: Mark): void {
   const { ctx } = plot;
   ctx.lineWidth = devicePixelRatio;
-  ctx.beginPath();
-  ctx.moveTo(plot.valToPos(from.x, "x", true), plot.valToPos(from.rate.value, "y", true));
-  ctx.lineTo(plot.valToPos(to.x, "x", true), plot.valToPos(to.rate.value, "y", true));
-  ctx.stroke();
+  const at = ({ x, rate }: Mark): [number, number] => [plot.valToPos(x, "x", true), plot.valToPos(rate.value, "y", true)];
+  drawSegment(ctx, ...at(from), ...at(to));
 }
 
 function drawMark(plot: uPlot, { x: at, rate, index, shape, isNoted }: Mark): void {
@@ -111,10 +110,7 @@ function drawMark(plot: uPlot, { x: at, rate, index, shape, isNoted }: Mark): vo
   const [low, value, high] = [rate.low, rate.value, rate.high].map((v) => plot.valToPos(v, "y", true));
   ctx.strokeStyle = ctx.fillStyle = runLine(index).colour;
   ctx.lineWidth = 2 * ratio;
-  ctx.beginPath();
-  ctx.moveTo(x, low);
-  ctx.lineTo(x, high);
-  ctx.stroke();
+  drawSegment(ctx, x, low, x, high);
   ctx.beginPath();
   if (shape === "●") ctx.arc(x, value, 4 * ratio, 0, 2 * Math.PI);
   else ctx.rect(x - 3 * ratio, value - 3 * ratio, 6 * ratio, 6 * ratio);

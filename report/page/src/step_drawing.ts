@@ -6,7 +6,7 @@ import { fansOf } from "./field_of_view";
 import { compose } from "./geometry";
 import type { Screen } from "./map_background";
 import type { Layer, TrajectoryColour } from "./map_legend";
-import type { Pen } from "./pen";
+import { drawSegment, type Pen } from "./pen";
 import type { Selection, Store } from "./store";
 
 const metres = 1e-3; // of the whole mm in which points are given
@@ -115,12 +115,7 @@ export class StepDrawing {
       const at = pose && this.at(pose.x, pose.y);
       if (at) {
         context.fillRect(at.x - size / 2, at.y - size / 2, size, size);
-        if (before && steps.verdict[i] === "localized") {
-          context.beginPath();
-          context.moveTo(before.x, before.y);
-          context.lineTo(at.x, at.y);
-          context.stroke();
-        }
+        if (before && steps.verdict[i] === "localized") drawSegment(context, before.x, before.y, at.x, at.y);
       }
       before = steps.verdict[i] === "localized" ? at : null;
     }

@@ -2,7 +2,7 @@
 import { ratingColour, themeColour } from "./colours";
 import type { ParameterEffect, SweepMap } from "./data";
 import { fixed, percent } from "./numbers";
-import { SvgPen } from "./pen";
+import { drawSegment, SvgPen } from "./pen";
 
 const font = "12px system-ui, sans-serif";
 const letter = 6.8; // px, about
@@ -43,20 +43,14 @@ export function effectSvg({ levels }: ParameterEffect, title: string): string {
     if (level.trials === 0) return;
     pen.strokeStyle = pen.fillStyle = themeColour("estimate");
     pen.lineWidth = 3;
-    pen.beginPath();
-    pen.moveTo(at(low), y);
-    pen.lineTo(at(high), y);
-    pen.stroke();
+    drawSegment(pen, at(low), y, at(high), y);
     pen.beginPath();
     pen.arc(at(value), y, 4.5);
     pen.fill();
   });
   pen.strokeStyle = themeColour("soft");
   pen.lineWidth = 1;
-  pen.beginPath();
-  pen.moveTo(left, bottom);
-  pen.lineTo(left + length, bottom);
-  pen.stroke();
+  drawSegment(pen, left, bottom, left + length, bottom);
   pen.fillStyle = themeColour("soft");
   for (const tick of [0, 0.25, 0.5, 0.75, 1]) write(pen, `${100 * tick} %`, at(tick), bottom + row / 2, "center");
   write(pen, "right trials", left - 24, bottom + row / 2, "end");
