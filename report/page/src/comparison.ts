@@ -115,9 +115,9 @@ const share = (rate: Interval | undefined): string => (rate ? `${percent(rate.va
 
 function methodsTable(methods: Read["methods"]): HTMLElement {
   return table(
+    "comparison",
     ["method", "right (95 %)", "wrong (95 %)", "undecided (95 %)"],
     methods.map(({ name, right, wrong, undecided }) => [name, share(right), share(wrong), share(undecided)]),
-    2,
   );
 }
 
@@ -153,7 +153,7 @@ export function comparisonSection({ comparison, comparison_refused: refused }: R
         "details",
         { class: "tests", open: rows.length <= mostAtFirst },
         el("summary", {}, "Where they differ, in numbers"),
-        table(["variant", "measure", "difference (95 %)", "p", "baseline's", "variant's"], rows.map((row) => [row.variant, ...cells(row)]), 2),
+        table("comparison", ["variant", "measure", "difference (95 %)", "p", "baseline's", "variant's"], rows.map((row) => [row.variant, ...cells(row)])),
         list(alike.map(({ variant, measures }) => `${variant}: no start differs in ${measures.join(", ")}.`)),
         el(
           "p",

@@ -33,7 +33,7 @@ export function summarySection({ summary }: Run): HTMLElement | null {
     "summary",
     "Summary",
     !summary.complete && el("p", { class: "warning" }, "Interrupted, so that trials are missing."),
-    table(["", ""], rows.map(([title, tell]) => [explained(el("span", {}, title)), tell(summary)]), 2, "facts"),
+    table("summary", ["", ""], rows.map(([title, tell]) => [explained(el("span", {}, title)), tell(summary)]), "facts"),
     el("p", { class: "note" }, "Intervals are those after Wilson, 95 %."),
   );
 }
@@ -92,7 +92,7 @@ export function configurationSection(runs: Run[]): HTMLElement {
     };
     replace(
       target,
-      table(["", ""], chosen.slice(0, most).map((path) => [path, told(path)]), 2, "facts"),
+      table("configuration", ["", ""], chosen.slice(0, most).map((path) => [path, told(path)]), "facts"),
       chosen.length > most && el("button", { type: "button", class: "all", click: showAll }, `all ${count(chosen.length)} settings`),
     );
   };
@@ -129,7 +129,7 @@ export function provenanceSection(report: Report): HTMLElement {
   return section(
     "provenance",
     "Provenance",
-    table(["", ""], [row("folder", ({ folder }) => folder), ...keys.map((key) => row(key.replaceAll("_", " "), ({ provenance }) => provenance?.[key]))], 2, "facts"),
+    table("provenance", ["", ""], [row("folder", ({ folder }) => folder), ...keys.map((key) => row(key.replaceAll("_", " "), ({ provenance }) => provenance?.[key]))], "facts"),
     el("p", { class: "note" }, `Made by ${report.generator}.`),
   );
 }
