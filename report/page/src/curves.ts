@@ -7,6 +7,7 @@ import { el, replace } from "./elements";
 import { count, significant } from "./numbers";
 import { drawSegment } from "./pen";
 import { matchingTrial, type Change, type Store } from "./store";
+import { svg } from "./svg";
 import { explained } from "./words";
 
 interface Curve {
@@ -60,12 +61,7 @@ interface Found {
 
 const mostNames = 12;
 
-interface Shown {
-  run: Run;
-  index: number;
-  steps: Steps;
-  isChosen: boolean;
-}
+type Shown = Found & { steps: Steps };
 
 const mostAtFirst = 6;
 
@@ -106,7 +102,7 @@ export class Curves {
       // What cannot be loaded is told on the map.
       void this.store.load(missing).then(() => before === this.store.trial && missing.every(({ chunk }) => chunk === undefined) && this.rebuild());
     }
-    const shown = on.flatMap(({ run, index, trial, isChosen }) => (trial.columns ? { run, index, steps: trial.columns, isChosen } : []));
+    const shown = on.flatMap((each): Shown[] => (each.trial.columns ? [{ ...each, steps: each.trial.columns }] : []));
     for (const panel of this.panels) panel.rebuild(shown);
   }
 
@@ -157,17 +153,9 @@ export class Curves {
 
 /** How the i-th run's lines look. */
 export function lineSample(i: number): SVGElement {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
-  const { dash } = runLine(i);
-  const set = (element: SVGElement, attributes: Record<string, string>): void => {
-    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  };
-  set(svg, { width: "26", height: "10", "aria-hidden": "true", class: "sample" });
-  set(line, { x1: "0", y1: "5", x2: "26", y2: "5", "stroke-width": "2.5", "stroke-dasharray": dash.join(" ") });
+  const line = svg("line", { x1: 0, y1: 5, x2: 26, y2: 5, "stroke-width": 2.5, "stroke-dasharray": runLine(i).dash.join(" ") });
   line.style.stroke = runColour(i);
-  svg.append(line);
-  return svg;
+  return svg("svg", { width: 26, height: 10, "aria-hidden": "true", class: "sample" }, line);
 }
 
 class Panel {

@@ -122,9 +122,10 @@ class BoxChart {
         svg("text", { x, y: bottom + 13, "text-anchor": "middle" }, label(tick)),
       );
     });
+    const description = `${this.measure.title}: ${entries.map(told).join("; ")}`;
     this.drawing = svg(
       "svg",
-      { viewBox: `0 0 ${this.width} ${height}`, width: this.width, height, role: "img", "aria-label": this.told(entries) },
+      { viewBox: `0 0 ${this.width} ${height}`, width: this.width, height, role: "img", "aria-label": description },
       ...grid,
       svg("text", { class: "unit", x: (left + right) / 2, y: height - 3, "text-anchor": "middle" }, this.measure.unit + (scale.isLog ? ", logarithmic" : "")),
       ...entries.map((entry, i) => this.row(entry, i, scale.at, left)),
@@ -137,20 +138,12 @@ class BoxChart {
     const all = entries.flatMap(({ box }) => (box ? extremes(box) : []));
     let [low, high] = [Math.min(...all), Math.max(...all)];
     const isLog = isLogarithmic(low, high);
-    const log = Math.log10;
-    if (isLog) {
-      const places = log(high) - log(low);
-      const at = (v: number): number => left + 6 + ((right - left - 12) * (log(v) - log(low))) / places;
-      return { at, ticks: apart(logTicks(low, high), at), isLog };
-    }
     // Lengths and times begin at nothing, unless all are far from it.
-    if (low < 0.5 * high) low = 0;
+    if (!isLog && low < 0.5 * high) low = 0;
     if (high === low) [low, high] = [low - 0.5, high + 0.5];
-    return {
-      at: (v) => left + 6 + ((right - left - 12) * (v - low)) / (high - low),
-      ticks: ticks(low, high, (right - left) / 70),
-      isLog,
-    };
+    const by = isLog ? Math.log10 : (v: number): number => v;
+    const at = (v: number): number => left + 6 + ((right - left - 12) * (by(v) - by(low))) / (by(high) - by(low));
+    return { at, ticks: isLog ? apart(logTicks(low, high), at) : ticks(low, high, (right - left) / 70), isLog };
   }
 
   private row(entry: Entry, i: number, at: (value: number) => number, left: number): SVGElement {
@@ -178,10 +171,6 @@ class BoxChart {
       svg("text", { x: this.width - 4, y: y + 4, "text-anchor": "end", class: "value" }, short(box.median)),
     );
     return group;
-  }
-
-  private told(entries: Entry[]): string {
-    return `${this.measure.title}: ${entries.map(told).join("; ")}`;
   }
 }
 

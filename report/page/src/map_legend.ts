@@ -87,21 +87,15 @@ export class MapLegend implements Linked {
     const errorBar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${errorStops})` });
     replace(this.errorScale, `error  ${least} m `, errorBar, ` ${most} m`);
     this.showErrorScale();
-    const verdictLegend = (): HTMLElement =>
-      el(
-        "span",
-        { class: "verdicts" },
-        explained(el("span", {}, "strip of verdicts"), "verdict"),
-        ...(Object.keys(verdictNames) as VerdictKind[]).map((kind) =>
-          el("span", {}, el("i", { class: "swatch", style: `background: ${verdictColours[kind]}` }), verdictNames[kind]),
-        ),
-      );
+    const verdicts = (Object.keys(verdictNames) as VerdictKind[]).map((kind) =>
+      el("span", {}, el("i", { class: "swatch", style: `background: ${verdictColours[kind]}` }), verdictNames[kind]),
+    );
     return el(
       "figcaption",
       { class: "legend" },
       ...(Object.keys(layers) as Layer[]).map(entry),
       el("span", { class: "scale" }, explained(el("span", {}, "rating r"), "r"), "  0 ", bar, " 1"),
-      verdictLegend(),
+      el("span", { class: "verdicts" }, explained(el("span", {}, "strip of verdicts"), "verdict"), ...verdicts),
       el("label", {}, "estimate by ", this.colourBy),
       el("label", {}, follow, "follow the robot"),
       this.errorScale,

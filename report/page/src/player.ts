@@ -4,6 +4,7 @@ import { el, replace } from "./elements";
 import type { MapView } from "./map_view";
 import type { FullScreen } from "./panes";
 import type { Store } from "./store";
+import { iconButton } from "./zoom_buttons";
 
 const speeds = [2, 5, 10, 30]; // steps a second
 
@@ -17,19 +18,17 @@ export class Player {
   private timer = 0;
 
   constructor(private readonly store: Store) {
-    const button = (label: string, text: string, work: () => void): HTMLElement =>
-      el("button", { type: "button", title: label, "aria-label": label, click: work }, text);
     speeds.forEach((speed) => this.speed.append(el("option", { value: speed, selected: speed === 10 }, `${speed} steps/s`)));
     this.speed.addEventListener("change", () => this.timer && this.play());
     this.slider.addEventListener("input", () => this.store.chooseStep(Number(this.slider.value)));
     this.element = el(
       "div",
       { class: "player", role: "group", "aria-label": "Steps" },
-      button("First step (Home)", "|◀", () => this.store.chooseStep(0)),
-      button("Step back (←)", "◀", () => this.move(-1)),
+      iconButton("First step (Home)", "|◀", () => this.store.chooseStep(0)),
+      iconButton("Step back (←)", "◀", () => this.move(-1)),
       this.playButton,
-      button("Step on (→)", "▶", () => this.move(1)),
-      button("Last step (End)", "▶|", () => this.store.chooseStep(this.store.lastStep)),
+      iconButton("Step on (→)", "▶", () => this.move(1)),
+      iconButton("Last step (End)", "▶|", () => this.store.chooseStep(this.store.lastStep)),
       el("div", { class: "track" }, this.strip, this.slider),
       this.told,
       this.speed,
