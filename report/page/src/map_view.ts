@@ -82,8 +82,8 @@ export class MapView implements Linked {
     this.listen();
     store.subscribe((change) => {
       // Runs on one map are easier to compare if the view stays.
-      if (change.run && this.globalMap() !== this.fittedMap && !store.report.live) this.fit();
-      if (change.step) this.hideTip();
+      if (change.run && this.store.map !== this.fittedMap && !store.report.live) this.fit();
+      if (change.step) this.tip.hidden = true;
       if (this.follows) this.centre();
       this.draw();
     });
@@ -119,7 +119,7 @@ export class MapView implements Linked {
     const [x, y, zoom] = ["x", "y", "zoom"].map((name) => Number.parseFloat(said.get(name) ?? ""));
     if (Number.isFinite(x) && Number.isFinite(y) && zoom > 0) {
       this.view = { x, y, scale: withinLimits(zoom) };
-      this.fittedMap = this.globalMap();
+      this.fittedMap = this.store.map;
       this.isFitted = this.isMoved = true;
       this.draw();
     } else {
@@ -142,7 +142,7 @@ export class MapView implements Linked {
     this.isFitted = this.width > 0;
     const wasMoved = this.isMoved;
     this.isMoved = false;
-    this.fittedMap = this.globalMap();
+    this.fittedMap = this.store.map;
     this.view = {
       x: (box.low.x + box.high.x) / 2,
       y: (box.low.y + box.high.y) / 2,
@@ -217,7 +217,7 @@ export class MapView implements Linked {
 
   /** Null for a map of points only. */
   private spacePicture(): SpacePicture | null {
-    const grid = this.globalMap()?.grid;
+    const grid = this.store.map?.grid;
     const theme = document.documentElement.dataset.theme ?? "";
     if (!grid || grid.width * grid.height === 0) return null;
     if (this.space?.grid !== grid || this.space.theme !== theme) this.space = { grid, theme, picture: new SpacePicture(grid) };
@@ -238,18 +238,12 @@ export class MapView implements Linked {
 
   /** Where the map lies on a drawing with so many pixels for one of the page. */
   private placement(ratio: number): Placement {
-    const origin = this.toScreen(0, 0);
-    return { u0: origin.x * ratio, v0: origin.y * ratio, scale: this.view.scale * ratio };
-  }
-
-  private globalMap(): GlobalMap | undefined {
-    const { run, report } = this.store;
-    return run.map === undefined ? undefined : report.maps[run.map];
+    const { x, y, scale } = this.screen();
+    return { u0: x(0) * ratio, v0: y(0) * ratio, scale: scale * ratio };
   }
 
   private contents(): Box | null {
-    const map = this.globalMap();
-    const steps = this.store.steps;
+    const { map, steps } = this.store;
     let box = map ? boundingBox(map.x, map.y, metres) : null;
     if (steps) {
       box = union(box, boundingBox(steps.reference.x, steps.reference.y));
@@ -265,16 +259,9 @@ export class MapView implements Linked {
     };
   }
 
-  private toScreen(x: number, y: number): { x: number; y: number } {
-    return {
-      x: this.width / 2 + (x - this.view.x) * this.view.scale,
-      y: this.height / 2 - (y - this.view.y) * this.view.scale,
-    };
-  }
-
   /** Everything that is points: below all lines. */
   private drawPoints(layer: PointSink, ratio: number): void {
-    const map = this.globalMap();
+    const { map } = this.store;
     if (map && this.legend.shown.map) {
       const all = { x: map.x, y: map.y, begin: 0, end: map.x.length };
       layer.draw(all, { x: 0, y: 0, theta: 0 }, map.spacing_m, 1, themeColour("wall"));
@@ -287,7 +274,7 @@ export class MapView implements Linked {
   private drawObserved(layer: PointSink, robot: Pose, least: number): void {
     const { step } = this.store.selected;
     const { local_map: lives, scans, columns } = this.store.trial ?? {};
-    const size = this.globalMap()?.spacing_m ?? 0;
+    const size = this.store.map?.spacing_m ?? 0;
     const inLocal = columns ? poseAt(columns.local_from_robot, step) : null;
     if (lives && inLocal && this.legend.shown.local_map) {
       const frame = frameAt(lives, step);
@@ -314,7 +301,7 @@ export class MapView implements Linked {
     const { steps, trial } = this.store;
     const { step, hypothesis } = this.store.selected;
     const missing: string[] = [];
-    if (!this.globalMap()) missing.push("The results hold no global map (output.maps: none).");
+    if (!this.store.map) missing.push("The results hold no global map (output.maps: none).");
     if (!trial) missing.push("No trial was finished.");
     else if (trial.chunk !== undefined && this.store.fault) missing.push(`${this.store.fault}.`);
     else if (!steps) missing.push("The results hold no steps (output.steps: false).");
@@ -393,7 +380,7 @@ export class MapView implements Linked {
       if (this.moved < 4) this.clicked(event.offsetX, event.offsetY);
     });
     canvas.addEventListener("pointerleave", () => {
-      this.hideTip();
+      this.tip.hidden = true;
       replace(this.cursor);
     });
   }
@@ -435,11 +422,11 @@ export class MapView implements Linked {
     const { step } = this.store.selected;
     if (!steps || steps.step.length === 0 || !this.legend.shown.clusters) return null;
     const { first, x, y } = steps.best;
+    const screen = this.screen();
     let nearest: number | null = null;
     let least = reach;
     for (const k of clustersDrawn(steps, this.store.selected, this.view.scale).reverse()) {
-      const at = this.toScreen(x[k], y[k]);
-      const distance = Math.hypot(at.x - px, at.y - py);
+      const distance = Math.hypot(screen.x(x[k]) - px, screen.y(y[k]) - py);
       if (distance < least - 0.5) {
         nearest = k - first[step];
         least = distance;
@@ -452,10 +439,8 @@ export class MapView implements Linked {
     const rank = this.clusterAt(px, py);
     const steps = this.store.steps;
     this.canvas.classList.toggle("over-cluster", rank !== null);
-    if (rank === null || !steps) {
-      this.hideTip();
-      return;
-    }
+    this.tip.hidden = rank === null;
+    if (rank === null || !steps) return;
     const { best } = steps;
     const k = best.first[this.store.selected.step] + rank;
     replace(
@@ -467,13 +452,8 @@ export class MapView implements Linked {
       el("br"),
       `${fixed(best.x[k], 2)} m, ${fixed(best.y[k], 2)} m, ${fixed(degrees(best.theta[k]), 1)}°`,
     );
-    this.tip.hidden = false;
     const left = Math.min(px + 14, this.width - this.tip.offsetWidth - 4);
     const top = py + 14 + this.tip.offsetHeight > this.height ? py - this.tip.offsetHeight - 8 : py + 14;
     this.tip.style.transform = `translate(${Math.max(0, left)}px, ${Math.max(0, top)}px)`;
-  }
-
-  private hideTip(): void {
-    this.tip.hidden = true;
   }
 }

@@ -113,7 +113,7 @@ export class SpaceView {
     this.listen();
     this.rebuild();
     store.subscribe((change) => {
-      if (change.run && !isSame(this.globalMap(), this.map)) {
+      if (change.run && !isSame(this.store.map, this.map)) {
         this.rebuild();
         return;
       }
@@ -170,7 +170,7 @@ export class SpaceView {
 
   /** The map, which may be another or in other colours, and all the rest. */
   rebuild(): void {
-    const map = this.globalMap();
+    const { map } = this.store;
     const isOther = !isSame(map, this.map);
     this.map = map;
     if (isOther) this.placeMap();
@@ -206,11 +206,6 @@ export class SpaceView {
     // For whoever looks at the page from outside, as tests do; as the plan says it.
     const [x, y] = [this.centre.x + target.x, this.centre.y + target.y];
     Object.assign(this.canvas.dataset, { x, y, scale: 1 / cameras.metresPerPixel(target) });
-  }
-
-  private globalMap(): GlobalMap | undefined {
-    const { map } = this.store.run;
-    return map === undefined ? undefined : this.store.report.maps[map];
   }
 
   private placeMap(): void {

@@ -1,7 +1,7 @@
 // Where the trials of the chosen run began, and how they ended: each mark leads to its trial.
 import { ofRight } from "./answers";
 import { ratingColour, themeColour } from "./colours";
-import type { GlobalMap, Outcome, Run, Trial } from "./data";
+import type { Outcome, Run, Trial } from "./data";
 import { el, replace } from "./elements";
 import { saveMenu } from "./export";
 import { boundingBox, union, type Box } from "./geometry";
@@ -140,15 +140,10 @@ export class StartsMap {
   }
 
   private box(): Box {
-    const map = this.map();
+    const { map } = this.store;
     const ofStarts = boundingBox(this.starts.map((s) => s.x), this.starts.map((s) => s.y));
     const all = union(ofStarts, map ? boundingBox(map.x, map.y, metres) : null);
     return all ?? { low: { x: 0, y: 0 }, high: { x: 1, y: 1 } };
-  }
-
-  private map(): GlobalMap | undefined {
-    const { map } = this.store.run;
-    return map === undefined ? undefined : this.store.report.maps[map];
   }
 
   private drawMap(width: number, height: number, u0: number, v0: number, scale: number): void {
@@ -156,7 +151,7 @@ export class StartsMap {
     this.canvas.width = Math.round(width * ratio);
     this.canvas.height = Math.round(height * ratio);
     const context = this.canvas.getContext("2d");
-    const map = this.map();
+    const { map } = this.store;
     if (!context || !map) return;
     const layer = new PointLayer(this.canvas.width, this.canvas.height, { u0: u0 * ratio, v0: v0 * ratio, scale: scale * ratio });
     const { z } = map;

@@ -1,6 +1,6 @@
 // What is shown at the moment. Whoever shows something of it listens for changes.
 import type { Chunks } from "./chunks";
-import { firstLocalized, type Report, type Run, type Steps, type Trial } from "./data";
+import { firstLocalized, type GlobalMap, type Report, type Run, type Steps, type Trial } from "./data";
 
 /** Which pose the local map is laid under: a cluster by its rank, what the verdict rule believes, or the truth. */
 export type Hypothesis = number | "estimate" | "reference";
@@ -65,6 +65,11 @@ export class Store {
   }
   get run(): Run {
     return this.current.runs[this.selection.run];
+  }
+  /** Undefined where the results hold none. */
+  get map(): GlobalMap | undefined {
+    const { map } = this.run;
+    return map === undefined ? undefined : this.current.maps[map];
   }
   get trial(): Trial | undefined {
     return this.run.trials[this.selection.trial];
