@@ -5,19 +5,9 @@
 export type Column = (number | null)[];
 
 /** Of runs in space only: height, and the rotation as a unit quaternion. */
-export interface SpaceColumns {
-  z?: Column;
-  qx?: Column;
-  qy?: Column;
-  qz?: Column;
-  qw?: Column;
-}
+export type SpaceColumns = Partial<Record<"z" | "qx" | "qy" | "qz" | "qw", Column>>;
 
-export interface PoseColumns extends SpaceColumns {
-  x: Column;
-  y: Column;
-  theta: Column;
-}
+export type PoseColumns = SpaceColumns & Record<"x" | "y" | "theta", Column>;
 
 export interface Pose {
   x: number;
@@ -86,15 +76,7 @@ export interface Steps {
   verifications?: Verification[];
   evidence: Record<string, Column>;
   /** The clusters of step i are [first[i], first[i + 1]), falling rating. */
-  best: SpaceColumns & {
-    first: number[];
-    x: number[];
-    y: number[];
-    theta: number[];
-    size: number[];
-    r: number[];
-    r_normalised: number[];
-  };
+  best: SpaceColumns & Record<"first" | "x" | "y" | "theta" | "size" | "r" | "r_normalised", number[]>;
 }
 
 /** Points that come and go: each lives in the frames [from, to). */

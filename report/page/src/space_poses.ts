@@ -1,5 +1,5 @@
 // Poses in space, as the columns of steps have them.
-import type { Column, PoseColumns, Steps } from "./data";
+import type { Column, SpaceColumns, Steps } from "./data";
 
 export interface SpacePose {
   /** x, y, z, m. */
@@ -8,7 +8,7 @@ export interface SpacePose {
   rotation: [number, number, number, number];
 }
 
-type Columns = Record<"x" | "y", Column> & Pick<PoseColumns, "z" | "qx" | "qy" | "qz" | "qw">;
+type Columns = SpaceColumns & Record<"x" | "y", Column>;
 
 /** Null where row i has none. */
 export function columnPose(columns: Columns, i: number): SpacePose | null {
