@@ -17,7 +17,6 @@ struct GridPoint {
   int z = 0;
 
   friend auto operator<=>(const GridPoint&, const GridPoint&) = default;  // NOLINT(modernize-use-nullptr)
-  friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
 
 /// The points rounded to whole mm, in their order; they must lie within 2000 km.

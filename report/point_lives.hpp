@@ -17,7 +17,6 @@ struct PointLife {
   int to = 0;
 
   friend auto operator<=>(const PointLife&, const PointLife&) = default;  // NOLINT(modernize-use-nullptr)
-  friend bool operator==(const PointLife&, const PointLife&) = default;
 };
 
 /// The sets of steps 0, 1, 2 … A local map of tens of thousands of points changes in a few of them from one

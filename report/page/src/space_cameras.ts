@@ -37,9 +37,6 @@ export class Cameras {
     this.controls.above.touches.ONE = 1;
   }
 
-  get name(): CameraName {
-    return this.chosen;
-  }
   get camera(): Camera {
     return this[this.chosen];
   }

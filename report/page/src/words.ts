@@ -3,7 +3,6 @@ import { el, replace } from "./elements";
 
 /** In the words of docs/glossary.md, sentence by sentence; a test compares them. */
 export const ofGlossary: Record<string, string> = {
-  "Ω": "Share of local map points A in contact with the map B: Ω = Σ contact_B(x) / |A| (eq. 4).",
   "Ω best": "Ω of a step's best hypothesis; 0 without one.",
   "score best": "What a matcher ranks hypotheses by. Thresholds, ratings and verdicts use it. It equals Ω unless the matcher takes further evidence into account.",
   "Ω max": "The least score a hypothesis must reach. The paper's policy is the mean over the last τ steps of the mean score of each step (eq. 9).",
@@ -24,16 +23,13 @@ export const ofGlossary: Record<string, string> = {
   reference: "The true pose as far as it is known. Only the evaluation sees it.",
   candidates: "In a verdict, candidates are the poses between which it cannot decide.",
   verdict: "What a step says: searching, ambiguous, localized or unknown_place, with a sentence why.",
-  step: "One call of the localizer with one observation.",
   trial: "One localization from its start to the declaration, or to the last step allowed.",
-  start: "The observation at which a trial begins, without any knowledge of the pose.",
   right: "declared, and near the reference.",
   wrong: "declared, and not near it.",
   undecided: "never declared.",
   outcome: "right: declared, and near the reference. wrong: declared, and not near it. undecided: never declared.",
   setting: "What a variant changes, apart from case and seed: what a sweep compares.",
   variant: "The same experiment with some values changed: a setting, on a case, with a seed.",
-  baseline: "The method that glocal compare compares all others with, and the setting that glocal sweep does.",
   seed: "Fixes all random numbers. The same seed gives the same results.",
 };
 
@@ -51,7 +47,6 @@ const ofPage: Record<string, string> = {
   "time per match": "Wall-clock time of the matching in each step.",
   failed: "Ended by an error of a strategy, which the trial's sentence names.",
   declared: "Declared, where no reference says whether that is right.",
-  run: "What one results folder holds.",
   "run or setting": "What one results folder holds, or all those of a setting: over cases and seeds. The button shows one of them step by step.",
   trials: "All trials of the run, or of the setting: of all its cases and seeds.",
   success: "Share of right trials among all, with its 95 % interval.",
