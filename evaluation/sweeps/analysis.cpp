@@ -16,50 +16,6 @@
 namespace glocal {
 namespace {
 
-/// The trials of a setting in the runs of one purpose.
-class Tally {
- public:
-  void add(const SweepRun& run) {
-    for (const auto& [start, trial] : *run.trials) {
-      const bool is_right = trial.outcome == Outcome::right;
-      const bool is_wrong = trial.outcome == Outcome::wrong;
-      const TrialPlace place{run.part.case_name, start.sample};
-      for (const auto& [clusters, counts] : {std::pair{&right_, is_right}, std::pair{&wrong_, is_wrong}}) {
-        TrialCluster& cluster = (*clusters)[place];
-        cluster.successes += counts ? 1 : 0;
-        ++cluster.trials;
-      }
-      outcome_.right += is_right ? 1 : 0;
-      outcome_.wrong += is_wrong ? 1 : 0;
-      ++outcome_.trials;
-      if (is_right) steps_.push_back(trial.steps);
-      if (trial.step_cpu_ms) step_cpu_ms_.push_back(*trial.step_cpu_ms);
-    }
-  }
-
-  [[nodiscard]] SettingOutcome outcome() const {
-    SettingOutcome outcome = outcome_;
-    outcome.success = success_of(right_);
-    outcome.false_rate = success_of(wrong_);
-    outcome.median_steps = median_if_any(steps_);
-    return outcome;
-  }
-
-  /// With what is known of its setting.
-  [[nodiscard]] TriedSetting tried(const SettingResult& setting, bool with_times) const {
-    return {.values = setting.values,
-            .trials = right_,
-            .wrong = setting.chosen.wrong,
-            .steps = steps_,
-            .step_cpu_ms = with_times ? step_cpu_ms_ : std::vector<double>()};
-  }
-
- private:
-  SettingOutcome outcome_;
-  TrialsByPlace right_, wrong_;  ///< Successes are right trials, and wrong ones.
-  std::vector<double> steps_, step_cpu_ms_;
-};
-
 struct TalliedSetting {
   SettingResult result;
   Tally chosen, judged;
@@ -75,7 +31,7 @@ std::set<CaseAndSeed> cells_of(const std::vector<const SweepRun*>& runs) {
 }
 
 /// In the order of their first run.
-std::vector<TalliedSetting> settings_of(const std::vector<SweepRun>& runs) {
+std::vector<TalliedSetting> settings_of(const std::vector<SweepRun>& runs, bool with_times) {
   std::vector<TalliedSetting> settings;
   std::map<std::string, std::size_t> numbers;
   std::vector<const SweepRun*> all;
@@ -93,7 +49,8 @@ std::vector<TalliedSetting> settings_of(const std::vector<SweepRun>& runs) {
   for (TalliedSetting& setting : settings) {
     written.push_back({setting.runs.front()->part.values, setting.runs.front()->effective});
     for (const SweepRun* run : setting.runs)
-      (run->part.role == CaseRole::judge ? setting.judged : setting.chosen).add(*run);
+      (run->part.role == CaseRole::judge ? setting.judged : setting.chosen)
+          .add(run->part.case_name, *run->trials, with_times);
     setting.result.complete =
         cells_of(setting.runs) == cells && std::all_of(setting.runs.begin(), setting.runs.end(),
                                                        [](const SweepRun* run) { return run->complete; });
@@ -207,11 +164,9 @@ std::optional<std::pair<std::size_t, std::size_t>> chosen_axes(const MapChoice& 
   return axes;
 }
 
-ParameterFigures figures_of(const std::vector<TalliedSetting>& settings, const MapChoice& map,
-                            bool with_times) {
+ParameterFigures figures_of(const std::vector<TalliedSetting>& settings, const MapChoice& map) {
   std::vector<TriedSetting> tried;
-  for (const TalliedSetting& setting : settings)
-    tried.push_back(setting.chosen.tried(setting.result, with_times));
+  for (const TalliedSetting& setting : settings) tried.push_back({setting.result.values, setting.chosen});
   ParameterFigures figures{effects_of(tried), {}};
   if (const auto axes = chosen_axes(map, figures.effects))
     figures.map = heat_map(tried, figures.effects, axes->first, axes->second);
@@ -246,11 +201,11 @@ SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& 
   analysis.experiment = runs.front().results.experiment;
   analysis.runs = runs.size();
   note_parts(parts, analysis);
-  const std::vector<TalliedSetting> settings = settings_of(parts);
+  const std::vector<TalliedSetting> settings = settings_of(parts, false);
   if (!baseline.empty()) check_setting(baseline, settings);
   for (const TalliedSetting& setting : settings) analysis.settings.push_back(setting.result);
   std::stable_sort(analysis.settings.begin(), analysis.settings.end(), is_better);
-  analysis.parameters = figures_of(settings, map, false);
+  analysis.parameters = figures_of(settings, map);
   compare_settings(runs, settings, baseline, analysis);
   return analysis;
 }
@@ -270,7 +225,7 @@ std::optional<ParameterFigures> compare_parameters(const std::vector<NamedRun>& 
     part.trials = &shared[part.index];
     std::erase_if(part.part.values, [](const auto& value) { return value.first == "method"; });
   }
-  ParameterFigures figures = figures_of(settings_of(parts), {}, with_times && are_times_comparable(runs));
+  ParameterFigures figures = figures_of(settings_of(parts, with_times && are_times_comparable(runs)), {});
   if (figures.effects.empty() || figures.effects.size() > most_compared_parameters) return std::nullopt;
   return figures;
 }

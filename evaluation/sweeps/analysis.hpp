@@ -8,23 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "evaluation/statistics/statistics.hpp"
 #include "evaluation/sweeps/effects.hpp"
 #include "evaluation/sweeps/leads.hpp"
 #include "evaluation/sweeps/setting_values.hpp"
 #include "evaluation/sweeps/sweep.hpp"
 
 namespace glocal {
-
-/// How the trials of a setting ended, over all its seeds and some of the cases.
-struct SettingOutcome {
-  std::size_t trials = 0, right = 0, wrong = 0;  ///< All others are undecided.
-  Proportion success{}, false_rate{};            ///< Trials at one place of a drive are not independent.
-  std::optional<double> median_steps;            ///< To localize; none where no trial was right.
-
-  /// Success rate less false rate, by which settings are ranked: a wrong answer undoes a right one.
-  [[nodiscard]] double score() const { return success.value - false_rate.value; }
-};
 
 struct SettingResult {
   std::string name;

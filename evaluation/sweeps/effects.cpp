@@ -93,41 +93,15 @@ void use_quarters(const Column& column, ParameterEffect& effect) {
   }
 }
 
-/// Settings that are counted together.
-class Group {
- public:
-  void add(const TriedSetting& setting) {
-    ++settings_;
-    wrong_ += setting.wrong;
-    add_trials(setting.trials, trials_);
-    steps_.insert(steps_.end(), setting.steps.begin(), setting.steps.end());
-    step_cpu_ms_.insert(step_cpu_ms_.end(), setting.step_cpu_ms.begin(), setting.step_cpu_ms.end());
-  }
-
-  [[nodiscard]] GroupOutcome outcome() const {
-    return {.settings = settings_,
-            .trials = count_trials(trials_),
-            .wrong = wrong_,
-            .success = success_of(trials_),
-            .median_steps = median_if_any(steps_),
-            .median_step_cpu_ms = median_if_any(step_cpu_ms_)};
-  }
-
- private:
-  std::size_t settings_ = 0, wrong_ = 0;
-  TrialsByPlace trials_;
-  std::vector<double> steps_, step_cpu_ms_;
-};
-
 void count_levels(const std::vector<TriedSetting>& settings, ParameterEffect& effect) {
-  std::vector<Group> groups(effect.levels.size());
+  std::vector<Tally> groups(effect.levels.size());
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (effect.level_of[i]) groups[*effect.level_of[i]].add(settings[i]);
+    if (effect.level_of[i]) groups[*effect.level_of[i]].add(settings[i].trials);
   }
   double least = 1.0;
   double most = 0.0;
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const GroupOutcome& outcome = effect.levels[k].outcome = groups[k].outcome();
+    const SettingOutcome& outcome = effect.levels[k].outcome = groups[k].outcome();
     if (outcome.trials == 0) continue;
     least = std::min(least, outcome.success.value);
     most = std::max(most, outcome.success.value);
@@ -139,32 +113,57 @@ std::optional<double> correlation(const Column& column, const std::vector<TriedS
   std::vector<double> values;
   std::vector<double> successes;
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (!column.numbers[i] || count_trials(settings[i].trials) == 0) continue;
+    if (!column.numbers[i]) continue;
+    const SettingOutcome outcome = settings[i].trials.outcome();
+    if (outcome.trials == 0) continue;
     values.push_back(*column.numbers[i]);
-    successes.push_back(success_of(settings[i].trials).value);
+    successes.push_back(outcome.success.value);
   }
   return values.size() < 3 ? std::nullopt : spearman(values, successes);
 }
 
 }  // namespace
 
-void add_trials(const TrialsByPlace& trials, TrialsByPlace& sum) {
-  for (const auto& [place, cluster] : trials) {
-    sum[place].successes += cluster.successes;
-    sum[place].trials += cluster.trials;
+void Tally::add(const std::string& case_name, const std::map<TrialStart, TrialResult>& trials,
+                bool with_times) {
+  for (const auto& [start, trial] : trials) {
+    const bool is_right = trial.outcome == Outcome::right;
+    Ends& ends = places_[{case_name, start.sample}];
+    ++ends.trials;
+    ends.right += is_right ? 1 : 0;
+    ends.wrong += trial.outcome == Outcome::wrong ? 1 : 0;
+    if (is_right) steps_.push_back(trial.steps);
+    if (with_times && trial.step_cpu_ms) step_cpu_ms_.push_back(*trial.step_cpu_ms);
   }
 }
 
-Proportion success_of(const TrialsByPlace& trials) {
-  std::vector<TrialCluster> clusters;
-  for (const auto& [place, cluster] : trials) clusters.push_back(cluster);
-  return wilson_of_clusters(clusters);
+void Tally::add(const Tally& setting) {
+  ++settings_;
+  for (const auto& [place, ends] : setting.places_) {
+    Ends& sum = places_[place];
+    sum.trials += ends.trials;
+    sum.right += ends.right;
+    sum.wrong += ends.wrong;
+  }
+  steps_.insert(steps_.end(), setting.steps_.begin(), setting.steps_.end());
+  step_cpu_ms_.insert(step_cpu_ms_.end(), setting.step_cpu_ms_.begin(), setting.step_cpu_ms_.end());
 }
 
-std::size_t count_trials(const TrialsByPlace& trials) {
-  std::size_t n = 0;
-  for (const auto& [place, cluster] : trials) n += cluster.trials;
-  return n;
+SettingOutcome Tally::outcome() const {
+  SettingOutcome outcome{.settings = settings_,
+                         .median_steps = median_if_any(steps_),
+                         .median_step_cpu_ms = median_if_any(step_cpu_ms_)};
+  std::vector<TrialCluster> right, wrong;
+  for (const auto& [place, ends] : places_) {
+    outcome.trials += ends.trials;
+    outcome.right += ends.right;
+    outcome.wrong += ends.wrong;
+    right.push_back({ends.right, ends.trials});
+    wrong.push_back({ends.wrong, ends.trials});
+  }
+  outcome.success = wilson_of_clusters(right);
+  outcome.false_rate = wilson_of_clusters(wrong);
+  return outcome;
 }
 
 std::vector<ParameterEffect> effects_of(const std::vector<TriedSetting>& settings) {
@@ -196,15 +195,15 @@ HeatMap heat_map(const std::vector<TriedSetting>& settings, const std::vector<Pa
                  std::size_t row, std::size_t column) {
   const ParameterEffect& rows = effects[row];
   const ParameterEffect& columns = effects[column];
-  std::vector<std::vector<Group>> groups(rows.levels.size(), std::vector<Group>(columns.levels.size()));
+  std::vector<std::vector<Tally>> groups(rows.levels.size(), std::vector<Tally>(columns.levels.size()));
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (rows.level_of[i] && columns.level_of[i])
-      groups[*rows.level_of[i]][*columns.level_of[i]].add(settings[i]);
+      groups[*rows.level_of[i]][*columns.level_of[i]].add(settings[i].trials);
   }
   HeatMap map{row, column, {}};
-  for (const std::vector<Group>& in_row : groups) {
+  for (const std::vector<Tally>& in_row : groups) {
     map.cells.emplace_back();
-    for (const Group& group : in_row) map.cells.back().push_back(group.outcome());
+    for (const Tally& group : in_row) map.cells.back().push_back(group.outcome());
   }
   return map;
 }

@@ -9,41 +9,54 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/results/results_folder.hpp"
 #include "evaluation/statistics/statistics.hpp"
+#include "evaluation/sweeps/setting_values.hpp"
 
 namespace glocal {
 
-/// A place on a drive of a case: trials that start there, with any seed, tend to end alike.
-using TrialPlace = std::pair<std::string, std::int64_t>;
-using TrialsByPlace = std::map<TrialPlace, TrialCluster>;
+/// How the trials of a setting ended, over all its seeds and some of the cases; or those of some settings, as
+/// the mean over all in which these differ.
+struct SettingOutcome {
+  std::size_t settings = 0;                       ///< Added as such, not trial by trial.
+  std::size_t trials = 0, right = 0, wrong = 0;   ///< All others are undecided.
+  Proportion success{}, false_rate{};             ///< Trials at one place of a drive are not independent.
+  std::optional<double> median_steps = {};        ///< To localize; none where no trial was right.
+  std::optional<double> median_step_cpu_ms = {};  ///< CPU time of a step; none where it is not to be told.
 
-/// Adds the trials of one setting, or of several, to those of others.
-void add_trials(const TrialsByPlace& trials, TrialsByPlace& sum);
-/// The share of right ones among all, with its 95 % interval (wilson_of_clusters()).
-[[nodiscard]] Proportion success_of(const TrialsByPlace& trials);
-[[nodiscard]] std::size_t count_trials(const TrialsByPlace& trials);
+  /// Success rate less false rate, by which settings are ranked: a wrong answer undoes a right one.
+  [[nodiscard]] double score() const { return success.value - false_rate.value; }
+};
+
+/// Counts the trials of a setting, or those of some settings.
+class Tally {
+ public:
+  /// The trials of a run.
+  void add(const std::string& case_name, const std::map<TrialStart, TrialResult>& trials, bool with_times);
+  void add(const Tally& setting);
+  [[nodiscard]] SettingOutcome outcome() const;
+
+ private:
+  struct Ends {
+    std::size_t trials = 0, right = 0, wrong = 0;
+  };
+  std::size_t settings_ = 0;
+  /// By case and sample: trials that start there, with any seed, tend to end alike.
+  std::map<std::pair<std::string, std::int64_t>, Ends> places_;
+  std::vector<double> steps_;        ///< To localize, of right trials.
+  std::vector<double> step_cpu_ms_;  ///< Of trials; empty where times are not to be told.
+};
 
 /// What the effect of parameters is computed from.
 struct TriedSetting {
-  std::vector<std::pair<std::string, std::string>> values;  ///< Paths and values, as written.
-  TrialsByPlace trials;                                     ///< Successes are right trials.
-  std::size_t wrong = 0;
-  std::vector<double> steps = {};        ///< To localize, of right trials.
-  std::vector<double> step_cpu_ms = {};  ///< Of trials; empty where times are not to be told.
-};
-
-/// How the trials of some settings ended: the mean over all in which these differ.
-struct GroupOutcome {
-  std::size_t settings = 0, trials = 0, wrong = 0;
-  Proportion success{};
-  std::optional<double> median_steps = {};        ///< To localize; none where no trial was right.
-  std::optional<double> median_step_cpu_ms = {};  ///< CPU time of a step; none where it is not to be told.
+  SettingValues values;
+  Tally trials;
 };
 
 /// The settings with one value of a parameter, or with values in one range.
 struct ParameterLevel {
   std::string label;
-  GroupOutcome outcome = {};
+  SettingOutcome outcome = {};
 };
 
 struct ParameterEffect {
@@ -66,8 +79,8 @@ inline constexpr std::size_t most_single_values = 6;
 
 /// The settings with one level of each of two parameters.
 struct HeatMap {
-  std::size_t row = 0, column = 0;               ///< Numbers of the effects.
-  std::vector<std::vector<GroupOutcome>> cells;  ///< A list for each level of the row's parameter.
+  std::size_t row = 0, column = 0;                 ///< Numbers of the effects.
+  std::vector<std::vector<SettingOutcome>> cells;  ///< A list for each level of the row's parameter.
 };
 [[nodiscard]] HeatMap heat_map(const std::vector<TriedSetting>& settings,
                                const std::vector<ParameterEffect>& effects, std::size_t row,

@@ -38,7 +38,7 @@ std::string effect_heading(const ParameterEffect& effect) {
 }
 
 /// "83 ####.": in print, and for whoever cannot tell colours apart, too.
-std::string share_cell(const GroupOutcome& outcome) {
+std::string share_cell(const SettingOutcome& outcome) {
   if (outcome.trials == 0) return "-      ";
   constexpr int most = 5;
   const double share = outcome.success.value;
@@ -46,19 +46,19 @@ std::string share_cell(const GroupOutcome& outcome) {
   return fmt::format("{:.0f} {:#<{}}{:.<{}}", 100.0 * share, "", length, "", most - length);
 }
 
-Table map_table(const ParameterFigures& figures, std::string (*cell_of)(const GroupOutcome&)) {
+Table map_table(const ParameterFigures& figures, std::string (*cell_of)(const SettingOutcome&)) {
   const ParameterEffect& rows = figures.effects[figures.map->row];
   const ParameterEffect& columns = figures.effects[figures.map->column];
   Table table{{rows.label + " \\ " + columns.label}, {}};
   for (const ParameterLevel& level : columns.levels) table.header.push_back(level.label);
   for (std::size_t r = 0; r < rows.levels.size(); ++r) {
     table.rows.push_back({rows.levels[r].label});
-    for (const GroupOutcome& outcome : figures.map->cells[r]) table.rows.back().push_back(cell_of(outcome));
+    for (const SettingOutcome& outcome : figures.map->cells[r]) table.rows.back().push_back(cell_of(outcome));
   }
   return table;
 }
 
-Json to_json(const GroupOutcome& outcome) {
+Json group_json(const SettingOutcome& outcome) {
   Json json = {{"settings", outcome.settings},
                {"trials", outcome.trials},
                {"wrong", outcome.wrong},
@@ -72,7 +72,7 @@ Json to_json(const ParameterEffect& effect) {
   Json levels = Json::array();
   for (const ParameterLevel& level : effect.levels) {
     levels.push_back({{"label", level.label}});
-    levels.back().update(to_json(level.outcome));
+    levels.back().update(group_json(level.outcome));
   }
   Json json = {{"path", effect.path},
                {"label", effect.label},
@@ -87,7 +87,7 @@ Json to_json(const HeatMap& map, const std::vector<ParameterEffect>& effects) {
   Json cells = Json::array();
   for (const auto& row : map.cells) {
     cells.push_back(Json::array());
-    for (const GroupOutcome& outcome : row) cells.back().push_back(to_json(outcome));
+    for (const SettingOutcome& outcome : row) cells.back().push_back(group_json(outcome));
   }
   const auto axis = [&](std::size_t i) {
     Json labels = Json::array();
@@ -118,7 +118,8 @@ Report parameter_report(const ParameterFigures& figures) {
     report.emplace_back(Heading{"Right trials, %, by two parameters"});
     report.emplace_back(map_table(figures, share_cell));
     report.emplace_back(Heading{"Steps to localize, median of right trials, by two parameters"});
-    report.emplace_back(map_table(figures, [](const GroupOutcome& o) { return steps_cell(o.median_steps); }));
+    report.emplace_back(
+        map_table(figures, [](const SettingOutcome& o) { return steps_cell(o.median_steps); }));
   }
   return report;
 }
