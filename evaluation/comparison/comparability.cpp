@@ -75,8 +75,7 @@ void add_unjudged(const Compared& compared, Sentences& warnings) {
   for (std::size_t m = 0; m < compared.methods.size(); ++m) {
     const auto& trials = compared.paired.results[m];
     const auto count = [&](Outcome outcome) {
-      return std::count_if(trials.begin(), trials.end(),
-                           [&](const TrialResult* trial) { return trial->outcome == outcome; });
+      return std::ranges::count(trials, outcome, &TrialResult::outcome);
     };
     if (const auto failed = count(Outcome::failed); failed > 0) {
       warnings.push_back(fmt::format("{} trials of {} failed with an exception; they count as undecided.",

@@ -178,8 +178,7 @@ MeasureDifference compare_measure(const Measure& measure, std::size_t index, con
   result.mean = {mean(differences), interval_of_mean(sums, Rng(bootstrap_seed).stream({index}))};
   result.median = median(differences);
   std::vector<double> differing;
-  std::copy_if(differences.begin(), differences.end(), std::back_inserter(differing),
-               [](double difference) { return difference != 0.0; });
+  std::ranges::copy_if(differences, std::back_inserter(differing), [](double d) { return d != 0.0; });
   result.trials_that_differ = differing.size();
   result.mean_of_those = mean(differing);
   result.ranks = wilcoxon_signed_rank(of_places);
@@ -211,10 +210,9 @@ PairComparison compare_pair(const std::string& name, std::span<const Measure> me
 /// many there are.
 std::size_t correct(const std::vector<TestResult*>& family) {
   std::vector<TestResult*> tests;
-  std::copy_if(family.begin(), family.end(), std::back_inserter(tests),
-               [](const TestResult* test) { return test->has_chance(); });
+  std::ranges::copy_if(family, std::back_inserter(tests), &TestResult::has_chance);
   std::vector<double> p;
-  std::transform(tests.begin(), tests.end(), std::back_inserter(p), [](const TestResult* t) { return t->p; });
+  std::ranges::transform(tests, std::back_inserter(p), &TestResult::p);
   const std::vector<double> adjusted = holm(p);
   for (std::size_t i = 0; i < tests.size(); ++i) tests[i]->p_holm = adjusted[i];
   return tests.size();
@@ -233,10 +231,9 @@ void correct(Comparison& comparison) {
 /// The method that a run is of.
 std::size_t method_of(std::size_t run, const std::vector<Method>& methods) {
   const auto has_run = [&](const Method& method) {
-    return std::any_of(method.runs.begin(), method.runs.end(),
-                       [&](const Method::Run& own) { return own.index == run; });
+    return std::ranges::find(method.runs, run, &Method::Run::index) != method.runs.end();
   };
-  return static_cast<std::size_t>(std::find_if(methods.begin(), methods.end(), has_run) - methods.begin());
+  return static_cast<std::size_t>(std::ranges::find_if(methods, has_run) - methods.begin());
 }
 
 /// Of these measures those that can be compared in at least one cell. Times come last.

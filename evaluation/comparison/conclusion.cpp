@@ -158,9 +158,8 @@ std::vector<std::string> pair_warnings(const PairComparison& pair) {
   }
   Phrases missing;
   for (const Measure& measure : pair.measured) {
-    const bool is_there =
-        std::any_of(pair.measures.begin(), pair.measures.end(),
-                    [&](const MeasureDifference& d) { return d.measure.name == measure.name; });
+    const bool is_there = std::ranges::any_of(
+        pair.measures, [&](const MeasureDifference& d) { return d.measure.name == measure.name; });
     if (!is_there) missing.emplace_back(measure.label);
   }
   if (!missing.empty())

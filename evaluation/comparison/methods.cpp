@@ -136,8 +136,7 @@ void sort_by_place(PairedTrials& paired) {
   };
   std::vector<std::size_t> order(paired.trials.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return place_of(a) < place_of(b); });
+  std::ranges::stable_sort(order, {}, place_of);
   const auto reorder = [&](auto& list) {
     auto sorted = list;
     for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = list[order[i]];

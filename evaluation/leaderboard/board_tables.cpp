@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -110,8 +111,7 @@ std::vector<std::string> kept_row_of(std::string name, const BoardEntry& entry,
 }
 
 bool is_wanted(const BoardTable& table, const std::string& case_name) {
-  return table.cases.empty() ||
-         std::find(table.cases.begin(), table.cases.end(), case_name) != table.cases.end();
+  return table.cases.empty() || std::ranges::find(table.cases, case_name) != table.cases.end();
 }
 
 /// A line for each entry, of its results on these cases.
@@ -127,8 +127,7 @@ std::vector<Line> lines_of(const std::vector<BoardEntry>& entries, const std::ve
     }
     if (line.counts.starts > 0) lines.push_back(std::move(line));
   }
-  std::stable_sort(lines.begin(), lines.end(),
-                   [](const Line& a, const Line& b) { return a.counts.score() > b.counts.score(); });
+  std::ranges::stable_sort(lines, std::ranges::greater(), [](const Line& l) { return l.counts.score(); });
   return lines;
 }
 
@@ -158,12 +157,10 @@ Report board_tables(const Suite& suite, const std::vector<BoardEntry>& entries, 
     const std::vector<Line> lines = lines_of(entries, {name}, name + ", ");
     if (table.by_case) add(starts, lines, name, row_of);
     std::vector<Line> whole;
-    std::copy_if(lines.begin(), lines.end(), std::back_inserter(whole), [](const Line& line) {
-      return std::all_of(line.results.begin(), line.results.end(),
-                         [](const CaseResult* result) { return result->drive.has_value(); });
+    std::ranges::copy_if(lines, std::back_inserter(whole), [](const Line& line) {
+      return std::ranges::all_of(line.results, [](const CaseResult* r) { return r->drive.has_value(); });
     });
-    const auto figures = std::find_if(suite.published.begin(), suite.published.end(),
-                                      [&](const PublishedFigures& p) { return p.case_name == name; });
+    const auto figures = std::ranges::find(suite.published, name, &PublishedFigures::case_name);
     const PublishedFigures* published = figures == suite.published.end() ? nullptr : &*figures;
     add(drives, std::move(whole), name, [&](const Line& line) { return drive_row_of(line, published); });
   }
@@ -215,8 +212,7 @@ Report board_overview(const std::vector<std::string>& suites, const std::vector<
   std::vector<MethodRow> methods;
   for (const BoardEntry& entry : entries) {
     const auto column = std::find(suites.begin(), suites.end(), entry.suite) - suites.begin();
-    auto method = std::find_if(methods.begin(), methods.end(),
-                               [&](const MethodRow& m) { return m.name == entry.method; });
+    auto method = std::ranges::find(methods, entry.method, &MethodRow::name);
     if (method == methods.end())
       method = methods.insert(methods.end(), {entry.method, std::vector<std::string>(suites.size(), "–")});
     const BoardCounts counts = counts_of(entry);
@@ -224,8 +220,7 @@ Report board_overview(const std::vector<std::string>& suites, const std::vector<
         fmt::format("{} / {} of {}", counts.wrong, counts.right, counts.starts);
     method->score += counts.score();
   }
-  std::stable_sort(methods.begin(), methods.end(),
-                   [](const MethodRow& a, const MethodRow& b) { return a.score > b.score; });
+  std::ranges::stable_sort(methods, std::ranges::greater(), &MethodRow::score);
   for (MethodRow& method : methods) {
     std::vector<std::string> row = {method.name};
     std::move(method.cells.begin(), method.cells.end(), std::back_inserter(row));

@@ -152,9 +152,7 @@ class Change {
   }
 
   [[nodiscard]] std::string text(const char* what) const {
-    const auto count = [&](long difference) {
-      return std::count(differences_.begin(), differences_.end(), difference);
-    };
+    const auto count = [&](long difference) { return std::ranges::count(differences_, difference); };
     return fmt::format("  {:<6} {} before, {} now: {} no more, {} newly (p {:.2g})\n", what, before_, now_,
                        count(-1), count(1), sign_flip_test(differences_).p);
   }

@@ -41,8 +41,7 @@ std::vector<DisturbedKind> disturbed_kinds(const Suite& suite) {
   for (const SuiteCase& one : suite.cases) {
     auto disturbed = as_disturbed(suite, one.name);
     if (!disturbed) continue;
-    auto kind = std::find_if(kinds.begin(), kinds.end(),
-                             [&](const DisturbedKind& known) { return known.name == disturbed->kind; });
+    auto kind = std::ranges::find(kinds, disturbed->kind, &DisturbedKind::name);
     if (kind == kinds.end()) kind = kinds.insert(kinds.end(), {disturbed->kind, {}});
     kind->cases.push_back(std::move(*disturbed));
   }

@@ -81,8 +81,7 @@ void JournalScan::update() {
 }
 
 std::size_t JournalScan::count_live() const {
-  return static_cast<std::size_t>(
-      std::count_if(journals_.begin(), journals_.end(), [](const Journal& j) { return j.is_live; }));
+  return static_cast<std::size_t>(std::ranges::count(journals_, true, &Journal::is_live));
 }
 
 bool JournalScan::is_given_up(const TrialId& id) const {

@@ -136,9 +136,8 @@ std::vector<MapChange> MapChanges::groups(const Squares& squares, double side, s
       }
     }
     if (group.size() < least) continue;
-    const auto [west, east] = std::minmax_element(group.begin(), group.end());
-    const auto [south, north] = std::minmax_element(
-        group.begin(), group.end(), [](const Square& a, const Square& b) { return a.second < b.second; });
+    const auto [west, east] = std::ranges::minmax_element(group);
+    const auto [south, north] = std::ranges::minmax_element(group, {}, &Square::second);
     MapChange change{.x = side * (west->first + east->first + 1) / 2.0,
                      .y = side * (south->second + north->second + 1) / 2.0,
                      .width = side * (east->first - west->first + 1),

@@ -69,8 +69,7 @@ void bring_to_common_frame(Drive& drive, const GlobalMap& map, const Warn& warn)
       is_any_left_out = true;
       continue;
     }
-    const auto part = std::find_if(map.parts().begin(), map.parts().end(),
-                                   [&](const MapPart& p) { return p.name == sample.map; });
+    const auto part = std::ranges::find(map.parts(), sample.map, &MapPart::name);
     if (part == map.parts().end()) {
       std::vector<std::string> names;
       for (const MapPart& p : map.parts()) names.push_back(p.name);
@@ -216,8 +215,7 @@ std::vector<std::size_t> loading_order(const std::vector<Variant>& variants, con
                           first("drive: " + drive_yaml(experiment, catalog)));
     order.push_back(i);
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return first_of[a] < first_of[b]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return first_of[i]; });
   return order;
 }
 

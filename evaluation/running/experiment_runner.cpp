@@ -87,12 +87,9 @@ RunResult ExperimentRunner::run() {
     run_one(variants_[i]);
   }
   if (has_variants && !results_.empty()) write_variant_order(out_, all_names);
-  const auto place = [&](const VariantResult& r) { return std::find(names.begin(), names.end(), r.name); };
-  std::sort(results_.begin(), results_.end(),
-            [&](const VariantResult& a, const VariantResult& b) { return place(a) < place(b); });
+  std::ranges::sort(results_, {}, [&](const VariantResult& r) { return std::ranges::find(names, r.name); });
   const bool complete =
-      results_.size() == names.size() &&
-      std::all_of(results_.begin(), results_.end(), [](const VariantResult& r) { return r.complete; });
+      results_.size() == names.size() && std::ranges::all_of(results_, &VariantResult::complete);
   return {out_, std::move(results_), complete};
 }
 

@@ -1,6 +1,7 @@
 #include "evaluation/sharding/shares.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <queue>
 #include <tuple>
@@ -12,8 +13,7 @@ namespace {
 std::vector<std::size_t> longest_first(const std::vector<std::size_t>& steps) {
   std::vector<std::size_t> order(steps.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return steps[a] > steps[b]; });
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return steps[i]; });
   return order;
 }
 
@@ -28,7 +28,6 @@ std::vector<PlannedTrial> share_of(const std::vector<std::vector<std::size_t>>& 
   for (std::size_t variant = 0; variant < steps.size(); ++variant) {
     std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
     for (std::size_t k = 0; k < shard.of; ++k) loads.emplace(0, all[k], k);
-    const std::size_t begin = share.size();
     for (const std::size_t trial : longest_first(steps[variant])) {
       const auto [of_variant, of_all, k] = loads.top();
       loads.pop();
@@ -36,9 +35,8 @@ std::vector<PlannedTrial> share_of(const std::vector<std::vector<std::size_t>>& 
       loads.emplace(of_variant + steps[variant][trial], all[k], k);
       if (k + 1 == shard.number) share.push_back({variant, trial});
     }
-    std::sort(share.begin() + static_cast<std::ptrdiff_t>(begin), share.end(),
-              [](const PlannedTrial& a, const PlannedTrial& b) { return a.trial < b.trial; });
   }
+  std::ranges::sort(share);
   return share;
 }
 

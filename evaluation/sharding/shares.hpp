@@ -1,6 +1,7 @@
 // Which trials a shard runs.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct Shard {
 struct PlannedTrial {
   std::size_t variant = 0;
   std::size_t trial = 0;
-  friend bool operator==(const PlannedTrial&, const PlannedTrial&) = default;
+  friend auto operator<=>(const PlannedTrial&, const PlannedTrial&) = default;
 };
 
 /// The trials of a shard, by variant and trial; `steps[v][t]` is how long a trial may take. Each trial is in

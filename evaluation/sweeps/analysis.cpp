@@ -52,8 +52,7 @@ std::vector<TalliedSetting> settings_of(const std::vector<SweepRun>& runs, bool 
       (run->part.role == CaseRole::judge ? setting.judged : setting.chosen)
           .add(run->part.case_name, *run->trials, with_times);
     setting.result.complete =
-        cells_of(setting.runs) == cells && std::all_of(setting.runs.begin(), setting.runs.end(),
-                                                       [](const SweepRun* run) { return run->complete; });
+        cells_of(setting.runs) == cells && std::ranges::all_of(setting.runs, &SweepRun::complete);
     setting.result.chosen = setting.chosen.outcome();
     const SettingOutcome judged = setting.judged.outcome();
     if (judged.trials > 0) setting.result.judged = judged;
@@ -104,9 +103,7 @@ void compare_settings(const std::vector<NamedRun>& runs, const std::vector<Talli
     if (setting.result.complete) methods.push_back(as_method(setting));
   }
   const auto number_of = [&](const std::string& name) {
-    return static_cast<std::size_t>(
-        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; }) -
-        methods.begin());
+    return static_cast<std::size_t>(std::ranges::find(methods, name, &Method::name) - methods.begin());
   };
   if (methods.size() < 2) return;
   const std::size_t base = baseline.empty() ? 0 : number_of(baseline);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "config/variants.hpp"
@@ -24,10 +25,8 @@ struct Column {
 std::vector<Column> columns_of(const std::vector<TriedSetting>& settings) {
   std::vector<Column> columns;
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    for (const auto& change : settings[i].values) {
-      const auto& [path, value] = change;
-      auto column = std::find_if(columns.begin(), columns.end(),
-                                 [&](const Column& c) { return c.path == change.first; });
+    for (const auto& [path, value] : settings[i].values) {
+      auto column = std::ranges::find(columns, path, &Column::path);
       if (column == columns.end()) {
         columns.push_back({path, std::vector<std::optional<std::string>>(settings.size()),
                            std::vector<std::optional<double>>(settings.size())});
@@ -186,8 +185,7 @@ std::vector<ParameterEffect> effects_of(const std::vector<TriedSetting>& setting
     if (column.is_numeric) effect.spearman = correlation(column, settings);
     effects.push_back(std::move(effect));
   }
-  std::stable_sort(effects.begin(), effects.end(),
-                   [](const ParameterEffect& a, const ParameterEffect& b) { return a.range > b.range; });
+  std::ranges::stable_sort(effects, std::ranges::greater(), &ParameterEffect::range);
   return effects;
 }
 

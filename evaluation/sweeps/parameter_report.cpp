@@ -15,9 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Table effect_table(const ParameterEffect& effect) {
-  const bool with_times = std::any_of(effect.levels.begin(), effect.levels.end(), [](const auto& level) {
-    return level.outcome.median_step_cpu_ms.has_value();
-  });
+  const bool with_times = std::ranges::any_of(
+      effect.levels, [](const auto& level) { return level.outcome.median_step_cpu_ms.has_value(); });
   Table table{{effect.label, "settings", "trials", "right, %, 95 %", "wrong", "steps"}, {}};
   if (with_times) table.header.emplace_back("CPU time of a step, ms");
   for (const auto& [label, outcome] : effect.levels) {

@@ -44,9 +44,8 @@ std::string strategy_in(const std::string& path, const std::string& choice) {
 }
 
 void put(const std::string& path, const std::string& value, SettingValues& values) {
-  const auto there =
-      std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == path; });
-  if (there == values.end()) values.emplace_back(path, value);
+  if (std::ranges::find(values, path, &SettingValues::value_type::first) == values.end())
+    values.emplace_back(path, value);
 }
 
 /// `dbscan`, or `{dbscan: {eps: 1}}`.

@@ -93,8 +93,7 @@ Table values_table(const SweepAnalysis& analysis) {
     if (table.rows.size() == most_looked_at) break;
     table.rows.push_back({name_of(setting)});
     for (const ParameterEffect& effect : analysis.parameters.effects) {
-      const auto value = std::find_if(setting.values.begin(), setting.values.end(),
-                                      [&](const auto& v) { return v.first == effect.path; });
+      const auto value = std::ranges::find(setting.values, effect.path, &SettingValues::value_type::first);
       table.rows.back().push_back(value == setting.values.end() ? "-" : value->second);
     }
   }
@@ -237,8 +236,7 @@ std::vector<std::string> warnings_of(const SweepAnalysis& a) {
     warnings.push_back(
         fmt::format("{} without all trials, of interrupted runs: {}. Run the same command again.",
                     counted(a.incomplete.size(), "run"), join(a.incomplete)));
-  const auto missing =
-      std::count_if(a.settings.begin(), a.settings.end(), [](const SettingResult& s) { return !s.complete; });
+  const auto missing = std::ranges::count(a.settings, false, &SettingResult::complete);
   if (missing > 0)
     warnings.push_back(
         fmt::format("{} without all cases, seeds or trials, marked with *: listed last, and never "
