@@ -47,7 +47,10 @@ Manifest manifest_of(std::size_t trials) {
   Manifest manifest;
   manifest.experiment = "synthetic";
   manifest.starts.emplace_back();
-  for (std::size_t i = 0; i < trials / variants; ++i) manifest.starts[0].push_back({7 * i, 60});
+  for (std::size_t i = 0; i < trials / variants; ++i) {
+    manifest.starts[0].samples.push_back(7 * i);
+    manifest.starts[0].steps.push_back(60);
+  }
   for (std::size_t v = 0; v < variants; ++v) {
     const std::string name = "variant-" + std::to_string(v);
     manifest.variants.push_back({name, name, "", {{"output.steps", "false"}}, 0, nullptr});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include "config/text_file.hpp"
@@ -39,7 +40,7 @@ Values values_of(const Experiment& experiment, const Catalog& catalog) {
   return values;
 }
 
-/// What differs from the first variant's values; null for what is not there.
+/// What differs from the first variant's values, as a merge patch: null for what is not there.
 Json to_json(const Values& values, const Values& first) {
   Json json = Json::object();
   for (const auto& [path, text] : values) {
@@ -52,39 +53,23 @@ Json to_json(const Values& values, const Values& first) {
   return json;
 }
 
-Values values_of(const Json& json, Values first) {
-  for (const auto& [path, text] : json.items()) {
-    if (text.is_null()) {
-      first.erase(path);
-    } else {
-      first[path] = text;
-    }
-  }
-  return first;
+std::vector<std::size_t> whole_numbers(const Json& array) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < array.size(); ++i) numbers.push_back(whole_number(array, i));
+  return numbers;
 }
 
-Json to_json(const std::vector<PlannedStart>& starts) {
-  Json samples = Json::array();
-  Json steps = Json::array();
-  for (const PlannedStart& start : starts) {
-    samples.push_back(start.sample);
-    steps.push_back(start.steps);
-  }
-  return {{"samples", std::move(samples)}, {"steps", std::move(steps)}};
-}
-
-std::vector<PlannedStart> starts_of(const Json& json) {
-  const Json& samples = json.at("samples");
-  const Json& steps = json.at("steps");
-  std::vector<PlannedStart> starts;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    starts.push_back({whole_number(samples, i), whole_number(steps, i)});
+PlannedStarts starts_of(const Json& json) {
+  PlannedStarts starts{whole_numbers(json.at("samples")), whole_numbers(json.at("steps"))};
+  if (starts.samples.size() != starts.steps.size())
+    throw std::invalid_argument("there are not as many steps as samples");
   return starts;
 }
 
 Json to_json(const Manifest& manifest) {
   Json starts = Json::array();
-  for (const auto& list : manifest.starts) starts.push_back(to_json(list));
+  for (const auto& list : manifest.starts)
+    starts.push_back({{"samples", list.samples}, {"steps", list.steps}});
   Json variants = Json::array();
   const auto& first = manifest.variants.front().values;
   for (const PlannedVariant& v : manifest.variants) {
@@ -115,11 +100,12 @@ Manifest manifest_of(const Json& json) {
                     {},
                     {}};
   for (const Json& list : json.at("starts")) manifest.starts.push_back(starts_of(list));
-  const std::map<std::string, std::string> first = json.at("values");
+  const Json first = json.at("values").get<Values>();
   for (const Json& v : json.at("variants")) {
-    manifest.variants.push_back({v.at("name"), v.at("identity"), v.at("text"),
-                                 values_of(v.at("values"), first), whole_number(v, "starts"),
-                                 v.at("origin")});
+    Json values = first;
+    values.merge_patch(v.at("values"));
+    manifest.variants.push_back(
+        {v.at("name"), v.at("identity"), v.at("text"), values, whole_number(v, "starts"), v.at("origin")});
     const PlannedVariant& variant = manifest.variants.back();
     static_cast<void>(manifest.starts.at(variant.starts));
     if (!variant.name.empty() && !is_folder_name(variant.name))
@@ -130,15 +116,15 @@ Manifest manifest_of(const Json& json) {
   return manifest;
 }
 
-std::vector<PlannedStart> planned_starts(const LoadedExperiment& loaded, const TrialsConfig& trials) {
-  std::vector<PlannedStart> starts;
+PlannedStarts planned_starts(const LoadedExperiment& loaded, const TrialsConfig& trials) {
+  PlannedStarts starts{loaded.starts, {}};
   for (const std::size_t start : loaded.starts)
-    starts.push_back({start, steps_left(loaded.drive, trials, start)});
+    starts.steps.push_back(steps_left(loaded.drive, trials, start));
   return starts;
 }
 
 /// Which of the lists this one is; it is added if it is new.
-std::size_t place_of(std::vector<PlannedStart> starts, std::vector<std::vector<PlannedStart>>& lists) {
+std::size_t place_of(PlannedStarts starts, std::vector<PlannedStarts>& lists) {
   const auto same = std::find(lists.begin(), lists.end(), starts);
   const auto place = static_cast<std::size_t>(same - lists.begin());
   if (same == lists.end()) lists.push_back(std::move(starts));
@@ -184,16 +170,14 @@ std::map<std::string, std::size_t> places_of(const Manifest& manifest) {
 }
 
 std::vector<std::vector<std::size_t>> steps_of(const Manifest& manifest) {
-  std::vector<std::vector<std::size_t>> steps(manifest.variants.size());
-  for (std::size_t v = 0; v < steps.size(); ++v) {
-    for (const PlannedStart& start : manifest.starts_of(v)) steps[v].push_back(start.steps);
-  }
+  std::vector<std::vector<std::size_t>> steps;
+  for (std::size_t v = 0; v < manifest.variants.size(); ++v) steps.push_back(manifest.starts_of(v).steps);
   return steps;
 }
 
 std::size_t Manifest::count_trials() const {
   std::size_t n = 0;
-  for (const PlannedVariant& variant : variants) n += starts[variant.starts].size();
+  for (const PlannedVariant& variant : variants) n += starts[variant.starts].samples.size();
   return n;
 }
 

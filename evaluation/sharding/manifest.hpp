@@ -19,11 +19,10 @@
 
 namespace glocal {
 
-/// Where a trial starts, and the most steps it may take.
-struct PlannedStart {
-  std::size_t sample = 0;
-  std::size_t steps = 0;
-  friend auto operator<=>(const PlannedStart&, const PlannedStart&) = default;
+/// Of each trial where it starts, and the most steps it may take.
+struct PlannedStarts {
+  std::vector<std::size_t> samples, steps;
+  friend bool operator==(const PlannedStarts&, const PlannedStarts&) = default;
 };
 
 struct PlannedVariant {
@@ -39,17 +38,17 @@ struct PlannedVariant {
 struct Manifest {
   std::string experiment;
   std::string file;
-  nlohmann::ordered_json program;                 ///< As program_identity() tells.
-  std::map<std::string, std::string> plugins;     ///< SHA-256 by file.
-  std::map<std::string, std::string> inputs;      ///< SHA-256 by file.
-  std::vector<std::vector<PlannedStart>> starts;  ///< Variants with the same ones share a list.
+  nlohmann::ordered_json program;              ///< As program_identity() tells.
+  std::map<std::string, std::string> plugins;  ///< SHA-256 by file.
+  std::map<std::string, std::string> inputs;   ///< SHA-256 by file.
+  std::vector<PlannedStarts> starts;           ///< Variants with the same ones share a list.
   std::vector<PlannedVariant> variants;
 
-  [[nodiscard]] const std::vector<PlannedStart>& starts_of(std::size_t variant) const {
+  [[nodiscard]] const PlannedStarts& starts_of(std::size_t variant) const {
     return starts[variants[variant].starts];
   }
   [[nodiscard]] TrialId id_of(std::size_t variant, std::size_t trial) const {
-    return trial_id(variants[variant].identity, trial, starts_of(variant)[trial].sample);
+    return trial_id(variants[variant].identity, trial, starts_of(variant).samples[trial]);
   }
   [[nodiscard]] std::size_t count_trials() const;
 };
@@ -74,8 +73,7 @@ inline constexpr const char* shards_folder = ".shards";
                                       const std::vector<std::filesystem::path>& plugins,
                                       ExperimentLoader& loader);
 
-/// What can be said of variants before anything is loaded: without identities, values,
-/// inputs and starts.
+/// What can be said of variants before anything is loaded: without identities, values, inputs and starts.
 [[nodiscard]] Manifest sketch_of(const std::vector<Variant>& variants, const std::filesystem::path& file,
                                  const std::vector<std::filesystem::path>& plugins, const Catalog& catalog,
                                  FileHashes& hashes);

@@ -26,19 +26,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::vector<std::size_t> samples_of(const std::vector<PlannedStart>& starts) {
-  std::vector<std::size_t> samples;
-  for (const PlannedStart& start : starts) samples.push_back(start.sample);
-  return samples;
-}
-
 /// One variant, or the experiment without variants.
 class VariantMerge {
  public:
   VariantMerge(const Manifest& manifest, std::size_t place, const JournalScan& scan,
                const MergeOptions& options)
       : planned_(manifest.variants[place]),
-        trials_(scan, planned_.identity, samples_of(manifest.starts_of(place))),
+        trials_(scan, planned_.identity, manifest.starts_of(place).samples),
         scan_(scan),
         options_(options),
         folder_(options.out / planned_.name) {

@@ -59,9 +59,8 @@ SharedStatus status_of(const Manifest& manifest, const JournalScan& scan) {
   }
   std::vector<Cost> costs(manifest.variants.size());
   for (std::size_t v = 0; v < manifest.variants.size(); ++v) {
-    const auto& starts = manifest.starts_of(v);
-    VariantStatus variant{manifest.variants[v].name, starts.size()};
-    for (std::size_t trial = 0; trial < starts.size(); ++trial) {
+    VariantStatus variant{manifest.variants[v].name, manifest.starts_of(v).samples.size()};
+    for (std::size_t trial = 0; trial < variant.trials; ++trial) {
       const TrialId id = manifest.id_of(v, trial);
       const auto finished = scan.finished().find(id);
       const auto begun = scan.begun().find(id);

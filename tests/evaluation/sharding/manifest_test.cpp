@@ -73,9 +73,7 @@ TEST_F(ManifestTest, SaysWhatThereIsToDo) {
   EXPECT_EQ(manifest.variants[0].name, "a_seed-1");
   EXPECT_EQ(manifest.variants[3].name, "b_seed-2");
   // 16 scans, 0.6 m apart over 9 m: trials start at 0, 4, 8 and 12, and have three steps each.
-  const auto& starts = manifest.starts_of(0);
-  ASSERT_THAT(starts, SizeIs(4));
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(starts[i], (PlannedStart{4 * i, 3}));
+  EXPECT_EQ(manifest.starts_of(0), (PlannedStarts{{0, 4, 8, 12}, {3, 3, 3, 3}}));
   EXPECT_EQ(manifest.count_trials(), 16U);
   EXPECT_THAT(manifest.starts, SizeIs(1)) << "the same ones are there once";
   EXPECT_THAT(manifest.inputs, ElementsAre(Pair(fs::canonical(folder_ / "world.yaml").string(), SizeIs(64))));
@@ -110,6 +108,16 @@ TEST_F(ManifestTest, AStartThatIsNoWholeNumberIsRefused) {
                 HasSubstr("is no whole number from 0 on"))
         << wrong;
   }
+}
+
+TEST_F(ManifestTest, StartsWithoutStepsAreRefused) {
+  write_manifest(folder_ / "shared", planned(variants()));
+  const fs::path file = manifest_file(folder_ / "shared");
+  auto manifest = nlohmann::ordered_json::parse(content_of(file));
+  manifest["starts"][0]["steps"].erase(0);
+  std::ofstream(file) << manifest;
+  EXPECT_THAT(config_error(folder_.path(), [&] { static_cast<void>(read_manifest(folder_ / "shared")); }),
+              HasSubstr("there are not as many steps as samples"));
 }
 
 TEST_F(ManifestTest, TheSameTrialHasTheSameIdentityWhereverItsFilesLie) {
