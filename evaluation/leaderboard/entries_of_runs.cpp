@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "evaluation/results/fault_collector.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/results/summary.hpp"
 #include "evaluation/statistics/hypothesis_tests.hpp"
@@ -166,15 +167,9 @@ class Change {
 
 std::vector<BoardEntry> entries_of_folder(const fs::path& folder) {
   std::vector<BoardEntry> entries;
-  std::vector<Fault> faults;
-  for (const fs::path& run : results_folders(folder)) {
-    try {
-      RunReader(run).add_to(entries);
-    } catch (const ConfigError& error) {
-      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
-    }
-  }
-  if (!faults.empty()) throw ConfigError(std::move(faults));
+  FaultCollector faults;
+  for (const fs::path& run : results_folders(folder)) faults.collect([&] { RunReader(run).add_to(entries); });
+  faults.report();
   return entries;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,16 +25,13 @@ namespace fs = std::filesystem;
 std::vector<std::string> cells_of(std::string line) {
   if (!line.empty() && line.back() == '\r') line.pop_back();
   std::vector<std::string> cells;
-  std::size_t begin = 0;
-  while (true) {
-    const std::size_t comma = std::min(line.find(',', begin), line.size());
-    std::string cell = line.substr(begin, comma - begin);
+  std::istringstream text(line + ",");  // Behind the last comma there is no cell.
+  for (std::string cell; std::getline(text, cell, ',');) {
     cell.erase(0, cell.find_first_not_of(' '));
     cell.erase(cell.find_last_not_of(' ') + 1);
     cells.push_back(std::move(cell));
-    if (comma == line.size()) return cells;
-    begin = comma + 1;
   }
+  return cells;
 }
 
 /// Reads one file, row by row.
@@ -52,7 +50,7 @@ class PosesReader {
       ++line_;
       if (!line.empty() && line != "\r") read_row(cells_of(line));
     }
-    if (faults_.empty() && poses_.cases.empty()) refuse("has no rows; give one for each pose");
+    if (faults_.empty() && poses_.starts.empty()) refuse("has no rows; give one for each pose");
     if (!faults_.empty()) throw ConfigError(std::move(faults_));
     return std::move(poses_);
   }
@@ -135,7 +133,7 @@ class PosesReader {
     if (start >= known->starts)
       return refuse(
           fmt::format("the case {} has no start {}: they are 0 to {}", case_name, start, known->starts - 1));
-    const auto [there, is_new] = poses_.cases[{case_name, seed}][start].emplace(step, row);
+    const auto [there, is_new] = poses_.starts[{case_name, seed, start}].emplace(step, row);
     if (!is_new)
       refuse(fmt::format("step {} of start {} of {} is there twice (first in line {})", step, start,
                          case_name, there->second.line));
@@ -156,28 +154,16 @@ struct Judgement {
   Pose2 pose, reference;
 };
 
-/// The motion in the plane that brings poses nearest to their references: the rotation that Kabsch (1976) has
-/// for positions.
+/// The motion in the plane that brings the positions of poses nearest to those of their references.
 Pose2 motion_onto(const std::vector<Judgement>& all) {
-  Pose2 pose_mean, reference_mean;
-  const auto n = static_cast<double>(all.size());
-  for (const Judgement& j : all) {
-    pose_mean.x += j.pose.x / n;
-    pose_mean.y += j.pose.y / n;
-    reference_mean.x += j.reference.x / n;
-    reference_mean.y += j.reference.y / n;
+  Eigen::Matrix2Xd poses(2, all.size()), references(2, all.size());
+  Eigen::Index column = 0;
+  for (const auto& [pose, reference] : all) {
+    poses.col(column) << pose.x, pose.y;
+    references.col(column++) << reference.x, reference.y;
   }
-  double cross = 0.0, dot = 0.0;
-  for (const Judgement& j : all) {
-    const double ax = j.pose.x - pose_mean.x, ay = j.pose.y - pose_mean.y;
-    const double bx = j.reference.x - reference_mean.x, by = j.reference.y - reference_mean.y;
-    cross += ax * by - ay * bx;
-    dot += ax * bx + ay * by;
-  }
-  const double turn = std::atan2(cross, dot);
-  const double c = std::cos(turn), s = std::sin(turn);
-  return {reference_mean.x - c * pose_mean.x + s * pose_mean.y,
-          reference_mean.y - s * pose_mean.x - c * pose_mean.y, turn};
+  const Eigen::Matrix3d motion = Eigen::umeyama(poses, references, false);
+  return {motion(0, 2), motion(1, 2), std::atan2(motion(1, 0), motion(0, 0))};
 }
 
 /// Why poses that are nearly all wrong are of another frame; none if they are not, or if there are few.
@@ -223,7 +209,6 @@ ImportedPoses read_imported(const fs::path& file, const Suite& suite) {
 CaseResult judged(const ImportedPoses& poses, const Variant& variant, const LoadedExperiment& loaded,
                   std::vector<Fault>& faults) {
   const Experiment& experiment = variant.experiment;
-  const auto of_case = poses.cases.find({variant.case_name, experiment.seed});
   CaseResult result{.case_name = variant.case_name, .seed = experiment.seed, .numbers = {}, .starts = {}};
   std::vector<Judgement> judgements;
   std::size_t right = 0;
@@ -231,24 +216,21 @@ CaseResult judged(const ImportedPoses& poses, const Variant& variant, const Load
     static const std::map<std::size_t, ImportedPose> none;
     const std::size_t first = loaded.starts[i];
     const std::size_t left = steps_left(loaded.drive, experiment.trials, first);
-    const std::map<std::size_t, ImportedPose>* rows = &none;
-    if (of_case != poses.cases.end()) {
-      const auto of_start = of_case->second.find(i);
-      if (of_start != of_case->second.end()) rows = &of_start->second;
-    }
-    if (!rows->empty() && rows->rbegin()->first >= left) {
-      faults.push_back({poses.file.string(), rows->rbegin()->second.line, 0,
+    const auto of_start = poses.starts.find({variant.case_name, experiment.seed, i});
+    const auto& rows = of_start == poses.starts.end() ? none : of_start->second;
+    if (!rows.empty() && rows.rbegin()->first >= left) {
+      faults.push_back({poses.file.string(), rows.rbegin()->second.line, 0,
                         fmt::format("start {} of {} has {} steps, from 0 on; there is no step {}", i,
-                                    variant.case_name, left, rows->rbegin()->first)});
+                                    variant.case_name, left, rows.rbegin()->first)});
       continue;
     }
     const auto declared =
-        std::find_if(rows->begin(), rows->end(), [](const auto& r) { return r.second.declared; });
-    const std::size_t last = declared == rows->end() ? left - 1 : declared->first;
+        std::find_if(rows.begin(), rows.end(), [](const auto& r) { return r.second.declared; });
+    const std::size_t last = declared == rows.end() ? left - 1 : declared->first;
     const double way = loaded.drive.path_m[first + last] - loaded.drive.path_m[first];
     std::optional<PoseError> error;
     Outcome outcome = Outcome::undecided;
-    if (declared != rows->end()) {
+    if (declared != rows.end()) {
       const Pose3& pose = declared->second.map_from_robot;
       if (const auto& reference = loaded.drive.samples[first + last].map_from_robot) {
         error = pose_error(pose, *reference);
@@ -259,7 +241,7 @@ CaseResult judged(const ImportedPoses& poses, const Variant& variant, const Load
     }
     result.numbers.push_back(i);
     result.starts.push_back(start_result(outcome, last + 1, way, error));
-    if (experiment.trials.whole) result.drive = drive_of(*rows, loaded, first);
+    if (experiment.trials.whole) result.drive = drive_of(rows, loaded, first);
   }
   if (const auto why = frame_fault(judgements, right, experiment.evaluation))
     faults.push_back({poses.file.string(), 0, 0, fmt::format("{}: {}", variant.case_name, *why)});

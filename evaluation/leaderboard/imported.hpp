@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "evaluation/leaderboard/board_entry.hpp"
@@ -24,9 +24,8 @@ struct ImportedPose {
 
 struct ImportedPoses {
   std::filesystem::path file;
-  /// By case and seed, start and step; steps count from 0.
-  std::map<std::pair<std::string, std::uint64_t>, std::map<std::size_t, std::map<std::size_t, ImportedPose>>>
-      cases;
+  /// By case, seed and start, then by step; steps count from 0.
+  std::map<std::tuple<std::string, std::uint64_t, std::size_t>, std::map<std::size_t, ImportedPose>> starts;
 };
 
 /// Reads a table with the columns case, start, step, declared (0 or 1) and either x, y, yaw_deg or x, y, z,

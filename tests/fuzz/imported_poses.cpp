@@ -11,7 +11,7 @@ extern "C" int fuzz_imported_poses(const std::uint8_t* data, std::size_t size) {
   suite.cases = {{"room", "", 3}, {"hall", "", 1}};
   const auto file = fuzz::write("poses.csv", fuzz::text_of(data, size));
   return fuzz::answer([&] {
-    for (const auto& [run, starts] : read_imported(file, suite).cases)
-      fuzz::must_hold(suite.find_case(run.first) != nullptr && !starts.empty(), "a case of no suite");
+    for (const auto& [start, poses] : read_imported(file, suite).starts)
+      fuzz::must_hold(suite.find_case(std::get<0>(start)) != nullptr && !poses.empty(), "a case of no suite");
   });
 }
