@@ -16,21 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Closes a file descriptor.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 fs::path follow(const fs::path& path, int& links) {
   if (!path.has_relative_path()) return path;
   fs::path parent = follow(path.parent_path(), links);
@@ -47,6 +32,13 @@ fs::path follow(const fs::path& path, int& links) {
 }
 
 }  // namespace
+
+Descriptor::Descriptor(const fs::path& path, int flags)
+    : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+
+Descriptor::~Descriptor() {
+  if (fd_ >= 0) ::close(fd_);
+}
 
 std::error_code last_error() {
   return {errno, std::generic_category()};

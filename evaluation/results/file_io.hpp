@@ -5,9 +5,28 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace glocal {
+
+/// Closes a file descriptor.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  /// Negative if the file could not be opened, of which last_error() tells.
+  Descriptor(const std::filesystem::path& path, int flags);
+  ~Descriptor();
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  [[nodiscard]] int get() const { return fd_; }
+
+ private:
+  int fd_ = -1;
+};
 
 /// The bytes of a file; empty if it cannot be read.
 [[nodiscard]] std::string content_of(const std::filesystem::path& file);

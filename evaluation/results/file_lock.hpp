@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "evaluation/results/file_io.hpp"
+
 namespace glocal {
 
 /// Holds a lock file, which is made for it and removed with it. The system lets go of the lock when a process
@@ -17,7 +19,7 @@ class FileLock {
 
  private:
   std::filesystem::path file_;
-  int fd_ = -1;
+  Descriptor lock_;
 };
 
 }  // namespace glocal

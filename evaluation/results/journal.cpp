@@ -8,14 +8,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
-#include "evaluation/results/file_io.hpp"
 #include "evaluation/results/number_text.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/results/valid_text.hpp"
@@ -124,8 +122,8 @@ std::pair<std::string, std::string> file_of_line(std::string_view text) {
 Journal::Journal(const fs::path& folder, const Shard& shard, int jobs) : file_(folder / unique_name(shard)) {
   std::vector<fs::path> changed;
   check_kept(make_folders(folder, changed), file_);
-  fd_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
-  if (fd_ < 0) check_kept(last_error(), file_);
+  out_ = Descriptor(file_, O_WRONLY | O_CREAT | O_EXCL | O_APPEND);
+  if (out_.get() < 0) check_kept(last_error(), file_);
   changed.push_back(folder);
   for (const fs::path& above : changed) check_kept(sync_to_disk(above), file_);
   const Json json = {{"shard", shard.number},
@@ -134,10 +132,6 @@ Journal::Journal(const fs::path& folder, const Shard& shard, int jobs) : file_(f
                      {"process", ::getpid()},
                      {"jobs", jobs}};
   add_line(journal_words::shard, json.dump(), false);
-}
-
-Journal::~Journal() {
-  if (fd_ >= 0) ::close(fd_);
 }
 
 void Journal::add_variant(const std::string& identity, const Json& description) {
@@ -170,18 +164,17 @@ void Journal::add_crash(const TrialId& id, const Crash& crash) {
 
 void Journal::touch() const {
   // Where this fails, writing will, too, and tell.
-  static_cast<void>(::futimens(fd_, nullptr));
+  static_cast<void>(::futimens(out_.get(), nullptr));
 }
 
 void Journal::close() {
   fs::path name = file_;
   name.replace_extension();  // Without .part.
-  std::error_code error = ::fsync(fd_) != 0 ? last_error() : std::error_code();
+  std::error_code error = ::fsync(out_.get()) != 0 ? last_error() : std::error_code();
   if (!error) fs::rename(file_, name, error);
   if (!error) error = sync_to_disk(name.parent_path());
   check_kept(error, file_);
-  ::close(fd_);
-  fd_ = -1;
+  out_ = {};
   file_ = std::move(name);
 }
 
@@ -191,13 +184,13 @@ void Journal::add_line(std::string_view word, std::string_view text, bool for_go
   line.replace(0, head - 1, checksum(std::string_view(line).substr(head)));
   line += '\n';
   const std::lock_guard lock(mutex_);
-  const off_t before = ::lseek(fd_, 0, SEEK_END);
-  if (const auto error = write_all(fd_, line)) {
+  const off_t before = ::lseek(out_.get(), 0, SEEK_END);
+  if (const auto error = write_all(out_.get(), line)) {
     // Other threads may still have something to say, which must not stand behind half a line.
-    static_cast<void>(::ftruncate(fd_, before) == 0);
+    static_cast<void>(::ftruncate(out_.get(), before) == 0);
     check_kept(error, file_);
   }
-  if (for_good && ::fdatasync(fd_) != 0) check_kept(last_error(), file_);
+  if (for_good && ::fdatasync(out_.get()) != 0) check_kept(last_error(), file_);
 }
 
 }  // namespace glocal

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "evaluation/results/file_io.hpp"
 #include "evaluation/results/trial_output.hpp"
 #include "evaluation/sharding/shares.hpp"
 
@@ -63,9 +64,6 @@ class Journal {
  public:
   /// Makes the file in this folder, which is made if there is none. `jobs` trials run side by side.
   Journal(const std::filesystem::path& folder, const Shard& shard, int jobs);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
@@ -86,7 +84,7 @@ class Journal {
   void add_line(std::string_view word, std::string_view text, bool for_good);
 
   std::filesystem::path file_;
-  int fd_ = -1;
+  Descriptor out_;
   std::mutex mutex_;
 };
 

@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
 /// Writers touch their files twice a minute.
 constexpr std::chrono::seconds longest_silence{120};
 
-[[noreturn]] void fail_to_read(const fs::path& file) {
-  throw RunError(fmt::format("{}: cannot read: {}", file.string(), std::generic_category().message(errno)));
+[[noreturn]] void fail_to_read(const fs::path& file, const std::error_code& error = last_error()) {
+  throw RunError(fmt::format("{}: cannot read: {}", file.string(), error.message()));
 }
 
 /// Now, by the clock of the file system that has the folder: machines need not agree.
@@ -71,10 +71,6 @@ JournalScan::JournalScan(fs::path folder, std::function<void(const std::string&)
   update();
 }
 
-JournalScan::~JournalScan() {
-  close_all();
-}
-
 void JournalScan::update() {
   find_journals();
   for (std::size_t i = 0; i < journals_.size(); ++i) read(i);
@@ -98,10 +94,7 @@ void JournalScan::find_journals() {
     if (name.ends_with(journal_end)) found[name] = true;
     if (name.ends_with(unfinished_journal_end)) found.try_emplace(fs::path(name).stem(), false);
   }
-  if (error && error != std::errc::no_such_file_or_directory) {
-    errno = error.value();
-    fail_to_read(folder_);
-  }
+  if (error && error != std::errc::no_such_file_or_directory) fail_to_read(folder_, error);
   if (found.empty()) return;
   const fs::file_time_type now = now_at(folder_);
   for (const auto& [name, is_closed] : found) {
@@ -260,20 +253,15 @@ std::string JournalScan::text_at(const Place& place) const {
 int JournalScan::descriptor_of(std::size_t journal) const {
   constexpr std::size_t most_open = 256;
   const auto known = open_.find(journal);
-  if (known != open_.end()) return known->second;
-  if (open_.size() >= most_open) close_all();
+  if (known != open_.end()) return known->second.get();
+  if (open_.size() >= most_open) open_.clear();
   // The writer may have closed it since: it has its other name then.
   fs::path file = journals_[journal].file;
-  int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0 && errno == ENOENT && !journals_[journal].is_closed)
-    descriptor = ::open(file.replace_extension().c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail_to_read(journals_[journal].file);
-  return open_[journal] = descriptor;
-}
-
-void JournalScan::close_all() const {
-  for (const auto& [journal, descriptor] : open_) ::close(descriptor);
-  open_.clear();
+  Descriptor descriptor(file, O_RDONLY);
+  if (descriptor.get() < 0 && errno == ENOENT && !journals_[journal].is_closed)
+    descriptor = Descriptor(file.replace_extension(), O_RDONLY);
+  if (descriptor.get() < 0) fail_to_read(journals_[journal].file);
+  return (open_[journal] = std::move(descriptor)).get();
 }
 
 }  // namespace glocal

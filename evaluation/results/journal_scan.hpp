@@ -51,9 +51,6 @@ class JournalScan {
   /// `warn` is told of lines that are damaged; these do not count.
   JournalScan(std::filesystem::path folder, std::function<void(const std::string&)> warn,
               Closed closed = Closed::whole);
-  ~JournalScan();
-  JournalScan(const JournalScan&) = delete;
-  JournalScan& operator=(const JournalScan&) = delete;
 
   /// Reads what was written since the last call. Throws RunError for a file that cannot be read.
   void update();
@@ -86,7 +83,6 @@ class JournalScan {
   [[nodiscard]] bool take_index(std::size_t journal);
   void update_index(std::size_t journal);
   [[nodiscard]] int descriptor_of(std::size_t journal) const;
-  void close_all() const;
 
   std::filesystem::path folder_;
   std::function<void(const std::string&)> warn_;
@@ -100,7 +96,7 @@ class JournalScan {
   std::unordered_map<TrialId, std::vector<Place>, TrialIdHash> files_;  ///< Of trials that are not finished.
   std::unordered_map<TrialId, std::vector<Crash>, TrialIdHash> crashes_;
   std::map<std::string, std::vector<Place>> variants_;
-  mutable std::map<std::size_t, int> open_;  ///< Some of the files.
+  mutable std::map<std::size_t, Descriptor> open_;  ///< Some of the files.
 };
 
 }  // namespace glocal

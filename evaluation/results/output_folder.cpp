@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <utility>
 #include <vector>
 
@@ -23,9 +22,8 @@ namespace fs = std::filesystem;
 
 /// Why this process may not change what is in a folder; no error if it may.
 std::error_code why_locked(const fs::path& folder) {
-  return ::faccessat(AT_FDCWD, folder.c_str(), R_OK | W_OK | X_OK, AT_EACCESS) == 0
-             ? std::error_code()
-             : std::error_code(errno, std::generic_category());
+  return ::faccessat(AT_FDCWD, folder.c_str(), R_OK | W_OK | X_OK, AT_EACCESS) == 0 ? std::error_code()
+                                                                                    : last_error();
 }
 
 /// The folder that is there already must let itself be written.
