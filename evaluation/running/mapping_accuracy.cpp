@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "evaluation/running/elapsed.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -43,51 +44,30 @@ std::size_t end_of_first_segment(const Drive& drive) {
   return last;
 }
 
-/// Cells that hits have fallen in.
-class CellCounter {
- public:
-  explicit CellCounter(double cell) : cell_(cell) {}
-
-  void add(const Points& hits, const Pose3& local_from_robot) {
-    const Points in_local = moved(hits, local_from_robot);
-    for (std::size_t i = 0; i < in_local.size(); ++i)
-      cells_.push_back({std::floor(in_local.x[i] / cell_), std::floor(in_local.y[i] / cell_),
-                        std::floor(in_local.z[i] / cell_)});
-  }
-
-  [[nodiscard]] std::size_t count() {
-    std::sort(cells_.begin(), cells_.end());
-    cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
-    return cells_.size();
-  }
-
- private:
-  double cell_;
-  std::vector<std::array<double, 3>> cells_;
-};
-
 /// Runs the mapper from one start.
 class WindowRun {
  public:
   WindowRun(const Drive& drive, LocalMapper& mapper, std::size_t first, double cell)
-      : drive_(drive), mapper_(mapper), first_(first), next_(first), cells_(cell) {
+      : drive_(drive), mapper_(mapper), first_(first), next_(first), cell_(cell) {
     mapper_.reset();
   }
 
   /// Goes on up to and including `last`.
   void run_to(std::size_t last, std::vector<double>& add_ms) {
-    using Clock = std::chrono::steady_clock;
     for (; next_ <= last; ++next_) {
       const Observation& observation = drive_.samples[next_].observation;
-      const auto begin = Clock::now();
+      const auto begin = std::chrono::steady_clock::now();
       mapper_.add(observation);
-      add_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+      add_ms.push_back(ms_since(begin));
       const LocalMap& map = mapper_.map();
       if (next_ == first_) {
         epoch_ = map.epoch;
         local_from_first_ = map.local_from_robot;
       }
-      cells_.add(observation.scan.hits, map.local_from_robot);
+      const Points in_local = moved(observation.scan.hits, map.local_from_robot);
+      for (std::size_t i = 0; i < in_local.size(); ++i)
+        cells_.push_back({std::floor(in_local.x[i] / cell_), std::floor(in_local.y[i] / cell_),
+                          std::floor(in_local.z[i] / cell_)});
     }
   }
 
@@ -102,7 +82,11 @@ class WindowRun {
     return pose_error(inverse(local_from_first_) * mapper_.map().local_from_robot, first_from_last);
   }
 
-  [[nodiscard]] std::size_t occupied_cells() { return cells_.count(); }
+  [[nodiscard]] std::size_t occupied_cells() {
+    std::sort(cells_.begin(), cells_.end());
+    cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+    return cells_.size();
+  }
 
  private:
   const Drive& drive_;
@@ -111,7 +95,8 @@ class WindowRun {
   std::size_t next_;
   int epoch_ = 0;
   Pose3 local_from_first_;  ///< Where the mapper has put the robot at the start.
-  CellCounter cells_;
+  double cell_;
+  std::vector<std::array<double, 3>> cells_;  ///< That hits have fallen in.
 };
 
 void require_references(const Drive& drive) {

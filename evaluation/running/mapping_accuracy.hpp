@@ -11,8 +11,7 @@
 
 namespace glocal {
 
-/// Where a mapper starts afresh, and when its pose is compared. Distances are metres along
-/// Drive::path_m.
+/// Where a mapper starts afresh, and when its pose is compared. Distances are metres along Drive::path_m.
 struct MappingWindows {
   bool whole = false;          ///< One start, and the error is taken where the drive ends or is interrupted.
   double every_m = 5.0;        ///< From one start to the next.

@@ -1,10 +1,9 @@
 #include "evaluation/running/others_load.hpp"
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstddef>
+#include <ctime>
 #include <fstream>
 #include <string>
 
@@ -22,12 +21,7 @@ std::optional<double> busy_seconds() {
 
 /// Time that processors have worked for this process, s.
 double own_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 }  // namespace
