@@ -13,8 +13,6 @@ struct Declaration {
   double at_m = 0.0;  ///< Along the drive.
   int segment = 0;    ///< Odometry goes on within one only.
   Pose3 map_from_robot = {}, odom_from_robot = {};
-
-  friend bool operator==(const Declaration&, const Declaration&) = default;
 };
 
 struct Agreement {

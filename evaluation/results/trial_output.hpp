@@ -18,7 +18,7 @@ namespace glocal {
 using NamedContents = std::vector<std::pair<std::string, std::string>>;
 
 struct TrialOutput {
-  JournalEntry entry;  ///< Without checksums of files.
+  JournalEntry entry;
   NamedContents files;
 };
 
