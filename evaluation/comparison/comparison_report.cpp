@@ -119,19 +119,14 @@ std::string explanation(const Comparison& comparison) {
   return fmt::format(
       "Differences are variant less baseline: of {0}. Trials are paired within case and seed by their start. "
       "A place is a start of a case; what begins there, with any seed, counts as one: tests change the sign "
-      "of "
-      "whole places, intervals are of places within cases. Right and wrong: all ways to give signs are "
+      "of whole places, intervals are of places within cases. Right and wrong: all ways to give signs are "
       "counted. Everything else: Wilcoxon's signed ranks of the mean differences of places; exact up to {1} "
       "that differ, otherwise the normal approximation. It is compared where both are right; mean and median "
       "are of all these starts, \"their mean\" of those that differ. The CPU time of a step is the median "
-      "over "
-      "a trial's steps. A difference below \"matters\" matters to nobody, whatever its p. Holm's correction "
-      "in "
-      "two families: tests of right and wrong ({2}), and others ({3}); tests with fewer than 6 places "
-      "that "
-      "differ could not be significant and are not among them. * marks p (Holm) < {4} of what matters. "
-      "Medians "
-      "of steps, way and errors are of right trials. Intervals are 95 %.",
+      "over a trial's steps. A difference below \"matters\" matters to nobody, whatever its p. Holm's "
+      "correction in two families: tests of right and wrong ({2}), and others ({3}); tests with fewer than 6 "
+      "places that differ could not be significant and are not among them. * marks p (Holm) < {4} of what "
+      "matters. Medians of steps, way and errors are of right trials. Intervals are 95 %.",
       comparison.baseline, most_exact_differences, comparison.outcome_tests, comparison.measure_tests,
       significance);
 }

@@ -231,9 +231,8 @@ std::string to_text(const BoardEntry& entry) {
   for (const CaseResult& result : entry.results)
     results += (results.empty() ? "" : ",\n") + text_of_result(result);
   return fmt::format(
-      "{{\n \"format\": {},\n \"suite\": {},\n \"method\": {},\n{} \"provenance\": {},\n \"results\": "
-      "[\n{}\n "
-      "]\n}}\n",
+      "{{\n \"format\": {},\n \"suite\": {},\n \"method\": {},\n{} \"provenance\": {},\n"
+      " \"results\": [\n{}\n ]\n}}\n",
       entry_format, Json(entry.suite).dump(), Json(entry.method).dump(),
       entry.share < 1.0 ? fmt::format(" \"share\": {},\n", entry.share) : "", entry.provenance.dump(),
       results);

@@ -23,9 +23,8 @@ constexpr std::size_t single_size = sizeof(float), double_size = sizeof(double);
 
 std::string header(std::size_t points, std::size_t size) {
   return fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE {1} {1} {1}\nTYPE F F "
-      "F\nCOUNT 1 1 1\n"
-      "WIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE {1} {1} {1}\n"
+      "TYPE F F F\nCOUNT 1 1 1\nWIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
       points, size);
 }
 

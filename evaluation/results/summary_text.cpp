@@ -33,8 +33,7 @@ std::string agreement_text(const nlohmann::ordered_json& agreement) {
   for (const auto& place : disagree) places.push_back(fmt::format("{:.1f}", place.get<double>()));
   return fmt::format(
       "  agreement           {} of {} declared poses disagree with the one before, carried on by odometry: "
-      "at "
-      "{} m\n",
+      "at {} m\n",
       disagree.size(), pairs + 1, listed(places));
 }
 

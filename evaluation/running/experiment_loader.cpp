@@ -198,8 +198,7 @@ std::optional<std::string> why_never_declared(const Experiment& experiment, cons
   const std::string& rule = experiment.localizer.verdict_rule.name;
   return fmt::format(
       "no trial can end with a declared pose: the verdict rule '{0}' declares none before step {1}, and no "
-      "trial "
-      "has more than {2}. Let it declare sooner (glocal describe {0}), or trials go on for longer "
+      "trial has more than {2}. Let it declare sooner (glocal describe {0}), or trials go on for longer "
       "(trials.max_steps, a longer drive)",
       rule, localizer.least_steps(), longest);
 }

@@ -16,8 +16,7 @@ namespace glocal {
 
 /// The share of hits of every other scan that lie within `epsilon` (m) of hits of the scans between them, of
 /// up to 400 scans along the drive, where `reference_at` (by stamp, s) places them. It is highest where poses
-/// are those of the scans. None if fewer than half of these have a pose, or
-/// without hits.
+/// are those of the scans. None if fewer than half of these have a pose, or without hits.
 [[nodiscard]] std::optional<double> fit_among_scans(
     const Drive& drive, const std::function<std::optional<Pose3>(double)>& reference_at, double epsilon);
 

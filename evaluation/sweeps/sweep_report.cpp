@@ -275,12 +275,9 @@ std::string text_report(const SweepAnalysis& analysis, std::size_t most_settings
   report.emplace_back(Paragraph{
       "Score: right less wrong trials, in percentage points of all. Settings are ranked by it, then by fewer "
       "steps to localize (median of right trials). Intervals are Wilson's for as many independent trials as "
-      "tell "
-      "as much as these, since trials at one place tend to end alike. What a parameter does is the mean over "
-      "all "
-      "else that varies. \"ahead\" is the score less that of the baseline, \"better\" and \"worse\" count "
-      "places; "
-      "p is of the largest of all these differences, by signs of places."});
+      "tell as much as these, since trials at one place tend to end alike. What a parameter does is the mean "
+      "over all else that varies. \"ahead\" is the score less that of the baseline, \"better\" and \"worse\" "
+      "count places; p is of the largest of all these differences, by signs of places."});
   return as_text(report);
 }
 
