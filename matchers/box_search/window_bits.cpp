@@ -110,14 +110,11 @@ HWY_INLINE std::size_t find_looks(const TileLayout& tile, const std::int32_t* co
   return size;
 }
 
-std::size_t find_looks_in_plane(const TileLayout& tile, const std::int32_t* columns, const std::int32_t* rows,
-                                std::size_t n, TileLooks& looks) {
-  return find_looks<false>(tile, columns, rows, nullptr, n, looks);
-}
-
-std::size_t find_looks_in_space(const TileLayout& tile, const std::int32_t* columns, const std::int32_t* rows,
-                                const std::int32_t* layers, std::size_t n, TileLooks& looks) {
-  return find_looks<true>(tile, columns, rows, layers, n, looks);
+std::size_t find_looks_in_vectors(const TileLayout& tile, bool in_space, const std::int32_t* columns,
+                                  const std::int32_t* rows, const std::int32_t* layers, std::size_t n,
+                                  TileLooks& looks) {
+  return in_space ? find_looks<true>(tile, columns, rows, layers, n, looks)
+                  : find_looks<false>(tile, columns, rows, layers, n, looks);
 }
 
 }  // namespace
@@ -128,8 +125,7 @@ HWY_AFTER_NAMESPACE();
 namespace glocal {
 
 HWY_EXPORT(add_looks_in_vectors);
-HWY_EXPORT(find_looks_in_plane);
-HWY_EXPORT(find_looks_in_space);
+HWY_EXPORT(find_looks_in_vectors);
 
 namespace {
 
@@ -307,12 +303,8 @@ std::size_t WindowBits::find(const CellPoints& points, int column, int row, int 
                         .layer = layer + layers_before_,
                         .last_layer = last_layer_,
                         .blocks = blocks_.data()};
-  const std::int32_t* columns = points.columns_.data();
-  const std::int32_t* rows = points.rows_.data();
-  const std::size_t n = in_space_
-                            ? HWY_DYNAMIC_DISPATCH(find_looks_in_space)(tile, columns, rows,
-                                                                        points.layers_.data(), padded, looks)
-                            : HWY_DYNAMIC_DISPATCH(find_looks_in_plane)(tile, columns, rows, padded, looks);
+  const std::size_t n = HWY_DYNAMIC_DISPATCH(find_looks_in_vectors)(
+      tile, in_space_, points.columns_.data(), points.rows_.data(), points.layers_.data(), padded, looks);
   for (std::vector<std::uint32_t>* each : {&looks.words, &looks.next, &looks.shifts})
     std::fill_n(each->begin() + static_cast<std::ptrdiff_t>(n), at_a_time, 0);  // nothing in the first block
   return n;

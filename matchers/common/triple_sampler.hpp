@@ -39,8 +39,4 @@ class TripleSampler {
   std::vector<std::uint32_t> starts_;  ///< Where each cell begins in order_; one more at the end.
 };
 
-/// Uniform triples of n points, n < 2^31: those of `batch.numbers`. The same for all instruction sets. Timed
-/// by bench_sampling.
-void draw_uniform(std::uint64_t seed, std::uint32_t n, TripleBatch& batch);
-
 }  // namespace glocal

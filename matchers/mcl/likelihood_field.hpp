@@ -27,6 +27,14 @@ struct LikelihoodFieldRule {
 /// there).
 [[nodiscard]] double likelihood_of_distance(double distance, const LikelihoodFieldRule& rule);
 
+/// A table of square cells, row by row; what lies outside counts as the nearest cell at its border.
+struct FieldCells {
+  float min_x, min_y;  ///< m
+  float scale;         ///< Cells per metre.
+  int columns, rows;
+  const float* cells;
+};
+
 /// A table of what a beam's end adds to a pose's score, cell by cell.
 class LikelihoodField {
  public:
