@@ -1,10 +1,8 @@
 #include "matchers/ransam/ransam.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "glocal/extent.hpp"
-#include "matchers/common/merge.hpp"
 
 namespace glocal::ransam {
 namespace {
@@ -25,7 +23,7 @@ Ransam::Ransam(const Params& params, const StageSetup& setup)
       setup_(setup),
       contact_(
           contact_index(*setup.map, params.triples.contact, setup.epsilon(params.triples.contact_epsilon))),
-      matching_(setup.map->points(), find_relations, matching_rule(params.triples), setup.threads),
+      matching_(setup.map->points(), find_relations, params.triples, setup.threads),
       beams_(params.beams) {
   if (params.beams.weight > 0.0) clearance_ = clearance_grid(*setup.map, setup.threads);
 }
@@ -37,19 +35,12 @@ MatchResult Ransam::match(const MatchRequest& request, Rng& rng) {
   const TripleMatching::Draws draws{rng.next(), rng.next()};
   const QualityTest quality(local.points, contact_, extrapolation_rule(params_.triples), request.omega_max,
                             rng);
-  // A triangle of the map that is larger than the whole local map has no partner there.
-  const TriangleRule rule{.cell = params_.triples.relation_cell,
-                          .min_side = params_.triples.min_side,
-                          .min_height = params_.triples.min_height,
-                          .max_side = std::min(diameter_bound(local.points) + params_.triples.relation_cell,
-                                               largest_side(params_.triples.relation_cell))};
-  const std::vector<MatchResult> chunks = matching_.match(
-      local.points, rule, draws, [&](const TripleBatch& local_triples, const TripleBatch& map_triples) {
-        MatchResult found = test_hypotheses(request, quality, local_triples, map_triples);
-        if (clearance_) ask_beams(found.hypotheses, request.omega_max);
-        return found;
-      });
-  return joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.triples.max_hypotheses));
+  return matching_.match(local.points, diameter_bound(local.points), local.local_from_robot, draws,
+                         [&](const TripleBatch& local_triples, const TripleBatch& map_triples) {
+                           MatchResult found = test_hypotheses(request, quality, local_triples, map_triples);
+                           if (clearance_) ask_beams(found.hypotheses, request.omega_max);
+                           return found;
+                         });
 }
 
 MatchResult Ransam::test_hypotheses(const MatchRequest& request, const QualityTest& quality,

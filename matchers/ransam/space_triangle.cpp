@@ -37,12 +37,8 @@ bool is_admitted(const std::array<float, 3>& squares, const TriangleRule& rule) 
   return area >= 4.0F * square(rule.min_height) * a;
 }
 
-/// A side length in relation cells, and the neighbouring cell that is nearer.
-struct Cells {
-  Relation own, nearer;
-};
-
-Cells cells_of(float square, float cells_per_metre) {
+/// A side length in relation cells: its own one, and the neighbouring cell that is nearer.
+std::array<Relation, 2> cells_of(float square, float cells_per_metre) {
   const float length = std::sqrt(square) * cells_per_metre;
   const auto own = static_cast<Relation>(length);
   const bool is_lower = length - static_cast<float>(own) < 0.5F && own > 0;
@@ -77,23 +73,15 @@ void find_relations_in_space(const Points& points, const TripleBatch& batch, con
     const std::array<float, 3> squares =
         sorted(squared_sides(points, {batch.first[i], batch.second[i], batch.third[i]}));
     if (!is_admitted(squares, rule)) continue;
-    const Cells a = cells_of(squares[0], cells_per_metre);
-    const Cells b = cells_of(squares[1], cells_per_metre);
-    const Cells c = cells_of(squares[2], cells_per_metre);
-    const auto store = [&](Relation relation) {
-      relations.relations[relations.size] = relation;
+    const auto a = cells_of(squares[0], cells_per_metre);
+    const auto b = cells_of(squares[1], cells_per_metre);
+    const auto c = cells_of(squares[2], cells_per_metre);
+    // The first probe is of the sides' own cells.
+    for (std::size_t probe = 0; probe < (neighbours ? RelationBatch::probes : 1); ++probe) {
+      relations.relations[relations.size] = relation_of(a[probe >> 2U], b[probe >> 1U & 1U], c[probe & 1U]);
       relations.numbers[relations.size] = batch.numbers[i];
       ++relations.size;
-    };
-    store(relation_of(a.own, b.own, c.own));
-    if (!neighbours) continue;
-    store(relation_of(a.own, b.own, c.nearer));
-    store(relation_of(a.own, b.nearer, c.own));
-    store(relation_of(a.own, b.nearer, c.nearer));
-    store(relation_of(a.nearer, b.own, c.own));
-    store(relation_of(a.nearer, b.own, c.nearer));
-    store(relation_of(a.nearer, b.nearer, c.own));
-    store(relation_of(a.nearer, b.nearer, c.nearer));
+    }
   }
 }
 

@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "glocal/error.hpp"
 #include "glocal/extent.hpp"
 #include "glocal/voxel_filter.hpp"
-#include "matchers/common/merge.hpp"
 #include "matchers/ransam/space_triangle.hpp"
 #include "matchers/surfels/rigid_motion.hpp"
 #include "matchers/surfels/surfel_contact.hpp"
@@ -90,7 +88,7 @@ TriangleRansam::TriangleRansam(const Params& params, const StageSetup& setup)
       voxel_size_(static_cast<float>(epsilons_per_voxel * setup.epsilon(params_.contact_epsilon))),
       contact_(contact_index(*setup.map, "bitset", setup.epsilon(params_.contact_epsilon))),
       map_(surfaces_of(*setup.map, voxel_size_)),
-      matching_(map_->points, find_relations_in_space, matching_rule(params_), setup.threads) {}
+      matching_(map_->points, find_relations_in_space, params_, setup.threads) {}
 
 MatchResult TriangleRansam::match(const MatchRequest& request, Rng& rng) {
   const LocalMap& local = request.local;
@@ -99,17 +97,11 @@ MatchResult TriangleRansam::match(const MatchRequest& request, Rng& rng) {
   const QualityTest quality(local.points, contact_, extrapolation_rule(params_), request.omega_max, rng);
   const SurfacePoints surfaces(local.points, spread_evenly(local.points, voxel_size_), voxel_size_);
   if (surfaces.points.empty()) return {};
-  // A triangle of the map that is larger than the whole local map has no partner there.
-  const TriangleRule rule{.cell = params_.relation_cell,
-                          .min_side = params_.min_side,
-                          .min_height = params_.min_height,
-                          .max_side = std::min(diagonal(surfaces.points) + params_.relation_cell,
-                                               largest_side(params_.relation_cell))};
-  const std::vector<MatchResult> chunks = matching_.match(
-      surfaces.points, rule, draws, [&](const TripleBatch& local_triples, const TripleBatch& map_triples) {
-        return test_hypotheses(surfaces, request.gate, quality, local_triples, map_triples);
-      });
-  return joined(chunks, local.local_from_robot, static_cast<std::size_t>(params_.max_hypotheses));
+  return matching_.match(surfaces.points, diagonal(surfaces.points), local.local_from_robot, draws,
+                         [&](const TripleBatch& local_triples, const TripleBatch& map_triples) {
+                           return test_hypotheses(surfaces, request.gate, quality, local_triples,
+                                                  map_triples);
+                         });
 }
 
 MatchResult TriangleRansam::test_hypotheses(const SurfacePoints& local, const PoseGate& gate,

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "glocal/parallel.hpp"
+#include "matchers/common/merge.hpp"
 
 namespace glocal::ransam {
 namespace {
@@ -14,10 +15,10 @@ constexpr std::size_t draws_per_chunk = RelationBatch::probes * TripleBatch::cap
 /// Chunks of the map's relations kept in memory: 4.5 MB.
 constexpr std::size_t chunks_at_a_time = 256;
 
-unsigned table_bits(const TripleMatchingRule& rule) {
+unsigned table_bits(const TripleSearch& search) {
   // Two slots a draw. Half of the draws of a map have no relation worth keeping, so about one entry in eight
   // is lost to another relation in its slot; a larger table costs more time than it gains.
-  return static_cast<unsigned>(std::bit_width(static_cast<unsigned>(rule.iterations) * 2U - 1U));
+  return static_cast<unsigned>(std::bit_width(static_cast<unsigned>(search.iterations) * 2U - 1U));
 }
 
 void append(MatchResult&& part, MatchResult& whole) {
@@ -30,27 +31,34 @@ void append(MatchResult&& part, MatchResult& whole) {
 }  // namespace
 
 TripleMatching::TripleMatching(const Points& map_points, FindRelations find_relations,
-                               const TripleMatchingRule& rule, int threads)
+                               const TripleSearch& search, int threads)
     : map_points_(map_points),
       find_relations_(find_relations),
-      rule_(rule),
+      search_(search),
+      iterations_(static_cast<std::size_t>(search.iterations)),
       threads_(threads),
-      sampler_(map_points, rule.local_radius),
-      table_(table_bits(rule)) {}
+      sampler_(map_points, search.local_radius),
+      table_(table_bits(search)) {}
 
-std::vector<MatchResult> TripleMatching::match(const Points& local, const TriangleRule& rule,
-                                               const Draws& draws, const TestPairs& test) {
-  const TripleSampler local_sampler(local, rule_.local_radius);
+MatchResult TripleMatching::match(const Points& local, double diameter, const Pose3& local_from_robot,
+                                  const Draws& draws, const TestPairs& test) {
+  // A triangle of the map that is larger than the whole local map has no partner there.
+  const TriangleRule rule{
+      .cell = search_.relation_cell,
+      .min_side = search_.min_side,
+      .min_height = search_.min_height,
+      .max_side = std::min(diameter + search_.relation_cell, largest_side(search_.relation_cell))};
+  const TripleSampler local_sampler(local, search_.local_radius);
   hash_map_triples(draws.map_seed, rule);
   std::vector<MatchResult> chunks(chunk_count());
   parallel_for(threads_, chunks.size(), [&](std::size_t i) {
     chunks[i] = match_local_triples(local, local_sampler, rule, draws, i, test);
   });
-  return chunks;
+  return joined(chunks, local_from_robot, static_cast<std::size_t>(search_.max_hypotheses));
 }
 
 std::size_t TripleMatching::chunk_count() const {
-  return (rule_.iterations + draws_per_chunk - 1) / draws_per_chunk;
+  return (iterations_ + draws_per_chunk - 1) / draws_per_chunk;
 }
 
 void TripleMatching::add_relations_of_draws(const TripleSampler& sampler, const Points& points,
@@ -70,10 +78,10 @@ void TripleMatching::hash_map_triples(std::uint64_t seed, const TriangleRule& ru
   const auto draw_chunk = [&](std::size_t chunk, RelationBatch& drawn) {
     drawn.size = 0;
     const std::size_t begin = chunk * draws_per_chunk;
-    const std::size_t end = std::min(begin + draws_per_chunk, rule_.iterations);
+    const std::size_t end = std::min(begin + draws_per_chunk, iterations_);
     add_relations_of_draws(sampler_, map_points_, rule, false, seed, begin, end, drawn);
   };
-  table_.begin_fill(rule_.iterations);
+  table_.begin_fill(iterations_);
   if (threads_ <= 1) {
     RelationBatch drawn;
     for (std::size_t chunk = 0; chunk < chunk_count(); ++chunk) {
@@ -110,10 +118,10 @@ MatchResult TripleMatching::match_local_triples(const Points& local, const Tripl
     local_triples.clear();
     map_triples.clear();
   };
-  const std::size_t end = std::min((chunk + 1) * draws_per_chunk, rule_.iterations);
+  const std::size_t end = std::min((chunk + 1) * draws_per_chunk, iterations_);
   for (std::size_t begin = chunk * draws_per_chunk; begin < end; begin += TripleBatch::capacity) {
     relations.size = 0;
-    add_relations_of_draws(local_sampler, local, rule, rule_.neighbour_cells, draws.local_seed, begin,
+    add_relations_of_draws(local_sampler, local, rule, search_.neighbour_cells, draws.local_seed, begin,
                            std::min(begin + TripleBatch::capacity, end), relations);
     table_.find(relations, partners);  // eq. 2
     for (std::size_t i = 0; i < partners.size; ++i) {

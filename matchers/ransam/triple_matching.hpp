@@ -10,15 +10,9 @@
 #include "matchers/common/triangle.hpp"
 #include "matchers/common/triple_sampler.hpp"
 #include "matchers/ransam/relation_table.hpp"
+#include "matchers/ransam/triple_search.hpp"
 
 namespace glocal::ransam {
-
-/// How triples are drawn and looked up.
-struct TripleMatchingRule {
-  std::size_t iterations = 200000;  ///< Triples drawn from each of the two point sets.
-  double local_radius = 0.0;        ///< m; see TripleSampler.
-  bool neighbour_cells = false;     ///< Look local triples up in neighbouring relations, too.
-};
 
 /// Draws triples of the global and of the local map, and has those tested that meet in a hash table. Whatever
 /// their relation is.
@@ -42,12 +36,13 @@ class TripleMatching {
   };
 
   /// `map_points` must outlive it and must not be empty.
-  TripleMatching(const Points& map_points, FindRelations find_relations, const TripleMatchingRule& rule,
+  TripleMatching(const Points& map_points, FindRelations find_relations, const TripleSearch& search,
                  int threads);
 
-  /// What was found, by chunks of draws in their order. `local` is not empty.
-  [[nodiscard]] std::vector<MatchResult> match(const Points& local, const TriangleRule& rule,
-                                               const Draws& draws, const TestPairs& test);
+  /// What was found, as joined() has it. `local` is not empty, and no two of its points are farther apart
+  /// than `diameter` (m).
+  [[nodiscard]] MatchResult match(const Points& local, double diameter, const Pose3& local_from_robot,
+                                  const Draws& draws, const TestPairs& test);
 
  private:
   void hash_map_triples(std::uint64_t seed, const TriangleRule& rule);
@@ -62,7 +57,8 @@ class TripleMatching {
 
   const Points& map_points_;
   FindRelations find_relations_;
-  TripleMatchingRule rule_;
+  TripleSearch search_;
+  std::size_t iterations_;
   int threads_;
   TripleSampler sampler_;  ///< Of the global map.
   RelationTable table_;

@@ -57,12 +57,6 @@ void describe(ParamVisitor& v, TripleSearch& p) {
        .audience = Audience::expert});
 }
 
-TripleMatchingRule matching_rule(const TripleSearch& p) {
-  return {.iterations = static_cast<std::size_t>(p.iterations),
-          .local_radius = p.local_radius,
-          .neighbour_cells = p.neighbour_cells};
-}
-
 ExtrapolationRule extrapolation_rule(const TripleSearch& p) {
   return {
       .kind = p.extrapolation == "wald" ? ExtrapolationRule::Kind::wald : ExtrapolationRule::Kind::interval,

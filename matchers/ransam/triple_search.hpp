@@ -7,7 +7,6 @@
 #include "glocal/contact.hpp"
 #include "glocal/params.hpp"
 #include "matchers/common/quality.hpp"
-#include "matchers/ransam/triple_matching.hpp"
 
 namespace glocal::ransam {
 
@@ -31,7 +30,6 @@ void describe(ParamVisitor& v, TripleSearch& p);
 /// Which triples are drawn and when points are in contact; the rest is as it stands.
 void describe_triples(ParamVisitor& v, TripleSearch& p);
 
-[[nodiscard]] TripleMatchingRule matching_rule(const TripleSearch& p);
 [[nodiscard]] ExtrapolationRule extrapolation_rule(const TripleSearch& p);
 
 }  // namespace glocal::ransam
