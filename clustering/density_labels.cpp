@@ -115,8 +115,7 @@ class DensityLabels {
     if (std::binary_search(cores_[c].begin(), cores_[c].end(), i)) return sets_.find(i);
     std::size_t first = poses_.size();
     cells_.visit_around(c, [&](std::size_t other) {
-      const auto near = std::find_if(cores_[other].begin(), cores_[other].end(),
-                                     [&](std::size_t j) { return are_near(i, j); });
+      const auto near = std::ranges::find_if(cores_[other], [&](std::size_t j) { return are_near(i, j); });
       if (near != cores_[other].end()) first = std::min(first, sets_.find(*near));
       return true;
     });

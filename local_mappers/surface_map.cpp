@@ -130,8 +130,7 @@ void SurfaceMap::forget(std::size_t scans, double way) {
     points->z.resize(kept);
   }
   seen_.resize(kept);
-  const auto first =
-      std::find_if(map_.ends.begin(), map_.ends.end(), [](std::size_t end) { return end > 0; });
+  const auto first = std::ranges::find_if(map_.ends, [](std::size_t end) { return end > 0; });
   map_.ends.erase(map_.ends.begin(), first == map_.ends.end() ? first - 1 : first);
   rebuild_index();
 }

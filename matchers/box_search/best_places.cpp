@@ -47,8 +47,7 @@ void BestPlaces::raise() {
 std::vector<Box> BestPlaces::falling() const {
   std::vector<Box> falling;
   for (const auto& [cell, box] : places_) falling.push_back(box);
-  std::stable_sort(falling.begin(), falling.end(),
-                   [](const Box& a, const Box& b) { return a.is_better_than(b); });
+  std::ranges::stable_sort(falling, &Box::is_better_than);
   if (falling.size() > most_) falling.resize(most_);
   return falling;
 }

@@ -87,8 +87,7 @@ AllPoses::AllPoses(const Points& points, const CellFrame& frame, int top_level, 
                        .distance = tilt() ? std::hypot(x, y, z) : std::hypot(x, y),
                        .layer = frame.in_space ? z / frame.cell : 0.0});
   }
-  std::stable_sort(points_.begin(), points_.end(),
-                   [](const Turning& a, const Turning& b) { return a.distance < b.distance; });
+  std::ranges::stable_sort(points_, {}, &Turning::distance);
   constexpr double smallest_radius = 0.5;
   radius_ = std::max(points_.back().distance, smallest_radius);
   const double widest = std::ldexp(frame.cell / radius_, top_level);
@@ -162,8 +161,7 @@ void AllPoses::put_rare_first(std::vector<Turning>& all) const {
   std::map<std::int32_t, std::size_t> in_box;
   for (const Turning& one : all) ++in_box[box_of_layers(top_level_, one)];
   const auto neighbours = [&](const Turning& one) { return in_box[box_of_layers(top_level_, one)]; };
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const Turning& a, const Turning& b) { return neighbours(a) < neighbours(b); });
+  std::ranges::stable_sort(all, {}, neighbours);
 }
 
 /// Each point that is in none yet makes one with its nearest neighbours that are in none either, if they lie

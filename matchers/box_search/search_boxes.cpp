@@ -1,6 +1,7 @@
 #include "matchers/box_search/search_boxes.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -106,9 +107,8 @@ class State {
     }
     if (first_looks_.size() < rotations_) return;
     best_.raise();
-    std::stable_sort(first_looks_.begin(), first_looks_.end(), [](const FirstLook& a, const FirstLook& b) {
-      return a.interval.promise > b.interval.promise;
-    });
+    std::ranges::stable_sort(first_looks_, std::greater<>(),
+                             [](const FirstLook& look) { return look.interval.promise; });
   }
 
   /// Intervals searched before the bar is raised. Fixed, so that the answer does not depend on the threads.
@@ -138,8 +138,7 @@ class State {
                  [&](std::size_t i) { taken[i] = batch_[i].advance(looks_of_each); });
     for (const std::size_t of_interval : taken) taken_ += of_interval;
     looks_ += looks_in_batch() - before;
-    if (std::all_of(batch_.begin(), batch_.end(), [](const IntervalSearch& s) { return s.is_over(); }))
-      end_batch();
+    if (std::ranges::all_of(batch_, &IntervalSearch::is_over)) end_batch();
   }
 
   [[nodiscard]] std::size_t looks_in_batch() const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -41,8 +42,7 @@ template <class Pose>
 template <class Candidate, class Pose>
 [[nodiscard]] std::vector<Candidate> distinct_candidates(std::vector<Candidate> candidates,
                                                          const Pose& local_from_robot, std::size_t most) {
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
+  std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::quality);
   std::vector<Candidate> kept;
   std::vector<Pose> robots;
   for (const Candidate& candidate : candidates) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <unordered_map>
 
@@ -71,8 +72,7 @@ std::vector<Hypothesis> merged_in_space(const std::vector<Hypothesis>& hypothese
 
 void merge_hypotheses(std::vector<Hypothesis>& hypotheses, const Pose3& local_from_robot, std::size_t most) {
   const bool is_planar = local_from_robot.is_planar() &&
-                         std::all_of(hypotheses.begin(), hypotheses.end(),
-                                     [](const Hypothesis& h) { return h.map_from_local.is_planar(); });
+                         std::ranges::all_of(hypotheses, &Pose3::is_planar, &Hypothesis::map_from_local);
   for (double scale = 1.0; hypotheses.size() > most; scale *= 2.0) {
     hypotheses = is_planar ? merged_in_plane(hypotheses, seen_from_above(local_from_robot), scale)
                            : merged_in_space(hypotheses, local_from_robot, scale);
@@ -86,8 +86,7 @@ MatchResult joined(const std::vector<MatchResult>& chunks, const Pose3& local_fr
     result.proposals += chunk.proposals;
     result.points_tested += chunk.points_tested;
   }
-  std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  std::ranges::stable_sort(result.hypotheses, std::greater<>(), &Hypothesis::score);
   merge_hypotheses(result.hypotheses, local_from_robot, most);
   return result;
 }

@@ -112,9 +112,7 @@ class Cells {
         places.clear();
         std::transform(begin, end, std::back_inserter(places),
                        [&](std::uint32_t point) { return place_of(point); });
-        std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-          return std::tie(a.row, a.column, a.point) < std::tie(b.row, b.column, b.point);
-        });
+        std::ranges::sort(places, {}, [](const Place& p) { return std::tie(p.row, p.column, p.point); });
         std::transform(places.begin(), places.end(), begin, [](const Place& place) { return place.point; });
       }
     });
@@ -142,16 +140,14 @@ class Cells {
   }
 
   [[nodiscard]] std::vector<Row>::const_iterator first_row_from(std::int32_t wanted) const {
-    return std::lower_bound(rows_.begin(), rows_.end(), wanted,
-                            [](const Row& row, std::int32_t number) { return row.row < number; });
+    return std::ranges::lower_bound(rows_, wanted, {}, &Row::row);
   }
   [[nodiscard]] std::vector<Cell>::const_iterator end_of(std::vector<Row>::const_iterator row) const {
     return row + 1 == rows_.end() ? cells_.end() : cells_.begin() + (row + 1)->begin;
   }
   [[nodiscard]] std::vector<Cell>::const_iterator first_cell_from(std::vector<Row>::const_iterator row,
                                                                   std::int32_t wanted) const {
-    return std::lower_bound(cells_.begin() + row->begin, end_of(row), wanted,
-                            [](const Cell& cell, std::int32_t number) { return cell.column < number; });
+    return std::ranges::lower_bound(cells_.begin() + row->begin, end_of(row), wanted, {}, &Cell::column);
   }
 
   [[nodiscard]] std::int32_t number(float v) const {

@@ -1,17 +1,11 @@
 #include "matchers/indexed_ransam/pose_judge.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 
 namespace glocal::indexed_ransam {
-namespace {
-
-bool has_better_score(const Hypothesis& a, const Hypothesis& b) {
-  return a.score > b.score;
-}
-
-}  // namespace
 
 PoseJudge::PoseJudge(const JudgeRule& rule, std::shared_ptr<const GlobalMap> map,
                      std::shared_ptr<const ContactIndex> contact, std::shared_ptr<const DistanceField> field,
@@ -37,14 +31,14 @@ std::vector<Hypothesis> PoseJudge::best_of(const std::vector<Candidate>& candida
     h.score -= rule_.free_space_weight * evidence.in_free_space;
     at_most.push_back(h);
   }
-  std::stable_sort(at_most.begin(), at_most.end(), has_better_score);
+  std::ranges::stable_sort(at_most, std::greater<>(), &Hypothesis::score);
   std::vector<Hypothesis> best;
   for (Hypothesis& h : at_most) {
     const bool is_full = best.size() == rule_.most;
     if (is_full && best.back().score >= h.score) break;
     const double to_lose = is_full ? h.score - best.back().score : std::numeric_limits<double>::infinity();
     h.score -= beams_.penalty(*clearance_, seen_from_above(h.map_from_local), to_lose);
-    best.insert(std::upper_bound(best.begin(), best.end(), h, has_better_score), h);
+    best.insert(std::ranges::upper_bound(best, h.score, std::greater<>(), &Hypothesis::score), h);
     if (best.size() > rule_.most) best.pop_back();
   }
   return best;

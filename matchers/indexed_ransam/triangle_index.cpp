@@ -115,8 +115,7 @@ TriangleIndex::TriangleIndex(Points points, const TriangleRule& rule, std::size_
 
   std::vector<Entry> entries;
   for (const std::vector<Entry>& chunk : found) entries.insert(entries.end(), chunk.begin(), chunk.end());
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const Entry& a, const Entry& b) { return a.relation < b.relation; });
+  std::ranges::stable_sort(entries, {}, &Entry::relation);
   triangles_.reserve(entries.size());
   for (const Entry& entry : entries) {
     if (relations_.empty() || relations_.back() != entry.relation) {

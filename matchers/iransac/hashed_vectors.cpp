@@ -23,9 +23,7 @@ HashedVectors::HashedVectors(const FeatureVectors& vectors, const HashRule& rule
     for (std::size_t i = 0; i < vectors.size(); ++i) {
       entries.push_back({bucket(table, vectors[i]), static_cast<std::uint32_t>(i)});
     }
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-      return std::tie(a.bucket, a.vector) < std::tie(b.bucket, b.vector);
-    });
+    std::ranges::sort(entries, {}, [](const Entry& e) { return std::tie(e.bucket, e.vector); });
   }
 }
 
@@ -34,8 +32,7 @@ std::vector<std::uint32_t> HashedVectors::find(const float* vector) const {
   for (std::size_t table = 0; table < tables_.size(); ++table) {
     const std::vector<Entry>& entries = tables_[table];
     const std::uint64_t name = bucket(table, vector);
-    const auto first = std::lower_bound(entries.begin(), entries.end(), name,
-                                        [](const Entry& e, std::uint64_t key) { return e.bucket < key; });
+    const auto first = std::ranges::lower_bound(entries, name, {}, &Entry::bucket);
     for (auto e = first; e != entries.end() && e->bucket == name; ++e) found.push_back(e->vector);
   }
   std::sort(found.begin(), found.end());

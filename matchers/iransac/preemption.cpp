@@ -1,6 +1,7 @@
 #include "matchers/iransac/preemption.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "glocal/parallel.hpp"
@@ -33,8 +34,7 @@ std::size_t preempt(std::vector<ScoredPose>& hypotheses, const ContactIndex& con
       pose.looked_at += n;
     });
     points_tested += contenders.size() * rule.block;
-    std::stable_sort(contenders.begin(), contenders.end(),
-                     [](const Contender& a, const Contender& b) { return a.pose.score() > b.pose.score(); });
+    std::ranges::stable_sort(contenders, std::greater<>(), [](const Contender& c) { return c.pose.score(); });
     const std::size_t left =
         std::max(rule.fewest, left_after(hypotheses.size(), begin + rule.block, rule.block));
     if (left < contenders.size())

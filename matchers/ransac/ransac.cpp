@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <vector>
 
 #include "glocal/parallel.hpp"
@@ -108,8 +108,7 @@ void Ransac::refine_all(const LocalMap& local, double omega_max, MatchResult& re
   });
   result.points_tested += result.hypotheses.size() * local.points.size();
   std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return h.score < omega_max; });
-  std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  std::ranges::stable_sort(result.hypotheses, std::greater<>(), &Hypothesis::score);
 }
 
 }  // namespace glocal::ransac

@@ -1,7 +1,7 @@
 #include "matchers/surfels/pose_search.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <functional>
 #include <utility>
 
 #include "matchers/surfels/point_to_plane.hpp"
@@ -24,18 +24,14 @@ struct Proposal {
   float score = 0.0F;
 };
 
-bool is_better(const Proposal& a, const Proposal& b) {
-  return a.score > b.score;
-}
-
 /// The n best, best first.
 void keep_best(std::vector<Proposal>& proposals, std::size_t n) {
   if (proposals.size() > n) {
-    std::nth_element(proposals.begin(), proposals.begin() + static_cast<std::ptrdiff_t>(n), proposals.end(),
-                     is_better);
+    const auto end = proposals.begin() + static_cast<std::ptrdiff_t>(n);
+    std::ranges::nth_element(proposals, end, std::greater<>(), &Proposal::score);
     proposals.resize(n);
   }
-  std::stable_sort(proposals.begin(), proposals.end(), is_better);
+  std::ranges::stable_sort(proposals, std::greater<>(), &Proposal::score);
 }
 
 /// Surfels [begin, end) of a sample: 1 for each in contact, less the weight for each seen through.
@@ -178,10 +174,6 @@ FoundPose settled(const RigidMotion& motion, const SurfelSample& sample, int ste
   return judged(best, scene, params);
 }
 
-bool has_higher_score(const FoundPose& a, const FoundPose& b) {
-  return a.score > b.score;
-}
-
 /// Refines the best few once more, by a larger sample and to the end.
 void polish(std::vector<FoundPose>& found, SearchScene& scene, const PoseSearchParams& params, Rng rng) {
   constexpr std::size_t few = 3;
@@ -195,7 +187,7 @@ void polish(std::vector<FoundPose>& found, SearchScene& scene, const PoseSearchP
     if (pose.score + slack >= found[i].score && is_allowed(pose.target_from_source, params.gate))
       found[i] = pose;
   }
-  std::stable_sort(found.begin(), found.end(), has_higher_score);
+  std::ranges::stable_sort(found, std::greater<>(), &FoundPose::score);
 }
 
 /// Adds a pose, or counts it for the one it is the same as, whose place it takes if it is better.
@@ -250,7 +242,7 @@ PoseSearch::PoseSearch(const PreparedCloud& target, const PairTable& target_pair
   scene_.source_sample = sample_of(source.surfels, whole_sample, rng_);
   if (target.view) scene_.target_sample = sample_of(target.surfels, third_look, rng_);
   for (const RigidMotion& motion : known) settle(motion);
-  std::stable_sort(found_.begin(), found_.end(), has_higher_score);
+  std::ranges::stable_sort(found_, std::greater<>(), &FoundPose::score);
   if (known.empty()) return;
   ++round_;
   ++rounds_end_;
@@ -280,7 +272,7 @@ void PoseSearch::search_round() {
       distinct.push_back(proposal.motion);
   }
   for (const RigidMotion& motion : distinct) settle(motion);
-  std::stable_sort(found_.begin(), found_.end(), has_higher_score);
+  std::ranges::stable_sort(found_, std::greater<>(), &FoundPose::score);
   ++round_;
 }
 
