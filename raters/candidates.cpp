@@ -30,8 +30,9 @@ std::optional<Verdict> ambiguous(std::vector<Pose3> poses) {
   const std::string where = places == n   ? ""
                             : places == 1 ? " at one place"
                                           : fmt::format(" at {} places", places);
-  return Verdict{VerdictKind::ambiguous, std::nullopt, std::move(poses),
-                 fmt::format("{} poses{} explain the observations about equally well", n, where)};
+  return Verdict{.kind = VerdictKind::ambiguous,
+                 .candidates = std::move(poses),
+                 .why = fmt::format("{} poses{} explain the observations about equally well", n, where)};
 }
 
 }  // namespace glocal::raters

@@ -30,39 +30,29 @@ void describe(ParamVisitor& v, ConsecutiveRating::Params& p) {
 Verdict ConsecutiveRating::judge(const StepResult& step) {
   if (step.clusters.empty()) {
     last_.reset();
-    return {VerdictKind::searching, std::nullopt, {}, "no pose fits the local map well enough in this step"};
+    return {.kind = VerdictKind::searching, .why = "no pose fits the local map well enough in this step"};
   }
   const Pose3& pose = step.clusters.front().map_from_robot;
   const double rating = step.ratings.front().r_normalised;
   if (rating > params_.min_rating) {
-    const int count = last_ && continues(*last_, step) ? last_->count + 1 : 1;
+    const int count = last_ && last_->pose.may_be(pose, step) ? last_->count + 1 : 1;
     last_ = Leader{FollowedPose::of(step, pose), count};
     if (count >= params_.consecutive) {
-      return {VerdictKind::localized,
-              pose,
-              {},
-              fmt::format("the same cluster had r̄ over {:.2f} in {} consecutive steps", params_.min_rating,
-                          count)};
+      return {.kind = VerdictKind::localized,
+              .map_from_robot = pose,
+              .why = fmt::format("the same cluster had r̄ over {:.2f} in {} consecutive steps",
+                                 params_.min_rating, count)};
     }
-    return {VerdictKind::searching,
-            std::nullopt,
-            {},
-            fmt::format("a cluster has r̄ = {:.2f}, in {} of {} steps needed", rating, count,
-                        params_.consecutive)};
+    return {.kind = VerdictKind::searching,
+            .why = fmt::format("a cluster has r̄ = {:.2f}, in {} of {} steps needed", rating, count,
+                               params_.consecutive)};
   }
   last_.reset();
   if (std::optional<Verdict> verdict = ambiguous(candidates(step))) return *std::move(verdict);
-  return {VerdictKind::searching,
-          std::nullopt,
-          {},
-          fmt::format(
+  return {.kind = VerdictKind::searching,
+          .why = fmt::format(
               "the best of {} clusters has only r̄ = {:.2f} of all ratings, and more than {:.2f} is needed",
               step.clusters.size(), rating, params_.min_rating)};
-}
-
-bool ConsecutiveRating::continues(const Leader& last, const StepResult& step) const {
-  const auto expected = last.pose.expected_in(step);
-  return expected && are_same(step.clusters.front().map_from_robot, *expected);
 }
 
 /// Robot poses of the highly rated clusters, leaving out those that only repeat a better one.

@@ -33,7 +33,6 @@ class ConsecutiveRating final : public VerdictRule {
     FollowedPose pose;
     int count = 0;
   };
-  [[nodiscard]] bool continues(const Leader& last, const StepResult& step) const;
   [[nodiscard]] std::vector<Pose3> candidates(const StepResult& step) const;
 
   Params params_;

@@ -204,17 +204,17 @@ Verdict StagedMargin::judge(const StepResult& step) {
   if (step.hypotheses.empty()) {
     begin_anew();
     best_.reset();
-    return {VerdictKind::searching, std::nullopt, {}, "no pose fits the local map well enough in this step"};
+    return {.kind = VerdictKind::searching, .why = "no pose fits the local map well enough in this step"};
   }
   const double turn_rate_deg = best_ ? degrees(best_->turn_rate_to(step)) : 0.0;
-  const bool goes_on = continues(step);
+  const Pose3& pose = step.hypotheses.front().map_from_robot;
+  const bool goes_on = best_ && best_->may_be(pose, step);
   const double driven = goes_on ? distance(best_->local_from_robot, step.local_from_robot) : 0.0;
   const double contact = step.omega_scan.value_or(1.0);
   const bool scan_fits = contact >= params_.min_scan_contact;
   const bool is_usual = scan_fits || contact * steps_ >= least_of_usual_contact * sum_of_contact_;
   if (!goes_on || !is_usual) begin_anew();
   if (!scan_fits) begin_stages_anew();
-  const Pose3& pose = step.hypotheses.front().map_from_robot;
   best_ = FollowedPose::of(step, pose);
   ++steps_;
   if (views_ == 0 || distance(step.local_from_robot, last_view_) > standing) {
@@ -295,19 +295,17 @@ std::size_t StagedMargin::least_steps() const {
 }
 
 Verdict StagedMargin::localized(const StepResult& step, double margin) const {
-  return {VerdictKind::localized,
-          step.hypotheses.front().map_from_robot,
-          {},
-          fmt::format("better by {:.2f} than any other pose, and the best in {} steps over {:.1f} m", margin,
-                      steps_, distance_)};
+  return {.kind = VerdictKind::localized,
+          .map_from_robot = step.hypotheses.front().map_from_robot,
+          .why = fmt::format("better by {:.2f} than any other pose, and the best in {} steps over {:.1f} m",
+                             margin, steps_, distance_)};
 }
 
 Verdict StagedMargin::undecided(const StepResult& step, double margin) const {
   if (std::optional<Verdict> verdict = ambiguous(candidates(step))) return *std::move(verdict);
-  return {VerdictKind::searching,
-          std::nullopt,
-          {},
-          fmt::format("the best pose is better by {:.2f} only, and the best in {} steps", margin, steps_)};
+  return {
+      .kind = VerdictKind::searching,
+      .why = fmt::format("the best pose is better by {:.2f} only, and the best in {} steps", margin, steps_)};
 }
 
 /// Poses below Omega_max are not among the hypotheses: without a rival there, the best one may still have it.
@@ -317,11 +315,6 @@ double StagedMargin::margin_of(const StepResult& step) const {
     return !near.are_near(h.map_from_robot, best.map_from_robot);
   });
   return best.score - (rival == step.hypotheses.end() ? step.omega_max : rival->score);
-}
-
-bool StagedMargin::continues(const StepResult& step) const {
-  const auto expected = best_ ? best_->expected_in(step) : std::nullopt;
-  return expected && are_same(step.hypotheses.front().map_from_robot, *expected);
 }
 
 /// The best pose and its rivals of about the same score, each a rival of the others.

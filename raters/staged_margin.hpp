@@ -78,7 +78,6 @@ class StagedMargin final : public VerdictRule {
   [[nodiscard]] bool is_steady(double turn_rate_deg);
   [[nodiscard]] Verdict localized(const StepResult& step, double margin) const;
   [[nodiscard]] Verdict undecided(const StepResult& step, double margin) const;
-  [[nodiscard]] bool continues(const StepResult& step) const;
   [[nodiscard]] std::vector<Pose3> candidates(const StepResult& step) const;
 
   Params params_;

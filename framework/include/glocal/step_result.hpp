@@ -78,9 +78,9 @@ struct ExpectedPose {
 /// What a verdict rule says, and why.
 struct Verdict {
   VerdictKind kind = VerdictKind::searching;
-  std::optional<Pose3> map_from_robot;        ///< Set when localized.
-  std::vector<Pose3> candidates;              ///< Robot poses, best first; set when ambiguous.
-  std::string why;                            ///< One sentence for a person.
+  std::optional<Pose3> map_from_robot = {};   ///< Set when localized.
+  std::vector<Pose3> candidates = {};         ///< Robot poses, best first; set when ambiguous.
+  std::string why = {};                       ///< One sentence for a person.
   std::optional<PoseEstimate> estimate = {};  ///< None where the rule has none.
   std::vector<Evidence> evidence = {};        ///< For whoever studies the rule.
   /// Localized only if a verifier certifies that no pose elsewhere has more contact.
